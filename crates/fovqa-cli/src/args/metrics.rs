@@ -1,0 +1,62 @@
+//! `--metrics` and `--set`.
+
+use clap::Args;
+use fovqa_engine::MetricChoice;
+use fovqa_metrics::{Metric, ParamValue, Params};
+
+use super::values::literal;
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Metrics")]
+pub(crate) struct MetricArgs {
+    /// Metrics with commas between them; `fovqa list metrics` shows them
+    /// [default: mse,psnr,ssim,fpsnr, less what does not fit]
+    #[arg(long, value_name = "NAME,NAME,…", value_delimiter = ',', value_parser = metric)]
+    metrics: Vec<Metric>,
+    /// A parameter of a metric, such as ssim.sigma=1.5
+    #[arg(long = "set", value_name = "METRIC.PARAM=VALUE", value_parser = assignment)]
+    set: Vec<Assignment>,
+}
+
+#[derive(Debug, Clone)]
+struct Assignment {
+    metric: Metric,
+    param: String,
+    value: ParamValue,
+}
+
+fn metric(name: &str) -> Result<Metric, String> {
+    Metric::find(name.trim()).ok_or_else(|| {
+        let names: Vec<_> = Metric::ALL.iter().map(|m| m.key().replace('_', "-")).collect();
+        format!("there is no such metric; there are {}", names.join(", "))
+    })
+}
+
+fn assignment(text: &str) -> Result<Assignment, String> {
+    let form = || "write METRIC.PARAM=VALUE".to_owned();
+    let (name, value) = text.split_once('=').ok_or_else(form)?;
+    let (name, param) = name.trim().split_once('.').ok_or_else(form)?;
+    let metric = metric(name)?;
+    let value = literal(value.trim())?;
+    // Said here, where the argument is at hand; later only what values do together is checked.
+    Params::default().set(metric, param, &value).map_err(|error| error.to_string())?;
+    Ok(Assignment { metric, param: param.to_owned(), value })
+}
+
+impl MetricArgs {
+    pub(crate) fn choice(&self) -> MetricChoice {
+        if self.metrics.is_empty() {
+            MetricChoice::Default
+        } else {
+            MetricChoice::Named(self.metrics.clone())
+        }
+    }
+
+    pub(crate) fn params(&self) -> Result<Params, String> {
+        let mut params = Params::default();
+        for Assignment { metric, param, value } in &self.set {
+            params.set(*metric, param, value).map_err(|error| error.to_string())?;
+        }
+        Ok(params)
+    }
+}

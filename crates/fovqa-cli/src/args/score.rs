@@ -1,0 +1,90 @@
+//! `fovqa score`.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use fovqa_engine::ScoreRequest;
+use fovqa_io::sequence::FrameRange;
+
+use super::metrics::MetricArgs;
+use super::signal::SignalArgs;
+use super::values::positive;
+use super::view::ViewArgs;
+
+pub(crate) const EXAMPLES: &str = "\
+Paths are files, folders, globs ('renders/*.exr') or printf patterns (gt.%04d.exr). Frames pair by
+name, then by the last number in the name.
+
+Examples:
+  fovqa score gt.png rmfr.png --fov-vertical 100
+  fovqa score gt/ rmfr/ --display vive-pro-eye --gaze gaze.csv --fps 72 --format csv
+  fovqa score gt.%04d.exr rmfr.%04d.exr --tonemap reinhard --exposure 0.5 --metrics psnr,ssim
+
+Exit codes: 0 done; 2 the command line is wrong; 3 an input is missing, unreadable or does not fit,
+or the output cannot be written (frames that fit are scored all the same); 70 a bug in fovqa; 130
+interrupted.";
+
+/// How results are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// For people.
+    Table,
+    /// Everything, nested.
+    Json,
+    /// One long table, a row a value.
+    Csv,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ScoreArgs {
+    /// Reference frames (ground truth)
+    reference: PathBuf,
+    /// Test frames (foveated)
+    test: PathBuf,
+    /// How results are printed
+    #[arg(long, value_name = "FORMAT", default_value = "table")]
+    pub(crate) format: Format,
+    #[command(flatten)]
+    metrics: MetricArgs,
+    #[command(flatten)]
+    view: ViewArgs,
+    #[command(flatten)]
+    signal: SignalArgs,
+    /// Frames by their numbers, from A up to, but without, B
+    #[arg(long, value_name = "A..B:STEP", help_heading = "Sequence")]
+    frames: Option<FrameRange>,
+    /// Frames a second; names the frames of a gaze trace in seconds
+    #[arg(long, value_name = "N", value_parser = positive, help_heading = "Sequence")]
+    fps: Option<f64>,
+    /// Pass over frames without a partner
+    #[arg(long, help_heading = "Sequence")]
+    allow_missing: bool,
+    /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
+impl ScoreArgs {
+    /// The request; the error is a wrong command line.
+    pub(crate) fn request(self) -> Result<ScoreRequest, String> {
+        Ok(ScoreRequest {
+            view: self.view.spec()?,
+            gaze: self.view.gaze(),
+            eccentricity: self.view.eccentricity(),
+            bands: self.view.bands(),
+            read: self.signal.read(),
+            signal: self.signal.signal(),
+            nonfinite: self.signal.nonfinite(),
+            mask: self.signal.mask(),
+            crop: self.signal.crop(),
+            metrics: self.metrics.choice(),
+            params: self.metrics.params()?,
+            reference: self.reference,
+            test: self.test,
+            allow_missing: self.allow_missing,
+            frames: self.frames,
+            fps: self.fps,
+        })
+    }
+}

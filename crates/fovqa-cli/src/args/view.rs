@@ -1,0 +1,131 @@
+//! `--fov-…`, `--frustum`, `--display`, `--gaze`, `--eccentricity`, `--bands`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use fovqa_engine::Gaze;
+use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec, displays, find_display};
+
+use super::values::{finite, numbers};
+
+/// How eccentricity is measured.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum EccentricityArg {
+    /// The angle between the rays to the pixel and to the gaze.
+    Angular,
+    /// The papers' shortcut, atan(distance in pixels / focal length).
+    Planar,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "View")]
+pub(crate) struct ViewArgs {
+    /// Vertical field of view, degrees. Alone: square pixels
+    #[arg(long, value_name = "DEG", value_parser = finite, allow_negative_numbers = true)]
+    fov_vertical: Option<f64>,
+    /// Horizontal field of view, degrees. Alone: square pixels
+    #[arg(long, value_name = "DEG", value_parser = finite, allow_negative_numbers = true)]
+    fov_horizontal: Option<f64>,
+    /// Diagonal field of view, degrees
+    #[arg(long, value_name = "DEG", value_parser = finite, allow_negative_numbers = true)]
+    fov_diagonal: Option<f64>,
+    /// Asymmetric frustum: tangents of the half angles, left, right, up, down
+    #[arg(long, value_name = "L,R,U,D", allow_hyphen_values = true, value_parser = |t: &str| numbers::<4>(t, "four tangents, L,R,U,D"))]
+    frustum: Option<[f64; 4]>,
+    /// A display preset; `fovqa list displays` shows them
+    #[arg(long, value_name = "NAME", value_parser = display)]
+    display: Option<fovqa_vision::Display>,
+    /// Distance of the eye from a flat screen, metres; with --pixel-pitch-mm
+    #[arg(long, value_name = "D", value_parser = finite, requires = "pixel_pitch_mm")]
+    distance_m: Option<f64>,
+    /// Size of a pixel of a flat screen, millimetres; with --distance-m
+    #[arg(long, value_name = "P", value_parser = finite, requires = "distance_m")]
+    pixel_pitch_mm: Option<f64>,
+    /// Gaze in pixels from the top-left corner, or a CSV trace with columns frame,x_px,y_px (or
+    /// time_s with --fps) [default: the principal point]
+    #[arg(long, value_name = "X,Y|FILE.csv", allow_hyphen_values = true, value_parser = gaze)]
+    gaze: Option<GazeArg>,
+    /// Frames that a gaze trace does not cover keep its last gaze
+    #[arg(long, requires = "gaze")]
+    gaze_hold: bool,
+    /// How eccentricity is measured
+    #[arg(long, value_name = "KIND", default_value = "angular")]
+    eccentricity: EccentricityArg,
+    /// Edges of the eccentricity bands, degrees [default: 0,5,10,… as far as the frame reaches]
+    #[arg(long, value_name = "DEG,DEG,…", value_parser = bands)]
+    bands: Option<BandEdges>,
+}
+
+/// A gaze as it is written.
+#[derive(Debug, Clone)]
+enum GazeArg {
+    Point([f64; 2]),
+    File(PathBuf),
+}
+
+fn gaze(text: &str) -> Result<GazeArg, String> {
+    if let Ok(point) = numbers::<2>(text, "") {
+        return Ok(GazeArg::Point(point));
+    }
+    // Numbers that are no point are a slip, not a file name.
+    if text.split(',').all(|part| part.trim().parse::<f64>().is_ok()) {
+        return Err("write X,Y in pixels, or the path of a CSV file".to_owned());
+    }
+    Ok(GazeArg::File(PathBuf::from(text)))
+}
+
+fn bands(text: &str) -> Result<BandEdges, String> {
+    let edges: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let edges = edges.map_err(|_| "write degrees with commas between them: 0,5,10,20".to_owned())?;
+    BandEdges::new(edges).map_err(|error| error.to_string())
+}
+
+fn display(name: &str) -> Result<fovqa_vision::Display, String> {
+    find_display(name).cloned().ok_or_else(|| {
+        let names: Vec<_> = displays().iter().map(|d| d.name.replace('_', "-")).collect();
+        format!("there is no such display; there are {}", names.join(", "))
+    })
+}
+
+impl ViewArgs {
+    /// The view, if one is given; more than one is an error.
+    pub(crate) fn spec(&self) -> Result<Option<ViewSpec>, String> {
+        let fov = (self.fov_horizontal.is_some() || self.fov_vertical.is_some()).then_some(
+            ViewSpec::Fov { horizontal_deg: self.fov_horizontal, vertical_deg: self.fov_vertical },
+        );
+        let diagonal = self.fov_diagonal.map(|diagonal_deg| ViewSpec::FovDiagonal { diagonal_deg });
+        let frustum = self
+            .frustum
+            .map(|[left, right, up, down]| ViewSpec::Frustum { left, right, up, down });
+        let pitch = self
+            .distance_m
+            .zip(self.pixel_pitch_mm)
+            .map(|(distance_m, pitch_mm)| ViewSpec::PixelPitch { distance_m, pitch_mm });
+        let display = self.display.clone().map(ViewSpec::Display);
+        let mut given = [fov, diagonal, frustum, pitch, display].into_iter().flatten();
+        let first = given.next();
+        if given.next().is_some() {
+            return Err("the view is given in more than one way".to_owned());
+        }
+        Ok(first)
+    }
+
+    pub(crate) fn gaze(&self) -> Gaze {
+        match &self.gaze {
+            None => Gaze::Centre,
+            Some(GazeArg::Point(px)) => Gaze::Point(*px),
+            Some(GazeArg::File(path)) => Gaze::Trace { path: path.clone(), hold: self.gaze_hold },
+        }
+    }
+
+    pub(crate) fn bands(&self) -> Option<BandEdges> {
+        self.bands.clone()
+    }
+
+    pub(crate) fn eccentricity(&self) -> EccentricityKind {
+        match self.eccentricity {
+            EccentricityArg::Angular => EccentricityKind::Angular,
+            EccentricityArg::Planar => EccentricityKind::Planar,
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! The command: arguments, progress, exit codes. Everything else is in the crates below.
+
+mod args;
+mod diagnostic;
+mod exit;
+mod list;
+mod output;
+mod progress;
+mod score;
+
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use args::{Cli, Command};
+use exit::Exit;
+
+/// Runs the command on the arguments of this process.
+pub fn main() -> ExitCode {
+    exit::watch_panics();
+    exit::watch_interrupts();
+    let outcome = std::panic::catch_unwind(|| {
+        let cli = match Cli::try_parse() {
+            Ok(cli) => cli,
+            Err(error) => return usage(&error),
+        };
+        run(cli)
+    });
+    outcome.unwrap_or(Exit::Bug).into()
+}
+
+fn run(cli: Cli) -> Exit {
+    match cli.command {
+        Command::Score(args) => score::run(*args),
+        Command::List { what } => list::run(what),
+        Command::Completions { shell } => output::write(|out| {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "fovqa", &mut script);
+            out.write_all(&script)
+        }),
+    }
+}
+
+/// What clap has to say: help and version on stdout, errors on stderr.
+fn usage(error: &clap::Error) -> Exit {
+    if error.use_stderr() {
+        // Nothing is left to do when stderr is closed.
+        let _ = error.print();
+        return Exit::Usage;
+    }
+    output::write(|out| write!(out, "{}", error.render().ansi()))
+}

@@ -1,0 +1,75 @@
+//! `fovqa list`: what there is.
+
+use std::fmt::Write as _;
+
+use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use fovqa_metrics::{Better, Metric};
+use fovqa_vision::displays;
+
+use crate::args::Listed;
+use crate::exit::Exit;
+use crate::output;
+
+pub(crate) fn run(what: Listed) -> Exit {
+    let text = match what {
+        Listed::Metrics => metrics(),
+        Listed::Displays => display_presets(),
+    };
+    output::write(|out| out.write_all(text.as_bytes()))
+}
+
+fn metrics() -> String {
+    let mut text = String::new();
+    for metric in Metric::ALL {
+        let info = metric.info();
+        let unit = if info.unit.is_empty() { String::new() } else { format!(", {}", info.unit) };
+        let better = match info.better {
+            Better::Higher => "higher is better",
+            Better::Lower => "lower is better",
+        };
+        let default = if Metric::DEFAULT.contains(&metric) { ", by default" } else { "" };
+        let bands = if info.per_band { ", per band too" } else { "" };
+        let view = if info.needs_view { ", needs a view" } else { "" };
+        let _ = writeln!(text, "{} ({}{unit})", info.key, info.label);
+        let _ = writeln!(text, "    {}", info.about);
+        let _ = writeln!(text, "    {better}{bands}{view}{default}");
+        let _ = writeln!(text, "    source: {}", info.source);
+        for param in info.params {
+            let _ = writeln!(
+                text,
+                "      --set {}.{}={}  {}",
+                info.key, param.name, param.default, param.about
+            );
+        }
+        text.push('\n');
+    }
+    text.truncate(text.trim_end().len());
+    text.push('\n');
+    text
+}
+
+fn display_presets() -> String {
+    let mut table = Table::new();
+    table.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
+    table.set_header(["display", "pixels", "field or size", "px/°", "cd/m²", "source"]);
+    for display in displays() {
+        let [w, h] = display.resolution;
+        table.add_row([
+            display.name.replace('_', "-"),
+            format!("{w}x{h}"),
+            display.geometry_in_words(),
+            format!("{:.2}", display.pixels_per_degree()),
+            display.luminance.map(|l| l.peak_cd_m2.to_string()).unwrap_or_default(),
+            display.source.clone(),
+        ]);
+    }
+    for numbers in [3, 4] {
+        if let Some(column) = table.column_mut(numbers) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    table.lines().fold(String::new(), |mut text, line| {
+        let _ = writeln!(text, "{}", line.trim_end());
+        text
+    })
+}

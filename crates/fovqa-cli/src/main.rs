@@ -1,0 +1,5 @@
+//! The `fovqa` command.
+
+fn main() -> std::process::ExitCode {
+    fovqa_cli::main()
+}

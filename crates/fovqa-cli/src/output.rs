@@ -1,0 +1,20 @@
+//! Results on stdout.
+
+use std::io::{self, BufWriter, ErrorKind, Write};
+
+use crate::diagnostic;
+use crate::exit::Exit;
+
+/// Writes results to stdout. A reader that closed its end has seen enough: that is success.
+pub(crate) fn write(results: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Exit {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match results(&mut out).and_then(|()| out.flush()) {
+        Ok(()) => Exit::Done,
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Exit::Done,
+        Err(error) => {
+            let help = "free some space, or send the results elsewhere";
+            diagnostic::error(&format!("the results cannot be written: {error}"), help);
+            Exit::Input
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Warnings and a progress bar on stderr; no bar where stderr is not a terminal.
+
+use std::cell::OnceCell;
+use std::io::IsTerminal;
+
+use fovqa_engine::Events;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::diagnostic;
+
+/// What a run says goes to stderr.
+#[derive(Default)]
+pub(crate) struct Terminal {
+    bar: OnceCell<ProgressBar>,
+}
+
+impl Terminal {
+    /// Takes the bar off the screen.
+    pub(crate) fn finish(&self) {
+        if let Some(bar) = self.bar.get() {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Events for Terminal {
+    fn warn(&self, message: &str) {
+        match self.bar.get() {
+            Some(bar) => bar.suspend(|| diagnostic::warning(message)),
+            None => diagnostic::warning(message),
+        }
+    }
+
+    fn progress(&self, done: usize, total: usize) {
+        if total < 2 || !std::io::stderr().is_terminal() {
+            return;
+        }
+        let bar = self.bar.get_or_init(|| {
+            let style = ProgressStyle::with_template("{bar:30} {pos}/{len} frames, {eta} left");
+            ProgressBar::new(total as u64)
+                .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+        });
+        bar.set_position(done as u64);
+    }
+}

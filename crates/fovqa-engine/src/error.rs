@@ -1,0 +1,104 @@
+//! What keeps a run from starting at all.
+
+use std::path::PathBuf;
+
+use fovqa_io::ReadError;
+use fovqa_io::sequence::{ListingError, PairingError};
+use fovqa_metrics::{Metric, ParamError};
+use fovqa_vision::{GazeTraceError, ViewError};
+use thiserror::Error;
+
+/// Why a run could not start.
+#[derive(Debug, Error)]
+pub enum EngineError {
+    /// A path argument that stands for nothing.
+    #[error(transparent)]
+    Listing(#[from] ListingError),
+    /// Frames without partners.
+    #[error(transparent)]
+    Pairing(#[from] PairingError),
+    /// A selection without a frame.
+    #[error("no frame is selected; there are frames {first} to {last}")]
+    NoFrames {
+        /// Lowest number there is.
+        first: u64,
+        /// Highest number there is.
+        last: u64,
+    },
+    /// A view that cannot be.
+    #[error(transparent)]
+    View(#[from] ViewError),
+    /// Something that needs a view, without one.
+    #[error("{what} needs a view, and none is given")]
+    NoView {
+        /// What needs it.
+        what: String,
+    },
+    /// A parameter that cannot be.
+    #[error(transparent)]
+    Param(#[from] ParamError),
+    /// A gaze file that cannot be opened.
+    #[error("{}: the gaze file cannot be read: {error}", path.display())]
+    GazeFile {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: std::io::Error,
+    },
+    /// A gaze file that is none, or does not fit.
+    #[error("{}: {error}", path.display())]
+    GazeTrace {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: GazeTraceError,
+    },
+    /// A mask that cannot be read.
+    #[error("the mask {0}")]
+    Mask(#[from] ReadError),
+}
+
+impl EngineError {
+    /// Whether the command line is wrong, rather than an input.
+    pub fn is_usage(&self) -> bool {
+        match self {
+            Self::View(_) | Self::NoView { .. } | Self::Param(_) => true,
+            Self::GazeTrace { error, .. } => matches!(error, GazeTraceError::NoFps),
+            Self::Listing(error) => matches!(error, ListingError::Pattern { .. }),
+            Self::Pairing(_)
+            | Self::NoFrames { .. }
+            | Self::GazeFile { .. }
+            | Self::Mask(_) => false,
+        }
+    }
+
+    /// How to mend it.
+    pub fn help(&self) -> String {
+        match self {
+            Self::Listing(error) => error.help().to_owned(),
+            Self::Pairing(error) => error.help().to_owned(),
+            Self::NoFrames { .. } => "--frames A..B selects by number, from A up to, but without, B".to_owned(),
+            Self::View(_) => "angles lie between 0° and 180°, lengths and tangents above 0".to_owned(),
+            Self::NoView { .. } => "give one of --fov-vertical, --fov-horizontal, --fov-diagonal, --frustum, --display, or --distance-m with --pixel-pitch-mm".to_owned(),
+            Self::Param(_) => "`fovqa list metrics` shows every parameter with its range".to_owned(),
+            Self::GazeFile { .. } => "check the path; a gaze point is written X,Y".to_owned(),
+            Self::GazeTrace { error, .. } => gaze_help(error).to_owned(),
+            Self::Mask(error) => error.kind.help().to_owned(),
+        }
+    }
+}
+
+fn gaze_help(error: &GazeTraceError) -> &'static str {
+    match error {
+        GazeTraceError::NoFps => "pass --fps",
+        GazeTraceError::Missing { .. } => "record it for every frame, or pass --gaze-hold to keep the last gaze",
+        GazeTraceError::StartsWithBlink { .. } => "put an open-eyed row in front",
+        _ => "a gaze trace is CSV with the columns frame,x_px,y_px (or time_s,x_px,y_px), rows rising",
+    }
+}
+
+/// What a metric is called when it lacks a view.
+pub(crate) fn no_view(metrics: &[Metric]) -> EngineError {
+    let names: Vec<_> = metrics.iter().map(|m| m.info().label).collect();
+    EngineError::NoView { what: names.join(" and ") }
+}

@@ -1,0 +1,23 @@
+//! Row blocks: the only unit of parallel work.
+//!
+//! Their height is fixed, so that partial sums, added in block order, come out the same for any
+//! number of threads.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+/// Rows of one block. Even, so that a 2x2 mean never straddles two blocks.
+pub const BLOCK_ROWS: usize = 64;
+
+/// Calls `work` with each block of rows of a picture `height` rows high, in parallel, and
+/// returns the results in the order of the rows.
+pub fn map_row_blocks<T: Send>(
+    height: usize,
+    work: impl Fn(Range<usize>) -> T + Sync + Send,
+) -> Vec<T> {
+    (0..height.div_ceil(BLOCK_ROWS))
+        .into_par_iter()
+        .map(|block| work(block * BLOCK_ROWS..((block + 1) * BLOCK_ROWS).min(height)))
+        .collect()
+}

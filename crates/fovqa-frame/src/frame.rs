@@ -1,0 +1,330 @@
+//! A picture as its file holds it, before any transfer function.
+
+use half::f16;
+use rayon::prelude::*;
+use thiserror::Error;
+
+use crate::mask::Mask;
+
+/// One channel of gray, or three of colour with Rec.709 primaries.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Channels {
+    /// One channel.
+    Gray,
+    /// Red, green, blue.
+    Rgb,
+}
+
+impl Channels {
+    /// 1 or 3.
+    pub fn count(self) -> usize {
+        match self {
+            Channels::Gray => 1,
+            Channels::Rgb => 3,
+        }
+    }
+
+    /// The name of channel `index`, as error messages say it.
+    pub fn name(self, index: usize) -> &'static str {
+        match self {
+            Channels::Gray => "Y",
+            Channels::Rgb => ["R", "G", "B"][index],
+        }
+    }
+}
+
+/// The samples of a frame, in the type and order their decoder leaves them in.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Samples {
+    /// Codes 0..=255, channels interleaved.
+    U8(Vec<u8>),
+    /// Codes 0..=65535, channels interleaved.
+    U16(Vec<u16>),
+    /// Half floats, one plane after the other.
+    F16(Vec<f16>),
+    /// Floats, one plane after the other.
+    F32(Vec<f32>),
+}
+
+impl Samples {
+    fn len(&self) -> usize {
+        match self {
+            Samples::U8(s) => s.len(),
+            Samples::U16(s) => s.len(),
+            Samples::F16(s) => s.len(),
+            Samples::F32(s) => s.len(),
+        }
+    }
+
+    /// Whether the samples are codes rather than floating-point values.
+    pub fn is_integer(&self) -> bool {
+        matches!(self, Samples::U8(_) | Samples::U16(_))
+    }
+}
+
+/// A rectangle in pixels of the file's own frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Crop {
+    /// Left edge.
+    pub x: usize,
+    /// Top edge.
+    pub y: usize,
+    /// Width, at least 1.
+    pub width: usize,
+    /// Height, at least 1.
+    pub height: usize,
+}
+
+/// A crop that reaches beyond the frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error(
+    "the crop {},{},{},{} reaches beyond the frame of {width}x{height}",
+    crop.x, crop.y, crop.width, crop.height
+)]
+pub struct CropError {
+    /// The rectangle asked for.
+    pub crop: Crop,
+    /// Width of the frame.
+    pub width: usize,
+    /// Height of the frame.
+    pub height: usize,
+}
+
+/// Samples that do not make a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum FrameError {
+    /// A frame without pixels.
+    #[error("a frame of {width}x{height} has no pixels")]
+    Empty {
+        /// Declared width.
+        width: usize,
+        /// Declared height.
+        height: usize,
+    },
+    /// More or fewer samples than the size says.
+    #[error("{found} samples for a frame that needs {expected}")]
+    SampleCount {
+        /// Samples given.
+        found: usize,
+        /// Samples that width, height and channels ask for.
+        expected: usize,
+    },
+}
+
+/// A NaN or an infinity in a frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BadPixel {
+    /// Channel name: `R`, `G`, `B` or `Y`.
+    pub channel: &'static str,
+    /// Column.
+    pub x: usize,
+    /// Row.
+    pub y: usize,
+    /// The value: NaN or an infinity.
+    pub value: f32,
+    /// Pixels of the frame with at least one such value.
+    pub pixels: u64,
+}
+
+/// A decoded picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    width: usize,
+    height: usize,
+    channels: Channels,
+    samples: Samples,
+    /// The visible part, within `width` x `height`.
+    crop: Crop,
+}
+
+impl Frame {
+    /// Puts samples and their size together.
+    ///
+    /// # Errors
+    /// When there are no pixels, or not `width * height * channels` samples.
+    pub fn new(
+        width: usize,
+        height: usize,
+        channels: Channels,
+        samples: Samples,
+    ) -> Result<Self, FrameError> {
+        if width == 0 || height == 0 {
+            return Err(FrameError::Empty { width, height });
+        }
+        let expected = width * height * channels.count();
+        if samples.len() != expected {
+            return Err(FrameError::SampleCount { found: samples.len(), expected });
+        }
+        let crop = Crop { x: 0, y: 0, width, height };
+        Ok(Self { width, height, channels, samples, crop })
+    }
+
+    /// The same frame with only a rectangle of it visible; no sample is copied.
+    ///
+    /// # Errors
+    /// When the rectangle is empty or reaches beyond the frame.
+    pub fn cropped(mut self, crop: Crop) -> Result<Self, CropError> {
+        let fits = |from: usize, length: usize, size: usize| {
+            length > 0 && from.checked_add(length).is_some_and(|end| end <= size)
+        };
+        let (width, height) = (self.crop.width, self.crop.height);
+        if !fits(crop.x, crop.width, width) || !fits(crop.y, crop.height, height) {
+            return Err(CropError { crop, width, height });
+        }
+        self.crop = Crop { x: self.crop.x + crop.x, y: self.crop.y + crop.y, ..crop };
+        Ok(self)
+    }
+
+    /// Width of the visible part in pixels.
+    pub fn width(&self) -> usize {
+        self.crop.width
+    }
+
+    /// Height of the visible part in pixels.
+    pub fn height(&self) -> usize {
+        self.crop.height
+    }
+
+    /// Gray or colour.
+    pub fn channels(&self) -> Channels {
+        self.channels
+    }
+
+    /// All samples, those outside the visible part too.
+    pub fn samples(&self) -> &Samples {
+        &self.samples
+    }
+
+    /// Where, in the samples of one plane (or among interleaved pixels), the visible part of
+    /// row `y` starts.
+    pub(crate) fn row_start(&self, y: usize) -> usize {
+        (self.crop.y + y) * self.width + self.crop.x
+    }
+
+    /// Samples of one whole plane.
+    pub(crate) fn plane_len(&self) -> usize {
+        self.width * self.height
+    }
+
+    /// The sample of one channel at a visible pixel, as a number: a code, or the float itself.
+    pub fn sample(&self, channel: usize, x: usize, y: usize) -> f32 {
+        let pixel = self.row_start(y) + x;
+        let interleaved = pixel * self.channels.count() + channel;
+        let planar = channel * self.plane_len() + pixel;
+        match &self.samples {
+            Samples::U8(s) => f32::from(s[interleaved]),
+            Samples::U16(s) => f32::from(s[interleaved]),
+            Samples::F16(s) => s[planar].to_f32(),
+            Samples::F32(s) => s[planar],
+        }
+    }
+
+    fn is_finite(&self, channel: usize, x: usize, y: usize) -> bool {
+        self.sample(channel, x, y).is_finite()
+    }
+
+    /// Whether row `y` of `channel` may hold a NaN or an infinity: a quick look at the bits.
+    fn row_has_bad(&self, channel: usize, y: usize) -> bool {
+        const F16_EXPONENT: u16 = 0x7c00;
+        const F32_EXPONENT: u32 = 0x7f80_0000;
+        let start = channel * self.plane_len() + self.row_start(y);
+        let row = start..start + self.width();
+        match &self.samples {
+            Samples::U8(_) | Samples::U16(_) => false,
+            // Folds, not `any`: without an early way out the loop vectorises.
+            Samples::F16(s) => s[row]
+                .iter()
+                .fold(false, |bad, v| bad | (v.to_bits() & F16_EXPONENT == F16_EXPONENT)),
+            Samples::F32(s) => s[row]
+                .iter()
+                .fold(false, |bad, v| bad | (v.to_bits() & F32_EXPONENT == F32_EXPONENT)),
+        }
+    }
+
+    /// The first pixel, in reading order, that holds a NaN or an infinity, and how many do.
+    pub fn bad_pixel(&self) -> Option<BadPixel> {
+        if self.samples.is_integer() {
+            return None;
+        }
+        let channels = 0..self.channels.count();
+        let bad_row = |y: usize| channels.clone().any(|c| self.row_has_bad(c, y));
+        let rows: Vec<usize> =
+            (0..self.height()).into_par_iter().filter(|&y| bad_row(y)).collect();
+        let mut first = None;
+        let mut pixels = 0;
+        for y in rows {
+            for x in 0..self.width() {
+                let Some(channel) = channels.clone().find(|&c| !self.is_finite(c, x, y)) else {
+                    continue;
+                };
+                pixels += 1;
+                first.get_or_insert((channel, x, y));
+            }
+        }
+        first.map(|(channel, x, y)| BadPixel {
+            channel: self.channels.name(channel),
+            x,
+            y,
+            value: self.sample(channel, x, y),
+            pixels,
+        })
+    }
+
+    /// The pixels whose channels are all finite.
+    pub fn finite_mask(&self) -> Mask {
+        let (width, height) = (self.width(), self.height());
+        let mut valid = vec![true; width * height];
+        for y in 0..height {
+            for c in 0..self.channels.count() {
+                if self.row_has_bad(c, y) {
+                    for (x, valid) in valid[y * width..(y + 1) * width].iter_mut().enumerate() {
+                        *valid &= self.is_finite(c, x, y);
+                    }
+                }
+            }
+        }
+        Mask::new(width, height, valid).unwrap_or_else(|| unreachable!("one flag a pixel"))
+    }
+
+    /// Smallest and largest finite sample of the visible part.
+    pub fn range(&self) -> (f32, f32) {
+        let mut range = (f32::INFINITY, f32::NEG_INFINITY);
+        for c in 0..self.channels.count() {
+            for y in 0..self.height() {
+                for value in (0..self.width()).map(|x| self.sample(c, x, y)) {
+                    if value.is_finite() {
+                        range = (range.0.min(value), range.1.max(value));
+                    }
+                }
+            }
+        }
+        range
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn says_where_the_first_nan_is_and_how_many() {
+        let mut values = vec![0.5f32; 3 * 20];
+        values[20 + 7] = f32::NAN; // G at (2, 1) of a 5x4 frame
+        values[40 + 7] = f32::INFINITY; // B, the same pixel
+        values[19] = f32::NEG_INFINITY; // R at (4, 3)
+        let frame = Frame::new(5, 4, Channels::Rgb, Samples::F32(values)).unwrap();
+        let bad = frame.bad_pixel().unwrap();
+        assert_eq!((bad.channel, bad.x, bad.y, bad.pixels), ("G", 2, 1, 2));
+        assert_eq!(frame.finite_mask().left_out(), 2);
+        let cut = frame.cropped(Crop { x: 0, y: 2, width: 4, height: 2 }).unwrap();
+        assert!(cut.bad_pixel().is_none());
+    }
+
+    #[test]
+    fn refuses_a_crop_beyond_the_frame() {
+        let frame = Frame::new(5, 4, Channels::Gray, Samples::U8(vec![0; 20])).unwrap();
+        assert!(frame.clone().cropped(Crop { x: 1, y: 0, width: 5, height: 4 }).is_err());
+        assert!(frame.clone().cropped(Crop { x: 0, y: 0, width: 0, height: 4 }).is_err());
+        assert!(frame.cropped(Crop { x: usize::MAX, y: 0, width: 5, height: 4 }).is_err());
+    }
+}

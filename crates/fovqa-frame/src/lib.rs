@@ -1,0 +1,26 @@
+//! Mathematics on pixels: frames as decoded, transfer functions, tone maps, luma, masks and row
+//! blocks. Knows nothing of files or eyes.
+//!
+//! | word | meaning |
+//! | --- | --- |
+//! | frame | decoded samples of one picture, one (gray) or three (RGB) channels |
+//! | signal | what metrics see: display-encoded, in `[0, peak]` |
+//! | plane | one channel of the signal, `f32`, row by row |
+//! | mask | which pixels count |
+
+mod blocks;
+mod chromaticities;
+mod frame;
+mod mask;
+mod pair;
+mod signal;
+mod tonemap;
+pub mod transfer;
+
+pub use blocks::{BLOCK_ROWS, map_row_blocks};
+pub use chromaticities::Chromaticities;
+pub use frame::{BadPixel, Channels, Crop, CropError, Frame, FrameError, Samples};
+pub use mask::Mask;
+pub use pair::{PairSignal, PairTile};
+pub use signal::{Luma, SignalChannels, SignalParams, SignalTables, Transfer};
+pub use tonemap::ToneMap;

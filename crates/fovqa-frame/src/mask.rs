@@ -1,0 +1,95 @@
+//! Which pixels count: a lens mask, or the pixels a renderer left finite.
+
+/// One flag a pixel, row by row: `true` where the pixel counts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mask {
+    width: usize,
+    height: usize,
+    valid: Vec<bool>,
+}
+
+impl Mask {
+    /// A mask from one flag a pixel. `None` unless there are `width * height` flags.
+    pub fn new(width: usize, height: usize, valid: Vec<bool>) -> Option<Self> {
+        (valid.len() == width * height).then_some(Self { width, height, valid })
+    }
+
+    /// Width in pixels.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Height in pixels.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// The flags of row `y`.
+    pub fn row(&self, y: usize) -> &[bool] {
+        &self.valid[y * self.width..(y + 1) * self.width]
+    }
+
+    /// How many pixels do not count.
+    pub fn left_out(&self) -> u64 {
+        self.valid.iter().filter(|&&valid| !valid).count() as u64
+    }
+
+    /// Keeps only what counts in both masks, which have one size.
+    pub fn intersect(&mut self, other: &Mask) {
+        assert_eq!((self.width, self.height), (other.width, other.height), "masks of one size");
+        for (mine, theirs) in self.valid.iter_mut().zip(&other.valid) {
+            *mine &= theirs;
+        }
+    }
+
+    /// The part of the mask inside a rectangle, which must lie within it.
+    pub fn cropped(&self, x: usize, y: usize, width: usize, height: usize) -> Mask {
+        let valid = (y..y + height).flat_map(|row| &self.row(row)[x..x + width]).copied().collect();
+        Mask { width, height, valid }
+    }
+
+    /// The centres of windows of `2 radius + 1` pixels a side in which every pixel counts.
+    /// Windows that do not fit into the picture are out as well.
+    pub fn eroded(&self, radius: usize) -> Mask {
+        let (w, h, side) = (self.width, self.height, 2 * radius + 1);
+        let mut valid = vec![false; w * h];
+        // For each column, how many valid pixels stand in a run that ends in the current row.
+        let mut run = vec![0usize; w];
+        for y in 0..h {
+            for (run, &valid) in run.iter_mut().zip(self.row(y)) {
+                *run = if valid { *run + 1 } else { 0 };
+            }
+            if y + 1 < side {
+                continue;
+            }
+            let mut across = 0;
+            for x in 0..w {
+                across = if run[x] >= side { across + 1 } else { 0 };
+                if across >= side {
+                    valid[(y - radius) * w + x - radius] = true;
+                }
+            }
+        }
+        Mask { width: w, height: h, valid }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_bad_pixel_takes_out_every_window_that_holds_it() {
+        let mut valid = vec![true; 9 * 8];
+        valid[3 * 9 + 4] = false;
+        let mask = Mask::new(9, 8, valid).unwrap();
+        let eroded = mask.eroded(1);
+        for y in 0..8 {
+            for x in 0..9 {
+                let fits = (1..8).contains(&x) && (1..7).contains(&y);
+                let clean = !((3..=5).contains(&x) && (2..=4).contains(&y));
+                assert_eq!(eroded.row(y)[x], fits && clean, "({x}, {y})");
+            }
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! From samples to the signal metrics see: display-encoded, per channel.
+//!
+//! Encoded input (8- and 16-bit files, unless told otherwise) is used as it is. Linear input
+//! (`OpenEXR`, unless told otherwise) gets exposure, then the tone map per channel, then the sRGB
+//! encoding. NaN becomes 0 and an infinity the end of the range, so that a masked pixel cannot
+//! leak into its neighbours.
+
+use std::sync::OnceLock;
+
+use half::f16;
+
+use crate::frame::{Frame, Samples};
+use crate::tonemap::ToneMap;
+use crate::transfer::srgb;
+
+/// How the values of a file are encoded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Transfer {
+    /// sRGB: used as they are.
+    Srgb,
+    /// Linear light: exposure, tone map and sRGB encoding follow.
+    Linear,
+    /// SMPTE ST 2084 codes: used as they are.
+    Pq,
+    /// A power of 2.2: used as they are.
+    Gamma22,
+}
+
+/// What metrics see of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SignalChannels {
+    /// Three channels; a gray picture stands for three equal ones.
+    #[default]
+    Rgb,
+    /// One: [`Luma`].
+    Luma,
+}
+
+/// Weights of luma, `Y = 0.2126 R + 0.7152 G + 0.0722 B` of the encoded signal (Rec. ITU-R BT.709).
+#[derive(Debug, Clone, Copy)]
+pub struct Luma;
+
+impl Luma {
+    /// Red, green, blue.
+    pub const WEIGHTS: [f32; 3] = [0.2126, 0.7152, 0.0722];
+}
+
+/// How samples become the signal.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SignalParams {
+    /// `None`: sRGB for integer samples, linear for floats.
+    pub transfer: Option<Transfer>,
+    /// Exposure of linear input, in stops.
+    pub exposure_stops: f64,
+    /// Tone map of linear input.
+    pub tonemap: ToneMap,
+    /// RGB or luma.
+    pub channels: SignalChannels,
+}
+
+impl SignalParams {
+    /// The transfer function of a frame: the one asked for, or that of its kind of file.
+    pub fn transfer_of(&self, frame: &Frame) -> Transfer {
+        self.transfer.unwrap_or(if frame.samples().is_integer() {
+            Transfer::Srgb
+        } else {
+            Transfer::Linear
+        })
+    }
+}
+
+/// The way from a sample to the signal, tabulated once where the sample has few values.
+#[derive(Debug)]
+pub struct SignalTables {
+    params: SignalParams,
+    codes8: OnceLock<Vec<f32>>,
+    codes16: OnceLock<Vec<f32>>,
+    half: OnceLock<Vec<f32>>,
+}
+
+/// One frame's samples with the way to the signal.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Source<'a> {
+    /// Codes times a whole number.
+    Codes8(&'a [u8], f32),
+    Codes16(&'a [u16], f32),
+    Table8(&'a [u8], &'a [f32]),
+    Table16(&'a [u16], &'a [f32]),
+    Half(&'a [f16], &'a [f32]),
+    Linear(&'a [f32], FloatToSignal),
+    Encoded(&'a [f32]),
+}
+
+/// Exposure, tone map, encoding.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FloatToSignal {
+    gain: f32,
+    tonemap: ToneMap,
+    encoder: srgb::Encoder,
+}
+
+impl FloatToSignal {
+    #[inline]
+    pub(crate) fn map(self, linear: f32) -> f32 {
+        // `NaN.max(0.0)` in the tone map is 0.
+        self.encoder.encode(self.tonemap.map(linear * self.gain))
+    }
+}
+
+impl SignalTables {
+    /// Prepares the conversion; tables are built when a frame first needs them.
+    pub fn new(params: SignalParams) -> Self {
+        Self { params, codes8: OnceLock::new(), codes16: OnceLock::new(), half: OnceLock::new() }
+    }
+
+    /// The parameters these tables stand for.
+    pub fn params(&self) -> &SignalParams {
+        &self.params
+    }
+
+    /// Whether a frame's codes are the signal: then two such frames are compared in exact
+    /// integers.
+    pub(crate) fn codes_are_signal(&self, frame: &Frame) -> bool {
+        frame.samples().is_integer() && self.params.transfer_of(frame) != Transfer::Linear
+    }
+
+    /// The source of a frame whose codes are the signal, in units in which both frames of a pair
+    /// have the peak `peak`: 255 or 65535.
+    pub(crate) fn codes<'a>(frame: &'a Frame, peak: f32) -> Option<Source<'a>> {
+        match frame.samples() {
+            Samples::U8(s) => Some(Source::Codes8(s, peak / 255.0)),
+            Samples::U16(s) => Some(Source::Codes16(s, peak / 65535.0)),
+            Samples::F16(_) | Samples::F32(_) => None,
+        }
+    }
+
+    /// The source of any frame, with peak 1.
+    pub(crate) fn unit<'a>(&'a self, frame: &'a Frame) -> Source<'a> {
+        let linear = self.params.transfer_of(frame) == Transfer::Linear;
+        let gain = libm::exp2(self.params.exposure_stops);
+        let tonemap = self.params.tonemap;
+        let to_signal = |v: f64| {
+            if linear {
+                srgb::encode(f64::from(tonemap.map((v * gain) as f32))) as f32
+            } else {
+                v.clamp(0.0, 1.0) as f32
+            }
+        };
+        match frame.samples() {
+            Samples::U8(s) => Source::Table8(
+                s,
+                self.codes8.get_or_init(|| {
+                    (0..256).map(|code| to_signal(f64::from(code) / 255.0)).collect()
+                }),
+            ),
+            Samples::U16(s) => Source::Table16(
+                s,
+                self.codes16.get_or_init(|| {
+                    (0..65536).map(|code| to_signal(f64::from(code) / 65535.0)).collect()
+                }),
+            ),
+            Samples::F16(s) => Source::Half(
+                s,
+                self.half.get_or_init(|| {
+                    let value = |bits: u16| f64::from(f16::from_bits(bits).to_f32());
+                    (0..=u16::MAX)
+                        .map(value)
+                        .map(|v| if v.is_nan() { 0.0 } else { to_signal(v) })
+                        .collect()
+                }),
+            ),
+            Samples::F32(s) if linear => Source::Linear(
+                s,
+                FloatToSignal { gain: gain as f32, tonemap, encoder: srgb::Encoder::new() },
+            ),
+            Samples::F32(s) => Source::Encoded(s),
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! Tone maps: linear light of any height to `[0, 1]`, each channel on its own.
+
+/// How linear input is brought into the range of a display.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ToneMap {
+    /// `min(max(x, 0), 1)`.
+    #[default]
+    Clamp,
+    /// `max(x, 0) / (1 + max(x, 0))` (Reinhard et al. 2002, Eq. 3).
+    Reinhard,
+    /// Narkowicz 2015, a fit to the ACES reference rendering transform.
+    Aces,
+}
+
+impl ToneMap {
+    /// Maps one linear value; an infinity goes to 1, so a firefly is white and no more.
+    #[inline]
+    pub fn map(self, linear: f32) -> f32 {
+        let x = linear.max(0.0);
+        match self {
+            ToneMap::Clamp => x.min(1.0),
+            // Beyond this x / (1 + x) is 1 in f32 anyway; it keeps infinity from becoming NaN.
+            ToneMap::Reinhard => {
+                let x = x.min(1e9);
+                x / (1.0 + x)
+            }
+            ToneMap::Aces => {
+                let x = x.min(1e9);
+                ((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)).min(1.0)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_values_and_range() {
+        assert!((ToneMap::Reinhard.map(1.0) - 0.5).abs() < 1e-7);
+        assert!((ToneMap::Aces.map(1.0) - 0.803_797_5).abs() < 1e-6);
+        for map in [ToneMap::Clamp, ToneMap::Reinhard, ToneMap::Aces] {
+            let mut last = 0.0;
+            for v in [-1.0, 0.0, 1e-4, 0.18, 1.0, 10.0, 60_000.0, f32::MAX, f32::INFINITY] {
+                let mapped = map.map(v);
+                assert!((last..=1.0).contains(&mapped), "{map:?} of {v}: {mapped}");
+                last = mapped;
+            }
+        }
+    }
+}

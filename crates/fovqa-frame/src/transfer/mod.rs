@@ -1,0 +1,3 @@
+//! Transfer functions, one file each.
+
+pub mod srgb;

@@ -1,0 +1,36 @@
+//! Alpha: what to do with pixels that are not opaque.
+
+use crate::error::ReadErrorKind;
+
+/// What to do with alpha that is not 1 everywhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AlphaPolicy {
+    /// An error that names the first such pixel.
+    #[default]
+    Error,
+    /// Take the colours as they are.
+    Ignore,
+    /// Lay the picture over black: PNG colours are multiplied by alpha (as encoded, like a
+    /// viewer does), `OpenEXR` colours are premultiplied already.
+    OverBlack,
+}
+
+/// Looks through alpha values (row by row, 1 = opaque) for any that is not 1.
+pub(crate) fn require_opaque(
+    alpha: impl Iterator<Item = f32>,
+    width: usize,
+) -> Result<(), ReadErrorKind> {
+    let (mut transparent, mut all_zero, mut first) = (0u64, true, None);
+    for (i, value) in alpha.enumerate() {
+        all_zero &= value == 0.0;
+        if value != 1.0 {
+            transparent += 1;
+            first.get_or_insert((i % width, i / width, value));
+        }
+    }
+    match first {
+        None => Ok(()),
+        Some(_) if all_zero => Err(ReadErrorKind::AllTransparent),
+        Some((x, y, value)) => Err(ReadErrorKind::Alpha { transparent, x, y, value }),
+    }
+}

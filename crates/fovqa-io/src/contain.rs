@@ -1,0 +1,22 @@
+//! Panics of decoder libraries, turned into errors.
+
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+thread_local! {
+    static CONTAINED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether a panic on this thread is about to become an error, so that a panic hook need not
+/// report it.
+pub fn is_contained() -> bool {
+    CONTAINED.get()
+}
+
+/// Runs a decoder; `None` when it panicked.
+pub(crate) fn contained<T>(work: impl FnOnce() -> T) -> Option<T> {
+    let before = CONTAINED.replace(true);
+    let result = catch_unwind(AssertUnwindSafe(work));
+    CONTAINED.set(before);
+    result.ok()
+}

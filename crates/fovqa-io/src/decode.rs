@@ -1,0 +1,143 @@
+//! One file to one frame.
+
+use std::fs::File;
+use std::io::{BufReader, Read, Seek};
+use std::path::Path;
+
+use fovqa_frame::{Frame, Mask};
+
+use crate::alpha::AlphaPolicy;
+use crate::contain::contained;
+use crate::error::{ReadError, ReadErrorKind};
+use crate::{exr, raster};
+
+/// How files are read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadOptions {
+    /// The colour layer of `OpenEXR` files that have several.
+    pub layer: Option<String>,
+    /// What to do with alpha.
+    pub alpha: AlphaPolicy,
+    /// Most pixels a file may declare, in millions.
+    pub max_megapixels: u64,
+}
+
+impl Default for ReadOptions {
+    /// No layer, alpha an error, 512 megapixels: seven times the retinal resolution of the
+    /// papers (11520x6480), 1.5 GB of 8-bit RGB.
+    fn default() -> Self {
+        Self { layer: None, alpha: AlphaPolicy::Error, max_megapixels: 512 }
+    }
+}
+
+impl ReadOptions {
+    /// Refuses a declared size before anything is allocated for it.
+    pub(crate) fn check_size(&self, width: u64, height: u64) -> Result<(), ReadErrorKind> {
+        let limit = self.max_megapixels.saturating_mul(1_000_000);
+        if width.saturating_mul(height) > limit {
+            let limit_megapixels = self.max_megapixels;
+            return Err(ReadErrorKind::TooLarge { width, height, limit_megapixels });
+        }
+        Ok(())
+    }
+}
+
+/// Something about a file that its reader should know, though it can be read.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Note {
+    /// Colour chunks that are not applied: their names.
+    ColourChunks(String),
+    /// The data window does not cover the display window; the rest is 0.
+    UncoveredPixels,
+    /// Chromaticities were converted to Rec.709.
+    ConvertedPrimaries,
+    /// An EXIF orientation that is not applied.
+    Orientation,
+}
+
+impl Note {
+    /// The note as one sentence.
+    pub fn in_words(&self) -> String {
+        match self {
+            Note::ColourChunks(names) => {
+                format!("the colour chunk {names} is not applied; values are taken as sRGB unless --transfer says otherwise")
+            }
+            Note::UncoveredPixels => {
+                "the data window does not cover the display window; uncovered pixels are 0".to_owned()
+            }
+            Note::ConvertedPrimaries => {
+                "the chromaticities attribute is not Rec.709; colours were converted".to_owned()
+            }
+            Note::Orientation => "the EXIF orientation is not applied".to_owned(),
+        }
+    }
+}
+
+/// A frame and what there is to say about its file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decoded {
+    /// The frame.
+    pub frame: Frame,
+    /// Remarks.
+    pub notes: Vec<Note>,
+}
+
+const PNG_MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
+const JPEG_MAGIC: &[u8] = b"\xff\xd8\xff";
+const EXR_MAGIC: &[u8] = b"\x76\x2f\x31\x01";
+
+/// Reads a PNG, JPEG or `OpenEXR` file; its first bytes tell which, not its name.
+///
+/// # Errors
+/// When the file cannot be read, is none of these, is damaged or too large, or does not fit the
+/// options. A decoder that panics is an error too.
+pub fn read_frame(path: &Path, options: &ReadOptions) -> Result<Decoded, ReadError> {
+    let read = || read_contained(path, options);
+    contained(read)
+        .unwrap_or_else(|| {
+            let detail = "the decoder broke down on it".to_owned();
+            Err(ReadErrorKind::Damaged { format: "image", detail })
+        })
+        .map_err(|kind| kind.at(path))
+}
+
+fn read_contained(path: &Path, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
+    /// Large enough to keep system calls rare, small enough for the second-level cache.
+    const BUFFER: usize = 256 << 10;
+    let file = File::open(path)?;
+    if file.metadata()?.is_dir() {
+        return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
+    }
+    let mut file = BufReader::with_capacity(BUFFER, file);
+    let mut magic = Vec::with_capacity(8);
+    file.by_ref().take(8).read_to_end(&mut magic)?;
+    file.rewind()?;
+    if magic.starts_with(PNG_MAGIC) {
+        raster::read_png(file, options)
+    } else if magic.starts_with(JPEG_MAGIC) {
+        raster::read_jpeg(file, options)
+    } else if magic.starts_with(EXR_MAGIC) {
+        exr::read(file, options)
+    } else {
+        Err(ReadErrorKind::NotAnImage)
+    }
+}
+
+/// Reads a mask: white (at least half of full scale) is visible. Alpha is ignored.
+///
+/// # Errors
+/// As [`read_frame`].
+pub fn read_mask(path: &Path, options: &ReadOptions) -> Result<Mask, ReadError> {
+    let options = ReadOptions { alpha: AlphaPolicy::Ignore, ..options.clone() };
+    let frame = read_frame(path, &options)?.frame;
+    let (width, height, channels) = (frame.width(), frame.height(), frame.channels().count());
+    let half = match frame.samples() {
+        fovqa_frame::Samples::U8(_) => 127.5,
+        fovqa_frame::Samples::U16(_) => 32767.5,
+        fovqa_frame::Samples::F16(_) | fovqa_frame::Samples::F32(_) => 0.5,
+    };
+    let valid = (0..width * height)
+        .map(|i| (0..channels).all(|c| frame.sample(c, i % width, i / width) > half))
+        .collect();
+    Ok(Mask::new(width, height, valid).unwrap_or_else(|| unreachable!("one flag a pixel")))
+}

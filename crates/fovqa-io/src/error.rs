@@ -1,0 +1,139 @@
+//! What can be wrong with a file.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// A file that could not be read as a frame, and why.
+#[derive(Debug, Error)]
+#[error("{}: {kind}", path.display())]
+pub struct ReadError {
+    /// The file.
+    pub path: PathBuf,
+    /// The reason.
+    #[source]
+    pub kind: ReadErrorKind,
+}
+
+/// Why a file could not be read as a frame.
+#[derive(Debug, Error)]
+pub enum ReadErrorKind {
+    /// The operating system refused.
+    #[error("{}", io_reason(.0))]
+    Io(#[from] io::Error),
+    /// Neither PNG, JPEG nor `OpenEXR` by its first bytes.
+    #[error("this is not a PNG, JPEG or OpenEXR file")]
+    NotAnImage,
+    /// The decoder gave up.
+    #[error("the {format} data is damaged or cut short: {detail}")]
+    Damaged {
+        /// `PNG`, `JPEG` or `OpenEXR`.
+        format: &'static str,
+        /// The decoder's words.
+        detail: String,
+    },
+    /// More pixels than the limit.
+    #[error("it declares {width}x{height} pixels, more than the limit of {limit_megapixels} megapixels")]
+    TooLarge {
+        /// Declared width.
+        width: u64,
+        /// Declared height.
+        height: u64,
+        /// The limit.
+        limit_megapixels: u64,
+    },
+    /// Alpha that is not 1 everywhere.
+    #[error(
+        "its alpha is not 1 everywhere ({transparent} pixels, the first at ({x}, {y}) with {value})"
+    )]
+    Alpha {
+        /// Pixels whose alpha is not 1.
+        transparent: u64,
+        /// Column of the first.
+        x: usize,
+        /// Row of the first.
+        y: usize,
+        /// Its alpha, 0 to 1.
+        value: f32,
+    },
+    /// Alpha that is 0 everywhere.
+    #[error("its alpha is 0 everywhere, as engines leave it when they capture without alpha")]
+    AllTransparent,
+    /// Deep data.
+    #[error("it holds deep data, which has no single colour a pixel")]
+    Deep,
+    /// No colour channels.
+    #[error("it has no colour: no R, G, B and no Y, only {channels}")]
+    NoColour {
+        /// The channels there are.
+        channels: String,
+    },
+    /// Several colour layers.
+    #[error("it has several colour layers: {layers}")]
+    SeveralLayers {
+        /// Their names.
+        layers: String,
+    },
+    /// A layer that is not there.
+    #[error("it has no colour layer {wanted:?}; it has: {layers}")]
+    NoSuchLayer {
+        /// What was asked for.
+        wanted: String,
+        /// What is there.
+        layers: String,
+    },
+    /// Channels at a lower resolution than the picture.
+    #[error("channel {channel} is subsampled, which is not read")]
+    Subsampled {
+        /// The channel.
+        channel: String,
+    },
+    /// Data window and display window without a common pixel.
+    #[error("its data window {data} lies outside its display window {display}")]
+    DisjointWindows {
+        /// Data window as `WxH+X+Y`.
+        data: String,
+        /// Display window as `WxH+X+Y`.
+        display: String,
+    },
+    /// Chromaticities that span no colour space.
+    #[error("its chromaticities attribute does not span a colour space")]
+    Chromaticities,
+}
+
+impl ReadErrorKind {
+    pub(crate) fn at(self, path: &Path) -> ReadError {
+        ReadError { path: path.to_owned(), kind: self }
+    }
+
+    /// How to mend it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::Io(error) if error.kind() == io::ErrorKind::NotFound => {
+                "check the path; a relative one starts at the working directory"
+            }
+            Self::Io(_) => "check that it is a file and may be read",
+            Self::NotAnImage => "convert it to PNG or OpenEXR",
+            Self::Damaged { .. } => "render or copy it again",
+            Self::TooLarge { .. } => "raise the limit with --max-megapixels if the size is meant",
+            Self::Alpha { .. } => "pass --alpha ignore to drop it, or --alpha over-black to lay the image over black",
+            Self::AllTransparent => "pass --alpha ignore: the colours are usually whole",
+            Self::Deep => "flatten it to one colour a pixel first",
+            Self::NoColour { .. } => "give the file that holds the beauty pass",
+            Self::SeveralLayers { .. } => "name one with --layer",
+            Self::NoSuchLayer { .. } => "name one of these with --layer",
+            Self::Subsampled { .. } => "write luminance/chroma files as R, G, B",
+            Self::DisjointWindows { .. } => "nothing of it would be seen: check the render's region",
+            Self::Chromaticities => "write the file with valid primaries, or without the attribute",
+        }
+    }
+}
+
+fn io_reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        _ => format!("it cannot be read: {error}"),
+    }
+}

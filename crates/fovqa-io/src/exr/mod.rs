@@ -1,0 +1,102 @@
+//! `OpenEXR`: one colour layer of one part, brought to the display window and to Rec.709.
+
+mod layers;
+mod pixels;
+
+use std::io::{Read, Seek};
+
+use ::exr::meta::header::Header;
+use fovqa_frame::{Channels, Chromaticities, Frame, Samples};
+
+use crate::alpha::{AlphaPolicy, require_opaque};
+use crate::decode::{Decoded, Note, ReadOptions};
+use crate::error::ReadErrorKind;
+use pixels::{Planes, Window};
+
+pub(crate) fn read(
+    file: impl Read + Seek + Send,
+    options: &ReadOptions,
+) -> Result<Decoded, ReadErrorKind> {
+    let reader = ::exr::block::read(file, false).map_err(damaged)?;
+    if reader.headers().iter().any(|header| header.deep) {
+        return Err(ReadErrorKind::Deep);
+    }
+    let layer = layers::choose(reader.headers(), options.layer.as_deref())?;
+    let header = &reader.headers()[layer.part];
+    let window = Window::of(header)?;
+    options.check_size(window.display_width as u64, window.display_height as u64)?;
+    options.check_size(header.layer_size.0 as u64, header.layer_size.1 as u64)?;
+    for &channel in layer.colour.iter().chain(&layer.alpha) {
+        let channel = &header.channels.list[channel];
+        if channel.sampling != ::exr::math::Vec2(1, 1) {
+            return Err(ReadErrorKind::Subsampled { channel: channel.name.to_string() });
+        }
+    }
+    let alpha = layer.alpha.filter(|_| options.alpha == AlphaPolicy::Error);
+    let primaries = primaries(header)?.filter(|_| layer.colour.len() == 3);
+
+    let channels: Vec<usize> = layer.colour.iter().copied().chain(alpha).collect();
+    let mut planes = pixels::read(reader, layer.part, &channels, &window)?;
+    if alpha.is_some() {
+        require_opaque(planes.pop_as_f32().into_iter(), window.display_width)?;
+    }
+    let mut notes = Vec::new();
+    if !window.data_covers_display() {
+        notes.push(Note::UncoveredPixels);
+    }
+    let samples = match primaries {
+        Some(matrix) => {
+            notes.push(Note::ConvertedPrimaries);
+            Samples::F32(converted(planes, &matrix))
+        }
+        None => planes.into_samples(),
+    };
+    let colour = if layer.colour.len() == 3 { Channels::Rgb } else { Channels::Gray };
+    let frame = Frame::new(window.display_width, window.display_height, colour, samples)
+        .map_err(|e| ReadErrorKind::Damaged { format: "OpenEXR", detail: e.to_string() })?;
+    Ok(Decoded { frame, notes })
+}
+
+fn damaged(error: ::exr::error::Error) -> ReadErrorKind {
+    use ::exr::error::Error;
+    match error {
+        Error::Io(error) if error.kind() != std::io::ErrorKind::UnexpectedEof => {
+            ReadErrorKind::Io(error)
+        }
+        Error::Io(_) => {
+            let detail = "the file ends too early".to_owned();
+            ReadErrorKind::Damaged { format: "OpenEXR", detail }
+        }
+        Error::NotSupported(what) if what.contains("deep") => ReadErrorKind::Deep,
+        error => ReadErrorKind::Damaged { format: "OpenEXR", detail: error.to_string() },
+    }
+}
+
+/// The matrix to Rec.709, where the file has other primaries.
+fn primaries(header: &Header) -> Result<Option<[[f64; 3]; 3]>, ReadErrorKind> {
+    let Some(given) = header.shared_attributes.chromaticities else { return Ok(None) };
+    let xy = |v: ::exr::math::Vec2<f32>| [f64::from(v.0), f64::from(v.1)];
+    let given = Chromaticities {
+        red: xy(given.red),
+        green: xy(given.green),
+        blue: xy(given.blue),
+        white: xy(given.white),
+    };
+    if given.is_rec709() {
+        return Ok(None);
+    }
+    given.to_rec709().map(Some).ok_or(ReadErrorKind::Chromaticities)
+}
+
+fn converted(planes: Planes, matrix: &[[f64; 3]; 3]) -> Vec<f32> {
+    let mut values = planes.into_f32();
+    let plane = values.len() / 3;
+    let (r, rest) = values.split_at_mut(plane);
+    let (g, b) = rest.split_at_mut(plane);
+    for ((r, g), b) in r.iter_mut().zip(g).zip(b) {
+        let rgb = [f64::from(*r), f64::from(*g), f64::from(*b)];
+        let [x, y, z] = matrix.map(|m| m[0] * rgb[0] + m[1] * rgb[1] + m[2] * rgb[2]);
+        (*r, *g, *b) = (x as f32, y as f32, z as f32);
+    }
+    values
+}

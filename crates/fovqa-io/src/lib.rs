@@ -1,0 +1,17 @@
+//! Files to frames: PNG, JPEG and `OpenEXR`, sequences of them, and limits on what is read.
+//!
+//! Every decoder's mistake (an error, a panic, a declared size beyond reason) ends as a
+//! [`ReadError`] that names the file: one bad file never takes the others with it.
+
+mod alpha;
+mod contain;
+mod decode;
+mod error;
+mod exr;
+mod raster;
+pub mod sequence;
+
+pub use alpha::AlphaPolicy;
+pub use contain::is_contained;
+pub use decode::{Decoded, Note, ReadOptions, read_frame, read_mask};
+pub use error::{ReadError, ReadErrorKind};

@@ -1,0 +1,70 @@
+//! `--frames A..B:STEP`.
+
+use std::str::FromStr;
+
+use thiserror::Error;
+
+/// A selection of frames by their numbers: from A up to, but without, B, every STEP-th.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FrameRange {
+    from: u64,
+    to: Option<u64>,
+    step: u64,
+}
+
+/// Text that is not a range of frames.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{0:?} is not a range of frames: write A..B or A..B:STEP, A and B may be left out, STEP is at least 1")]
+pub struct FrameRangeError(String);
+
+impl FrameRange {
+    /// Whether frame `number` is selected.
+    pub fn contains(&self, number: u64) -> bool {
+        number >= self.from
+            && self.to.is_none_or(|to| number < to)
+            && (number - self.from).is_multiple_of(self.step)
+    }
+}
+
+impl FromStr for FrameRange {
+    type Err = FrameRangeError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parse = || {
+            let (range, step) = match text.split_once(':') {
+                Some((range, step)) => (range, step.parse().ok().filter(|s| *s > 0)?),
+                None => (text, 1),
+            };
+            let (from, to) = range.split_once("..")?;
+            let from = if from.is_empty() { 0 } else { from.parse().ok()? };
+            let (to, inclusive) = to.strip_prefix('=').map_or((to, 0), |to| (to, 1));
+            let to = if to.is_empty() && inclusive == 0 {
+                None
+            } else {
+                Some(to.parse::<u64>().ok()?.checked_add(inclusive)?)
+            };
+            Some(Self { from, to, step })
+        };
+        parse().ok_or_else(|| FrameRangeError(text.to_owned()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn selects_by_number() {
+        let picked = |text: &str| {
+            let range: FrameRange = text.parse().unwrap();
+            (0..12).filter(|n| range.contains(*n)).collect::<Vec<_>>()
+        };
+        assert_eq!(picked("2..5"), [2, 3, 4]);
+        assert_eq!(picked("2..=5"), [2, 3, 4, 5]);
+        assert_eq!(picked("1..:4"), [1, 5, 9]);
+        assert_eq!(picked("..3"), [0, 1, 2]);
+        for bad in ["", "3", "a..b", "1..2:0", "1..2:x", "..=", "-1..2"] {
+            assert!(bad.parse::<FrameRange>().is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! Path arguments to pairs of files: folders, globs, printf patterns, pairing, frame ranges.
+
+mod argument;
+mod frame_range;
+mod natural_order;
+mod pairing;
+
+pub use argument::{FrameFile, Listing, ListingError, list};
+pub use frame_range::{FrameRange, FrameRangeError};
+pub use pairing::{FramePair, PairingError, pair};

@@ -1,0 +1,207 @@
+//! Reference files and test files to pairs.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::argument::{FrameFile, Listing};
+
+/// A reference file and the test file that shows the same frame.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FramePair {
+    /// The frame's number: that of the reference's name, or its position from 0 where names have
+    /// none that tells them apart.
+    pub number: u64,
+    /// Reference file.
+    pub reference: PathBuf,
+    /// Test file.
+    pub test: PathBuf,
+}
+
+/// Files that do not pair.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum PairingError {
+    /// Files without a partner.
+    #[error("{}", unpaired(.reference, .test))]
+    Unpaired {
+        /// References without a test.
+        reference: Vec<PathBuf>,
+        /// Tests without a reference.
+        test: Vec<PathBuf>,
+    },
+    /// Not a single pair.
+    #[error("no file of {} has a partner in {}", .reference.display(), .test.display())]
+    Nothing {
+        /// The reference argument.
+        reference: PathBuf,
+        /// The test argument.
+        test: PathBuf,
+    },
+}
+
+impl PairingError {
+    /// How to mend it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::Unpaired { .. } => "render the missing frames, or pass --allow-missing to score the others",
+            Self::Nothing { .. } => "frames pair by the name without its ending, then by the last number in it",
+        }
+    }
+}
+
+fn unpaired(reference: &[PathBuf], test: &[PathBuf]) -> String {
+    const SHOWN: usize = 5;
+    let side = |files: &[PathBuf], of: &str, without: &str| {
+        let names: Vec<_> = files.iter().take(SHOWN).map(|p| p.display().to_string()).collect();
+        let more = files.len().saturating_sub(SHOWN);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        format!("{of} without a {without}: {}{more}", names.join(", "))
+    };
+    let mut parts = Vec::new();
+    if !reference.is_empty() {
+        parts.push(side(reference, "reference", "test frame"));
+    }
+    if !test.is_empty() {
+        parts.push(side(test, "test", "reference frame"));
+    }
+    parts.join("; ")
+}
+
+/// Pairs files: two single files as they are, others by stem and then by number.
+///
+/// # Errors
+/// When nothing pairs, or a file stays without a partner and `allow_missing` is not set.
+pub fn pair(
+    reference: &Listing,
+    test: &Listing,
+    allow_missing: bool,
+) -> Result<Vec<FramePair>, PairingError> {
+    if reference.is_file && test.is_file {
+        let (reference, test) = (&reference.files[0], &test.files[0]);
+        return Ok(vec![FramePair {
+            number: 0,
+            reference: reference.path.clone(),
+            test: test.path.clone(),
+        }]);
+    }
+    let mut partner: Vec<Option<usize>> = vec![None; reference.files.len()];
+    let mut taken = vec![false; test.files.len()];
+    match_by(&reference.files, &test.files, &mut partner, &mut taken, |f| Some(f.stem.clone()));
+    match_by(&reference.files, &test.files, &mut partner, &mut taken, |f| f.number);
+
+    let paired: Vec<(&FrameFile, &FrameFile)> = reference
+        .files
+        .iter()
+        .zip(&partner)
+        .filter_map(|(file, test_index)| Some((file, &test.files[(*test_index)?])))
+        .collect();
+    if paired.is_empty() {
+        let (reference, test) = (reference.argument.clone(), test.argument.clone());
+        return Err(PairingError::Nothing { reference, test });
+    }
+    if !allow_missing && (paired.len() < reference.files.len() || taken.contains(&false)) {
+        let alone = reference.files.iter().zip(&partner).filter(|(_, p)| p.is_none());
+        let untaken = test.files.iter().zip(&taken).filter(|(_, taken)| !**taken);
+        return Err(PairingError::Unpaired {
+            reference: alone.map(|(f, _)| f.path.clone()).collect(),
+            test: untaken.map(|(f, _)| f.path.clone()).collect(),
+        });
+    }
+    let mut numbers: Vec<u64> = paired.iter().filter_map(|(r, _)| r.number).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let numbered = numbers.len() == paired.len();
+    Ok(paired
+        .into_iter()
+        .enumerate()
+        .map(|(position, (reference, test))| FramePair {
+            number: reference.number.filter(|_| numbered).unwrap_or(position as u64),
+            reference: reference.path.clone(),
+            test: test.path.clone(),
+        })
+        .collect())
+}
+
+/// Pairs what is still alone and whose key is the only one of its side.
+fn match_by<K: Ord>(
+    reference: &[FrameFile],
+    test: &[FrameFile],
+    partner: &mut [Option<usize>],
+    taken: &mut [bool],
+    key: impl Fn(&FrameFile) -> Option<K>,
+) {
+    let alone = |files: &[FrameFile], is_alone: &dyn Fn(usize) -> bool| {
+        let mut by_key: BTreeMap<K, Vec<usize>> = BTreeMap::new();
+        for (index, file) in files.iter().enumerate().filter(|(i, _)| is_alone(*i)) {
+            if let Some(key) = key(file) {
+                by_key.entry(key).or_default().push(index);
+            }
+        }
+        by_key
+    };
+    let references = alone(reference, &|i| partner[i].is_none());
+    let tests = alone(test, &|i| !taken[i]);
+    for (key, indices) in references {
+        if let ([r], Some([t])) = (indices.as_slice(), tests.get(&key).map(Vec::as_slice)) {
+            partner[*r] = Some(*t);
+            taken[*t] = true;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::natural_order::last_number;
+    use super::*;
+
+    fn listing(names: &[&str]) -> Listing {
+        let files = names.iter().map(|name| {
+            let stem = name.split_once('/').map_or(*name, |(_, name)| name);
+            let stem = stem.rsplit_once('.').map_or(stem, |(stem, _)| stem).to_owned();
+            let number = last_number(&stem);
+            FrameFile { path: PathBuf::from(name), stem, number }
+        });
+        Listing { argument: PathBuf::from("dir"), is_file: false, files: files.collect() }
+    }
+
+    #[test]
+    fn by_stem_then_by_number() {
+        let pairs = pair(
+            &listing(&["a/0000.exr", "a/0001.exr"]),
+            &listing(&["b/0000.png", "b/0001.png"]),
+            false,
+        );
+        assert_eq!(pairs.unwrap()[1].test, PathBuf::from("b/0001.png"));
+        let pairs = pair(
+            &listing(&["gt.0007.exr", "gt.0008.exr"]),
+            &listing(&["rmfr_8.png", "rmfr_7.png"]),
+            false,
+        )
+        .unwrap();
+        assert_eq!((pairs[0].number, pairs[0].test.clone()), (7, PathBuf::from("rmfr_7.png")));
+    }
+
+    #[test]
+    fn lists_what_is_alone() {
+        let (reference, test) = (listing(&["1.png", "2.png", "4.png"]), listing(&["2.png", "3.png"]));
+        let Err(PairingError::Unpaired { reference: r, test: t }) = pair(&reference, &test, false)
+        else {
+            panic!("unpaired frames must be said")
+        };
+        assert_eq!(r, [PathBuf::from("1.png"), PathBuf::from("4.png")]);
+        assert_eq!(t, [PathBuf::from("3.png")]);
+        assert_eq!(pair(&reference, &test, true).unwrap().len(), 1);
+        assert!(matches!(
+            pair(&listing(&["a.png"]), &listing(&["b.png"]), true),
+            Err(PairingError::Nothing { .. })
+        ));
+    }
+
+    #[test]
+    fn names_without_numbers_count_by_position() {
+        let names = listing(&["blue.png", "red.png"]);
+        let pairs = pair(&names, &names, false).unwrap();
+        assert_eq!(pairs.iter().map(|p| p.number).collect::<Vec<_>>(), [0, 1]);
+    }
+}

@@ -1,0 +1,232 @@
+//! FPSNR, the foveal PSNR (Lee, Pattichis, Bovik 2002; weights after Geisler and Perry 1998).
+//!
+//! FMSE = Σ f(x)² d(x)² / Σ f(x)², d² the squared error (mean over channels),
+//! FPSNR = -10 log10 FMSE dB. f = min(f_c(e), f_d) is the highest frequency that is both visible at
+//! eccentricity e and shown by the display: f_d is its Nyquist frequency at the principal point.
+//! The papers print no constants, so their absolute values cannot be matched, only the order of
+//! methods. Higher is better.
+
+use std::ops::Range;
+
+use fovqa_frame::{BLOCK_ROWS, map_row_blocks};
+use fovqa_vision::Eccentricity;
+use fovqa_vision::acuity::{GeislerPerry, LinearMar, PiecewiseMar};
+use multiversion::multiversion;
+
+use crate::params::ParamValue;
+
+/// Which curve the weight follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Weight {
+    /// The cut-off of Geisler and Perry.
+    #[default]
+    Lee2002,
+    /// An acuity model.
+    Acuity,
+}
+
+/// Which acuity model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AcuityModel {
+    /// [`PiecewiseMar`].
+    #[default]
+    Piecewise,
+    /// [`LinearMar`].
+    LinearMar,
+}
+
+/// Parameters of the foveal weight.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Params {
+    /// Which curve.
+    pub weight: Weight,
+    /// Its constants for `lee2002`.
+    pub lee2002: GeislerPerry,
+    /// The model for `acuity`.
+    pub acuity: AcuityModel,
+    /// Eccentricities of the piecewise model, degrees.
+    pub knots_deg: Vec<f64>,
+    /// Acuity at these, cycles per degree.
+    pub knots_cpd: Vec<f64>,
+    /// Constants of the linear model.
+    pub linear_mar: LinearMar,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self {
+            weight: Weight::default(),
+            lee2002: GeislerPerry::default(),
+            acuity: AcuityModel::default(),
+            knots_deg: vec![0.0, 10.0, 20.0, 30.0, 60.0],
+            knots_cpd: vec![40.0, 10.0, 6.0, 5.0, 4.0],
+            linear_mar: LinearMar::default(),
+        }
+    }
+}
+
+impl Params {
+    pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+        match name {
+            "weight" => {
+                self.weight = match value.text()? {
+                    "lee2002" => Weight::Lee2002,
+                    "acuity" => Weight::Acuity,
+                    _ => return None,
+                }
+            }
+            "alpha" => self.lee2002.alpha = value.positive()?,
+            "e2_deg" => self.lee2002.e2_deg = value.positive()?,
+            "ct0" => self.lee2002.ct0 = value.positive().filter(|v| *v < 1.0)?,
+            "acuity" => {
+                self.acuity = match value.text()? {
+                    "piecewise" => AcuityModel::Piecewise,
+                    "linear_mar" | "linear-mar" => AcuityModel::LinearMar,
+                    _ => return None,
+                }
+            }
+            "knots_deg" => self.knots_deg = value.list()?,
+            "knots_cpd" => self.knots_cpd = value.list()?,
+            "m" => self.linear_mar.m = value.number_in(0.0..)?,
+            "omega0_deg" => self.linear_mar.omega0_deg = value.positive()?,
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// Checks the knots; the error says what they have to be.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        PiecewiseMar::new(&self.knots_deg, &self.knots_cpd).map(|_| ()).map_err(|e| e.to_string())
+    }
+
+    /// Degrees per cycle, 1 / f_c, at an eccentricity.
+    fn degrees_per_cycle(&self) -> impl Fn(f64) -> f64 {
+        let piecewise = PiecewiseMar::new(&self.knots_deg, &self.knots_cpd).unwrap_or_default();
+        let (lee2002, linear, weight, acuity) =
+            (self.lee2002, self.linear_mar, self.weight, self.acuity);
+        move |e| {
+            1.0 / match (weight, acuity) {
+                (Weight::Lee2002, _) => lee2002.cutoff_cpd(e),
+                (Weight::Acuity, AcuityModel::Piecewise) => piecewise.cutoff_cpd(e),
+                (Weight::Acuity, AcuityModel::LinearMar) => linear.cutoff_cpd(e),
+            }
+        }
+    }
+}
+
+/// f², the weight of a pixel, over a view and a gaze.
+#[derive(Debug, Clone)]
+pub struct WeightField {
+    eccentricity: Eccentricity,
+    curve: Curve,
+    /// Blocks of rows, where the field was computed beforehand.
+    rows: Option<Vec<Vec<f32>>>,
+}
+
+/// f² of eccentricity.
+#[derive(Debug, Clone)]
+struct Curve {
+    /// 1/f_c, which is (nearly) piecewise linear in every model, at steps of eccentricity.
+    degrees_per_cycle: Vec<f32>,
+    /// f_d², the largest weight.
+    limit: f32,
+}
+
+const STEPS_PER_DEGREE: f32 = 32.0;
+const LAST_DEGREE: usize = 180;
+
+impl Curve {
+    fn new(params: &Params, nyquist_cpd: f64) -> Self {
+        let at = params.degrees_per_cycle();
+        // One step beyond the last degree, for the chord that ends there.
+        let steps = LAST_DEGREE * STEPS_PER_DEGREE as usize + 1;
+        Self {
+            degrees_per_cycle: (0..=steps)
+                .map(|i| at(i as f64 / f64::from(STEPS_PER_DEGREE)) as f32)
+                .collect(),
+            limit: (nyquist_cpd * nyquist_cpd) as f32,
+        }
+    }
+}
+
+/// Replaces eccentricities in degrees by f².
+#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
+fn weigh(curve: &Curve, row: &mut [f32]) {
+    let last = LAST_DEGREE * STEPS_PER_DEGREE as usize;
+    let table = &curve.degrees_per_cycle[..last + 2];
+    for value in row {
+        let at = *value * STEPS_PER_DEGREE;
+        let index = (at as usize).min(last);
+        let (from, to) = (table[index], table[index + 1]);
+        let f = 1.0 / (from + (to - from) * (at - index as f32));
+        *value = (f * f).min(curve.limit);
+    }
+}
+
+impl WeightField {
+    /// The weight of every pixel, computed row by row when it is asked for.
+    pub fn new(eccentricity: Eccentricity, params: &Params) -> Self {
+        let curve = Curve::new(params, eccentricity.view().nyquist_cpd());
+        Self { eccentricity, curve, rows: None }
+    }
+
+    /// The same, computed now, for views that serve many frames: four bytes a pixel.
+    #[must_use]
+    pub fn precomputed(self) -> Self {
+        let (width, height) = (self.eccentricity.view().width, self.eccentricity.view().height);
+        let rows = map_row_blocks(height, |rows| {
+            let mut block = vec![0.0; rows.len() * width];
+            for (y, row) in rows.zip(block.chunks_exact_mut(width)) {
+                self.compute(y, 0..width, row);
+            }
+            block
+        });
+        Self { rows: Some(rows), ..self }
+    }
+
+    fn compute(&self, y: usize, xs: Range<usize>, out: &mut [f32]) {
+        self.eccentricity.fill_row_deg(y, xs, out);
+        weigh(&self.curve, out);
+    }
+
+    /// Writes f² of the pixels `xs` of row `y`.
+    pub(crate) fn fill_row(&self, y: usize, xs: Range<usize>, out: &mut [f32]) {
+        match &self.rows {
+            Some(blocks) => {
+                let start = y % BLOCK_ROWS * self.eccentricity.view().width;
+                out.copy_from_slice(&blocks[y / BLOCK_ROWS][start + xs.start..start + xs.end]);
+            }
+            None => self.compute(y, xs, out),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fovqa_vision::{EccentricityKind, ViewSpec};
+
+    #[test]
+    fn weights_are_the_square_of_the_lower_frequency() {
+        let spec = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(100.0) };
+        let view = spec.resolve(200, 160).unwrap().view;
+        let e = Eccentricity::new(view, [31.25, 70.5], EccentricityKind::Angular);
+        let acuity = Params { weight: Weight::Acuity, ..Params::default() };
+        let linear = Params { acuity: AcuityModel::LinearMar, ..acuity.clone() };
+        for params in [Params::default(), acuity, linear] {
+            let field = WeightField::new(e, &params);
+            let cached = field.clone().precomputed();
+            let cutoff = params.degrees_per_cycle();
+            let (mut row, mut other) = (vec![0.0; 190], vec![0.0; 190]);
+            for y in 0..160 {
+                field.fill_row(y, 10..200, &mut row);
+                cached.fill_row(y, 10..200, &mut other);
+                assert_eq!(row, other);
+                for (x, w) in (10..200).zip(&row) {
+                    let f = (1.0 / cutoff(e.at_deg(x as f64 + 0.5, y as f64 + 0.5))).min(view.nyquist_cpd());
+                    assert!((f64::from(*w) / (f * f) - 1.0).abs() < 3e-5, "({x}, {y}): {w} for {}", f * f);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! MS-SSIM (Wang, Simoncelli, Bovik 2003, Eq. 7): the contrast-structure term at the first four
+//! scales, the whole SSIM at the coarsest, each to its exponent, multiplied.
+//!
+//! Exponents as printed (not normalised); 2x2 means between scales, an odd last row or column
+//! dropped; negative means clamped to 0; `rgb` averages the channels' scores. In [0, 1], higher is
+//! better.
+
+use std::ops::Range;
+
+use fovqa_frame::{BLOCK_ROWS, PairSignal, PairTile};
+use multiversion::multiversion;
+
+/// Exponents of the scales, finest first (Wang et al. 2003, section 3.2).
+pub(crate) const EXPONENTS: [f64; 5] = [0.0448, 0.2856, 0.3001, 0.2363, 0.1333];
+
+/// How many times the coarsest scale is smaller than the picture.
+pub(crate) const COARSEST: usize = 1 << (EXPONENTS.len() - 1);
+
+/// Rows of sum and difference: a pair of frames, or a coarser scale of one.
+pub(crate) trait PairRows: Sync {
+    fn size(&self) -> (usize, usize);
+    fn planes(&self) -> usize;
+    fn peak(&self) -> f32;
+    fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile);
+}
+
+impl PairRows for PairSignal<'_> {
+    fn size(&self) -> (usize, usize) {
+        (self.width(), self.height())
+    }
+
+    fn planes(&self) -> usize {
+        self.planes()
+    }
+
+    fn peak(&self) -> f32 {
+        self.peak()
+    }
+
+    fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile) {
+        self.fill(y, xs, tile);
+    }
+}
+
+/// Rows of one half-size scale, as one block of the finer scale leaves them.
+#[derive(Debug)]
+pub(crate) struct HalvedRows {
+    width: usize,
+    rows: usize,
+    values: Vec<f32>,
+}
+
+impl HalvedRows {
+    /// Room for the halves of `rows` rows of `width` pixels.
+    pub(crate) fn new(planes: usize, width: usize, rows: usize) -> Self {
+        let (width, rows) = (width / 2, rows / 2);
+        Self { width, rows, values: vec![0.0; planes * 2 * width * rows] }
+    }
+
+    fn row(&self, plane: usize, part: usize, y: usize) -> Range<usize> {
+        let start = ((plane * 2 + part) * self.rows + y) * self.width;
+        start..start + self.width
+    }
+
+    /// Halves two rows, whose first values stand in the even column `x`. `part`: 0 sum, 1
+    /// difference.
+    pub(crate) fn put(
+        &mut self,
+        (plane, part): (usize, usize),
+        y: usize,
+        x: usize,
+        above: &[f32],
+        below: &[f32],
+    ) {
+        let row = self.row(plane, part, y);
+        let out = &mut self.values[row][x / 2..];
+        halve(above, below, out);
+    }
+}
+
+#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
+fn halve(above: &[f32], below: &[f32], out: &mut [f32]) {
+    let (above, below) = (above.as_chunks::<2>().0, below.as_chunks::<2>().0);
+    for ((out, a), b) in out.iter_mut().zip(above).zip(below) {
+        *out = 0.25 * ((a[0] + a[1]) + (b[0] + b[1]));
+    }
+}
+
+/// A coarser scale of a pair.
+#[derive(Debug)]
+pub(crate) struct Scale {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    pub(crate) planes: usize,
+    pub(crate) peak: f32,
+    pub(crate) blocks: Vec<HalvedRows>,
+}
+
+impl PairRows for Scale {
+    fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
+    fn planes(&self) -> usize {
+        self.planes
+    }
+
+    fn peak(&self) -> f32 {
+        self.peak
+    }
+
+    fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile) {
+        let block = &self.blocks[y / (BLOCK_ROWS / 2)];
+        for plane in 0..self.planes {
+            let (sum, difference) = tile.plane_mut(plane);
+            for (part, out) in [sum, difference].into_iter().enumerate() {
+                let row = &block.values[block.row(plane, part, y % (BLOCK_ROWS / 2))];
+                out[..xs.len()].copy_from_slice(&row[xs.clone()]);
+            }
+        }
+    }
+}
+
+/// One channel's score from its means at the five scales: contrast-structure, at last SSIM.
+pub(crate) fn combine(means: impl Iterator<Item = f64>) -> f64 {
+    means.zip(EXPONENTS).map(|(mean, exponent)| libm::pow(mean.max(0.0), exponent)).product()
+}

@@ -1,0 +1,78 @@
+//! SSIM (Wang, Bovik, Sheikh, Simoncelli 2004, Eq. 13).
+//!
+//! ```text
+//! SSIM = (2 μ_a μ_b + C1)(2 σ_ab + C2) / ((μ_a² + μ_b² + C1)(σ_a² + σ_b² + C2))
+//! ```
+//!
+//! Gaussian window (σ 1.5 px, radius 5), C = (K L)², population moments, of the display-encoded
+//! signal. The map is defined where the window fits; the score is its mean, `rgb` the mean of
+//! the channels' scores. In [-1, 1], higher is better.
+//!
+//! The moments are those of u = a + b and v = a - b, of which four will do:
+//! 2 μ_a μ_b = (μ_u² - μ_v²) / 2, μ_a² + μ_b² = (μ_u² + μ_v²) / 2, and the same for the variances.
+//! For equal pictures v is 0 and every quotient exactly 1.
+
+pub(crate) mod rows;
+
+use crate::params::ParamValue;
+
+/// Window and constants.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Params {
+    /// Standard deviation of the Gaussian window in pixels.
+    pub sigma: f64,
+    /// Radius of the window; `None`: 3.5 sigma, rounded, as scikit-image truncates it.
+    pub radius: Option<usize>,
+    /// K1 of C1 = (K1 L)².
+    pub k1: f64,
+    /// K2 of C2 = (K2 L)².
+    pub k2: f64,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self { sigma: 1.5, radius: None, k1: 0.01, k2: 0.03 }
+    }
+}
+
+/// Largest radius of the window.
+const MAX_RADIUS: usize = 32;
+
+impl Params {
+    pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+        match name {
+            "sigma" => self.sigma = value.positive()?,
+            "radius" if value.text() == Some("auto") => self.radius = None,
+            "radius" => {
+                let radius = value.number_in(1.0..=MAX_RADIUS as f64)?;
+                self.radius = Some((radius.fract() == 0.0).then_some(radius as usize)?);
+            }
+            "k1" => self.k1 = value.positive()?,
+            "k2" => self.k2 = value.positive()?,
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// Radius of the window in pixels.
+    pub fn window_radius(&self) -> usize {
+        let auto = (3.5 * self.sigma + 0.5) as usize;
+        self.radius.unwrap_or(auto.clamp(1, MAX_RADIUS))
+    }
+
+    /// Pixels of the window along a side: the smallest image it fits into.
+    pub fn window_side(&self) -> usize {
+        2 * self.window_radius() + 1
+    }
+
+    /// The window's weights from its centre outwards; the whole window adds up to 1.
+    pub(crate) fn taps(&self) -> Vec<f32> {
+        let weight = |k: usize| {
+            let k = k as f64;
+            libm::exp(-k * k / (2.0 * self.sigma * self.sigma))
+        };
+        let radius = self.window_radius();
+        let total = weight(0) + 2.0 * (1..=radius).map(weight).sum::<f64>();
+        (0..=radius).map(|k| (weight(k) / total) as f32).collect()
+    }
+}

@@ -1,0 +1,101 @@
+//! Which pixels are summed into which band: the bands of the view, less what a mask leaves out.
+
+use std::borrow::Cow;
+
+use fovqa_frame::Mask;
+use fovqa_vision::{BandMap, Run};
+
+/// The band of a pixel that is in no sum at all. Pixels outside all bands still count for the
+/// whole frame; their band is the number of bands.
+pub(crate) const LEFT_OUT: u16 = u16::MAX;
+
+/// Bands of pixels, and of the windows centred on them.
+#[derive(Debug, Clone)]
+pub struct Regions<'a> {
+    pixels: Cow<'a, BandMap>,
+    /// `None` where the pixels' own will do: without a mask, a window counts where it fits.
+    windows: Option<BandMap>,
+    left_out: u64,
+}
+
+impl<'a> Regions<'a> {
+    /// Every pixel counts.
+    pub fn unmasked(bands: &'a BandMap) -> Self {
+        Self { pixels: Cow::Borrowed(bands), windows: None, left_out: 0 }
+    }
+
+    /// Only the pixels of a mask count, and only windows of radius `window_radius` that lie
+    /// wholly within it.
+    pub fn masked(bands: &'a BandMap, mask: &Mask, window_radius: usize) -> Self {
+        let clean = mask.eroded(window_radius);
+        Self {
+            pixels: Cow::Owned(intersection(bands, mask)),
+            windows: Some(intersection(bands, &clean)),
+            left_out: mask.left_out(),
+        }
+    }
+
+    /// How many bands there are.
+    pub(crate) fn bands(&self) -> usize {
+        self.pixels.bands()
+    }
+
+    /// Whether a mask is at work.
+    pub(crate) fn is_masked(&self) -> bool {
+        self.windows.is_some()
+    }
+
+    /// Pixels the mask leaves out.
+    pub fn left_out(&self) -> u64 {
+        self.left_out
+    }
+
+    /// Pixels of each band, then those outside all bands.
+    pub(crate) fn pixels(&self) -> Vec<u64> {
+        self.pixels.pixels()
+    }
+
+    pub(crate) fn pixel_runs(&self, y: usize) -> &[Run] {
+        self.pixels.row(y)
+    }
+
+    pub(crate) fn window_runs(&self, y: usize) -> &[Run] {
+        self.windows.as_ref().unwrap_or(&self.pixels).row(y)
+    }
+}
+
+fn intersection(bands: &BandMap, mask: &Mask) -> BandMap {
+    BandMap::from_rows(bands.bands(), mask.height(), |y, runs| {
+        let first = runs.len();
+        let mut from = 0;
+        for run in bands.row(y) {
+            for (x, valid) in (from..run.end).zip(&mask.row(y)[from as usize..run.end as usize]) {
+                let band = if *valid { run.band } else { LEFT_OUT };
+                match runs[first..].last_mut() {
+                    Some(last) if last.band == band => last.end = x + 1,
+                    _ => runs.push(Run { end: x + 1, band }),
+                }
+            }
+            from = run.end;
+        }
+    })
+}
+
+/// The stretches of runs that fall into the columns `xs`: `(from, to, band)`.
+pub(crate) fn clipped(
+    runs: &[Run],
+    xs: std::ops::Range<usize>,
+) -> impl Iterator<Item = (usize, usize, u16)> + '_ {
+    let first = runs.partition_point(|run| run.end as usize <= xs.start);
+    let mut from = xs.start;
+    runs[first..]
+        .iter()
+        .map(move |run| {
+            let to = (run.end as usize).min(xs.end);
+            let stretch = (from, to, run.band);
+            from = to;
+            stretch
+        })
+        .take_while(|(from, to, _)| from < to)
+        .filter(|(_, _, band)| *band != LEFT_OUT)
+}

@@ -1,0 +1,5 @@
+//! Scores for people.
+
+mod terminal;
+
+pub use terminal::score_table;

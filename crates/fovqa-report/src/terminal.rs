@@ -1,0 +1,126 @@
+//! The tables `fovqa score` prints: whole frames first, then by eccentricity.
+
+use std::fmt::Write;
+
+use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use fovqa_metrics::Metric;
+use fovqa_results::{ScoreReport, Statistics, Summary};
+
+/// The report as text: what was compared, each metric, and each band.
+pub fn score_table(report: &ScoreReport) -> String {
+    let summary = Summary::of(report);
+    let mut text = heading(report);
+    let one = report.frames.len() == 1;
+    let mut whole = table(if one { &["", "value"][..] } else { &["", "mean", "min", "max", "pooled"] });
+    for (metric, s) in &summary.statistics {
+        let mut row = vec![label(*metric)];
+        if one {
+            row.push(number(*metric, s.mean));
+        } else {
+            row.extend([s.mean, s.min, s.max].map(|v| number(*metric, v)));
+            row.push(s.pooled.map(|v| number(*metric, v)).unwrap_or_default());
+        }
+        whole.add_row(row);
+    }
+    let _ = writeln!(text, "\n{}", finished(whole));
+    if let Some(identical) = summary.statistics.values().find_map(|s| s.identical_frames)
+        && identical > 0
+        && !one
+    {
+        let _ = writeln!(text, "{identical} of {} frames are identical; means are over the others", report.frames.len());
+    }
+
+    let per_band: Vec<Metric> =
+        report.metrics.iter().copied().filter(|m| m.info().per_band).collect();
+    if !summary.bands.is_empty() && !per_band.is_empty() {
+        let labels: Vec<String> = per_band.iter().map(|m| label(*m)).collect();
+        let header = ["eccentricity", "pixels"].into_iter().chain(labels.iter().map(String::as_str));
+        let mut bands = table(&header.collect::<Vec<_>>());
+        for band in &summary.bands {
+            let mut row = vec![
+                format!("{}° to {}°", band.from_deg, band.to_deg),
+                (band.pixels / report.frames.len().max(1) as u64).to_string(),
+            ];
+            let cell = |metric: &Metric| {
+                let statistics: Option<&Statistics> = band.statistics.get(metric)?.as_ref();
+                statistics.map(|s| number(*metric, s.mean))
+            };
+            row.extend(per_band.iter().map(|m| cell(m).unwrap_or_else(|| "–".to_owned())));
+            bands.add_row(row);
+        }
+        let _ = writeln!(text, "\n{}", finished(bands));
+        if !one {
+            let _ = writeln!(text, "pixels and values are means over the frames");
+        }
+    }
+    text
+}
+
+fn heading(report: &ScoreReport) -> String {
+    let mut text = String::new();
+    match report.frames.as_slice() {
+        [frame] => {
+            let _ = writeln!(text, "{} against {}", frame.test, frame.reference);
+        }
+        [first, .., last] => {
+            let count = report.frames.len();
+            let _ = writeln!(text, "{count} frames, {} to {}", first.frame, last.frame);
+            let _ = writeln!(text, "{} … against {} …", first.test, first.reference);
+        }
+        [] => {}
+    }
+    if let Some(view) = &report.view {
+        let [w, h] = view.size;
+        let [fx, fy] = view.focal_px;
+        let focal = if (fx - fy).abs() < 1e-9 * fx {
+            format!("{fx:.2}")
+        } else {
+            format!("{fx:.2} x {fy:.2}")
+        };
+        let [gx, gy] = view.gaze_px;
+        let gaze = match report.gaze_held {
+            None => format!("({gx:.1}, {gy:.1})"),
+            Some(0) => "from a trace".to_owned(),
+            Some(held) => format!("from a trace, held over in {held} frames"),
+        };
+        let _ = writeln!(
+            text,
+            "view {w}x{h} px, focal length {focal} px, gaze {gaze}, {} eccentricity",
+            view.eccentricity
+        );
+    }
+    text
+}
+
+fn label(metric: Metric) -> String {
+    let info = metric.info();
+    if info.unit.is_empty() { info.label.to_owned() } else { format!("{} {}", info.label, info.unit) }
+}
+
+fn number(metric: Metric, value: f64) -> String {
+    if value.is_infinite() {
+        "inf".to_owned()
+    } else if metric.is_decibel() {
+        format!("{value:.3}")
+    } else if value != 0.0 && value.abs() < 0.1 {
+        format!("{value:.4e}")
+    } else {
+        format!("{value:.5}")
+    }
+}
+
+fn table(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
+    table.set_header(header.to_vec());
+    table
+}
+
+/// Names to the left, numbers to the right, nothing behind the last column.
+fn finished(mut table: Table) -> String {
+    for (index, column) in table.column_iter_mut().enumerate() {
+        let side = if index == 0 { CellAlignment::Left } else { CellAlignment::Right };
+        column.set_cell_alignment(side);
+    }
+    table.lines().map(|line| line.trim_end().to_owned()).collect::<Vec<_>>().join("\n")
+}

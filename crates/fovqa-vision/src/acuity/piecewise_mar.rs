@@ -1,0 +1,94 @@
+//! Acuity whose inverse is piecewise linear over eccentricity (VaFR, Eq. 12).
+
+use thiserror::Error;
+
+/// `1/f` linear between knots, and beyond the last knot on at the last slope.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PiecewiseMar {
+    knots: Vec<(f64, f64)>,
+}
+
+/// Knots that make no acuity curve.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum PiecewiseMarError {
+    /// Fewer than two knots, or not one frequency an eccentricity.
+    #[error("{eccentricities} eccentricities and {frequencies} frequencies are not two or more knots")]
+    Count {
+        /// Eccentricities given.
+        eccentricities: usize,
+        /// Frequencies given.
+        frequencies: usize,
+    },
+    /// Eccentricities that do not rise from 0.
+    #[error("the knots' eccentricities do not start at 0 and rise")]
+    Order,
+    /// A frequency that is not positive.
+    #[error("the knot of {found_cpd} cpd is not a positive frequency")]
+    Frequency {
+        /// What was given.
+        found_cpd: f64,
+    },
+}
+
+impl Default for PiecewiseMar {
+    /// (0°, 40), (10°, 10), (20°, 6), (30°, 5), (60°, 4) cycles per degree: VaFR's pivots.
+    fn default() -> Self {
+        let knots = [(0.0, 40.0), (10.0, 10.0), (20.0, 6.0), (30.0, 5.0), (60.0, 4.0)];
+        Self { knots: knots.to_vec() }
+    }
+}
+
+impl PiecewiseMar {
+    /// A curve through knots of eccentricity in degrees and acuity in cycles per degree.
+    ///
+    /// # Errors
+    /// When there are fewer than two knots, they do not rise from 0°, or a frequency is not
+    /// positive.
+    pub fn new(knots_deg: &[f64], knots_cpd: &[f64]) -> Result<Self, PiecewiseMarError> {
+        if knots_deg.len() != knots_cpd.len() || knots_deg.len() < 2 {
+            return Err(PiecewiseMarError::Count {
+                eccentricities: knots_deg.len(),
+                frequencies: knots_cpd.len(),
+            });
+        }
+        if knots_deg[0] != 0.0 || !knots_deg.windows(2).all(|pair| pair[1] > pair[0]) {
+            return Err(PiecewiseMarError::Order);
+        }
+        if let Some(&found_cpd) = knots_cpd.iter().find(|f| !(**f > 0.0 && f.is_finite())) {
+            return Err(PiecewiseMarError::Frequency { found_cpd });
+        }
+        Ok(Self { knots: knots_deg.iter().copied().zip(knots_cpd.iter().copied()).collect() })
+    }
+
+    /// Acuity in cycles per degree at `eccentricity_deg` ≥ 0.
+    pub fn cutoff_cpd(&self, eccentricity_deg: f64) -> f64 {
+        let next = self.knots.partition_point(|knot| knot.0 <= eccentricity_deg);
+        let segment = next.clamp(1, self.knots.len() - 1);
+        let ((e0, f0), (e1, f1)) = (self.knots[segment - 1], self.knots[segment]);
+        let slope = (1.0 / f1 - 1.0 / f0) / (e1 - e0);
+        1.0 / (1.0 / f0 + slope * (eccentricity_deg - e0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn goes_through_its_knots_and_on() {
+        let model = PiecewiseMar::default();
+        for (e, f) in [(0.0, 40.0), (10.0, 10.0), (20.0, 6.0), (30.0, 5.0), (60.0, 4.0)] {
+            assert!((model.cutoff_cpd(e) - f).abs() < 1e-12);
+        }
+        assert!((1.0 / model.cutoff_cpd(5.0) - (1.0 / 40.0 + 1.0 / 10.0) / 2.0).abs() < 1e-12);
+        assert!((1.0 / model.cutoff_cpd(90.0) - (2.0 / 4.0 - 1.0 / 5.0)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn refuses_knots_out_of_order() {
+        assert_eq!(PiecewiseMar::new(&[0.0, 5.0, 5.0], &[3.0, 2.0, 1.0]), Err(PiecewiseMarError::Order));
+        assert_eq!(PiecewiseMar::new(&[1.0, 5.0], &[3.0, 2.0]), Err(PiecewiseMarError::Order));
+        assert!(PiecewiseMar::new(&[0.0], &[3.0]).is_err());
+        assert!(PiecewiseMar::new(&[0.0, 5.0], &[3.0, 0.0]).is_err());
+    }
+}

@@ -1,0 +1,307 @@
+//! Eccentricity bands: half-open ranges in degrees, and which pixels fall into which.
+
+use thiserror::Error;
+
+use crate::eccentricity::Eccentricity;
+
+/// Width of the default bands in degrees.
+pub const DEFAULT_BAND_DEG: f64 = 5.0;
+
+/// The edges of bands `[edge[i], edge[i + 1])`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BandEdges(Vec<f64>);
+
+/// Edges that make no bands.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum BandEdgesError {
+    /// Fewer than two edges.
+    #[error("bands need at least two edges")]
+    TooFew,
+    /// More bands than anybody plots.
+    #[error("{found} bands are more than the {} there may be", BandEdges::MAX_BANDS)]
+    TooMany {
+        /// Bands asked for.
+        found: usize,
+    },
+    /// An edge that is not a number from 0° to 180°.
+    #[error("the band edge {edge_deg} is not between 0° and 180°")]
+    OutOfRange {
+        /// The edge.
+        edge_deg: f64,
+    },
+    /// Edges out of order.
+    #[error("the band edge {edge_deg} does not lie above the one before it, {before_deg}")]
+    NotRising {
+        /// The edge.
+        edge_deg: f64,
+        /// The one before.
+        before_deg: f64,
+    },
+}
+
+impl BandEdges {
+    /// The most bands there may be.
+    pub const MAX_BANDS: usize = 1000;
+
+    /// Bands between given edges.
+    ///
+    /// # Errors
+    /// When there are fewer than two edges, or they do not rise, or leave 0° to 180°.
+    pub fn new(edges_deg: Vec<f64>) -> Result<Self, BandEdgesError> {
+        if edges_deg.len() < 2 {
+            return Err(BandEdgesError::TooFew);
+        }
+        if edges_deg.len() > Self::MAX_BANDS + 1 {
+            return Err(BandEdgesError::TooMany { found: edges_deg.len() - 1 });
+        }
+        if let Some(&edge_deg) = edges_deg.iter().find(|e| !(0.0..=180.0).contains(*e)) {
+            return Err(BandEdgesError::OutOfRange { edge_deg });
+        }
+        match edges_deg.windows(2).find(|pair| pair[1] <= pair[0]) {
+            Some(pair) => {
+                Err(BandEdgesError::NotRising { edge_deg: pair[1], before_deg: pair[0] })
+            }
+            None => Ok(Self(edges_deg)),
+        }
+    }
+
+    /// The default bands: 0, 5, 10, … to the first multiple of 5 above `max_deg`.
+    pub fn default_up_to(max_deg: f64) -> Self {
+        let last = (max_deg / DEFAULT_BAND_DEG).floor() as usize + 1;
+        Self((0..=last).map(|i| i as f64 * DEFAULT_BAND_DEG).collect())
+    }
+
+    /// How many bands.
+    pub fn count(&self) -> usize {
+        self.0.len() - 1
+    }
+
+    /// Each band's `(from_deg, to_deg)`.
+    pub fn iter(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.0.windows(2).map(|pair| (pair[0], pair[1]))
+    }
+}
+
+/// Neighbouring pixels of one row that fall into one band.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Run {
+    /// First column beyond the run; it starts where the one before it ends.
+    pub end: u32,
+    /// Index of the band; the number of bands where the pixels fall into none.
+    pub band: u16,
+}
+
+/// Which pixel falls into which band: for each row its runs, from left to right.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BandMap {
+    bands: usize,
+    starts: Vec<usize>,
+    runs: Vec<Run>,
+}
+
+impl BandMap {
+    /// The bands of every pixel centre of a view, decided in f64.
+    pub fn new(eccentricity: &Eccentricity, edges: &BandEdges) -> Self {
+        let decide = Decide {
+            eccentricity,
+            keys: edges.0.iter().map(|&deg| eccentricity.key_of_deg(deg)).collect(),
+            edges_deg: &edges.0,
+        };
+        let (width, height) = (eccentricity.view().width, eccentricity.view().height);
+        Self::from_rows(edges.count(), height, |y, runs| decide.row(y, width, runs))
+    }
+
+    /// No bands at all: every pixel outside.
+    pub fn without_bands(width: usize, height: usize) -> Self {
+        Self::from_rows(0, height, |_, runs| runs.push(Run { end: width as u32, band: 0 }))
+    }
+
+    /// A map from a function that appends the runs of row `y`.
+    pub fn from_rows(
+        bands: usize,
+        height: usize,
+        mut row: impl FnMut(usize, &mut Vec<Run>),
+    ) -> Self {
+        let mut starts = Vec::with_capacity(height + 1);
+        let mut runs = Vec::with_capacity(height * (2 * bands + 1).min(64));
+        for y in 0..height {
+            starts.push(runs.len());
+            row(y, &mut runs);
+        }
+        starts.push(runs.len());
+        Self { bands, starts, runs }
+    }
+
+    /// How many bands there are.
+    pub fn bands(&self) -> usize {
+        self.bands
+    }
+
+    /// The runs of row `y`, which cover it.
+    pub fn row(&self, y: usize) -> &[Run] {
+        &self.runs[self.starts[y]..self.starts[y + 1]]
+    }
+
+    /// Pixels in each band, then pixels in none.
+    pub fn pixels(&self) -> Vec<u64> {
+        let mut pixels = vec![0; self.bands + 1];
+        for y in 0..self.starts.len() - 1 {
+            let mut from = 0;
+            for run in self.row(y) {
+                if let Some(count) = pixels.get_mut(usize::from(run.band)) {
+                    *count += u64::from(run.end - from);
+                }
+                from = run.end;
+            }
+        }
+        pixels
+    }
+}
+
+struct Decide<'a> {
+    eccentricity: &'a Eccentricity,
+    keys: Vec<f64>,
+    edges_deg: &'a [f64],
+}
+
+impl Decide<'_> {
+    /// How many edges lie at or below the eccentricity of a pixel's centre.
+    fn edges_below(&self, x: usize, y: usize) -> usize {
+        /// Well above the rounding of a key, so that a pixel nearer than this to an edge is
+        /// decided by its eccentricity proper.
+        const NEAR: f64 = 1e-12;
+        let (x_px, y_px) = (x as f64 + 0.5, y as f64 + 0.5);
+        let key = self.eccentricity.key(x_px, y_px);
+        let below = self.keys.partition_point(|edge| *edge <= key);
+        let is_near = |edge: Option<&f64>| edge.is_some_and(|e| (e - key).abs() <= NEAR * key);
+        let near_one_below = below > 0 && is_near(self.keys.get(below - 1));
+        if near_one_below || is_near(self.keys.get(below)) {
+            let deg = self.eccentricity.at_deg(x_px, y_px);
+            return self.edges_deg.partition_point(|edge| *edge <= deg);
+        }
+        below
+    }
+
+    /// Along a row eccentricity turns once at most and is monotone to each side: a stretch with
+    /// the same band at both ends has no other in between.
+    fn row(&self, y: usize, width: usize, runs: &mut Vec<Run>) {
+        let first = runs.len();
+        let turn = self.eccentricity.turning_x_px(y as f64 + 0.5) - 0.5;
+        // Two pixels to each side of the turn are looked at one by one: its own rounding.
+        let turn = if turn.is_finite() { turn.floor().clamp(-8.0, width as f64 + 8.0) } else { -8.0 };
+        let near = |offset: f64| ((turn + offset).max(0.0) as usize).min(width);
+        let (left, right) = (near(-2.0), near(4.0));
+        self.stretch(y, 0, left, first, runs);
+        for x in left..right {
+            self.push(x + 1, self.edges_below(x, y), first, runs);
+        }
+        self.stretch(y, right, width, first, runs);
+    }
+
+    fn stretch(&self, y: usize, from: usize, to: usize, first: usize, runs: &mut Vec<Run>) {
+        if from < to {
+            let ends = (self.edges_below(from, y), self.edges_below(to - 1, y));
+            self.halve(y, (from, ends.0), (to - 1, ends.1), first, runs);
+        }
+    }
+
+    fn halve(
+        &self,
+        y: usize,
+        (from, below_from): (usize, usize),
+        (last, below_last): (usize, usize),
+        first: usize,
+        runs: &mut Vec<Run>,
+    ) {
+        if below_from == below_last {
+            self.push(last + 1, below_from, first, runs);
+        } else if last - from == 1 {
+            self.push(last, below_from, first, runs);
+            self.push(last + 1, below_last, first, runs);
+        } else {
+            let middle = from.midpoint(last);
+            let below_middle = self.edges_below(middle, y);
+            self.halve(y, (from, below_from), (middle, below_middle), first, runs);
+            self.halve(y, (middle, below_middle), (last, below_last), first, runs);
+        }
+    }
+
+    /// Ends a run at column `end`, or lengthens the one before it.
+    fn push(&self, end: usize, edges_below: usize, first: usize, runs: &mut Vec<Run>) {
+        let bands = self.edges_deg.len() - 1;
+        let inside = (1..=bands).contains(&edges_below);
+        let band = if inside { edges_below - 1 } else { bands } as u16;
+        match runs[first..].last_mut() {
+            Some(run) if run.band == band => run.end = end as u32,
+            _ => runs.push(Run { end: end as u32, band }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::eccentricity::EccentricityKind;
+    use crate::view::ViewSpec;
+    use proptest::prelude::*;
+
+    fn brute(e: &Eccentricity, edges: &BandEdges, x: usize, y: usize) -> usize {
+        let deg = e.at_deg(x as f64 + 0.5, y as f64 + 0.5);
+        edges.iter().position(|(from, to)| (from..to).contains(&deg)).unwrap_or(edges.count())
+    }
+
+    proptest! {
+        #[test]
+        fn every_pixel_is_in_the_band_of_its_eccentricity(
+            fov in 20.0..172.0f64, gx in -60.0..160.0f64, gy in -60.0..130.0f64,
+            planar in any::<bool>(), step in 0.7..40.0f64, from in 0.0..3.0f64,
+        ) {
+            let spec = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(fov) };
+            let view = spec.resolve(97, 71).unwrap().view;
+            let kind = if planar { EccentricityKind::Planar } else { EccentricityKind::Angular };
+            let e = Eccentricity::new(view, [gx, gy], kind);
+            let edges: Vec<f64> = (0..30).map(|i| from + f64::from(i) * step).take_while(|e| *e <= 180.0).collect();
+            let edges = BandEdges::new(edges).unwrap();
+            let map = BandMap::new(&e, &edges);
+            let mut counted = vec![0; edges.count() + 1];
+            for y in 0..71 {
+                let row = map.row(y);
+                prop_assert_eq!(row.last().unwrap().end, 97);
+                for x in 0..97 {
+                    let run = row.iter().find(|run| x < run.end as usize).unwrap();
+                    let want = brute(&e, &edges, x, y);
+                    prop_assert_eq!(usize::from(run.band), want, "({}, {})", x, y);
+                    counted[want] += 1;
+                }
+                prop_assert!(row.windows(2).all(|p| p[0].end < p[1].end && p[0].band != p[1].band));
+            }
+            prop_assert_eq!(map.pixels(), counted);
+        }
+    }
+
+    #[test]
+    fn a_pixel_on_an_edge_belongs_to_the_band_above() {
+        // Planar, focal length 4 px: the pixel 4 px from the gaze lies at 45° exactly.
+        let view = ViewSpec::PixelPitch { distance_m: 0.004, pitch_mm: 1.0 }.resolve(16, 1).unwrap().view;
+        let e = Eccentricity::new(view, [8.5, 0.5], EccentricityKind::Planar);
+        let map = BandMap::new(&e, &BandEdges::new(vec![0.0, 45.0, 60.0]).unwrap());
+        assert_eq!(map.pixels(), [7, 6, 3]);
+        assert_eq!(map.row(0)[1], Run { end: 5, band: 1 });
+    }
+
+    #[test]
+    fn default_edges_reach_above_the_farthest_pixel() {
+        assert_eq!(BandEdges::default_up_to(12.0).0, [0.0, 5.0, 10.0, 15.0]);
+        assert_eq!(BandEdges::default_up_to(15.0).0.last(), Some(&20.0));
+        assert_eq!(BandEdges::default_up_to(0.0).0, [0.0, 5.0]);
+    }
+
+    #[test]
+    fn refuses_edges_that_make_no_bands() {
+        assert_eq!(BandEdges::new(vec![0.0]), Err(BandEdgesError::TooFew));
+        for bad in [vec![0.0, f64::NAN], vec![-1.0, 5.0], vec![0.0, 181.0]] {
+            assert!(matches!(BandEdges::new(bad), Err(BandEdgesError::OutOfRange { .. })));
+        }
+        assert!(matches!(BandEdges::new(vec![0.0, 5.0, 5.0]), Err(BandEdgesError::NotRising { .. })));
+    }
+}

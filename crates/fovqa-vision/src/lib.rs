@@ -1,0 +1,23 @@
+//! Where a pixel falls on the retina: view, gaze, eccentricity, bands, displays, acuity.
+//!
+//! | word | meaning |
+//! | --- | --- |
+//! | view | a pinhole eye buffer: size, focal length and principal point in pixels |
+//! | gaze | the point looked at, in pixels from the frame's top-left corner |
+//! | eccentricity | angle between a pixel's ray and the gaze ray, in degrees |
+//! | band | a half-open range of eccentricity |
+//!
+//! Pixel (0, 0) is the top-left one and its centre is at (0.5, 0.5); x to the right, y down.
+
+pub mod acuity;
+mod bands;
+mod displays;
+mod eccentricity;
+mod gaze_trace;
+mod view;
+
+pub use bands::{BandEdges, BandEdgesError, BandMap, DEFAULT_BAND_DEG, Run};
+pub use displays::{Display, Eotf, Luminance, displays, find_display};
+pub use eccentricity::{Eccentricity, EccentricityKind};
+pub use gaze_trace::{GazeAt, GazeTrace, GazeTraceError};
+pub use view::{Resolved, View, ViewError, ViewSpec};

@@ -1,0 +1,284 @@
+//! The view: a pinhole eye buffer, and the ways to say which.
+
+use thiserror::Error;
+
+use crate::displays::Display;
+
+/// A pinhole eye buffer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct View {
+    /// Width in pixels.
+    pub width: usize,
+    /// Height in pixels.
+    pub height: usize,
+    /// Focal length in pixels, along x and y.
+    pub focal_px: [f64; 2],
+    /// Principal point in pixels from the top-left corner.
+    pub principal_px: [f64; 2],
+}
+
+impl View {
+    /// The focal length in pixels where one number is wanted: the geometric mean.
+    pub fn mean_focal_px(&self) -> f64 {
+        let [x, y] = self.focal_px;
+        // Exactly the focal length where both are equal.
+        if x.to_bits() == y.to_bits() { x } else { (x * y).sqrt() }
+    }
+
+    /// Pixels per degree at the principal point.
+    pub fn pixels_per_degree(&self) -> f64 {
+        self.mean_focal_px() * std::f64::consts::PI / 180.0
+    }
+
+    /// The display's Nyquist frequency at the principal point, in cycles per degree.
+    pub fn nyquist_cpd(&self) -> f64 {
+        self.pixels_per_degree() / 2.0
+    }
+}
+
+/// The ways to give a view. Angles are full angles in degrees.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ViewSpec {
+    /// Horizontal or vertical field of view, or both. One alone: square pixels.
+    Fov {
+        /// Full horizontal angle.
+        horizontal_deg: Option<f64>,
+        /// Full vertical angle.
+        vertical_deg: Option<f64>,
+    },
+    /// Diagonal field of view, corner to corner; square pixels.
+    FovDiagonal {
+        /// Full diagonal angle.
+        diagonal_deg: f64,
+    },
+    /// Tangents of the half angles of an asymmetric frustum. All four positive away from the
+    /// axis, or signed as in `OpenXR` (left and down negative).
+    Frustum {
+        /// Left of the axis.
+        left: f64,
+        /// Right of the axis.
+        right: f64,
+        /// Above the axis.
+        up: f64,
+        /// Below the axis.
+        down: f64,
+    },
+    /// A flat screen seen from in front of its centre; square pixels.
+    PixelPitch {
+        /// Distance of the eye in metres.
+        distance_m: f64,
+        /// Size of a pixel in millimetres.
+        pitch_mm: f64,
+    },
+    /// A flat screen of a given size that the frame fills.
+    Screen {
+        /// Distance of the eye in metres.
+        distance_m: f64,
+        /// Width and height in metres.
+        size_m: [f64; 2],
+    },
+    /// A display preset; the frame fills its whole field.
+    Display(Display),
+}
+
+/// A view that cannot be.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ViewError {
+    /// An angle outside (0°, 180°).
+    #[error("the {which} field of view of {found_deg}° is not between 0° and 180°")]
+    Fov {
+        /// Which angle.
+        which: &'static str,
+        /// What was given.
+        found_deg: f64,
+    },
+    /// No angle at all.
+    #[error("a field of view needs a horizontal or a vertical angle")]
+    NoFov,
+    /// Tangents that do not open to both sides.
+    #[error(
+        "the frustum tangents left {left}, right {right}, up {up}, down {down} do not open to \
+         both sides of the axis"
+    )]
+    Frustum {
+        /// Left tangent as given.
+        left: f64,
+        /// Right tangent as given.
+        right: f64,
+        /// Upper tangent as given.
+        up: f64,
+        /// Lower tangent as given.
+        down: f64,
+    },
+    /// A length that is not positive.
+    #[error("the {which} of {found} is not a positive length")]
+    Length {
+        /// Which length.
+        which: &'static str,
+        /// What was given.
+        found: f64,
+    },
+}
+
+/// A view for frames of a given size.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resolved {
+    /// The view.
+    pub view: View,
+    /// Set when a frame was stretched over a display of another size: the display's own size.
+    pub stretched_from: Option<[usize; 2]>,
+}
+
+impl ViewSpec {
+    /// Checks everything that does not depend on the frame's size.
+    ///
+    /// # Errors
+    /// As [`ViewSpec::resolve`].
+    pub fn check(&self) -> Result<(), ViewError> {
+        self.resolve(2, 2).map(|_| ())
+    }
+
+    /// The view of a frame of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// When an angle is not inside (0°, 180°), a length not positive, or a frustum closed.
+    pub fn resolve(&self, width: usize, height: usize) -> Result<Resolved, ViewError> {
+        let (w, h) = (width as f64, height as f64);
+        let centred = |focal_px: [f64; 2]| View {
+            width,
+            height,
+            focal_px,
+            principal_px: [w / 2.0, h / 2.0],
+        };
+        let mut stretched_from = None;
+        let view = match *self {
+            ViewSpec::Fov { horizontal_deg, vertical_deg } => {
+                let x = horizontal_deg.map(|a| focal(w, a, "horizontal")).transpose()?;
+                let y = vertical_deg.map(|a| focal(h, a, "vertical")).transpose()?;
+                let one = x.or(y).ok_or(ViewError::NoFov)?;
+                centred([x.unwrap_or(one), y.unwrap_or(one)])
+            }
+            ViewSpec::FovDiagonal { diagonal_deg } => {
+                centred([focal(w.hypot(h), diagonal_deg, "diagonal")?; 2])
+            }
+            ViewSpec::Frustum { left, right, up, down } => {
+                let [l, r, u, d] = frustum_sides(left, right, up, down)?;
+                View {
+                    width,
+                    height,
+                    focal_px: [w / (l + r), h / (u + d)],
+                    principal_px: [w * l / (l + r), h * u / (u + d)],
+                }
+            }
+            ViewSpec::PixelPitch { distance_m, pitch_mm } => {
+                let distance = length(distance_m, "viewing distance")?;
+                let pitch = length(pitch_mm, "pixel pitch")?;
+                centred([distance * 1000.0 / pitch; 2])
+            }
+            ViewSpec::Screen { distance_m, size_m } => {
+                let distance = length(distance_m, "viewing distance")?;
+                let width = length(size_m[0], "screen width")?;
+                let height = length(size_m[1], "screen height")?;
+                centred([w * distance / width, h * distance / height])
+            }
+            ViewSpec::Display(ref display) => {
+                let [dw, dh] = display.resolution;
+                if [width, height] != [dw, dh] {
+                    stretched_from = Some([dw, dh]);
+                }
+                let [fx, fy] = display.focal_px();
+                centred([fx * w / dw as f64, fy * h / dh as f64])
+            }
+        };
+        Ok(Resolved { view, stretched_from })
+    }
+}
+
+fn focal(extent_px: f64, fov_deg: f64, which: &'static str) -> Result<f64, ViewError> {
+    if !(fov_deg > 0.0 && fov_deg < 180.0) {
+        return Err(ViewError::Fov { which, found_deg: fov_deg });
+    }
+    Ok(extent_px / 2.0 / libm::tan((fov_deg / 2.0).to_radians()))
+}
+
+fn length(value: f64, which: &'static str) -> Result<f64, ViewError> {
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(ViewError::Length { which, found: value })
+    }
+}
+
+fn frustum_sides(left: f64, right: f64, up: f64, down: f64) -> Result<[f64; 4], ViewError> {
+    let sides = if left < 0.0 && down < 0.0 {
+        [-left, right, up, -down]
+    } else {
+        [left, right, up, down]
+    };
+    if sides.iter().all(|side| *side > 0.0 && side.is_finite()) {
+        Ok(sides)
+    } else {
+        Err(ViewError::Frustum { left, right, up, down })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::displays::find_display;
+
+    fn near(a: f64, b: f64) -> bool {
+        (a - b).abs() <= 1e-6 * b.abs()
+    }
+
+    #[test]
+    fn the_ways_to_give_a_view_agree() {
+        let vertical = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(100.0) };
+        let view = vertical.resolve(1440, 1600).unwrap().view;
+        assert!(near(view.focal_px[1], 671.279_704_941_824));
+        assert_eq!(view.focal_px[0].to_bits(), view.focal_px[1].to_bits());
+        let t = (50f64).to_radians().tan();
+        let symmetric = ViewSpec::Frustum { left: 0.9 * t, right: 0.9 * t, up: t, down: t };
+        let openxr = ViewSpec::Frustum { left: -0.9 * t, right: 0.9 * t, up: t, down: -t };
+        for spec in [symmetric, openxr] {
+            let same = spec.resolve(1440, 1600).unwrap().view;
+            assert!(near(same.focal_px[0], view.focal_px[0]) && near(same.focal_px[1], view.focal_px[1]));
+            assert!(near(same.principal_px[0], 720.0) && near(same.principal_px[1], 800.0));
+        }
+        let diagonal = ViewSpec::FovDiagonal { diagonal_deg: 110.0 }.resolve(1440, 1600).unwrap();
+        assert!(near(0.5 / (0.5 / diagonal.view.focal_px[0]).atan().to_degrees(), 13.153_262_5));
+        let pitch = ViewSpec::PixelPitch { distance_m: 0.6, pitch_mm: 0.25 };
+        assert!(near(pitch.resolve(10, 10).unwrap().view.focal_px[0], 2400.0));
+        let screen = ViewSpec::Screen { distance_m: 0.6, size_m: [0.48, 0.27] };
+        assert!(near(screen.resolve(1920, 1080).unwrap().view.focal_px[1], 2400.0));
+    }
+
+    #[test]
+    fn an_asymmetric_frustum_moves_the_principal_point() {
+        let spec = ViewSpec::Frustum { left: 1.0, right: 3.0, up: 0.5, down: 1.5 };
+        let view = spec.resolve(400, 200).unwrap().view;
+        assert_eq!(view.principal_px.map(f64::round), [100.0, 50.0]);
+        assert_eq!(view.focal_px.map(f64::round), [100.0, 100.0]);
+    }
+
+    #[test]
+    fn a_frame_fills_the_whole_display() {
+        let display = find_display("standard-4k").unwrap().clone();
+        let full = ViewSpec::Display(display.clone()).resolve(3840, 2160).unwrap();
+        assert!(full.stretched_from.is_none());
+        let half = ViewSpec::Display(display).resolve(1920, 2160).unwrap();
+        assert_eq!(half.stretched_from, Some([3840, 2160]));
+        assert!(near(half.view.focal_px[0] * 2.0, full.view.focal_px[0]));
+        assert!(near(half.view.focal_px[1], full.view.focal_px[1]));
+    }
+
+    #[test]
+    fn refuses_what_no_eye_sees() {
+        for bad in [0.0, -10.0, 180.0, f64::NAN] {
+            let spec = ViewSpec::Fov { horizontal_deg: Some(bad), vertical_deg: None };
+            assert!(spec.check().is_err(), "{bad}");
+        }
+        assert!(ViewSpec::PixelPitch { distance_m: 0.5, pitch_mm: 0.0 }.check().is_err());
+        assert!(ViewSpec::Frustum { left: -1.0, right: 1.0, up: 1.0, down: 1.0 }.check().is_err());
+    }
+}
