@@ -11,9 +11,13 @@ use crate::progress::Terminal;
 pub(crate) fn run(args: ScoreArgs) -> Exit {
     let format = args.format;
     if let Some(threads) = args.threads
-        && let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global()
+        && let Err(error) =
+            rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global()
     {
-        diagnostic::error(&format!("{threads} threads cannot be started: {error}"), "ask for fewer");
+        diagnostic::error(
+            &format!("{threads} threads cannot be started: {error}"),
+            "ask for fewer",
+        );
         return Exit::Usage;
     }
     let request = match args.request() {

@@ -65,10 +65,9 @@ impl EngineError {
             Self::View(_) | Self::NoView { .. } | Self::Param(_) => true,
             Self::GazeTrace { error, .. } => matches!(error, GazeTraceError::NoFps),
             Self::Listing(error) => matches!(error, ListingError::Pattern { .. }),
-            Self::Pairing(_)
-            | Self::NoFrames { .. }
-            | Self::GazeFile { .. }
-            | Self::Mask(_) => false,
+            Self::Pairing(_) | Self::NoFrames { .. } | Self::GazeFile { .. } | Self::Mask(_) => {
+                false
+            }
         }
     }
 
@@ -91,9 +90,13 @@ impl EngineError {
 fn gaze_help(error: &GazeTraceError) -> &'static str {
     match error {
         GazeTraceError::NoFps => "pass --fps",
-        GazeTraceError::Missing { .. } => "record it for every frame, or pass --gaze-hold to keep the last gaze",
+        GazeTraceError::Missing { .. } => {
+            "record it for every frame, or pass --gaze-hold to keep the last gaze"
+        }
         GazeTraceError::StartsWithBlink { .. } => "put an open-eyed row in front",
-        _ => "a gaze trace is CSV with the columns frame,x_px,y_px (or time_s,x_px,y_px), rows rising",
+        _ => {
+            "a gaze trace is CSV with the columns frame,x_px,y_px (or time_s,x_px,y_px), rows rising"
+        }
     }
 }
 

@@ -26,7 +26,12 @@ pub(crate) enum LoadError {
     #[error("{file}: {error}")]
     Crop { file: String, error: CropError },
     #[error("{reference} has {}x{} pixels and {test} has {}x{}", reference_size.0, reference_size.1, test_size.0, test_size.1)]
-    Size { reference: String, reference_size: (usize, usize), test: String, test_size: (usize, usize) },
+    Size {
+        reference: String,
+        reference_size: (usize, usize),
+        test: String,
+        test_size: (usize, usize),
+    },
     #[error("{file}: channel {} is {} at pixel ({}, {}){}", bad.channel, bad.value, bad.x, bad.y, more(bad.pixels))]
     Nonfinite { file: String, bad: BadPixel },
 }
@@ -44,8 +49,12 @@ impl LoadError {
         match self {
             Self::Read(error) => error.kind.help(),
             Self::Crop { .. } => "--crop is X,Y,W,H in pixels of the file",
-            Self::Size { .. } => "nothing is resampled: render both at one size, or cut with --crop",
-            Self::Nonfinite { .. } => "mend the render, or pass --nonfinite mask to leave such pixels out",
+            Self::Size { .. } => {
+                "nothing is resampled: render both at one size, or cut with --crop"
+            }
+            Self::Nonfinite { .. } => {
+                "mend the render, or pass --nonfinite mask to leave such pixels out"
+            }
         }
     }
 }
@@ -107,12 +116,13 @@ impl Loader<'_> {
                 .map_err(|error| LoadError::Crop { file: file(), error })?,
             None => decoded.frame,
         };
-        let encoded_floats = !frame.samples().is_integer()
-            && self.signal.transfer_of(&frame) != Transfer::Linear;
+        let encoded_floats =
+            !frame.samples().is_integer() && self.signal.transfer_of(&frame) != Transfer::Linear;
         if encoded_floats {
             let (low, high) = frame.range();
             if low < 0.0 || high > 1.0 {
-                let range = "values beyond 0 to 1, which an encoded signal cannot have, are clamped";
+                let range =
+                    "values beyond 0 to 1, which an encoded signal cannot have, are clamped";
                 notes.push((file(), range.to_owned()));
             }
         }

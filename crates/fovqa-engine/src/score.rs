@@ -9,7 +9,9 @@ use fovqa_io::read_mask;
 use fovqa_io::sequence::{FramePair, list, pair};
 use fovqa_metrics::{Metric, Regions, Scorer};
 use fovqa_results::{Failure, FrameResult, ScoreReport, ViewResult};
-use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, GazeAt, GazeTrace, ViewSpec};
+use fovqa_vision::{
+    BandEdges, BandMap, Eccentricity, EccentricityKind, GazeAt, GazeTrace, ViewSpec,
+};
 
 use crate::error::{EngineError, no_view};
 use crate::events::Events;
@@ -53,10 +55,14 @@ pub fn score(request: &ScoreRequest, events: &dyn Events) -> Result<ScoreReport,
         },
     };
     events.progress(0, pairs.len());
-    read_ahead(&pairs, |pair| loader.load(pair), |index, loaded| {
-        run.frame(index, &pairs[index], loaded);
-        events.progress(index + 1, pairs.len());
-    });
+    read_ahead(
+        &pairs,
+        |pair| loader.load(pair),
+        |index, loaded| {
+            run.frame(index, &pairs[index], loaded);
+            events.progress(index + 1, pairs.len());
+        },
+    );
     Ok(run.report)
 }
 
@@ -195,7 +201,12 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn score(&mut self, index: usize, pair: &FramePair, loaded: &Loaded) -> Result<FrameResult, Fault> {
+    fn score(
+        &mut self,
+        index: usize,
+        pair: &FramePair,
+        loaded: &Loaded,
+    ) -> Result<FrameResult, Fault> {
         for (file, note) in &loaded.notes {
             self.warn_once(note, &format!("{file}: {note}"));
         }
@@ -210,7 +221,12 @@ impl<'a> Run<'a> {
             return Err(Fault {
                 message: format!(
                     "{} has {}x{} pixels and {}, the first of the sequence, has {}x{}",
-                    pair.reference.display(), size.0, size.1, setup.first_file, setup.size.0, setup.size.1
+                    pair.reference.display(),
+                    size.0,
+                    size.1,
+                    setup.first_file,
+                    setup.size.0,
+                    setup.size.1
                 ),
                 help: "a sequence has one size".to_owned(),
             });
@@ -262,7 +278,10 @@ impl<'a> Run<'a> {
         let mut scorer = Scorer::new(self.report.metrics.clone(), self.request.params.clone());
         if self.request.metrics == MetricChoice::Default {
             for (metric, error) in scorer.unfit(size.0, size.1) {
-                self.warn_once(metric.key(), &format!("{} is left out: {error}", metric.info().label));
+                self.warn_once(
+                    metric.key(),
+                    &format!("{} is left out: {error}", metric.info().label),
+                );
                 self.report.metrics.retain(|m| *m != metric);
             }
             scorer = Scorer::new(self.report.metrics.clone(), self.request.params.clone());
@@ -286,11 +305,14 @@ impl<'a> Run<'a> {
         })
     }
 
-    fn retina_maker(&mut self, spec: &ViewSpec, size: (usize, usize)) -> Result<RetinaMaker<'a>, Fault> {
-        let resolved = spec.resolve(size.0, size.1).map_err(|error| Fault {
-            message: error.to_string(),
-            help: String::new(),
-        })?;
+    fn retina_maker(
+        &mut self,
+        spec: &ViewSpec,
+        size: (usize, usize),
+    ) -> Result<RetinaMaker<'a>, Fault> {
+        let resolved = spec
+            .resolve(size.0, size.1)
+            .map_err(|error| Fault { message: error.to_string(), help: String::new() })?;
         if let Some([w, h]) = resolved.stretched_from {
             let message = format!(
                 "frames of {}x{} are stretched over the display's {w}x{h}: they fill its whole field",
@@ -306,7 +328,8 @@ impl<'a> Run<'a> {
             (_, None) => view.principal_px,
         };
         let edges = self.request.bands.clone().unwrap_or_else(|| {
-            let gazes = self.trace.map_or_else(|| vec![gaze_px], |t| t.iter().map(|g| g.px).collect());
+            let gazes =
+                self.trace.map_or_else(|| vec![gaze_px], |t| t.iter().map(|g| g.px).collect());
             let farthest = |gaze| Eccentricity::new(view, gaze, kind).max_deg();
             BandEdges::default_up_to(gazes.into_iter().map(farthest).fold(0.0, f64::max))
         });
@@ -347,7 +370,8 @@ impl<'a> Run<'a> {
         Err(Fault {
             message: format!(
                 "the mask has {}x{} pixels and the frames have {width}x{height}",
-                mask.width(), mask.height()
+                mask.width(),
+                mask.height()
             ),
             help: "a mask has the size of the frames".to_owned(),
         })

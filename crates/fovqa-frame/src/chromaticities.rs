@@ -131,7 +131,12 @@ mod tests {
 
     #[test]
     fn primaries_on_a_line_are_no_space() {
-        let flat = Chromaticities { green: [0.3, 0.3], red: [0.2, 0.2], blue: [0.1, 0.1], ..Chromaticities::REC709 };
+        let flat = Chromaticities {
+            green: [0.3, 0.3],
+            red: [0.2, 0.2],
+            blue: [0.1, 0.1],
+            ..Chromaticities::REC709
+        };
         assert!(flat.to_rec709().is_none());
     }
 }

@@ -248,8 +248,7 @@ impl Frame {
         }
         let channels = 0..self.channels.count();
         let bad_row = |y: usize| channels.clone().any(|c| self.row_has_bad(c, y));
-        let rows: Vec<usize> =
-            (0..self.height()).into_par_iter().filter(|&y| bad_row(y)).collect();
+        let rows: Vec<usize> = (0..self.height()).into_par_iter().filter(|&y| bad_row(y)).collect();
         let mut first = None;
         let mut pixels = 0;
         for y in rows {

@@ -21,6 +21,6 @@ pub use blocks::{BLOCK_ROWS, map_row_blocks};
 pub use chromaticities::Chromaticities;
 pub use frame::{BadPixel, Channels, Crop, CropError, Frame, FrameError, Samples};
 pub use mask::Mask;
-pub use pair::{PairSignal, PairTile};
+pub use pair::{PairSignal, PairTile, Part};
 pub use signal::{Luma, SignalChannels, SignalParams, SignalTables, Transfer};
 pub use tonemap::ToneMap;

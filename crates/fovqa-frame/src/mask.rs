@@ -34,7 +34,10 @@ impl Mask {
         self.valid.iter().filter(|&&valid| !valid).count() as u64
     }
 
-    /// Keeps only what counts in both masks, which have one size.
+    /// Keeps only what counts in both masks.
+    ///
+    /// # Panics
+    /// When the masks differ in size.
     pub fn intersect(&mut self, other: &Mask) {
         assert_eq!((self.width, self.height), (other.width, other.height), "masks of one size");
         for (mine, theirs) in self.valid.iter_mut().zip(&other.valid) {
@@ -43,6 +46,7 @@ impl Mask {
     }
 
     /// The part of the mask inside a rectangle, which must lie within it.
+    #[must_use]
     pub fn cropped(&self, x: usize, y: usize, width: usize, height: usize) -> Mask {
         let valid = (y..y + height).flat_map(|row| &self.row(row)[x..x + width]).copied().collect();
         Mask { width, height, valid }
@@ -50,6 +54,7 @@ impl Mask {
 
     /// The centres of windows of `2 radius + 1` pixels a side in which every pixel counts.
     /// Windows that do not fit into the picture are out as well.
+    #[must_use]
     pub fn eroded(&self, radius: usize) -> Mask {
         let (w, h, side) = (self.width, self.height, 2 * radius + 1);
         let mut valid = vec![false; w * h];

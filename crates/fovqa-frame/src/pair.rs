@@ -29,29 +29,67 @@ struct Side<'a> {
     source: Source<'a>,
 }
 
-/// A stretch of one row: for each plane the centred sum `a + b - peak` and the difference
-/// `a - b`.
-#[derive(Debug, Clone)]
+/// A tile of a pair: some rows of some columns, for each plane the centred sum `a + b - peak`
+/// and the difference `a - b`.
+#[derive(Debug)]
 pub struct PairTile {
-    sum: [Vec<f32>; 3],
-    difference: [Vec<f32>; 3],
+    values: Vec<f32>,
+    /// Where the first row starts: at the border of a cache line, like all others.
+    origin: usize,
+    stride: usize,
+    rows: usize,
 }
 
+/// Sum or difference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// `a + b - peak`.
+    Sum,
+    /// `a - b`.
+    Difference,
+}
+
+/// Planes a tile has room for: luma is computed from three.
+const TILE_PLANES: usize = 3;
+
 impl PairTile {
-    /// Room for stretches of up to `width` pixels.
-    pub fn new(width: usize) -> Self {
-        let planes = || std::array::from_fn(|_| vec![0.0; width]);
-        Self { sum: planes(), difference: planes() }
+    /// Room for `rows` rows of up to `columns` pixels.
+    pub fn new(columns: usize, rows: usize) -> Self {
+        const LINE_BYTES: usize = 64;
+        const LINE: usize = LINE_BYTES / size_of::<f32>();
+        // A line more than needed, so that rows do not all fall onto the same cache sets.
+        let stride = columns.next_multiple_of(LINE) + LINE;
+        let values = vec![0.0; TILE_PLANES * 2 * rows * stride + LINE];
+        let origin = values.as_ptr().align_offset(LINE_BYTES).min(LINE);
+        Self { values, origin, stride, rows }
     }
 
-    /// Centred sum and difference of one plane.
-    pub fn plane(&self, plane: usize) -> (&[f32], &[f32]) {
-        (&self.sum[plane], &self.difference[plane])
+    fn start(&self, plane: usize, part: Part, row: usize) -> usize {
+        self.origin + ((plane * 2 + part as usize) * self.rows + row) * self.stride
+    }
+
+    /// The first `columns` values of a row.
+    pub fn row(&self, plane: usize, part: Part, row: usize, columns: usize) -> &[f32] {
+        let start = self.start(plane, part, row);
+        &self.values[start..start + columns]
     }
 
     /// The same, to be written.
-    pub fn plane_mut(&mut self, plane: usize) -> (&mut [f32], &mut [f32]) {
-        (&mut self.sum[plane], &mut self.difference[plane])
+    pub fn row_mut(&mut self, plane: usize, part: Part, row: usize, columns: usize) -> &mut [f32] {
+        let start = self.start(plane, part, row);
+        &mut self.values[start..start + columns]
+    }
+
+    /// One row of all planes: `[sums, differences]`.
+    fn planes_mut(&mut self, row: usize, columns: usize) -> [[&mut [f32]; TILE_PLANES]; 2] {
+        let from = row * self.stride;
+        let mut parts = self.values[self.origin..]
+            .chunks_exact_mut(self.rows * self.stride)
+            .map(|part| &mut part[from..from + columns]);
+        let mut next = || parts.next().unwrap_or_default();
+        let [[r, rd], [g, gd], [b, bd]]: [[&mut [f32]; 2]; TILE_PLANES] =
+            std::array::from_fn(|_| [next(), next()]);
+        [[r, g, b], [rd, gd, bd]]
     }
 }
 
@@ -64,9 +102,8 @@ impl<'a> PairSignal<'a> {
         let (width, height) = (reference.width(), reference.height());
         assert_eq!((width, height), (test.width(), test.height()), "frames of one size");
         let exact = tables.codes_are_signal(reference) && tables.codes_are_signal(test);
-        let both_eight_bit = [reference, test]
-            .iter()
-            .all(|f| matches!(f.samples(), crate::frame::Samples::U8(_)));
+        let both_eight_bit =
+            [reference, test].iter().all(|f| matches!(f.samples(), crate::frame::Samples::U8(_)));
         let peak = match (exact, both_eight_bit) {
             (true, true) => 255.0,
             (true, false) => 65535.0,
@@ -110,24 +147,26 @@ impl<'a> PairSignal<'a> {
         self.peak
     }
 
-    /// Reads the columns `xs` of row `y`.
-    pub fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile) {
-        let read = if self.luma { 3 } else { self.planes };
-        self.reference.fill(y, xs.clone(), &mut tile.sum[..read]);
-        self.test.fill(y, xs.clone(), &mut tile.difference[..read]);
-        for (sum, difference) in tile.sum.iter_mut().zip(&mut tile.difference).take(read) {
-            combine(&mut sum[..xs.len()], &mut difference[..xs.len()], self.peak);
+    /// Reads the columns `xs` of row `y` into row `row` of a tile.
+    pub fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize) {
+        let read = if self.luma { TILE_PLANES } else { self.planes };
+        let [mut sums, mut differences] = tile.planes_mut(row, xs.len());
+        self.reference.fill(y, xs.clone(), &mut sums[..read]);
+        self.test.fill(y, xs, &mut differences[..read]);
+        for (sum, difference) in sums.iter_mut().zip(&mut differences).take(read) {
+            combine(sum, difference, self.peak);
         }
         if self.luma {
             // Of sum and difference rather than of the pictures: an exact difference stays small.
-            weigh(&mut tile.sum, xs.len());
-            weigh(&mut tile.difference, xs.len());
+            weigh(sums);
+            weigh(differences);
         }
     }
 }
 
 impl Side<'_> {
-    fn fill(&self, y: usize, xs: Range<usize>, planes: &mut [Vec<f32>]) {
+    /// Reads a stretch of a row into one plane, or three.
+    fn fill(&self, y: usize, xs: Range<usize>, planes: &mut [&mut [f32]]) {
         let from = self.frame.row_start(y) + xs.start;
         let pixels = from..from + xs.len();
         let plane = self.frame.plane_len();
@@ -136,17 +175,13 @@ impl Side<'_> {
         let interleaved = pixels.start * channels.len()..pixels.end * channels.len();
         let planar = |c: usize| c * plane + pixels.start..c * plane + pixels.end;
         match self.source {
-            Source::Codes8(s, scale) => {
-                interleaved_codes(&s[interleaved], channels.len(), planes, |c| f32::from(c) * scale);
-            }
-            Source::Codes16(s, scale) => {
-                interleaved_codes(&s[interleaved], channels.len(), planes, |c| f32::from(c) * scale);
-            }
+            Source::Codes8(s, scale) => codes8(&s[interleaved], planes, scale),
+            Source::Codes16(s, scale) => codes16(&s[interleaved], planes, scale),
             Source::Table8(s, table) => {
-                interleaved_codes(&s[interleaved], channels.len(), planes, |c| table[usize::from(c)]);
+                take_apart(&s[interleaved], planes, |c| table[usize::from(c)]);
             }
             Source::Table16(s, table) => {
-                interleaved_codes(&s[interleaved], channels.len(), planes, |c| table[usize::from(c)]);
+                take_apart(&s[interleaved], planes, |c| table[usize::from(c)]);
             }
             Source::Half(s, table) => {
                 for c in channels {
@@ -165,32 +200,49 @@ impl Side<'_> {
             Source::Encoded(s) => {
                 for c in channels {
                     for (out, &v) in planes[c].iter_mut().zip(&s[planar(c)]) {
-                        *out = v.max(0.0).min(1.0);
+                        *out = encoded(v);
                     }
                 }
             }
         }
-        if !colour {
-            let (gray, others) = planes.split_at_mut(1);
+        if !colour && let [gray, others @ ..] = planes {
             for other in others {
-                other[..xs.len()].copy_from_slice(&gray[0][..xs.len()]);
+                other.copy_from_slice(gray);
             }
         }
     }
 }
 
-/// Takes interleaved codes apart: one channel into the first plane, or three into three.
-fn interleaved_codes<T: Copy>(
-    codes: &[T],
-    channels: usize,
-    planes: &mut [Vec<f32>],
-    value: impl Fn(T) -> f32,
-) {
-    if let (3, [r, g, b]) = (channels, planes.as_mut()) {
-        let n = codes.len() / 3;
-        let planes = r[..n].iter_mut().zip(&mut g[..n]).zip(&mut b[..n]);
-        for (((r, g), b), code) in planes.zip(codes.as_chunks::<3>().0) {
-            (*r, *g, *b) = (value(code[0]), value(code[1]), value(code[2]));
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn codes8(codes: &[u8], planes: &mut [&mut [f32]], scale: f32) {
+    take_apart(codes, planes, |c| f32::from(c) * scale);
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn codes16(codes: &[u16], planes: &mut [&mut [f32]], scale: f32) {
+    take_apart(codes, planes, |c| f32::from(c) * scale);
+}
+
+/// An encoded float, kept in range.
+#[allow(clippy::manual_clamp, reason = "clamp would let NaN through; here it becomes 0")]
+fn encoded(value: f32) -> f32 {
+    value.max(0.0).min(1.0)
+}
+
+/// Takes interleaved codes apart: as many into the first plane as it has pixels (gray), or three
+/// into three.
+#[inline(always)]
+fn take_apart<T: Copy>(codes: &[T], planes: &mut [&mut [f32]], value: impl Fn(T) -> f32) {
+    if let [r, g, b] = planes
+        && codes.len() > r.len()
+    {
+        let n = r.len();
+        let (g, b) = (&mut g[..n], &mut b[..n]);
+        let codes = &codes.as_chunks::<3>().0[..n];
+        for x in 0..n {
+            r[x] = value(codes[x][0]);
+            g[x] = value(codes[x][1]);
+            b[x] = value(codes[x][2]);
         }
     } else {
         for (out, &code) in planes[0].iter_mut().zip(codes) {
@@ -199,18 +251,18 @@ fn interleaved_codes<T: Copy>(
     }
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn combine(a: &mut [f32], b: &mut [f32], peak: f32) {
     for (a, b) in a.iter_mut().zip(b) {
         (*a, *b) = (*a + *b - peak, *a - *b);
     }
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
-fn weigh(planes: &mut [Vec<f32>; 3], n: usize) {
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn weigh(planes: [&mut [f32]; TILE_PLANES]) {
     let [wr, wg, wb] = Luma::WEIGHTS;
     let [r, g, b] = planes;
-    for ((r, g), b) in r[..n].iter_mut().zip(&g[..n]).zip(&b[..n]) {
+    for ((r, g), b) in r.iter_mut().zip(g).zip(b) {
         *r = *r * wr + *g * wg + *b * wb;
     }
 }

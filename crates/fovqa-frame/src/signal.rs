@@ -1,7 +1,7 @@
 //! From samples to the signal metrics see: display-encoded, per channel.
 //!
 //! Encoded input (8- and 16-bit files, unless told otherwise) is used as it is. Linear input
-//! (`OpenEXR`, unless told otherwise) gets exposure, then the tone map per channel, then the sRGB
+//! (OpenEXR, unless told otherwise) gets exposure, then the tone map per channel, then the sRGB
 //! encoding. NaN becomes 0 and an infinity the end of the range, so that a masked pixel cannot
 //! leak into its neighbours.
 
@@ -126,7 +126,7 @@ impl SignalTables {
 
     /// The source of a frame whose codes are the signal, in units in which both frames of a pair
     /// have the peak `peak`: 255 or 65535.
-    pub(crate) fn codes<'a>(frame: &'a Frame, peak: f32) -> Option<Source<'a>> {
+    pub(crate) fn codes(frame: &Frame, peak: f32) -> Option<Source<'_>> {
         match frame.samples() {
             Samples::U8(s) => Some(Source::Codes8(s, peak / 255.0)),
             Samples::U16(s) => Some(Source::Codes16(s, peak / 65535.0)),

@@ -11,7 +11,7 @@ pub enum AlphaPolicy {
     /// Take the colours as they are.
     Ignore,
     /// Lay the picture over black: PNG colours are multiplied by alpha (as encoded, like a
-    /// viewer does), `OpenEXR` colours are premultiplied already.
+    /// viewer does), OpenEXR colours are premultiplied already.
     OverBlack,
 }
 
@@ -23,7 +23,7 @@ pub(crate) fn require_opaque(
     let (mut transparent, mut all_zero, mut first) = (0u64, true, None);
     for (i, value) in alpha.enumerate() {
         all_zero &= value == 0.0;
-        if value != 1.0 {
+        if value.to_bits() != 1.0f32.to_bits() {
             transparent += 1;
             first.get_or_insert((i % width, i / width, value));
         }

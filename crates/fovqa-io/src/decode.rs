@@ -14,7 +14,7 @@ use crate::{exr, raster};
 /// How files are read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadOptions {
-    /// The colour layer of `OpenEXR` files that have several.
+    /// The colour layer of OpenEXR files that have several.
     pub layer: Option<String>,
     /// What to do with alpha.
     pub alpha: AlphaPolicy,
@@ -60,10 +60,13 @@ impl Note {
     pub fn in_words(&self) -> String {
         match self {
             Note::ColourChunks(names) => {
-                format!("the colour chunk {names} is not applied; values are taken as sRGB unless --transfer says otherwise")
+                format!(
+                    "the colour chunk {names} is not applied; values are taken as sRGB unless --transfer says otherwise"
+                )
             }
             Note::UncoveredPixels => {
-                "the data window does not cover the display window; uncovered pixels are 0".to_owned()
+                "the data window does not cover the display window; uncovered pixels are 0"
+                    .to_owned()
             }
             Note::ConvertedPrimaries => {
                 "the chromaticities attribute is not Rec.709; colours were converted".to_owned()
@@ -86,7 +89,7 @@ const PNG_MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 const JPEG_MAGIC: &[u8] = b"\xff\xd8\xff";
 const EXR_MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 
-/// Reads a PNG, JPEG or `OpenEXR` file; its first bytes tell which, not its name.
+/// Reads a PNG, JPEG or OpenEXR file; its first bytes tell which, not its name.
 ///
 /// # Errors
 /// When the file cannot be read, is none of these, is damaged or too large, or does not fit the

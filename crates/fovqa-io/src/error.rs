@@ -22,19 +22,21 @@ pub enum ReadErrorKind {
     /// The operating system refused.
     #[error("{}", io_reason(.0))]
     Io(#[from] io::Error),
-    /// Neither PNG, JPEG nor `OpenEXR` by its first bytes.
+    /// Neither PNG, JPEG nor OpenEXR by its first bytes.
     #[error("this is not a PNG, JPEG or OpenEXR file")]
     NotAnImage,
     /// The decoder gave up.
     #[error("the {format} data is damaged or cut short: {detail}")]
     Damaged {
-        /// `PNG`, `JPEG` or `OpenEXR`.
+        /// `PNG`, `JPEG` or OpenEXR.
         format: &'static str,
         /// The decoder's words.
         detail: String,
     },
     /// More pixels than the limit.
-    #[error("it declares {width}x{height} pixels, more than the limit of {limit_megapixels} megapixels")]
+    #[error(
+        "it declares {width}x{height} pixels, more than the limit of {limit_megapixels} megapixels"
+    )]
     TooLarge {
         /// Declared width.
         width: u64,
@@ -117,14 +119,18 @@ impl ReadErrorKind {
             Self::NotAnImage => "convert it to PNG or OpenEXR",
             Self::Damaged { .. } => "render or copy it again",
             Self::TooLarge { .. } => "raise the limit with --max-megapixels if the size is meant",
-            Self::Alpha { .. } => "pass --alpha ignore to drop it, or --alpha over-black to lay the image over black",
+            Self::Alpha { .. } => {
+                "pass --alpha ignore to drop it, or --alpha over-black to lay the image over black"
+            }
             Self::AllTransparent => "pass --alpha ignore: the colours are usually whole",
             Self::Deep => "flatten it to one colour a pixel first",
             Self::NoColour { .. } => "give the file that holds the beauty pass",
             Self::SeveralLayers { .. } => "name one with --layer",
             Self::NoSuchLayer { .. } => "name one of these with --layer",
             Self::Subsampled { .. } => "write luminance/chroma files as R, G, B",
-            Self::DisjointWindows { .. } => "nothing of it would be seen: check the render's region",
+            Self::DisjointWindows { .. } => {
+                "nothing of it would be seen: check the render's region"
+            }
             Self::Chromaticities => "write the file with valid primaries, or without the attribute",
         }
     }

@@ -1,4 +1,4 @@
-//! Files to frames: PNG, JPEG and `OpenEXR`, sequences of them, and limits on what is read.
+//! Files to frames: PNG, JPEG and OpenEXR, sequences of them, and limits on what is read.
 //!
 //! Every decoder's mistake (an error, a panic, a declared size beyond reason) ends as a
 //! [`ReadError`] that names the file: one bad file never takes the others with it.

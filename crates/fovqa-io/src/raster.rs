@@ -21,7 +21,8 @@ pub(crate) fn read_png(
     let chunks = png_colour_chunks(&mut file)?;
     file.rewind()?;
     // Our own limit has been checked; the library's would refuse retinal resolutions.
-    let decoder = PngDecoder::with_limits(file, Limits::no_limits()).map_err(|e| damaged("PNG", e))?;
+    let decoder =
+        PngDecoder::with_limits(file, Limits::no_limits()).map_err(|e| damaged("PNG", e))?;
     let mut decoded = read_samples("PNG", decoder, options)?;
     if !chunks.is_empty() {
         decoded.notes.push(Note::ColourChunks(chunks.join(", ")));

@@ -57,7 +57,12 @@ impl Params {
     ///
     /// # Errors
     /// When the metric has no such parameter, or the value is not one of its values.
-    pub fn set(&mut self, metric: Metric, param: &str, value: &ParamValue) -> Result<(), ParamError> {
+    pub fn set(
+        &mut self,
+        metric: Metric,
+        param: &str,
+        value: &ParamValue,
+    ) -> Result<(), ParamError> {
         let info = metric.info();
         let name = param.replace('-', "_");
         let Some(known) = info.params.iter().find(|p| p.name == name) else {
@@ -163,9 +168,20 @@ mod tests {
     fn refuses_what_is_not_there_or_out_of_range() {
         let mut params = Params::default();
         let number = ParamValue::Number;
-        assert!(matches!(params.set(Metric::Psnr, "sigma", &number(1.0)), Err(ParamError::Unknown { .. })));
-        for (name, value) in [("sigma", 0.0), ("sigma", f64::NAN), ("radius", 33.0), ("radius", 2.5), ("k1", -1.0)] {
-            assert!(matches!(params.set(Metric::Ssim, name, &number(value)), Err(ParamError::Value { .. })), "{name}");
+        assert!(matches!(
+            params.set(Metric::Psnr, "sigma", &number(1.0)),
+            Err(ParamError::Unknown { .. })
+        ));
+        for (name, value) in
+            [("sigma", 0.0), ("sigma", f64::NAN), ("radius", 33.0), ("radius", 2.5), ("k1", -1.0)]
+        {
+            assert!(
+                matches!(
+                    params.set(Metric::Ssim, name, &number(value)),
+                    Err(ParamError::Value { .. })
+                ),
+                "{name}"
+            );
         }
         params.set(Metric::Fpsnr, "knots-cpd", &ParamValue::List(vec![1.0])).unwrap();
         assert!(params.check().is_err());

@@ -131,8 +131,16 @@ const SSIM: MetricInfo = MetricInfo {
     about: "structural similarity, the mean of its map where the window fits",
     source: "Wang, Bovik, Sheikh, Simoncelli 2004",
     params: &[
-        ParamInfo { name: "sigma", default: "1.5", about: "Gaussian window, px, > 0 (MS-SSIM and FSSIM too)" },
-        ParamInfo { name: "radius", default: "auto", about: "window radius, px, 1 to 32; auto is 3.5 sigma, rounded (5)" },
+        ParamInfo {
+            name: "sigma",
+            default: "1.5",
+            about: "Gaussian window, px, > 0 (MS-SSIM and FSSIM too)",
+        },
+        ParamInfo {
+            name: "radius",
+            default: "auto",
+            about: "window radius, px, 1 to 32; auto is 3.5 sigma, rounded (5)",
+        },
         ParamInfo { name: "k1", default: "0.01", about: "stabiliser of the means, > 0" },
         ParamInfo { name: "k2", default: "0.03", about: "stabiliser of the variances, > 0" },
     ],
@@ -160,15 +168,47 @@ const FPSNR: MetricInfo = MetricInfo {
     about: "PSNR under the square of the visible cut-off frequency; compare methods, not papers",
     source: "Lee, Pattichis, Bovik 2002; weights after Geisler and Perry 1998",
     params: &[
-        ParamInfo { name: "weight", default: "\"lee2002\"", about: "lee2002 or acuity (FSSIM too)" },
-        ParamInfo { name: "alpha", default: "0.106", about: "lee2002: decay of contrast sensitivity, > 0" },
-        ParamInfo { name: "e2_deg", default: "2.3", about: "lee2002: half-resolution eccentricity, °, > 0" },
-        ParamInfo { name: "ct0", default: "0.015625", about: "lee2002: smallest contrast threshold, 0 to 1" },
-        ParamInfo { name: "acuity", default: "\"piecewise\"", about: "acuity: piecewise or linear_mar" },
-        ParamInfo { name: "knots_deg", default: "[0, 10, 20, 30, 60]", about: "piecewise: eccentricities, °, rising from 0" },
-        ParamInfo { name: "knots_cpd", default: "[40, 10, 6, 5, 4]", about: "piecewise: acuity there, cpd, > 0" },
+        ParamInfo {
+            name: "weight",
+            default: "\"lee2002\"",
+            about: "lee2002 or acuity (FSSIM too)",
+        },
+        ParamInfo {
+            name: "alpha",
+            default: "0.106",
+            about: "lee2002: decay of contrast sensitivity, > 0",
+        },
+        ParamInfo {
+            name: "e2_deg",
+            default: "2.3",
+            about: "lee2002: half-resolution eccentricity, °, > 0",
+        },
+        ParamInfo {
+            name: "ct0",
+            default: "0.015625",
+            about: "lee2002: smallest contrast threshold, 0 to 1",
+        },
+        ParamInfo {
+            name: "acuity",
+            default: "\"piecewise\"",
+            about: "acuity: piecewise or linear_mar",
+        },
+        ParamInfo {
+            name: "knots_deg",
+            default: "[0, 10, 20, 30, 60]",
+            about: "piecewise: eccentricities, °, rising from 0",
+        },
+        ParamInfo {
+            name: "knots_cpd",
+            default: "[40, 10, 6, 5, 4]",
+            about: "piecewise: acuity there, cpd, > 0",
+        },
         ParamInfo { name: "m", default: "0.0275", about: "linear_mar: slope, ° per °, ≥ 0" },
-        ParamInfo { name: "omega0_deg", default: "0.020833333333333332", about: "linear_mar: one cycle at the fovea, °, > 0" },
+        ParamInfo {
+            name: "omega0_deg",
+            default: "0.020833333333333332",
+            about: "linear_mar: one cycle at the fovea, °, > 0",
+        },
     ],
 };
 

@@ -11,7 +11,8 @@ pub fn score_table(report: &ScoreReport) -> String {
     let summary = Summary::of(report);
     let mut text = heading(report);
     let one = report.frames.len() == 1;
-    let mut whole = table(if one { &["", "value"][..] } else { &["", "mean", "min", "max", "pooled"] });
+    let mut whole =
+        table(if one { &["", "value"][..] } else { &["", "mean", "min", "max", "pooled"] });
     for (metric, s) in &summary.statistics {
         let mut row = vec![label(*metric)];
         if one {
@@ -27,14 +28,19 @@ pub fn score_table(report: &ScoreReport) -> String {
         && identical > 0
         && !one
     {
-        let _ = writeln!(text, "{identical} of {} frames are identical; means are over the others", report.frames.len());
+        let _ = writeln!(
+            text,
+            "{identical} of {} frames are identical; means are over the others",
+            report.frames.len()
+        );
     }
 
     let per_band: Vec<Metric> =
         report.metrics.iter().copied().filter(|m| m.info().per_band).collect();
     if !summary.bands.is_empty() && !per_band.is_empty() {
         let labels: Vec<String> = per_band.iter().map(|m| label(*m)).collect();
-        let header = ["eccentricity", "pixels"].into_iter().chain(labels.iter().map(String::as_str));
+        let header =
+            ["eccentricity", "pixels"].into_iter().chain(labels.iter().map(String::as_str));
         let mut bands = table(&header.collect::<Vec<_>>());
         for band in &summary.bands {
             let mut row = vec![
@@ -94,7 +100,11 @@ fn heading(report: &ScoreReport) -> String {
 
 fn label(metric: Metric) -> String {
     let info = metric.info();
-    if info.unit.is_empty() { info.label.to_owned() } else { format!("{} {}", info.label, info.unit) }
+    if info.unit.is_empty() {
+        info.label.to_owned()
+    } else {
+        format!("{} {}", info.label, info.unit)
+    }
 }
 
 fn number(metric: Metric, value: f64) -> String {

@@ -9,8 +9,18 @@ use crate::summary::{Statistics, Summary};
 
 /// The columns, in order.
 pub const COLUMNS: [&str; 12] = [
-    "scene", "method", "parameters", "eye", "frame", "image", "metric", "statistic", "level",
-    "from_deg", "to_deg", "value",
+    "scene",
+    "method",
+    "parameters",
+    "eye",
+    "frame",
+    "image",
+    "metric",
+    "statistic",
+    "level",
+    "from_deg",
+    "to_deg",
+    "value",
 ];
 
 /// A row of the table; `scene`, `method`, `parameters`, `eye` and `level` do not apply to `score`.

@@ -24,7 +24,9 @@ pub fn write_json(report: &ScoreReport, mut out: impl Write) -> io::Result<()> {
         view: report.view.as_ref().map(View::of),
         frames: report.frames.iter().map(|f| Frame::of(f, report.view.as_ref())).collect(),
         sequence: BTreeMap::new(),
-        summary: MetricMap(summary.statistics.iter().map(|(m, s)| (*m, Stats::of(*m, s))).collect()),
+        summary: MetricMap(
+            summary.statistics.iter().map(|(m, s)| (*m, Stats::of(*m, s))).collect(),
+        ),
         summary_bands: summary.bands.iter().map(BandStats::of).collect(),
         gaze_held: report.gaze_held,
         errors: report

@@ -127,11 +127,8 @@ impl Statistics {
         let min = values.iter().copied().reduce(f64::min)?;
         let max = values.iter().copied().reduce(f64::max)?;
         let finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
-        let mean = if finite.is_empty() {
-            max
-        } else {
-            finite.iter().sum::<f64>() / finite.len() as f64
-        };
+        let mean =
+            if finite.is_empty() { max } else { finite.iter().sum::<f64>() / finite.len() as f64 };
         let identical_frames = metric.is_decibel().then(|| values.len() - finite.len());
         Some(Self { mean, min, max, identical_frames, pooled: None })
     }
@@ -144,7 +141,10 @@ mod tests {
     #[test]
     fn an_identical_frame_does_not_lift_the_mean() {
         let s = Statistics::of(Metric::Psnr, [30.0, f64::INFINITY, 20.0].into_iter()).unwrap();
-        assert_eq!((s.mean, s.min, s.max, s.identical_frames), (25.0, 20.0, f64::INFINITY, Some(1)));
+        assert_eq!(
+            (s.mean, s.min, s.max, s.identical_frames),
+            (25.0, 20.0, f64::INFINITY, Some(1))
+        );
         let all = Statistics::of(Metric::Psnr, [f64::INFINITY; 2].into_iter()).unwrap();
         assert!(all.mean.is_infinite());
         assert!(Statistics::of(Metric::Ssim, std::iter::empty()).is_none());

@@ -58,9 +58,7 @@ impl BandEdges {
             return Err(BandEdgesError::OutOfRange { edge_deg });
         }
         match edges_deg.windows(2).find(|pair| pair[1] <= pair[0]) {
-            Some(pair) => {
-                Err(BandEdgesError::NotRising { edge_deg: pair[1], before_deg: pair[0] })
-            }
+            Some(pair) => Err(BandEdgesError::NotRising { edge_deg: pair[1], before_deg: pair[0] }),
             None => Ok(Self(edges_deg)),
         }
     }
@@ -188,7 +186,8 @@ impl Decide<'_> {
         let first = runs.len();
         let turn = self.eccentricity.turning_x_px(y as f64 + 0.5) - 0.5;
         // Two pixels to each side of the turn are looked at one by one: its own rounding.
-        let turn = if turn.is_finite() { turn.floor().clamp(-8.0, width as f64 + 8.0) } else { -8.0 };
+        let turn =
+            if turn.is_finite() { turn.floor().clamp(-8.0, width as f64 + 8.0) } else { -8.0 };
         let near = |offset: f64| ((turn + offset).max(0.0) as usize).min(width);
         let (left, right) = (near(-2.0), near(4.0));
         self.stretch(y, 0, left, first, runs);
@@ -282,7 +281,8 @@ mod tests {
     #[test]
     fn a_pixel_on_an_edge_belongs_to_the_band_above() {
         // Planar, focal length 4 px: the pixel 4 px from the gaze lies at 45° exactly.
-        let view = ViewSpec::PixelPitch { distance_m: 0.004, pitch_mm: 1.0 }.resolve(16, 1).unwrap().view;
+        let view =
+            ViewSpec::PixelPitch { distance_m: 0.004, pitch_mm: 1.0 }.resolve(16, 1).unwrap().view;
         let e = Eccentricity::new(view, [8.5, 0.5], EccentricityKind::Planar);
         let map = BandMap::new(&e, &BandEdges::new(vec![0.0, 45.0, 60.0]).unwrap());
         assert_eq!(map.pixels(), [7, 6, 3]);
@@ -302,6 +302,9 @@ mod tests {
         for bad in [vec![0.0, f64::NAN], vec![-1.0, 5.0], vec![0.0, 181.0]] {
             assert!(matches!(BandEdges::new(bad), Err(BandEdgesError::OutOfRange { .. })));
         }
-        assert!(matches!(BandEdges::new(vec![0.0, 5.0, 5.0]), Err(BandEdgesError::NotRising { .. })));
+        assert!(matches!(
+            BandEdges::new(vec![0.0, 5.0, 5.0]),
+            Err(BandEdgesError::NotRising { .. })
+        ));
     }
 }

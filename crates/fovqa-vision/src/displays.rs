@@ -74,9 +74,8 @@ impl Display {
     /// Focal length in pixels of the display, along x and y.
     pub fn focal_px(&self) -> [f64; 2] {
         let [w, h] = self.resolution.map(|side| side as f64);
-        let focal = |extent: f64, fov_deg: f64| {
-            extent / 2.0 / libm::tan((fov_deg / 2.0).to_radians())
-        };
+        let focal =
+            |extent: f64, fov_deg: f64| extent / 2.0 / libm::tan((fov_deg / 2.0).to_radians());
         match self.geometry {
             Geometry::Screen { diagonal_in, distance_m } => {
                 const METRES_PER_INCH: f64 = 0.0254;
@@ -89,7 +88,7 @@ impl Display {
         }
     }
 
-    /// Pixels that one degree takes at the centre, as `FovVideoVDP` counts them:
+    /// Pixels that one degree takes at the centre, as FovVideoVDP counts them:
     /// `1 / (2 atan(pixel / 2))`.
     pub fn pixels_per_degree(&self) -> f64 {
         0.5 / libm::atan(0.5 / self.focal_px()[0]).to_degrees()

@@ -137,46 +137,47 @@ impl Eccentricity {
         let out = &mut out[..xs.len()];
         let [fx, fy] = self.view.focal_px;
         let dy_px = y as f64 + 0.5 - self.gaze_px[1];
-        // From the gaze in f64, so that nothing cancels in f32.
-        let x_px = xs.start as f64 + 0.5 - self.gaze_px[0];
+        // From the number of the column, so that a pixel has one value whatever row it is cut from.
+        let start = xs.start as f32;
+        let offset_px = (0.5 - self.gaze_px[0]) as f32;
         match self.kind {
             EccentricityKind::Planar => {
                 let f = self.view.mean_focal_px();
-                planar_row((x_px / f) as f32, (1.0 / f) as f32, (dy_px / f) as f32, out);
+                let row = Row { start, offset_px, step: (1.0 / f) as f32, dy: (dy_px / f) as f32 };
+                planar_row(row, out);
             }
             EccentricityKind::Angular => {
                 let [cx, cy] = self.view.principal_px;
-                let gx = ((self.gaze_px[0] - cx) / fx) as f32;
-                let gy = ((self.gaze_px[1] - cy) / fy) as f32;
-                let row = Row {
-                    dx: (x_px / fx) as f32,
-                    step: (1.0 / fx) as f32,
-                    dy: (dy_px / fy) as f32,
-                    gx,
-                    gy,
-                };
-                angular_row(row, out);
+                let gaze =
+                    [((self.gaze_px[0] - cx) / fx) as f32, ((self.gaze_px[1] - cy) / fy) as f32];
+                let row =
+                    Row { start, offset_px, step: (1.0 / fx) as f32, dy: (dy_px / fy) as f32 };
+                angular_row(row, gaze, out);
             }
         }
     }
 }
 
+/// A stretch of a row, relative to the gaze.
 #[derive(Clone, Copy)]
 struct Row {
-    dx: f32,
+    /// First column.
+    start: f32,
+    /// From a column to its pixel centre, from the gaze.
+    offset_px: f32,
+    /// Tangent of one pixel.
     step: f32,
+    /// Tangent from the gaze down to the row.
     dy: f32,
-    gx: f32,
-    gy: f32,
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
-fn angular_row(row: Row, out: &mut [f32]) {
-    let Row { dx, step, dy, gx, gy } = row;
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn angular_row(row: Row, [gx, gy]: [f32; 2], out: &mut [f32]) {
+    let Row { start, offset_px, step, dy } = row;
     let g2 = 1.0 + gx * gx + gy * gy;
     let ry = dy + gy;
     for (i, out) in out.iter_mut().enumerate() {
-        let dx = dx + i as f32 * step;
+        let dx = ((start + i as f32) + offset_px) * step;
         let rx = dx + gx;
         let z = dx * gy - dy * gx;
         let cross = (dx * dx + dy * dy + z * z).sqrt();
@@ -187,10 +188,11 @@ fn angular_row(row: Row, out: &mut [f32]) {
     }
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
-fn planar_row(dx: f32, step: f32, dy: f32, out: &mut [f32]) {
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn planar_row(row: Row, out: &mut [f32]) {
+    let Row { start, offset_px, step, dy } = row;
     for (i, out) in out.iter_mut().enumerate() {
-        let dx = dx + i as f32 * step;
+        let dx = ((start + i as f32) + offset_px) * step;
         *out = atan_deg((dx * dx + dy * dy).sqrt(), 1.0);
     }
 }
@@ -238,11 +240,8 @@ mod tests {
             ]
         };
         let (a, b) = (ray(x, y), ray(gaze[0], gaze[1]));
-        let cross = [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ];
+        let cross =
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
         let norm = cross.iter().map(|c| c * c).sum::<f64>().sqrt();
         norm.atan2(a.iter().zip(b).map(|(a, b)| a * b).sum()).to_degrees()
     }

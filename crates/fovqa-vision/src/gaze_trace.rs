@@ -245,16 +245,25 @@ mod tests {
     fn a_blink_holds_the_gaze_before_it() {
         let t = trace("frame,x_px,y_px\n0,1,1\n1,nan,NaN\n2,,\n3,4,4\n").unwrap();
         let at = t.at_frames(&[0, 1, 2, 3], 0, None, false).unwrap();
-        assert_eq!(at.iter().map(|g| (g.px[0], g.held)).collect::<Vec<_>>(), [(1.0, false), (1.0, true), (1.0, true), (4.0, false)]);
+        assert_eq!(
+            at.iter().map(|g| (g.px[0], g.held)).collect::<Vec<_>>(),
+            [(1.0, false), (1.0, true), (1.0, true), (4.0, false)]
+        );
         assert_eq!(t.at_frames(&[2], 0, None, false).unwrap()[0].px, [1.0, 1.0]);
         let blind = trace("frame,x_px,y_px\n0,nan,1\n").unwrap();
-        assert!(matches!(blind.at_frames(&[0], 0, None, true), Err(GazeTraceError::StartsWithBlink { frame: 0 })));
+        assert!(matches!(
+            blind.at_frames(&[0], 0, None, true),
+            Err(GazeTraceError::StartsWithBlink { frame: 0 })
+        ));
     }
 
     #[test]
     fn too_short_is_an_error_unless_held() {
         let t = trace("frame,x_px,y_px\n0,1,1\n1,2,2\n").unwrap();
-        assert!(matches!(t.at_frames(&[0, 1, 2], 0, None, false), Err(GazeTraceError::Missing { frame: 2, .. })));
+        assert!(matches!(
+            t.at_frames(&[0, 1, 2], 0, None, false),
+            Err(GazeTraceError::Missing { frame: 2, .. })
+        ));
         let at = t.at_frames(&[0, 1, 2], 0, None, true).unwrap();
         assert_eq!(at[2], GazeAt { px: [2.0, 2.0], held: true });
     }
@@ -263,10 +272,19 @@ mod tests {
     fn says_what_is_wrong_and_where() {
         assert!(matches!(trace("x,y\n1,2\n"), Err(GazeTraceError::Column { .. })));
         assert!(matches!(trace("frame,x_px,y_px\n"), Err(GazeTraceError::Empty)));
-        assert!(matches!(trace("frame,x_px,y_px\n0,a,2\n"), Err(GazeTraceError::Number { line: 2, column: "x_px", .. })));
+        assert!(matches!(
+            trace("frame,x_px,y_px\n0,a,2\n"),
+            Err(GazeTraceError::Number { line: 2, column: "x_px", .. })
+        ));
         assert!(matches!(trace("frame,x_px,y_px\n0,inf,2\n"), Err(GazeTraceError::Number { .. })));
-        assert!(matches!(trace("frame,x_px,y_px\n0.5,1,2\n"), Err(GazeTraceError::Number { column: "frame", .. })));
-        assert!(matches!(trace("frame,x_px,y_px\n1,1,2\n1,1,2\n"), Err(GazeTraceError::Order { line: 3, .. })));
+        assert!(matches!(
+            trace("frame,x_px,y_px\n0.5,1,2\n"),
+            Err(GazeTraceError::Number { column: "frame", .. })
+        ));
+        assert!(matches!(
+            trace("frame,x_px,y_px\n1,1,2\n1,1,2\n"),
+            Err(GazeTraceError::Order { line: 3, .. })
+        ));
         assert!(trace("frame,x_px,y_px\n0,1\n").is_err());
     }
 }

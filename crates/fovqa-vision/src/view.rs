@@ -52,7 +52,7 @@ pub enum ViewSpec {
         diagonal_deg: f64,
     },
     /// Tangents of the half angles of an asymmetric frustum. All four positive away from the
-    /// axis, or signed as in `OpenXR` (left and down negative).
+    /// axis, or signed as in OpenXR (left and down negative).
     Frustum {
         /// Left of the axis.
         left: f64,
@@ -144,12 +144,8 @@ impl ViewSpec {
     /// When an angle is not inside (0°, 180°), a length not positive, or a frustum closed.
     pub fn resolve(&self, width: usize, height: usize) -> Result<Resolved, ViewError> {
         let (w, h) = (width as f64, height as f64);
-        let centred = |focal_px: [f64; 2]| View {
-            width,
-            height,
-            focal_px,
-            principal_px: [w / 2.0, h / 2.0],
-        };
+        let centred =
+            |focal_px: [f64; 2]| View { width, height, focal_px, principal_px: [w / 2.0, h / 2.0] };
         let mut stretched_from = None;
         let view = match *self {
             ViewSpec::Fov { horizontal_deg, vertical_deg } => {
@@ -210,11 +206,8 @@ fn length(value: f64, which: &'static str) -> Result<f64, ViewError> {
 }
 
 fn frustum_sides(left: f64, right: f64, up: f64, down: f64) -> Result<[f64; 4], ViewError> {
-    let sides = if left < 0.0 && down < 0.0 {
-        [-left, right, up, -down]
-    } else {
-        [left, right, up, down]
-    };
+    let sides =
+        if left < 0.0 && down < 0.0 { [-left, right, up, -down] } else { [left, right, up, down] };
     if sides.iter().all(|side| *side > 0.0 && side.is_finite()) {
         Ok(sides)
     } else {
@@ -242,7 +235,10 @@ mod tests {
         let openxr = ViewSpec::Frustum { left: -0.9 * t, right: 0.9 * t, up: t, down: -t };
         for spec in [symmetric, openxr] {
             let same = spec.resolve(1440, 1600).unwrap().view;
-            assert!(near(same.focal_px[0], view.focal_px[0]) && near(same.focal_px[1], view.focal_px[1]));
+            assert!(
+                near(same.focal_px[0], view.focal_px[0])
+                    && near(same.focal_px[1], view.focal_px[1])
+            );
             assert!(near(same.principal_px[0], 720.0) && near(same.principal_px[1], 800.0));
         }
         let diagonal = ViewSpec::FovDiagonal { diagonal_deg: 110.0 }.resolve(1440, 1600).unwrap();

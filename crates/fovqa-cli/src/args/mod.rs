@@ -12,9 +12,17 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 /// Scores foveated renders against ground truth, by eccentricity.
 #[derive(Debug, Parser)]
-#[command(name = "fovqa", version, max_term_width = 100, subcommand_required = true, arg_required_else_help = true)]
-#[command(after_help = "Exit codes: 0 done; 2 the command line is wrong; 3 an input is missing, unreadable or does not\n\
-fit, or the output cannot be written; 70 a bug in fovqa; 130 interrupted.")]
+#[command(
+    name = "fovqa",
+    version,
+    max_term_width = 100,
+    subcommand_required = true,
+    arg_required_else_help = true
+)]
+#[command(
+    after_help = "Exit codes: 0 done; 2 the command line is wrong; 3 an input is missing, unreadable or does not\n\
+fit, or the output cannot be written; 70 a bug in fovqa; 130 interrupted."
+)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -30,7 +30,7 @@ pub(crate) enum ToneMapArg {
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(crate) enum TransferArg {
-    /// sRGB for PNG and JPEG, linear for `OpenEXR`.
+    /// sRGB for PNG and JPEG, linear for OpenEXR.
     Auto,
     /// sRGB-encoded.
     Srgb,
@@ -76,7 +76,7 @@ pub(crate) struct SignalArgs {
     /// How values in the files are encoded
     #[arg(long, value_name = "NAME", default_value = "auto")]
     transfer: TransferArg,
-    /// Colour layer of `OpenEXR` files that have several; "root" for R, G, B without a prefix
+    /// Colour layer of OpenEXR files that have several; "root" for R, G, B without a prefix
     #[arg(long, value_name = "NAME")]
     layer: Option<String>,
     /// What to do about NaN and infinity

@@ -7,7 +7,8 @@ use fovqa_metrics::ParamValue;
 
 /// `N` numbers with commas between them.
 pub(crate) fn numbers<const N: usize>(text: &str, form: &str) -> Result<[f64; N], String> {
-    let parsed: Result<Vec<f64>, _> = text.split(',').map(|part| f64::from_str(part.trim())).collect();
+    let parsed: Result<Vec<f64>, _> =
+        text.split(',').map(|part| f64::from_str(part.trim())).collect();
     let numbers: Option<[f64; N]> = parsed.ok().and_then(|list| list.try_into().ok());
     numbers
         .filter(|numbers| numbers.iter().all(|n| n.is_finite()))
@@ -44,7 +45,8 @@ pub(crate) fn literal(text: &str) -> Result<ParamValue, String> {
         _ => None,
     };
     let parsed = format!("value = {text}").parse::<toml::Table>().ok();
-    let value = parsed.and_then(|mut table| if table.len() == 1 { table.remove("value") } else { None });
+    let value =
+        parsed.and_then(|mut table| if table.len() == 1 { table.remove("value") } else { None });
     match value {
         None => Ok(ParamValue::Text(text.to_owned())),
         Some(toml::Value::String(text)) => Ok(ParamValue::Text(text)),

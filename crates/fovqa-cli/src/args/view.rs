@@ -76,7 +76,8 @@ fn gaze(text: &str) -> Result<GazeArg, String> {
 
 fn bands(text: &str) -> Result<BandEdges, String> {
     let edges: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    let edges = edges.map_err(|_| "write degrees with commas between them: 0,5,10,20".to_owned())?;
+    let edges =
+        edges.map_err(|_| "write degrees with commas between them: 0,5,10,20".to_owned())?;
     BandEdges::new(edges).map_err(|error| error.to_string())
 }
 
@@ -94,9 +95,8 @@ impl ViewArgs {
             ViewSpec::Fov { horizontal_deg: self.fov_horizontal, vertical_deg: self.fov_vertical },
         );
         let diagonal = self.fov_diagonal.map(|diagonal_deg| ViewSpec::FovDiagonal { diagonal_deg });
-        let frustum = self
-            .frustum
-            .map(|[left, right, up, down]| ViewSpec::Frustum { left, right, up, down });
+        let frustum =
+            self.frustum.map(|[left, right, up, down]| ViewSpec::Frustum { left, right, up, down });
         let pitch = self
             .distance_m
             .zip(self.pixel_pitch_mm)

@@ -13,11 +13,7 @@ pub fn encode(linear: f64) -> f64 {
 
 /// An encoded value in `[0, 1]` to linear light in `[0, 1]`.
 pub fn decode(encoded: f64) -> f64 {
-    if encoded <= 0.040_45 {
-        encoded / 12.92
-    } else {
-        libm::pow((encoded + 0.055) / 1.055, 2.4)
-    }
+    if encoded <= 0.040_45 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }
 
 /// Segments of one octave. The error of a chord, (2^-10)² / 8 of the curvature, is 3e-8 relative:

@@ -1,4 +1,4 @@
-//! `OpenEXR`: one colour layer of one part, brought to the display window and to Rec.709.
+//! OpenEXR: one colour layer of one part, brought to the display window and to Rec.709.
 
 mod layers;
 mod pixels;

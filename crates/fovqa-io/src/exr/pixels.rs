@@ -121,7 +121,8 @@ impl Planes {
 
     /// Writes samples in native byte order from position `at` on.
     fn put(&mut self, at: usize, kind: SampleType, bytes: &[u8]) {
-        let halves = || bytes.as_chunks::<2>().0.iter().map(|b| f16::from_bits(u16::from_ne_bytes(*b)));
+        let halves =
+            || bytes.as_chunks::<2>().0.iter().map(|b| f16::from_bits(u16::from_ne_bytes(*b)));
         let words = || bytes.as_chunks::<4>().0.iter().map(|b| u32::from_ne_bytes(*b));
         match (self, kind) {
             (Planes::Half(out, _), _) => {
@@ -173,11 +174,8 @@ pub(crate) fn read(
     let mut planes = Planes::new(half, channels.len(), size);
     let mut samples_read = vec![0usize; channels.len()];
     loop {
-        let batch: Vec<Chunk> = chunks
-            .by_ref()
-            .take(CHUNKS_AT_ONCE)
-            .collect::<Result<_, _>>()
-            .map_err(damaged)?;
+        let batch: Vec<Chunk> =
+            chunks.by_ref().take(CHUNKS_AT_ONCE).collect::<Result<_, _>>().map_err(damaged)?;
         if batch.is_empty() {
             break;
         }

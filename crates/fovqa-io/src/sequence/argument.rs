@@ -83,7 +83,9 @@ impl ListingError {
         match self {
             Self::NotFound(_) => "check the path; a relative one starts at the working directory",
             Self::Io { .. } => "check that it may be read",
-            Self::Empty { .. } => "give a folder with .png, .jpg or .exr files, or a pattern that matches some",
+            Self::Empty { .. } => {
+                "give a folder with .png, .jpg or .exr files, or a pattern that matches some"
+            }
             Self::SameStem(..) => "give a pattern with the ending, such as 'renders/*.exr'",
             Self::Pattern { .. } => "use *, ? and [a-z], or one printf field such as %04d",
         }
@@ -101,7 +103,8 @@ pub fn list(argument: &Path) -> Result<Listing, ListingError> {
     let (paths, others): (Vec<PathBuf>, usize) = if is_file {
         (vec![argument.to_owned()], 0)
     } else if argument.is_dir() {
-        let (images, others) = folder(argument)?.into_iter().partition::<Vec<_>, _>(|p| is_image(p));
+        let (images, others) =
+            folder(argument)?.into_iter().partition::<Vec<_>, _>(|p| is_image(p));
         (images, others.len())
     } else if let Some(pattern) = Printf::parse(argument) {
         return printf(argument, &pattern?);
@@ -109,10 +112,9 @@ pub fn list(argument: &Path) -> Result<Listing, ListingError> {
         let found = glob::glob(&text).map_err(|e| pattern_error(argument, &e.to_string()))?;
         let mut paths = Vec::new();
         for path in found {
-            paths.push(path.map_err(|e| ListingError::Io {
-                path: e.path().to_owned(),
-                error: e.into(),
-            })?);
+            paths.push(
+                path.map_err(|e| ListingError::Io { path: e.path().to_owned(), error: e.into() })?,
+            );
         }
         paths.retain(|p| p.is_file());
         let (images, others) = paths.into_iter().partition::<Vec<_>, _>(|p| is_image(p));
@@ -138,9 +140,7 @@ fn listing(
     if files.is_empty() {
         return Err(ListingError::Empty { path, other_files });
     }
-    files.sort_by(|a, b| {
-        natural_cmp(&a.path.to_string_lossy(), &b.path.to_string_lossy())
-    });
+    files.sort_by(|a, b| natural_cmp(&a.path.to_string_lossy(), &b.path.to_string_lossy()));
     let mut stems: BTreeMap<&str, &Path> = BTreeMap::new();
     for file in &files {
         if let Some(other) = stems.insert(&file.stem, &file.path) {
@@ -155,8 +155,7 @@ fn pattern_error(path: &Path, detail: &str) -> ListingError {
 }
 
 fn is_image(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|e| ENDINGS.iter().any(|ending| e.eq_ignore_ascii_case(ending)))
+    path.extension().is_some_and(|e| ENDINGS.iter().any(|ending| e.eq_ignore_ascii_case(ending)))
 }
 
 fn folder(path: &Path) -> Result<Vec<PathBuf>, ListingError> {

@@ -14,7 +14,9 @@ pub struct FrameRange {
 
 /// Text that is not a range of frames.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0:?} is not a range of frames: write A..B or A..B:STEP, A and B may be left out, STEP is at least 1")]
+#[error(
+    "{0:?} is not a range of frames: write A..B or A..B:STEP, A and B may be left out, STEP is at least 1"
+)]
 pub struct FrameRangeError(String);
 
 impl FrameRange {

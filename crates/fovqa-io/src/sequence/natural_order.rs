@@ -35,9 +35,9 @@ fn leading_digits(text: &str) -> usize {
 /// The value of the last run of digits in a name.
 pub(crate) fn last_number(name: &str) -> Option<u64> {
     let end = name.rfind(|c: char| c.is_ascii_digit())? + 1;
-    let start = name[..end].rfind(|c: char| !c.is_ascii_digit()).map_or(0, |i| {
-        i + name[i..].chars().next().map_or(1, char::len_utf8)
-    });
+    let start = name[..end]
+        .rfind(|c: char| !c.is_ascii_digit())
+        .map_or(0, |i| i + name[i..].chars().next().map_or(1, char::len_utf8));
     name[start..end].parse().ok()
 }
 
@@ -50,7 +50,10 @@ mod tests {
         let mut names = vec!["f10", "f9", "f009", "g1", "f10b2", "f10b10", "f"];
         names.sort_by(|a, b| natural_cmp(a, b));
         assert_eq!(names, ["f", "f009", "f9", "f10", "f10b2", "f10b10", "g1"]);
-        assert_eq!(natural_cmp("99999999999999999999998", "99999999999999999999999"), Ordering::Less);
+        assert_eq!(
+            natural_cmp("99999999999999999999998", "99999999999999999999999"),
+            Ordering::Less
+        );
     }
 
     #[test]

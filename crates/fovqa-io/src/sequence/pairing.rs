@@ -44,8 +44,12 @@ impl PairingError {
     /// How to mend it.
     pub fn help(&self) -> &'static str {
         match self {
-            Self::Unpaired { .. } => "render the missing frames, or pass --allow-missing to score the others",
-            Self::Nothing { .. } => "frames pair by the name without its ending, then by the last number in it",
+            Self::Unpaired { .. } => {
+                "render the missing frames, or pass --allow-missing to score the others"
+            }
+            Self::Nothing { .. } => {
+                "frames pair by the name without its ending, then by the last number in it"
+            }
         }
     }
 }
@@ -184,7 +188,8 @@ mod tests {
 
     #[test]
     fn lists_what_is_alone() {
-        let (reference, test) = (listing(&["1.png", "2.png", "4.png"]), listing(&["2.png", "3.png"]));
+        let (reference, test) =
+            (listing(&["1.png", "2.png", "4.png"]), listing(&["2.png", "3.png"]));
         let Err(PairingError::Unpaired { reference: r, test: t }) = pair(&reference, &test, false)
         else {
             panic!("unpaired frames must be said")

@@ -126,10 +126,18 @@ pub struct WeightField {
 /// f² of eccentricity.
 #[derive(Debug, Clone)]
 struct Curve {
-    /// 1/f_c, which is (nearly) piecewise linear in every model, at steps of eccentricity.
-    degrees_per_cycle: Vec<f32>,
+    degrees_per_cycle: DegreesPerCycle,
     /// f_d², the largest weight.
     limit: f32,
+}
+
+/// 1/f_c of eccentricity.
+#[derive(Debug, Clone)]
+enum DegreesPerCycle {
+    /// At 0°, and its slope.
+    Line(f32, f32),
+    /// At steps of eccentricity.
+    Table(Vec<f32>),
 }
 
 const STEPS_PER_DEGREE: f32 = 32.0;
@@ -138,28 +146,42 @@ const LAST_DEGREE: usize = 180;
 impl Curve {
     fn new(params: &Params, nyquist_cpd: f64) -> Self {
         let at = params.degrees_per_cycle();
-        // One step beyond the last degree, for the chord that ends there.
-        let steps = LAST_DEGREE * STEPS_PER_DEGREE as usize + 1;
-        Self {
-            degrees_per_cycle: (0..=steps)
-                .map(|i| at(i as f64 / f64::from(STEPS_PER_DEGREE)) as f32)
-                .collect(),
-            limit: (nyquist_cpd * nyquist_cpd) as f32,
+        let piecewise = params.weight == Weight::Acuity && params.acuity == AcuityModel::Piecewise;
+        let degrees_per_cycle = if piecewise {
+            // One step beyond the last degree, for the chord that ends there.
+            let steps = LAST_DEGREE * STEPS_PER_DEGREE as usize + 1;
+            let step = |i: usize| at(i as f64 / f64::from(STEPS_PER_DEGREE)) as f32;
+            DegreesPerCycle::Table((0..=steps).map(step).collect())
+        } else {
+            DegreesPerCycle::Line(at(0.0) as f32, (at(1.0) - at(0.0)) as f32)
+        };
+        Self { degrees_per_cycle, limit: (nyquist_cpd * nyquist_cpd) as f32 }
+    }
+
+    /// Replaces eccentricities in degrees by f².
+    fn weigh(&self, row: &mut [f32]) {
+        match &self.degrees_per_cycle {
+            DegreesPerCycle::Line(at_0, slope) => weigh_line(*at_0, *slope, self.limit, row),
+            DegreesPerCycle::Table(table) => weigh_table(table, self.limit, row),
         }
     }
 }
 
-/// Replaces eccentricities in degrees by f².
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
-fn weigh(curve: &Curve, row: &mut [f32]) {
-    let last = LAST_DEGREE * STEPS_PER_DEGREE as usize;
-    let table = &curve.degrees_per_cycle[..last + 2];
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn weigh_line(at_0: f32, slope: f32, limit: f32, row: &mut [f32]) {
+    for value in row {
+        let f = 1.0 / (at_0 + slope * *value);
+        *value = (f * f).min(limit);
+    }
+}
+
+fn weigh_table(table: &[f32], limit: f32, row: &mut [f32]) {
     for value in row {
         let at = *value * STEPS_PER_DEGREE;
-        let index = (at as usize).min(last);
+        let index = (at as usize).min(table.len() - 2);
         let (from, to) = (table[index], table[index + 1]);
         let f = 1.0 / (from + (to - from) * (at - index as f32));
-        *value = (f * f).min(curve.limit);
+        *value = (f * f).min(limit);
     }
 }
 
@@ -186,7 +208,7 @@ impl WeightField {
 
     fn compute(&self, y: usize, xs: Range<usize>, out: &mut [f32]) {
         self.eccentricity.fill_row_deg(y, xs, out);
-        weigh(&self.curve, out);
+        self.curve.weigh(out);
     }
 
     /// Writes f² of the pixels `xs` of row `y`.
@@ -223,8 +245,13 @@ mod tests {
                 cached.fill_row(y, 10..200, &mut other);
                 assert_eq!(row, other);
                 for (x, w) in (10..200).zip(&row) {
-                    let f = (1.0 / cutoff(e.at_deg(x as f64 + 0.5, y as f64 + 0.5))).min(view.nyquist_cpd());
-                    assert!((f64::from(*w) / (f * f) - 1.0).abs() < 3e-5, "({x}, {y}): {w} for {}", f * f);
+                    let f = (1.0 / cutoff(e.at_deg(x as f64 + 0.5, y as f64 + 0.5)))
+                        .min(view.nyquist_cpd());
+                    assert!(
+                        (f64::from(*w) / (f * f) - 1.0).abs() < 3e-5,
+                        "({x}, {y}): {w} for {}",
+                        f * f
+                    );
                 }
             }
         }

@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use fovqa_frame::{BLOCK_ROWS, PairSignal, PairTile};
+use fovqa_frame::{BLOCK_ROWS, PairSignal, PairTile, Part};
 use multiversion::multiversion;
 
 /// Exponents of the scales, finest first (Wang et al. 2003, section 3.2).
@@ -21,7 +21,7 @@ pub(crate) trait PairRows: Sync {
     fn size(&self) -> (usize, usize);
     fn planes(&self) -> usize;
     fn peak(&self) -> f32;
-    fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile);
+    fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize);
 }
 
 impl PairRows for PairSignal<'_> {
@@ -37,8 +37,8 @@ impl PairRows for PairSignal<'_> {
         self.peak()
     }
 
-    fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile) {
-        self.fill(y, xs, tile);
+    fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize) {
+        self.fill(y, xs, tile, row);
     }
 }
 
@@ -57,16 +57,15 @@ impl HalvedRows {
         Self { width, rows, values: vec![0.0; planes * 2 * width * rows] }
     }
 
-    fn row(&self, plane: usize, part: usize, y: usize) -> Range<usize> {
-        let start = ((plane * 2 + part) * self.rows + y) * self.width;
+    fn row(&self, plane: usize, part: Part, y: usize) -> Range<usize> {
+        let start = ((plane * 2 + part as usize) * self.rows + y) * self.width;
         start..start + self.width
     }
 
-    /// Halves two rows, whose first values stand in the even column `x`. `part`: 0 sum, 1
-    /// difference.
+    /// Halves two rows, whose first values stand in the even column `x`.
     pub(crate) fn put(
         &mut self,
-        (plane, part): (usize, usize),
+        (plane, part): (usize, Part),
         y: usize,
         x: usize,
         above: &[f32],
@@ -78,7 +77,7 @@ impl HalvedRows {
     }
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn halve(above: &[f32], below: &[f32], out: &mut [f32]) {
     let (above, below) = (above.as_chunks::<2>().0, below.as_chunks::<2>().0);
     for ((out, a), b) in out.iter_mut().zip(above).zip(below) {
@@ -109,13 +108,13 @@ impl PairRows for Scale {
         self.peak
     }
 
-    fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile) {
-        let block = &self.blocks[y / (BLOCK_ROWS / 2)];
+    fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize) {
+        const HALVED_ROWS: usize = BLOCK_ROWS / 2;
+        let block = &self.blocks[y / HALVED_ROWS];
         for plane in 0..self.planes {
-            let (sum, difference) = tile.plane_mut(plane);
-            for (part, out) in [sum, difference].into_iter().enumerate() {
-                let row = &block.values[block.row(plane, part, y % (BLOCK_ROWS / 2))];
-                out[..xs.len()].copy_from_slice(&row[xs.clone()]);
+            for part in [Part::Sum, Part::Difference] {
+                let values = &block.values[block.row(plane, part, y % HALVED_ROWS)];
+                tile.row_mut(plane, part, row, xs.len()).copy_from_slice(&values[xs.clone()]);
             }
         }
     }

@@ -1,22 +1,24 @@
 //! One pass over the rows of a pair: every sum the metrics need, block by block.
 //!
-//! A block is cut into tiles of columns, so that the rows the window looks at stay in the cache.
-//! Each tile walks down its rows with a ring of the last ones.
+//! A block is cut into tiles of columns. A tile is read whole, with the rows and columns its
+//! windows look at; then each plane walks down its rows, of which the eleven in a window stay in the
+//! first-level cache; and last the rows of the finished map are summed.
 
 use std::ops::Range;
 
-use fovqa_frame::{PairTile, map_row_blocks};
+use fovqa_frame::{BLOCK_ROWS, PairTile, Part, map_row_blocks};
 
 use super::fpsnr::WeightField;
 use super::fssim::WeightedMean;
 use super::ms_ssim::{HalvedRows, PairRows, Scale};
 use super::squared_error::squared_row;
-use super::ssim::rows::{Constants, MapRow, Ring, Scratch, map_row};
+use super::ssim::rows::{Constants, MapRow, Scratch, map_row};
 use super::sums::{add_by_band, sum, weighted};
 use crate::regions::{Regions, clipped};
 
-/// Columns of a tile. Even, for the 2x2 means; the ring of a tile of RGB is 280 kB.
-const TILE_COLUMNS: usize = 512;
+/// Columns of a tile. Even, for the 2x2 means. Eleven rows of sum and difference take 23 kB, the
+/// whole tile in RGB half a megabyte.
+const TILE_COLUMNS: usize = 256;
 
 /// What a pass has to sum.
 #[derive(Debug)]
@@ -129,39 +131,54 @@ struct Block<'a, R> {
     wanted: &'a Wanted<'a>,
     rows: Range<usize>,
     radius: usize,
-    ring: Ring,
     tile: PairTile,
     scratch: Scratch,
-    /// One row each: squared error, weights, a plane's map, its structure, the planes' map.
+    /// One row each: squared error, weights, a plane's map, its contrast-structure.
     squared: Vec<f32>,
     weights: Vec<f32>,
     plane_map: Vec<f32>,
     structure: Vec<f32>,
+    /// The map of all planes together, rows of `TILE_COLUMNS`.
     map: Vec<f32>,
     sums: Sums,
     halved: Option<HalvedRows>,
 }
 
+/// A tile: its own columns, and those read for the windows around them.
+struct Tile {
+    xs: Range<usize>,
+    read: Range<usize>,
+    /// First row read.
+    top: usize,
+    /// Columns and rows of the map.
+    map_xs: Range<usize>,
+    map_ys: Range<usize>,
+}
+
 impl<'a, R: PairRows> Block<'a, R> {
-    fn new(source: &'a R, regions: &'a Regions<'a>, wanted: &'a Wanted<'a>, rows: Range<usize>) -> Self {
+    fn new(
+        source: &'a R,
+        regions: &'a Regions<'a>,
+        wanted: &'a Wanted<'a>,
+        rows: Range<usize>,
+    ) -> Self {
         let (width, _) = source.size();
         let radius = wanted.ssim.as_ref().map_or(0, Constants::radius);
-        let columns = TILE_COLUMNS.min(width);
-        let stride = columns + 2 * radius;
+        let columns = TILE_COLUMNS.min(width) + 2 * radius;
         let row = || vec![0.0; columns];
+        let map_rows = if wanted.ssim.is_some() { BLOCK_ROWS } else { 0 };
         Self {
             source,
             regions,
             wanted,
             radius,
-            ring: Ring::new(source.planes(), radius, stride),
-            tile: PairTile::new(stride),
-            scratch: Scratch::new(stride),
+            tile: PairTile::new(columns, rows.len() + 2 * radius),
+            scratch: Scratch::new(columns),
             squared: row(),
             weights: row(),
             plane_map: row(),
             structure: row(),
-            map: row(),
+            map: vec![0.0; map_rows * TILE_COLUMNS],
             sums: Sums::new(regions.bands()),
             halved: (wanted.scales == Scales::AndNext)
                 .then(|| HalvedRows::new(source.planes(), width, rows.len())),
@@ -169,103 +186,111 @@ impl<'a, R: PairRows> Block<'a, R> {
         }
     }
 
-    /// Walks down the rows of one tile.
     fn tile(&mut self, xs: Range<usize>) {
         let (width, height) = self.source.size();
         let radius = self.radius;
-        let read = xs.start.saturating_sub(radius)..(xs.end + radius).min(width);
-        // Windows fit around these columns and, below, rows.
-        let map_xs = xs.start.max(radius)..xs.end.min(width.saturating_sub(radius));
-        let mut next = self.rows.start.saturating_sub(radius);
-        for y in self.rows.clone() {
-            let last = (y + radius).min(height - 1);
-            while next <= last {
-                self.load(next, read.clone());
-                next += 1;
+        let inside = |range: &Range<usize>, side: usize| {
+            range.start.max(radius)..range.end.min(side.saturating_sub(radius))
+        };
+        let tile = Tile {
+            read: xs.start.saturating_sub(radius)..(xs.end + radius).min(width),
+            top: self.rows.start.saturating_sub(radius),
+            map_xs: inside(&xs, width),
+            map_ys: inside(&self.rows, height),
+            xs,
+        };
+        for y in tile.top..(self.rows.end + radius).min(height) {
+            self.source.fill(y, tile.read.clone(), &mut self.tile, y - tile.top);
+        }
+        if !tile.map_xs.is_empty() {
+            for plane in 0..self.source.planes() {
+                self.map_plane(plane, &tile);
             }
+        }
+        for y in self.rows.clone() {
             if let Some(field) = self.wanted.weight {
-                field.fill_row(y, xs.clone(), &mut self.weights[..xs.len()]);
+                field.fill_row(y, tile.xs.clone(), &mut self.weights[..tile.xs.len()]);
             }
             if self.wanted.squared_error {
-                self.squared_error(y, xs.clone(), xs.start - read.start);
+                self.sum_squared_error(y, &tile);
+            }
+            if tile.map_ys.contains(&y) && !tile.map_xs.is_empty() {
+                self.sum_map(y, &tile);
             }
             if y % 2 == 1 {
-                self.halve(y, xs.clone(), xs.start - read.start);
-            }
-            if (radius..height.saturating_sub(radius)).contains(&y) && !map_xs.is_empty() {
-                self.map(y, xs.start, map_xs.clone());
+                self.halve(y, &tile);
             }
         }
     }
 
-    fn load(&mut self, y: usize, read: Range<usize>) {
-        let length = read.len();
-        self.source.fill(y, read, &mut self.tile);
-        for plane in 0..self.source.planes() {
-            let (sum, difference) = self.tile.plane(plane);
-            let squares = self.wanted.ssim.is_some();
-            self.ring.push(plane, y, &sum[..length], &difference[..length], squares);
-        }
-    }
-
-    fn squared_error(&mut self, y: usize, xs: Range<usize>, offset: usize) {
-        let planes = self.source.planes();
-        let rows: [&[f32]; 3] = std::array::from_fn(|p| {
-            &self.ring.row(p.min(planes - 1), 1, y, offset + xs.len())[offset..]
-        });
-        let squared = &mut self.squared[..xs.len()];
-        squared_row(&rows[..planes], squared);
-        let runs = self.regions.pixel_runs(y);
-        add_by_band(squared, xs.start, runs, &mut self.sums.squared);
-        if self.wanted.weight.is_some() {
-            let weights = &self.weights[..xs.len()];
-            self.sums.weighted_squared.add(weighted(squared, weights, xs.start, runs));
-        }
-    }
-
-    /// Rows `y - 1` and `y`, `y` odd: both are in the ring, since a window has three rows or more.
-    fn halve(&mut self, y: usize, xs: Range<usize>, offset: usize) {
-        let Some(halved) = &mut self.halved else { return };
-        let even = offset..offset + xs.len() / 2 * 2;
-        for plane in 0..self.source.planes() {
-            for part in 0..2 {
-                let above = &self.ring.row(plane, part, y - 1, even.end)[even.clone()];
-                let below = &self.ring.row(plane, part, y, even.end)[even.clone()];
-                halved.put((plane, part), (y - self.rows.start) / 2, xs.start, above, below);
-            }
-        }
-    }
-
-    /// The map's row `y`, columns `xs`, in the tile that starts at column `tile_x`.
-    fn map(&mut self, y: usize, tile_x: usize, xs: Range<usize>) {
+    /// Adds one plane's map to that of all planes.
+    fn map_plane(&mut self, plane: usize, tile: &Tile) {
         let Some(constants) = &self.wanted.ssim else { return };
-        let n = xs.len();
-        let runs = self.regions.window_runs(y);
-        for plane in 0..self.source.planes() {
-            let out = MapRow {
-                ssim: &mut self.plane_map[..n],
-                contrast_structure: &mut self.structure[..n],
-            };
-            map_row(&self.ring, plane, y, constants, &mut self.scratch, out);
+        let n = tile.map_xs.len();
+        for y in tile.map_ys.clone() {
+            let start = (y - self.rows.start) * TILE_COLUMNS;
+            let total = &mut self.map[start..start + n];
+            let structure = &mut self.structure[..n];
+            let ssim = if plane == 0 { &mut *total } else { &mut self.plane_map[..n] };
+            let mut out = MapRow { ssim: &mut *ssim, contrast_structure: &mut *structure };
+            map_row(&self.tile, plane, y - tile.top, constants, &mut self.scratch, &mut out);
             if self.wanted.scales != Scales::None {
-                self.sums.channel_ssim[plane] += sum(&self.plane_map[..n]);
-                self.sums.channel_structure[plane] += sum(&self.structure[..n]);
+                self.sums.channel_ssim[plane] += sum(ssim);
+                self.sums.channel_structure[plane] += sum(structure);
             }
-            if plane == 0 {
-                self.map[..n].copy_from_slice(&self.plane_map[..n]);
-            } else {
-                for (total, value) in self.map[..n].iter_mut().zip(&self.plane_map[..n]) {
+            if plane > 0 {
+                for (total, value) in total.iter_mut().zip(&self.plane_map[..n]) {
                     *total += value;
                 }
             }
         }
+    }
+
+    fn sum_squared_error(&mut self, y: usize, tile: &Tile) {
+        let planes = self.source.planes();
+        let offset = tile.xs.start - tile.read.start;
+        let n = tile.xs.len();
+        let rows: [&[f32]; 3] = std::array::from_fn(|p| {
+            let plane = p.min(planes - 1);
+            &self.tile.row(plane, Part::Difference, y - tile.top, offset + n)[offset..]
+        });
+        let squared = &mut self.squared[..n];
+        squared_row(&rows[..planes], squared);
+        let runs = self.regions.pixel_runs(y);
+        add_by_band(squared, tile.xs.start, runs, &mut self.sums.squared);
+        if self.wanted.weight.is_some() {
+            let weights = &self.weights[..n];
+            self.sums.weighted_squared.add(weighted(squared, weights, tile.xs.start, runs));
+        }
+    }
+
+    fn sum_map(&mut self, y: usize, tile: &Tile) {
+        let xs = tile.map_xs.clone();
+        let start = (y - self.rows.start) * TILE_COLUMNS;
+        let map = &self.map[start..start + xs.len()];
+        let runs = self.regions.window_runs(y);
         for (from, to, band) in clipped(runs, xs.clone()) {
             self.sums.windows[usize::from(band)] += (to - from) as u64;
         }
-        add_by_band(&self.map[..n], xs.start, runs, &mut self.sums.ssim);
+        add_by_band(map, xs.start, runs, &mut self.sums.ssim);
         if self.wanted.weight.is_some() {
-            let weights = &self.weights[xs.start - tile_x..xs.end - tile_x];
-            self.sums.weighted_ssim.add(weighted(&self.map[..n], weights, xs.start, runs));
+            let weights = &self.weights[xs.start - tile.xs.start..xs.end - tile.xs.start];
+            self.sums.weighted_ssim.add(weighted(map, weights, xs.start, runs));
+        }
+    }
+
+    /// Halves rows `y - 1` and `y` for the next scale; `y` is odd, so both are of this block.
+    fn halve(&mut self, y: usize, tile: &Tile) {
+        let Some(halved) = &mut self.halved else { return };
+        let offset = tile.xs.start - tile.read.start;
+        let even = offset..offset + tile.xs.len() / 2 * 2;
+        for plane in 0..self.source.planes() {
+            for part in [Part::Sum, Part::Difference] {
+                let row =
+                    |y: usize| &self.tile.row(plane, part, y - tile.top, even.end)[even.clone()];
+                let below = (y - self.rows.start) / 2;
+                halved.put((plane, part), below, tile.xs.start, row(y - 1), row(y));
+            }
         }
     }
 }

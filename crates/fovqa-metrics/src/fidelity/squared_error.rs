@@ -20,14 +20,14 @@ pub(crate) fn squared_row(differences: &[&[f32]], out: &mut [f32]) {
     }
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn three(r: &[f32], g: &[f32], b: &[f32], out: &mut [f32]) {
     for (((out, r), g), b) in out.iter_mut().zip(r).zip(g).zip(b) {
         *out = r * r + g * g + b * b;
     }
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn one(gray: &[f32], out: &mut [f32]) {
     for (out, v) in out.iter_mut().zip(gray) {
         *out = v * v;

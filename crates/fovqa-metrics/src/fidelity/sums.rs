@@ -9,7 +9,7 @@ use fovqa_vision::Run;
 const LANES: usize = 16;
 
 /// The sum of a row. Lane by lane, so that any vector width adds in the same order.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 pub(crate) fn sum(values: &[f32]) -> f64 {
     let mut lanes = [0.0f64; LANES];
     let (chunks, rest) = values.as_chunks::<LANES>();
@@ -32,7 +32,7 @@ pub(crate) fn sum(values: &[f32]) -> f64 {
 }
 
 /// The sum of the products of two rows.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 pub(crate) fn sum_of_products(a: &[f32], b: &[f32]) -> f64 {
     let mut lanes = [0.0f64; LANES];
     let (chunks_a, rest_a) = a.as_chunks::<LANES>();

@@ -12,7 +12,9 @@ pub struct PiecewiseMar {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum PiecewiseMarError {
     /// Fewer than two knots, or not one frequency an eccentricity.
-    #[error("{eccentricities} eccentricities and {frequencies} frequencies are not two or more knots")]
+    #[error(
+        "{eccentricities} eccentricities and {frequencies} frequencies are not two or more knots"
+    )]
     Count {
         /// Eccentricities given.
         eccentricities: usize,
@@ -86,7 +88,10 @@ mod tests {
 
     #[test]
     fn refuses_knots_out_of_order() {
-        assert_eq!(PiecewiseMar::new(&[0.0, 5.0, 5.0], &[3.0, 2.0, 1.0]), Err(PiecewiseMarError::Order));
+        assert_eq!(
+            PiecewiseMar::new(&[0.0, 5.0, 5.0], &[3.0, 2.0, 1.0]),
+            Err(PiecewiseMarError::Order)
+        );
         assert_eq!(PiecewiseMar::new(&[1.0, 5.0], &[3.0, 2.0]), Err(PiecewiseMarError::Order));
         assert!(PiecewiseMar::new(&[0.0], &[3.0]).is_err());
         assert!(PiecewiseMar::new(&[0.0, 5.0], &[3.0, 0.0]).is_err());

@@ -1,56 +1,13 @@
 //! One row of the SSIM map from the rows around it.
 
+use fovqa_frame::{PairTile, Part};
 use multiversion::multiversion;
 
-/// Moments that are windowed: u, v, u², v².
-pub(crate) const MOMENTS: usize = 4;
+/// Moments that are windowed: u, u², v, v².
+const MOMENTS: usize = 4;
 
 /// Radius of the standard window, for which the taps are unrolled.
 const STANDARD_RADIUS: usize = 5;
-
-/// The last rows of the moments, for each plane: `2 radius + 1` of them, a ring.
-#[derive(Debug)]
-pub(crate) struct Ring {
-    values: Vec<f32>,
-    stride: usize,
-    slots: usize,
-}
-
-impl Ring {
-    pub(crate) fn new(planes: usize, radius: usize, stride: usize) -> Self {
-        let slots = 2 * radius + 1;
-        Self { values: vec![0.0; planes * MOMENTS * slots * stride], stride, slots }
-    }
-
-    fn start(&self, plane: usize, moment: usize, y: usize) -> usize {
-        ((plane * MOMENTS + moment) * self.slots + y % self.slots) * self.stride
-    }
-
-    /// Row `y` of a moment, which must be among the last ones pushed.
-    pub(crate) fn row(&self, plane: usize, moment: usize, y: usize, length: usize) -> &[f32] {
-        let start = self.start(plane, moment, y);
-        &self.values[start..start + length]
-    }
-
-    /// Takes in row `y`: sum and difference of one plane; with `squares`, their squares too.
-    pub(crate) fn push(&mut self, plane: usize, y: usize, u: &[f32], v: &[f32], squares: bool) {
-        for (moment, row) in [u, v].into_iter().enumerate() {
-            let start = self.start(plane, moment, y);
-            self.values[start..start + row.len()].copy_from_slice(row);
-            if squares {
-                let start = self.start(plane, moment + 2, y);
-                square(row, &mut self.values[start..start + row.len()]);
-            }
-        }
-    }
-}
-
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
-fn square(row: &[f32], out: &mut [f32]) {
-    for (out, v) in out.iter_mut().zip(row) {
-        *out = v * v;
-    }
-}
 
 /// C1, C2 and the window for a signal of a given peak.
 #[derive(Debug, Clone)]
@@ -78,13 +35,14 @@ impl Constants {
 /// Room for the steps of one row.
 #[derive(Debug)]
 pub(crate) struct Scratch {
-    columns: Vec<f32>,
+    columns: [Vec<f32>; MOMENTS],
     moments: [Vec<f32>; MOMENTS],
 }
 
 impl Scratch {
-    pub(crate) fn new(stride: usize) -> Self {
-        Self { columns: vec![0.0; stride], moments: std::array::from_fn(|_| vec![0.0; stride]) }
+    pub(crate) fn new(columns: usize) -> Self {
+        let rows = || std::array::from_fn(|_| vec![0.0; columns]);
+        Self { columns: rows(), moments: rows() }
     }
 }
 
@@ -95,73 +53,103 @@ pub(crate) struct MapRow<'a> {
     pub(crate) contrast_structure: &'a mut [f32],
 }
 
-/// Computes the row of the map around row `y` of the ring for one plane. The ring's rows are
-/// `2 radius` longer than the map's.
+/// Computes the row of the map around row `row` of a tile for one plane. The tile's rows are
+/// `2 radius` longer than the map's, and it has `radius` more above and below.
 pub(crate) fn map_row(
-    ring: &Ring,
+    tile: &PairTile,
     plane: usize,
-    y: usize,
+    row: usize,
     constants: &Constants,
     scratch: &mut Scratch,
-    out: MapRow<'_>,
+    out: &mut MapRow<'_>,
 ) {
-    let length = out.ssim.len() + 2 * constants.radius();
-    for moment in 0..MOMENTS {
-        let columns = &mut scratch.columns[..length];
-        let windowed = &mut scratch.moments[moment][..out.ssim.len()];
+    let n = out.ssim.len();
+    let length = n + 2 * constants.radius();
+    let Scratch { columns, moments } = scratch;
+    let (sums, differences) = columns.split_at_mut(2);
+    for (part, columns) in [(Part::Sum, sums), (Part::Difference, differences)] {
+        let [values, squares] = columns else { unreachable!("two moments a part") };
+        let (values, squares) = (&mut values[..length], &mut squares[..length]);
+        let at = |row: usize| tile.row(plane, part, row, length);
         if let &[c0, c1, c2, c3, c4, c5] = constants.taps.as_slice() {
-            let rows = std::array::from_fn(|k| {
-                ring.row(plane, moment, y + k - STANDARD_RADIUS, length)
-            });
-            let taps = [c0, c1, c2, c3, c4, c5];
-            vertical_standard(rows, taps, columns);
-            horizontal_standard(columns, taps, windowed);
+            let rows = std::array::from_fn(|k| at(row + k - STANDARD_RADIUS));
+            vertical_standard(rows, [c0, c1, c2, c3, c4, c5], values, squares);
         } else {
-            vertical(ring, plane, moment, y, &constants.taps, columns);
-            horizontal(columns, &constants.taps, windowed);
+            vertical(at, row, &constants.taps, values, squares);
         }
     }
-    let moments = scratch.moments.each_ref().map(|m| &m[..out.ssim.len()]);
-    quotients(moments, constants.c1, constants.c2, constants.peak, out.ssim, out.contrast_structure);
+    for (columns, moment) in columns.iter().zip(moments.iter_mut()) {
+        let (columns, moment) = (&columns[..length], &mut moment[..n]);
+        if let &[c0, c1, c2, c3, c4, c5] = constants.taps.as_slice() {
+            horizontal_standard(columns, [c0, c1, c2, c3, c4, c5], moment);
+        } else {
+            horizontal(columns, &constants.taps, moment);
+        }
+    }
+    let moments = moments.each_ref().map(|m| &m[..n]);
+    quotients(
+        moments,
+        constants.c1,
+        constants.c2,
+        constants.peak,
+        out.ssim,
+        out.contrast_structure,
+    );
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
-fn vertical_standard(rows: [&[f32]; 11], taps: [f32; 6], out: &mut [f32]) {
-    let n = out.len();
-    let rows = rows.map(|row| &row[..n]);
-    for (x, out) in out.iter_mut().enumerate() {
-        let mut sum = taps[0] * rows[5][x];
-        for k in 1..6 {
-            sum += taps[k] * (rows[5 - k][x] + rows[5 + k][x]);
+/// The window down the columns: of the values, and of their squares, which cost less to compute
+/// again than to keep.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn vertical_standard(rows: [&[f32]; 11], taps: [f32; 6], values: &mut [f32], squares: &mut [f32]) {
+    let n = values.len();
+    let squares = &mut squares[..n];
+    let [r0, r1, r2, r3, r4, r5, r6, r7, r8, r9, r10] = rows;
+    let (r0, r1, r2, r3, r4, r5) = (&r0[..n], &r1[..n], &r2[..n], &r3[..n], &r4[..n], &r5[..n]);
+    let (r6, r7, r8, r9, r10) = (&r6[..n], &r7[..n], &r8[..n], &r9[..n], &r10[..n]);
+    for x in 0..n {
+        let (mut sum, mut square) = (taps[0] * r5[x], taps[0] * (r5[x] * r5[x]));
+        let pairs =
+            [(r4[x], r6[x]), (r3[x], r7[x]), (r2[x], r8[x]), (r1[x], r9[x]), (r0[x], r10[x])];
+        for (k, (above, below)) in pairs.into_iter().enumerate() {
+            sum += taps[k + 1] * (above + below);
+            square += taps[k + 1] * (above * above + below * below);
         }
-        *out = sum;
+        values[x] = sum;
+        squares[x] = square;
     }
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
+/// The window along a row.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn horizontal_standard(row: &[f32], taps: [f32; 6], out: &mut [f32]) {
     let n = out.len();
-    let shifted: [&[f32]; 11] = std::array::from_fn(|k| &row[k..k + n]);
-    for (x, out) in out.iter_mut().enumerate() {
-        let mut sum = taps[0] * shifted[5][x];
+    let row = &row[..n + 10];
+    for x in 0..n {
+        let mut sum = taps[0] * row[x + 5];
         for k in 1..6 {
-            sum += taps[k] * (shifted[5 - k][x] + shifted[5 + k][x]);
+            sum += taps[k] * (row[x + 5 - k] + row[x + 5 + k]);
         }
-        *out = sum;
+        out[x] = sum;
     }
 }
 
 /// [`vertical_standard`] for any radius.
-fn vertical(ring: &Ring, plane: usize, moment: usize, y: usize, taps: &[f32], out: &mut [f32]) {
-    let n = out.len();
-    for (out, v) in out.iter_mut().zip(ring.row(plane, moment, y, n)) {
-        *out = taps[0] * v;
+fn vertical<'a>(
+    at: impl Fn(usize) -> &'a [f32],
+    row: usize,
+    taps: &[f32],
+    values: &mut [f32],
+    squares: &mut [f32],
+) {
+    for ((value, square), v) in values.iter_mut().zip(squares.iter_mut()).zip(at(row)) {
+        *value = taps[0] * v;
+        *square = taps[0] * (v * v);
     }
     for (k, tap) in taps.iter().enumerate().skip(1) {
-        let above = ring.row(plane, moment, y - k, n);
-        let below = ring.row(plane, moment, y + k, n);
-        for ((out, a), b) in out.iter_mut().zip(above).zip(below) {
-            *out += tap * (a + b);
+        let pairs = at(row - k).iter().zip(at(row + k));
+        for ((value, square), (a, b)) in values.iter_mut().zip(squares.iter_mut()).zip(pairs) {
+            *value += tap * (a + b);
+            *square += tap * (a * a + b * b);
         }
     }
 }
@@ -178,7 +166,7 @@ fn horizontal(row: &[f32], taps: &[f32], out: &mut [f32]) {
     }
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512vl+avx512bw+avx512dq"))]
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn quotients(
     moments: [&[f32]; MOMENTS],
     c1: f32,
@@ -188,7 +176,7 @@ fn quotients(
     contrast_structure: &mut [f32],
 ) {
     let n = ssim.len();
-    let [u, v, uu, vv] = moments.map(|m| &m[..n]);
+    let [u, uu, v, vv] = moments.map(|m| &m[..n]);
     let contrast_structure = &mut contrast_structure[..n];
     for x in 0..n {
         let (mean_u, mean_v) = (u[x] + peak, v[x]);
@@ -209,27 +197,23 @@ mod tests {
     /// The window of any radius and the unrolled one give the same bits.
     #[test]
     fn the_unrolled_window_is_the_general_one() {
-        let width = 47;
-        let mut ring = Ring::new(1, STANDARD_RADIUS, width);
-        for y in 0..11 {
-            let row = |s: usize| {
-                (0..width).map(|x| ((x * 37 + y * 101 + s) % 97) as f32 / 97.0 - 0.5).collect::<Vec<_>>()
-            };
-            ring.push(0, y, &row(0), &row(5), true);
-        }
+        const WIDTH: usize = 47;
+        let rows: [Vec<f32>; 11] = std::array::from_fn(|y| {
+            (0..WIDTH).map(|x| ((x * 37 + y * 101) % 97) as f32 / 97.0 - 0.5).collect()
+        });
         let taps = Params::default().taps();
-        let (mut general, mut columns) = (vec![0.0; 37], vec![0.0; width]);
-        let mut unrolled_columns = vec![0.0; width];
-        let mut unrolled = vec![0.0; 37];
         let six: [f32; 6] = taps.clone().try_into().unwrap();
-        for moment in 0..MOMENTS {
-            vertical(&ring, 0, moment, 5, &taps, &mut columns);
-            horizontal(&columns, &taps, &mut general);
-            let rows = std::array::from_fn(|k| ring.row(0, moment, k, width));
-            vertical_standard(rows, six, &mut unrolled_columns);
-            horizontal_standard(&unrolled_columns, six, &mut unrolled);
-            assert_eq!(general, unrolled);
-        }
+        let buffer = || vec![0.0; WIDTH];
+        let (mut values, mut squares) = (buffer(), buffer());
+        vertical(|row| &rows[row], 5, &taps, &mut values, &mut squares);
+        let (mut unrolled_values, mut unrolled_squares) = (buffer(), buffer());
+        let rows = rows.each_ref().map(Vec::as_slice);
+        vertical_standard(rows, six, &mut unrolled_values, &mut unrolled_squares);
+        assert_eq!((&values, &squares), (&unrolled_values, &unrolled_squares));
+        let (mut general, mut unrolled) = (vec![0.0; WIDTH - 10], vec![0.0; WIDTH - 10]);
+        horizontal(&values, &taps, &mut general);
+        horizontal_standard(&values, six, &mut unrolled);
+        assert_eq!(general, unrolled);
     }
 
     #[test]
