@@ -1,1 +1,6 @@
-//! tbd
+//! For tests alone: synthetic pictures, files of every kind (whole and broken), golden values.
+
+pub mod exr_files;
+pub mod golden;
+pub mod png_files;
+pub mod synthetic;

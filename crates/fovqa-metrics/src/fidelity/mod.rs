@@ -8,6 +8,8 @@ mod scorer;
 mod squared_error;
 pub mod ssim;
 mod sums;
+#[cfg(test)]
+mod tests;
 
 pub use scorer::{BandScores, PairScores, ScoreError, Scorer};
 pub use squared_error::psnr_db;

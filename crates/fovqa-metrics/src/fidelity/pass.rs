@@ -202,7 +202,8 @@ impl<'a, R: PairRows> Block<'a, R> {
         for y in tile.top..(self.rows.end + radius).min(height) {
             self.source.fill(y, tile.read.clone(), &mut self.tile, y - tile.top);
         }
-        if !tile.map_xs.is_empty() {
+        let mapped = self.wanted.ssim.is_some() && !tile.map_xs.is_empty();
+        if mapped {
             for plane in 0..self.source.planes() {
                 self.map_plane(plane, &tile);
             }
@@ -214,7 +215,7 @@ impl<'a, R: PairRows> Block<'a, R> {
             if self.wanted.squared_error {
                 self.sum_squared_error(y, &tile);
             }
-            if tile.map_ys.contains(&y) && !tile.map_xs.is_empty() {
+            if mapped && tile.map_ys.contains(&y) {
                 self.sum_map(y, &tile);
             }
             if y % 2 == 1 {

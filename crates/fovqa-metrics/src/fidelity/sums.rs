@@ -79,6 +79,7 @@ pub(crate) fn weighted(values: &[f32], weights: &[f32], x: usize, runs: &[Run]) 
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "whole numbers add up exactly")]
 mod tests {
     use super::*;
     use crate::regions::LEFT_OUT;
