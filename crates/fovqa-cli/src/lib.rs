@@ -43,10 +43,10 @@ fn run(cli: Cli) -> Exit {
 
 /// What clap has to say: help and version on stdout, errors on stderr.
 fn usage(error: &clap::Error) -> Exit {
+    let printed = error.print();
     if error.use_stderr() {
         // Nothing is left to do when stderr is closed.
-        let _ = error.print();
         return Exit::Usage;
     }
-    output::write(|out| write!(out, "{}", error.render().ansi()))
+    output::outcome(printed)
 }

@@ -5,10 +5,16 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use crate::diagnostic;
 use crate::exit::Exit;
 
-/// Writes results to stdout. A reader that closed its end has seen enough: that is success.
+/// Writes results to stdout.
 pub(crate) fn write(results: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Exit {
     let mut out = BufWriter::new(io::stdout().lock());
-    match results(&mut out).and_then(|()| out.flush()) {
+    outcome(results(&mut out).and_then(|()| out.flush()))
+}
+
+/// How a run ends after writing to stdout. A reader that closed its end has seen enough: that is
+/// success.
+pub(crate) fn outcome(written: io::Result<()>) -> Exit {
+    match written {
         Ok(()) => Exit::Done,
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Exit::Done,
         Err(error) => {

@@ -85,9 +85,11 @@ impl File {
             }
         });
         let layers = self.parts.iter().map(|part| {
-            let mut own = LayerAttributes::default();
-            own.layer_name = (!part.name.is_empty()).then(|| part.name.into());
-            own.layer_position = Vec2(part.at.0, part.at.1);
+            let own = LayerAttributes {
+                layer_name: (!part.name.is_empty()).then(|| part.name.into()),
+                layer_position: Vec2(part.at.0, part.at.1),
+                ..LayerAttributes::default()
+            };
             let channels = part.channels.iter().map(|(name, values)| {
                 let samples = match values {
                     Values::Half(v) => {

@@ -222,6 +222,7 @@ impl GazeTrace {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what is only passed on comes back exactly")]
 mod tests {
     use super::*;
 

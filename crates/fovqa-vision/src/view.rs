@@ -216,6 +216,7 @@ fn frustum_sides(left: f64, right: f64, up: f64, down: f64) -> Result<[f64; 4], 
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what is only passed on comes back exactly")]
 mod tests {
     use super::*;
     use crate::displays::find_display;

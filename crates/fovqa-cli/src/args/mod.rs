@@ -14,6 +14,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 #[derive(Debug, Parser)]
 #[command(
     name = "fovqa",
+    bin_name = "fovqa",
     version,
     max_term_width = 100,
     subcommand_required = true,

@@ -5,6 +5,7 @@ mod pixels;
 
 use std::io::{Read, Seek};
 
+use ::exr::meta::MetaData;
 use ::exr::meta::header::Header;
 use fovqa_frame::{Channels, Chromaticities, Frame, Samples};
 
@@ -14,18 +15,24 @@ use crate::error::ReadErrorKind;
 use pixels::{Planes, Window};
 
 pub(crate) fn read(
-    file: impl Read + Seek + Send,
+    mut file: impl Read + Seek + Send,
     options: &ReadOptions,
 ) -> Result<Decoded, ReadErrorKind> {
-    let reader = ::exr::block::read(file, false).map_err(damaged)?;
-    if reader.headers().iter().any(|header| header.deep) {
-        return Err(ReadErrorKind::Deep);
+    // Sizes first: whatever else is wrong with the file, nothing may be allocated for them.
+    let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
+    for header in &meta.headers {
+        if header.deep {
+            return Err(ReadErrorKind::Deep);
+        }
+        for size in [header.layer_size, header.shared_attributes.display_window.size] {
+            options.check_size(size.0 as u64, size.1 as u64)?;
+        }
     }
+    file.rewind()?;
+    let reader = ::exr::block::read(file, false).map_err(damaged)?;
     let layer = layers::choose(reader.headers(), options.layer.as_deref())?;
     let header = &reader.headers()[layer.part];
     let window = Window::of(header)?;
-    options.check_size(window.display_width as u64, window.display_height as u64)?;
-    options.check_size(header.layer_size.0 as u64, header.layer_size.1 as u64)?;
     for &channel in layer.colour.iter().chain(&layer.alpha) {
         let channel = &header.channels.list[channel];
         if channel.sampling != ::exr::math::Vec2(1, 1) {

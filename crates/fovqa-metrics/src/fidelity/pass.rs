@@ -29,7 +29,7 @@ pub(crate) struct Wanted<'a> {
     pub(crate) weight: Option<&'a WeightField>,
     /// The SSIM map.
     pub(crate) ssim: Option<Constants>,
-    /// Each channel's means over the whole frame, and the next scale.
+    /// What MS-SSIM needs.
     pub(crate) scales: Scales,
 }
 
@@ -38,9 +38,9 @@ pub(crate) struct Wanted<'a> {
 pub(crate) enum Scales {
     /// Nothing.
     None,
-    /// Channel means and the next scale.
+    /// The contrast-structure term of each channel, and the next scale.
     AndNext,
-    /// Channel means alone: the coarsest scale.
+    /// The whole SSIM of each channel: the coarsest scale.
     Last,
 }
 
@@ -57,10 +57,8 @@ pub(crate) struct Sums {
     pub(crate) windows: Vec<u64>,
     /// Σ f² map and Σ f² over windows, map summed over planes.
     pub(crate) weighted_ssim: WeightedMean,
-    /// Σ SSIM of each plane.
-    pub(crate) channel_ssim: [f64; 3],
-    /// Σ contrast-structure of each plane.
-    pub(crate) channel_structure: [f64; 3],
+    /// Each plane's Σ of what MS-SSIM takes from this scale.
+    pub(crate) channels: [f64; 3],
 }
 
 impl Sums {
@@ -71,8 +69,7 @@ impl Sums {
             ssim: vec![0.0; bands + 1],
             windows: vec![0; bands + 1],
             weighted_ssim: WeightedMean::default(),
-            channel_ssim: [0.0; 3],
-            channel_structure: [0.0; 3],
+            channels: [0.0; 3],
         }
     }
 
@@ -84,8 +81,7 @@ impl Sums {
         };
         add(&mut self.squared, &other.squared);
         add(&mut self.ssim, &other.ssim);
-        add(&mut self.channel_ssim, &other.channel_ssim);
-        add(&mut self.channel_structure, &other.channel_structure);
+        add(&mut self.channels, &other.channels);
         for (mine, theirs) in self.windows.iter_mut().zip(&other.windows) {
             *mine += theirs;
         }
@@ -235,9 +231,10 @@ impl<'a, R: PairRows> Block<'a, R> {
             let ssim = if plane == 0 { &mut *total } else { &mut self.plane_map[..n] };
             let mut out = MapRow { ssim: &mut *ssim, contrast_structure: &mut *structure };
             map_row(&self.tile, plane, y - tile.top, constants, &mut self.scratch, &mut out);
-            if self.wanted.scales != Scales::None {
-                self.sums.channel_ssim[plane] += sum(ssim);
-                self.sums.channel_structure[plane] += sum(structure);
+            match self.wanted.scales {
+                Scales::None => {}
+                Scales::AndNext => self.sums.channels[plane] += sum(structure),
+                Scales::Last => self.sums.channels[plane] += sum(ssim),
             }
             if plane > 0 {
                 for (total, value) in total.iter_mut().zip(&self.plane_map[..n]) {

@@ -237,7 +237,7 @@ fn coarser_scales(
 ) -> f64 {
     let planes = PairRows::planes(&scale);
     let windows = |w: usize, h: usize| ((w - 2 * radius) * (h - 2 * radius)) as f64;
-    let mut means = vec![finest.channel_structure.map(|s| s / windows(width, height))];
+    let mut means = vec![finest.channels.map(|s| s / windows(width, height))];
     for level in 1..EXPONENTS.len() {
         let last = level + 1 == EXPONENTS.len();
         let (w, h) = scale.size();
@@ -249,8 +249,7 @@ fn coarser_scales(
             scales: if last { Scales::Last } else { Scales::AndNext },
         };
         let (sums, next) = run(&scale, &Regions::unmasked(&bands), &wanted);
-        let sums = if last { sums.channel_ssim } else { sums.channel_structure };
-        means.push(sums.map(|s| s / windows(w, h)));
+        means.push(sums.channels.map(|s| s / windows(w, h)));
         match next {
             Some(next) => scale = next,
             None => break,

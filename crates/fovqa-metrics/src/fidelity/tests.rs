@@ -327,7 +327,9 @@ fn the_window_may_have_any_size() {
     assert!((found - maps.iter().sum::<f64>() / 3.0).abs() < 1e-6);
 }
 
-/// 8 bits, 16 bits, half floats and floats of the same picture, gray and RGB, agree.
+type Maker<'a> = &'a dyn Fn(&[u8]) -> Frame;
+
+/// 8 bits, 16 bits and floats of the same picture, gray and RGB, agree.
 #[test]
 fn one_picture_scores_alike_in_every_type() {
     let (w, h) = (64, 48);
@@ -346,7 +348,7 @@ fn one_picture_scores_alike_in_every_type() {
     let setup = Setup::new(w, h, [30.0, 20.0]);
     let metrics = [Metric::Psnr, Metric::Ssim, Metric::Fpsnr, Metric::Fssim];
     let want = setup.score(&metrics, &as_u8(&a), &as_u8(&b)).unwrap();
-    let makers: [&dyn Fn(&[u8]) -> Frame; 4] = [&as_u8, &as_u16, &as_rgb, &as_linear];
+    let makers: [Maker<'_>; 4] = [&as_u8, &as_u16, &as_rgb, &as_linear];
     for of_reference in makers {
         for of_test in makers {
             let found = setup.score(&metrics, &of_reference(&a), &of_test(&b)).unwrap();

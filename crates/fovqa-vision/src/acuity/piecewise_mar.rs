@@ -82,7 +82,7 @@ mod tests {
         for (e, f) in [(0.0, 40.0), (10.0, 10.0), (20.0, 6.0), (30.0, 5.0), (60.0, 4.0)] {
             assert!((model.cutoff_cpd(e) - f).abs() < 1e-12);
         }
-        assert!((1.0 / model.cutoff_cpd(5.0) - (1.0 / 40.0 + 1.0 / 10.0) / 2.0).abs() < 1e-12);
+        assert!((1.0 / model.cutoff_cpd(5.0) - 0.0625).abs() < 1e-12);
         assert!((1.0 / model.cutoff_cpd(90.0) - (2.0 / 4.0 - 1.0 / 5.0)).abs() < 1e-12);
     }
 

@@ -1,0 +1,275 @@
+//! What clumsy and hostile files get: a clear message, exit 3, and nothing that looks like a
+//! result.
+
+use std::fs;
+
+use fovqa_testkit::exr_files::{File, Part, Values, deep};
+use fovqa_testkit::png_files::{header_only, with_chunk};
+use fovqa_testkit::synthetic::codes;
+
+use crate::fovqa::Folder;
+
+/// The pair `a.png`, `b.png` and a file under test; scored as the test, then as the reference.
+#[track_caller]
+fn refuses(folder: &Folder, file: &str, words: &[&str]) {
+    let words = [words, &["help:", file]].concat();
+    folder.score(&["a.png", file]).fails(3, &words);
+    folder.score(&[file, "b.png"]).fails(3, &words);
+}
+
+fn bytes(folder: &Folder, name: &str) -> Vec<u8> {
+    fs::read(folder.path(name)).unwrap()
+}
+
+#[test]
+fn missing_files_and_folders() {
+    let folder = Folder::with_pair();
+    refuses(&folder, "nope.png", &["there is no such file or folder"]);
+    let pattern = "no/such/folder/%04d.png";
+    folder
+        .score(&["a.png", pattern])
+        .fails(3, &["no/such/folder: there is no such file or folder"]);
+    fs::create_dir_all(folder.path("empty/x").parent().unwrap()).unwrap();
+    refuses(&folder, "empty", &["no file is there"]);
+    folder.write("texts/readme.txt", "hello");
+    refuses(&folder, "texts", &["no image is there, only a file of another type"]);
+    refuses(&folder, "*.tiff", &["no file is there"]);
+    folder.png_pair("gt/0.png", "gt/1.png", 8, 8);
+    folder.score(&["gt", "a.png"]).fails(3, &["no file of gt has a partner in a.png"]);
+    folder.write("twice/0.exr", "");
+    folder.png_pair("twice/0.png", "twice/1.png", 8, 8);
+    refuses(&folder, "twice", &["0.exr", "0.png", "one stem"]);
+}
+
+#[test]
+fn frames_of_different_sizes() {
+    let folder = Folder::with_pair();
+    folder.png("wide.png", 49, 40, &codes(49, 40, 3, 1));
+    folder
+        .score(&["a.png", "wide.png"])
+        .fails(3, &["a.png has 48x40 pixels and wide.png has 49x40", "nothing is resampled"]);
+}
+
+#[test]
+fn files_that_are_cut_short() {
+    let folder = Folder::with_pair();
+    let png = bytes(&folder, "a.png");
+    for share in [9, 30, png.len() / 2, png.len() - 20] {
+        folder.write("cut.png", &png[..share]);
+        refuses(&folder, "cut.png", &["PNG data is damaged or cut short"]);
+    }
+    File::new(vec![Part::rgb((48, 40), |x, y| (x + y) as f32 / 90.0)]).write(&folder.path("c.exr"));
+    let exr = bytes(&folder, "c.exr");
+    for share in [5, 100, exr.len() / 2, exr.len() - 3] {
+        folder.write("cut.exr", &exr[..share]);
+        refuses(&folder, "cut.exr", &["OpenEXR data is damaged or cut short"]);
+    }
+    folder.png("c.jpg", 48, 40, &codes(48, 40, 3, 1));
+    folder.score(&["a.png", "c.jpg"]).ok();
+    let jpeg = bytes(&folder, "c.jpg");
+    for share in [4, 100, jpeg.len() / 2, jpeg.len() - 2] {
+        folder.write("cut.jpg", &jpeg[..share]);
+        refuses(&folder, "cut.jpg", &["JPEG data is damaged or cut short"]);
+    }
+}
+
+#[test]
+fn files_with_bits_flipped() {
+    let folder = Folder::with_pair();
+    File::new(vec![Part::rgb((48, 40), |x, y| (x + y) as f32 / 90.0)]).write(&folder.path("c.exr"));
+    for (name, file) in [("flip.png", "a.png"), ("flip.exr", "c.exr")] {
+        let whole = bytes(&folder, file);
+        for at in (8..whole.len()).step_by(whole.len() / 25) {
+            let mut flipped = whole.clone();
+            flipped[at] ^= 0x55;
+            folder.write(name, &flipped);
+            // Some bits do not matter; none may bring the command down.
+            let run = folder.score(&["a.png", name]);
+            assert!([0, 3].contains(&run.code), "byte {at}: {} {}", run.code, run.stderr);
+        }
+    }
+}
+
+#[test]
+fn files_that_are_no_image() {
+    let folder = Folder::with_pair();
+    folder.write("text.png", "this is no picture");
+    refuses(&folder, "text.png", &["not a PNG, JPEG or OpenEXR file"]);
+    folder.write("empty.png", "");
+    refuses(&folder, "empty.png", &["not a PNG, JPEG or OpenEXR file"]);
+    fs::create_dir(folder.path("gt")).unwrap();
+    fs::create_dir(folder.path("gt/folder.png")).unwrap();
+    refuses(&folder, "gt", &["no file is there"]);
+}
+
+#[test]
+fn declared_sizes_beyond_reason() {
+    let folder = Folder::with_pair();
+    folder.write("huge.png", header_only(100_000, 100_000));
+    refuses(&folder, "huge.png", &["100000x100000", "limit of 512 megapixels", "--max-megapixels"]);
+    File::new(vec![Part::rgb((48, 40), |_, _| 0.5)]).write(&folder.path("c.exr"));
+    let exr = bytes(&folder, "c.exr");
+    for window in ["dataWindow\0box2i\0", "displayWindow\0box2i\0"] {
+        let at = exr.windows(window.len()).position(|w| w == window.as_bytes()).unwrap();
+        let mut huge = exr.clone();
+        let corner = at + window.len() + 4 + 8;
+        huge[corner..corner + 4].copy_from_slice(&99_999i32.to_le_bytes());
+        huge[corner + 4..corner + 8].copy_from_slice(&99_999i32.to_le_bytes());
+        folder.write("huge.exr", &huge);
+        refuses(&folder, "huge.exr", &["100000x100000", "megapixels"]);
+    }
+    let pair = ["a.png", "b.png", "--max-megapixels"];
+    folder.score(&[&pair[..], &["0"]].concat()).fails(3, &["48x40", "limit of 0 megapixels"]);
+    folder.score(&[&pair[..], &["1"]].concat()).ok();
+}
+
+#[test]
+fn exr_without_one_colour_layer() {
+    let folder = Folder::with_pair();
+    let plane = Values::Half(vec![0.5; 48 * 40]);
+    let part = |names: &[&str]| {
+        let channels: Vec<_> = names.iter().map(|name| (*name, plane.clone())).collect();
+        Part::new((48, 40), &channels)
+    };
+    folder.write("deep.exr", deep());
+    refuses(&folder, "deep.exr", &["deep data"]);
+    File::new(vec![part(&["Z", "motion.X", "motion.Y"])]).write(&folder.path("depth.exr"));
+    refuses(&folder, "depth.exr", &["no colour", "Z", "motion.X", "motion.Y"]);
+    let names = [
+        "ViewLayer.Combined.R",
+        "ViewLayer.Combined.G",
+        "ViewLayer.Combined.B",
+        "ViewLayer.DiffCol.R",
+        "ViewLayer.DiffCol.G",
+        "ViewLayer.DiffCol.B",
+        "ViewLayer.Depth.Z",
+    ];
+    File::new(vec![part(&names)]).write(&folder.path("layers.exr"));
+    refuses(&folder, "layers.exr", &["ViewLayer.Combined, ViewLayer.DiffCol", "--layer"]);
+    folder.score(&["a.png", "layers.exr", "--layer", "ViewLayer.Combined"]).ok();
+    folder.score(&["a.png", "layers.exr", "--layer", "ViewLayer.Depth"]).fails(
+        3,
+        &["no colour layer \"ViewLayer.Depth\"", "ViewLayer.Combined, ViewLayer.DiffCol"],
+    );
+    let mut albedo = part(&["R", "G", "B"]);
+    albedo.name = "albedo";
+    let mut beauty = part(&["R", "G", "B"]);
+    beauty.name = "beauty";
+    File::new(vec![beauty, albedo]).write(&folder.path("parts.exr"));
+    refuses(&folder, "parts.exr", &["beauty, albedo"]);
+    folder.score(&["a.png", "parts.exr", "--layer", "beauty"]).ok();
+}
+
+#[test]
+fn exr_with_disjoint_windows() {
+    let folder = Folder::with_pair();
+    let mut part = Part::rgb((20, 10), |_, _| 0.5);
+    part.at = (48, 0);
+    let file = File { display: Some(((0, 0), (48, 40))), ..File::new(vec![part]) };
+    file.write(&folder.path("off.exr"));
+    refuses(&folder, "off.exr", &["data window 20x10+48+0", "display window 48x40+0+0"]);
+}
+
+#[test]
+fn nan_and_infinity() {
+    let folder = Folder::new();
+    let with = |name: &str, bad: f32| {
+        let value = |x: usize, y: usize| {
+            if (x, y) == (30, 20) { bad } else { (x * y % 50) as f32 / 50.0 }
+        };
+        File::new(vec![Part::rgb((48, 40), value)]).write(&folder.path(name));
+    };
+    with("clean.exr", 0.3);
+    for (name, bad, said) in [("nan.exr", f32::NAN, "NaN"), ("inf.exr", f32::INFINITY, "inf")] {
+        with(name, bad);
+        let words = [name, "channel R", said, "pixel (30, 20)", "--nonfinite mask"];
+        folder.score(&["clean.exr", name]).fails(3, &words);
+        folder.score(&[name, "clean.exr"]).fails(3, &words);
+        let masked =
+            folder.json(&["clean.exr", name, "--nonfinite", "mask", "--metrics", "psnr,ssim"]);
+        let frame = &masked["frames"][0];
+        assert_eq!(frame["pixels_left_out"], 1);
+        assert_eq!(frame["metrics"]["psnr"], "inf", "the other pixels are equal");
+        assert_eq!(frame["metrics"]["ssim"], 1.0);
+        folder
+            .score(&["clean.exr", name, "--nonfinite", "mask", "--metrics", "ms-ssim"])
+            .fails(3, &["MS-SSIM"]);
+    }
+}
+
+#[test]
+fn a_firefly_does_not_raise_psnr() {
+    let folder = Folder::new();
+    let write = |name: &str, firefly: f32, scale: f32| {
+        let value = |x: usize, y: usize| {
+            if (x, y) == (30, 20) { firefly } else { scale * (x * y % 50) as f32 / 50.0 }
+        };
+        File::new(vec![Part::rgb((48, 40), value)]).write(&folder.path(name));
+    };
+    write("gt.exr", 0.3, 1.0);
+    write("plain.exr", 0.3, 0.8);
+    write("firefly.exr", 60_000.0, 0.8);
+    for tonemap in ["clamp", "reinhard", "aces"] {
+        let psnr = |test: &str| folder.metric("psnr", &["gt.exr", test, "--tonemap", tonemap]);
+        assert!(psnr("firefly.exr") < psnr("plain.exr"), "{tonemap}");
+        assert!(psnr("firefly.exr") > 10.0, "{tonemap}: it is one pixel, not the peak");
+    }
+}
+
+#[test]
+fn alpha_that_is_not_opaque() {
+    let folder = Folder::with_pair();
+    let rgba = |alpha: &dyn Fn(usize) -> u8| -> Vec<u8> {
+        let rgb = codes(48, 40, 3, 1);
+        let pixels = rgb.as_chunks::<3>().0.iter().enumerate();
+        pixels.flat_map(|(i, p)| [p[0], p[1], p[2], alpha(i)]).collect()
+    };
+    folder.png("opaque.png", 48, 40, &rgba(&|_| 255));
+    assert!(folder.metric("psnr", &["a.png", "opaque.png"]).is_infinite());
+    folder.png("glass.png", 48, 40, &rgba(&|i| if i == 48 * 7 + 5 { 128 } else { 255 }));
+    refuses(&folder, "glass.png", &["alpha is not 1 everywhere", "1 pixels", "(5, 7)", "--alpha"]);
+    folder.png("clear.png", 48, 40, &rgba(&|_| 0));
+    refuses(&folder, "clear.png", &["alpha is 0 everywhere", "--alpha ignore"]);
+    for file in ["glass.png", "clear.png"] {
+        assert!(folder.metric("psnr", &["a.png", file, "--alpha", "ignore"]).is_infinite());
+    }
+    assert!(folder.metric("psnr", &["a.png", "glass.png", "--alpha", "over-black"]).is_finite());
+    folder.png("black.png", 48, 40, &[0; 48 * 40 * 3]);
+    assert!(
+        folder.metric("psnr", &["black.png", "clear.png", "--alpha", "over-black"]).is_infinite()
+    );
+
+    let half = |value: f32| Values::Half(vec![value; 48 * 40]);
+    let exr = |name: &str, alpha: f32| {
+        let channels = [("R", half(0.5)), ("G", half(0.5)), ("B", half(0.5)), ("A", half(alpha))];
+        File::new(vec![Part::new((48, 40), &channels)]).write(&folder.path(name));
+    };
+    exr("opaque.exr", 1.0);
+    exr("clear.exr", 0.0);
+    folder.score(&["a.png", "opaque.exr"]).ok();
+    refuses(&folder, "clear.exr", &["alpha is 0 everywhere", "--alpha ignore"]);
+    folder.score(&["a.png", "clear.exr", "--alpha", "ignore"]).ok();
+}
+
+#[test]
+fn colour_chunks_are_said_once() {
+    let folder = Folder::with_pair();
+    let png = bytes(&folder, "a.png");
+    let gamma = with_chunk(&png, *b"gAMA", &100_000u32.to_be_bytes());
+    folder.write("gamma.png", &gamma);
+    let run =
+        folder.score(&["gamma.png", "b.png"]).ok().says(&["gamma.png", "gAMA", "not applied"]);
+    assert_eq!(run.stderr.matches("gAMA").count(), 1);
+    let with_srgb = with_chunk(&gamma, *b"sRGB", &[0]);
+    folder.write("srgb.png", with_srgb);
+    assert!(
+        !folder.score(&["srgb.png", "b.png"]).ok().stderr.contains("gAMA"),
+        "sRGB says the same"
+    );
+    folder.write("cicp.png", with_chunk(&png, *b"cICP", &[9, 16, 0, 1]));
+    folder.score(&["cicp.png", "b.png"]).ok().says(&["cICP"]);
+    assert_eq!(
+        folder.metric("psnr", &["gamma.png", "b.png"]).to_bits(),
+        folder.metric("psnr", &["a.png", "b.png"]).to_bits()
+    );
+}

@@ -1,0 +1,205 @@
+//! `make bench`: CPU seconds, megapixels a second and peak memory of whole runs of the command,
+//! beside decoding alone and beside the peers it finds installed.
+
+#![allow(clippy::unwrap_used, reason = "a benchmark that cannot go on has nothing to say")]
+#![allow(clippy::print_stdout, reason = "its results")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+use fovqa_io::{ReadOptions, read_frame};
+use fovqa_testkit::exr_files::{File, Part, Values};
+use fovqa_testkit::png_files::write8;
+use wait4::Wait4;
+
+/// Runs of each case; the median counts.
+const RUNS: usize = 7;
+
+/// This program decoding alone, for comparison.
+const DECODE: &str = "--decode-only";
+
+/// This program writing the inputs into a folder.
+const MAKE: &str = "--make-inputs";
+
+const FOUR_K: (usize, usize) = (3840, 2160);
+const FULL_HD: (usize, usize) = (1920, 1080);
+
+const FIDELITY: [&str; 6] =
+    ["--fov-vertical", "60", "--metrics", "mse,psnr,ssim,ms-ssim,fpsnr,fssim", "--format", "json"];
+
+/// What a run took.
+#[derive(Clone, Copy)]
+struct Cost {
+    cpu_s: f64,
+    wall_s: f64,
+    peak_mib: f64,
+}
+
+fn run(program: &str, arguments: &[&str]) -> Option<Cost> {
+    let start = Instant::now();
+    let mut child = Command::new(program)
+        .args(arguments)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .ok()?;
+    let used = child.wait4().ok()?;
+    let cpu = used.rusage.utime + used.rusage.stime;
+    used.status.success().then(|| Cost {
+        cpu_s: cpu.as_secs_f64(),
+        wall_s: start.elapsed().as_secs_f64(),
+        peak_mib: used.rusage.maxrss as f64 / f64::from(1 << 20),
+    })
+}
+
+/// The median of each figure; `None` where the program is not there or fails.
+fn measure(program: &str, arguments: &[&str]) -> Option<Cost> {
+    let mut costs = (0..RUNS).map(|_| run(program, arguments)).collect::<Option<Vec<_>>>()?;
+    let mut median = |figure: fn(&Cost) -> f64| {
+        costs.sort_by(|a, b| figure(a).total_cmp(&figure(b)));
+        figure(&costs[RUNS / 2])
+    };
+    Some(Cost {
+        cpu_s: median(|c| c.cpu_s),
+        wall_s: median(|c| c.wall_s),
+        peak_mib: median(|c| c.peak_mib),
+    })
+}
+
+fn row(name: &str, megapixels: Option<f64>, cost: Option<Cost>, aim: Option<&str>) {
+    let Some(cost) = cost else {
+        println!("{name:<44} not installed");
+        return;
+    };
+    let speed = megapixels.map(|m| format!("{:.1}", m / cost.cpu_s)).unwrap_or_default();
+    let aim = aim.map(|aim| format!("at most {aim}")).unwrap_or_default();
+    let Cost { cpu_s, wall_s, peak_mib } = cost;
+    let line = format!("{name:<44} {cpu_s:>7.3} {wall_s:>7.3} {speed:>8} {peak_mib:>7.0}   {aim}");
+    println!("{}", line.trim_end());
+}
+
+/// A committed render, mirrored over a larger frame.
+fn enlarged(name: &str, width: usize, height: usize) -> Vec<u8> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let path = root.join("data/small/living-room").join(name);
+    let frame = read_frame(&path, &ReadOptions::default()).unwrap().frame;
+    let mirrored = |at: usize, side: usize| {
+        let at = at % (2 * side);
+        if at < side { at } else { 2 * side - 1 - at }
+    };
+    let mut codes = Vec::with_capacity(width * height * 3);
+    for y in 0..height {
+        for x in 0..width {
+            let (x, y) = (mirrored(x, frame.width()), mirrored(y, frame.height()));
+            codes.extend((0..3).map(|c| frame.sample(c, x, y) as u8));
+        }
+    }
+    codes
+}
+
+struct Pair {
+    paths: [PathBuf; 2],
+    megapixels: f64,
+}
+
+impl Pair {
+    fn new(folder: &Path, ending: &str, width: usize, height: usize) -> Self {
+        let path = |name| folder.join(format!("{width}x{height}_{name}.{ending}"));
+        Self { paths: ["gt", "rmfr"].map(path), megapixels: (width * height) as f64 / 1e6 }
+    }
+
+    fn names(&self) -> [&str; 2] {
+        self.paths.each_ref().map(|path| path.to_str().unwrap())
+    }
+}
+
+/// Writes both pictures of a size, as PNG and as half-float EXR.
+fn make(folder: &Path, width: usize, height: usize) {
+    let (png, exr) =
+        (Pair::new(folder, "png", width, height), Pair::new(folder, "exr", width, height));
+    for (index, name) in ["gt.png", "rmfr.png"].into_iter().enumerate() {
+        let codes = enlarged(name, width, height);
+        write8(&png.paths[index], width, height, &codes);
+        let plane = |c: usize| {
+            let light = |code: &u8| (f32::from(*code) / 255.0).powf(2.2);
+            Values::Half(codes.iter().skip(c).step_by(3).map(light).collect())
+        };
+        let channels = [("R", plane(0)), ("G", plane(1)), ("B", plane(2))];
+        File::new(vec![Part::new((width, height), &channels)]).write(&exr.paths[index]);
+    }
+}
+
+fn compare(name: &str, pair: &Pair, aim: Option<&str>, aim_beyond: Option<&str>) {
+    let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
+    let this = std::env::current_exe().unwrap().display().to_string();
+    let [a, b] = pair.names();
+    let megapixels = Some(pair.megapixels);
+    let decode = measure(&this, &[DECODE, a, b]);
+    let score = measure(fovqa, &[&["score", a, b][..], &FIDELITY].concat());
+    row(&format!("{name}: decoding alone"), megapixels, decode, None);
+    row(&format!("{name}: six metrics, bands"), megapixels, score, aim);
+    if let (Some(decode), Some(score)) = (decode, score) {
+        let beyond = Cost {
+            cpu_s: score.cpu_s - decode.cpu_s,
+            wall_s: score.wall_s - decode.wall_s,
+            peak_mib: score.peak_mib - decode.peak_mib,
+        };
+        row(&format!("{name}: beyond decoding"), megapixels, Some(beyond), aim_beyond);
+    }
+}
+
+fn peers(pair: &Pair) {
+    let [a, b] = pair.names();
+    for filter in ["psnr", "ssim"] {
+        let filter_of = format!("[0][1]{filter}");
+        let arguments = ["-i", b, "-i", a, "-lavfi", &filter_of, "-f", "null", "-"];
+        row(
+            &format!("4K PNG: ffmpeg {filter}"),
+            Some(pair.megapixels),
+            measure("ffmpeg", &arguments),
+            None,
+        );
+    }
+    let script = "import sys; from skimage.io import imread; from skimage.metrics import structural_similarity as s\n\
+        s(imread(sys.argv[1]), imread(sys.argv[2]), channel_axis=2, gaussian_weights=True, sigma=1.5, use_sample_covariance=False, data_range=255)";
+    let cost = measure("python3", &["-c", script, a, b]);
+    row("4K PNG: scikit-image SSIM", Some(pair.megapixels), cost, None);
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        [DECODE, files @ ..] => {
+            for file in files {
+                read_frame(Path::new(file), &ReadOptions::default()).unwrap();
+            }
+        }
+        [MAKE, folder] => {
+            for (width, height) in [FOUR_K, FULL_HD] {
+                make(Path::new(folder), width, height);
+            }
+        }
+        _ => report(),
+    }
+}
+
+fn report() {
+    let folder = tempfile::tempdir().unwrap();
+    // In a process of its own: a child's peak memory counts from that of its parent.
+    let this = std::env::current_exe().unwrap().display().to_string();
+    run(&this, &[MAKE, folder.path().to_str().unwrap()]).expect("inputs");
+    let pair = |ending, (width, height)| Pair::new(folder.path(), ending, width, height);
+    let four_k = pair("png", FOUR_K);
+    println!(
+        "medians of {RUNS} runs of whole processes; Mpx/s: megapixels of a pair a CPU second\n"
+    );
+    println!("{:<44} {:>7} {:>7} {:>8} {:>7}   aim", "case", "CPU s", "wall s", "Mpx/s", "MiB");
+    compare("4K PNG", &four_k, Some("0.60 CPU s, 350 MiB"), Some("0.30"));
+    compare("1080p PNG", &pair("png", FULL_HD), Some("0.18 CPU s"), None);
+    compare("4K EXR, half, ZIP", &pair("exr", FOUR_K), None, None);
+    let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
+    row("fovqa --version", None, measure(fovqa, &["--version"]), Some("0.010 wall s"));
+    peers(&four_k);
+}
