@@ -110,10 +110,10 @@ fn a_mask_keeps_pixels_out() {
     };
     let (clean, garbage) = (scores("b.png"), scores("garbage.png"));
     assert_eq!(clean, garbage);
-    assert_eq!(clean.2, mask.iter().filter(|m| **m == 0).count());
+    assert_eq!(clean.2, mask.iter().map(|m| usize::from(*m == 0)).sum::<usize>());
     let pixels: u64 =
         clean.1.as_array().unwrap().iter().map(|b| b["pixels"].as_u64().unwrap()).sum();
-    assert_eq!(pixels, mask.iter().filter(|m| **m == 255).count() as u64);
+    assert_eq!(pixels, mask.iter().map(|m| u64::from(*m == 255)).sum::<u64>());
     // The mask of the whole frame serves a crop, and so does one of the crop's size.
     let cropped = ["a.png", "b.png", "--crop", "10,10,20,20", "--metrics", "psnr", "--mask"];
     let whole = folder.json(&[&cropped[..], &["mask.png"]].concat());

@@ -147,6 +147,11 @@ impl<'a> PairSignal<'a> {
         self.peak
     }
 
+    /// Whether sums and differences are whole numbers of at most 255 to either side.
+    pub fn is_eight_bit(&self) -> bool {
+        self.peak <= 255.0 && self.peak > 1.0 && !self.luma
+    }
+
     /// Reads the columns `xs` of row `y` into row `row` of a tile.
     pub fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize) {
         let read = if self.luma { TILE_PLANES } else { self.planes };

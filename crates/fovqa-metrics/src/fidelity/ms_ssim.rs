@@ -21,6 +21,8 @@ pub(crate) trait PairRows: Sync {
     fn size(&self) -> (usize, usize);
     fn planes(&self) -> usize;
     fn peak(&self) -> f32;
+    /// Whether sums and differences are those of 8-bit codes.
+    fn is_eight_bit(&self) -> bool;
     fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize);
 }
 
@@ -37,6 +39,10 @@ impl PairRows for PairSignal<'_> {
         self.peak()
     }
 
+    fn is_eight_bit(&self) -> bool {
+        self.is_eight_bit()
+    }
+
     fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize) {
         self.fill(y, xs, tile, row);
     }
@@ -47,14 +53,28 @@ impl PairRows for PairSignal<'_> {
 pub(crate) struct HalvedRows {
     width: usize,
     rows: usize,
-    values: Vec<f32>,
+    values: Values,
+}
+
+/// The first scale below 8-bit pictures holds quarters, which two bytes keep exactly: half the
+/// memory, whose first touch costs as much as the arithmetic.
+#[derive(Debug)]
+enum Values {
+    Quarters(Vec<i16>),
+    Floats(Vec<f32>),
 }
 
 impl HalvedRows {
-    /// Room for the halves of `rows` rows of `width` pixels.
-    pub(crate) fn new(planes: usize, width: usize, rows: usize) -> Self {
-        let (width, rows) = (width / 2, rows / 2);
-        Self { width, rows, values: vec![0.0; planes * 2 * width * rows] }
+    /// Room for the halves of `rows` rows of `width` pixels of a pair.
+    pub(crate) fn of(pair: &impl PairRows, rows: usize) -> Self {
+        let (width, rows) = (pair.size().0 / 2, rows / 2);
+        let length = pair.planes() * 2 * width * rows;
+        let values = if pair.is_eight_bit() {
+            Values::Quarters(vec![0; length])
+        } else {
+            Values::Floats(vec![0.0; length])
+        };
+        Self { width, rows, values }
     }
 
     fn row(&self, plane: usize, part: Part, y: usize) -> Range<usize> {
@@ -72,8 +92,19 @@ impl HalvedRows {
         below: &[f32],
     ) {
         let row = self.row(plane, part, y);
-        let out = &mut self.values[row][x / 2..];
-        halve(above, below, out);
+        match &mut self.values {
+            Values::Quarters(values) => halve_exactly(above, below, &mut values[row][x / 2..]),
+            Values::Floats(values) => halve(above, below, &mut values[row][x / 2..]),
+        }
+    }
+
+    /// Reads a stretch of a row.
+    fn get(&self, plane: usize, part: Part, y: usize, xs: Range<usize>, out: &mut [f32]) {
+        let row = self.row(plane, part, y);
+        match &self.values {
+            Values::Quarters(values) => from_quarters(&values[row][xs], out),
+            Values::Floats(values) => out.copy_from_slice(&values[row][xs]),
+        }
     }
 }
 
@@ -82,6 +113,21 @@ fn halve(above: &[f32], below: &[f32], out: &mut [f32]) {
     let (above, below) = (above.as_chunks::<2>().0, below.as_chunks::<2>().0);
     for ((out, a), b) in out.iter_mut().zip(above).zip(below) {
         *out = 0.25 * ((a[0] + a[1]) + (b[0] + b[1]));
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn halve_exactly(above: &[f32], below: &[f32], out: &mut [i16]) {
+    let (above, below) = (above.as_chunks::<2>().0, below.as_chunks::<2>().0);
+    for ((out, a), b) in out.iter_mut().zip(above).zip(below) {
+        *out = ((a[0] + a[1]) + (b[0] + b[1])) as i16;
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn from_quarters(quarters: &[i16], out: &mut [f32]) {
+    for (out, quarter) in out.iter_mut().zip(quarters) {
+        *out = 0.25 * f32::from(*quarter);
     }
 }
 
@@ -108,13 +154,17 @@ impl PairRows for Scale {
         self.peak
     }
 
+    fn is_eight_bit(&self) -> bool {
+        false
+    }
+
     fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize) {
         const HALVED_ROWS: usize = BLOCK_ROWS / 2;
         let block = &self.blocks[y / HALVED_ROWS];
         for plane in 0..self.planes {
             for part in [Part::Sum, Part::Difference] {
-                let values = &block.values[block.row(plane, part, y % HALVED_ROWS)];
-                tile.row_mut(plane, part, row, xs.len()).copy_from_slice(&values[xs.clone()]);
+                let out = tile.row_mut(plane, part, row, xs.len());
+                block.get(plane, part, y % HALVED_ROWS, xs.clone(), out);
             }
         }
     }

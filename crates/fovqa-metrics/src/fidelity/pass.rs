@@ -176,8 +176,7 @@ impl<'a, R: PairRows> Block<'a, R> {
             structure: row(),
             map: vec![0.0; map_rows * TILE_COLUMNS],
             sums: Sums::new(regions.bands()),
-            halved: (wanted.scales == Scales::AndNext)
-                .then(|| HalvedRows::new(source.planes(), width, rows.len())),
+            halved: (wanted.scales == Scales::AndNext).then(|| HalvedRows::of(source, rows.len())),
             rows,
         }
     }
