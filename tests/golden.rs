@@ -1,4 +1,4 @@
-//! Every number of independent implementations, through the command, within METRICS' tolerances.
+//! Every number of independent implementations, through the command, within the tolerances of docs/metrics.md.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::fovqa::{Run, command, root, shared};
 
-/// Largest deviations from scikit-image and NumPy (METRICS, "Held to").
+/// Largest deviations from scikit-image and NumPy (docs/metrics.md).
 const PSNR_DB: f64 = 1e-4;
 const SSIM: f64 = 1e-5;
 

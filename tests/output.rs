@@ -121,6 +121,22 @@ fn default_metrics_that_do_not_fit_are_left_out_and_said() {
 }
 
 #[test]
+fn a_flat_foveal_weight_is_said() {
+    let folder = Folder::with_pair();
+    let view = |fov: &str| {
+        let run = folder.score(&["a.png", "b.png", "--fov-vertical", fov, "--format", "json"]).ok();
+        let metrics = run.json()["frames"][0]["metrics"].clone();
+        let (psnr, fpsnr) = (metrics["psnr"].as_f64().unwrap(), metrics["fpsnr"].as_f64().unwrap());
+        ((psnr - fpsnr).abs() < 1e-6, run.stderr.contains("the foveal weight is flat"))
+    };
+    assert_eq!(view("60"), (true, true));
+    // A tenth of the angle in the same pixels: 6.7 px a degree, 3.3 cpd, still seen everywhere …
+    assert_eq!(view("6"), (true, true));
+    // … and 67 px a degree, more than the eye resolves even at the gaze.
+    assert_eq!(view("0.6"), (false, false));
+}
+
+#[test]
 fn a_closed_pipe_is_success() {
     let folder = Folder::with_pair();
     let (a, b) = (folder.path("a.png"), folder.path("b.png"));

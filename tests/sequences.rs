@@ -149,7 +149,7 @@ fn gaze_traces_move_the_bands() {
         }
     }
     let held = folder.score(&[&arguments[..], &["--format", "table"]].concat()).ok().stdout;
-    assert!(held.contains("gaze from a trace, held over in 1 frames"), "{held}");
+    assert!(held.contains("gaze from a trace, held over in 1 frame"), "{held}");
 }
 
 #[test]
@@ -193,7 +193,7 @@ fn gaze_traces_that_do_not_fit_are_errors() {
 #[test]
 fn a_gaze_outside_the_frame_is_a_warning() {
     let folder = sequence(2);
-    let arguments = ["gt", "test", "--fov-vertical", "60", "--gaze"];
+    let arguments = ["gt", "test", "--metrics", "psnr", "--fov-vertical", "60", "--gaze"];
     let run = folder
         .score(&[&arguments[..], &["-30,20"]].concat())
         .ok()

@@ -63,6 +63,9 @@ fn display_presets() -> String {
             display.source.clone(),
         ]);
     }
+    if let Some(column) = table.column_mut(0) {
+        column.set_padding((0, 1));
+    }
     for numbers in [3, 4] {
         if let Some(column) = table.column_mut(numbers) {
             column.set_cell_alignment(CellAlignment::Right);

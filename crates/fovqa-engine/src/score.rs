@@ -294,6 +294,17 @@ impl<'a> Run<'a> {
             (Some(maker), Some(view)) => Some(maker.at(view.gaze_px, None)),
             _ => None,
         };
+        if let (Some(maker), Some(field)) =
+            (&maker, retina.as_ref().and_then(|retina| retina.weight.as_ref()))
+            && field.is_flat()
+        {
+            let message = format!(
+                "the view shows {:.2} cycles per degree at most, less than the eye sees anywhere in the \
+                 frame: the foveal weight is flat, and foveal metrics equal their plain forms",
+                maker.view.nyquist_cpd()
+            );
+            self.warn_once("flat weight", &message);
+        }
         Ok(Setup {
             size,
             scorer,

@@ -23,10 +23,10 @@ pub struct ReadOptions {
 }
 
 impl Default for ReadOptions {
-    /// No layer, alpha an error, 512 megapixels: seven times the retinal resolution of the
-    /// papers (11520x6480), 1.5 GB of 8-bit RGB.
+    /// No layer, alpha an error, 256 megapixels: three times the retinal resolution of the
+    /// papers (11520x6480), 768 MB of 8-bit RGB.
     fn default() -> Self {
-        Self { layer: None, alpha: AlphaPolicy::Error, max_megapixels: 512 }
+        Self { layer: None, alpha: AlphaPolicy::Error, max_megapixels: 256 }
     }
 }
 

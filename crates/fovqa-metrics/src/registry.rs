@@ -105,7 +105,7 @@ const MSE: MetricInfo = MetricInfo {
     per_band: true,
     needs_view: false,
     about: "mean squared error of the encoded signal, peak 1",
-    source: "METRICS: squared error of all channels pooled",
+    source: "the squared error of all channels, pooled",
     params: &[],
 };
 
@@ -220,7 +220,7 @@ const FSSIM: MetricInfo = MetricInfo {
     per_band: false,
     needs_view: true,
     about: "the SSIM map under FPSNR's weight",
-    source: "our choice (METRICS); map of ssim, weight of fpsnr",
+    source: "ours: the map of ssim under the weight of fpsnr",
     params: &[],
 };
 

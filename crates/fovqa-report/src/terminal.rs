@@ -87,6 +87,7 @@ fn heading(report: &ScoreReport) -> String {
         let gaze = match report.gaze_held {
             None => format!("({gx:.1}, {gy:.1})"),
             Some(0) => "from a trace".to_owned(),
+            Some(1) => "from a trace, held over in 1 frame".to_owned(),
             Some(held) => format!("from a trace, held over in {held} frames"),
         };
         let _ = writeln!(
@@ -131,6 +132,7 @@ fn finished(mut table: Table) -> String {
     for (index, column) in table.column_iter_mut().enumerate() {
         let side = if index == 0 { CellAlignment::Left } else { CellAlignment::Right };
         column.set_cell_alignment(side);
+        column.set_padding(if index == 0 { (0, 1) } else { (1, 1) });
     }
     table.lines().map(|line| line.trim_end().to_owned()).collect::<Vec<_>>().join("\n")
 }

@@ -12,6 +12,7 @@ use ::exr::meta::attribute::SampleType;
 use ::exr::meta::header::Header;
 use fovqa_frame::Samples;
 use half::f16;
+use half::vec::HalfBitsVecExt;
 use rayon::prelude::*;
 
 use super::damaged;
@@ -88,7 +89,9 @@ pub(crate) enum Planes {
 impl Planes {
     fn new(half: bool, planes: usize, size: usize) -> Self {
         if half {
-            Planes::Half(vec![f16::ZERO; planes * size], size)
+            // From zeroed memory, which the system hands out untouched: a file that declares a
+            // large frame and holds none must not cost its size.
+            Planes::Half(vec![0u16; planes * size].reinterpret_into(), size)
         } else {
             Planes::Float(vec![0.0; planes * size], size)
         }

@@ -192,6 +192,13 @@ impl WeightField {
         Self { eccentricity, curve, rows: None }
     }
 
+    /// Whether f is the display's Nyquist frequency in the whole frame: FPSNR is PSNR then.
+    pub fn is_flat(&self) -> bool {
+        let mut farthest = [self.eccentricity.max_deg() as f32];
+        self.curve.weigh(&mut farthest);
+        farthest[0] >= self.curve.limit
+    }
+
     /// The same, computed now, for views that serve many frames: four bytes a pixel.
     #[must_use]
     pub fn precomputed(self) -> Self {

@@ -1,5 +1,5 @@
 //! Foveated SSIM: Σ f² map / Σ f², over the pixels where the SSIM map is defined, f as in FPSNR.
-//! Our choice (METRICS, "Foveated SSIM"). In [-1, 1], higher is better.
+//! Our own, beside FPSNR. In [-1, 1], higher is better.
 
 /// The two sums of a weighted mean.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

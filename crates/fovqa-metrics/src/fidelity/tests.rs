@@ -234,7 +234,7 @@ fn eight_bit_errors_are_exact() {
     assert_eq!(found.scores[&Metric::Mse], squared as f64 / (3.0 * 300.0 * 130.0 * 255.0 * 255.0));
 }
 
-/// METRICS, the self-tests of FPSNR.
+/// A constant error weighs the same everywhere; one at the gaze weighs more than one far off.
 #[test]
 fn foveal_psnr_knows_where_the_error_is() {
     // 1000 px of focal length: a flat zone of 8°, 141 px, around the gaze.
