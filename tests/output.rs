@@ -2,7 +2,7 @@
 
 use std::process::Stdio;
 
-use crate::fovqa::{Folder, Run, command};
+use crate::fovqa::{Folder, Run, command, root};
 
 #[test]
 fn json_has_the_documented_keys() {
@@ -273,4 +273,17 @@ fn the_same_bytes_for_any_number_of_threads() {
     assert_eq!(one, run("3"));
     let option = folder.run(&[&arguments[..], &["--threads", "5"]].concat()).ok().stdout;
     assert_eq!(one, option);
+}
+
+/// The README shows what the demo prints, and the demo is the Makefile's.
+#[test]
+fn the_readme_shows_the_demo() {
+    let makefile = std::fs::read_to_string(root().join("Makefile")).unwrap();
+    let demo = makefile.split("demo:").nth(1).unwrap().split("\n\n").next().unwrap();
+    let demo = demo.replace('\\', " ");
+    let arguments: Vec<&str> = demo.split(" -- ").nth(1).unwrap().split_whitespace().collect();
+    let output = command(&arguments).current_dir(root()).output().unwrap();
+    let table = Run::from(output).ok().stdout;
+    let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
+    assert!(readme.contains(&table), "{table}");
 }
