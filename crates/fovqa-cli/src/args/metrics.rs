@@ -11,7 +11,7 @@ use super::values::literal;
 pub(crate) struct MetricArgs {
     /// Metrics with commas between them; `fovqa list metrics` shows them
     /// [default: mse,psnr,ssim,fpsnr, less what does not fit]
-    #[arg(long, value_name = "NAME,NAME,…", value_delimiter = ',', value_parser = metric)]
+    #[arg(long, verbatim_doc_comment, value_name = "NAME,NAME,…", value_delimiter = ',', value_parser = metric)]
     metrics: Vec<Metric>,
     /// A parameter of a metric, such as ssim.sigma=1.5
     #[arg(long = "set", value_name = "METRIC.PARAM=VALUE", value_parser = assignment)]

@@ -43,7 +43,7 @@ pub(crate) struct ViewArgs {
     pixel_pitch_mm: Option<f64>,
     /// Gaze in pixels from the top-left corner, or a CSV trace with columns frame,x_px,y_px (or
     /// time_s with --fps) [default: the principal point]
-    #[arg(long, value_name = "X,Y|FILE.csv", allow_hyphen_values = true, value_parser = gaze)]
+    #[arg(long, verbatim_doc_comment, value_name = "X,Y|FILE.csv", allow_hyphen_values = true, value_parser = gaze)]
     gaze: Option<GazeArg>,
     /// Frames that a gaze trace does not cover keep its last gaze
     #[arg(long, requires = "gaze")]
