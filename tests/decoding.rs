@@ -2,7 +2,7 @@
 
 use exr::prelude::{Blocks, Compression, Encoding, LineOrder, Vec2};
 use fovqa_testkit::exr_files::{File, Part, Values};
-use fovqa_testkit::png_files::write16;
+use fovqa_testkit::png_files::{palette, write16};
 use fovqa_testkit::synthetic::codes;
 
 use crate::fovqa::{Folder, root, shared};
@@ -51,6 +51,24 @@ fn eight_and_sixteen_bits_gray_and_rgb() {
         assert!((psnr(other, "b.png") - psnr("gray.png", "b.png")).abs() < 1e-6, "{other}");
         assert!((psnr("b.png", other) - psnr("b.png", "gray.png")).abs() < 1e-6, "{other}");
     }
+}
+
+#[test]
+fn palettes() {
+    let folder = Folder::with_pair();
+    let colours: Vec<[u8; 3]> = (0..=255).map(|i| [i, 255 - i, i / 2]).collect();
+    let indices = codes(W, H, 1, 9);
+    let rgb: Vec<u8> = indices.iter().flat_map(|i| colours[usize::from(*i)]).collect();
+    folder.png("rgb.png", W, H, &rgb);
+    folder.write("palette.png", palette(W, H, &indices, &colours, &[]));
+    assert!(folder.metric("psnr", &["rgb.png", "palette.png"]).is_infinite());
+    folder.write("opaque.png", palette(W, H, &indices, &colours, &[255; 256]));
+    assert!(folder.metric("psnr", &["rgb.png", "opaque.png"]).is_infinite());
+    folder.write("clear.png", palette(W, H, &indices, &colours, &[0; 256]));
+    folder.score(&["rgb.png", "clear.png"]).fails(3, &["alpha is 0 everywhere"]);
+    // An index beyond the palette.
+    folder.write("beyond.png", palette(W, H, &indices, &colours[..4], &[]));
+    assert!([0, 3].contains(&folder.score(&["rgb.png", "beyond.png"]).code));
 }
 
 #[test]

@@ -197,14 +197,14 @@ fn help_lists_completions() {
 fn wrong_command_lines_are_exit_2() {
     let folder = Folder::with_pair();
     let with = |arguments: &[&str]| folder.score(&[&["a.png", "b.png"], arguments].concat());
-    with(&["--metrics", "pnsr"]).fails(2, &["there is no such metric", "psnr"]);
+    with(&["--metrics", "pnsr"]).fails(2, &["there is no such metric", "did you mean psnr?"]);
     with(&["--metrics", "fpsnr"]).fails(2, &["FPSNR needs a view", "--fov-vertical"]);
     with(&["--bands", "0,5"]).fails(2, &["eccentricity bands needs a view"]);
     with(&["--gaze", "3,4"]).fails(2, &["a gaze needs a view"]);
     with(&["--fov-vertical", "180"]).fails(2, &["180", "0°"]);
     with(&["--fov-vertical", "-5"]).fails(2, &["-5"]);
     with(&["--fov-vertical", "60", "--display", "vive-pro-eye"]).fails(2, &["more than one way"]);
-    with(&["--display", "vive"]).fails(2, &["no such display", "vive-pro-eye"]);
+    with(&["--display", "vive"]).fails(2, &["no such display", "did you mean vive-pro-eye?"]);
     with(&["--frustum", "1,1,1"]).fails(2, &["L,R,U,D"]);
     with(&["--frustum", "1,-1,1,1"]).fails(2, &["both sides"]);
     with(&["--distance-m", "1"]).fails(2, &["--pixel-pitch-mm"]);

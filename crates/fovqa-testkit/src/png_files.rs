@@ -43,6 +43,53 @@ pub fn header_only(width: u32, height: u32) -> Vec<u8> {
     bytes
 }
 
+/// A palette PNG: one index a pixel, 8 bits, with the colours' alpha where it is given.
+pub fn palette(
+    width: usize,
+    height: usize,
+    indices: &[u8],
+    colours: &[[u8; 3]],
+    alpha: &[u8],
+) -> Vec<u8> {
+    const PALETTE: u8 = 3;
+    let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
+    let mut header = Vec::new();
+    header.extend((width as u32).to_be_bytes());
+    header.extend((height as u32).to_be_bytes());
+    header.extend([8, PALETTE, 0, 0, 0]);
+    bytes.extend(chunk(*b"IHDR", &header));
+    bytes.extend(chunk(*b"PLTE", colours.as_flattened()));
+    if !alpha.is_empty() {
+        bytes.extend(chunk(*b"tRNS", alpha));
+    }
+    // Every row unfiltered; all rows in stored blocks of deflate (RFC 1951, 3.2.4).
+    let rows: Vec<u8> = indices.chunks_exact(width).flat_map(|row| [&[0], row].concat()).collect();
+    let mut data = vec![0x78, 0x01];
+    let blocks = rows.chunks(usize::from(u16::MAX));
+    let last = blocks.len() - 1;
+    for (i, block) in blocks.enumerate() {
+        let length = block.len() as u16;
+        data.push(u8::from(i == last));
+        data.extend(length.to_le_bytes());
+        data.extend((!length).to_le_bytes());
+        data.extend(block);
+    }
+    data.extend(adler32(&rows).to_be_bytes());
+    bytes.extend(chunk(*b"IDAT", &data));
+    bytes.extend(chunk(*b"IEND", &[]));
+    bytes
+}
+
+/// The checksum of zlib (RFC 1950, 9).
+fn adler32(bytes: &[u8]) -> u32 {
+    const MODULUS: u32 = 65521;
+    let (a, b) = bytes.iter().fold((1, 0), |(a, b), byte| {
+        let a = (a + u32::from(*byte)) % MODULUS;
+        (a, (a + b) % MODULUS)
+    });
+    b << 16 | a
+}
+
 /// The file with a chunk put in behind its header.
 pub fn with_chunk(png: &[u8], name: [u8; 4], data: &[u8]) -> Vec<u8> {
     const HEADER_END: usize = 8 + 12 + 13;

@@ -4,6 +4,7 @@ use clap::Args;
 use fovqa_engine::MetricChoice;
 use fovqa_metrics::{Metric, ParamValue, Params};
 
+use super::nearest::no_such;
 use super::values::literal;
 
 #[derive(Debug, Args)]
@@ -26,10 +27,8 @@ struct Assignment {
 }
 
 fn metric(name: &str) -> Result<Metric, String> {
-    Metric::find(name.trim()).ok_or_else(|| {
-        let names: Vec<_> = Metric::ALL.iter().map(|m| m.key().replace('_', "-")).collect();
-        format!("there is no such metric; there are {}", names.join(", "))
-    })
+    Metric::find(name.trim())
+        .ok_or_else(|| no_such("metric", name, &Metric::ALL.map(|m| m.key().replace('_', "-"))))
 }
 
 fn assignment(text: &str) -> Result<Assignment, String> {

@@ -1,6 +1,7 @@
 //! The command line, as clap sees it.
 
 mod metrics;
+mod nearest;
 mod score;
 mod signal;
 mod values;

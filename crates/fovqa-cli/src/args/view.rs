@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use fovqa_engine::Gaze;
 use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec, displays, find_display};
 
+use super::nearest::no_such;
 use super::values::{finite, numbers};
 
 /// How eccentricity is measured.
@@ -83,8 +84,8 @@ fn bands(text: &str) -> Result<BandEdges, String> {
 
 fn display(name: &str) -> Result<fovqa_vision::Display, String> {
     find_display(name).cloned().ok_or_else(|| {
-        let names: Vec<_> = displays().iter().map(|d| d.name.replace('_', "-")).collect();
-        format!("there is no such display; there are {}", names.join(", "))
+        let names: Vec<String> = displays().iter().map(|d| d.name.replace('_', "-")).collect();
+        no_such("display", name, &names)
     })
 }
 
