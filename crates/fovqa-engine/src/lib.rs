@@ -6,10 +6,12 @@
 mod error;
 mod events;
 mod load;
+mod plan;
 mod read_ahead;
 mod request;
 mod retina;
 mod score;
+mod setup;
 
 pub use error::EngineError;
 pub use events::Events;

@@ -59,6 +59,18 @@ impl LoadError {
     }
 }
 
+/// Why a frame has no scores: what is wrong, and how to mend it.
+pub(crate) struct Fault {
+    pub(crate) message: String,
+    pub(crate) help: String,
+}
+
+impl From<LoadError> for Fault {
+    fn from(error: LoadError) -> Self {
+        Self { message: error.to_string(), help: error.help().to_owned() }
+    }
+}
+
 /// What loading depends on.
 #[derive(Debug)]
 pub(crate) struct Loader<'a> {

@@ -8,6 +8,19 @@ use fovqa_vision::Run;
 /// Accumulators of a sum: two vectors of the widest kind.
 const LANES: usize = 16;
 
+/// The lanes' sum, halves onto halves.
+#[inline(always)]
+fn total(mut lanes: [f64; LANES]) -> f64 {
+    let mut width = LANES;
+    while width > 1 {
+        width /= 2;
+        for i in 0..width {
+            lanes[i] += lanes[i + width];
+        }
+    }
+    lanes[0]
+}
+
 /// The sum of a row. Lane by lane, so that any vector width adds in the same order.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 pub(crate) fn sum(values: &[f32]) -> f64 {
@@ -21,14 +34,7 @@ pub(crate) fn sum(values: &[f32]) -> f64 {
     for (lane, &value) in lanes.iter_mut().zip(rest) {
         *lane += f64::from(value);
     }
-    let mut width = LANES;
-    while width > 1 {
-        width /= 2;
-        for i in 0..width {
-            lanes[i] += lanes[i + width];
-        }
-    }
-    lanes[0]
+    total(lanes)
 }
 
 /// The sum of the products of two rows.
@@ -45,14 +51,7 @@ pub(crate) fn sum_of_products(a: &[f32], b: &[f32]) -> f64 {
     for ((lane, &a), &b) in lanes.iter_mut().zip(rest_a).zip(rest_b) {
         *lane += f64::from(a) * f64::from(b);
     }
-    let mut width = LANES;
-    while width > 1 {
-        width /= 2;
-        for i in 0..width {
-            lanes[i] += lanes[i + width];
-        }
-    }
-    lanes[0]
+    total(lanes)
 }
 
 /// Adds a row, whose first value stands in column `x`, to the sums of the bands it crosses.
