@@ -1,5 +1,7 @@
 //! One pair of files to one pair of frames that may be compared.
 
+use std::path::Path;
+
 use fovqa_frame::{BadPixel, Crop, CropError, Frame, Mask, SignalParams, Transfer};
 use fovqa_io::sequence::FramePair;
 use fovqa_io::{Note, ReadError, ReadOptions, read_frame};
@@ -80,52 +82,60 @@ pub(crate) struct Loader<'a> {
     pub(crate) signal: &'a SignalParams,
 }
 
+/// One side of a pair, with what was found in it.
+struct Side {
+    file: String,
+    frame: Frame,
+    bad: Option<BadPixel>,
+    notes: Vec<String>,
+}
+
+impl Side {
+    fn size(&self) -> (usize, usize) {
+        (self.frame.width(), self.frame.height())
+    }
+}
+
 impl Loader<'_> {
     /// Both files at the same time.
     pub(crate) fn load(&self, pair: &FramePair) -> Result<Loaded, LoadError> {
         let (reference, test) =
-            rayon::join(|| self.load_one(&pair.reference), || self.load_one(&pair.test));
-        let (reference, mut notes) = reference?;
-        let (test, test_notes) = test?;
-        notes.extend(test_notes);
-        let size = |frame: &Frame| (frame.width(), frame.height());
-        if size(&reference.0) != size(&test.0) {
+            rayon::join(|| self.side(&pair.reference), || self.side(&pair.test));
+        let (reference, test) = (reference?, test?);
+        if reference.size() != test.size() {
             return Err(LoadError::Size {
-                reference: pair.reference.display().to_string(),
-                reference_size: size(&reference.0),
-                test: pair.test.display().to_string(),
-                test_size: size(&test.0),
+                reference_size: reference.size(),
+                reference: reference.file,
+                test_size: test.size(),
+                test: test.file,
             });
         }
-        let mut finite = None;
-        for (path, (frame, bad)) in [(&pair.reference, &reference), (&pair.test, &test)] {
-            let Some(bad) = *bad else { continue };
+        let mut finite: Option<Mask> = None;
+        let mut notes = Vec::new();
+        for side in [&reference, &test] {
+            notes.extend(side.notes.iter().map(|note| (side.file.clone(), note.clone())));
+            let Some(bad) = side.bad else { continue };
             if self.nonfinite == Nonfinite::Error {
-                return Err(LoadError::Nonfinite { file: path.display().to_string(), bad });
+                return Err(LoadError::Nonfinite { file: side.file.clone(), bad });
             }
-            let mask = frame.finite_mask();
+            let mask = side.frame.finite_mask();
             match &mut finite {
                 None => finite = Some(mask),
                 Some(both) => both.intersect(&mask),
             }
         }
-        Ok(Loaded { reference: reference.0, test: test.0, finite, notes })
+        Ok(Loaded { reference: reference.frame, test: test.frame, finite, notes })
     }
 
-    #[allow(clippy::type_complexity, reason = "a frame with its findings, used once")]
-    fn load_one(
-        &self,
-        path: &std::path::Path,
-    ) -> Result<((Frame, Option<BadPixel>), Vec<(String, String)>), LoadError> {
+    fn side(&self, path: &Path) -> Result<Side, LoadError> {
         let decoded = read_frame(path, self.read)?;
-        let file = || path.display().to_string();
-        let mut notes: Vec<(String, String)> =
-            decoded.notes.iter().map(|note: &Note| (file(), note.in_words())).collect();
+        let file = path.display().to_string();
+        let mut notes: Vec<String> = decoded.notes.iter().map(Note::in_words).collect();
         let frame = match self.crop {
             Some(crop) => decoded
                 .frame
                 .cropped(crop)
-                .map_err(|error| LoadError::Crop { file: file(), error })?,
+                .map_err(|error| LoadError::Crop { file: file.clone(), error })?,
             None => decoded.frame,
         };
         let encoded_floats =
@@ -135,10 +145,10 @@ impl Loader<'_> {
             if low < 0.0 || high > 1.0 {
                 let range =
                     "values beyond 0 to 1, which an encoded signal cannot have, are clamped";
-                notes.push((file(), range.to_owned()));
+                notes.push(range.to_owned());
             }
         }
         let bad = frame.bad_pixel();
-        Ok(((frame, bad), notes))
+        Ok(Side { file, frame, bad, notes })
     }
 }
