@@ -198,6 +198,20 @@ fn nan_and_infinity() {
 }
 
 #[test]
+fn pixels_bad_in_either_picture_are_left_out_of_both() {
+    let folder = Folder::new();
+    let with = |name: &str, at: (usize, usize)| {
+        let value = |x: usize, y: usize| if (x, y) == at { f32::NAN } else { 0.3 };
+        File::new(vec![Part::rgb((48, 40), value)]).write(&folder.path(name));
+    };
+    with("a.exr", (5, 6));
+    with("b.exr", (30, 20));
+    let json = folder.json(&["a.exr", "b.exr", "--nonfinite", "mask", "--metrics", "psnr"]);
+    assert_eq!(json["frames"][0]["pixels_left_out"], 2);
+    assert_eq!(json["frames"][0]["metrics"]["psnr"], "inf");
+}
+
+#[test]
 fn a_firefly_does_not_raise_psnr() {
     let folder = Folder::new();
     let write = |name: &str, firefly: f32, scale: f32| {

@@ -270,6 +270,16 @@ mod tests {
     }
 
     #[test]
+    fn a_gap_in_time_is_one_when_no_sample_is_within_a_frame() {
+        let t = trace("time_s,x_px,y_px\n0,1,1\n0.05,2,2\n").unwrap();
+        let at = t.at_frames(&[0, 1, 4], 0, Some(72.0), false).unwrap();
+        assert_eq!(at.iter().map(|g| g.px[0]).collect::<Vec<_>>(), [1.0, 1.0, 2.0]);
+        let far = t.at_frames(&[8], 0, Some(72.0), false);
+        assert!(matches!(far, Err(GazeTraceError::Missing { frame: 8, .. })));
+        assert!(t.at_frames(&[8], 0, Some(72.0), true).unwrap()[0].held);
+    }
+
+    #[test]
     fn says_what_is_wrong_and_where() {
         assert!(matches!(trace("x,y\n1,2\n"), Err(GazeTraceError::Column { .. })));
         assert!(matches!(trace("frame,x_px,y_px\n"), Err(GazeTraceError::Empty)));
