@@ -3,6 +3,7 @@
 
 use std::fs;
 
+use exr::prelude::{Blocks, Compression, Encoding, LineOrder};
 use fovqa_testkit::exr_files::{File, Part, Values, deep};
 use fovqa_testkit::png_files::{header_only, with_chunk};
 use fovqa_testkit::synthetic::codes;
@@ -123,6 +124,96 @@ fn declared_sizes_beyond_reason() {
     folder.score(&[&pair[..], &["1"]].concat()).ok();
 }
 
+/// Counters of a DWA block ask for memory; no decoder may believe them.
+#[test]
+fn exr_whose_blocks_declare_too_much() {
+    let folder = Folder::with_pair();
+    let encoding = Encoding {
+        compression: Compression::DWAA(None),
+        blocks: Blocks::ScanLines,
+        line_order: LineOrder::Increasing,
+    };
+    let noise = |x: usize, y: usize| ((x * 7919 + y * 104_729) % 1000) as f32 / 1000.0;
+    File { encoding, ..File::new(vec![Part::rgb((48, 40), noise)]) }.write(&folder.path("c.exr"));
+    folder.score(&["a.png", "c.exr"]).ok();
+    let whole = bytes(&folder, "c.exr");
+    // The first block: y, size, then eleven counters of eight bytes; behind one offset a block.
+    let blocks = 40usize.div_ceil(32);
+    let header = whole.windows(17).position(|w| w == b"screenWindowWidth").unwrap();
+    let at = (header..whole.len() - 8)
+        .find(|&at| {
+            let offset = u64::from_le_bytes(whole[at..at + 8].try_into().unwrap());
+            offset == (at + 8 * blocks) as u64
+        })
+        .expect("the offset table");
+    let counters = at + 8 * blocks + 8;
+    for counter in 1..10 {
+        let mut huge = whole.clone();
+        huge[counters + 8 * counter + 5] = 0x7f;
+        folder.write("huge.exr", &huge);
+        refuses(&folder, "huge.exr", &["declares more data than it can hold"]);
+    }
+}
+
+#[test]
+fn exr_of_kinds_that_are_not_read() {
+    let folder = Folder::with_pair();
+    File::new(vec![Part::rgb((48, 40), |_, _| 0.5)]).write(&folder.path("c.exr"));
+    let whole = bytes(&folder, "c.exr");
+    let compression = b"compression\0compression\0\x01\0\0\0";
+    let at = whole.windows(compression.len()).position(|w| w == compression).unwrap();
+    let mut newer = whole.clone();
+    newer[at + compression.len()] = 99;
+    folder.write("newer.exr", &newer);
+    refuses(&folder, "newer.exr", &["of a kind that is not read"]);
+    let mut subsampled = whole.clone();
+    let channel = b"R\0\x01\0\0\0\0\0\0\0\x01\0\0\0\x01\0\0\0";
+    let at = whole.windows(channel.len()).position(|w| w == channel).unwrap();
+    subsampled[at + 10] = 2;
+    folder.write("subsampled.exr", &subsampled);
+    refuses(&folder, "subsampled.exr", &["channel R is subsampled"]);
+    // Every offset points to the first block.
+    let tables: Vec<usize> = (0..whole.len() - 16)
+        .filter(|&at| {
+            let offset = |at: usize| u64::from_le_bytes(whole[at..at + 8].try_into().unwrap());
+            offset(at) == (at + 24) as u64 && offset(at + 8) > offset(at)
+        })
+        .collect();
+    let [table] = tables[..] else { panic!("one offset table of three blocks: {tables:?}") };
+    let mut same = whole.clone();
+    same.copy_within(table..table + 8, table + 8);
+    folder.write("same.exr", &same);
+    refuses(&folder, "same.exr", &["one of its blocks is there twice"]);
+}
+
+/// A profile that is never applied must not cost what it inflates to.
+#[test]
+fn png_with_a_profile_that_inflates() {
+    let folder = Folder::with_pair();
+    // 2 GB of zeros take 2 MB deflated; a stored block that lies about its length will do here.
+    let mut profile = b"bomb\0\0\x78\x9c".to_vec();
+    profile.extend([0xff; 64]);
+    folder.write("bomb.png", with_chunk(&bytes(&folder, "a.png"), *b"iCCP", &profile));
+    let run = folder.score(&["bomb.png", "b.png"]).ok().says(&["iCCP", "not applied"]);
+    assert!(run.stdout.contains("PSNR"));
+}
+
+#[cfg(unix)]
+#[test]
+fn devices_and_pipes() {
+    let folder = Folder::with_pair();
+    for (file, words) in [("/dev/null", "neither a file nor a folder"), ("fifo.png", "neither")] {
+        if file == "fifo.png" {
+            let made = std::process::Command::new("mkfifo").arg(folder.path(file)).status();
+            assert!(made.unwrap().success());
+        }
+        refuses(&folder, file, &[words]);
+        folder.score(&["a.png", "b.png", "--mask", file]).fails(3, &["not a regular file"]);
+        let gaze = ["a.png", "b.png", "--fov-vertical", "60", "--gaze", file];
+        folder.score(&gaze).fails(3, &["not a regular file"]);
+    }
+}
+
 #[test]
 fn exr_without_one_colour_layer() {
     let folder = Folder::with_pair();
@@ -147,6 +238,9 @@ fn exr_without_one_colour_layer() {
     File::new(vec![part(&names)]).write(&folder.path("layers.exr"));
     refuses(&folder, "layers.exr", &["ViewLayer.Combined, ViewLayer.DiffCol", "--layer"]);
     folder.score(&["a.png", "layers.exr", "--layer", "ViewLayer.Combined"]).ok();
+    // A reference with nothing but R, G, B beside a test of many layers.
+    File::new(vec![part(&["R", "G", "B"])]).write(&folder.path("plain.exr"));
+    folder.score(&["plain.exr", "layers.exr", "--layer", "ViewLayer.Combined"]).ok();
     folder.score(&["a.png", "layers.exr", "--layer", "ViewLayer.Depth"]).fails(
         3,
         &["no colour layer \"ViewLayer.Depth\"", "ViewLayer.Combined, ViewLayer.DiffCol"],

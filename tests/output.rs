@@ -97,6 +97,11 @@ fn a_band_without_pixels_is_kept_with_null() {
     let empty = &frame["bands"][2];
     assert_eq!(empty["pixels"], 0);
     assert!(empty["psnr"].is_null() && empty["ssim"].is_null() && empty["mse"].is_null());
+    let arguments = ["a.png", "b.png", "--fov-vertical", "60", "--bands", "10,20,90,100"];
+    let table = folder.score(&arguments).ok().stdout;
+    assert!(table.contains("pixels lie outside all bands"), "{table}");
+    let csv = folder.score(&[&arguments[..], &["--format", "csv"]].concat()).ok().stdout;
+    assert!(csv.contains("pair,pixels_outside_bands,"), "{csv}");
     let inside: u64 =
         frame["bands"].as_array().unwrap().iter().map(|b| b["pixels"].as_u64().unwrap()).sum();
     assert_eq!(frame["pixels_outside_bands"], 48 * 40 - inside);
@@ -142,6 +147,8 @@ fn a_closed_pipe_is_success() {
     let (a, b) = (folder.path("a.png"), folder.path("b.png"));
     for arguments in [
         vec!["score", a.to_str().unwrap(), b.to_str().unwrap(), "--format", "json"],
+        vec!["score", a.to_str().unwrap(), b.to_str().unwrap(), "--format", "csv"],
+        vec!["score", a.to_str().unwrap(), b.to_str().unwrap()],
         vec!["list", "displays"],
         vec!["completions", "bash"],
         vec!["--help"],
@@ -218,6 +225,11 @@ fn wrong_command_lines_are_exit_2() {
     with(&["--frames", "5"]).fails(2, &["A..B"]);
     with(&["--fps", "0"]).fails(2, &["above 0"]);
     with(&["--threads", "0"]).fails(2, &["threads"]);
+    with(&["--threads", "99999999999"]).fails(2, &["1..=256"]);
+    with(&["--set", "ssim.k1=1e30"]).fails(2, &["ssim.k1 cannot be", "0.0001 to 1"]);
+    with(&["--set", "ssim.sigma=1e-200"]).fails(2, &["0.1 to 64"]);
+    with(&["--set", "fpsnr.alpha=1e300"]).fails(2, &["fpsnr.alpha"]);
+    with(&["--frustum", "1e308,1e308,1,1"]).fails(2, &["focal length"]);
     with(&["--tonemap", "filmic"]).fails(2, &["clamp"]);
     folder.run(&["score", "a.png"]).fails(2, &["TEST"]);
     folder.run(&[]).fails(2, &["Usage"]);

@@ -173,6 +173,8 @@ fn gaze_traces_that_do_not_fit_are_errors() {
     with("frame,x_px,y_px\n0,1,1\n1,2,2\n", &[])
         .fails(3, &["no gaze for frame 2", "0 to 1", "--gaze-hold"]);
     with("frame,x_px,y_px\n0,1,1\n1,2,2\n", &["--gaze-hold"]).ok();
+    with("frame,x_px,y_px\n1,1,1\n2,2,2\n", &["--gaze-hold"])
+        .fails(3, &["frame 0 has no gaze of its own", "none before it to hold"]);
     with("frame,x_px,y_px\n1,1,1\n0,2,2\n", &[]).fails(3, &["line 3", "does not come after"]);
     with("x,y\n1,2\n", &[]).fails(3, &["no column frame (or time_s)", "x, y"]);
     with("frame,x_px,y_px\n0,one,2\n", &[]).fails(3, &["line 2", "x_px is \"one\""]);

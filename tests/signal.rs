@@ -121,6 +121,16 @@ fn a_mask_keeps_pixels_out() {
     folder.png("part.png", 20, 20, &part);
     assert_eq!(whole["frames"], folder.json(&[&cropped[..], &["part.png"]].concat())["frames"]);
 
+    // Stripes without a whole window: SSIM, which nobody named, is left out; named, it is an error.
+    let stripes: Vec<u8> = (0..48 * 40).map(|i| if i % 8 == 0 { 0 } else { 255 }).collect();
+    folder.png("stripes.png", 48, 40, &stripes);
+    let striped = ["a.png", "b.png", "--mask", "stripes.png"];
+    let run = folder.score(&[&striped[..], &["--format", "json"]].concat()).ok();
+    let run = run.says(&["SSIM is left out of frame 0", "no whole window"]);
+    let metrics = run.json()["frames"][0]["metrics"].clone();
+    assert!(metrics["psnr"].is_f64() && metrics.get("ssim").is_none());
+    folder.score(&[&striped[..], &["--metrics", "ssim"]].concat()).fails(3, &["no whole window"]);
+
     folder.png("other.png", 30, 40, &[255; 1200]);
     folder
         .score(&["a.png", "b.png", "--mask", "other.png"])

@@ -7,6 +7,7 @@ mod list;
 mod output;
 mod progress;
 mod score;
+mod threads;
 
 use std::process::ExitCode;
 

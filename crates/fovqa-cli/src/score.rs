@@ -7,17 +7,12 @@ use crate::diagnostic;
 use crate::exit::Exit;
 use crate::output;
 use crate::progress::Terminal;
+use crate::threads;
 
 pub(crate) fn run(args: ScoreArgs) -> Exit {
     let format = args.format;
-    if let Some(threads) = args.threads
-        && let Err(error) =
-            rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global()
-    {
-        diagnostic::error(
-            &format!("{threads} threads cannot be started: {error}"),
-            "ask for fewer",
-        );
+    if let Err(message) = threads::start(args.threads) {
+        diagnostic::error(&message, "ask for fewer");
         return Exit::Usage;
     }
     let request = match args.request() {

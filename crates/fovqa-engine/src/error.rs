@@ -93,7 +93,7 @@ fn gaze_help(error: &GazeTraceError) -> &'static str {
         GazeTraceError::Missing { .. } => {
             "record it for every frame, or pass --gaze-hold to keep the last gaze"
         }
-        GazeTraceError::StartsWithBlink { .. } => "put an open-eyed row in front",
+        GazeTraceError::NothingToHold { .. } => "start the trace with a row that has a gaze",
         _ => {
             "a gaze trace is CSV with the columns frame,x_px,y_px (or time_s,x_px,y_px), rows rising"
         }

@@ -73,6 +73,9 @@ pub(crate) fn find_pairs(request: &ScoreRequest) -> Result<(Vec<FramePair>, u64)
     Ok((pairs, first))
 }
 
+/// Hours of gaze at any rate a tracker has.
+const MAX_GAZE_BYTES: u64 = 64 << 20;
+
 /// The gaze of each pair, where it comes from a trace.
 pub(crate) fn gaze_trace(
     request: &ScoreRequest,
@@ -80,12 +83,18 @@ pub(crate) fn gaze_trace(
     first_frame: u64,
 ) -> Result<Option<Vec<GazeAt>>, EngineError> {
     let Gaze::Trace { path, hold } = &request.gaze else { return Ok(None) };
-    let file = File::open(path)
-        .and_then(|file| {
-            let folder = file.metadata()?.is_dir();
-            if folder { Err(std::io::ErrorKind::IsADirectory.into()) } else { Ok(file) }
-        })
-        .map_err(|error| EngineError::GazeFile { path: path.clone(), error })?;
+    let open = || {
+        // Looked at before it is opened, which a pipe without a writer would never end.
+        let size = std::fs::metadata(path)?;
+        if !size.is_file() {
+            return Err(std::io::Error::other("it is not a regular file"));
+        }
+        if size.len() > MAX_GAZE_BYTES {
+            return Err(std::io::Error::other("it is larger than 64 MiB"));
+        }
+        File::open(path)
+    };
+    let file = open().map_err(|error| EngineError::GazeFile { path: path.clone(), error })?;
     let frames: Vec<u64> = pairs.iter().map(|p| p.number).collect();
     GazeTrace::read(std::io::BufReader::new(file))
         .and_then(|trace| trace.at_frames(&frames, first_frame, request.fps, *hold))

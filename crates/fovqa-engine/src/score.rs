@@ -147,6 +147,14 @@ impl Run<'_> {
                 message: format!("{}: {error}", pair.test.display()),
                 help: format!("leave it out of --metrics, or {}", score_help(&error)),
             })?;
+        for metric in setup.scorer.metrics().iter().filter(|m| !scores.scores.contains_key(m)) {
+            let label = metric.info().label;
+            let message = format!(
+                "{label} is left out of frame {}: the mask leaves no whole window for it",
+                pair.number
+            );
+            self.warnings.once(&format!("{label} without windows"), &message);
+        }
         Ok(FrameResult {
             frame: pair.number,
             reference: shown(&pair.reference),

@@ -50,7 +50,10 @@ impl<'a> Setup<'a> {
             }
         }
         let foveal = metrics.iter().any(|m| m.info().needs_view);
-        let scorer = Scorer::new(metrics, request.params.clone());
+        let mut scorer = Scorer::new(metrics, request.params.clone());
+        if request.metrics == MetricChoice::Default {
+            scorer = scorer.lenient();
+        }
         let mut setup = Self {
             size,
             first_file,

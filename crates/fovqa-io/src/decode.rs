@@ -107,10 +107,15 @@ pub fn read_frame(path: &Path, options: &ReadOptions) -> Result<Decoded, ReadErr
 fn read_contained(path: &Path, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
     /// Large enough to keep system calls rare, small enough for the second-level cache.
     const BUFFER: usize = 256 << 10;
-    let file = File::open(path)?;
-    if file.metadata()?.is_dir() {
+    let kind = std::fs::metadata(path)?;
+    if kind.is_dir() {
         return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
     }
+    // Before it is opened, which a pipe without a writer would never end.
+    if !kind.is_file() {
+        return Err(ReadErrorKind::NotRegular);
+    }
+    let file = File::open(path)?;
     let mut file = BufReader::with_capacity(BUFFER, file);
     let mut magic = Vec::with_capacity(8);
     file.by_ref().take(8).read_to_end(&mut magic)?;

@@ -19,6 +19,9 @@ pub struct ReadError {
 /// Why a file could not be read as a frame.
 #[derive(Debug, Error)]
 pub enum ReadErrorKind {
+    /// A device, a pipe or the like.
+    #[error("it is not a regular file")]
+    NotRegular,
     /// The operating system refused.
     #[error("{}", io_reason(.0))]
     Io(#[from] io::Error),
@@ -30,6 +33,12 @@ pub enum ReadErrorKind {
     Damaged {
         /// `PNG`, `JPEG` or OpenEXR.
         format: &'static str,
+        /// The decoder's words.
+        detail: String,
+    },
+    /// A file that is whole, but of a kind that is not read.
+    #[error("it is an OpenEXR file of a kind that is not read: {detail}")]
+    Unsupported {
         /// The decoder's words.
         detail: String,
     },
@@ -66,7 +75,7 @@ pub enum ReadErrorKind {
     #[error("it holds deep data, which has no single colour a pixel")]
     Deep,
     /// No colour channels.
-    #[error("it has no colour: no R, G, B and no Y, only {channels}")]
+    #[error("it has no colour: no layer has R, G and B, or Y alone; its channels are {channels}")]
     NoColour {
         /// The channels there are.
         channels: String,
@@ -86,7 +95,7 @@ pub enum ReadErrorKind {
         layers: String,
     },
     /// Channels at a lower resolution than the picture.
-    #[error("channel {channel} is subsampled, which is not read")]
+    #[error("channel {channel} is subsampled, and files with such channels are not read")]
     Subsampled {
         /// The channel.
         channel: String,
@@ -115,9 +124,11 @@ impl ReadErrorKind {
             Self::Io(error) if error.kind() == io::ErrorKind::NotFound => {
                 "check the path; a relative one starts at the working directory"
             }
+            Self::NotRegular => "give a file, a folder or a pattern",
             Self::Io(_) => "check that it is a file and may be read",
             Self::NotAnImage => "convert it to PNG or OpenEXR",
             Self::Damaged { .. } => "render or copy it again",
+            Self::Unsupported { .. } => "save it again with another compression, such as ZIP",
             Self::TooLarge { .. } => "raise the limit with --max-megapixels if the size is meant",
             Self::Alpha { .. } => {
                 "pass --alpha ignore to drop it, or --alpha over-black to lay the image over black"
@@ -127,7 +138,9 @@ impl ReadErrorKind {
             Self::NoColour { .. } => "give the file that holds the beauty pass",
             Self::SeveralLayers { .. } => "name one with --layer",
             Self::NoSuchLayer { .. } => "name one of these with --layer",
-            Self::Subsampled { .. } => "write luminance/chroma files as R, G, B",
+            Self::Subsampled { .. } => {
+                "save it with every channel at full resolution, luminance and chroma as R, G, B"
+            }
             Self::DisjointWindows { .. } => {
                 "nothing of it would be seen: check the render's region"
             }

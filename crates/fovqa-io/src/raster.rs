@@ -12,6 +12,11 @@ use crate::alpha::{AlphaPolicy, require_opaque};
 use crate::decode::{Decoded, Note, ReadOptions};
 use crate::error::ReadErrorKind;
 
+/// Memory a PNG may ask for beside its picture.
+const SMALL_THINGS_BYTES: u64 = 32 << 20;
+/// A few rows of the widest pixels.
+const ROWS_BYTES_A_PIXEL: u64 = 64;
+
 pub(crate) fn read_png(
     mut file: impl BufRead + Seek,
     options: &ReadOptions,
@@ -20,9 +25,11 @@ pub(crate) fn read_png(
     options.check_size(width, height)?;
     let chunks = png_colour_chunks(&mut file)?;
     file.rewind()?;
-    // Our own limit has been checked; the library's would refuse retinal resolutions.
-    let decoder =
-        PngDecoder::with_limits(file, Limits::no_limits()).map_err(|e| damaged("PNG", e))?;
+    // Rows and small things: the picture's own buffer is ours, and its size has been checked. A
+    // colour profile that inflates beyond this is dropped, as it would be anyway.
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(SMALL_THINGS_BYTES + width * ROWS_BYTES_A_PIXEL);
+    let decoder = PngDecoder::with_limits(file, limits).map_err(|e| damaged("PNG", e))?;
     let mut decoded = read_samples("PNG", decoder, options)?;
     if !chunks.is_empty() {
         decoded.notes.push(Note::ColourChunks(chunks.join(", ")));
@@ -72,8 +79,6 @@ fn read_samples(
 ) -> Result<Decoded, ReadErrorKind> {
     let (width, height) = decoder.dimensions();
     let colour = decoder.color_type();
-    let mut bytes = vec![0; decoder.total_bytes() as usize];
-    decoder.read_image(&mut bytes).map_err(|e| damaged(format, e))?;
     let (colours, has_alpha) = match colour {
         ColorType::L8 | ColorType::L16 => (1, false),
         ColorType::La8 | ColorType::La16 => (1, true),
@@ -85,11 +90,16 @@ fn read_samples(
         }
     };
     let width = width as usize;
+    let length = decoder.total_bytes() as usize;
     let samples = if colour.bytes_per_pixel() / colour.channel_count() == 2 {
-        let codes = bytes.as_chunks::<2>().0.iter().map(|b| u16::from_ne_bytes(*b)).collect();
+        let mut codes = vec![0u16; length / 2];
+        let bytes = bytemuck::cast_slice_mut(&mut codes);
+        decoder.read_image(bytes).map_err(|e| damaged(format, e))?;
         Samples::U16(without_alpha(codes, colours, has_alpha, width, options.alpha)?)
     } else {
-        Samples::U8(without_alpha(bytes, colours, has_alpha, width, options.alpha)?)
+        let mut codes = vec![0u8; length];
+        decoder.read_image(&mut codes).map_err(|e| damaged(format, e))?;
+        Samples::U8(without_alpha(codes, colours, has_alpha, width, options.alpha)?)
     };
     let channels = if colours == 1 { Channels::Gray } else { Channels::Rgb };
     let frame = Frame::new(width, height as usize, channels, samples)
@@ -170,9 +180,8 @@ fn png_size(file: &mut (impl Read + Seek)) -> Result<(u64, u64), ReadErrorKind> 
 fn png_colour_chunks(file: &mut (impl Read + Seek)) -> Result<Vec<&'static str>, ReadErrorKind> {
     const SRGB_CICP: [u8; 4] = [1, 13, 0, 1];
     let (mut found, mut srgb) = (Vec::new(), false);
-    let mut at = PNG_CHUNKS_FROM;
+    file.seek(SeekFrom::Start(PNG_CHUNKS_FROM))?;
     loop {
-        file.seek(SeekFrom::Start(at))?;
         let mut name = [0; 4];
         let Ok(length) = read_u32(file) else { break };
         if file.read_exact(&mut name).is_err() {
@@ -188,10 +197,12 @@ fn png_colour_chunks(file: &mut (impl Read + Seek)) -> Result<Vec<&'static str>,
                 if file.read_exact(&mut code).is_err() || code != SRGB_CICP {
                     found.push("cICP");
                 }
+                file.seek_relative(-4)?;
             }
             _ => {}
         }
-        at += u64::from(length) + 12;
+        // Relative, so that a reader's buffer stays what it is; over data and checksum.
+        file.seek_relative(i64::from(length) + 4)?;
     }
     found.retain(|name| !(srgb && *name == "gAMA"));
     Ok(found)

@@ -118,11 +118,6 @@ impl ParamValue {
         }
     }
 
-    /// The number, if it is finite and above 0.
-    pub(crate) fn positive(&self) -> Option<f64> {
-        self.number_in(f64::MIN_POSITIVE..)
-    }
-
     /// The list.
     pub(crate) fn list(&self) -> Option<Vec<f64>> {
         match self {
@@ -172,9 +167,15 @@ mod tests {
             params.set(Metric::Psnr, "sigma", &number(1.0)),
             Err(ParamError::Unknown { .. })
         ));
-        for (name, value) in
-            [("sigma", 0.0), ("sigma", f64::NAN), ("radius", 33.0), ("radius", 2.5), ("k1", -1.0)]
-        {
+        for (name, value) in [
+            ("sigma", 0.0),
+            ("sigma", f64::NAN),
+            ("radius", 225.0),
+            ("sigma", 65.0),
+            ("k2", 1e160),
+            ("radius", 2.5),
+            ("k1", -1.0),
+        ] {
             assert!(
                 matches!(
                     params.set(Metric::Ssim, name, &number(value)),

@@ -134,15 +134,19 @@ const SSIM: MetricInfo = MetricInfo {
         ParamInfo {
             name: "sigma",
             default: "1.5",
-            about: "Gaussian window, px, > 0 (MS-SSIM and FSSIM too)",
+            about: "Gaussian window, px, 0.1 to 64 (MS-SSIM and FSSIM too)",
         },
         ParamInfo {
             name: "radius",
             default: "auto",
-            about: "window radius, px, 1 to 32; auto is 3.5 sigma, rounded (5)",
+            about: "window radius, px, 1 to 224; auto is 3.5 sigma, rounded (5)",
         },
-        ParamInfo { name: "k1", default: "0.01", about: "stabiliser of the means, > 0" },
-        ParamInfo { name: "k2", default: "0.03", about: "stabiliser of the variances, > 0" },
+        ParamInfo { name: "k1", default: "0.01", about: "stabiliser of the means, 0.0001 to 1" },
+        ParamInfo {
+            name: "k2",
+            default: "0.03",
+            about: "stabiliser of the variances, 0.0001 to 1",
+        },
     ],
 };
 
@@ -176,17 +180,17 @@ const FPSNR: MetricInfo = MetricInfo {
         ParamInfo {
             name: "alpha",
             default: "0.106",
-            about: "lee2002: decay of contrast sensitivity, > 0",
+            about: "lee2002: decay of contrast sensitivity, 0.001 to 10",
         },
         ParamInfo {
             name: "e2_deg",
             default: "2.3",
-            about: "lee2002: half-resolution eccentricity, °, > 0",
+            about: "lee2002: half-resolution eccentricity, °, 0.01 to 180",
         },
         ParamInfo {
             name: "ct0",
             default: "0.015625",
-            about: "lee2002: smallest contrast threshold, 0 to 1",
+            about: "lee2002: smallest contrast threshold, 1e-6 to 0.99",
         },
         ParamInfo {
             name: "acuity",
@@ -201,13 +205,13 @@ const FPSNR: MetricInfo = MetricInfo {
         ParamInfo {
             name: "knots_cpd",
             default: "[40, 10, 6, 5, 4]",
-            about: "piecewise: acuity there, cpd, > 0",
+            about: "piecewise: acuity there, cpd, 0.01 to 1000",
         },
-        ParamInfo { name: "m", default: "0.0275", about: "linear_mar: slope, ° per °, ≥ 0" },
+        ParamInfo { name: "m", default: "0.0275", about: "linear_mar: slope, ° per °, 0 to 10" },
         ParamInfo {
             name: "omega0_deg",
             default: "0.020833333333333332",
-            about: "linear_mar: one cycle at the fovea, °, > 0",
+            about: "linear_mar: one cycle at the fovea, °, 0.0001 to 10",
         },
     ],
 };

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Metric, PairScores};
 use fovqa_results::{ScoreReport, Statistics, Summary};
 
 /// The report as text: what was compared, each metric, and each band.
@@ -28,11 +28,9 @@ pub fn score_table(report: &ScoreReport) -> String {
         && identical > 0
         && !one
     {
-        let _ = writeln!(
-            text,
-            "{identical} of {} frames are identical; means are over the others",
-            report.frames.len()
-        );
+        let frames = report.frames.len();
+        let means = if identical < frames { "; means are over the others" } else { "" };
+        let _ = writeln!(text, "{identical} of {frames} frames are identical{means}");
     }
 
     let per_band: Vec<Metric> =
@@ -57,6 +55,17 @@ pub fn score_table(report: &ScoreReport) -> String {
         let _ = writeln!(text, "\n{}", finished(bands));
         if !one {
             let _ = writeln!(text, "pixels and values are means over the frames");
+        }
+    }
+    let count = |pixels: fn(&PairScores) -> u64| -> u64 {
+        report.frames.iter().map(|frame| pixels(&frame.scores)).sum()
+    };
+    let outside = if summary.bands.is_empty() { 0 } else { count(|s| s.outside_bands) };
+    for (pixels, where_they_are) in
+        [(outside, "lie outside all bands"), (count(|s| s.left_out), "are left out by a mask")]
+    {
+        if pixels > 0 {
+            let _ = writeln!(text, "{pixels} pixels {where_they_are}");
         }
     }
     text

@@ -40,12 +40,20 @@ struct Row<'a> {
 /// When the writer refuses.
 pub fn write_csv(report: &ScoreReport, out: impl Write) -> io::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
-    writer.write_record(COLUMNS)?;
+    writer.write_record(COLUMNS).map_err(io_error)?;
     let edges = report.view.as_ref().map(|v| v.bands_deg.as_slice()).unwrap_or_default();
     for frame in &report.frames {
         let row = Row { frame: Some(frame.frame), ..Row::default() };
         for (metric, value) in &frame.scores.scores {
             write(&mut writer, &Row { metric: metric.key(), value: Some(*value), ..row })?;
+        }
+        for (metric, pixels) in [
+            ("pixels_outside_bands", if edges.is_empty() { 0 } else { frame.scores.outside_bands }),
+            ("pixels_left_out", frame.scores.left_out),
+        ] {
+            if pixels > 0 {
+                write(&mut writer, &Row { metric, value: Some(pixels as f64), ..row })?;
+            }
         }
         for (&band, scores) in edges.iter().zip(&frame.scores.bands) {
             let row = Row { band: Some(band), ..row };
@@ -98,6 +106,13 @@ fn write(writer: &mut csv::Writer<impl Write>, row: &Row<'_>) -> io::Result<()> 
     let (from, to) = (text(row.band.map(|b| b.0)), text(row.band.map(|b| b.1)));
     let value = text(row.value);
     let cells = ["", "", "", "", &frame, "pair", row.metric, row.statistic, "", &from, &to, &value];
-    writer.write_record(cells)?;
-    Ok(())
+    writer.write_record(cells).map_err(io_error)
+}
+
+/// The reason itself, whose kind (a closed pipe, say) csv's own conversion would hide.
+fn io_error(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
 }

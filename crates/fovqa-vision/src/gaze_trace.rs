@@ -87,9 +87,9 @@ pub enum GazeTraceError {
         /// End of the trace.
         to: f64,
     },
-    /// A blink with nothing before it to hold.
-    #[error("frame {frame} is a blink, and there is no gaze before it to hold")]
-    StartsWithBlink {
+    /// A blink, or a frame the trace does not cover, with nothing before it to hold.
+    #[error("frame {frame} has no gaze of its own, and there is none before it to hold")]
+    NothingToHold {
         /// The frame's number.
         frame: u64,
     },
@@ -119,7 +119,7 @@ impl GazeTrace {
         let column = |wanted: &'static str, name: &str| {
             find(name).ok_or_else(|| GazeTraceError::Column {
                 wanted,
-                found: headers.iter().collect::<Vec<_>>().join(", "),
+                found: headers.iter().take(24).collect::<Vec<_>>().join(", "),
             })
         };
         let clock = if find("frame").is_some() { Clock::Frame } else { Clock::TimeS };
@@ -135,12 +135,12 @@ impl GazeTrace {
                 value.ok().filter(|v| !v.is_infinite()).ok_or_else(|| GazeTraceError::Number {
                     line,
                     column,
-                    found: cell.to_owned(),
+                    found: cell.chars().take(40).collect(),
                 })
             };
             let clock_at = number(at, clock.column())?;
             if clock_at.is_nan() || (clock == Clock::Frame && clock_at.fract() != 0.0) {
-                let found = record[at].to_owned();
+                let found = record[at].chars().take(40).collect();
                 return Err(GazeTraceError::Number { line, column: clock.column(), found });
             }
             if let Some(before) = samples.last().map(|s| s.at).filter(|b| *b >= clock_at) {
@@ -193,10 +193,13 @@ impl GazeTrace {
             let at = match sample.map(|s| s.position_px) {
                 Some(Some(px)) => GazeAt { px, held: false },
                 Some(None) => {
-                    let px = held().ok_or(GazeTraceError::StartsWithBlink { frame })?;
+                    let px = held().ok_or(GazeTraceError::NothingToHold { frame })?;
                     GazeAt { px, held: true }
                 }
-                None if hold => GazeAt { px: held().ok_or_else(missing)?, held: true },
+                None if hold => {
+                    let px = held().ok_or(GazeTraceError::NothingToHold { frame })?;
+                    GazeAt { px, held: true }
+                }
                 None => return Err(missing()),
             };
             gaze.push(at);
@@ -254,7 +257,7 @@ mod tests {
         let blind = trace("frame,x_px,y_px\n0,nan,1\n").unwrap();
         assert!(matches!(
             blind.at_frames(&[0], 0, None, true),
-            Err(GazeTraceError::StartsWithBlink { frame: 0 })
+            Err(GazeTraceError::NothingToHold { frame: 0 })
         ));
     }
 

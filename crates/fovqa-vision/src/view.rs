@@ -110,6 +110,12 @@ pub enum ViewError {
         /// Lower tangent as given.
         down: f64,
     },
+    /// A focal length beyond reason.
+    #[error("the view's focal length of {found_px} px is not between 0.001 and 100,000,000")]
+    Focal {
+        /// What came out, in pixels.
+        found_px: f64,
+    },
     /// A length that is not positive.
     #[error("the {which} of {found} is not a positive length")]
     Length {
@@ -128,6 +134,9 @@ pub struct Resolved {
     /// Set when a frame was stretched over a display of another size: the display's own size.
     pub stretched_from: Option<[usize; 2]>,
 }
+
+/// Focal lengths of any display there is, and of all a float can still tell apart.
+const FOCAL_PX: std::ops::RangeInclusive<f64> = 1e-3..=1e8;
 
 impl ViewSpec {
     /// Checks everything that does not depend on the frame's size.
@@ -186,7 +195,10 @@ impl ViewSpec {
                 centred([fx * w / dw as f64, fy * h / dh as f64])
             }
         };
-        Ok(Resolved { view, stretched_from })
+        match view.focal_px.iter().find(|f| !FOCAL_PX.contains(*f)) {
+            Some(&found_px) => Err(ViewError::Focal { found_px }),
+            None => Ok(Resolved { view, stretched_from }),
+        }
     }
 }
 

@@ -1,6 +1,5 @@
 //! `fovqa score`.
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -61,8 +60,8 @@ pub(crate) struct ScoreArgs {
     #[arg(long, help_heading = "Sequence")]
     allow_missing: bool,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
-    #[arg(long, value_name = "N")]
-    pub(crate) threads: Option<NonZeroUsize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(crate) threads: Option<u16>,
 }
 
 impl ScoreArgs {

@@ -30,17 +30,19 @@ pub(crate) fn choose(headers: &[Header], wanted: Option<&str>) -> Result<Layer, 
         headers.iter().enumerate().flat_map(|(part, header)| colour_layers(part, header)).collect();
     if layers.is_empty() {
         let channels = headers.iter().flat_map(|h| h.channels.list.iter());
-        let channels = channels.map(|c| c.name.to_string()).collect::<Vec<_>>().join(", ");
+        let channels = listed(channels.map(|c| c.name.to_string()));
         return Err(ReadErrorKind::NoColour { channels });
     }
-    let names = layers.iter().map(|l| l.name.clone()).collect::<Vec<_>>().join(", ");
+    let names = listed(layers.iter().map(|l| l.name.clone()));
     if let Some(wanted) = wanted {
         let whole = layers.iter().position(|l| l.name == wanted);
         let by_prefix = || {
             let mut matching = (0..layers.len()).filter(|&i| layers[i].prefix == wanted);
             matching.next().filter(|_| matching.next().is_none())
         };
-        return match whole.or_else(by_prefix) {
+        // The plain picture beside others of many layers: a reference, say.
+        let plain = || (layers.len() == 1 && layers[0].name == ROOT).then_some(0);
+        return match whole.or_else(by_prefix).or_else(plain) {
             Some(index) => Ok(layers.swap_remove(index)),
             None => Err(ReadErrorKind::NoSuchLayer { wanted: wanted.to_owned(), layers: names }),
         };
@@ -49,6 +51,15 @@ pub(crate) fn choose(headers: &[Header], wanted: Option<&str>) -> Result<Layer, 
         return Err(ReadErrorKind::SeveralLayers { layers: names });
     }
     Ok(layers.swap_remove(0))
+}
+
+/// Names with commas between them, not more than a message holds.
+fn listed(names: impl Iterator<Item = String>) -> String {
+    const SHOWN: usize = 24;
+    let names: Vec<String> = names.collect();
+    let more = names.len().saturating_sub(SHOWN);
+    let shown = names[..names.len() - more].join(", ");
+    if more > 0 { format!("{shown} and {more} more") } else { shown }
 }
 
 fn colour_layers(part: usize, header: &Header) -> Vec<Layer> {

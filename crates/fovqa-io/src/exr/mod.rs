@@ -3,8 +3,9 @@
 mod layers;
 mod pixels;
 
-use std::io::{Read, Seek};
+use std::io::{ErrorKind, Read, Seek};
 
+use ::exr::math::Vec2;
 use ::exr::meta::MetaData;
 use ::exr::meta::header::Header;
 use fovqa_frame::{Channels, Chromaticities, Frame, Samples};
@@ -24,6 +25,9 @@ pub(crate) fn read(
         if header.deep {
             return Err(ReadErrorKind::Deep);
         }
+        if let Some(channel) = header.channels.list.iter().find(|c| c.sampling != Vec2(1, 1)) {
+            return Err(ReadErrorKind::Subsampled { channel: channel.name.to_string() });
+        }
         for size in [header.layer_size, header.shared_attributes.display_window.size] {
             options.check_size(size.0 as u64, size.1 as u64)?;
         }
@@ -33,12 +37,6 @@ pub(crate) fn read(
     let layer = layers::choose(reader.headers(), options.layer.as_deref())?;
     let header = &reader.headers()[layer.part];
     let window = Window::of(header)?;
-    for &channel in layer.colour.iter().chain(&layer.alpha) {
-        let channel = &header.channels.list[channel];
-        if channel.sampling != ::exr::math::Vec2(1, 1) {
-            return Err(ReadErrorKind::Subsampled { channel: channel.name.to_string() });
-        }
-    }
     let alpha = layer.alpha.filter(|_| options.alpha == AlphaPolicy::Error);
     let primaries = primaries(header)?.filter(|_| layer.colour.len() == 3);
 
@@ -67,14 +65,24 @@ pub(crate) fn read(
 fn damaged(error: ::exr::error::Error) -> ReadErrorKind {
     use ::exr::error::Error;
     match error {
-        Error::Io(error) if error.kind() != std::io::ErrorKind::UnexpectedEof => {
-            ReadErrorKind::Io(error)
-        }
-        Error::Io(_) => {
-            let detail = "the file ends too early".to_owned();
-            ReadErrorKind::Damaged { format: "OpenEXR", detail }
-        }
+        Error::Io(error) => match error.kind() {
+            ErrorKind::UnexpectedEof => {
+                let detail = "the file ends too early".to_owned();
+                ReadErrorKind::Damaged { format: "OpenEXR", detail }
+            }
+            // A place in the file that the file itself made up.
+            ErrorKind::InvalidInput | ErrorKind::InvalidData => {
+                let detail = format!("it points to where nothing is: {error}");
+                ReadErrorKind::Damaged { format: "OpenEXR", detail }
+            }
+            _ => ReadErrorKind::Io(error),
+        },
         Error::NotSupported(what) if what.contains("deep") => ReadErrorKind::Deep,
+        Error::NotSupported(what) => ReadErrorKind::Unsupported { detail: what.into_owned() },
+        Error::Invalid(what) if what.contains("compression attribute") => {
+            let detail = "a compression newer than the decoder".to_owned();
+            ReadErrorKind::Unsupported { detail }
+        }
         error => ReadErrorKind::Damaged { format: "OpenEXR", detail: error.to_string() },
     }
 }
@@ -82,7 +90,7 @@ fn damaged(error: ::exr::error::Error) -> ReadErrorKind {
 /// The matrix to Rec.709, where the file has other primaries.
 fn primaries(header: &Header) -> Result<Option<[[f64; 3]; 3]>, ReadErrorKind> {
     let Some(given) = header.shared_attributes.chromaticities else { return Ok(None) };
-    let xy = |v: ::exr::math::Vec2<f32>| [f64::from(v.0), f64::from(v.1)];
+    let xy = |v: Vec2<f32>| [f64::from(v.0), f64::from(v.1)];
     let given = Chromaticities {
         red: xy(given.red),
         green: xy(given.green),

@@ -1,11 +1,13 @@
 //! Chosen channels of one part, block by block, into planes of the display window.
 
+use std::collections::BTreeSet;
 use std::io::{Read, Seek};
 use std::ops::Range;
 
 use ::exr::block::UncompressedBlock;
-use ::exr::block::chunk::Chunk;
+use ::exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock, CompressedTileBlock};
 use ::exr::block::reader::Reader;
+use ::exr::compression::Compression;
 use ::exr::math::Vec2;
 use ::exr::meta::MetaData;
 use ::exr::meta::attribute::SampleType;
@@ -176,6 +178,7 @@ pub(crate) fn read(
     // Only now: the offset table has been read, so the file is at least that long.
     let mut planes = Planes::new(half, channels.len(), size);
     let mut samples_read = vec![0usize; channels.len()];
+    let mut blocks_seen = BTreeSet::new();
     loop {
         let batch: Vec<Chunk> =
             chunks.by_ref().take(CHUNKS_AT_ONCE).collect::<Result<_, _>>().map_err(damaged)?;
@@ -185,6 +188,10 @@ pub(crate) fn read(
         let blocks: Vec<_> = batch.into_par_iter().map(|chunk| decompress(chunk, &meta)).collect();
         for block in blocks {
             let block = block?;
+            if !blocks_seen.insert((block.index.pixel_position.0, block.index.pixel_position.1)) {
+                let detail = "one of its blocks is there twice".to_owned();
+                return Err(ReadErrorKind::Damaged { format: "OpenEXR", detail });
+            }
             for line in block.lines(&meta.headers[part].channels) {
                 let Some(plane) = channels.iter().position(|&c| c == line.location.channel) else {
                     continue;
@@ -206,6 +213,7 @@ pub(crate) fn read(
 }
 
 fn decompress(chunk: Chunk, meta: &MetaData) -> Result<UncompressedBlock, ReadErrorKind> {
+    check_dwa_counters(&chunk, meta)?;
     contained(|| UncompressedBlock::decompress_chunk(chunk, meta, false)).map_or_else(
         || {
             let detail = "the decoder broke down on it".to_owned();
@@ -213,6 +221,41 @@ fn decompress(chunk: Chunk, meta: &MetaData) -> Result<UncompressedBlock, ReadEr
         },
         |block| block.map_err(damaged),
     )
+}
+
+/// Refuses a DWA chunk whose counters ask for more than its block can hold: the decoder allocates
+/// what they say, and a failed allocation cannot be contained.
+fn check_dwa_counters(chunk: &Chunk, meta: &MetaData) -> Result<(), ReadErrorKind> {
+    /// All but the last, which names the coder (ImfDwaCompressor, "DataSizesSingle").
+    const COUNTERS: usize = 10;
+    /// For tables and rules, whatever the size of the block.
+    const SLACK: u64 = 1 << 16;
+    let Some(header) = meta.headers.get(chunk.layer_index) else { return Ok(()) };
+    if !matches!(header.compression, Compression::DWAA(_) | Compression::DWAB(_)) {
+        return Ok(());
+    }
+    let (CompressedBlock::ScanLine(CompressedScanLineBlock {
+        compressed_pixels_le: bytes, ..
+    })
+    | CompressedBlock::Tile(CompressedTileBlock { compressed_pixels_le: bytes, .. })) =
+        &chunk.compressed_block
+    else {
+        return Ok(());
+    };
+    let Vec2(w, h) = header.max_block_pixel_size();
+    // Whole 8x8 blocks of the cosine transform, at most 8 bytes a sample on the way.
+    let samples = w.next_multiple_of(8) * h.next_multiple_of(8) * header.channels.list.len();
+    // A chunk of the size of its pixels is stored as it is; there are no counters to look at.
+    if bytes.len() >= w * h * header.channels.bytes_per_pixel {
+        return Ok(());
+    }
+    let most = samples as u64 * 8 + SLACK;
+    let counters = bytes.as_chunks::<8>().0.iter().take(COUNTERS);
+    if counters.map(|c| u64::from_le_bytes(*c)).any(|counter| counter > most) {
+        let detail = "a block declares more data than it can hold".to_owned();
+        return Err(ReadErrorKind::Damaged { format: "OpenEXR", detail });
+    }
+    Ok(())
 }
 
 /// The part of a line inside the display window: where it goes, and its bytes.

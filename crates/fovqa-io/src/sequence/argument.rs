@@ -40,6 +40,9 @@ pub enum ListingError {
     /// Nothing there.
     #[error("{}: there is no such file or folder", .0.display())]
     NotFound(PathBuf),
+    /// A device, a pipe or the like.
+    #[error("{}: it is neither a file nor a folder", .0.display())]
+    NotRegular(PathBuf),
     /// The operating system refused.
     #[error("{}: it cannot be read: {error}", path.display())]
     Io {
@@ -82,6 +85,7 @@ impl ListingError {
     pub fn help(&self) -> &'static str {
         match self {
             Self::NotFound(_) => "check the path; a relative one starts at the working directory",
+            Self::NotRegular(_) => "give a file, a folder or a pattern",
             Self::Io { .. } => "check that it may be read",
             Self::Empty { .. } => {
                 "give a folder with .png, .jpg or .exr files, or a pattern that matches some"
@@ -120,7 +124,7 @@ pub fn list(argument: &Path) -> Result<Listing, ListingError> {
         let (images, others) = paths.into_iter().partition::<Vec<_>, _>(|p| is_image(p));
         (images, others.len())
     } else {
-        return Err(ListingError::NotFound(argument.to_owned()));
+        return Err(nothing_at(argument));
     };
     let files = paths.into_iter().map(|path| {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -128,6 +132,16 @@ pub fn list(argument: &Path) -> Result<Listing, ListingError> {
         FrameFile { path, stem, number }
     });
     listing(argument, is_file, files.collect(), others)
+}
+
+/// Why a path is neither a file nor a folder.
+fn nothing_at(argument: &Path) -> ListingError {
+    let path = argument.to_owned();
+    match fs::metadata(argument) {
+        Ok(_) => ListingError::NotRegular(path),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => ListingError::NotFound(path),
+        Err(error) => ListingError::Io { path, error },
+    }
 }
 
 fn listing(

@@ -75,9 +75,9 @@ impl Params {
                     _ => return None,
                 }
             }
-            "alpha" => self.lee2002.alpha = value.positive()?,
-            "e2_deg" => self.lee2002.e2_deg = value.positive()?,
-            "ct0" => self.lee2002.ct0 = value.positive().filter(|v| *v < 1.0)?,
+            "alpha" => self.lee2002.alpha = value.number_in(1e-3..=10.0)?,
+            "e2_deg" => self.lee2002.e2_deg = value.number_in(0.01..=180.0)?,
+            "ct0" => self.lee2002.ct0 = value.number_in(1e-6..=0.99)?,
             "acuity" => {
                 self.acuity = match value.text()? {
                     "piecewise" => AcuityModel::Piecewise,
@@ -87,8 +87,8 @@ impl Params {
             }
             "knots_deg" => self.knots_deg = value.list()?,
             "knots_cpd" => self.knots_cpd = value.list()?,
-            "m" => self.linear_mar.m = value.number_in(0.0..)?,
-            "omega0_deg" => self.linear_mar.omega0_deg = value.positive()?,
+            "m" => self.linear_mar.m = value.number_in(0.0..=10.0)?,
+            "omega0_deg" => self.linear_mar.omega0_deg = value.number_in(1e-4..=10.0)?,
             _ => return None,
         }
         Some(())
@@ -96,6 +96,9 @@ impl Params {
 
     /// Checks the knots; the error says what they have to be.
     pub(crate) fn check(&self) -> Result<(), String> {
+        if self.knots_cpd.iter().any(|f| !(0.01..=1000.0).contains(f)) {
+            return Err("acuity lies between 0.01 and 1000 cycles per degree".to_owned());
+        }
         PiecewiseMar::new(&self.knots_deg, &self.knots_cpd).map(|_| ()).map_err(|e| e.to_string())
     }
 

@@ -86,12 +86,20 @@ pub struct PairScores {
 pub struct Scorer {
     metrics: Vec<Metric>,
     params: Params,
+    lenient: bool,
 }
 
 impl Scorer {
     /// A scorer for these metrics.
     pub fn new(metrics: Vec<Metric>, params: Params) -> Self {
-        Self { metrics, params }
+        Self { metrics, params, lenient: false }
+    }
+
+    /// The same, but a metric for which a mask leaves no window is left out of the scores instead
+    /// of being an error: for metrics nobody named.
+    #[must_use]
+    pub fn lenient(self) -> Self {
+        Self { lenient: true, ..self }
     }
 
     /// The metrics.
@@ -191,6 +199,7 @@ impl Scorer {
                 Metric::Mse => frame_mse,
                 Metric::Psnr => psnr_db(frame_mse),
                 Metric::Fpsnr => psnr_db(fmse.ok_or(ScoreError::NothingLeft)?),
+                Metric::Ssim if windows == 0 && self.lenient => continue,
                 Metric::Ssim if windows == 0 => return Err(no_window),
                 Metric::Ssim => ssim(sums.ssim.iter().sum(), windows),
                 Metric::MsSsim => ms_ssim.ok_or(no_window)?,

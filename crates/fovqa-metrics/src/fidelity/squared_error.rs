@@ -8,7 +8,8 @@ use multiversion::multiversion;
 
 /// PSNR in dB of a mean squared error with peak 1; infinite for 0.
 pub fn psnr_db(mse: f64) -> f64 {
-    if mse == 0.0 { f64::INFINITY } else { -10.0 * libm::log10(mse) }
+    // Subtracted from 0, so that an error of 1 gives 0 dB and not -0.
+    if mse == 0.0 { f64::INFINITY } else { 0.0 - 10.0 * libm::log10(mse) }
 }
 
 /// The squared error of one row, summed over its planes. Exact for 8-bit codes.

@@ -35,20 +35,29 @@ impl Default for Params {
     }
 }
 
+/// Smallest K: C is far above what 32 bits lose, and far below any contrast.
+const MIN_K: f64 = 1e-4;
+
 /// Largest radius of the window.
-const MAX_RADIUS: usize = 32;
+const MAX_RADIUS: usize = 224;
+
+/// Largest standard deviation: its window of 3.5 sigma still has a radius of `MAX_RADIUS`.
+const MAX_SIGMA: f64 = 64.0;
+
+/// Smallest standard deviation: below, the window is one pixel.
+const MIN_SIGMA: f64 = 0.1;
 
 impl Params {
     pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
-            "sigma" => self.sigma = value.positive()?,
+            "sigma" => self.sigma = value.number_in(MIN_SIGMA..=MAX_SIGMA)?,
             "radius" if value.text() == Some("auto") => self.radius = None,
             "radius" => {
                 let radius = value.number_in(1.0..=MAX_RADIUS as f64)?;
                 self.radius = Some((radius.fract() == 0.0).then_some(radius as usize)?);
             }
-            "k1" => self.k1 = value.positive()?,
-            "k2" => self.k2 = value.positive()?,
+            "k1" => self.k1 = value.number_in(MIN_K..=1.0)?,
+            "k2" => self.k2 = value.number_in(MIN_K..=1.0)?,
             _ => return None,
         }
         Some(())
