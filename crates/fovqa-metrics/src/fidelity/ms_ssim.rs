@@ -21,8 +21,8 @@ pub(crate) trait PairRows: Sync {
     fn size(&self) -> (usize, usize);
     fn planes(&self) -> usize;
     fn peak(&self) -> f32;
-    /// Whether sums and differences are those of 8-bit codes.
-    fn is_eight_bit(&self) -> bool;
+    /// What sums and differences are whole numbers of, where they come from 8-bit codes.
+    fn unit(&self) -> Option<f32>;
     fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize);
 }
 
@@ -39,8 +39,8 @@ impl PairRows for PairSignal<'_> {
         self.peak()
     }
 
-    fn is_eight_bit(&self) -> bool {
-        self.is_eight_bit()
+    fn unit(&self) -> Option<f32> {
+        self.is_eight_bit().then_some(1.0)
     }
 
     fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize) {
@@ -56,12 +56,21 @@ pub(crate) struct HalvedRows {
     values: Values,
 }
 
-/// The first scale below 8-bit pictures holds quarters, which two bytes keep exactly: half the
-/// memory, whose first touch costs as much as the arithmetic.
+/// Scales below 8-bit pictures hold quarters, sixteenths and so on, which two bytes keep exactly
+/// for three scales: half the memory, whose first touch costs as much as the arithmetic.
 #[derive(Debug)]
 enum Values {
-    Quarters(Vec<i16>),
+    /// Whole numbers of a unit.
+    Whole(Vec<i16>, f32),
     Floats(Vec<f32>),
+}
+
+/// The unit of the scale below one whose values are whole numbers of `unit`; `None` where two
+/// bytes do not hold them any more.
+pub(crate) fn unit_below(unit: Option<f32>) -> Option<f32> {
+    /// Of the sum and the difference of two 8-bit codes.
+    const LARGEST: f32 = 255.0;
+    unit.map(|unit| unit / 4.0).filter(|below| LARGEST / below <= f32::from(i16::MAX))
 }
 
 impl HalvedRows {
@@ -69,10 +78,9 @@ impl HalvedRows {
     pub(crate) fn of(pair: &impl PairRows, rows: usize) -> Self {
         let (width, rows) = (pair.size().0 / 2, rows / 2);
         let length = pair.planes() * 2 * width * rows;
-        let values = if pair.is_eight_bit() {
-            Values::Quarters(vec![0; length])
-        } else {
-            Values::Floats(vec![0.0; length])
+        let values = match unit_below(pair.unit()) {
+            Some(unit) => Values::Whole(vec![0; length], unit),
+            None => Values::Floats(vec![0.0; length]),
         };
         Self { width, rows, values }
     }
@@ -93,7 +101,9 @@ impl HalvedRows {
     ) {
         let row = self.row(plane, part, y);
         match &mut self.values {
-            Values::Quarters(values) => halve_exactly(above, below, &mut values[row][x / 2..]),
+            Values::Whole(values, unit) => {
+                halve_exactly(above, below, 0.25 / *unit, &mut values[row][x / 2..]);
+            }
             Values::Floats(values) => halve(above, below, &mut values[row][x / 2..]),
         }
     }
@@ -102,7 +112,7 @@ impl HalvedRows {
     fn get(&self, plane: usize, part: Part, y: usize, xs: Range<usize>, out: &mut [f32]) {
         let row = self.row(plane, part, y);
         match &self.values {
-            Values::Quarters(values) => from_quarters(&values[row][xs], out),
+            Values::Whole(values, unit) => from_whole(&values[row][xs], *unit, out),
             Values::Floats(values) => out.copy_from_slice(&values[row][xs]),
         }
     }
@@ -117,17 +127,17 @@ fn halve(above: &[f32], below: &[f32], out: &mut [f32]) {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn halve_exactly(above: &[f32], below: &[f32], out: &mut [i16]) {
+fn halve_exactly(above: &[f32], below: &[f32], scale: f32, out: &mut [i16]) {
     let (above, below) = (above.as_chunks::<2>().0, below.as_chunks::<2>().0);
     for ((out, a), b) in out.iter_mut().zip(above).zip(below) {
-        *out = ((a[0] + a[1]) + (b[0] + b[1])) as i16;
+        *out = (((a[0] + a[1]) + (b[0] + b[1])) * scale) as i16;
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn from_quarters(quarters: &[i16], out: &mut [f32]) {
-    for (out, quarter) in out.iter_mut().zip(quarters) {
-        *out = 0.25 * f32::from(*quarter);
+fn from_whole(whole: &[i16], unit: f32, out: &mut [f32]) {
+    for (out, value) in out.iter_mut().zip(whole) {
+        *out = unit * f32::from(*value);
     }
 }
 
@@ -138,6 +148,7 @@ pub(crate) struct Scale {
     pub(crate) height: usize,
     pub(crate) planes: usize,
     pub(crate) peak: f32,
+    pub(crate) unit: Option<f32>,
     pub(crate) blocks: Vec<HalvedRows>,
 }
 
@@ -154,8 +165,8 @@ impl PairRows for Scale {
         self.peak
     }
 
-    fn is_eight_bit(&self) -> bool {
-        false
+    fn unit(&self) -> Option<f32> {
+        self.unit
     }
 
     fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize) {

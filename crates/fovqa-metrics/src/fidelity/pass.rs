@@ -10,7 +10,7 @@ use fovqa_frame::{BLOCK_ROWS, PairTile, Part, map_row_blocks};
 
 use super::fpsnr::WeightField;
 use super::fssim::WeightedMean;
-use super::ms_ssim::{HalvedRows, PairRows, Scale};
+use super::ms_ssim::{HalvedRows, PairRows, Scale, unit_below};
 use super::squared_error::squared_row;
 use super::ssim::rows::{Constants, MapRow, Scratch, map_row};
 use super::sums::{add_by_band, sum, weighted};
@@ -116,6 +116,7 @@ pub(crate) fn run(
         height: height / 2,
         planes: rows.planes(),
         peak: rows.peak(),
+        unit: unit_below(rows.unit()),
         blocks: halved,
     });
     (sums, scale)
