@@ -73,9 +73,21 @@ impl SignalParams {
 #[derive(Debug)]
 pub struct SignalTables {
     params: SignalParams,
-    codes8: OnceLock<Vec<f32>>,
-    codes16: OnceLock<Vec<f32>>,
-    half: OnceLock<Vec<f32>>,
+    codes8: OnceLock<Box<[f32; CODES_8]>>,
+    codes16: OnceLock<Box<[f32; CODES_16]>>,
+    half: OnceLock<Box<[f32; CODES_16]>>,
+}
+
+/// How many values 8 bits have. A table of this length needs no check of an 8-bit index.
+const CODES_8: usize = 1 << 8;
+/// How many values 16 bits have.
+const CODES_16: usize = 1 << 16;
+
+/// The values of all codes from 0 on.
+#[allow(clippy::unnecessary_box_returns, reason = "a quarter of a megabyte is no stack frame")]
+fn table<const N: usize>(value: impl Fn(usize) -> f32) -> Box<[f32; N]> {
+    let values: Box<[f32]> = (0..N).map(value).collect();
+    values.try_into().unwrap_or_else(|_| unreachable!("N values make a table of N"))
 }
 
 /// One frame's samples with the way to the signal.
@@ -84,9 +96,9 @@ pub(crate) enum Source<'a> {
     /// Codes times a whole number.
     Codes8(&'a [u8], f32),
     Codes16(&'a [u16], f32),
-    Table8(&'a [u8], &'a [f32]),
-    Table16(&'a [u16], &'a [f32]),
-    Half(&'a [f16], &'a [f32]),
+    Table8(&'a [u8], &'a [f32; CODES_8]),
+    Table16(&'a [u16], &'a [f32; CODES_16]),
+    Half(&'a [f16], &'a [f32; CODES_16]),
     Linear(&'a [f32], FloatToSignal),
     Encoded(&'a [f32]),
 }
@@ -147,28 +159,21 @@ impl SignalTables {
             }
         };
         match frame.samples() {
-            Samples::U8(s) => Source::Table8(
-                s,
-                self.codes8.get_or_init(|| {
-                    (0..256).map(|code| to_signal(f64::from(code) / 255.0)).collect()
-                }),
-            ),
-            Samples::U16(s) => Source::Table16(
-                s,
-                self.codes16.get_or_init(|| {
-                    (0..65536).map(|code| to_signal(f64::from(code) / 65535.0)).collect()
-                }),
-            ),
-            Samples::F16(s) => Source::Half(
-                s,
-                self.half.get_or_init(|| {
-                    let value = |bits: u16| f64::from(f16::from_bits(bits).to_f32());
-                    (0..=u16::MAX)
-                        .map(value)
-                        .map(|v| if v.is_nan() { 0.0 } else { to_signal(v) })
-                        .collect()
-                }),
-            ),
+            Samples::U8(s) => {
+                let value = |code: usize| to_signal(code as f64 / 255.0);
+                Source::Table8(s, self.codes8.get_or_init(|| table(value)))
+            }
+            Samples::U16(s) => {
+                let value = |code: usize| to_signal(code as f64 / 65535.0);
+                Source::Table16(s, self.codes16.get_or_init(|| table(value)))
+            }
+            Samples::F16(s) => {
+                let value = |bits: usize| {
+                    let v = f64::from(f16::from_bits(bits as u16).to_f32());
+                    if v.is_nan() { 0.0 } else { to_signal(v) }
+                };
+                Source::Half(s, self.half.get_or_init(|| table(value)))
+            }
             Samples::F32(s) if linear => Source::Linear(
                 s,
                 FloatToSignal { gain: gain as f32, tonemap, encoder: srgb::Encoder::new() },
