@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use exr::prelude::{Blocks, Compression, Encoding, LineOrder};
+use exr::prelude::{Blocks, Compression, Encoding, LineOrder, Vec2};
 use fovqa_testkit::exr_files::{File, Part, Values, deep};
 use fovqa_testkit::png_files::{header_only, with_chunk};
 use fovqa_testkit::synthetic::codes;
@@ -153,6 +153,36 @@ fn exr_whose_blocks_declare_too_much() {
         folder.write("huge.exr", &huge);
         refuses(&folder, "huge.exr", &["declares more data than it can hold"]);
     }
+}
+
+/// One tile of the whole frame in many channels: more than its pixels alone would tell.
+#[test]
+fn exr_with_blocks_beyond_reason() {
+    let folder = Folder::with_pair();
+    let plane = Values::Float(vec![0.5; 48 * 40]);
+    let names = ["R", "G", "B", "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z"];
+    let channels: Vec<_> = names.iter().map(|name| (*name, plane.clone())).collect();
+    let encoding = Encoding {
+        compression: Compression::ZIP16,
+        blocks: Blocks::Tiles(Vec2(48, 40)),
+        line_order: LineOrder::Increasing,
+    };
+    File { encoding, ..File::new(vec![Part::new((48, 40), &channels)]) }
+        .write(&folder.path("c.exr"));
+    folder.score(&["a.png", "c.exr"]).ok();
+    let mut huge = bytes(&folder, "c.exr");
+    let mut patch = |name: &[u8], skip: usize, value: u32| {
+        let at = huge.windows(name.len()).position(|w| w == name).unwrap();
+        let at = at + name.len() + 4 + skip;
+        for word in huge[at..at + 8].as_chunks_mut::<4>().0 {
+            *word = value.to_le_bytes();
+        }
+    };
+    patch(b"dataWindow\0box2i\0", 8, 15_999);
+    patch(b"displayWindow\0box2i\0", 8, 15_999);
+    patch(b"tiles\0tiledesc\0", 0, 16_000);
+    folder.write("huge.exr", &huge);
+    refuses(&folder, "huge.exr", &["blocks of 9216000000 bytes"]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use exr::prelude::{Blocks, Compression, Encoding, LineOrder, Vec2};
 use fovqa_testkit::exr_files::{File, Part, Values};
 use fovqa_testkit::png_files::{palette, write16};
-use fovqa_testkit::synthetic::codes;
+use fovqa_testkit::synthetic::{Xorshift, codes};
 
 use crate::fovqa::{Folder, root, shared};
 
@@ -100,7 +100,14 @@ fn exr_of_every_type_and_compression() {
             near(&name, 1e-4);
         }
     }
-    for (i, compression) in [Compression::PXR24, Compression::B44].into_iter().enumerate() {
+    let lossy = [
+        Compression::PXR24,
+        Compression::B44,
+        Compression::B44A,
+        Compression::DWAA(None),
+        Compression::DWAB(None),
+    ];
+    for (i, compression) in lossy.into_iter().enumerate() {
         let encoding =
             Encoding { compression, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
         let file = File { encoding, ..File::new(vec![rgb_part(&a, Values::Half)]) };
@@ -183,6 +190,50 @@ fn pixels_outside_the_data_window_are_black_with_a_warning() {
     folder.png("region.png", W, H, &codes);
     assert!(folder.metric("psnr", &["region.exr", "region.png"]).is_infinite());
     folder.score(&["region.exr", "region.png"]).ok().says(&["does not cover the display window"]);
+}
+
+/// A region render is opaque where it is; around it there is nothing to be transparent.
+#[test]
+fn alpha_counts_only_where_there_is_data() {
+    let folder = Folder::new();
+    let half = |value: f32| Values::Half(vec![value; 20 * 10]);
+    let region = |name: &str, alpha: f32| {
+        let channels = [("R", half(1.0)), ("G", half(1.0)), ("B", half(1.0)), ("A", half(alpha))];
+        let mut part = Part::new((20, 10), &channels);
+        part.at = (5, 7);
+        File { display: Some(((0, 0), (W, H))), ..File::new(vec![part]) }.write(&folder.path(name));
+    };
+    region("opaque.exr", 1.0);
+    region("glass.exr", 0.5);
+    folder.score(&["opaque.exr", "opaque.exr"]).ok();
+    folder.score(&["opaque.exr", "glass.exr"]).fails(3, &["200 pixels", "(5, 7)"]);
+}
+
+/// Noise that DWA cannot compress: blocks are stored raw, the last of them short.
+#[test]
+fn raw_blocks_of_a_lossy_file() {
+    let folder = Folder::new();
+    let height = 33;
+    let mut random = Xorshift::new(5);
+    let mut plane =
+        || Values::Half((0..W * height).map(|_| (random.next_unit() * 1e4) as f32).collect());
+    let part = Part::new((W, height), &[("R", plane()), ("G", plane()), ("B", plane())]);
+    let encoding = |compression| Encoding {
+        compression,
+        blocks: Blocks::ScanLines,
+        line_order: LineOrder::Increasing,
+    };
+    for (name, compression) in [
+        ("zip.exr", Compression::ZIP16),
+        ("dwaa.exr", Compression::DWAA(None)),
+        ("dwab.exr", Compression::DWAB(None)),
+    ] {
+        let file = File { encoding: encoding(compression), ..File::new(vec![part.clone()]) };
+        file.write(&folder.path(name));
+    }
+    for name in ["dwaa.exr", "dwab.exr"] {
+        folder.score(&["zip.exr", name, "--exposure", "-14"]).ok();
+    }
 }
 
 #[test]

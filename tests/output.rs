@@ -226,10 +226,10 @@ fn wrong_command_lines_are_exit_2() {
     with(&["--fps", "0"]).fails(2, &["above 0"]);
     with(&["--threads", "0"]).fails(2, &["threads"]);
     with(&["--threads", "99999999999"]).fails(2, &["1..=256"]);
-    with(&["--set", "ssim.k1=1e30"]).fails(2, &["ssim.k1 cannot be", "0.0001 to 1"]);
+    with(&["--set", "ssim.k1=1e30"]).fails(2, &["ssim.k1 cannot be", "0.001 to 1"]);
     with(&["--set", "ssim.sigma=1e-200"]).fails(2, &["0.1 to 64"]);
     with(&["--set", "fpsnr.alpha=1e300"]).fails(2, &["fpsnr.alpha"]);
-    with(&["--frustum", "1e308,1e308,1,1"]).fails(2, &["focal length"]);
+    with(&["--frustum", "1e308,1e308,1,1"]).fails(2, &["both sides"]);
     with(&["--tonemap", "filmic"]).fails(2, &["clamp"]);
     folder.run(&["score", "a.png"]).fails(2, &["TEST"]);
     folder.run(&[]).fails(2, &["Usage"]);

@@ -163,6 +163,30 @@ fn gaze_traces_over_time_need_a_frame_rate() {
 }
 
 #[test]
+fn a_missing_first_frame_does_not_shift_the_gaze() {
+    let folder = sequence(3);
+    std::fs::remove_file(folder.path("test/rmfr_0000.png")).unwrap();
+    folder.write("gaze.csv", "time_s,x_px,y_px\n0.0,10,10\n0.1,20,20\n0.2,30,30\n");
+    let arguments = ["gt", "test", "--fov-vertical", "60", "--gaze", "gaze.csv", "--fps", "10"];
+    let run = folder.score(&[&arguments[..], &["--allow-missing", "--format", "json"]].concat());
+    let run = run.ok().says(&["1 frames without a partner are passed over"]);
+    let gaze = |frame: usize| run.json()["frames"][frame]["gaze_px"].clone();
+    assert_eq!(
+        (gaze(0), gaze(1)),
+        (serde_json::json!([20.0, 20.0]), serde_json::json!([30.0, 30.0]))
+    );
+}
+
+#[test]
+fn two_files_of_one_number_are_that_frame() {
+    let folder = sequence(3);
+    let json = folder.json(&["gt/0002.png", "test/rmfr_0002.png"]);
+    assert_eq!(json["frames"][0]["frame"], 2);
+    let json = folder.json(&["gt/0002.png", "test/rmfr_0001.png"]);
+    assert_eq!(json["frames"][0]["frame"], 0, "two numbers name no frame");
+}
+
+#[test]
 fn gaze_traces_that_do_not_fit_are_errors() {
     let folder = sequence(3);
     let with = |text: &str, more: &[&str]| {

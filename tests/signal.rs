@@ -131,6 +131,10 @@ fn a_mask_keeps_pixels_out() {
     assert!(metrics["psnr"].is_f64() && metrics.get("ssim").is_none());
     folder.score(&[&striped[..], &["--metrics", "ssim"]].concat()).fails(3, &["no whole window"]);
 
+    // A mask larger than the files is of other files, whatever the crop.
+    folder.png("wide.png", 100, 80, &[255; 8000]);
+    folder.score(&[&cropped[..], &["wide.png"]].concat()).fails(3, &["mask has 100x80 pixels"]);
+
     folder.png("other.png", 30, 40, &[255; 1200]);
     folder
         .score(&["a.png", "b.png", "--mask", "other.png"])

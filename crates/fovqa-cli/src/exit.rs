@@ -1,6 +1,7 @@
 //! Exit codes, and what happens on the ways out nobody chose.
 
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::diagnostic;
 
@@ -36,12 +37,27 @@ impl From<Exit> for ExitCode {
     }
 }
 
+/// Whether a bug has been said.
+static SAID: AtomicBool = AtomicBool::new(false);
+
+/// The exit of a bug, which is said if no hook could tell it from a decoder's mistake.
+pub(crate) fn bug() -> Exit {
+    if !SAID.load(Ordering::Relaxed) {
+        diagnostic::error(
+            "fovqa has a bug",
+            "please report it with the command line and the input",
+        );
+    }
+    Exit::Bug
+}
+
 /// A panic that is not about to become a file's error is a bug: say so, in our own words.
 pub(crate) fn watch_panics() {
     std::panic::set_hook(Box::new(|info| {
         if fovqa_io::is_contained() {
             return;
         }
+        SAID.store(true, Ordering::Relaxed);
         let place = info.location().map(|l| format!(" at {}:{}", l.file(), l.line()));
         let what = info.payload_as_str().unwrap_or("no reason given");
         diagnostic::error(
@@ -51,7 +67,7 @@ pub(crate) fn watch_panics() {
     }));
 }
 
-/// Ctrl-C ends the process with 130; results are only ever written whole, so nothing is half done.
+/// Ctrl-C ends the process with 130; files are only ever written whole, so nothing is half done.
 pub(crate) fn watch_interrupts() {
     // Without a handler the system's own way out is left, which is as good.
     let _ = ctrlc::set_handler(|| {

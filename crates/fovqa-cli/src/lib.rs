@@ -27,7 +27,7 @@ pub fn main() -> ExitCode {
         };
         run(cli)
     });
-    outcome.unwrap_or(Exit::Bug).into()
+    outcome.unwrap_or_else(|_| exit::bug()).into()
 }
 
 fn run(cli: Cli) -> Exit {

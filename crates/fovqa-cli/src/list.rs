@@ -58,7 +58,7 @@ fn display_presets() -> String {
             display.name.replace('_', "-"),
             format!("{w}x{h}"),
             display.geometry_in_words(),
-            format!("{:.2}", display.pixels_per_degree()),
+            format!("{:.2}", display.central_pixels_per_degree()),
             display.luminance.map(|l| l.peak_cd_m2.to_string()).unwrap_or_default(),
             display.source.clone(),
         ]);

@@ -2,7 +2,7 @@
 
 use std::fs::File;
 
-use fovqa_io::sequence::{FramePair, list, pair};
+use fovqa_io::sequence::{FramePair, Pairs, list, pair};
 use fovqa_metrics::Metric;
 use fovqa_vision::{GazeAt, GazeTrace};
 
@@ -59,9 +59,16 @@ pub(crate) fn check(
 }
 
 /// The pairs to score, and the number of the sequence's first frame.
-pub(crate) fn find_pairs(request: &ScoreRequest) -> Result<(Vec<FramePair>, u64), EngineError> {
+pub(crate) fn find_pairs(
+    request: &ScoreRequest,
+    events: &dyn Events,
+) -> Result<(Vec<FramePair>, u64), EngineError> {
     let (reference, test) = (list(&request.reference)?, list(&request.test)?);
-    let mut pairs = pair(&reference, &test, request.allow_missing)?;
+    let Pairs { mut pairs, first: first_frame, alone } =
+        pair(&reference, &test, request.allow_missing)?;
+    if alone > 0 {
+        events.warn(&format!("{alone} frames without a partner are passed over"));
+    }
     let numbers = || pairs.iter().map(|p| p.number);
     let (first, last) = (numbers().min().unwrap_or(0), numbers().max().unwrap_or(0));
     if let Some(range) = request.frames {
@@ -70,7 +77,7 @@ pub(crate) fn find_pairs(request: &ScoreRequest) -> Result<(Vec<FramePair>, u64)
     if pairs.is_empty() {
         return Err(EngineError::NoFrames { first, last });
     }
-    Ok((pairs, first))
+    Ok((pairs, first_frame))
 }
 
 /// Hours of gaze at any rate a tracker has.

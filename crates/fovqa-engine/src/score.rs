@@ -5,7 +5,7 @@ use std::path::{Component, Path};
 use fovqa_frame::{Mask, PairSignal, SignalTables};
 use fovqa_io::read_mask;
 use fovqa_io::sequence::FramePair;
-use fovqa_metrics::{Regions, ScoreError};
+use fovqa_metrics::ScoreError;
 use fovqa_results::{Failure, FrameResult, ScoreReport};
 use fovqa_vision::GazeAt;
 
@@ -24,7 +24,7 @@ use crate::setup::{Inputs, Setup};
 /// that cannot be.
 pub fn score(request: &ScoreRequest, events: &dyn Events) -> Result<ScoreReport, EngineError> {
     let metrics = check(request, events)?;
-    let (pairs, first_frame) = find_pairs(request)?;
+    let (pairs, first_frame) = find_pairs(request, events)?;
     let trace = gaze_trace(request, &pairs, first_frame)?;
     let mask = request.mask.as_deref().map(|path| read_mask(path, &request.read)).transpose()?;
     let loader = Loader {
@@ -108,6 +108,7 @@ impl Run<'_> {
                     mask: self.mask.as_ref(),
                     trace: self.trace,
                     frames: self.frames,
+                    file_size: loaded.reference.file_size(),
                 };
                 let setup = Setup::new(&inputs, size, first, &mut self.warnings)?;
                 self.report.view.clone_from(&setup.view);
@@ -136,11 +137,8 @@ impl Run<'_> {
         if let Some(gaze) = gaze_px.or(setup.view.as_ref().map(|view| view.gaze_px)) {
             warn_of_gaze(gaze, size, &mut self.warnings);
         }
-        let mask = both(setup.mask.as_ref(), loaded.finite.as_ref());
-        let regions = match &mask {
-            Some(mask) => Regions::masked(setup.bands(), mask, setup.scorer.window_radius()),
-            None => Regions::unmasked(setup.bands()),
-        };
+        setup.apply_mask();
+        let regions = setup.regions(loaded.finite.as_ref());
         let signal = PairSignal::new(&loaded.reference, &loaded.test, &self.tables);
         let scores =
             setup.scorer.score(&signal, &regions, setup.weight()).map_err(|error| Fault {
@@ -163,15 +161,6 @@ impl Run<'_> {
             scores,
         })
     }
-}
-
-/// What counts in both masks, where there are any.
-fn both(mask: Option<&Mask>, finite: Option<&Mask>) -> Option<Mask> {
-    let mut mask = mask.or(finite)?.clone();
-    if let Some(finite) = finite {
-        mask.intersect(finite);
-    }
-    Some(mask)
 }
 
 fn warn_of_gaze(gaze: [f64; 2], size: (usize, usize), warnings: &mut Warnings<'_>) {

@@ -1,7 +1,7 @@
 //! What the size of the first frame settles for all: metrics that fit, view, bands, weights, mask.
 
 use fovqa_frame::Mask;
-use fovqa_metrics::{Metric, Scorer};
+use fovqa_metrics::{Metric, Regions, Scorer};
 use fovqa_results::ViewResult;
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, GazeAt, ViewSpec};
 
@@ -20,6 +20,8 @@ pub(crate) struct Setup<'a> {
     maker: Option<RetinaMaker<'a>>,
     retina: Option<Retina>,
     no_bands: BandMap,
+    /// What the mask leaves of the present gaze's bands.
+    masked: Option<Regions<'static>>,
 }
 
 /// What a setup is made from.
@@ -29,6 +31,8 @@ pub(crate) struct Inputs<'a, 'b> {
     pub(crate) mask: Option<&'b Mask>,
     pub(crate) trace: Option<&'a [GazeAt]>,
     pub(crate) frames: usize,
+    /// Size of the files, before any crop.
+    pub(crate) file_size: (usize, usize),
 }
 
 impl<'a> Setup<'a> {
@@ -39,7 +43,7 @@ impl<'a> Setup<'a> {
         warnings: &mut Warnings<'_>,
     ) -> Result<Self, Fault> {
         let request = inputs.request;
-        let mask = inputs.mask.map(|mask| fit_mask(request, mask, size)).transpose()?;
+        let mask = inputs.mask.map(|mask| fit_mask(inputs, mask, size)).transpose()?;
         let mut metrics = inputs.metrics.to_vec();
         if request.metrics == MetricChoice::Default {
             let scorer = Scorer::new(metrics.clone(), request.params.clone());
@@ -63,6 +67,7 @@ impl<'a> Setup<'a> {
             maker: None,
             retina: None,
             no_bands: BandMap::without_bands(size.0, size.1),
+            masked: None,
         };
         if let Some(spec) = &request.view {
             setup.look(inputs, spec, foveal, warnings)?;
@@ -79,9 +84,10 @@ impl<'a> Setup<'a> {
         warnings: &mut Warnings<'_>,
     ) -> Result<(), Fault> {
         let (w, h) = self.size;
-        let resolved = spec
-            .resolve(w, h)
-            .map_err(|error| Fault { message: error.to_string(), help: String::new() })?;
+        let resolved = spec.resolve(w, h).map_err(|error| Fault {
+            message: error.to_string(),
+            help: "give a view that fits frames of this size".to_owned(),
+        })?;
         if let Some([dw, dh]) = resolved.stretched_from {
             let message = format!(
                 "frames of {w}x{h} are stretched over the display's {dw}x{dh}: they fill its whole field"
@@ -134,7 +140,34 @@ impl<'a> Setup<'a> {
     /// Moves the gaze, where there is a view.
     pub(crate) fn look_at(&mut self, gaze_px: [f64; 2]) {
         if let Some(maker) = &self.maker {
+            let before = self.retina.as_ref().map(|retina| retina.gaze_px.map(f64::to_bits));
+            if before != Some(gaze_px.map(f64::to_bits)) {
+                self.masked = None;
+            }
             self.retina = Some(maker.at(gaze_px, self.retina.take()));
+        }
+    }
+
+    /// Makes ready what the mask alone decides, if it has not been since the gaze moved.
+    pub(crate) fn apply_mask(&mut self) {
+        if let (Some(mask), None) = (&self.mask, &self.masked) {
+            let regions = Regions::masked(self.bands(), mask, self.scorer.window_radius());
+            self.masked = Some(regions);
+        }
+    }
+
+    /// The regions of a frame: bands, less what the mask and the frame's own bad pixels leave out.
+    pub(crate) fn regions(&self, finite: Option<&Mask>) -> Regions<'_> {
+        match (finite, &self.masked) {
+            (None, Some(masked)) => masked.clone(),
+            (None, None) => Regions::unmasked(self.bands()),
+            (Some(finite), _) => {
+                let mut both = finite.clone();
+                if let Some(mask) = &self.mask {
+                    both.intersect(mask);
+                }
+                Regions::masked(self.bands(), &both, self.scorer.window_radius())
+            }
         }
     }
 
@@ -151,20 +184,17 @@ impl<'a> Setup<'a> {
 
 /// A mask has the size of the frames, or of the files they are cropped from.
 fn fit_mask(
-    request: &ScoreRequest,
+    inputs: &Inputs<'_, '_>,
     mask: &Mask,
     (width, height): (usize, usize),
 ) -> Result<Mask, Fault> {
     if (mask.width(), mask.height()) == (width, height) {
         return Ok(mask.clone());
     }
-    if let Some(crop) = request.crop {
-        let fits = |from: usize, length: usize, side: usize| {
-            from.checked_add(length).is_some_and(|end| end <= side)
-        };
-        if fits(crop.x, crop.width, mask.width()) && fits(crop.y, crop.height, mask.height()) {
-            return Ok(mask.cropped(crop.x, crop.y, crop.width, crop.height));
-        }
+    if let Some(crop) = inputs.request.crop
+        && (mask.width(), mask.height()) == inputs.file_size
+    {
+        return Ok(mask.cropped(crop.x, crop.y, crop.width, crop.height));
     }
     Err(Fault {
         message: format!(

@@ -151,8 +151,9 @@ impl Frame {
         if width == 0 || height == 0 {
             return Err(FrameError::Empty { width, height });
         }
-        let expected = width * height * channels.count();
-        if samples.len() != expected {
+        let expected = width.checked_mul(height).and_then(|n| n.checked_mul(channels.count()));
+        if Some(samples.len()) != expected {
+            let expected = expected.unwrap_or(usize::MAX);
             return Err(FrameError::SampleCount { found: samples.len(), expected });
         }
         let crop = Crop { x: 0, y: 0, width, height };
@@ -183,6 +184,11 @@ impl Frame {
     /// Height of the visible part in pixels.
     pub fn height(&self) -> usize {
         self.crop.height
+    }
+
+    /// Width and height of the file's own frame, before any crop.
+    pub fn file_size(&self) -> (usize, usize) {
+        (self.width, self.height)
     }
 
     /// Gray or colour.

@@ -11,7 +11,7 @@ pub struct Mask {
 impl Mask {
     /// A mask from one flag a pixel. `None` unless there are `width * height` flags.
     pub fn new(width: usize, height: usize, valid: Vec<bool>) -> Option<Self> {
-        (valid.len() == width * height).then_some(Self { width, height, valid })
+        (Some(valid.len()) == width.checked_mul(height)).then_some(Self { width, height, valid })
     }
 
     /// Width in pixels.

@@ -40,6 +40,14 @@ impl ReadOptions {
         }
         Ok(())
     }
+
+    /// Refuses a block that no frame within the limit could have: decoders allocate it whole.
+    pub(crate) fn check_block(&self, bytes: u64) -> Result<(), ReadErrorKind> {
+        /// Three floats and something to spare for each pixel of the largest frame.
+        const BYTES_A_PIXEL: u64 = 16;
+        let limit = self.max_megapixels.saturating_mul(1_000_000 * BYTES_A_PIXEL);
+        if bytes > limit { Err(ReadErrorKind::BlockTooLarge { bytes }) } else { Ok(()) }
+    }
 }
 
 /// Something about a file that its reader should know, though it can be read.

@@ -54,6 +54,12 @@ pub enum ReadErrorKind {
         /// The limit.
         limit_megapixels: u64,
     },
+    /// One block of more bytes than the largest frame.
+    #[error("it declares blocks of {bytes} bytes, more than the largest frame may have")]
+    BlockTooLarge {
+        /// Bytes of one block with all its channels.
+        bytes: u64,
+    },
     /// Alpha that is not 1 everywhere.
     #[error(
         "its alpha is not 1 everywhere ({transparent} pixels, the first at ({x}, {y}) with {value})"
@@ -129,7 +135,9 @@ impl ReadErrorKind {
             Self::NotAnImage => "convert it to PNG or OpenEXR",
             Self::Damaged { .. } => "render or copy it again",
             Self::Unsupported { .. } => "save it again with another compression, such as ZIP",
-            Self::TooLarge { .. } => "raise the limit with --max-megapixels if the size is meant",
+            Self::TooLarge { .. } | Self::BlockTooLarge { .. } => {
+                "raise the limit with --max-megapixels if the size is meant"
+            }
             Self::Alpha { .. } => {
                 "pass --alpha ignore to drop it, or --alpha over-black to lay the image over black"
             }

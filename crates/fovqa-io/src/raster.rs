@@ -12,6 +12,9 @@ use crate::alpha::{AlphaPolicy, require_opaque};
 use crate::decode::{Decoded, Note, ReadOptions};
 use crate::error::ReadErrorKind;
 
+/// A JPEG is read whole; this is four bytes a pixel of the largest one by default.
+const MAX_JPEG_BYTES: u64 = 1 << 30;
+
 /// Memory a PNG may ask for beside its picture.
 const SMALL_THINGS_BYTES: u64 = 32 << 20;
 /// A few rows of the widest pixels.
@@ -42,7 +45,11 @@ pub(crate) fn read_jpeg(
     options: &ReadOptions,
 ) -> Result<Decoded, ReadErrorKind> {
     let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes)?;
+    file.by_ref().take(MAX_JPEG_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MAX_JPEG_BYTES {
+        let detail = "it is longer than any picture of its kind, 1 GiB".to_owned();
+        return Err(ReadErrorKind::Damaged { format: "JPEG", detail });
+    }
     if !jpeg_is_whole(&bytes) {
         let detail = "its end-of-image marker is missing".to_owned();
         return Err(ReadErrorKind::Damaged { format: "JPEG", detail });

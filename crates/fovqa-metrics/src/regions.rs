@@ -26,9 +26,9 @@ impl<'a> Regions<'a> {
 
     /// Only the pixels of a mask count, and only windows of radius `window_radius` that lie
     /// wholly within it.
-    pub fn masked(bands: &'a BandMap, mask: &Mask, window_radius: usize) -> Self {
+    pub fn masked(bands: &BandMap, mask: &Mask, window_radius: usize) -> Regions<'static> {
         let clean = mask.eroded(window_radius);
-        Self {
+        Regions {
             pixels: Cow::Owned(intersection(bands, mask)),
             windows: Some(intersection(bands, &clean)),
             left_out: mask.left_out(),

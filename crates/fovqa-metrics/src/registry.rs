@@ -141,12 +141,8 @@ const SSIM: MetricInfo = MetricInfo {
             default: "auto",
             about: "window radius, px, 1 to 224; auto is 3.5 sigma, rounded (5)",
         },
-        ParamInfo { name: "k1", default: "0.01", about: "stabiliser of the means, 0.0001 to 1" },
-        ParamInfo {
-            name: "k2",
-            default: "0.03",
-            about: "stabiliser of the variances, 0.0001 to 1",
-        },
+        ParamInfo { name: "k1", default: "0.01", about: "stabiliser of the means, 0.001 to 1" },
+        ParamInfo { name: "k2", default: "0.03", about: "stabiliser of the variances, 0.01 to 1" },
     ],
 };
 

@@ -43,7 +43,7 @@ pub fn score_table(report: &ScoreReport) -> String {
         for band in &summary.bands {
             let mut row = vec![
                 format!("{}° to {}°", band.from_deg, band.to_deg),
-                (band.pixels / report.frames.len().max(1) as u64).to_string(),
+                format!("{:.0}", band.pixels as f64 / report.frames.len().max(1) as f64),
             ];
             let cell = |metric: &Metric| {
                 let statistics: Option<&Statistics> = band.statistics.get(metric)?.as_ref();
@@ -65,7 +65,8 @@ pub fn score_table(report: &ScoreReport) -> String {
         [(outside, "lie outside all bands"), (count(|s| s.left_out), "are left out by a mask")]
     {
         if pixels > 0 {
-            let _ = writeln!(text, "{pixels} pixels {where_they_are}");
+            let in_all = if one { "" } else { ", in all frames together" };
+            let _ = writeln!(text, "{pixels} pixels {where_they_are}{in_all}");
         }
     }
     text
@@ -75,12 +76,14 @@ fn heading(report: &ScoreReport) -> String {
     let mut text = String::new();
     match report.frames.as_slice() {
         [frame] => {
-            let _ = writeln!(text, "{} against {}", frame.test, frame.reference);
+            let (test, reference) = (printable(&frame.test), printable(&frame.reference));
+            let _ = writeln!(text, "{test} against {reference}");
         }
         [first, .., last] => {
             let count = report.frames.len();
             let _ = writeln!(text, "{count} frames, {} to {}", first.frame, last.frame);
-            let _ = writeln!(text, "{} … against {} …", first.test, first.reference);
+            let (test, reference) = (printable(&first.test), printable(&first.reference));
+            let _ = writeln!(text, "{test} … against {reference} …");
         }
         [] => {}
     }
@@ -106,6 +109,14 @@ fn heading(report: &ScoreReport) -> String {
         );
     }
     text
+}
+
+/// A file name that cannot steer the terminal.
+fn printable(name: &str) -> String {
+    let shown = |c: char| {
+        if c.is_control() { c.escape_default().collect() } else { c.to_string() }
+    };
+    name.chars().map(shown).collect()
 }
 
 fn label(metric: Metric) -> String {

@@ -44,7 +44,7 @@ pub fn write_json(report: &ScoreReport, mut out: impl Write) -> io::Result<()> {
     writeln!(out)
 }
 
-/// A number, with infinity as the string `"inf"` and NaN never.
+/// A number, with infinity as the string `"inf"`.
 #[derive(Clone, Copy)]
 struct Number(f64);
 

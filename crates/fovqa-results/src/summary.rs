@@ -65,14 +65,7 @@ impl Summary {
                 let per_band = report.metrics.iter().filter(|m| m.info().per_band);
                 let statistics = per_band.map(|&metric| {
                     let values = bands.iter().filter_map(|b| b.scores.get(&metric).copied()?);
-                    let pooled = pooled_psnr(
-                        metric,
-                        bands.iter().map(|b| {
-                            let mse = b.scores.get(&Metric::Mse).copied().flatten();
-                            let psnr = b.scores.get(&Metric::Psnr).copied().flatten();
-                            (mse.or(psnr.map(mse_of_db)), b.pixels)
-                        }),
-                    );
+                    let pooled = pooled_psnr(metric, bands.iter().map(|b| (b.mse, b.pixels)));
                     (metric, Statistics::of(metric, values).map(|s| Statistics { pooled, ..s }))
                 });
                 BandSummary {
@@ -85,10 +78,6 @@ impl Summary {
             .collect();
         Self { statistics, bands }
     }
-}
-
-fn mse_of_db(db: f64) -> f64 {
-    if db.is_infinite() { 0.0 } else { 10f64.powf(-db / 10.0) }
 }
 
 fn pooled(metric: Metric, frames: &[FrameResult]) -> Option<f64> {

@@ -8,7 +8,7 @@ use serde::Deserialize;
 /// One pair of pictures with its values. `None` for decibels of identical pictures, or for what
 /// is not defined.
 #[derive(Debug, Clone, Deserialize)]
-#[allow(missing_docs, reason = "the fields are those of golden/README.md")]
+#[allow(missing_docs, reason = "a field is named after the measure and the signal it is of")]
 pub struct Case {
     pub id: String,
     pub reference: String,
@@ -34,7 +34,7 @@ pub struct Case {
 
 /// Values of one band.
 #[derive(Debug, Clone, Deserialize)]
-#[allow(missing_docs, reason = "the fields are those of golden/README.md")]
+#[allow(missing_docs, reason = "a field is named after the measure and the signal it is of")]
 pub struct Band {
     pub from_deg: f64,
     pub to_deg: f64,

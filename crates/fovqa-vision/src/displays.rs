@@ -79,9 +79,9 @@ impl Display {
         match self.geometry {
             Geometry::Screen { diagonal_in, distance_m } => {
                 const METRES_PER_INCH: f64 = 0.0254;
-                [distance_m * w.hypot(h) / (diagonal_in * METRES_PER_INCH); 2]
+                [distance_m * libm::hypot(w, h) / (diagonal_in * METRES_PER_INCH); 2]
             }
-            Geometry::FovDiagonalDeg(fov) => [focal(w.hypot(h), fov); 2],
+            Geometry::FovDiagonalDeg(fov) => [focal(libm::hypot(w, h), fov); 2],
             Geometry::FovVerticalDeg(fov) => [focal(h, fov); 2],
             Geometry::FovDeg([x, y]) => [focal(w, x), focal(h, y)],
             Geometry::PixelsPerDegree(ppd) => [ppd.to_degrees(); 2],
@@ -90,7 +90,7 @@ impl Display {
 
     /// Pixels that one degree takes at the centre, as FovVideoVDP counts them:
     /// `1 / (2 atan(pixel / 2))`.
-    pub fn pixels_per_degree(&self) -> f64 {
+    pub fn central_pixels_per_degree(&self) -> f64 {
         0.5 / libm::atan(0.5 / self.focal_px()[0]).to_degrees()
     }
 
@@ -149,7 +149,7 @@ mod tests {
             ("macbook_pro_16", 98.792_419_7),
             ("lg_oled_2017_sdr", 120.410_738),
         ] {
-            let found = find_display(name).unwrap().pixels_per_degree();
+            let found = find_display(name).unwrap().central_pixels_per_degree();
             assert!((found / ppd - 1.0).abs() < 1e-7, "{name}: {found}");
         }
     }

@@ -132,7 +132,8 @@ impl Eccentricity {
     }
 
     /// Eccentricity in degrees of the pixel centres `xs` of row `y`, in `f32`: within 1e-5
-    /// relative and 1e-5° of [`Eccentricity::at_deg`], for weights rather than for decisions.
+    /// relative of [`Eccentricity::at_deg`] and a thousandth of a pixel, for weights rather than for
+    /// decisions.
     pub fn fill_row_deg(&self, y: usize, xs: Range<usize>, out: &mut [f32]) {
         let out = &mut out[..xs.len()];
         let [fx, fy] = self.view.focal_px;

@@ -17,6 +17,9 @@ enum Clock {
     TimeS,
 }
 
+/// Beyond this no frame number, time or position of a real recording lies.
+const LARGEST: f64 = 1e9;
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Sample {
     at: f64,
@@ -132,10 +135,8 @@ impl GazeTrace {
             let number = |index: usize, column: &'static str| {
                 let cell = &record[index];
                 let value = if cell.is_empty() { Ok(f64::NAN) } else { cell.parse::<f64>() };
-                value.ok().filter(|v| !v.is_infinite()).ok_or_else(|| GazeTraceError::Number {
-                    line,
-                    column,
-                    found: cell.chars().take(40).collect(),
+                value.ok().filter(|v| v.is_nan() || v.abs() <= LARGEST).ok_or_else(|| {
+                    GazeTraceError::Number { line, column, found: cell.chars().take(40).collect() }
                 })
             };
             let clock_at = number(at, clock.column())?;
@@ -157,7 +158,7 @@ impl GazeTrace {
         Ok(Self { clock, samples })
     }
 
-    /// The gaze of each of `frames`, which rise. A blink holds the gaze before it. Times start
+    /// The gaze of each of `frames`. A blink holds the gaze before it. Times start
     /// with frame `first_frame`, and the sample nearest in time counts, if it is no farther than
     /// one frame away. With `hold`, a frame the trace does not cover keeps the gaze before it.
     ///
@@ -175,11 +176,12 @@ impl GazeTrace {
         for &frame in frames {
             let sample = match self.clock {
                 Clock::Frame => {
-                    self.samples.iter().find(|s| s.at.to_bits() == (frame as f64).to_bits())
+                    let found = self.samples.binary_search_by(|s| s.at.total_cmp(&(frame as f64)));
+                    found.ok().map(|index| &self.samples[index])
                 }
                 Clock::TimeS => {
                     let fps = fps.ok_or(GazeTraceError::NoFps)?;
-                    self.nearest((frame - first_frame) as f64 / fps, 1.0 / fps)
+                    self.nearest(frame.saturating_sub(first_frame) as f64 / fps, 1.0 / fps)
                 }
             };
             // The last open eye before this frame, in the trace itself: frames may be a subset.
@@ -209,7 +211,9 @@ impl GazeTrace {
 
     fn nearest(&self, time_s: f64, within_s: f64) -> Option<&Sample> {
         let distance = |s: &&Sample| (s.at - time_s).abs();
-        self.samples
+        // Samples rise: the nearest is one of the two around the moment.
+        let after = self.samples.partition_point(|s| s.at < time_s);
+        self.samples[after.saturating_sub(1)..(after + 1).min(self.samples.len())]
             .iter()
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))
             .filter(|s| distance(s) <= within_s)
@@ -218,9 +222,10 @@ impl GazeTrace {
     fn last_open_before(&self, frame: u64, first_frame: u64, fps: Option<f64>) -> Option<[f64; 2]> {
         let now = match self.clock {
             Clock::Frame => frame as f64,
-            Clock::TimeS => (frame - first_frame) as f64 / fps?,
+            Clock::TimeS => frame.saturating_sub(first_frame) as f64 / fps?,
         };
-        self.samples.iter().rev().filter(|s| s.at <= now).find_map(|s| s.position_px)
+        let past = self.samples.partition_point(|s| s.at <= now);
+        self.samples[..past].iter().rev().find_map(|s| s.position_px)
     }
 }
 

@@ -144,14 +144,23 @@ impl ViewSpec {
     /// # Errors
     /// As [`ViewSpec::resolve`].
     pub fn check(&self) -> Result<(), ViewError> {
-        self.resolve(2, 2).map(|_| ())
+        self.unbounded(2, 2).map(|_| ())
     }
 
     /// The view of a frame of `width` x `height` pixels.
     ///
     /// # Errors
-    /// When an angle is not inside (0°, 180°), a length not positive, or a frustum closed.
+    /// When an angle is not inside (0°, 180°), a length not positive, a frustum closed, or the focal
+    /// length beyond reason.
     pub fn resolve(&self, width: usize, height: usize) -> Result<Resolved, ViewError> {
+        let resolved = self.unbounded(width, height)?;
+        match resolved.view.focal_px.iter().find(|f| !FOCAL_PX.contains(*f)) {
+            Some(&found_px) => Err(ViewError::Focal { found_px }),
+            None => Ok(resolved),
+        }
+    }
+
+    fn unbounded(&self, width: usize, height: usize) -> Result<Resolved, ViewError> {
         let (w, h) = (width as f64, height as f64);
         let centred =
             |focal_px: [f64; 2]| View { width, height, focal_px, principal_px: [w / 2.0, h / 2.0] };
@@ -164,7 +173,7 @@ impl ViewSpec {
                 centred([x.unwrap_or(one), y.unwrap_or(one)])
             }
             ViewSpec::FovDiagonal { diagonal_deg } => {
-                centred([focal(w.hypot(h), diagonal_deg, "diagonal")?; 2])
+                centred([focal(libm::hypot(w, h), diagonal_deg, "diagonal")?; 2])
             }
             ViewSpec::Frustum { left, right, up, down } => {
                 let [l, r, u, d] = frustum_sides(left, right, up, down)?;
@@ -195,10 +204,7 @@ impl ViewSpec {
                 centred([fx * w / dw as f64, fy * h / dh as f64])
             }
         };
-        match view.focal_px.iter().find(|f| !FOCAL_PX.contains(*f)) {
-            Some(&found_px) => Err(ViewError::Focal { found_px }),
-            None => Ok(Resolved { view, stretched_from }),
-        }
+        Ok(Resolved { view, stretched_from })
     }
 }
 
@@ -218,9 +224,11 @@ fn length(value: f64, which: &'static str) -> Result<f64, ViewError> {
 }
 
 fn frustum_sides(left: f64, right: f64, up: f64, down: f64) -> Result<[f64; 4], ViewError> {
+    /// The tangent of 89.99°.
+    const STEEPEST: f64 = 6000.0;
     let sides =
         if left < 0.0 && down < 0.0 { [-left, right, up, -down] } else { [left, right, up, down] };
-    if sides.iter().all(|side| *side > 0.0 && side.is_finite()) {
+    if sides.iter().all(|side| *side > 0.0 && *side <= STEEPEST) {
         Ok(sides)
     } else {
         Err(ViewError::Frustum { left, right, up, down })

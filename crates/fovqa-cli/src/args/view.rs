@@ -65,7 +65,12 @@ enum GazeArg {
 }
 
 fn gaze(text: &str) -> Result<GazeArg, String> {
+    /// A long way outside any frame.
+    const FARTHEST_PX: f64 = 1e6;
     if let Ok(point) = numbers::<2>(text, "") {
+        if point.iter().any(|v| v.abs() > FARTHEST_PX) {
+            return Err("a gaze lies within a million pixels of the frame".to_owned());
+        }
         return Ok(GazeArg::Point(point));
     }
     // Numbers that are no point are a slip, not a file name.

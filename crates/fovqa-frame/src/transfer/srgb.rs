@@ -52,7 +52,8 @@ impl Encoder {
         if linear >= 1.0 {
             return 1.0;
         }
-        if linear <= TOE_END as f32 {
+        // NaN goes this way too, and `max` makes it 0.
+        if linear.is_nan() || linear <= TOE_END as f32 {
             return 12.92 * linear.max(0.0);
         }
         let offset = linear.to_bits() - TABLE_FROM.to_bits();
@@ -96,5 +97,6 @@ mod tests {
         assert!(worst < 1.2e-7, "{worst:e}");
         assert_eq!(encoder.encode(60_000.0).to_bits(), 1.0f32.to_bits());
         assert_eq!(encoder.encode(-3.0).to_bits(), 0.0f32.to_bits());
+        assert_eq!(encoder.encode(f32::NAN).to_bits(), 0.0f32.to_bits());
     }
 }

@@ -28,6 +28,11 @@ pub(crate) fn read(
         if let Some(channel) = header.channels.list.iter().find(|c| c.sampling != Vec2(1, 1)) {
             return Err(ReadErrorKind::Subsampled { channel: channel.name.to_string() });
         }
+        let Vec2(w, h) = header.max_block_pixel_size();
+        let block = (w as u64)
+            .saturating_mul(h as u64)
+            .saturating_mul(header.channels.bytes_per_pixel as u64);
+        options.check_block(block)?;
         for size in [header.layer_size, header.shared_attributes.display_window.size] {
             options.check_size(size.0 as u64, size.1 as u64)?;
         }
@@ -43,7 +48,10 @@ pub(crate) fn read(
     let channels: Vec<usize> = layer.colour.iter().copied().chain(alpha).collect();
     let mut planes = pixels::read(reader, layer.part, &channels, &window)?;
     if alpha.is_some() {
-        require_opaque(planes.pop_as_f32().into_iter(), window.display_width)?;
+        // Pixels without data are no part of the picture: they are opaque black.
+        let alpha = planes.pop_as_f32().into_iter().enumerate();
+        let alpha = alpha.map(|(i, a)| if window.has_data(i) { a } else { 1.0 });
+        require_opaque(alpha, window.display_width)?;
     }
     let mut notes = Vec::new();
     if !window.data_covers_display() {

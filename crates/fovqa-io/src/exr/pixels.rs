@@ -70,6 +70,12 @@ impl Window {
         overlap(self.data_at.1, self.data_size.1, self.display_height)
     }
 
+    /// Whether pixel `index` of the display window holds data.
+    pub(crate) fn has_data(&self, index: usize) -> bool {
+        let (x, y) = (index % self.display_width, index / self.display_width);
+        self.columns().contains(&x) && self.rows().contains(&y)
+    }
+
     pub(crate) fn data_covers_display(&self) -> bool {
         self.columns() == (0..self.display_width) && self.rows() == (0..self.display_height)
     }
@@ -154,9 +160,11 @@ impl Planes {
     }
 }
 
-/// Chunks that are decompressed at the same time: enough for many cores, few enough to stay small
-/// beside the frame.
+/// Chunks that are decompressed at the same time: enough for many cores …
 const CHUNKS_AT_ONCE: usize = 32;
+
+/// … and as long as they, with all their channels, stay small.
+const BYTES_AT_ONCE: usize = 64 << 20;
 
 /// Reads `channels` of a part at full resolution.
 pub(crate) fn read(
@@ -177,11 +185,14 @@ pub(crate) fn read(
         .map_err(damaged)?;
     // Only now: the offset table has been read, so the file is at least that long.
     let mut planes = Planes::new(half, channels.len(), size);
+    let Vec2(w, h) = meta.headers[part].max_block_pixel_size();
+    let block_bytes = (w * h * meta.headers[part].channels.bytes_per_pixel).max(1);
+    let at_once = (BYTES_AT_ONCE / block_bytes).clamp(1, CHUNKS_AT_ONCE);
     let mut samples_read = vec![0usize; channels.len()];
     let mut blocks_seen = BTreeSet::new();
     loop {
         let batch: Vec<Chunk> =
-            chunks.by_ref().take(CHUNKS_AT_ONCE).collect::<Result<_, _>>().map_err(damaged)?;
+            chunks.by_ref().take(at_once).collect::<Result<_, _>>().map_err(damaged)?;
         if batch.is_empty() {
             break;
         }
@@ -242,7 +253,12 @@ fn check_dwa_counters(chunk: &Chunk, meta: &MetaData) -> Result<(), ReadErrorKin
     else {
         return Ok(());
     };
-    let Vec2(w, h) = header.max_block_pixel_size();
+    // Of this block: the last one, and those at the right border, may be smaller.
+    let block = header
+        .get_block_data_indices(&chunk.compressed_block)
+        .and_then(|tile| header.get_absolute_block_pixel_coordinates(tile))
+        .map_err(damaged)?;
+    let Vec2(w, h) = block.size;
     // Whole 8x8 blocks of the cosine transform, at most 8 bytes a sample on the way.
     let samples = w.next_multiple_of(8) * h.next_multiple_of(8) * header.channels.list.len();
     // A chunk of the size of its pixels is stored as it is; there are no counters to look at.

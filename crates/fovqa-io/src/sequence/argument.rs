@@ -113,7 +113,10 @@ pub fn list(argument: &Path) -> Result<Listing, ListingError> {
     } else if let Some(pattern) = Printf::parse(argument) {
         return printf(argument, &pattern?);
     } else if text.contains(['*', '?', '[']) {
-        let found = glob::glob(&text).map_err(|e| pattern_error(argument, &e.to_string()))?;
+        let visible =
+            glob::MatchOptions { require_literal_leading_dot: true, ..Default::default() };
+        let found =
+            glob::glob_with(&text, visible).map_err(|e| pattern_error(argument, &e.to_string()))?;
         let mut paths = Vec::new();
         for path in found {
             paths.push(
@@ -269,6 +272,7 @@ mod tests {
         let all = list(dir.path()).unwrap();
         assert_eq!(stems(&all), ["f9", "f10", "f11", "g1"]);
         assert_eq!(stems(&list(&dir.path().join("f*")).unwrap()), ["f9", "f10", "f11"]);
+        assert_eq!(stems(&list(&dir.path().join("*.png")).unwrap()), ["f9", "f10"], "no dot files");
         let printf = list(&dir.path().join("f%d.png")).unwrap();
         assert_eq!(printf.files.iter().map(|f| f.number).collect::<Vec<_>>(), [Some(9), Some(10)]);
         assert_eq!(stems(&list(&dir.path().join("f%02d.png")).unwrap()), ["f10"]);

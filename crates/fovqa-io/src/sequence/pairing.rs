@@ -19,6 +19,17 @@ pub struct FramePair {
     pub test: PathBuf,
 }
 
+/// The pairs of a sequence.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Pairs {
+    /// The pairs, in natural order of the references.
+    pub pairs: Vec<FramePair>,
+    /// Number of the sequence's first frame, whether or not it has a partner.
+    pub first: u64,
+    /// Files without a partner, passed over.
+    pub alone: usize,
+}
+
 /// Files that do not pair.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PairingError {
@@ -80,14 +91,14 @@ pub fn pair(
     reference: &Listing,
     test: &Listing,
     allow_missing: bool,
-) -> Result<Vec<FramePair>, PairingError> {
+) -> Result<Pairs, PairingError> {
     if reference.is_file && test.is_file {
         let (reference, test) = (&reference.files[0], &test.files[0]);
-        return Ok(vec![FramePair {
-            number: 0,
-            reference: reference.path.clone(),
-            test: test.path.clone(),
-        }]);
+        // A number both names carry is the frame's.
+        let number = reference.number.filter(|n| test.number == Some(*n)).unwrap_or(0);
+        let (reference, test) = (reference.path.clone(), test.path.clone());
+        let pairs = vec![FramePair { number, reference, test }];
+        return Ok(Pairs { pairs, first: number, alone: 0 });
     }
     let mut partner: Vec<Option<usize>> = vec![None; reference.files.len()];
     let mut taken = vec![false; test.files.len()];
@@ -116,15 +127,15 @@ pub fn pair(
     numbers.sort_unstable();
     numbers.dedup();
     let numbered = numbers.len() == paired.len();
-    Ok(paired
-        .into_iter()
-        .enumerate()
-        .map(|(position, (reference, test))| FramePair {
-            number: reference.number.filter(|_| numbered).unwrap_or(position as u64),
-            reference: reference.path.clone(),
-            test: test.path.clone(),
-        })
-        .collect())
+    let first = reference.files.iter().filter_map(|f| f.number).min();
+    let alone = reference.files.len() + test.files.len() - 2 * paired.len();
+    let pairs = paired.into_iter().enumerate().map(|(position, (reference, test))| FramePair {
+        number: reference.number.filter(|_| numbered).unwrap_or(position as u64),
+        reference: reference.path.clone(),
+        test: test.path.clone(),
+    });
+    let first = first.filter(|_| numbered).unwrap_or(0);
+    Ok(Pairs { pairs: pairs.collect(), first, alone })
 }
 
 /// Pairs what is still alone and whose key is the only one of its side.
@@ -176,13 +187,14 @@ mod tests {
             &listing(&["b/0000.png", "b/0001.png"]),
             false,
         );
-        assert_eq!(pairs.unwrap()[1].test, PathBuf::from("b/0001.png"));
+        assert_eq!(pairs.unwrap().pairs[1].test, PathBuf::from("b/0001.png"));
         let pairs = pair(
             &listing(&["gt.0007.exr", "gt.0008.exr"]),
             &listing(&["rmfr_8.png", "rmfr_7.png"]),
             false,
         )
-        .unwrap();
+        .unwrap()
+        .pairs;
         assert_eq!((pairs[0].number, pairs[0].test.clone()), (7, PathBuf::from("rmfr_7.png")));
     }
 
@@ -196,7 +208,7 @@ mod tests {
         };
         assert_eq!(r, [PathBuf::from("1.png"), PathBuf::from("4.png")]);
         assert_eq!(t, [PathBuf::from("3.png")]);
-        assert_eq!(pair(&reference, &test, true).unwrap().len(), 1);
+        assert_eq!(pair(&reference, &test, true).unwrap().pairs.len(), 1);
         assert!(matches!(
             pair(&listing(&["a.png"]), &listing(&["b.png"]), true),
             Err(PairingError::Nothing { .. })
@@ -206,7 +218,7 @@ mod tests {
     #[test]
     fn names_without_numbers_count_by_position() {
         let names = listing(&["blue.png", "red.png"]);
-        let pairs = pair(&names, &names, false).unwrap();
+        let pairs = pair(&names, &names, false).unwrap().pairs;
         assert_eq!(pairs.iter().map(|p| p.number).collect::<Vec<_>>(), [0, 1]);
     }
 }

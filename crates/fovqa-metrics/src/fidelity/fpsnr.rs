@@ -189,7 +189,8 @@ fn weigh_table(table: &[f32], limit: f32, row: &mut [f32]) {
 }
 
 impl WeightField {
-    /// The weight of every pixel, computed row by row when it is asked for.
+    /// The weight of every pixel, computed row by row when it is asked for. Knots that are no
+    /// curve, which [`crate::Params::check`] refuses, count as the default ones.
     pub fn new(eccentricity: Eccentricity, params: &Params) -> Self {
         let curve = Curve::new(params, eccentricity.view().nyquist_cpd());
         Self { eccentricity, curve, rows: None }

@@ -1,7 +1,6 @@
 //! Test against reference: one file a metric, and one pass over the rows for all of them.
 
 pub mod fpsnr;
-mod fssim;
 mod ms_ssim;
 mod pass;
 mod scorer;
@@ -10,6 +9,7 @@ pub mod ssim;
 mod sums;
 #[cfg(test)]
 mod tests;
+mod weighted_mean;
 
 pub use scorer::{BandScores, PairScores, ScoreError, Scorer};
 pub use squared_error::psnr_db;

@@ -9,11 +9,11 @@ use std::ops::Range;
 use fovqa_frame::{BLOCK_ROWS, PairTile, Part, map_row_blocks};
 
 use super::fpsnr::WeightField;
-use super::fssim::WeightedMean;
 use super::ms_ssim::{HalvedRows, PairRows, Scale, unit_below};
 use super::squared_error::squared_row;
 use super::ssim::rows::{Constants, MapRow, Scratch, map_row};
 use super::sums::{add_by_band, sum, weighted};
+use super::weighted_mean::WeightedMean;
 use crate::regions::{Regions, clipped};
 
 /// Columns of a tile. Even, for the 2x2 means. Eleven rows of sum and difference take 23 kB, the

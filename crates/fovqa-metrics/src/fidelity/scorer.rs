@@ -58,6 +58,8 @@ pub enum ScoreError {
 pub struct BandScores {
     /// Pixels in the band.
     pub pixels: u64,
+    /// Mean squared error, peak 1, where MSE or PSNR is asked for: sequences pool it.
+    pub mse: Option<f64>,
     /// Its scores; `None` where no pixel, or no window, is in it.
     pub scores: BTreeMap<Metric, Option<f64>>,
 }
@@ -75,7 +77,7 @@ pub struct PairScores {
     pub outside_bands: u64,
     /// Pixels a mask left out.
     pub left_out: u64,
-    /// Mean squared error, peak 1, whether or not it was asked for: sequences pool it.
+    /// Mean squared error, peak 1, where MSE or PSNR is asked for: sequences pool it.
     pub mse: Option<f64>,
     /// Σ f² d² and Σ f² of FPSNR, peak 1: sequences pool it.
     pub weighted_squared_error: Option<(f64, f64)>,
@@ -95,8 +97,8 @@ impl Scorer {
         Self { metrics, params, lenient: false }
     }
 
-    /// The same, but a metric for which a mask leaves no window is left out of the scores instead
-    /// of being an error: for metrics nobody named.
+    /// The same, but where a mask leaves no window, SSIM is left out of the scores instead of being
+    /// an error: for a run that names no metric.
     #[must_use]
     pub fn lenient(self) -> Self {
         Self { lenient: true, ..self }
@@ -207,6 +209,7 @@ impl Scorer {
             };
             scores.insert(metric, value);
         }
+        let asks_mse = [Metric::Mse, Metric::Psnr].iter().any(|m| self.wants(*m));
         let bands = (0..regions.bands())
             .map(|band| {
                 let mse = (pixels[band] > 0).then(|| mse(sums.squared[band], pixels[band]));
@@ -218,7 +221,8 @@ impl Scorer {
                     Metric::Psnr => (metric, mse.map(psnr_db)),
                     _ => (metric, ssim),
                 });
-                BandScores { pixels: pixels[band], scores: scores.collect() }
+                let pooled = mse.filter(|_| asks_mse);
+                BandScores { pixels: pixels[band], mse: pooled, scores: scores.collect() }
             })
             .collect();
         let scale = planes * peak * peak;
@@ -228,7 +232,7 @@ impl Scorer {
             pixels: all,
             outside_bands: pixels[regions.bands()],
             left_out: regions.left_out(),
-            mse: [Metric::Mse, Metric::Psnr].iter().any(|m| self.wants(*m)).then_some(frame_mse),
+            mse: asks_mse.then_some(frame_mse),
             weighted_squared_error: self
                 .wants(Metric::Fpsnr)
                 .then(|| (sums.weighted_squared.weighted / scale, sums.weighted_squared.weight)),

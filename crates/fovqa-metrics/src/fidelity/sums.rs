@@ -61,8 +61,8 @@ pub(crate) fn add_by_band(values: &[f32], x: usize, runs: &[Run], sums: &mut [f6
     }
 }
 
-/// The sum of a row's values that are in any region, and that of values times weights, and that
-/// of the weights: `(weighted, weight)`.
+/// Over the row's values that are in any region: the sum of values times weights, and that of the
+/// weights.
 pub(crate) fn weighted(values: &[f32], weights: &[f32], x: usize, runs: &[Run]) -> (f64, f64) {
     let mut sums = (0.0, 0.0);
     // Without a mask the whole row is one stretch, whatever the bands.

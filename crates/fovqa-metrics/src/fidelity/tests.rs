@@ -283,8 +283,12 @@ fn masked_pixels_are_in_no_number() {
     let found = cropped.score(&[Metric::Mse, Metric::Ssim], &a, &b).unwrap();
     assert_eq!(found.scores[&Metric::Mse], before.scores[&Metric::Mse]);
     assert!((found.scores[&Metric::Ssim] - before.scores[&Metric::Ssim]).abs() < 1e-9);
-    let masked = setup.score(&[Metric::MsSsim], &a.clone(), &b);
-    assert!(matches!(masked, Err(ScoreError::TooSmall { .. } | ScoreError::Masked { .. })));
+    let (a, b) = pair(180, 180, 40.0);
+    let mut large = Setup::new(180, 180, [90.0, 90.0]);
+    assert!(large.score(&[Metric::MsSsim], &a, &b).is_ok());
+    large.mask = Mask::new(180, 180, (0..180 * 180).map(|i| i != 7).collect());
+    let masked = large.score(&[Metric::MsSsim], &a, &b);
+    assert_eq!(masked, Err(ScoreError::Masked { metric: Metric::MsSsim }));
 }
 
 #[test]

@@ -24,6 +24,9 @@ pub enum PiecewiseMarError {
     /// Eccentricities that do not rise from 0.
     #[error("the knots' eccentricities do not start at 0 and rise")]
     Order,
+    /// Acuity that rises at the end: beyond the last knot it would grow without bound.
+    #[error("acuity does not fall from the knot before the last to the last")]
+    Rising,
     /// A frequency that is not positive.
     #[error("the knot of {found_cpd} cpd is not a positive frequency")]
     Frequency {
@@ -59,6 +62,9 @@ impl PiecewiseMar {
         if let Some(&found_cpd) = knots_cpd.iter().find(|f| !(**f > 0.0 && f.is_finite())) {
             return Err(PiecewiseMarError::Frequency { found_cpd });
         }
+        if knots_cpd[knots_cpd.len() - 1] > knots_cpd[knots_cpd.len() - 2] {
+            return Err(PiecewiseMarError::Rising);
+        }
         Ok(Self { knots: knots_deg.iter().copied().zip(knots_cpd.iter().copied()).collect() })
     }
 
@@ -93,6 +99,7 @@ mod tests {
             Err(PiecewiseMarError::Order)
         );
         assert_eq!(PiecewiseMar::new(&[1.0, 5.0], &[3.0, 2.0]), Err(PiecewiseMarError::Order));
+        assert_eq!(PiecewiseMar::new(&[0.0, 5.0], &[3.0, 4.0]), Err(PiecewiseMarError::Rising));
         assert!(PiecewiseMar::new(&[0.0], &[3.0]).is_err());
         assert!(PiecewiseMar::new(&[0.0, 5.0], &[3.0, 0.0]).is_err());
     }

@@ -35,8 +35,12 @@ impl Default for Params {
     }
 }
 
-/// Smallest K: C is far above what 32 bits lose, and far below any contrast.
-const MIN_K: f64 = 1e-4;
+/// Smallest K1: the means it stabilises lose nothing.
+const MIN_K1: f64 = 1e-3;
+
+/// Smallest K2: C2 = 1e-4 of peak² stays a thousand times above the 6e-8 that a variance of 32-bit
+/// squares loses.
+const MIN_K2: f64 = 1e-2;
 
 /// Largest radius of the window.
 const MAX_RADIUS: usize = 224;
@@ -56,8 +60,8 @@ impl Params {
                 let radius = value.number_in(1.0..=MAX_RADIUS as f64)?;
                 self.radius = Some((radius.fract() == 0.0).then_some(radius as usize)?);
             }
-            "k1" => self.k1 = value.number_in(MIN_K..=1.0)?,
-            "k2" => self.k2 = value.number_in(MIN_K..=1.0)?,
+            "k1" => self.k1 = value.number_in(MIN_K1..=1.0)?,
+            "k2" => self.k2 = value.number_in(MIN_K2..=1.0)?,
             _ => return None,
         }
         Some(())

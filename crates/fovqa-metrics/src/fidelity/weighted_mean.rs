@@ -1,5 +1,6 @@
-//! Foveated SSIM: Σ f² map / Σ f², over the pixels where the SSIM map is defined, f as in FPSNR.
-//! Our own, beside FPSNR. In [-1, 1], higher is better.
+//! The mean under the foveal weight f²: FPSNR's of the squared error, and foveated SSIM's of the map,
+//! Σ f² map / Σ f² over the pixels where it is defined (our own, beside FPSNR; in [-1, 1], higher is
+//! better).
 
 /// The two sums of a weighted mean.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
