@@ -40,6 +40,11 @@ impl<'a> Regions<'a> {
         self.pixels.bands()
     }
 
+    /// Rows of the frames these are regions of.
+    pub(crate) fn rows(&self) -> usize {
+        self.pixels.rows()
+    }
+
     /// Whether a mask is at work.
     pub(crate) fn is_masked(&self) -> bool {
         self.windows.is_some()

@@ -135,6 +135,11 @@ impl BandMap {
         self.bands
     }
 
+    /// How many rows there are.
+    pub fn rows(&self) -> usize {
+        self.starts.len() - 1
+    }
+
     /// The runs of row `y`, which cover it.
     pub fn row(&self, y: usize) -> &[Run] {
         &self.runs[self.starts[y]..self.starts[y + 1]]
@@ -143,7 +148,7 @@ impl BandMap {
     /// Pixels in each band, then pixels in none.
     pub fn pixels(&self) -> Vec<u64> {
         let mut pixels = vec![0; self.bands + 1];
-        for y in 0..self.starts.len() - 1 {
+        for y in 0..self.rows() {
             let mut from = 0;
             for run in self.row(y) {
                 if let Some(count) = pixels.get_mut(usize::from(run.band)) {

@@ -140,6 +140,9 @@ impl Scorer {
     ///
     /// # Errors
     /// When a metric does not fit the frames or the mask, or has no weight.
+    ///
+    /// # Panics
+    /// When the regions are of frames of another height.
     pub fn score(
         &self,
         pair: &PairSignal<'_>,
@@ -149,6 +152,7 @@ impl Scorer {
         if let Some((_, error)) = self.unfit(pair.width(), pair.height()).into_iter().next() {
             return Err(error);
         }
+        assert_eq!(regions.rows(), pair.height(), "regions of these frames");
         if regions.is_masked() && self.wants(Metric::MsSsim) {
             return Err(ScoreError::Masked { metric: Metric::MsSsim });
         }
