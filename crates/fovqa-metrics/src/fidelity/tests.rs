@@ -148,13 +148,23 @@ fn pair(w: usize, h: usize, amount: f64) -> (Frame, Frame) {
     (rgb8(w, h, reference), rgb8(w, h, test))
 }
 
+/// A picture and its ghost: the same with itself, shifted, laid over. It differs at every scale.
+fn ghosted(w: usize, h: usize) -> (Frame, Frame) {
+    const SHIFT: usize = 3 * 9;
+    let reference = codes(w, h, 3, 7);
+    let ghost = reference.iter().cycle().skip(SHIFT);
+    let blend = |(a, b): (&u8, &u8)| ((3 * u16::from(*a) + 2 * u16::from(*b)) / 5) as u8;
+    let test = reference.iter().zip(ghost).map(blend).collect();
+    (rgb8(w, h, reference), rgb8(w, h, test))
+}
+
 /// Every metric, whole frame and per band, at sizes around those of blocks and tiles, in RGB and
 /// luma.
 #[test]
 fn all_metrics_follow_their_formulas() {
     // Odd sizes; one more and one less than a block; more than a tile; the smallest for MS-SSIM.
     for (w, h, ms) in [(11, 11, false), (23, 65, false), (270, 63, false), (177, 193, true)] {
-        let (a, b) = pair(w, h, 50.0);
+        let (a, b) = if ms { ghosted(w, h) } else { pair(w, h, 50.0) };
         for luma in [false, true] {
             let mut setup = Setup::new(w, h, [0.3 * w as f64, 0.6 * h as f64]);
             setup.channels = if luma { SignalChannels::Luma } else { SignalChannels::Rgb };
