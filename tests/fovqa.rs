@@ -127,6 +127,29 @@ impl Folder {
     }
 }
 
+/// The largest resident set of a run, in kB.
+#[cfg(target_os = "linux")]
+pub(crate) fn peak_kb(folder: &Folder, arguments: &[&str]) -> u64 {
+    use std::time::Duration;
+    let mut child = command(arguments)
+        .current_dir(folder.path(""))
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let status = format!("/proc/{}/status", child.id());
+    let mut peak = 0;
+    while child.try_wait().unwrap().is_none() {
+        let text = std::fs::read_to_string(&status).unwrap_or_default();
+        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        if let Some(kb) = line.and_then(|l| l.trim().trim_end_matches(" kB").parse::<u64>().ok()) {
+            peak = peak.max(kb);
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    peak
+}
+
 /// The workspace.
 pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()

@@ -145,10 +145,14 @@ fn a_flat_foveal_weight_is_said() {
 fn a_closed_pipe_is_success() {
     let folder = Folder::with_pair();
     let (a, b) = (folder.path("a.png"), folder.path("b.png"));
+    // More than any buffer holds, so that a row in the middle meets the closed pipe.
+    let bands = (0..=900).map(|i| (f64::from(i) / 5.0).to_string()).collect::<Vec<_>>().join(",");
+    let banded = ["--fov-vertical", "60", "--bands", &bands, "--format", "csv"];
     for arguments in [
         vec!["score", a.to_str().unwrap(), b.to_str().unwrap(), "--format", "json"],
         vec!["score", a.to_str().unwrap(), b.to_str().unwrap(), "--format", "csv"],
         vec!["score", a.to_str().unwrap(), b.to_str().unwrap()],
+        [&["score", a.to_str().unwrap(), b.to_str().unwrap()][..], &banded].concat(),
         vec!["list", "displays"],
         vec!["completions", "bash"],
         vec!["--help"],

@@ -2,6 +2,8 @@
 
 use fovqa_testkit::synthetic::{codes, disturbed};
 
+#[cfg(target_os = "linux")]
+use crate::fovqa::peak_kb;
 use crate::fovqa::{Folder, command, root};
 
 /// `gt/0000.png …` and `test/…`, each frame of its own noise.
@@ -153,6 +155,25 @@ fn gaze_traces_move_the_bands() {
 }
 
 #[test]
+fn a_mask_follows_a_moving_gaze() {
+    let folder = sequence(2);
+    folder.png(
+        "mask.png",
+        48,
+        40,
+        &(0..48 * 40).map(|i| if i % 48 < 6 { 0 } else { 255 }).collect::<Vec<_>>(),
+    );
+    folder.write("gaze.csv", "frame,x_px,y_px\n0,40,20\n1,10,4\n");
+    let bands =
+        ["gt", "test", "--fov-vertical", "60", "--mask", "mask.png", "--bands", "0,10,25,80"];
+    let moving = folder.json(&[&bands[..], &["--gaze", "gaze.csv"]].concat());
+    for (frame, gaze, range) in [(0, "40,20", "0..1"), (1, "10,4", "1..2")] {
+        let fixed = folder.json(&[&bands[..], &["--gaze", gaze, "--frames", range]].concat());
+        assert_eq!(moving["frames"][frame]["bands"], fixed["frames"][0]["bands"]);
+    }
+}
+
+#[test]
 fn gaze_traces_over_time_need_a_frame_rate() {
     let folder = sequence(3);
     folder.write("gaze.csv", "time_s,x_px,y_px\n0.000000,10,10\n0.013889,20,20\n0.027778,30,30\n");
@@ -260,30 +281,6 @@ fn the_committed_sequence_scores_with_its_gaze() {
         let of = |metric: &str| frame["metrics"][metric].as_f64().unwrap();
         assert!((of("psnr") - psnr).abs() < 1e-4 && (of("ssim") - ssim).abs() < 1e-5, "{frame}");
     }
-}
-
-/// The largest resident set of a run, in kB.
-#[cfg(target_os = "linux")]
-fn peak_kb(folder: &Folder, arguments: &[&str]) -> u64 {
-    use std::process::Stdio;
-    use std::time::Duration;
-    let mut child = command(arguments)
-        .current_dir(folder.path(""))
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let status = format!("/proc/{}/status", child.id());
-    let mut peak = 0;
-    while child.try_wait().unwrap().is_none() {
-        let text = std::fs::read_to_string(&status).unwrap_or_default();
-        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-        if let Some(kb) = line.and_then(|l| l.trim().trim_end_matches(" kB").parse::<u64>().ok()) {
-            peak = peak.max(kb);
-        }
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    peak
 }
 
 /// Decoded, a frame here takes 590 kB and a pair 1.2 MB: 200 pairs would take 236 MB.

@@ -9,9 +9,16 @@ const MAX_FIELD_BYTES: usize = 256 << 20;
 /// Bands and weights of one gaze.
 #[derive(Debug)]
 pub(crate) struct Retina {
-    pub(crate) gaze_px: [f64; 2],
+    gaze_px: [f64; 2],
     pub(crate) bands: BandMap,
     pub(crate) weight: Option<WeightField>,
+}
+
+impl Retina {
+    /// Whether it is of this gaze.
+    pub(crate) fn is_at(&self, gaze_px: [f64; 2]) -> bool {
+        self.gaze_px.map(f64::to_bits) == gaze_px.map(f64::to_bits)
+    }
 }
 
 /// How to make them.
@@ -29,8 +36,7 @@ pub(crate) struct RetinaMaker<'a> {
 impl RetinaMaker<'_> {
     /// Bands and weights of a gaze; `last` is used again if it is of the same gaze.
     pub(crate) fn at(&self, gaze_px: [f64; 2], last: Option<Retina>) -> Retina {
-        let same = |retina: &Retina| retina.gaze_px.map(f64::to_bits) == gaze_px.map(f64::to_bits);
-        if let Some(retina) = last.filter(same) {
+        if let Some(retina) = last.filter(|retina| retina.is_at(gaze_px)) {
             return retina;
         }
         let eccentricity = Eccentricity::new(self.view, gaze_px, self.kind);

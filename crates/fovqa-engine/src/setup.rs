@@ -1,5 +1,7 @@
 //! What the size of the first frame settles for all: metrics that fit, view, bands, weights, mask.
 
+use std::borrow::Cow;
+
 use fovqa_frame::Mask;
 use fovqa_metrics::{Metric, Regions, Scorer};
 use fovqa_results::ViewResult;
@@ -16,7 +18,7 @@ pub(crate) struct Setup<'a> {
     pub(crate) first_file: String,
     pub(crate) scorer: Scorer,
     pub(crate) view: Option<ViewResult>,
-    pub(crate) mask: Option<Mask>,
+    mask: Option<Mask>,
     maker: Option<RetinaMaker<'a>>,
     retina: Option<Retina>,
     no_bands: BandMap,
@@ -140,8 +142,7 @@ impl<'a> Setup<'a> {
     /// Moves the gaze, where there is a view.
     pub(crate) fn look_at(&mut self, gaze_px: [f64; 2]) {
         if let Some(maker) = &self.maker {
-            let before = self.retina.as_ref().map(|retina| retina.gaze_px.map(f64::to_bits));
-            if before != Some(gaze_px.map(f64::to_bits)) {
+            if !self.retina.as_ref().is_some_and(|retina| retina.is_at(gaze_px)) {
                 self.masked = None;
             }
             self.retina = Some(maker.at(gaze_px, self.retina.take()));
@@ -157,22 +158,23 @@ impl<'a> Setup<'a> {
     }
 
     /// The regions of a frame: bands, less what the mask and the frame's own bad pixels leave out.
-    pub(crate) fn regions(&self, finite: Option<&Mask>) -> Regions<'_> {
+    pub(crate) fn regions(&self, finite: Option<&Mask>) -> Cow<'_, Regions<'_>> {
         match (finite, &self.masked) {
-            (None, Some(masked)) => masked.clone(),
-            (None, None) => Regions::unmasked(self.bands()),
+            (None, Some(masked)) => Cow::Borrowed(masked),
+            (None, None) => Cow::Owned(Regions::unmasked(self.bands())),
             (Some(finite), _) => {
                 let mut both = finite.clone();
                 if let Some(mask) = &self.mask {
                     both.intersect(mask);
                 }
-                Regions::masked(self.bands(), &both, self.scorer.window_radius())
+                let radius = self.scorer.window_radius();
+                Cow::Owned(Regions::masked(self.bands(), &both, radius))
             }
         }
     }
 
     /// The bands of the present gaze; none without a view.
-    pub(crate) fn bands(&self) -> &BandMap {
+    fn bands(&self) -> &BandMap {
         self.retina.as_ref().map_or(&self.no_bands, |retina| &retina.bands)
     }
 

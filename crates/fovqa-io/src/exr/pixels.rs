@@ -261,8 +261,8 @@ fn check_dwa_counters(chunk: &Chunk, meta: &MetaData) -> Result<(), ReadErrorKin
     let Vec2(w, h) = block.size;
     // Whole 8x8 blocks of the cosine transform, at most 8 bytes a sample on the way.
     let samples = w.next_multiple_of(8) * h.next_multiple_of(8) * header.channels.list.len();
-    // A chunk of the size of its pixels is stored as it is; there are no counters to look at.
-    if bytes.len() >= w * h * header.channels.bytes_per_pixel {
+    // A chunk of exactly the size of its pixels is stored as it is, without counters.
+    if bytes.len() == w * h * header.channels.bytes_per_pixel {
         return Ok(());
     }
     let most = samples as u64 * 8 + SLACK;
