@@ -2,6 +2,7 @@
 
 mod args;
 mod diagnostic;
+mod dialect;
 mod exit;
 mod list;
 mod output;

@@ -7,14 +7,21 @@ use fovqa_engine::Events;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::diagnostic;
+use crate::dialect::Dialect;
 
 /// What a run says goes to stderr.
 #[derive(Default)]
 pub(crate) struct Terminal {
+    dialect: Dialect,
     bar: OnceCell<ProgressBar>,
 }
 
 impl Terminal {
+    /// Speaks to a user in these words.
+    pub(crate) fn speaking(dialect: Dialect) -> Self {
+        Self { dialect, ..Self::default() }
+    }
+
     /// Takes the bar off the screen.
     pub(crate) fn finish(&self) {
         if let Some(bar) = self.bar.get() {
@@ -25,6 +32,7 @@ impl Terminal {
 
 impl Events for Terminal {
     fn warn(&self, message: &str) {
+        let message = &self.dialect.spell(message);
         match self.bar.get() {
             Some(bar) => bar.suspend(|| diagnostic::warning(message)),
             None => diagnostic::warning(message),

@@ -1,9 +1,12 @@
-//! `fovqa score`: request, run, results.
+//! `fovqa score`: plan, run, results.
 
-use fovqa_results::{write_csv, write_json};
+use fovqa_config::Plan;
+use fovqa_engine::EngineError;
+use fovqa_results::{ScoreReport, write_csv, write_json};
 
 use crate::args::{Format, ScoreArgs};
 use crate::diagnostic;
+use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::output;
 use crate::progress::Terminal;
@@ -15,30 +18,29 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
         diagnostic::error(&message, "ask for fewer");
         return Exit::Usage;
     }
-    let request = match args.request() {
-        Ok(request) => request,
+    let plan = match args.plan() {
+        Ok(plan) => plan,
         Err(message) => {
             diagnostic::error(&message, "`fovqa score --help` shows every option");
             return Exit::Usage;
         }
     };
-    let terminal = Terminal::default();
-    let report = fovqa_engine::score(&request, &terminal);
-    terminal.finish();
-    let report = match report {
+    let report = match score(&plan) {
         Ok(report) => report,
         Err(error) => {
-            diagnostic::error(&error.to_string(), &error.help());
+            diagnostic::error(&error.to_string(), &Dialect::Options.spell(&error.help()));
             return if error.is_usage() { Exit::Usage } else { Exit::Input };
         }
     };
     for failure in &report.failures {
-        let frame = if report.failures.len() + report.frames.len() > 1 {
-            format!("frame {}: ", failure.frame)
-        } else {
-            String::new()
+        let frame = match failure.frame {
+            Some(frame) if report.failures.len() + report.frames.len() > 1 => {
+                format!("frame {frame}: ")
+            }
+            _ => String::new(),
         };
-        diagnostic::error(&format!("{frame}{}", failure.message), &failure.help);
+        let help = Dialect::Options.spell(&failure.help);
+        diagnostic::error(&format!("{frame}{}", failure.message), &help);
     }
     // Nothing that looks like a result where nothing was scored.
     let written = if report.frames.is_empty() {
@@ -51,4 +53,17 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
         })
     };
     if report.failures.is_empty() { written } else { Exit::Input }
+}
+
+/// One reference against one test: whatever is wrong with the whole of it ends the run.
+fn score(plan: &Plan) -> Result<ScoreReport, EngineError> {
+    fovqa_engine::check(plan)?;
+    let mut found = fovqa_engine::find(plan);
+    if let Some(problem) = found.problems.pop() {
+        return Err(problem.error);
+    }
+    let terminal = Terminal::default();
+    let results = fovqa_engine::run(plan, &found, &terminal, &mut |_| Ok(()));
+    terminal.finish();
+    Ok(results?.comparisons.pop().map(|comparison| comparison.report).unwrap_or_default())
 }

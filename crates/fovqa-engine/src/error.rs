@@ -56,6 +56,14 @@ pub enum EngineError {
     /// A mask that cannot be read.
     #[error("the mask {0}")]
     Mask(#[from] ReadError),
+    /// A journal that cannot be written.
+    #[error("{}: the journal cannot be written: {error}", path.display())]
+    Journal {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: std::io::Error,
+    },
 }
 
 impl EngineError {
@@ -65,9 +73,11 @@ impl EngineError {
             Self::View(_) | Self::NoView { .. } | Self::Param(_) => true,
             Self::GazeTrace { error, .. } => matches!(error, GazeTraceError::NoFps),
             Self::Listing(error) => matches!(error, ListingError::Pattern { .. }),
-            Self::Pairing(_) | Self::NoFrames { .. } | Self::GazeFile { .. } | Self::Mask(_) => {
-                false
-            }
+            Self::Pairing(_)
+            | Self::NoFrames { .. }
+            | Self::GazeFile { .. }
+            | Self::Mask(_)
+            | Self::Journal { .. } => false,
         }
     }
 
@@ -76,22 +86,31 @@ impl EngineError {
         match self {
             Self::Listing(error) => error.help().to_owned(),
             Self::Pairing(error) => error.help().to_owned(),
-            Self::NoFrames { .. } => "--frames A..B selects by number, from A up to, but without, B".to_owned(),
-            Self::View(_) => "angles lie between 0° and 180°, lengths and tangents above 0".to_owned(),
-            Self::NoView { .. } => "give one of --fov-vertical, --fov-horizontal, --fov-diagonal, --frustum, --display, or --distance-m with --pixel-pitch-mm".to_owned(),
-            Self::Param(_) => "`fovqa list metrics` shows every parameter with its range".to_owned(),
-            Self::GazeFile { .. } => "check the path; a gaze point is written X,Y".to_owned(),
+            Self::NoFrames { .. } => {
+                "{frames} selects by number, from A up to, but without, B".to_owned()
+            }
+            Self::View(_) => {
+                "angles lie between 0° and 180°, lengths and tangents above 0".to_owned()
+            }
+            Self::NoView { .. } => "give {view}".to_owned(),
+            Self::Param(_) => {
+                "`fovqa list metrics` shows every parameter with its range".to_owned()
+            }
+            Self::GazeFile { .. } => "check the path; a gaze point is written {gaze}".to_owned(),
             Self::GazeTrace { error, .. } => gaze_help(error).to_owned(),
             Self::Mask(error) => error.kind.help().to_owned(),
+            Self::Journal { .. } => {
+                "free some space: frames in the journal are not lost".to_owned()
+            }
         }
     }
 }
 
 fn gaze_help(error: &GazeTraceError) -> &'static str {
     match error {
-        GazeTraceError::NoFps => "pass --fps",
+        GazeTraceError::NoFps => "give {fps}",
         GazeTraceError::Missing { .. } => {
-            "record it for every frame, or pass --gaze-hold to keep the last gaze"
+            "record it for every frame, or keep the last gaze with {gaze_hold}"
         }
         GazeTraceError::NothingToHold { .. } => "start the trace with a row that has a gaze",
         _ => {
@@ -100,7 +119,7 @@ fn gaze_help(error: &GazeTraceError) -> &'static str {
     }
 }
 
-/// What a metric is called when it lacks a view.
+/// The metrics that lack a view.
 pub(crate) fn no_view(metrics: &[Metric]) -> EngineError {
     let names: Vec<_> = metrics.iter().map(|m| m.info().label).collect();
     EngineError::NoView { what: names.join(" and ") }

@@ -14,20 +14,38 @@ pub trait Events {
 /// Warnings that are said once, whatever number of frames they are true of.
 pub(crate) struct Warnings<'a> {
     events: &'a dyn Events,
+    /// Scene and eye, where there are several.
+    place: String,
     frames: usize,
-    said: BTreeSet<String>,
+    said: BTreeSet<(String, String)>,
 }
 
 impl<'a> Warnings<'a> {
-    pub(crate) fn new(events: &'a dyn Events, frames: usize) -> Self {
-        Self { events, frames, said: BTreeSet::new() }
+    pub(crate) fn new(events: &'a dyn Events) -> Self {
+        Self { events, place: String::new(), frames: 0, said: BTreeSet::new() }
     }
 
-    /// Says `message`, unless something was said under the same `key`.
+    /// Goes on to another view, of so many frames.
+    pub(crate) fn enter(&mut self, place: String, frames: usize) {
+        (self.place, self.frames) = (place, frames);
+    }
+
+    /// Says `message`, unless something was said under the same `key` anywhere: for what is true of
+    /// a file.
     pub(crate) fn once(&mut self, key: &str, message: &str) {
-        if self.said.insert(key.to_owned()) {
+        if self.said.insert((String::new(), key.to_owned())) {
             let once = if self.frames > 1 { " (said once for all frames)" } else { "" };
             self.events.warn(&format!("{message}{once}"));
+        }
+    }
+
+    /// Says `message` with the place, unless something was said of this view under the same `key`.
+    pub(crate) fn once_a_view(&mut self, key: &str, message: &str) {
+        if self.said.insert((self.place.clone(), key.to_owned())) {
+            let once = if self.frames > 1 { " (said once for all frames)" } else { "" };
+            let place =
+                if self.place.is_empty() { String::new() } else { format!("{}: ", self.place) };
+            self.events.warn(&format!("{place}{message}{once}"));
         }
     }
 }

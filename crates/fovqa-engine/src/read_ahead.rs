@@ -1,31 +1,125 @@
-//! Loading the next item while this one is worked on.
+//! Loading the next items while this one is worked on.
 
-use std::sync::mpsc::sync_channel;
+use std::collections::BTreeMap;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
-/// Loads each item on a thread of its own and hands it over in order. At most two loaded items
-/// exist at any time: the one `consume` works on, and the one loaded meanwhile.
+/// Bytes of loaded items that may wait to be worked on, however small they are.
+const WAITING_BYTES: usize = 256 << 20;
+
+/// Loads items on up to `loaders` threads and hands them over in order. `size` tells the bytes of
+/// a loaded item: as many are loaded ahead as fit into 256 MiB, by the largest so far, but always
+/// one. Memory is that and the item `consume` works on, however many items there are.
 pub fn read_ahead<I: Sync, T: Send>(
     items: &[I],
+    loaders: usize,
     load: impl Fn(&I) -> T + Sync,
+    size: impl Fn(&T) -> usize + Sync,
     mut consume: impl FnMut(usize, T),
 ) {
+    let queue = Queue {
+        state: Mutex::new(State { next: 0, handed_over: 0, largest: 0, ready: BTreeMap::new() }),
+        changed: Condvar::new(),
+        items: items.len(),
+        loaders: loaders.max(1),
+    };
     thread::scope(|scope| {
-        // Without a buffer: the loader waits with one item in hand until it is asked for.
-        let (send, receive) = sync_channel(0);
-        let load = &load;
-        scope.spawn(move || {
-            for item in items {
-                // The other side is gone only when it panicked: nothing is left to do.
-                if send.send(load(item)).is_err() {
-                    break;
+        for _ in 0..queue.loaders.min(items.len()) {
+            scope.spawn(|| {
+                while let Some(index) = queue.start() {
+                    // A load that panics must not leave the others waiting for it.
+                    let abandon = Abandon(&queue);
+                    let item = load(&items[index]);
+                    std::mem::forget(abandon);
+                    let bytes = size(&item);
+                    queue.loaded(index, item, bytes);
                 }
-            }
-        });
-        for (index, item) in receive.into_iter().enumerate() {
+            });
+        }
+        let abandon = Abandon(&queue);
+        for index in 0..items.len() {
+            let Some(item) = queue.take(index) else { break };
             consume(index, item);
         }
+        drop(abandon);
     });
+}
+
+/// What loaders and consumer share.
+struct Queue<T> {
+    state: Mutex<State<T>>,
+    changed: Condvar,
+    items: usize,
+    loaders: usize,
+}
+
+struct State<T> {
+    /// The next to be loaded.
+    next: usize,
+    /// How many the consumer has taken.
+    handed_over: usize,
+    /// Bytes of the largest item so far; 0 before the first.
+    largest: usize,
+    ready: BTreeMap<usize, T>,
+}
+
+impl<T> Queue<T> {
+    fn lock(&self) -> MutexGuard<'_, State<T>> {
+        // No work is done under the lock that could leave the state half changed.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The next item to load, once there is room for it; `None` when all are taken care of.
+    fn start(&self) -> Option<usize> {
+        let mut state = self.lock();
+        loop {
+            if state.next >= self.items {
+                return None;
+            }
+            let room = match state.largest {
+                0 => 1,
+                bytes => (WAITING_BYTES / bytes).clamp(1, self.loaders),
+            };
+            if state.next - state.handed_over < room {
+                state.next += 1;
+                return Some(state.next - 1);
+            }
+            state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    fn loaded(&self, index: usize, item: T, bytes: usize) {
+        let mut state = self.lock();
+        state.largest = state.largest.max(bytes).max(1);
+        state.ready.insert(index, item);
+        self.changed.notify_all();
+    }
+
+    /// Waits for an item; `None` when it will never come.
+    fn take(&self, index: usize) -> Option<T> {
+        let mut state = self.lock();
+        loop {
+            if let Some(item) = state.ready.remove(&index) {
+                state.handed_over = index + 1;
+                self.changed.notify_all();
+                return Some(item);
+            }
+            if state.next == usize::MAX {
+                return None;
+            }
+            state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+/// Ends all waiting when it is dropped: on the way out of a panic, on either side, and at the end.
+struct Abandon<'a, T>(&'a Queue<T>);
+
+impl<T> Drop for Abandon<'_, T> {
+    fn drop(&mut self) {
+        self.0.lock().next = usize::MAX;
+        self.0.changed.notify_all();
+    }
 }
 
 #[cfg(test)]
@@ -41,18 +135,24 @@ mod tests {
         }
     }
 
-    #[test]
-    fn never_more_than_two_at_a_time_and_all_in_order() {
+    /// The most items of `bytes` alive at a time, with the order checked.
+    fn most_alive(loaders: usize, bytes: usize) -> usize {
         let (alive, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
-        let items: Vec<usize> = (0..200).collect();
+        let items: Vec<usize> = (0..300).collect();
         let mut seen = Vec::new();
         read_ahead(
             &items,
+            loaders,
             |&item| {
                 let now = alive.fetch_add(1, Ordering::SeqCst) + 1;
                 most.fetch_max(now, Ordering::SeqCst);
+                // Some are slower than those behind them.
+                if item % 7 == 0 {
+                    thread::sleep(std::time::Duration::from_micros(200));
+                }
                 (item, Counted(&alive))
             },
+            |_| bytes,
             |index, (item, _counted)| {
                 assert_eq!(index, item);
                 seen.push(item);
@@ -60,6 +160,45 @@ mod tests {
         );
         assert_eq!(seen, items);
         assert_eq!(alive.load(Ordering::SeqCst), 0);
-        assert!(most.load(Ordering::SeqCst) <= 2, "{most:?}");
+        most.load(Ordering::SeqCst)
+    }
+
+    #[test]
+    fn large_items_wait_one_at_a_time_and_all_come_in_order() {
+        for loaders in [1, 8] {
+            let most = most_alive(loaders, WAITING_BYTES);
+            assert!(most <= 2, "{loaders} loaders: {most}");
+        }
+    }
+
+    #[test]
+    fn small_items_are_loaded_side_by_side_within_bounds() {
+        let most = most_alive(4, 1000);
+        assert!(most <= 5, "{most}");
+        let some = most_alive(8, WAITING_BYTES / 3);
+        assert!(some <= 4, "{some}");
+    }
+
+    #[test]
+    fn a_panic_on_either_side_ends_all() {
+        let items = [0; 50];
+        let panics = |load: bool| {
+            std::panic::catch_unwind(|| {
+                read_ahead(
+                    &items,
+                    4,
+                    |_| assert!(!load, "on purpose"),
+                    |()| 1,
+                    |index, ()| assert!(load || index < 3, "on purpose"),
+                );
+            })
+            .is_err()
+        };
+        assert!(panics(true) && panics(false));
+    }
+
+    #[test]
+    fn nothing_to_do() {
+        read_ahead(&[0; 0], 4, |_| (), |()| 1, |_, ()| panic!("there is no item"));
     }
 }

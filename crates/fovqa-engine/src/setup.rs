@@ -2,19 +2,20 @@
 
 use std::borrow::Cow;
 
+use fovqa_config::{Gaze, MetricChoice, Plan, Settings};
 use fovqa_frame::Mask;
 use fovqa_metrics::{Metric, Regions, Scorer};
 use fovqa_results::ViewResult;
-use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, GazeAt, ViewSpec};
+use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, GazeAt, View, ViewSpec};
 
 use crate::events::Warnings;
 use crate::load::Fault;
-use crate::request::{Gaze, MetricChoice, ScoreRequest};
 use crate::retina::{Retina, RetinaMaker};
 
 /// Settled once, used for every frame.
 pub(crate) struct Setup<'a> {
     pub(crate) size: (usize, usize),
+    /// The file whose size it is.
     pub(crate) first_file: String,
     pub(crate) scorer: Scorer,
     pub(crate) view: Option<ViewResult>,
@@ -28,7 +29,10 @@ pub(crate) struct Setup<'a> {
 
 /// What a setup is made from.
 pub(crate) struct Inputs<'a, 'b> {
-    pub(crate) request: &'a ScoreRequest,
+    pub(crate) plan: &'a Plan,
+    pub(crate) settings: &'a Settings,
+    /// Bands of the whole scene, where both eyes' views decide them.
+    pub(crate) scene_bands: Option<&'a BandEdges>,
     pub(crate) metrics: &'b [Metric],
     pub(crate) mask: Option<&'b Mask>,
     pub(crate) trace: Option<&'a [GazeAt]>,
@@ -44,20 +48,20 @@ impl<'a> Setup<'a> {
         first_file: String,
         warnings: &mut Warnings<'_>,
     ) -> Result<Self, Fault> {
-        let request = inputs.request;
+        let plan = inputs.plan;
         let mask = inputs.mask.map(|mask| fit_mask(inputs, mask, size)).transpose()?;
         let mut metrics = inputs.metrics.to_vec();
-        if request.metrics == MetricChoice::Default {
-            let scorer = Scorer::new(metrics.clone(), request.params.clone());
+        if plan.metrics == MetricChoice::Default {
+            let scorer = Scorer::new(metrics.clone(), plan.params.clone());
             for (metric, error) in scorer.unfit(size.0, size.1) {
                 let message = format!("{} is left out: {error}", metric.info().label);
-                warnings.once(metric.key(), &message);
+                warnings.once_a_view(metric.key(), &message);
                 metrics.retain(|m| *m != metric);
             }
         }
         let foveal = metrics.iter().any(|m| m.info().needs_view);
-        let mut scorer = Scorer::new(metrics, request.params.clone());
-        if request.metrics == MetricChoice::Default {
+        let mut scorer = Scorer::new(metrics, plan.params.clone());
+        if plan.metrics == MetricChoice::Default {
             scorer = scorer.lenient();
         }
         let mut setup = Self {
@@ -71,7 +75,7 @@ impl<'a> Setup<'a> {
             no_bands: BandMap::without_bands(size.0, size.1),
             masked: None,
         };
-        if let Some(spec) = &request.view {
+        if let Some(spec) = &inputs.settings.view {
             setup.look(inputs, spec, foveal, warnings)?;
         }
         Ok(setup)
@@ -94,19 +98,13 @@ impl<'a> Setup<'a> {
             let message = format!(
                 "frames of {w}x{h} are stretched over the display's {dw}x{dh}: they fill its whole field"
             );
-            warnings.once("stretched", &message);
+            warnings.once_a_view("stretched", &message);
         }
-        let (view, kind) = (resolved.view, inputs.request.eccentricity);
-        let gaze_px = match (&inputs.request.gaze, inputs.trace) {
-            (_, Some(trace)) => trace[0].px,
-            (Gaze::Point(px), None) => *px,
-            (_, None) => view.principal_px,
-        };
-        let edges = inputs.request.bands.clone().unwrap_or_else(|| {
-            let gazes =
-                inputs.trace.map_or_else(|| vec![gaze_px], |t| t.iter().map(|g| g.px).collect());
-            let farthest = |gaze| Eccentricity::new(view, gaze, kind).max_deg();
-            BandEdges::default_up_to(gazes.into_iter().map(farthest).fold(0.0, f64::max))
+        let (view, kind) = (resolved.view, inputs.settings.eccentricity);
+        let gaze_px = first_gaze(inputs.settings, inputs.trace, &view);
+        let bands = inputs.scene_bands.or(inputs.settings.bands.as_ref());
+        let edges = bands.cloned().unwrap_or_else(|| {
+            BandEdges::default_up_to(farthest_deg(inputs.settings, inputs.trace, &view))
         });
         self.view = Some(ViewResult {
             size: [w, h],
@@ -122,7 +120,7 @@ impl<'a> Setup<'a> {
             view,
             kind,
             edges,
-            params: &inputs.request.params,
+            params: &inputs.plan.params,
             foveal,
             keep: inputs.frames > 1 && inputs.trace.is_none(),
         };
@@ -133,7 +131,7 @@ impl<'a> Setup<'a> {
                  frame: the foveal weight is flat, and foveal metrics equal their plain forms",
                 view.nyquist_cpd()
             );
-            warnings.once("flat weight", &message);
+            warnings.once_a_view("flat weight", &message);
         }
         (self.maker, self.retina) = (Some(maker), Some(retina));
         Ok(())
@@ -184,6 +182,25 @@ impl<'a> Setup<'a> {
     }
 }
 
+/// The gaze of the first frame.
+fn first_gaze(settings: &Settings, trace: Option<&[GazeAt]>, view: &View) -> [f64; 2] {
+    match (&settings.gaze, trace) {
+        (_, Some(trace)) => trace[0].px,
+        (Gaze::Point(px), None) => *px,
+        (_, None) => view.principal_px,
+    }
+}
+
+/// The largest eccentricity of any pixel in any frame: where the default bands end.
+pub(crate) fn farthest_deg(settings: &Settings, trace: Option<&[GazeAt]>, view: &View) -> f64 {
+    let gazes = trace.map_or_else(
+        || vec![first_gaze(settings, None, view)],
+        |trace| trace.iter().map(|gaze| gaze.px).collect(),
+    );
+    let farthest = |gaze| Eccentricity::new(*view, gaze, settings.eccentricity).max_deg();
+    gazes.into_iter().map(farthest).fold(0.0, f64::max)
+}
+
 /// A mask has the size of the frames, or of the files they are cropped from.
 fn fit_mask(
     inputs: &Inputs<'_, '_>,
@@ -193,7 +210,7 @@ fn fit_mask(
     if (mask.width(), mask.height()) == (width, height) {
         return Ok(mask.clone());
     }
-    if let Some(crop) = inputs.request.crop
+    if let Some(crop) = inputs.settings.crop
         && (mask.width(), mask.height()) == inputs.file_size
     {
         return Ok(mask.cropped(crop.x, crop.y, crop.width, crop.height));

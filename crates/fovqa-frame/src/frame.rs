@@ -47,6 +47,15 @@ pub enum Samples {
 }
 
 impl Samples {
+    /// Bytes of one sample.
+    fn size(&self) -> usize {
+        match self {
+            Samples::U8(_) => 1,
+            Samples::U16(_) | Samples::F16(_) => 2,
+            Samples::F32(_) => 4,
+        }
+    }
+
     fn len(&self) -> usize {
         match self {
             Samples::U8(s) => s.len(),
@@ -199,6 +208,11 @@ impl Frame {
     /// All samples, those outside the visible part too.
     pub fn samples(&self) -> &Samples {
         &self.samples
+    }
+
+    /// Bytes of memory the samples take.
+    pub fn bytes(&self) -> usize {
+        self.samples.len() * self.samples.size()
     }
 
     /// Where, in the samples of one plane (or among interleaved pixels), the visible part of

@@ -9,6 +9,7 @@ use fovqa_frame::{Frame, Mask};
 use crate::alpha::AlphaPolicy;
 use crate::contain::contained;
 use crate::error::{ReadError, ReadErrorKind};
+use crate::file_id::FileId;
 use crate::{exr, raster};
 
 /// How files are read.
@@ -64,12 +65,12 @@ pub enum Note {
 }
 
 impl Note {
-    /// The note as one sentence.
+    /// The note as one sentence; settings stand in braces, as in [`ReadErrorKind::help`].
     pub fn in_words(&self) -> String {
         match self {
             Note::ColourChunks(names) => {
                 format!(
-                    "the colour chunk {names} is not applied; values are taken as sRGB unless --transfer says otherwise"
+                    "the colour chunk {names} is not applied; values are taken as sRGB unless {{transfer}} says otherwise"
                 )
             }
             Note::UncoveredPixels => {
@@ -103,18 +104,31 @@ const EXR_MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 /// When the file cannot be read, is none of these, is damaged or too large, or does not fit the
 /// options. A decoder that panics is an error too.
 pub fn read_frame(path: &Path, options: &ReadOptions) -> Result<Decoded, ReadError> {
-    let read = || read_contained(path, options);
-    contained(read)
-        .unwrap_or_else(|| {
-            let detail = "the decoder broke down on it".to_owned();
-            Err(ReadErrorKind::Damaged { format: "image", detail })
-        })
-        .map_err(|kind| kind.at(path))
+    open(path).and_then(|file| decode(file, options)).map_err(|kind| kind.at(path))
 }
 
-fn read_contained(path: &Path, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
-    /// Large enough to keep system calls rare, small enough for the second-level cache.
-    const BUFFER: usize = 256 << 10;
+/// The same, and the identity of the bytes that were decoded.
+///
+/// # Errors
+/// As [`read_frame`].
+pub fn read_frame_and_hash(
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<(Decoded, FileId), ReadError> {
+    let read = || {
+        let mut file = open(path)?;
+        // One more pass over the file, whose pages are in memory from then on: no decoder reads all
+        // of its bytes in order. The same open file, so that another one put in its place is not
+        // taken for it.
+        let id = FileId::of(&mut file)?;
+        file.rewind()?;
+        Ok((decode(file, options)?, id))
+    };
+    read().map_err(|kind: ReadErrorKind| kind.at(path))
+}
+
+/// Opens a regular file.
+fn open(path: &Path) -> Result<File, ReadErrorKind> {
     let kind = std::fs::metadata(path)?;
     if kind.is_dir() {
         return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
@@ -123,7 +137,19 @@ fn read_contained(path: &Path, options: &ReadOptions) -> Result<Decoded, ReadErr
     if !kind.is_file() {
         return Err(ReadErrorKind::NotRegular);
     }
-    let file = File::open(path)?;
+    Ok(File::open(path)?)
+}
+
+fn decode(file: File, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
+    contained(|| decode_by_magic(file, options)).unwrap_or_else(|| {
+        let detail = "the decoder broke down on it".to_owned();
+        Err(ReadErrorKind::Damaged { format: "image", detail })
+    })
+}
+
+fn decode_by_magic(file: File, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
+    /// Large enough to keep system calls rare, small enough for the second-level cache.
+    const BUFFER: usize = 256 << 10;
     let mut file = BufReader::with_capacity(BUFFER, file);
     let mut magic = Vec::with_capacity(8);
     file.by_ref().take(8).read_to_end(&mut magic)?;
@@ -137,6 +163,32 @@ fn read_contained(path: &Path, options: &ReadOptions) -> Result<Decoded, ReadErr
     } else {
         Err(ReadErrorKind::NotAnImage)
     }
+}
+
+/// The size of the frame in a file: its declared width and height, or those of its display window.
+/// Reads its header alone.
+///
+/// # Errors
+/// When the header cannot be read; whether the rest can is not known then.
+pub fn frame_size(path: &Path) -> Result<(usize, usize), ReadError> {
+    let read = || {
+        let file = open(path)?;
+        contained(|| {
+            let mut file = BufReader::new(file);
+            let mut magic = Vec::with_capacity(8);
+            file.by_ref().take(8).read_to_end(&mut magic)?;
+            file.rewind()?;
+            if magic.starts_with(EXR_MAGIC) {
+                exr::size(file)
+            } else if magic.starts_with(PNG_MAGIC) || magic.starts_with(JPEG_MAGIC) {
+                raster::size(file)
+            } else {
+                Err(ReadErrorKind::NotAnImage)
+            }
+        })
+        .unwrap_or(Err(ReadErrorKind::NotAnImage))
+    };
+    read().map_err(|kind| kind.at(path))
 }
 
 /// Reads a mask: white (at least half of full scale) is visible. Alpha is ignored.

@@ -124,7 +124,8 @@ impl ReadErrorKind {
         ReadError { path: path.to_owned(), kind: self }
     }
 
-    /// How to mend it.
+    /// How to mend it. Settings stand in braces, `{alpha=ignore}`: whoever shows it knows how its
+    /// user writes them.
     pub fn help(&self) -> &'static str {
         match self {
             Self::Io(error) if error.kind() == io::ErrorKind::NotFound => {
@@ -136,16 +137,16 @@ impl ReadErrorKind {
             Self::Damaged { .. } => "render or copy it again",
             Self::Unsupported { .. } => "save it again with another compression, such as ZIP",
             Self::TooLarge { .. } | Self::BlockTooLarge { .. } => {
-                "raise the limit with --max-megapixels if the size is meant"
+                "raise {max_megapixels} if the size is meant"
             }
             Self::Alpha { .. } => {
-                "pass --alpha ignore to drop it, or --alpha over-black to lay the image over black"
+                "{alpha=ignore} drops it, {alpha=over-black} lays the image over black"
             }
-            Self::AllTransparent => "pass --alpha ignore: the colours are usually whole",
+            Self::AllTransparent => "use {alpha=ignore}: the colours are usually whole",
             Self::Deep => "flatten it to one colour a pixel first",
             Self::NoColour { .. } => "give the file that holds the beauty pass",
-            Self::SeveralLayers { .. } => "name one with --layer",
-            Self::NoSuchLayer { .. } => "name one of these with --layer",
+            Self::SeveralLayers { .. } => "name one with {layer}",
+            Self::NoSuchLayer { .. } => "name one of these with {layer}",
             Self::Subsampled { .. } => {
                 "save it with every channel at full resolution, luminance and chroma as R, G, B"
             }

@@ -8,10 +8,14 @@ mod contain;
 mod decode;
 mod error;
 mod exr;
+mod file_id;
 mod raster;
 pub mod sequence;
 
 pub use alpha::AlphaPolicy;
 pub use contain::is_contained;
-pub use decode::{Decoded, Note, ReadOptions, read_frame, read_mask};
+pub use decode::{
+    Decoded, Note, ReadOptions, frame_size, read_frame, read_frame_and_hash, read_mask,
+};
 pub use error::{ReadError, ReadErrorKind};
+pub use file_id::FileId;

@@ -6,7 +6,7 @@ use fovqa_frame::{Channels, Frame, Samples};
 use image::codecs::jpeg::JpegDecoder;
 use image::codecs::png::PngDecoder;
 use image::metadata::Orientation;
-use image::{ColorType, ImageDecoder, ImageError, Limits};
+use image::{ColorType, ImageDecoder, ImageError, ImageReader, Limits};
 
 use crate::alpha::{AlphaPolicy, require_opaque};
 use crate::decode::{Decoded, Note, ReadOptions};
@@ -68,6 +68,13 @@ pub(crate) fn read_jpeg(
         decoded.notes.push(Note::ColourChunks("ICC profile".to_owned()));
     }
     Ok(decoded)
+}
+
+/// The size a PNG or JPEG declares.
+pub(crate) fn size(file: impl BufRead + Seek) -> Result<(usize, usize), ReadErrorKind> {
+    let reader = ImageReader::new(file).with_guessed_format()?;
+    let (width, height) = reader.into_dimensions().map_err(|e| damaged("image", e))?;
+    Ok((width as usize, height as usize))
 }
 
 fn damaged(format: &'static str, error: ImageError) -> ReadErrorKind {

@@ -20,7 +20,7 @@ pub fn write_json(report: &ScoreReport, mut out: impl Write) -> io::Result<()> {
     let summary = Summary::of(report);
     let document = Document {
         schema: SCHEMA,
-        version: &report.version,
+        version: env!("CARGO_PKG_VERSION"),
         view: report.view.as_ref().map(View::of),
         frames: report.frames.iter().map(|f| Frame::of(f, report.view.as_ref())).collect(),
         sequence: BTreeMap::new(),
@@ -236,7 +236,7 @@ impl Serialize for BandStats {
 
 #[derive(serde::Serialize)]
 struct Error<'a> {
-    frame: u64,
+    frame: Option<u64>,
     reference: &'a str,
     test: &'a str,
     message: &'a str,

@@ -1,6 +1,7 @@
 //! What a run of `score` found.
 
 use fovqa_metrics::{Metric, PairScores};
+use serde::{Deserialize, Serialize};
 
 /// The view the frames were scored under.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,14 +33,14 @@ pub struct FrameResult {
     pub scores: PairScores,
 }
 
-/// A frame that could not be scored.
+/// A frame that could not be scored, or a whole comparison.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failure {
-    /// Frame number.
-    pub frame: u64,
-    /// Reference file.
+    /// Frame number; `None`: the whole comparison.
+    pub frame: Option<u64>,
+    /// Reference file, of a frame.
     pub reference: String,
-    /// Test file.
+    /// Test file, of a frame.
     pub test: String,
     /// What is wrong, and where.
     pub message: String,
@@ -47,11 +48,9 @@ pub struct Failure {
     pub help: String,
 }
 
-/// Everything one run found.
-#[derive(Debug, Clone, PartialEq)]
+/// What one comparison found: a test sequence against its reference.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ScoreReport {
-    /// Version of fovqa.
-    pub version: String,
     /// The view; `None` when none was given.
     pub view: Option<ViewResult>,
     /// The metrics, in the order of tables.
@@ -62,4 +61,37 @@ pub struct ScoreReport {
     pub failures: Vec<Failure>,
     /// Frames whose gaze was held over from an earlier one; `None` without a trace.
     pub gaze_held: Option<usize>,
+}
+
+/// A comparison of a run: one method in one scene, for one eye or both.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// The scene.
+    pub scene: String,
+    /// The method.
+    pub method: String,
+    /// `left`, `right` or `both`; empty in a scene with one picture a frame.
+    pub eye: &'static str,
+    /// What was found.
+    pub report: ScoreReport,
+}
+
+/// An input of a run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Input {
+    /// The file, from the experiment's folder.
+    pub path: String,
+    /// Its length.
+    pub bytes: u64,
+    /// Its SHA-256, in hexadecimal digits.
+    pub sha256: String,
+}
+
+/// Everything a run found.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RunResults {
+    /// Scene by scene, within it method by method, within it eye by eye.
+    pub comparisons: Vec<Comparison>,
+    /// The files that were read, by path, where they were hashed.
+    pub inputs: Vec<Input>,
 }

@@ -1,7 +1,7 @@
 //! `--metrics` and `--set`.
 
 use clap::Args;
-use fovqa_engine::MetricChoice;
+use fovqa_config::MetricChoice;
 use fovqa_metrics::{Metric, ParamValue, Params};
 
 use super::nearest::no_such;

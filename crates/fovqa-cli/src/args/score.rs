@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use fovqa_engine::ScoreRequest;
+use fovqa_config::{EyeView, Plan, Scene, Settings};
 use fovqa_io::sequence::FrameRange;
 
 use super::metrics::MetricArgs;
@@ -65,9 +65,9 @@ pub(crate) struct ScoreArgs {
 }
 
 impl ScoreArgs {
-    /// The request; the error is a wrong command line.
-    pub(crate) fn request(self) -> Result<ScoreRequest, String> {
-        Ok(ScoreRequest {
+    /// The plan; the error is a wrong command line.
+    pub(crate) fn plan(self) -> Result<Plan, String> {
+        let settings = Settings {
             view: self.view.spec()?,
             gaze: self.view.gaze(),
             eccentricity: self.view.eccentricity(),
@@ -77,13 +77,25 @@ impl ScoreArgs {
             nonfinite: self.signal.nonfinite(),
             mask: self.signal.mask(),
             crop: self.signal.crop(),
+        };
+        let eye =
+            EyeView { eye: None, reference: self.reference, tests: vec![(0, self.test)], settings };
+        let scene = Scene {
+            name: String::new(),
+            frames: self.frames,
+            allow_missing: self.allow_missing,
+            fps: self.fps,
+            eyes: vec![eye],
+        };
+        Ok(Plan {
+            // Absolute paths are shown from the working directory, where they lie below it.
+            base: std::env::current_dir().unwrap_or_default(),
+            scenes: vec![scene],
+            methods: vec![String::new()],
             metrics: self.metrics.choice(),
             params: self.metrics.params()?,
-            reference: self.reference,
-            test: self.test,
-            allow_missing: self.allow_missing,
-            frames: self.frames,
-            fps: self.fps,
+            frames: None,
+            hash_inputs: false,
         })
     }
 }

@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use fovqa_engine::Nonfinite;
+use fovqa_config::Nonfinite;
 use fovqa_frame::{Crop, SignalChannels, SignalParams, ToneMap, Transfer};
 use fovqa_io::{AlphaPolicy, ReadOptions};
 

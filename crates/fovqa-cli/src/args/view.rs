@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use fovqa_engine::Gaze;
+use fovqa_config::Gaze;
 use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec, displays, find_display};
 
 use super::nearest::no_such;

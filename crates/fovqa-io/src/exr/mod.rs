@@ -15,6 +15,16 @@ use crate::decode::{Decoded, Note, ReadOptions};
 use crate::error::ReadErrorKind;
 use pixels::{Planes, Window};
 
+/// The size of a file's display window.
+pub(crate) fn size(mut file: impl Read + Seek + Send) -> Result<(usize, usize), ReadErrorKind> {
+    let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
+    let size = meta.headers.first().map(|header| header.shared_attributes.display_window.size);
+    let detail = || "it has no parts".to_owned();
+    let size =
+        size.ok_or_else(|| ReadErrorKind::Damaged { format: "OpenEXR", detail: detail() })?;
+    Ok((size.width(), size.height()))
+}
+
 pub(crate) fn read(
     mut file: impl Read + Seek + Send,
     options: &ReadOptions,

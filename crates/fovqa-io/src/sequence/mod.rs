@@ -7,4 +7,4 @@ mod pairing;
 
 pub use argument::{FrameFile, Listing, ListingError, list};
 pub use frame_range::{FrameRange, FrameRangeError};
-pub use pairing::{FramePair, PairingError, Pairs, pair};
+pub use pairing::{Alone, FramePair, PairingError, Pairs, pair};

@@ -1,6 +1,6 @@
 //! Reference files and test files to pairs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use thiserror::Error;
@@ -10,8 +10,8 @@ use super::argument::{FrameFile, Listing};
 /// A reference file and the test file that shows the same frame.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FramePair {
-    /// The frame's number: that of the reference's name, or its position from 0 where names have
-    /// none that tells them apart.
+    /// The frame's number: that of the reference's name, or its position among the references,
+    /// from 0, where their names have none that tells them apart.
     pub number: u64,
     /// Reference file.
     pub reference: PathBuf,
@@ -26,21 +26,32 @@ pub struct Pairs {
     pub pairs: Vec<FramePair>,
     /// Number of the sequence's first frame, whether or not it has a partner.
     pub first: u64,
-    /// Files without a partner, passed over.
-    pub alone: usize,
+    /// Files without a partner.
+    pub alone: Alone,
+}
+
+/// Files without a partner.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Alone {
+    /// References without a test.
+    pub reference: Vec<PathBuf>,
+    /// Tests without a reference.
+    pub test: Vec<PathBuf>,
+}
+
+impl Alone {
+    /// How many.
+    pub fn count(&self) -> usize {
+        self.reference.len() + self.test.len()
+    }
 }
 
 /// Files that do not pair.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PairingError {
     /// Files without a partner.
-    #[error("{}", unpaired(.reference, .test))]
-    Unpaired {
-        /// References without a test.
-        reference: Vec<PathBuf>,
-        /// Tests without a reference.
-        test: Vec<PathBuf>,
-    },
+    #[error("{}", unpaired(.0))]
+    Unpaired(Alone),
     /// Not a single pair.
     #[error("no file of {} has a partner in {}", .reference.display(), .test.display())]
     Nothing {
@@ -55,8 +66,8 @@ impl PairingError {
     /// How to mend it.
     pub fn help(&self) -> &'static str {
         match self {
-            Self::Unpaired { .. } => {
-                "render the missing frames, or pass --allow-missing to score the others"
+            Self::Unpaired(_) => {
+                "render the missing frames, or score the others with {allow_missing}"
             }
             Self::Nothing { .. } => {
                 "frames pair by the name without its ending, then by the last number in it"
@@ -65,7 +76,7 @@ impl PairingError {
     }
 }
 
-fn unpaired(reference: &[PathBuf], test: &[PathBuf]) -> String {
+fn unpaired(alone: &Alone) -> String {
     const SHOWN: usize = 5;
     let side = |files: &[PathBuf], of: &str, without: &str| {
         let names: Vec<_> = files.iter().take(SHOWN).map(|p| p.display().to_string()).collect();
@@ -74,11 +85,11 @@ fn unpaired(reference: &[PathBuf], test: &[PathBuf]) -> String {
         format!("{of} without a {without}: {}{more}", names.join(", "))
     };
     let mut parts = Vec::new();
-    if !reference.is_empty() {
-        parts.push(side(reference, "reference", "test frame"));
+    if !alone.reference.is_empty() {
+        parts.push(side(&alone.reference, "reference", "test frame"));
     }
-    if !test.is_empty() {
-        parts.push(side(test, "test", "reference frame"));
+    if !alone.test.is_empty() {
+        parts.push(side(&alone.test, "test", "reference frame"));
     }
     parts.join("; ")
 }
@@ -86,56 +97,43 @@ fn unpaired(reference: &[PathBuf], test: &[PathBuf]) -> String {
 /// Pairs files: two single files as they are, others by stem and then by number.
 ///
 /// # Errors
-/// When nothing pairs, or a file stays without a partner and `allow_missing` is not set.
-pub fn pair(
-    reference: &Listing,
-    test: &Listing,
-    allow_missing: bool,
-) -> Result<Pairs, PairingError> {
+/// When nothing pairs.
+pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> {
     if reference.is_file && test.is_file {
         let (reference, test) = (&reference.files[0], &test.files[0]);
         // A number both names carry is the frame's.
         let number = reference.number.filter(|n| test.number == Some(*n)).unwrap_or(0);
         let (reference, test) = (reference.path.clone(), test.path.clone());
         let pairs = vec![FramePair { number, reference, test }];
-        return Ok(Pairs { pairs, first: number, alone: 0 });
+        return Ok(Pairs { pairs, first: number, alone: Alone::default() });
     }
     let mut partner: Vec<Option<usize>> = vec![None; reference.files.len()];
     let mut taken = vec![false; test.files.len()];
     match_by(&reference.files, &test.files, &mut partner, &mut taken, |f| Some(f.stem.clone()));
     match_by(&reference.files, &test.files, &mut partner, &mut taken, |f| f.number);
-
-    let paired: Vec<(&FrameFile, &FrameFile)> = reference
-        .files
-        .iter()
-        .zip(&partner)
-        .filter_map(|(file, test_index)| Some((file, &test.files[(*test_index)?])))
-        .collect();
-    if paired.is_empty() {
+    if partner.iter().all(Option::is_none) {
         let (reference, test) = (reference.argument.clone(), test.argument.clone());
         return Err(PairingError::Nothing { reference, test });
     }
-    if !allow_missing && (paired.len() < reference.files.len() || taken.contains(&false)) {
-        let alone = reference.files.iter().zip(&partner).filter(|(_, p)| p.is_none());
-        let untaken = test.files.iter().zip(&taken).filter(|(_, taken)| !**taken);
-        return Err(PairingError::Unpaired {
-            reference: alone.map(|(f, _)| f.path.clone()).collect(),
-            test: untaken.map(|(f, _)| f.path.clone()).collect(),
-        });
+
+    let numbers: BTreeSet<u64> = reference.files.iter().filter_map(|f| f.number).collect();
+    let numbered = numbers.len() == reference.files.len();
+    let first = numbers.first().copied().filter(|_| numbered).unwrap_or(0);
+    let untaken = test.files.iter().zip(&taken).filter(|(_, taken)| !**taken);
+    let mut alone =
+        Alone { reference: Vec::new(), test: untaken.map(|(f, _)| f.path.clone()).collect() };
+    let mut pairs = Vec::new();
+    for (position, (file, partner)) in reference.files.iter().zip(partner).enumerate() {
+        match partner {
+            Some(test_index) => pairs.push(FramePair {
+                number: file.number.filter(|_| numbered).unwrap_or(position as u64),
+                reference: file.path.clone(),
+                test: test.files[test_index].path.clone(),
+            }),
+            None => alone.reference.push(file.path.clone()),
+        }
     }
-    let mut numbers: Vec<u64> = paired.iter().filter_map(|(r, _)| r.number).collect();
-    numbers.sort_unstable();
-    numbers.dedup();
-    let numbered = numbers.len() == paired.len();
-    let first = reference.files.iter().filter_map(|f| f.number).min();
-    let alone = reference.files.len() + test.files.len() - 2 * paired.len();
-    let pairs = paired.into_iter().enumerate().map(|(position, (reference, test))| FramePair {
-        number: reference.number.filter(|_| numbered).unwrap_or(position as u64),
-        reference: reference.path.clone(),
-        test: test.path.clone(),
-    });
-    let first = first.filter(|_| numbered).unwrap_or(0);
-    Ok(Pairs { pairs: pairs.collect(), first, alone })
+    Ok(Pairs { pairs, first, alone })
 }
 
 /// Pairs what is still alone and whose key is the only one of its side.
@@ -182,16 +180,12 @@ mod tests {
 
     #[test]
     fn by_stem_then_by_number() {
-        let pairs = pair(
-            &listing(&["a/0000.exr", "a/0001.exr"]),
-            &listing(&["b/0000.png", "b/0001.png"]),
-            false,
-        );
+        let pairs =
+            pair(&listing(&["a/0000.exr", "a/0001.exr"]), &listing(&["b/0000.png", "b/0001.png"]));
         assert_eq!(pairs.unwrap().pairs[1].test, PathBuf::from("b/0001.png"));
         let pairs = pair(
             &listing(&["gt.0007.exr", "gt.0008.exr"]),
             &listing(&["rmfr_8.png", "rmfr_7.png"]),
-            false,
         )
         .unwrap()
         .pairs;
@@ -202,15 +196,12 @@ mod tests {
     fn lists_what_is_alone() {
         let (reference, test) =
             (listing(&["1.png", "2.png", "4.png"]), listing(&["2.png", "3.png"]));
-        let Err(PairingError::Unpaired { reference: r, test: t }) = pair(&reference, &test, false)
-        else {
-            panic!("unpaired frames must be said")
-        };
-        assert_eq!(r, [PathBuf::from("1.png"), PathBuf::from("4.png")]);
-        assert_eq!(t, [PathBuf::from("3.png")]);
-        assert_eq!(pair(&reference, &test, true).unwrap().pairs.len(), 1);
+        let Pairs { pairs, alone, .. } = pair(&reference, &test).unwrap();
+        assert_eq!(pairs.len(), 1);
+        assert_eq!(alone.reference, [PathBuf::from("1.png"), PathBuf::from("4.png")]);
+        assert_eq!(alone.test, [PathBuf::from("3.png")]);
         assert!(matches!(
-            pair(&listing(&["a.png"]), &listing(&["b.png"]), true),
+            pair(&listing(&["a.png"]), &listing(&["b.png"])),
             Err(PairingError::Nothing { .. })
         ));
     }
@@ -218,7 +209,11 @@ mod tests {
     #[test]
     fn names_without_numbers_count_by_position() {
         let names = listing(&["blue.png", "red.png"]);
-        let pairs = pair(&names, &names, false).unwrap().pairs;
-        assert_eq!(pairs.iter().map(|p| p.number).collect::<Vec<_>>(), [0, 1]);
+        let numbers = |test| {
+            let pairs = pair(&names, &test).unwrap().pairs;
+            pairs.iter().map(|p| p.number).collect::<Vec<_>>()
+        };
+        assert_eq!(numbers(names.clone()), [0, 1]);
+        assert_eq!(numbers(listing(&["red.png"])), [1], "the same whichever method is scored");
     }
 }

@@ -1,0 +1,62 @@
+//! Settings in the words of whoever reads: options of the command line, or keys of an experiment.
+//!
+//! The crates below name settings in braces, `{alpha=ignore}`, because they know neither.
+
+/// Which words a user has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Dialect {
+    /// Options.
+    #[default]
+    Options,
+    /// TOML keys.
+    Experiment,
+}
+
+/// Setting, option, key.
+const SETTINGS: [(&str, &str, &str); 14] = [
+    ("allow_missing", "--allow-missing", "allow_missing = true"),
+    ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),
+    ("alpha=over-black", "--alpha over-black", "alpha = \"over-black\""),
+    ("crop", "--crop X,Y,W,H", "crop = [X, Y, W, H]"),
+    ("fps", "--fps", "fps"),
+    ("frames", "--frames A..B", "frames = \"A..B\" (or --frames A..B)"),
+    ("gaze", "X,Y", "[X, Y]"),
+    ("gaze_hold", "--gaze-hold", "hold = true beside trace"),
+    ("layer", "--layer", "layer = \"…\""),
+    ("max_megapixels", "--max-megapixels", "max_megapixels"),
+    ("metrics", "--metrics", "[metrics]"),
+    ("nonfinite=mask", "--nonfinite mask", "nonfinite = \"mask\""),
+    ("transfer", "--transfer", "transfer"),
+    (
+        "view",
+        "a view (--fov-vertical, --fov-horizontal, --fov-diagonal, --frustum, --display, or \
+         --distance-m with --pixel-pitch-mm)",
+        "a view (in [view]: fov_vertical_deg, fov_horizontal_deg, fov_diagonal_deg, frustum, display, \
+         or distance_m with pixel_pitch_mm)",
+    ),
+];
+
+impl Dialect {
+    /// The text with its settings spelled out.
+    pub(crate) fn spell(self, text: &str) -> String {
+        SETTINGS.iter().fold(text.to_owned(), |text, (setting, option, key)| {
+            let word = match self {
+                Dialect::Options => option,
+                Dialect::Experiment => key,
+            };
+            text.replace(&format!("{{{setting}}}"), word)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_are_spelled_and_other_braces_stay() {
+        let text = "use {alpha=ignore} in {scene}";
+        assert_eq!(Dialect::Options.spell(text), "use --alpha ignore in {scene}");
+        assert_eq!(Dialect::Experiment.spell(text), "use alpha = \"ignore\" in {scene}");
+    }
+}

@@ -1,0 +1,188 @@
+//! What is to be scored: scenes, methods, metrics, and how each eye sees.
+
+use std::path::{Path, PathBuf};
+
+use fovqa_frame::{Crop, SignalParams};
+use fovqa_io::ReadOptions;
+use fovqa_io::sequence::FrameRange;
+use fovqa_metrics::{Metric, Params};
+use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec};
+use serde::{Deserialize, Serialize};
+
+/// Where the eye looks.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Gaze {
+    /// At the principal point.
+    #[default]
+    Centre,
+    /// At a point in pixels.
+    Point([f64; 2]),
+    /// Along a trace.
+    Trace {
+        /// The CSV file.
+        path: PathBuf,
+        /// Whether frames beyond the trace keep its last gaze.
+        hold: bool,
+    },
+}
+
+/// What to do about NaN and infinity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Nonfinite {
+    /// An error that names the first.
+    #[default]
+    Error,
+    /// Leave the pixels out, in both pictures.
+    Mask,
+}
+
+/// Which metrics.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum MetricChoice {
+    /// [`Metric::DEFAULT`], less what does not fit.
+    #[default]
+    Default,
+    /// These; one that does not fit is an error.
+    Named(Vec<Metric>),
+}
+
+/// One eye of a scene with two.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Eye {
+    /// The left eye.
+    Left,
+    /// The right eye.
+    Right,
+}
+
+impl Eye {
+    /// Both.
+    pub const BOTH: [Eye; 2] = [Eye::Left, Eye::Right];
+
+    /// Its name in files: what `{eye}` stands for.
+    pub fn name(self) -> &'static str {
+        match self {
+            Eye::Left => "left",
+            Eye::Right => "right",
+        }
+    }
+}
+
+/// How frames are read and seen.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Settings {
+    /// How files are read.
+    pub read: ReadOptions,
+    /// The visible part of each frame.
+    pub crop: Option<Crop>,
+    /// A picture that is white where pixels count.
+    pub mask: Option<PathBuf>,
+    /// How samples become the signal.
+    pub signal: SignalParams,
+    /// What to do about NaN and infinity.
+    pub nonfinite: Nonfinite,
+    /// The view.
+    pub view: Option<ViewSpec>,
+    /// The gaze.
+    pub gaze: Gaze,
+    /// How eccentricity is measured.
+    pub eccentricity: EccentricityKind,
+    /// The bands; `None`: the default ones.
+    pub bands: Option<BandEdges>,
+}
+
+impl Settings {
+    /// What of these needs a view, where there is none.
+    pub fn lacks_view(&self) -> Option<&'static str> {
+        match self.gaze {
+            _ if self.view.is_some() => None,
+            _ if self.bands.is_some() => Some("eccentricity bands"),
+            Gaze::Point(_) | Gaze::Trace { .. } => Some("a gaze"),
+            Gaze::Centre => None,
+        }
+    }
+}
+
+/// What one eye sees of a scene: one reference, and the test of each method.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct EyeView {
+    /// The eye; `None` in a scene with one picture a frame.
+    pub eye: Option<Eye>,
+    /// File, folder, glob or printf pattern of the reference.
+    pub reference: PathBuf,
+    /// The same of each test, with the index of its method in [`Plan::methods`], which rises.
+    pub tests: Vec<(usize, PathBuf)>,
+    /// How frames are read and seen.
+    pub settings: Settings,
+}
+
+/// A scene.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Scene {
+    /// Its name; empty where there is but one.
+    pub name: String,
+    /// Which frames.
+    pub frames: Option<FrameRange>,
+    /// Whether frames without a partner are passed over.
+    pub allow_missing: bool,
+    /// Frames a second.
+    pub fps: Option<f64>,
+    /// One view, or the left and the right eye's.
+    pub eyes: Vec<EyeView>,
+}
+
+/// A comparison: each method of each scene, measured alike.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Plan {
+    /// Folder in which relative paths of the experiment begin; results show paths from there.
+    pub base: PathBuf,
+    /// The scenes.
+    pub scenes: Vec<Scene>,
+    /// Names of the methods; one empty name where there is but one.
+    pub methods: Vec<String>,
+    /// The metrics.
+    pub metrics: MetricChoice,
+    /// Their parameters.
+    pub params: Params,
+    /// Only these of each scene's frames.
+    pub frames: Option<FrameRange>,
+    /// Whether size and hash of every input are taken.
+    pub hash_inputs: bool,
+}
+
+impl Plan {
+    /// A path as results show it: from the experiment's folder where it begins there, else as it
+    /// is; `/` between folders.
+    pub fn shown(&self, path: &Path) -> String {
+        slashed(path.strip_prefix(&self.base).unwrap_or(path))
+    }
+}
+
+/// A path with `/` between its folders and without `.`.
+fn slashed(path: &Path) -> String {
+    use std::path::Component;
+    let mut parts: Vec<String> = Vec::new();
+    for part in path.components() {
+        match part {
+            Component::RootDir => parts.push(String::new()),
+            Component::CurDir => {}
+            part => parts.push(part.as_os_str().to_string_lossy().into_owned()),
+        }
+    }
+    parts.join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_shown_from_the_experiment() {
+        let plan = Plan { base: PathBuf::from("configs"), ..Plan::default() };
+        assert_eq!(plan.shown(Path::new("configs/../data/./gt.png")), "../data/gt.png");
+        assert_eq!(plan.shown(Path::new("/data/gt.png")), "/data/gt.png");
+        let here = Plan::default();
+        assert_eq!(here.shown(Path::new("./gt/0.png")), "gt/0.png");
+    }
+}

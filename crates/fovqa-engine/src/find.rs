@@ -1,0 +1,185 @@
+//! What can be settled before a pixel is read: the frames of every scene, paired, and the gaze of
+//! each.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use fovqa_config::{EyeView, Gaze, Plan, Scene};
+use fovqa_io::sequence::{Listing, PairingError, Pairs, list, pair};
+use fovqa_vision::{GazeAt, GazeTrace};
+
+use crate::error::EngineError;
+
+/// The frames of a plan, and what is wrong with its inputs.
+#[derive(Debug)]
+pub struct Found {
+    /// One a scene and eye, in the order of the plan.
+    pub views: Vec<FoundView>,
+    /// Inputs that cannot be scored.
+    pub problems: Vec<Problem>,
+}
+
+/// The frames of one eye's view of a scene.
+#[derive(Debug)]
+pub struct FoundView {
+    /// Index of the scene.
+    pub scene: usize,
+    /// Index of the eye's view in it.
+    pub eye: usize,
+    /// The frames, in order.
+    pub frames: Vec<FoundFrame>,
+    /// The gaze of each frame, where it comes from a trace.
+    pub trace: Option<Vec<GazeAt>>,
+    /// Files without a partner that the plan says to pass over.
+    pub passed_over: usize,
+}
+
+/// One frame: its reference and the tests there are of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FoundFrame {
+    /// Frame number.
+    pub number: u64,
+    /// The reference.
+    pub reference: PathBuf,
+    /// Tests, with the index of their method, which rises.
+    pub tests: Vec<(usize, PathBuf)>,
+}
+
+/// An input that cannot be scored.
+#[derive(Debug)]
+pub struct Problem {
+    /// Index of the scene.
+    pub scene: usize,
+    /// Index of the eye's view in it.
+    pub eye: usize,
+    /// Index of the method; `None`: all of them.
+    pub method: Option<usize>,
+    /// What is wrong.
+    pub error: EngineError,
+}
+
+/// Finds and pairs the frames of every scene. Reads names and gaze traces, no pixels.
+pub fn find(plan: &Plan) -> Found {
+    let mut found = Found { views: Vec::new(), problems: Vec::new() };
+    for (scene_index, scene) in plan.scenes.iter().enumerate() {
+        for (eye, view) in scene.eyes.iter().enumerate() {
+            let problem = |method, error| Problem { scene: scene_index, eye, method, error };
+            let reference = match list(&view.reference) {
+                Ok(reference) => reference,
+                Err(error) => {
+                    found.problems.push(problem(None, error.into()));
+                    continue;
+                }
+            };
+            let mut pairings = Vec::new();
+            let mut passed_over = 0;
+            for (method, test) in &view.tests {
+                match paired(&reference, test) {
+                    Ok(mut pairs) => {
+                        let alone = std::mem::take(&mut pairs.alone);
+                        if scene.allow_missing {
+                            passed_over += alone.count();
+                        } else if alone.count() > 0 {
+                            let error = PairingError::Unpaired(alone).into();
+                            found.problems.push(problem(Some(*method), error));
+                        }
+                        pairings.push((*method, pairs));
+                    }
+                    Err(error) => found.problems.push(problem(Some(*method), error)),
+                }
+            }
+            if pairings.is_empty() {
+                continue;
+            }
+            let first = pairings[0].1.first;
+            match select(plan, scene, merge(pairings)).and_then(|frames| {
+                let trace = gaze_trace(view, scene, &frames, first)?;
+                Ok((frames, trace))
+            }) {
+                Ok((frames, trace)) => found.views.push(FoundView {
+                    scene: scene_index,
+                    eye,
+                    frames,
+                    trace,
+                    passed_over,
+                }),
+                Err(error) => found.problems.push(problem(None, error)),
+            }
+        }
+    }
+    found
+}
+
+fn paired(reference: &Listing, test: &Path) -> Result<Pairs, EngineError> {
+    Ok(pair(reference, &list(test)?)?)
+}
+
+/// The pairs of all methods, by reference.
+fn merge(pairings: Vec<(usize, Pairs)>) -> Vec<FoundFrame> {
+    // Single files of a scene can be of several numbers, which then name no frame.
+    let mut frames: BTreeMap<PathBuf, FoundFrame> = BTreeMap::new();
+    let mut order: Vec<(u64, PathBuf)> = Vec::new();
+    for (method, pairs) in pairings {
+        for pair in pairs.pairs {
+            let frame = frames.entry(pair.reference.clone()).or_insert_with(|| {
+                order.push((pair.number, pair.reference.clone()));
+                FoundFrame { number: pair.number, reference: pair.reference, tests: Vec::new() }
+            });
+            if frame.number != pair.number {
+                frame.number = 0;
+            }
+            frame.tests.push((method, pair.test));
+        }
+    }
+    // A stable sort: what has one number stays as it was found.
+    order.sort_by_key(|(number, _)| *number);
+    order.into_iter().filter_map(|(_, reference)| frames.remove(&reference)).collect()
+}
+
+/// The frames both the plan and the scene ask for.
+fn select(
+    plan: &Plan,
+    scene: &Scene,
+    mut frames: Vec<FoundFrame>,
+) -> Result<Vec<FoundFrame>, EngineError> {
+    let numbers = || frames.iter().map(|frame| frame.number);
+    let (first, last) = (numbers().min().unwrap_or(0), numbers().max().unwrap_or(0));
+    for range in [scene.frames, plan.frames].into_iter().flatten() {
+        frames.retain(|frame| range.contains(frame.number));
+    }
+    if frames.is_empty() {
+        return Err(EngineError::NoFrames { first, last });
+    }
+    Ok(frames)
+}
+
+/// Hours of gaze at any rate a tracker has.
+const MAX_GAZE_BYTES: u64 = 64 << 20;
+
+/// The gaze of each frame, where it comes from a trace.
+fn gaze_trace(
+    view: &EyeView,
+    scene: &Scene,
+    frames: &[FoundFrame],
+    first_frame: u64,
+) -> Result<Option<Vec<GazeAt>>, EngineError> {
+    let Gaze::Trace { path, hold } = &view.settings.gaze else { return Ok(None) };
+    let open = || {
+        // Looked at before it is opened, which a pipe without a writer would never end.
+        let size = std::fs::metadata(path)?;
+        if !size.is_file() {
+            return Err(std::io::Error::other("it is not a regular file"));
+        }
+        if size.len() > MAX_GAZE_BYTES {
+            return Err(std::io::Error::other("it is larger than 64 MiB"));
+        }
+        File::open(path)
+    };
+    let file = open().map_err(|error| EngineError::GazeFile { path: path.clone(), error })?;
+    let numbers: Vec<u64> = frames.iter().map(|frame| frame.number).collect();
+    GazeTrace::read(std::io::BufReader::new(file))
+        .and_then(|trace| trace.at_frames(&numbers, first_frame, scene.fps, *hold))
+        .map(Some)
+        .map_err(|error| EngineError::GazeTrace { path: path.clone(), error })
+}

@@ -1,0 +1,39 @@
+//! Which metrics a view allows, before a pixel is read.
+
+use fovqa_config::{MetricChoice, Plan, Settings};
+use fovqa_metrics::Metric;
+
+use crate::error::{EngineError, no_view};
+
+/// The metrics of a view, and those of the default ones that are left out for want of one.
+///
+/// # Errors
+/// When a parameter cannot be, or something that was asked for needs a view that is not there.
+pub(crate) fn metrics(
+    plan: &Plan,
+    settings: &Settings,
+) -> Result<(Vec<Metric>, Vec<Metric>), EngineError> {
+    plan.params.check()?;
+    if let Some(view) = &settings.view {
+        view.check()?;
+    } else if let Some(what) = settings.lacks_view() {
+        return Err(EngineError::NoView { what: what.to_owned() });
+    }
+    let lacking = |metric: &Metric| settings.view.is_none() && metric.info().needs_view;
+    match &plan.metrics {
+        MetricChoice::Named(named) => {
+            let foveal: Vec<Metric> = named.iter().copied().filter(lacking).collect();
+            if !foveal.is_empty() {
+                return Err(no_view(&foveal));
+            }
+            let mut metrics = named.clone();
+            metrics.sort_unstable();
+            metrics.dedup();
+            Ok((metrics, Vec::new()))
+        }
+        MetricChoice::Default => {
+            let (left_out, metrics) = Metric::DEFAULT.into_iter().partition(lacking);
+            Ok((metrics, left_out))
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Two eyes as one: squared errors are pooled by pixels, other scores are means of the two.
+
+use fovqa_metrics::{BandScores, Metric, PairScores, psnr_db};
+
+use crate::report::{FrameResult, ScoreReport};
+
+/// The report of both eyes: the frames both have, by their numbers.
+pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
+    let frames = left.frames.iter().filter_map(|l| {
+        let r = right.frames.iter().find(|r| r.frame == l.frame)?;
+        let scores = pooled(&l.scores, &r.scores);
+        Some(FrameResult { gaze_px: None, scores, ..l.clone() })
+    });
+    ScoreReport {
+        view: left.view.clone(),
+        metrics: left.metrics.iter().copied().filter(|m| right.metrics.contains(m)).collect(),
+        frames: frames.collect(),
+        failures: Vec::new(),
+        gaze_held: None,
+    }
+}
+
+fn pooled(left: &PairScores, right: &PairScores) -> PairScores {
+    let mse = pooled_mse((left.mse, left.pixels), (right.mse, right.pixels));
+    let weighted_squared_error = left
+        .weighted_squared_error
+        .zip(right.weighted_squared_error)
+        .map(|((a, b), (c, d))| (a + c, b + d));
+    let scores = left.scores.iter().filter_map(|(&metric, &l)| {
+        let r = *right.scores.get(&metric)?;
+        let fmse = weighted_squared_error.map(|(squared, weight)| squared / weight);
+        Some((metric, pooled_score(metric, mse, fmse, l, r)))
+    });
+    let bands = left.bands.iter().zip(&right.bands).map(|(l, r)| pooled_band(l, r));
+    PairScores {
+        scores: scores.collect(),
+        bands: bands.collect(),
+        pixels: left.pixels + right.pixels,
+        outside_bands: left.outside_bands + right.outside_bands,
+        left_out: left.left_out + right.left_out,
+        mse,
+        weighted_squared_error,
+    }
+}
+
+fn pooled_band(left: &BandScores, right: &BandScores) -> BandScores {
+    let mse = pooled_mse((left.mse, left.pixels), (right.mse, right.pixels));
+    let scores = left.scores.iter().filter_map(|(&metric, &l)| {
+        let r = *right.scores.get(&metric)?;
+        // What one eye has not is the other's.
+        let score = match (l, r) {
+            (Some(l), Some(r)) => Some(pooled_score(metric, mse, None, l, r)),
+            (one, None) | (None, one) => one,
+        };
+        Some((metric, score))
+    });
+    BandScores { pixels: left.pixels + right.pixels, mse, scores: scores.collect() }
+}
+
+/// The mean squared error over the pixels of both.
+fn pooled_mse(left: (Option<f64>, u64), right: (Option<f64>, u64)) -> Option<f64> {
+    match (left, right) {
+        ((Some(l), pixels_l), (Some(r), pixels_r)) => {
+            let pixels = pixels_l + pixels_r;
+            Some((l * pixels_l as f64 + r * pixels_r as f64) / pixels as f64)
+        }
+        ((one, _), (None, _)) | ((None, _), (one, _)) => one,
+    }
+}
+
+fn pooled_score(metric: Metric, mse: Option<f64>, fmse: Option<f64>, l: f64, r: f64) -> f64 {
+    match metric {
+        Metric::Mse => mse.unwrap_or_else(|| f64::midpoint(l, r)),
+        Metric::Psnr => mse.map_or_else(|| f64::midpoint(l, r), psnr_db),
+        Metric::Fpsnr => fmse.map_or_else(|| f64::midpoint(l, r), psnr_db),
+        Metric::Ssim | Metric::MsSsim | Metric::Fssim => f64::midpoint(l, r),
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "fractions of two are exact")]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    fn scores(mse: f64, ssim: f64, pixels: u64) -> PairScores {
+        let scores = BTreeMap::from([
+            (Metric::Mse, mse),
+            (Metric::Psnr, psnr_db(mse)),
+            (Metric::Ssim, ssim),
+            (Metric::Fpsnr, psnr_db(mse)),
+        ]);
+        let bands = vec![
+            BandScores {
+                pixels,
+                mse: Some(mse),
+                scores: BTreeMap::from([(Metric::Mse, Some(mse)), (Metric::Ssim, Some(ssim))]),
+            },
+            BandScores { pixels: 0, mse: None, scores: BTreeMap::from([(Metric::Ssim, None)]) },
+        ];
+        PairScores {
+            scores,
+            bands,
+            pixels,
+            outside_bands: 1,
+            left_out: 2,
+            mse: Some(mse),
+            weighted_squared_error: Some((mse * 8.0, 8.0)),
+        }
+    }
+
+    #[test]
+    fn errors_are_pooled_and_scores_averaged() {
+        let both = pooled(&scores(0.25, 0.5, 100), &scores(0.5, 1.0, 300));
+        assert_eq!(both.scores[&Metric::Mse], 0.4375);
+        assert_eq!(both.scores[&Metric::Psnr], psnr_db(0.4375));
+        assert_eq!(both.scores[&Metric::Ssim], 0.75);
+        assert_eq!(both.scores[&Metric::Fpsnr], psnr_db(0.375), "by weight, not by pixels");
+        assert_eq!((both.pixels, both.outside_bands, both.left_out), (400, 2, 4));
+        assert_eq!(both.bands[0].scores[&Metric::Mse], Some(0.4375));
+        assert_eq!(both.bands[1].scores[&Metric::Ssim], None);
+    }
+
+    #[test]
+    fn frames_meet_by_number() {
+        let frame = |frame| FrameResult {
+            frame,
+            reference: String::new(),
+            test: String::new(),
+            gaze_px: None,
+            scores: scores(0.5, 0.5, 1),
+        };
+        let report = |frames: &[u64]| ScoreReport {
+            metrics: vec![Metric::Mse],
+            frames: frames.iter().map(|n| frame(*n)).collect(),
+            ..ScoreReport::default()
+        };
+        let both = both_eyes(&report(&[1, 2, 4]), &report(&[2, 3, 4]));
+        assert_eq!(both.frames.iter().map(|f| f.frame).collect::<Vec<_>>(), [2, 4]);
+    }
+}
