@@ -1,0 +1,53 @@
+//! A figure of any kind.
+
+use crate::bar::BarChart;
+use crate::drawing::Drawing;
+use crate::error::PlotError;
+use crate::line::LineChart;
+use crate::spread::SpreadChart;
+use crate::{svg, tidy};
+
+/// A figure of any kind.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Figure {
+    /// Curves.
+    Line(LineChart),
+    /// Bars in groups.
+    Bar(BarChart),
+    /// Distributions in groups.
+    Spread(SpreadChart),
+}
+
+impl Figure {
+    /// The figure as an SVG document: the same text for the same figure, on any machine.
+    ///
+    /// Of a name too long for three lines the picture shows the beginning; the [CSV](Self::csv)
+    /// has all of it.
+    ///
+    /// # Errors
+    /// When a series does not have one value for each group.
+    pub fn svg(&self) -> Result<String, PlotError> {
+        svg::write(&self.draw()?)
+    }
+
+    fn draw(&self) -> Result<Drawing, PlotError> {
+        match self {
+            Self::Line(chart) => Ok(chart.draw()),
+            Self::Bar(chart) => chart.draw(),
+            Self::Spread(chart) => chart.draw(),
+        }
+    }
+
+    /// The data of the figure as CSV, a row for each value: `series,x,y`, or `group,series,value`.
+    /// A missing value is an empty field, an infinite one `inf` or `-inf`.
+    pub fn csv(&self) -> String {
+        match self {
+            Self::Line(chart) => tidy::line(chart),
+            Self::Bar(chart) => tidy::bar(chart),
+            Self::Spread(chart) => tidy::spread(chart),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

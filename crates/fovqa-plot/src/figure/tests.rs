@@ -1,0 +1,310 @@
+//! Every kind of figure with usual, odd and hostile data: all of it inside the picture, no text
+//! over another, and the same each time.
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::drawing::{Mark, Rect, Text};
+use crate::{Axis, BarSeries, LineSeries, Look, SpreadSeries, png};
+
+/// Names that break careless layouts.
+const HOSTILE: [&str; 8] = [
+    "RMFR",
+    "A & B <x> \"quoted\" 'too'",
+    "",
+    "a_name_without_a_single_space_that_is_longer_than_any_sensible_name_of_a_method_could_ever_be",
+    "注視点レンダリングの手法その一",
+    "many many words, one after the other, until the row is full and over-full, and then some more",
+    "tab\tand\nline\u{0}\u{1b}[31m",
+    "עברית",
+];
+
+/// Values that break careless axes.
+const ODD: [f64; 14] = [
+    0.0,
+    -0.0,
+    5e-324,
+    1e-5,
+    3.3e-5,
+    0.999_999_9,
+    1.0,
+    -37.5,
+    12_345.678,
+    1e9,
+    1e9 + 1.0,
+    1e300,
+    f64::MAX,
+    f64::MIN,
+];
+
+fn name(i: usize) -> String {
+    HOSTILE[i % HOSTILE.len()].to_owned()
+}
+
+fn line(series: Vec<Vec<(f64, Option<f64>)>>) -> Figure {
+    let series = series.into_iter().enumerate().map(|(i, points)| LineSeries {
+        name: name(i),
+        look: Look::new(i),
+        reference: i % 5 == 4,
+        points,
+    });
+    let (x, y) = (Axis::new("Eccentricity (°)"), Axis::new("PSNR (dB)"));
+    Figure::Line(LineChart { title: None, x, y, series: series.collect(), x_ticks: None })
+}
+
+/// Bars, or markers where not from zero: `values[series][group]`.
+fn bars(values: Vec<Vec<Option<f64>>>, from_zero: bool) -> Figure {
+    let groups = (0..values.first().map_or(0, Vec::len)).map(name).collect();
+    let series = values.into_iter().enumerate().map(|(i, values)| BarSeries {
+        name: name(i),
+        look: Look::new(i),
+        values,
+    });
+    let y = Axis::new("SSIM");
+    Figure::Bar(BarChart { title: Some(name(1)), y, groups, series: series.collect(), from_zero })
+}
+
+fn spread(values: Vec<Vec<Vec<f64>>>) -> Figure {
+    let groups = (0..values.first().map_or(0, Vec::len)).map(name).collect();
+    let series = values.into_iter().enumerate().map(|(i, values)| SpreadSeries {
+        name: name(i),
+        look: Look::new(i),
+        values,
+    });
+    let y = Axis::new("a title that is far too long for the height of this axis, whoever wrote it");
+    Figure::Spread(SpreadChart { title: None, y, groups, series: series.collect() })
+}
+
+fn texts(figure: &Figure) -> Vec<String> {
+    figure.draw().unwrap().texts().iter().map(|text| text.line.clone()).collect()
+}
+
+fn count(figure: &Figure, text: &str) -> usize {
+    texts(figure).iter().filter(|line| *line == text).count()
+}
+
+/// Nothing beyond the border, and no text over another.
+fn check(figure: &Figure) {
+    let drawing = figure.draw().unwrap();
+    let (width, height) = (drawing.width_px, drawing.height_px);
+    let inside = |r: Rect| r.left >= 0.0 && r.top >= 0.0 && r.right <= width && r.bottom <= height;
+    for mark in &drawing.marks {
+        let (points, reach): (&[_], f64) = match mark {
+            Mark::Line(points, _) | Mark::Area(points, _) => (points, 0.0),
+            Mark::Disc(centre, radius, _) => (std::slice::from_ref(centre), *radius),
+            Mark::Text(_) => (&[], 0.0),
+        };
+        for (x, y) in points {
+            let rect =
+                Rect { left: x - reach, top: y - reach, right: x + reach, bottom: y + reach };
+            assert!(inside(rect), "{mark:?} leaves {width} x {height}");
+        }
+    }
+    let texts: Vec<&Text> = drawing.texts();
+    for (i, a) in texts.iter().enumerate() {
+        assert!(inside(a.bounds()), "{a:?} leaves {width} x {height}");
+        assert!(a.size_px >= 11.0 && !a.line.chars().any(char::is_control), "{a:?}");
+        for b in &texts[..i] {
+            assert!(!a.bounds().overlaps(b.bounds()), "{a:?} covers {b:?}");
+        }
+    }
+    let svg = figure.svg().unwrap();
+    assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+    assert!(png(&svg, 0.5).is_ok());
+}
+
+#[test]
+fn hostile_figures_stay_inside_the_picture() {
+    for series in [0, 1, 2, 12, 40] {
+        let points = |s: usize| {
+            ODD.iter()
+                .enumerate()
+                .map(|(i, v)| (i as f64, (i % 5 != s % 5).then_some(*v)))
+                .collect()
+        };
+        check(&line((0..series).map(points).collect()));
+        for groups in [0, 1, 3, 40, 150] {
+            let value = |s: usize, g: usize| ODD[(3 * s + g) % 11] * 0.7;
+            let row = |s: usize| (0..groups).map(|g| (g % 6 != 5).then_some(value(s, g))).collect();
+            for from_zero in [true, false] {
+                check(&bars((0..series).map(row).collect(), from_zero));
+            }
+            let values = |s: usize, g: usize| (0..g + s).map(|i| value(s, i)).collect();
+            let row = |s: usize| (0..groups.min(40)).map(|g| values(s, g)).collect();
+            check(&spread((0..series).map(row).collect()));
+        }
+    }
+}
+
+#[test]
+fn odd_ranges_stay_inside_the_picture() {
+    for a in ODD {
+        for b in ODD {
+            check(&line(vec![vec![(a, Some(b)), (b, Some(a))], vec![(a, None)]]));
+            check(&bars(vec![vec![Some(a)], vec![Some(b)]], a < b));
+            check(&spread(vec![vec![vec![a, b]], vec![vec![b; 11]]]));
+        }
+    }
+}
+
+#[test]
+fn given_ticks_that_stand_close_do_not_overlap() {
+    let Figure::Line(mut chart) = line(vec![vec![(3.0, Some(1.0)), (50.0, Some(2.0))]]) else {
+        unreachable!()
+    };
+    chart.x_ticks = Some((0..=130).map(f64::from).collect());
+    check(&Figure::Line(chart.clone()));
+    chart.x_ticks = Some(vec![0.0, 5.0, 10.0, 60.0]);
+    let figure = Figure::Line(chart);
+    check(&figure);
+    assert_eq!(
+        texts(&figure).iter().filter(|t| ["0", "5", "10", "60"].contains(&t.as_str())).count(),
+        4
+    );
+}
+
+#[test]
+fn empty_figures_say_so() {
+    for figure in [
+        Figure::Line(LineChart::default()),
+        Figure::Bar(BarChart::default()),
+        Figure::Spread(SpreadChart::default()),
+        line(vec![vec![(1.0, None), (f64::NAN, Some(2.0)), (2.0, Some(f64::NAN))]]),
+        bars(vec![vec![None, Some(f64::NAN)]], true),
+        spread(vec![vec![vec![], vec![f64::NAN]]]),
+    ] {
+        check(&figure);
+        assert_eq!(count(&figure, "no data"), 1, "{figure:?}");
+    }
+    assert_eq!(count(&line(vec![vec![(1.0, Some(2.0))]]), "no data"), 0);
+}
+
+#[test]
+fn infinite_and_missing_values_are_shown() {
+    let (inf, sub) = (Some(f64::INFINITY), Some(f64::NEG_INFINITY));
+    let curves =
+        vec![vec![(0.0, inf), (9.0, Some(1.0)), (20.0, sub)], vec![(0.0, inf), (9.0, inf)]];
+    let figure = line(curves);
+    check(&figure);
+    assert_eq!((count(&figure, "∞"), count(&figure, "−∞")), (2, 1), "once a place");
+
+    for from_zero in [true, false] {
+        let figure =
+            bars(vec![vec![Some(30.0), None, inf], vec![Some(20.0), sub, None]], from_zero);
+        check(&figure);
+        assert_eq!((count(&figure, "∞"), count(&figure, "−∞")), (1, 1));
+        assert_eq!(count(&figure, "n/a"), 2);
+        assert_eq!((count(&figure, "30.0"), count(&figure, "20.0")), (1, 1), "values");
+    }
+    let all = bars(vec![vec![inf, inf]], true);
+    check(&all);
+    assert_eq!((count(&all, "∞"), count(&all, "no data")), (2, 0));
+
+    let values = vec![f64::INFINITY, 1.0, f64::INFINITY, 2.0, f64::NEG_INFINITY];
+    let figure = spread(vec![vec![values.clone()]]);
+    check(&figure);
+    assert_eq!((count(&figure, "2 × ∞"), count(&figure, "1 × −∞")), (1, 1));
+    let narrow = spread(vec![vec![values; 60]; 3]);
+    check(&narrow);
+    assert_eq!(count(&narrow, "360 × ∞ left out"), 1);
+}
+
+/// The upper and lower ends of the areas of a colour, the legend's key left out.
+fn areas(figure: &Figure, look: usize) -> Vec<(f64, f64)> {
+    let colour = Look::new(look).colour();
+    let ends = |mark: &Mark| match mark {
+        Mark::Area(points, c) if *c == colour => {
+            let ys = || points.iter().map(|p| p.1);
+            Some((ys().fold(f64::INFINITY, f64::min), ys().fold(0.0, f64::max)))
+        }
+        _ => None,
+    };
+    figure.draw().unwrap().marks.iter().filter_map(ends).skip(1).collect()
+}
+
+#[test]
+fn bars_are_as_long_as_their_values() {
+    let figure = bars(vec![vec![Some(10.0), Some(30.0), Some(-5.0)]], true);
+    let bars = areas(&figure, 0);
+    let length = |i: usize| bars[i].1 - bars[i].0;
+    assert!((length(1) / length(0) - 3.0).abs() < 1e-9);
+    assert!((length(0) / length(2) - 2.0).abs() < 1e-9);
+    assert!((bars[0].1 - bars[2].0).abs() < 1e-9, "one base line, a negative bar below it");
+}
+
+#[test]
+fn a_gap_is_not_bridged() {
+    let figure =
+        line(vec![vec![(0.0, Some(1.0)), (1.0, Some(2.0)), (2.0, None), (3.0, Some(3.0))]]);
+    let drawing = figure.draw().unwrap();
+    let colour = Look::new(0).colour();
+    let curves = |m: &&Mark| matches!(m, Mark::Line(_, stroke) if stroke.colour == colour);
+    let discs = |m: &&Mark| matches!(m, Mark::Disc(_, _, c) if *c == colour);
+    // Each with its key in the legend.
+    assert_eq!(drawing.marks.iter().filter(curves).count(), 2);
+    assert_eq!(drawing.marks.iter().filter(discs).count(), 4);
+}
+
+#[test]
+fn names_survive_escaped() {
+    let svg = bars(vec![vec![Some(1.0)]; 8], true).svg().unwrap();
+    for name in ["A &amp; B &lt;x&gt; &quot;quoted&quot; &apos;too&apos;", "עברית"] {
+        assert!(svg.contains(name), "{name}");
+    }
+    assert!(svg.contains("tab and line[31m") && !svg.contains('\u{1b}'));
+}
+
+#[test]
+fn the_same_figure_is_the_same_bytes_on_any_thread() {
+    let render = || {
+        let figure = spread(vec![vec![vec![1.0, 2.5, 3.0]; 3], vec![vec![0.1; 12]; 3]]);
+        let svg = figure.svg().unwrap();
+        let png = png(&svg, 1.5).unwrap();
+        (svg, png)
+    };
+    let first = render();
+    let threads: Vec<_> = (0..4).map(|_| std::thread::spawn(render)).collect();
+    assert!(threads.into_iter().all(|thread| thread.join().unwrap() == first));
+}
+
+#[test]
+fn a_usual_figure_is_half_a_page_wide() {
+    let drawing = line(vec![vec![(0.0, Some(20.0)), (60.0, Some(40.0))]]).draw().unwrap();
+    assert!((474.0..=486.0).contains(&drawing.width_px), "{}", drawing.width_px);
+    assert!((280.0..=340.0).contains(&drawing.height_px), "{}", drawing.height_px);
+}
+
+#[test]
+fn series_must_fit_their_groups() {
+    let Figure::Bar(mut chart) = bars(vec![vec![Some(1.0), None]], true) else { unreachable!() };
+    chart.groups.pop();
+    let error = Figure::Bar(chart).svg().unwrap_err();
+    assert!(matches!(error, PlotError::Groups { found: 2, expected: 1, .. }), "{error}");
+}
+
+#[test]
+fn data_are_tidy() {
+    let csv = line(vec![vec![(1.0, Some(f64::INFINITY)), (2.5, None), (3.0, Some(1e-7))]]).csv();
+    assert_eq!(csv, "series,x,y\nRMFR,1.0,inf\nRMFR,2.5,\nRMFR,3.0,1e-7\n");
+    let csv = bars(vec![vec![Some(1.0), Some(-f64::INFINITY)]; 2], true).csv();
+    let quoted = "\"A & B <x> \"\"quoted\"\" 'too'\"";
+    assert!(!quoted.contains(','));
+    let rows: Vec<&str> = csv.lines().collect();
+    assert_eq!(rows[..2], ["group,series,value", "RMFR,RMFR,1.0"]);
+    assert_eq!(rows[4], format!("{quoted},{quoted},-inf"));
+    let csv = spread(vec![vec![vec![1.0, f64::NAN]]]).csv();
+    assert_eq!(csv, "group,series,value\nRMFR,RMFR,1.0\nRMFR,RMFR,\n");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+    #[test]
+    fn no_value_breaks_a_figure(values in prop::collection::vec(any::<f64>(), 0..40), series in 1..5usize) {
+        let points: Vec<_> = values.chunks(2).map(|v| (v[0], v.get(1).copied())).collect();
+        check(&line(vec![points; series]));
+        let options: Vec<_> = values.iter().map(|v| Some(*v)).collect();
+        check(&bars(vec![options.clone(); series], false));
+        check(&bars(vec![options; series], true));
+        check(&spread(vec![values.chunks(12).map(<[f64]>::to_vec).collect(); series]));
+    }
+}

@@ -1,0 +1,39 @@
+//! Infinite values, as the PSNR of equal images is one: they stand at the border of the plot area
+//! with an "∞" beyond it, in a strip that is kept free for that.
+
+use crate::drawing::{Drawing, Rect};
+use crate::scale::Place;
+use crate::text::{VALUE_PX, width_px};
+use crate::value_label::{Setting, Side};
+
+/// Height of the strip: half a marker and the label.
+pub(crate) const STRIP_PX: f64 = 18.0;
+/// From the border to the edge of a marker on it.
+const MARKER_PX: f64 = 2.0;
+
+/// Heights of the strips that places need above and below the plot area.
+pub(crate) fn strips_px(places: impl Iterator<Item = Place>) -> (f64, f64) {
+    places.fold((0.0, 0.0), |(above, below), place| match place {
+        Place::At(_) => (above, below),
+        Place::Above => (STRIP_PX, below),
+        Place::Below => (above, STRIP_PX),
+    })
+}
+
+/// Writes "∞" above or "−∞" below the plot area at each of some places along it, but for those too
+/// close to the one before.
+pub(crate) fn draw_labels(drawing: &mut Drawing, plot: Rect, mut xs: Vec<f64>, side: Side) {
+    let (label, y) = match side {
+        Side::Above => ("∞", plot.top - MARKER_PX),
+        Side::Below => ("−∞", plot.bottom + MARKER_PX),
+    };
+    let apart_px = width_px(label, VALUE_PX) + 1.0;
+    xs.sort_by(f64::total_cmp);
+    let mut last = f64::NEG_INFINITY;
+    for x in xs {
+        if x - last >= apart_px {
+            Setting::Level.draw(drawing, label, (x, y), side);
+            last = x;
+        }
+    }
+}

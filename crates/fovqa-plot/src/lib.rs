@@ -1,0 +1,64 @@
+//! Series to figures as SVG, and PNG from the SVG: curves, bars and distributions, made for half
+//! a page of a paper.
+//!
+//! A figure is plain data ([`LineChart`], [`BarChart`], [`SpreadChart`]); nothing here knows what
+//! was measured. The same figure gives the same bytes on every machine and thread: text is measured
+//! and set in a bundled font, and no place depends on a function that differs between platforms.
+//!
+//! ```
+//! use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look, png};
+//!
+//! let figure = Figure::Line(LineChart {
+//!     x: Axis::new("Eccentricity (°)"),
+//!     y: Axis::new("PSNR (dB)"),
+//!     series: vec![LineSeries {
+//!         name: "RMFR".to_owned(),
+//!         look: Look::new(0),
+//!         points: vec![(2.5, Some(38.2)), (7.5, Some(33.9)), (12.5, None)],
+//!         ..LineSeries::default()
+//!     }],
+//!     ..LineChart::default()
+//! });
+//! let svg = figure.svg()?;
+//! assert!(svg.contains("Eccentricity (°)"));
+//! assert!(figure.csv().ends_with("RMFR,12.5,\n"));
+//! assert!(png(&svg, 2.0)?.starts_with(b"\x89PNG"));
+//! # Ok::<(), fovqa_plot::PlotError>(())
+//! ```
+
+mod axis;
+mod bar;
+mod box_summary;
+mod drawing;
+mod error;
+mod figure;
+mod group_axis;
+mod infinity;
+mod layout;
+mod left_out;
+mod legend;
+mod line;
+mod look;
+mod marker;
+mod number;
+mod png;
+mod position_axis;
+mod scale;
+mod spread;
+mod svg;
+mod swatch;
+mod text;
+mod ticks;
+mod tidy;
+mod value_axis;
+mod value_label;
+mod wrap;
+
+pub use axis::Axis;
+pub use bar::{BarChart, BarSeries};
+pub use error::PlotError;
+pub use figure::Figure;
+pub use line::{LineChart, LineSeries};
+pub use look::Look;
+pub use png::png;
+pub use spread::{SpreadChart, SpreadSeries};

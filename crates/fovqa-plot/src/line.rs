@@ -1,0 +1,186 @@
+//! Curves over a horizontal axis: a measure against eccentricity, frame or parameter.
+
+use std::collections::BTreeMap;
+
+use crate::axis::Axis;
+use crate::drawing::{Drawing, Point, Rect, Stroke};
+use crate::infinity;
+use crate::layout::{self, MARGIN_PX, Sides, WIDTH_PX};
+use crate::legend::{CURVE_PX, Key, REFERENCE_PX};
+use crate::look::{Look, REFERENCE};
+use crate::marker;
+use crate::position_axis::PositionAxis;
+use crate::scale::{Place, Scale};
+use crate::value_axis::ValueAxis;
+use crate::value_label::Side;
+
+/// Air above and below the data, as a share of its range.
+const AIR: f64 = 0.06;
+/// Air beside the data where no ticks are given.
+const SIDE_AIR: f64 = 0.02;
+/// Markers stand at least so far apart along a curve: of dense points only some have one.
+const MARKER_PITCH_PX: f64 = 12.0;
+/// From the marker of an infinite value to the next of another series at the same place.
+const BESIDE_PX: f64 = 9.0;
+
+/// Curves, each through points of rising `x`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LineChart {
+    /// What stands above it all.
+    pub title: Option<String>,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis. It begins where the data does: the slope and distance of curves are read,
+    /// not their height.
+    pub y: Axis,
+    /// The curves, the first farthest behind.
+    pub series: Vec<LineSeries>,
+    /// Where the horizontal axis has its ticks, such as at the edges of bands; round numbers
+    /// without.
+    pub x_ticks: Option<Vec<f64>>,
+}
+
+/// One curve.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LineSeries {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its look.
+    pub look: Look,
+    /// A curve that others are held against: gray, dashed and without markers.
+    pub reference: bool,
+    /// Points in the order of the curve. `None` and NaN leave a gap; an infinite value stands at
+    /// the border with an "∞" beyond it, unconnected. Points at no finite `x` are not drawn.
+    pub points: Vec<(f64, Option<f64>)>,
+}
+
+impl LineSeries {
+    fn key(&self) -> Key {
+        if self.reference { Key::Reference(self.look) } else { Key::Curve(self.look) }
+    }
+
+    fn places(&self) -> impl Iterator<Item = (f64, Option<Place>)> {
+        let at = |&(x, y): &(f64, Option<f64>)| Some((finite(x)?, y.and_then(Place::of)));
+        self.points.iter().filter_map(at)
+    }
+
+    fn stroke(&self) -> Stroke {
+        if self.reference {
+            Stroke { colour: REFERENCE, width_px: REFERENCE_PX }
+        } else {
+            Stroke { colour: self.look.colour(), width_px: CURVE_PX }
+        }
+    }
+}
+
+impl LineChart {
+    pub(crate) fn draw(&self) -> Drawing {
+        let places = || self.series.iter().flat_map(LineSeries::places);
+        let drawn = || places().filter_map(|(x, place)| Some((x, place?)));
+        let y_scale = Scale::holding(drawn().filter_map(|(_, place)| place.finite()));
+        let y = ValueAxis::new(&self.y, y_scale.map(|scale| scale.with_air(AIR, AIR)));
+        let left = y.left_px();
+        let x = PositionAxis::new(&self.x, self.x_scale(), self.x_ticks(), WIDTH_PX - left);
+        let (above, below) = infinity::strips_px(drawn().map(|(_, place)| place));
+        let sides = Sides {
+            left: left.max(x.left_px()),
+            right: x.right_px(),
+            above: above.max(MARGIN_PX),
+            below: below + x.below_px(),
+        };
+        let keys: Vec<_> = self.series.iter().map(|s| (s.name.as_str(), s.key())).collect();
+        let (mut drawing, plot) =
+            layout::begin(self.title.as_deref(), &keys, sides, x.plot_width_px());
+
+        y.draw_grid(&mut drawing, plot);
+        y.draw(&mut drawing, plot);
+        x.draw(&mut drawing, plot, below);
+        if drawn().next().is_none() {
+            layout::say_no_data(&mut drawing, plot);
+        }
+        let at = |px: f64, place: Option<Place>| {
+            let value = place.and_then(Place::finite)?;
+            Some((x.x(plot, px), y.y(plot, value)))
+        };
+        for series in &self.series {
+            let points: Vec<_> = series.places().map(|(x, place)| at(x, place)).collect();
+            draw_curve(&mut drawing, series, &points);
+        }
+        self.draw_infinite(&mut drawing, plot, &x);
+        drawing
+    }
+
+    /// Given ticks that can be drawn.
+    fn x_ticks(&self) -> Option<&[f64]> {
+        let ticks = self.x_ticks.as_deref()?;
+        ticks.iter().all(|x| finite(*x) == Some(*x)).then_some(ticks)
+    }
+
+    fn x_scale(&self) -> Option<Scale> {
+        let data = self.series.iter().flat_map(LineSeries::places).map(|(x, _)| x);
+        let ticks = self.x_ticks().unwrap_or_default();
+        let scale = Scale::holding(data.chain(ticks.iter().copied()))?;
+        let air = if ticks.is_empty() { SIDE_AIR } else { 0.0 };
+        Some(scale.with_air(air, air))
+    }
+
+    /// Markers of infinite values on the border, side by side where several series have one.
+    fn draw_infinite(&self, drawing: &mut Drawing, plot: Rect, x: &PositionAxis) {
+        for (beyond, side) in [(Place::Above, Side::Above), (Place::Below, Side::Below)] {
+            // By position in tenths of a pixel, from left to right.
+            let mut groups: BTreeMap<i64, Vec<&LineSeries>> = BTreeMap::new();
+            for series in &self.series {
+                for (at, place) in series.places() {
+                    if place == Some(beyond) {
+                        let tenths = (x.x(plot, at) * 10.0).round() as i64;
+                        groups.entry(tenths).or_default().push(series);
+                    }
+                }
+            }
+            let border = if side == Side::Above { plot.top } else { plot.bottom };
+            for (tenths, series) in &groups {
+                let width = BESIDE_PX * (series.len() - 1) as f64;
+                let most = (plot.right - width).max(plot.left);
+                let left = (*tenths as f64 / 10.0 - width / 2.0).clamp(plot.left, most);
+                for (i, series) in series.iter().enumerate() {
+                    let at = (left + i as f64 * BESIDE_PX, border);
+                    let colour = series.stroke().colour;
+                    marker::draw(drawing, at, series.look.marker(), marker::RADIUS_PX, colour);
+                }
+            }
+            let xs = groups.keys().map(|tenths| *tenths as f64 / 10.0).collect();
+            infinity::draw_labels(drawing, plot, xs, side);
+        }
+    }
+}
+
+fn finite(x: f64) -> Option<f64> {
+    Place::of(x).and_then(Place::finite)
+}
+
+/// The lines of a curve between its gaps, then its markers. A point between two gaps has a marker
+/// in any case, or it would not be seen.
+fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point>]) {
+    let stroke = series.stroke();
+    let dash =
+        if series.reference { series.look.reference_dash_px() } else { series.look.dash_px() };
+    let runs: Vec<Vec<Point>> = points
+        .split(Option::is_none)
+        .map(|run| run.iter().copied().flatten().collect())
+        .filter(|run: &Vec<Point>| !run.is_empty())
+        .collect();
+    for run in runs.iter().filter(|run| run.len() > 1) {
+        drawing.dashed(run, stroke, &dash);
+    }
+    let mut last: Option<Point> = None;
+    for run in &runs {
+        for &at in run {
+            let near = |(x, y): Point| (at.0 - x).hypot(at.1 - y) < MARKER_PITCH_PX;
+            let alone = run.len() == 1;
+            if alone || (!series.reference && !last.is_some_and(near)) {
+                marker::draw(drawing, at, series.look.marker(), marker::RADIUS_PX, stroke.colour);
+                last = Some(at);
+            }
+        }
+    }
+}

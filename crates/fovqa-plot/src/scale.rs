@@ -1,0 +1,114 @@
+//! From values to a share of an axis: which values can be drawn, and the range that holds them.
+
+/// Beyond it a value is drawn as infinite: a range between such values is no finite number.
+const LARGEST: f64 = 1e300;
+
+/// Below it a value is drawn as 0: a part of such a range has lost its digits.
+const SMALLEST: f64 = 1e-280;
+
+/// Values that differ by less than this share of their size are drawn as equal: f64 has no round
+/// numbers to write between them.
+const EQUAL: f64 = 1e-9;
+
+/// A value as it can be drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Place {
+    /// On the axis.
+    At(f64),
+    /// Beyond its upper end.
+    Above,
+    /// Beyond its lower end.
+    Below,
+}
+
+impl Place {
+    /// Where a value is drawn; what is no number, nowhere.
+    pub(crate) fn of(value: f64) -> Option<Self> {
+        match value {
+            v if v.is_nan() => None,
+            v if v > LARGEST => Some(Self::Above),
+            v if v < -LARGEST => Some(Self::Below),
+            v if v.abs() < SMALLEST => Some(Self::At(0.0)),
+            v => Some(Self::At(v)),
+        }
+    }
+
+    /// The value, when it is on the axis.
+    pub(crate) fn finite(self) -> Option<f64> {
+        match self {
+            Self::At(value) => Some(value),
+            Self::Above | Self::Below => None,
+        }
+    }
+}
+
+/// The values at the two ends of an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Scale {
+    /// At the lower or left end.
+    pub(crate) low: f64,
+    /// At the upper or right end, above `low`.
+    pub(crate) high: f64,
+}
+
+impl Scale {
+    /// A range that holds the values, which [`Place`] has let pass; none without values. Around
+    /// equal ones it leaves room to both sides.
+    pub(crate) fn holding(values: impl Iterator<Item = f64>) -> Option<Self> {
+        let (low, high) = values
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (v.min(low), v.max(high)));
+        if low > high {
+            return None;
+        }
+        let size = low.abs().max(high.abs());
+        if high - low > size * EQUAL {
+            return Some(Self { low, high });
+        }
+        let room = if size > 0.0 { size * 0.1 } else { 1.0 };
+        Some(Self { low: low - room, high: high + room })
+    }
+
+    /// Longer by shares of its length at the lower and upper end.
+    pub(crate) fn with_air(self, below: f64, above: f64) -> Self {
+        let length = self.high - self.low;
+        Self { low: self.low - below * length, high: self.high + above * length }
+    }
+
+    /// The share of the axis below a value: 0 at `low`, 1 at `high`.
+    pub(crate) fn share(self, value: f64) -> f64 {
+        (value - self.low) / (self.high - self.low)
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn holds_what_can_be_drawn() {
+        let scale = Scale::holding([3.0, -1.0].into_iter()).unwrap();
+        assert_eq!((scale.low, scale.high), (-1.0, 3.0));
+        assert_eq!([scale.share(-1.0), scale.share(1.0), scale.share(3.0)], [0.0, 0.5, 1.0]);
+        let airy = scale.with_air(0.25, 0.5);
+        assert_eq!((airy.low, airy.high), (-2.0, 5.0));
+        assert!(Scale::holding(std::iter::empty()).is_none());
+    }
+
+    #[test]
+    fn equal_values_stand_in_the_middle() {
+        for value in [30.0, 0.0, -2e-9, 1e300, 1e-280] {
+            let scale = Scale::holding([value, value].into_iter()).unwrap();
+            assert!((scale.share(value) - 0.5).abs() < 1e-6, "{value}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_drawn() {
+        assert_eq!(Place::of(f64::NAN), None);
+        assert_eq!(Place::of(f64::INFINITY), Some(Place::Above));
+        assert_eq!(Place::of(f64::MIN), Some(Place::Below));
+        assert_eq!(Place::of(5e-324), Some(Place::At(0.0)));
+        assert_eq!(Place::of(7.0).and_then(Place::finite), Some(7.0));
+    }
+}

@@ -1,0 +1,62 @@
+//! The data of a figure as CSV, tidy: a row for each value. RFC 4180 but for the line ends, which
+//! are LF alone.
+
+use crate::bar::BarChart;
+use crate::line::LineChart;
+use crate::spread::SpreadChart;
+
+/// A number so that it reads back as the same, and as a float: "1.0".
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
+/// A value, or nothing where there is none.
+fn optional(value: Option<f64>) -> String {
+    value.filter(|value| !value.is_nan()).map(number).unwrap_or_default()
+}
+
+/// A name, in quotes where it needs them.
+fn name(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+fn row(csv: &mut String, fields: &[String; 3]) {
+    csv.push_str(&fields.join(","));
+    csv.push('\n');
+}
+
+pub(crate) fn line(chart: &LineChart) -> String {
+    let mut csv = "series,x,y\n".to_owned();
+    for series in &chart.series {
+        for (x, y) in &series.points {
+            row(&mut csv, &[name(&series.name), optional(Some(*x)), optional(*y)]);
+        }
+    }
+    csv
+}
+
+pub(crate) fn bar(chart: &BarChart) -> String {
+    let mut csv = "group,series,value\n".to_owned();
+    for series in &chart.series {
+        for (group, value) in chart.groups.iter().zip(&series.values) {
+            row(&mut csv, &[name(group), name(&series.name), optional(*value)]);
+        }
+    }
+    csv
+}
+
+pub(crate) fn spread(chart: &SpreadChart) -> String {
+    let mut csv = "group,series,value\n".to_owned();
+    for series in &chart.series {
+        for (group, values) in chart.groups.iter().zip(&series.values) {
+            for value in values {
+                row(&mut csv, &[name(group), name(&series.name), optional(Some(*value))]);
+            }
+        }
+    }
+    csv
+}

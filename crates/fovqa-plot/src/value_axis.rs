@@ -1,0 +1,76 @@
+//! The vertical axis: values, their ticks at the left and the grid.
+
+use crate::axis::{AXIS_STROKE, Axis, GRID_STROKE, LABEL_GAP_PX, TICK_LENGTH_PX, TITLE_GAP_PX};
+use crate::drawing::{Anchor, Drawing, Rect, Text};
+use crate::layout::{MARGIN_PX, PLOT_HEIGHT_PX, TITLE_LINES};
+use crate::scale::Scale;
+use crate::text::{CAPITAL, LINE_PITCH, TICK_PX, TITLE_PX, width_px};
+use crate::ticks::{Tick, round_ticks};
+use crate::wrap::wrap;
+
+/// The least distance from a tick to the next.
+const PITCH_PX: f64 = 30.0;
+
+/// A vertical axis with its range.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ValueAxis {
+    scale: Scale,
+    ticks: Vec<Tick>,
+    title: Vec<String>,
+}
+
+impl ValueAxis {
+    /// An axis of a range; without one it has a title alone.
+    pub(crate) fn new(axis: &Axis, scale: Option<Scale>) -> Self {
+        let title = wrap(&axis.title, TITLE_PX, PLOT_HEIGHT_PX, TITLE_LINES);
+        let Some(scale) = scale else {
+            return Self { scale: Scale { low: 0.0, high: 1.0 }, ticks: Vec::new(), title };
+        };
+        let apart = |ticks: &[Tick]| {
+            let step = scale.share(ticks[1].value) - scale.share(ticks[0].value);
+            step * PLOT_HEIGHT_PX >= PITCH_PX
+        };
+        Self { scale, ticks: round_ticks(scale.low, scale.high, apart), title }
+    }
+
+    /// Space at the left of the plot area, the picture's margin included.
+    pub(crate) fn left_px(&self) -> f64 {
+        let labels =
+            self.ticks.iter().map(|tick| width_px(&tick.label, TICK_PX)).fold(0.0, f64::max);
+        let title = match self.title.len() {
+            0 => 0.0,
+            lines => lines as f64 * TITLE_PX * LINE_PITCH + TITLE_GAP_PX,
+        };
+        (MARGIN_PX + title + labels + LABEL_GAP_PX + TICK_LENGTH_PX).ceil()
+    }
+
+    /// Where a value stands in a plot area.
+    pub(crate) fn y(&self, plot: Rect, value: f64) -> f64 {
+        plot.bottom - self.scale.share(value).clamp(0.0, 1.0) * plot.height()
+    }
+
+    /// Draws the level lines of the grid, which belong behind the data.
+    pub(crate) fn draw_grid(&self, drawing: &mut Drawing, plot: Rect) {
+        for tick in &self.ticks {
+            let y = self.y(plot, tick.value);
+            drawing.line(&[(plot.left, y), (plot.right, y)], GRID_STROKE);
+        }
+    }
+
+    /// Draws line, ticks, labels and title.
+    pub(crate) fn draw(&self, drawing: &mut Drawing, plot: Rect) {
+        drawing.line(&[(plot.left, plot.top), (plot.left, plot.bottom)], AXIS_STROKE);
+        for tick in &self.ticks {
+            let y = self.y(plot, tick.value);
+            let x = plot.left - TICK_LENGTH_PX;
+            drawing.line(&[(x, y), (plot.left, y)], AXIS_STROKE);
+            let at = (x - LABEL_GAP_PX, y + CAPITAL * TICK_PX / 2.0);
+            drawing.text(Text::new(&tick.label, at, TICK_PX, Anchor::End));
+        }
+        for (i, line) in self.title.iter().enumerate() {
+            let baseline = MARGIN_PX + TITLE_PX * (1.0 + i as f64 * LINE_PITCH);
+            let at = (baseline, plot.centre().1);
+            drawing.text(Text::new(line, at, TITLE_PX, Anchor::Middle).upwards());
+        }
+    }
+}
