@@ -37,8 +37,8 @@ fn metrics() -> String {
         for param in info.params {
             let _ = writeln!(
                 text,
-                "      --set {}.{}={}  {}",
-                info.key, param.name, param.default, param.about
+                "      --set {}.{}={}  {}; {}",
+                info.key, param.name, param.default, param.about, param.values
             );
         }
         text.push('\n');

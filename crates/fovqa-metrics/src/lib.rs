@@ -14,4 +14,4 @@ pub use fidelity::ssim;
 pub use fidelity::{BandScores, PairScores, ScoreError, Scorer, psnr_db};
 pub use params::{ParamError, ParamValue, Params};
 pub use regions::Regions;
-pub use registry::{Better, Metric, MetricInfo, ParamInfo};
+pub use registry::{Better, Metric, MetricInfo, ParamInfo, ParamValues};

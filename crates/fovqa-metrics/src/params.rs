@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::fidelity::{fpsnr, ssim};
-use crate::registry::Metric;
+use crate::registry::{Metric, ParamValues};
 
 /// A value as a user writes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,16 +74,21 @@ impl Params {
             };
             return Err(ParamError::Unknown { metric: info.key, param: param.to_owned(), known });
         };
-        let accepted = match metric {
+        // Words may be written with `-` for `_`, as all names may.
+        let value = match value {
+            ParamValue::Text(text) => &ParamValue::Text(text.replace('-', "_")),
+            value => value,
+        };
+        let set = known.values.accept(value).then(|| match metric {
             Metric::Ssim => self.ssim.set(known.name, value),
             Metric::Fpsnr => self.fpsnr.set(known.name, value),
             Metric::Mse | Metric::Psnr | Metric::MsSsim | Metric::Fssim => None,
-        };
-        accepted.ok_or_else(|| ParamError::Value {
+        });
+        set.flatten().ok_or_else(|| ParamError::Value {
             metric: info.key,
             param: known.name,
             value: value.in_words(),
-            expected: known.about.to_owned(),
+            expected: format!("{}; {}", known.about, known.values),
         })
     }
 
@@ -101,6 +106,22 @@ impl Params {
     }
 }
 
+impl ParamValues {
+    /// Whether a value is one of these.
+    pub fn accept(&self, value: &ParamValue) -> bool {
+        match (self, value) {
+            (Self::Number(min, max), ParamValue::Number(n)) => (*min..=*max).contains(n),
+            (Self::WholeOrAuto(min, max), ParamValue::Number(n)) => {
+                n.fract() == 0.0 && (f64::from(*min)..=f64::from(*max)).contains(n)
+            }
+            (Self::WholeOrAuto(..), ParamValue::Text(text)) => text == "auto",
+            (Self::Word(words), ParamValue::Text(text)) => words.contains(&text.as_str()),
+            (Self::Numbers, ParamValue::List(list)) => list.iter().all(|n| n.is_finite()),
+            _ => false,
+        }
+    }
+}
+
 impl ParamValue {
     fn in_words(&self) -> String {
         match self {
@@ -110,10 +131,10 @@ impl ParamValue {
         }
     }
 
-    /// The number, if it is a finite one inside a range.
-    pub(crate) fn number_in(&self, range: impl std::ops::RangeBounds<f64>) -> Option<f64> {
+    /// The number.
+    pub(crate) fn number(&self) -> Option<f64> {
         match self {
-            ParamValue::Number(n) if n.is_finite() && range.contains(n) => Some(*n),
+            ParamValue::Number(number) => Some(*number),
             _ => None,
         }
     }

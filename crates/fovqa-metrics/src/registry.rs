@@ -1,5 +1,7 @@
 //! What there is to measure.
 
+use crate::fidelity::ssim;
+
 /// A metric.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Metric {
@@ -27,18 +29,44 @@ pub enum Better {
 }
 
 /// A parameter of a metric.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParamInfo {
     /// Its name in `--set METRIC.NAME=VALUE`.
     pub name: &'static str,
-    /// Its default.
+    /// Its default, as TOML.
     pub default: &'static str,
-    /// What it is, with unit and range.
+    /// What it may be.
+    pub values: ParamValues,
+    /// What it is, with its unit.
     pub about: &'static str,
 }
 
+/// What a parameter may be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ParamValues {
+    /// A number from the first to the second.
+    Number(f64, f64),
+    /// A whole number from the first to the second, or `auto`.
+    WholeOrAuto(u32, u32),
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// A list of finite numbers.
+    Numbers,
+}
+
+impl std::fmt::Display for ParamValues {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Number(min, max) => write!(f, "{min} to {max}"),
+            Self::WholeOrAuto(min, max) => write!(f, "a whole number from {min} to {max}, or auto"),
+            Self::Word(words) => f.write_str(&words.join(" or ")),
+            Self::Numbers => f.write_str("a list of numbers"),
+        }
+    }
+}
+
 /// What there is to say about a metric.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MetricInfo {
     /// Its name in results and, with `-` for `_` if one likes, on the command line.
     pub key: &'static str,
@@ -134,15 +162,27 @@ const SSIM: MetricInfo = MetricInfo {
         ParamInfo {
             name: "sigma",
             default: "1.5",
-            about: "Gaussian window, px, 0.1 to 64 (MS-SSIM and FSSIM too)",
+            values: ParamValues::Number(ssim::MIN_SIGMA, ssim::MAX_SIGMA),
+            about: "Gaussian window, px (MS-SSIM and FSSIM too)",
         },
         ParamInfo {
             name: "radius",
-            default: "auto",
-            about: "window radius, px, 1 to 224; auto is 3.5 sigma, rounded (5)",
+            default: "\"auto\"",
+            values: ParamValues::WholeOrAuto(1, ssim::MAX_RADIUS),
+            about: "window radius, px; auto is 3.5 sigma, rounded (5)",
         },
-        ParamInfo { name: "k1", default: "0.01", about: "stabiliser of the means, 0.001 to 1" },
-        ParamInfo { name: "k2", default: "0.03", about: "stabiliser of the variances, 0.01 to 1" },
+        ParamInfo {
+            name: "k1",
+            default: "0.01",
+            values: ParamValues::Number(ssim::MIN_K1, 1.0),
+            about: "stabiliser of the means",
+        },
+        ParamInfo {
+            name: "k2",
+            default: "0.03",
+            values: ParamValues::Number(ssim::MIN_K2, 1.0),
+            about: "stabiliser of the variances",
+        },
     ],
 };
 
@@ -171,43 +211,56 @@ const FPSNR: MetricInfo = MetricInfo {
         ParamInfo {
             name: "weight",
             default: "\"lee2002\"",
-            about: "lee2002 or acuity (FSSIM too)",
+            values: ParamValues::Word(&["lee2002", "acuity"]),
+            about: "the curve (FSSIM too)",
         },
         ParamInfo {
             name: "alpha",
             default: "0.106",
-            about: "lee2002: decay of contrast sensitivity, 0.001 to 10",
+            values: ParamValues::Number(1e-3, 10.0),
+            about: "lee2002: decay of contrast sensitivity",
         },
         ParamInfo {
             name: "e2_deg",
             default: "2.3",
-            about: "lee2002: half-resolution eccentricity, °, 0.01 to 180",
+            values: ParamValues::Number(0.01, 180.0),
+            about: "lee2002: half-resolution eccentricity, °",
         },
         ParamInfo {
             name: "ct0",
             default: "0.015625",
-            about: "lee2002: smallest contrast threshold, 1e-6 to 0.99",
+            values: ParamValues::Number(1e-6, 0.99),
+            about: "lee2002: smallest contrast threshold",
         },
         ParamInfo {
             name: "acuity",
             default: "\"piecewise\"",
-            about: "acuity: piecewise or linear_mar",
+            values: ParamValues::Word(&["piecewise", "linear_mar"]),
+            about: "acuity: the model",
         },
         ParamInfo {
             name: "knots_deg",
             default: "[0, 10, 20, 30, 60]",
+            values: ParamValues::Numbers,
             about: "piecewise: eccentricities, °, rising from 0",
         },
         ParamInfo {
             name: "knots_cpd",
             default: "[40, 10, 6, 5, 4]",
+            values: ParamValues::Numbers,
             about: "piecewise: acuity there, cpd, 0.01 to 1000",
         },
-        ParamInfo { name: "m", default: "0.0275", about: "linear_mar: slope, ° per °, 0 to 10" },
+        ParamInfo {
+            name: "m",
+            default: "0.0275",
+            values: ParamValues::Number(0.0, 10.0),
+            about: "linear_mar: slope, ° per °",
+        },
         ParamInfo {
             name: "omega0_deg",
             default: "0.020833333333333332",
-            about: "linear_mar: one cycle at the fovea, °, 0.0001 to 10",
+            values: ParamValues::Number(1e-4, 10.0),
+            about: "linear_mar: one cycle at the fovea, °",
         },
     ],
 };

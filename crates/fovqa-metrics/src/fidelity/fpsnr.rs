@@ -66,6 +66,7 @@ impl Default for Params {
 }
 
 impl Params {
+    /// Sets what the registry has found to be one of its values.
     pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
             "weight" => {
@@ -75,20 +76,20 @@ impl Params {
                     _ => return None,
                 }
             }
-            "alpha" => self.lee2002.alpha = value.number_in(1e-3..=10.0)?,
-            "e2_deg" => self.lee2002.e2_deg = value.number_in(0.01..=180.0)?,
-            "ct0" => self.lee2002.ct0 = value.number_in(1e-6..=0.99)?,
+            "alpha" => self.lee2002.alpha = value.number()?,
+            "e2_deg" => self.lee2002.e2_deg = value.number()?,
+            "ct0" => self.lee2002.ct0 = value.number()?,
             "acuity" => {
                 self.acuity = match value.text()? {
                     "piecewise" => AcuityModel::Piecewise,
-                    "linear_mar" | "linear-mar" => AcuityModel::LinearMar,
+                    "linear_mar" => AcuityModel::LinearMar,
                     _ => return None,
                 }
             }
             "knots_deg" => self.knots_deg = value.list()?,
             "knots_cpd" => self.knots_cpd = value.list()?,
-            "m" => self.linear_mar.m = value.number_in(0.0..=10.0)?,
-            "omega0_deg" => self.linear_mar.omega0_deg = value.number_in(1e-4..=10.0)?,
+            "m" => self.linear_mar.m = value.number()?,
+            "omega0_deg" => self.linear_mar.omega0_deg = value.number()?,
             _ => return None,
         }
         Some(())

@@ -36,32 +36,32 @@ impl Default for Params {
 }
 
 /// Smallest K1: the means it stabilises lose nothing.
-const MIN_K1: f64 = 1e-3;
+pub(crate) const MIN_K1: f64 = 1e-3;
 
 /// Smallest K2: C2 = 1e-4 of peak² stays a thousand times above the 6e-8 that a variance of 32-bit
 /// squares loses.
-const MIN_K2: f64 = 1e-2;
+pub(crate) const MIN_K2: f64 = 1e-2;
 
 /// Largest radius of the window.
-const MAX_RADIUS: usize = 224;
+pub(crate) const MAX_RADIUS: u32 = 224;
 
 /// Largest standard deviation: its window of 3.5 sigma still has a radius of `MAX_RADIUS`.
-const MAX_SIGMA: f64 = 64.0;
+pub(crate) const MAX_SIGMA: f64 = 64.0;
 
 /// Smallest standard deviation: below, the window is one pixel.
-const MIN_SIGMA: f64 = 0.1;
+pub(crate) const MIN_SIGMA: f64 = 0.1;
 
 impl Params {
+    /// Sets what the registry has found to be one of its values.
     pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
-            "sigma" => self.sigma = value.number_in(MIN_SIGMA..=MAX_SIGMA)?,
+            "sigma" => self.sigma = value.number()?,
             "radius" if value.text() == Some("auto") => self.radius = None,
             "radius" => {
-                let radius = value.number_in(1.0..=MAX_RADIUS as f64)?;
-                self.radius = Some((radius.fract() == 0.0).then_some(radius as usize)?);
+                self.radius = Some(value.number()? as usize);
             }
-            "k1" => self.k1 = value.number_in(MIN_K1..=1.0)?,
-            "k2" => self.k2 = value.number_in(MIN_K2..=1.0)?,
+            "k1" => self.k1 = value.number()?,
+            "k2" => self.k2 = value.number()?,
             _ => return None,
         }
         Some(())
@@ -70,7 +70,7 @@ impl Params {
     /// Radius of the window in pixels.
     pub fn window_radius(&self) -> usize {
         let auto = (3.5 * self.sigma + 0.5) as usize;
-        self.radius.unwrap_or(auto.clamp(1, MAX_RADIUS))
+        self.radius.unwrap_or(auto.clamp(1, MAX_RADIUS as usize))
     }
 
     /// Pixels of the window along a side: the smallest image it fits into.

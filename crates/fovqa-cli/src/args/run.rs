@@ -1,0 +1,53 @@
+//! `fovqa run`, `fovqa check`, `fovqa report`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use fovqa_io::sequence::FrameRange;
+
+pub(crate) const EXAMPLES: &str = "\
+The experiment file names scenes, methods and metrics; docs/experiments.md shows every key, and
+`fovqa schema` prints its JSON Schema. The smallest one:
+
+  name = \"first\"
+  [view]
+  fov_vertical_deg = 100
+  [[scene]]
+  name = \"bistro\"
+  reference = \"renders/bistro/gt.%04d.exr\"
+  [[method]]
+  name = \"RMFR\"
+  test = \"renders/{scene}/rmfr.%04d.exr\"
+
+Results: results.csv (every value), summary.json, run.json, table.md, plots/, index.html.
+
+Exit codes: 0 done; 2 the experiment file is wrong; 3 an input is missing, unreadable or does not
+fit, or the output cannot be written (what fits is scored all the same); 70 a bug in fovqa; 130
+interrupted.";
+
+#[derive(Debug, Args)]
+pub(crate) struct RunArgs {
+    /// The experiment file
+    pub(crate) experiment: PathBuf,
+    /// Folder for the results [default: reports/NAME, NAME being the experiment's]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// Only these of each scene's frames, from A up to, but without, B
+    #[arg(long, value_name = "A..B:STEP")]
+    pub(crate) frames: Option<FrameRange>,
+    /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(crate) threads: Option<u16>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    /// The experiment file
+    pub(crate) experiment: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReportArgs {
+    /// Folder with the results of a run
+    pub(crate) results: PathBuf,
+}

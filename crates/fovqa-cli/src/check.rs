@@ -1,0 +1,128 @@
+//! `fovqa check`: the plan and the frames found, without reading a pixel.
+
+use std::fmt::Write as _;
+
+use fovqa_config::{Experiment, EyeView, Gaze, MetricChoice};
+use fovqa_engine::{EngineError, Found, FoundFrame, FoundView};
+use fovqa_io::frame_size;
+use fovqa_metrics::Metric;
+
+use crate::args::CheckArgs;
+use crate::diagnostic;
+use crate::dialect::Dialect;
+use crate::exit::Exit;
+use crate::{experiment, output};
+
+pub(crate) fn run(args: &CheckArgs) -> Exit {
+    let experiment = match experiment::read(&args.experiment) {
+        Ok(experiment) => experiment,
+        Err(exit) => return exit,
+    };
+    let found = fovqa_engine::find(&experiment.plan);
+    let printed = output::write(|out| out.write_all(plan(&experiment, &found).as_bytes()));
+    crate::run::say_problems(&experiment, &found);
+    let masks = masks(&experiment);
+    if found.problems.is_empty() && masks { printed } else { Exit::Input }
+}
+
+/// Whether every mask is there and can be read.
+fn masks(experiment: &Experiment) -> bool {
+    let eyes = experiment.plan.scenes.iter().flat_map(|scene| &scene.eyes);
+    let masks = eyes.filter_map(|eye| eye.settings.mask.as_deref());
+    let unreadable: Vec<EngineError> =
+        masks.filter_map(|mask| frame_size(mask).err()).map(EngineError::Mask).collect();
+    for error in &unreadable {
+        diagnostic::error(&error.to_string(), &Dialect::Experiment.spell(&error.help()));
+    }
+    unreadable.is_empty()
+}
+
+fn plan(experiment: &Experiment, found: &Found) -> String {
+    let mut text = String::new();
+    let metrics = match &experiment.plan.metrics {
+        MetricChoice::Default => Metric::DEFAULT.to_vec(),
+        MetricChoice::Named(named) => named.clone(),
+    };
+    let metrics: Vec<&str> = metrics.iter().map(|metric| metric.info().label).collect();
+    let by_default = match experiment.plan.metrics {
+        MetricChoice::Default => " (by default)",
+        MetricChoice::Named(_) => "",
+    };
+    let _ = writeln!(text, "{}: {}{by_default}", experiment.name, metrics.join(", "));
+    for view in &found.views {
+        scene(&mut text, experiment, view);
+    }
+    let tests: usize = found.views.iter().flat_map(|view| &view.frames).map(|f| f.tests.len()).sum();
+    let _ = writeln!(text, "\n{} to score, into reports/{}", count(tests, "test frame"), experiment.name);
+    text
+}
+
+fn scene(text: &mut String, experiment: &Experiment, view: &FoundView) {
+    let scene = &experiment.plan.scenes[view.scene];
+    let eye = &scene.eyes[view.eye];
+    let side = eye.eye.map(|eye| format!(", {} eye", eye.name())).unwrap_or_default();
+    let size = view.frames.iter().find_map(|frame| frame_size(&frame.reference).ok());
+    let size = match (eye.settings.crop, size) {
+        (Some(crop), _) => Some((crop.width, crop.height)),
+        (None, size) => size,
+    };
+    let pixels = size.map(|(w, h)| format!(" of {w}x{h} px")).unwrap_or_default();
+    let frames = count(view.frames.len(), "frame");
+    let numbers = match view.frames.as_slice() {
+        [first, .., last] => format!(", {} to {}", first.number, last.number),
+        _ => String::new(),
+    };
+    let _ = writeln!(text, "\n{}{side}: {frames}{numbers}{pixels}", scene.name);
+    let mut lines = vec![("reference", experiment.plan.shown(&eye.reference))];
+    for (method, path) in &eye.tests {
+        let with = |frame: &&FoundFrame| frame.tests.iter().any(|(m, _)| m == method);
+        let there = view.frames.iter().filter(with).count();
+        let missing = match (there, view.frames.len()) {
+            (0, _) => " (none found)".to_owned(),
+            (there, all) if there < all => format!(" ({there} of {})", count(all, "frame")),
+            _ => String::new(),
+        };
+        let path = experiment.plan.shown(path);
+        lines.push((&experiment.plan.methods[*method], format!("{path}{missing}")));
+    }
+    if let Some(seen) = seen(eye, size) {
+        lines.push(("view", seen));
+    }
+    lines.push(("gaze", gaze(experiment, eye, view)));
+    let width = lines.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    for (name, value) in lines {
+        let _ = writeln!(text, "  {name:width$}  {value}");
+    }
+}
+
+fn count(n: usize, what: &str) -> String {
+    if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
+}
+
+fn seen(eye: &EyeView, size: Option<(usize, usize)>) -> Option<String> {
+    let (w, h) = size?;
+    let view = eye.settings.view.as_ref()?.resolve(w, h).ok()?.view;
+    let [fx, fy] = view.focal_px;
+    let focal =
+        if (fx - fy).abs() < 1e-9 * fx { format!("{fx:.2}") } else { format!("{fx:.2} x {fy:.2}") };
+    Some(format!(
+        "focal length {focal} px, {:.2} px per degree at the centre",
+        view.pixels_per_degree()
+    ))
+}
+
+fn gaze(experiment: &Experiment, eye: &EyeView, view: &FoundView) -> String {
+    match &eye.settings.gaze {
+        Gaze::Centre => "at the principal point".to_owned(),
+        Gaze::Point([x, y]) => format!("({x}, {y}) px"),
+        Gaze::Trace { path, .. } => {
+            let held = view.trace.iter().flatten().filter(|gaze| gaze.held).count();
+            let held = if held > 0 {
+                format!(", held over in {}", count(held, "frame"))
+            } else {
+                String::new()
+            };
+            format!("{}{held}", experiment.plan.shown(path))
+        }
+    }
+}

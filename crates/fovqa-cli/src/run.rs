@@ -1,0 +1,167 @@
+//! `fovqa run`: experiment, frames, scores, files, tables and figures.
+
+use std::path::{Path, PathBuf};
+
+use fovqa_config::Experiment;
+use fovqa_engine::{Found, Journal, ResultsFolder};
+use fovqa_io::FileId;
+use fovqa_report::Drawn;
+use fovqa_results::{
+    ExperimentRecord, FileError, RESULTS_CSV, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
+    SUMMARY_JSON, SummaryRecord, write_json_file, write_results_csv, write_whole,
+};
+
+use crate::args::RunArgs;
+use crate::diagnostic;
+use crate::dialect::Dialect;
+use crate::exit::Exit;
+use crate::progress::Terminal;
+use crate::{experiment, output, threads};
+
+pub(crate) fn run(args: &RunArgs) -> Exit {
+    if let Err(message) = threads::start(args.threads) {
+        diagnostic::error(&message, "ask for fewer");
+        return Exit::Usage;
+    }
+    let mut experiment = match experiment::read(&args.experiment) {
+        Ok(experiment) => experiment,
+        Err(exit) => return exit,
+    };
+    experiment.plan.frames = args.frames;
+    let folder = args.output.clone().unwrap_or_else(|| default_folder(&experiment));
+    // Before anything is read or scored: a folder that cannot be written to is found now.
+    let folder = match ResultsFolder::open(&folder) {
+        Ok(folder) => folder,
+        Err(error) => return failed(&error, error.help()),
+    };
+    let found = fovqa_engine::find(&experiment.plan);
+    if found.views.is_empty() {
+        say_problems(&experiment, &found);
+        diagnostic::error("nothing was scored", "");
+        return Exit::Input;
+    }
+    match score(&experiment, &found, &folder) {
+        Ok(results) => finish(&experiment, &results, &folder),
+        Err(exit) => exit,
+    }
+}
+
+fn default_folder(experiment: &Experiment) -> PathBuf {
+    Path::new("reports").join(&experiment.name)
+}
+
+/// Says what is wrong with the inputs as a whole.
+pub(crate) fn say_problems(experiment: &Experiment, found: &Found) {
+    for problem in &found.problems {
+        let scene = &experiment.plan.scenes[problem.scene];
+        let eye = scene.eyes[problem.eye].eye.map(|eye| eye.name());
+        let method = problem.method.map(|method| experiment.plan.methods[method].as_str());
+        let place: Vec<&str> =
+            [Some(scene.name.as_str()), method, eye].into_iter().flatten().collect();
+        let help = Dialect::Experiment.spell(&problem.error.help());
+        diagnostic::error(&format!("{}: {}", place.join(", "), problem.error), &help);
+    }
+}
+
+fn score(
+    experiment: &Experiment,
+    found: &Found,
+    folder: &ResultsFolder,
+) -> Result<RunResults, Exit> {
+    folder.clear().map_err(|error| failed(&error, error.help()))?;
+    fovqa_report::clear(folder.path());
+    let hash = file_hash(&experiment.text);
+    let terminal = Terminal::speaking(Dialect::Experiment);
+    let scored = Journal::create(folder.path(), &hash).and_then(|mut journal| {
+        fovqa_engine::run(&experiment.plan, found, &terminal, &mut |frame| journal.write(&frame))
+    });
+    terminal.finish();
+    scored.map_err(|error| {
+        diagnostic::error(&error.to_string(), &Dialect::Experiment.spell(&error.help()));
+        if error.is_usage() { Exit::Usage } else { Exit::Input }
+    })
+}
+
+/// Writes the results, draws them, and says where they are.
+fn finish(experiment: &Experiment, results: &RunResults, folder: &ResultsFolder) -> Exit {
+    let summary = SummaryRecord::of(&experiment.name, results);
+    for error in results.comparisons.iter().flat_map(|c| c.report.failures.iter().map(move |f| (c, f))) {
+        let (comparison, failure) = error;
+        let frame = failure.frame.map(|frame| format!("frame {frame}"));
+        let eye = Some(comparison.eye).filter(|eye| !eye.is_empty()).map(str::to_owned);
+        let place = [Some(comparison.scene.clone()), Some(comparison.method.clone()), eye, frame];
+        let place: Vec<String> = place.into_iter().flatten().collect();
+        let help = Dialect::Experiment.spell(&failure.help);
+        diagnostic::error(&format!("{}: {}", place.join(", "), failure.message), &help);
+    }
+    if let Err(error) = write(experiment, results, &summary, folder.path()) {
+        return failed(&error, "free some space, or give another folder with --output");
+    }
+    let drawn = match fovqa_report::draw(folder.path()) {
+        Ok(drawn) => drawn,
+        Err(error) => return failed(&error, "the results are written; `fovqa report` draws them again"),
+    };
+    let printed = say(&drawn, folder.path());
+    let scored: usize = results.comparisons.iter().map(|c| c.report.frames.len()).sum();
+    if summary.errors.is_empty() {
+        return printed;
+    }
+    let errors = summary.errors.len();
+    let lines = if errors == 1 { "1 error" } else { &format!("{errors} errors") };
+    diagnostic::error(&format!("{lines}, {scored} frames scored all the same"), "");
+    Exit::Input
+}
+
+fn file_hash(text: &str) -> String {
+    // Reading from memory does not fail.
+    FileId::of(text.as_bytes()).map(|id| id.sha256).unwrap_or_default()
+}
+
+fn write(
+    experiment: &Experiment,
+    results: &RunResults,
+    summary: &SummaryRecord,
+    folder: &Path,
+) -> Result<(), FileError> {
+    let mut csv = Vec::new();
+    let path = folder.join(RESULTS_CSV);
+    write_results_csv(results, &mut csv)
+        .map_err(|error| FileError::Write { path: path.clone(), error })?;
+    write_whole(&path, &csv)?;
+    write_json_file(&folder.join(SUMMARY_JSON), summary)?;
+    let file = experiment.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let record = RunRecord {
+        schema: RUN_SCHEMA.to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        experiment: ExperimentRecord {
+            file,
+            sha256: file_hash(&experiment.text),
+            text: experiment.text.clone(),
+        },
+        resolved: experiment.resolved(),
+        inputs: results.inputs.clone(),
+    };
+    write_json_file(&folder.join(RUN_JSON), &record)
+}
+
+/// The comparison on stdout, and where the files are on stderr.
+pub(crate) fn say(drawn: &Drawn, folder: &Path) -> Exit {
+    let printed = match &drawn.table {
+        Some(table) => output::write(|out| out.write_all(table.terminal().as_bytes())),
+        None => Exit::Done,
+    };
+    let figures = drawn.files.iter().filter(|file| file.ends_with(".svg")).count();
+    let figures = match figures {
+        0 => String::new(),
+        1 => ", 1 figure".to_owned(),
+        n => format!(", {n} figures"),
+    };
+    let folder = folder.display();
+    diagnostic::note(&format!("{folder}: results.csv, summary.json{figures}; look at {folder}/index.html"));
+    printed
+}
+
+fn failed(error: &dyn std::error::Error, help: &str) -> Exit {
+    diagnostic::error(&error.to_string(), &Dialect::Experiment.spell(help));
+    Exit::Input
+}

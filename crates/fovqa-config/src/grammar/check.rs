@@ -1,0 +1,269 @@
+//! A parsed file against the grammar: unknown keys, wrong types, values out of range.
+
+use std::ops::Range;
+
+use fovqa_io::sequence::FrameRange;
+use fovqa_metrics::Metric;
+use fovqa_vision::{displays, find_display};
+use serde_spanned::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::{Key, Kind, parameter, quoted};
+use crate::fault::Fault;
+use crate::nearest::nearest;
+
+/// Checks a table; `place` is how messages name it, `span` where it stands.
+pub(crate) fn check(
+    keys: &[Key],
+    table: &DeTable<'_>,
+    place: &str,
+    span: Range<usize>,
+    faults: &mut Vec<Fault>,
+) {
+    for (name, value) in table {
+        let text = name.get_ref().as_ref();
+        match keys.iter().find(|key| key.name == text) {
+            Some(key) => check_value(&key.kind, value, &inside(place, text), faults),
+            None => faults.push(unknown("key", text, name.span(), place, keys.iter().map(|k| k.name))),
+        }
+    }
+    for key in keys.iter().filter(|key| key.required && !table.contains_key(key.name)) {
+        let message = format!("{place} has no {}", key.name);
+        let help = format!("add {} = …: {}", key.name, key.about);
+        faults.push(Fault::new(span.clone(), message).help(help));
+    }
+}
+
+fn inside(place: &str, key: &str) -> String {
+    if place == "the experiment" { key.to_owned() } else { format!("{place}.{key}") }
+}
+
+fn unknown<'a>(
+    what: &str,
+    name: &str,
+    span: Range<usize>,
+    place: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> Fault {
+    let fault = Fault::new(span, format!("{place} has no {what} `{name}`"));
+    let guess = nearest(name, known.clone());
+    let label = guess.map_or_else(|| format!("no such {what}"), |near| format!("did you mean {near}?"));
+    fault.label(label).help(format!("there are {}", known.collect::<Vec<_>>().join(", ")))
+}
+
+/// A table of metrics: each key a metric, each value a table of its parameters.
+fn check_metrics(value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fault>) {
+    let DeValue::Table(table) = value.get_ref() else {
+        return wrong_type(&Kind::Metrics, value, place, faults);
+    };
+    if table.is_empty() {
+        let fault = Fault::new(value.span(), format!("[{place}] names no metric"));
+        faults.push(fault.help("name some, such as psnr = {}, or leave the table out for the default ones"));
+    }
+    for (name, params) in table {
+        let text = name.get_ref().as_ref();
+        let Some(metric) = Metric::ALL.into_iter().find(|m| m.key() == text) else {
+            let known = Metric::ALL.into_iter().map(Metric::key);
+            faults.push(unknown("metric", text, name.span(), &format!("[{place}]"), known));
+            continue;
+        };
+        let DeValue::Table(params) = params.get_ref() else {
+            let fault = Fault::new(params.span(), format!("{place}.{text} is {}", type_of(params)));
+            faults.push(fault.help(format!("write {text} = {{}}, with its parameters between the braces")));
+            continue;
+        };
+        for (name, value) in params {
+            let param = name.get_ref().as_ref();
+            match metric.info().params.iter().find(|known| known.name == param) {
+                Some(known) => {
+                    let place = format!("{place}.{text}.{param}");
+                    check_value(&parameter(known.values), value, &place, faults);
+                }
+                None => {
+                    let known = metric.info().params.iter().map(|p| p.name);
+                    let none = metric.info().params.is_empty();
+                    let fault = unknown("parameter", param, name.span(), text, known);
+                    faults.push(if none { fault.help(format!("{text} has no parameters")) } else { fault });
+                }
+            }
+        }
+    }
+}
+
+fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fault>) {
+    let span = value.span();
+    let mut out_of_range = |found: &str| {
+        faults.push(
+            Fault::new(span.clone(), format!("{place} cannot be {found}"))
+                .label(format!("write {}", kind.in_words())),
+        );
+    };
+    match (kind, value.get_ref()) {
+        (Kind::Bool, DeValue::Boolean(_)) => {}
+        (Kind::Text, DeValue::String(text)) => {
+            if text.is_empty() || text.chars().any(char::is_control) {
+                out_of_range("empty, or have control characters");
+            }
+        }
+        (Kind::Name, DeValue::String(text)) => {
+            if let Err(why) = name_fits(text) {
+                faults.push(Fault::new(span, format!("{place} {why}")));
+            }
+        }
+        (Kind::Number(min, max), DeValue::Integer(_) | DeValue::Float(_)) => {
+            match number(value.get_ref()) {
+                Some(n) if n.is_finite() && *min <= n && n <= *max => {}
+                _ => out_of_range(&written(value.get_ref())),
+            }
+        }
+        (Kind::Above(min, max), DeValue::Integer(_) | DeValue::Float(_)) => {
+            match number(value.get_ref()) {
+                Some(n) if *min < n && n <= *max => {}
+                _ => out_of_range(&written(value.get_ref())),
+            }
+        }
+        (Kind::Whole(min, max), DeValue::Integer(_)) => match number(value.get_ref()) {
+            Some(n) if (*min as f64..=*max as f64).contains(&n) => {}
+            _ => out_of_range(&written(value.get_ref())),
+        },
+        (Kind::Word(words), DeValue::String(text)) => {
+            if !words.contains(&text.as_ref()) {
+                faults.push(no_such(place, text, span, words.iter().copied()));
+            }
+        }
+        (Kind::Frames, DeValue::String(text)) => {
+            if let Err(error) = text.parse::<FrameRange>() {
+                faults.push(Fault::new(span, format!("{place}: {error}")));
+            }
+        }
+        (Kind::Display, DeValue::String(text)) => {
+            if find_display(text).is_none() {
+                let known = displays().iter().map(|display| display.name.as_str());
+                faults.push(no_such(place, text, span, known));
+            }
+        }
+        (Kind::Metric, DeValue::String(text)) => {
+            let known = Metric::ALL.into_iter().map(Metric::key);
+            if !known.clone().any(|key| key == text) {
+                faults.push(no_such(place, text, span, known));
+            }
+        }
+        (Kind::List(kind, min, max), DeValue::Array(items)) => {
+            if items.len() < *min || items.len() > *max {
+                out_of_range(&format!("a list of {}", items.len()));
+            }
+            for item in items {
+                check_value(kind, item, place, faults);
+            }
+        }
+        (Kind::Table(keys), DeValue::Table(table)) => check(keys, table, place, span, faults),
+        (Kind::Tables(keys), DeValue::Array(items)) if items.iter().all(is_table) => {
+            for item in items {
+                if let DeValue::Table(table) = item.get_ref() {
+                    check(keys, table, &named(place, table), item.span(), faults);
+                }
+            }
+        }
+        (Kind::Metrics, _) => check_metrics(value, place, faults),
+        (Kind::Either(kinds), _) => match kinds.iter().find(|kind| is_of(kind, value)) {
+            Some(kind) => check_value(kind, value, place, faults),
+            None => wrong_type(kind, value, place, faults),
+        },
+        _ => wrong_type(kind, value, place, faults),
+    }
+}
+
+/// An entry of an array of tables with its name, where it has one.
+fn named(place: &str, table: &DeTable<'_>) -> String {
+    match table.get("name").map(Spanned::get_ref) {
+        Some(DeValue::String(name)) => format!("{place} \"{name}\""),
+        _ => format!("a {place}"),
+    }
+}
+
+fn is_table(value: &Spanned<DeValue<'_>>) -> bool {
+    matches!(value.get_ref(), DeValue::Table(_))
+}
+
+/// Whether a value has the type of a kind.
+fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
+    match value.get_ref() {
+        DeValue::Boolean(_) => matches!(kind, Kind::Bool),
+        DeValue::String(_) => matches!(
+            kind,
+            Kind::Text | Kind::Name | Kind::Word(_) | Kind::Frames | Kind::Display | Kind::Metric
+        ),
+        DeValue::Integer(_) => matches!(kind, Kind::Number(..) | Kind::Above(..) | Kind::Whole(..)),
+        DeValue::Float(_) => matches!(kind, Kind::Number(..) | Kind::Above(..)),
+        DeValue::Array(_) => matches!(kind, Kind::List(..) | Kind::Tables(_)),
+        DeValue::Table(_) => matches!(kind, Kind::Table(_) | Kind::Metrics),
+        DeValue::Datetime(_) => false,
+    }
+}
+
+fn wrong_type(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fault>) {
+    let fault = Fault::new(value.span(), format!("{place} cannot be {}", type_of(value)));
+    faults.push(match kind {
+        Kind::Tables(_) => fault.help(format!("write [[{place}]] above the keys of each")),
+        kind => fault.label(format!("write {}", kind.in_words())),
+    });
+}
+
+fn no_such<'a>(
+    place: &str,
+    text: &str,
+    span: Range<usize>,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> Fault {
+    let fault = Fault::new(span, format!("{place} cannot be \"{text}\""));
+    let fault = match nearest(text, known.clone()) {
+        Some(near) => fault.label(format!("did you mean \"{near}\"?")),
+        None => fault,
+    };
+    fault.help(format!("it is one of {}", quoted(known)))
+}
+
+fn type_of(value: &Spanned<DeValue<'_>>) -> &'static str {
+    match value.get_ref() {
+        DeValue::String(_) => "text",
+        DeValue::Integer(_) => "a whole number",
+        DeValue::Float(_) => "a number with a fraction",
+        DeValue::Boolean(_) => "true or false",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
+    }
+}
+
+/// The value of a number; `None` where it is none, or too large for one.
+pub(crate) fn number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Integer(n) => i64::from_str_radix(n.as_str(), n.radix()).ok().map(|n| n as f64),
+        DeValue::Float(n) => n.as_str().parse().ok(),
+        _ => None,
+    }
+}
+
+fn written(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::Integer(n) => n.to_string(),
+        DeValue::Float(n) => n.to_string(),
+        _ => String::new(),
+    }
+}
+
+/// Whether text is a name: it stands in the headings of tables and, with other characters for some
+/// of its own, in file names.
+fn name_fits(text: &str) -> Result<(), String> {
+    const LONGEST: usize = 80;
+    if text.trim().is_empty() || text.trim() != text {
+        return Err("cannot be empty, or begin or end with a space".to_owned());
+    }
+    if text.chars().any(|c| c.is_control() || matches!(c, '/' | '\\')) || text.starts_with('.') {
+        return Err("cannot have / or \\ or control characters in it, or begin with a dot".to_owned());
+    }
+    if text.chars().count() > LONGEST {
+        return Err(format!("cannot be longer than {LONGEST} characters"));
+    }
+    Ok(())
+}

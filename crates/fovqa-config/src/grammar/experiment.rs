@@ -1,0 +1,168 @@
+//! The keys of an experiment file.
+
+use fovqa_vision::BandEdges;
+
+use super::{Key, Kind};
+
+const fn key(name: &'static str, kind: Kind, about: &'static str) -> Key {
+    Key { name, required: false, kind, about }
+}
+
+const fn required(name: &'static str, kind: Kind, about: &'static str) -> Key {
+    Key { name, required: true, kind, about }
+}
+
+/// A full angle of view in degrees.
+const FOV: Kind = Kind::Above(0.0, 179.999);
+/// A tangent of a half angle; OpenXR's signs are fine.
+const TANGENT: Kind = Kind::Number(-6000.0, 6000.0);
+/// Pixels, a long way outside any frame.
+const POSITION: Kind = Kind::Number(-1e6, 1e6);
+const POINT: Kind = Kind::List(&POSITION, 2, 2);
+const LENGTH_M: Kind = Kind::Above(0.0, 1e4);
+const PIXELS: Kind = Kind::Whole(0, 1_000_000);
+const BAND_EDGE: Kind = Kind::Number(0.0, 180.0);
+const NAMES: Kind = Kind::List(&Kind::Name, 1, 10_000);
+
+const FRUSTUM: &[Key] = &[
+    required("left", TANGENT, "tangent of the half angle to the left of the axis"),
+    required("right", TANGENT, "the same to the right"),
+    required("up", TANGENT, "the same upwards"),
+    required("down", TANGENT, "the same downwards"),
+];
+
+const TRACE: &[Key] = &[
+    key("trace", Kind::Text, "CSV file with the columns frame,x_px,y_px (or time_s, with fps)"),
+    key("hold", Kind::Bool, "frames beyond the trace keep its last gaze"),
+    key("left", Kind::Either(&ONE_GAZE), "gaze of the left eye"),
+    key("right", Kind::Either(&ONE_GAZE), "gaze of the right eye"),
+];
+
+const ONE_TRACE: &[Key] = &[
+    required("trace", Kind::Text, "CSV file with the columns frame,x_px,y_px"),
+    key("hold", Kind::Bool, "frames beyond the trace keep its last gaze"),
+];
+
+const ONE_GAZE: [Kind; 3] = [Kind::Word(&["center"]), POINT, Kind::Table(ONE_TRACE)];
+
+const SIDES: &[Key] = &[
+    required("left", Kind::Text, "frames of the left eye"),
+    required("right", Kind::Text, "frames of the right eye"),
+];
+
+const FILES: Kind = Kind::Either(&[Kind::Text, Kind::Table(SIDES)]);
+
+/// How a frame is seen.
+const VIEW: &[Key] = &[
+    key("display", Kind::Display, "display preset; the frame fills its whole field"),
+    key("fov_vertical_deg", FOV, "vertical field of view, °; alone: square pixels"),
+    key("fov_horizontal_deg", FOV, "horizontal field of view, °; alone: square pixels"),
+    key("fov_diagonal_deg", FOV, "diagonal field of view, °; square pixels"),
+    key("frustum", Kind::Table(FRUSTUM), "asymmetric frustum: tangents of its half angles"),
+    key("distance_m", LENGTH_M, "distance of the eye from a flat screen, m"),
+    key("pixel_pitch_mm", Kind::Above(0.0, 1e3), "size of a pixel of a flat screen, mm; with distance_m"),
+    key("screen_m", Kind::List(&LENGTH_M, 2, 2), "width and height of a flat screen that the frame fills, m; with distance_m"),
+    key("gaze", Kind::Either(&[Kind::Word(&["center"]), POINT, Kind::Table(TRACE)]), "where the eye looks: \"center\" (the principal point), [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }"),
+];
+
+/// How frames are read.
+const SIGNAL: &[Key] = &[
+    key("channels", Kind::Word(&["rgb", "luma"]), "what is compared"),
+    key("exposure_stops", Kind::Number(-100.0, 100.0), "exposure of linear input, stops"),
+    key("tonemap", Kind::Word(&["clamp", "reinhard", "aces"]), "tone map of linear input"),
+    key("transfer", Kind::Word(&["auto", "srgb", "linear", "pq", "gamma2.2"]), "how values in the files are encoded"),
+    key("layer", Kind::Text, "colour layer of OpenEXR files that have several"),
+    key("nonfinite", Kind::Word(&["error", "mask"]), "what to do about NaN and infinity"),
+    key("alpha", Kind::Word(&["error", "ignore", "over-black"]), "what to do about alpha that is not 1 everywhere"),
+    key("mask", Kind::Text, "picture that is white where pixels count"),
+    key("crop", Kind::List(&PIXELS, 4, 4), "[x, y, width, height] to score, in pixels; the view is of the crop"),
+    key("max_megapixels", Kind::Whole(1, 1_000_000), "most pixels a file may declare, millions"),
+];
+
+/// What both eyes share.
+const SHARED: &[Key] = &[
+    key("eccentricity", Kind::Word(&["angular", "planar"]), "how eccentricity is measured"),
+    key("bands_deg", Kind::List(&BAND_EDGE, 2, BandEdges::MAX_BANDS + 1), "edges of the eccentricity bands, °"),
+];
+
+const fn joined<const N: usize>(parts: &[&[Key]]) -> [Key; N] {
+    let mut keys = [key("", Kind::Bool, ""); N];
+    let (mut part, mut at) = (0, 0);
+    while part < parts.len() {
+        let mut index = 0;
+        while index < parts[part].len() {
+            keys[at] = parts[part][index];
+            at += 1;
+            index += 1;
+        }
+        part += 1;
+    }
+    assert!(at == N, "as many keys as the parts have");
+    keys
+}
+
+static VIEW_EYE: [Key; VIEW.len()] = joined(&[VIEW]);
+static SIGNAL_EYE: [Key; SIGNAL.len()] = joined(&[SIGNAL]);
+static SCENE_EYE: [Key; VIEW.len() + SIGNAL.len()] = joined(&[VIEW, SIGNAL]);
+
+static VIEW_TABLE: [Key; VIEW.len() + SHARED.len() + 2] = joined(&[
+    VIEW,
+    SHARED,
+    &[
+        key("left", Kind::Table(&VIEW_EYE), "what is different for the left eye"),
+        key("right", Kind::Table(&VIEW_EYE), "what is different for the right eye"),
+    ],
+]);
+
+static SIGNAL_TABLE: [Key; SIGNAL.len() + 2] = joined(&[
+    SIGNAL,
+    &[
+        key("left", Kind::Table(&SIGNAL_EYE), "what is different for the left eye"),
+        key("right", Kind::Table(&SIGNAL_EYE), "what is different for the right eye"),
+    ],
+]);
+
+static SCENE_TABLE: [Key; 6 + VIEW.len() + SHARED.len() + SIGNAL.len() + 2] = joined(&[
+    &[
+        required("name", Kind::Name, "its name in results, and what {scene} stands for"),
+        required("reference", FILES, "reference frames: file, folder, glob or printf pattern, or { left, right }"),
+        key("folder", Kind::Text, "what {folder} stands for in paths; the scene's name if it is not given"),
+        key("fps", Kind::Above(0.0, 1e6), "frames a second"),
+        key("frames", Kind::Frames, "only these frames"),
+        key("allow_missing", Kind::Bool, "pass over frames without a partner"),
+    ],
+    VIEW,
+    SHARED,
+    SIGNAL,
+    &[
+        key("left", Kind::Table(&SCENE_EYE), "what is different for the left eye"),
+        key("right", Kind::Table(&SCENE_EYE), "what is different for the right eye"),
+    ],
+]);
+
+static METHOD_TABLE: [Key; 3] = [
+    required("name", Kind::Name, "its name in results, and what {method} stands for"),
+    required("test", FILES, "test frames, with {scene}, {folder}, {method} and {eye} for what differs"),
+    key("scenes", NAMES, "only these scenes"),
+];
+
+static PLOT_TABLE: [Key; 4] = [
+    required("kind", Kind::Word(&["table", "profile", "bars", "frames"]), "table: scenes against metrics and methods; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames"),
+    key("metric", Kind::Metric, "the metric; if it is not given, a figure for each"),
+    key("scenes", NAMES, "only these scenes"),
+    key("methods", NAMES, "only these methods"),
+];
+
+static EXPERIMENT_TABLE: [Key; 8] = [
+    key("schema", Kind::Whole(1, 1), "version of this format"),
+    required("name", Kind::Name, "name of the experiment, and of its folder below reports/"),
+    key("view", Kind::Table(&VIEW_TABLE), "how frames are seen"),
+    key("signal", Kind::Table(&SIGNAL_TABLE), "how frames are read"),
+    required("scene", Kind::Tables(&SCENE_TABLE), "the scenes"),
+    required("method", Kind::Tables(&METHOD_TABLE), "the methods"),
+    key("metrics", Kind::Metrics, "the metrics with their parameters; if it is not given, the default ones"),
+    key("plot", Kind::Tables(&PLOT_TABLE), "tables and figures; if none is given, all that fit"),
+];
+
+/// The whole file.
+pub(crate) const EXPERIMENT: &[Key] = &EXPERIMENT_TABLE;

@@ -1,0 +1,132 @@
+//! What an experiment file may say: every key with its kind, its range and what it is. One
+//! description, from which the file is checked, mistakes are explained and the JSON Schema is made.
+
+mod check;
+mod experiment;
+mod schema;
+
+pub(crate) use check::{check, number};
+pub(crate) use experiment::EXPERIMENT;
+pub use schema::schema;
+
+use fovqa_metrics::ParamValues;
+
+/// A key of a table.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Key {
+    pub(crate) name: &'static str,
+    pub(crate) required: bool,
+    pub(crate) kind: Kind,
+    /// One line, for editors.
+    pub(crate) about: &'static str,
+}
+
+/// What a value may be.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Kind {
+    Bool,
+    /// Text that is not empty and has no control characters.
+    Text,
+    /// A name: text that fits a file name and the heading of a table.
+    Name,
+    /// A finite number from the first to the second.
+    Number(f64, f64),
+    /// A finite number above the first, up to and with the second.
+    Above(f64, f64),
+    /// A whole number from the first to the second.
+    Whole(u64, u64),
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// A range of frames, `A..B:STEP`.
+    Frames,
+    /// The name of a display preset.
+    Display,
+    /// The name of a metric.
+    Metric,
+    /// A list of so many values of one kind.
+    List(&'static Kind, usize, usize),
+    /// A table.
+    Table(&'static [Key]),
+    /// An array of tables.
+    Tables(&'static [Key]),
+    /// A table with metrics for keys, and tables of their parameters.
+    Metrics,
+    /// One of several, of different types.
+    Either(&'static [Kind]),
+}
+
+impl Kind {
+    /// What the value has to be, in words.
+    pub(crate) fn in_words(&self) -> String {
+        match self {
+            Kind::Bool => "true or false".to_owned(),
+            Kind::Text => "text in quotes".to_owned(),
+            Kind::Name => "a name in quotes".to_owned(),
+            Kind::Number(min, max) => match (min.is_finite(), max.is_finite()) {
+                (true, true) => format!("a number from {min} to {max}"),
+                _ => "a number".to_owned(),
+            },
+            Kind::Above(min, max) => format!("a number above {min}, up to {max}"),
+            Kind::Whole(min, max) => format!("a whole number from {min} to {max}"),
+            Kind::Word(words) => format!("one of {}", quoted(words.iter().copied())),
+            Kind::Frames => "a range of frames such as \"0..100\" or \"0..100:5\"".to_owned(),
+            Kind::Display => "the name of a display (`fovqa list displays`)".to_owned(),
+            Kind::Metric => "the name of a metric".to_owned(),
+            Kind::List(kind, min, max) => {
+                let count = match (min, max) {
+                    (min, max) if min == max => format!("a list of {min}: each "),
+                    (min, _) => format!("a list of {min} or more: each "),
+                };
+                count + &kind.in_words()
+            }
+            Kind::Table(keys) => {
+                let names = keys.iter().map(|key| format!("{} = …", key.name));
+                format!("a table {{ {} }}", names.collect::<Vec<_>>().join(", "))
+            }
+            Kind::Tables(_) => "an array of tables".to_owned(),
+            Kind::Metrics => "a table of metrics".to_owned(),
+            Kind::Either(kinds) => {
+                kinds.iter().map(Kind::in_words).collect::<Vec<_>>().join("; or ")
+            }
+        }
+    }
+}
+
+/// Words in quotes, with commas between them.
+pub(crate) fn quoted<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+    words.into_iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ")
+}
+
+/// The kind of a metric's parameter.
+pub(crate) fn parameter(values: ParamValues) -> Kind {
+    const AUTO: Kind = Kind::Word(&["auto"]);
+    const FINITE: Kind = Kind::Number(f64::NEG_INFINITY, f64::INFINITY);
+    /// Whole numbers come with few ranges; each needs a place to live.
+    const WINDOW_RADIUS: [Kind; 2] = [Kind::Whole(1, 224), AUTO];
+    match values {
+        ParamValues::Number(min, max) => Kind::Number(min, max),
+        ParamValues::WholeOrAuto(..) => Kind::Either(&WINDOW_RADIUS),
+        ParamValues::Word(words) => Kind::Word(words),
+        ParamValues::Numbers => Kind::List(&FINITE, 1, 1000),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fovqa_metrics::Metric;
+
+    #[test]
+    fn whole_parameters_have_the_range_of_their_metric() {
+        for metric in Metric::ALL {
+            for param in metric.info().params {
+                if let ParamValues::WholeOrAuto(min, max) = param.values {
+                    let Kind::Either([Kind::Whole(low, high), _]) = parameter(param.values) else {
+                        panic!("{}", param.name)
+                    };
+                    assert_eq!((u64::from(min), u64::from(max)), (*low, *high), "{}", param.name);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! The grammar as JSON Schema, for editors.
+
+use fovqa_metrics::Metric;
+use fovqa_vision::displays;
+use serde_json::{Map, Value, json};
+
+use super::{EXPERIMENT, Key, Kind, parameter};
+
+/// The JSON Schema of an experiment file.
+pub fn schema() -> Value {
+    let mut schema = table(EXPERIMENT);
+    let head = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "fovqa experiment",
+        "description": "Scenes, methods and metrics of one fovqa experiment (TOML)",
+    });
+    if let (Value::Object(schema), Value::Object(head)) = (&mut schema, head) {
+        schema.extend(head);
+    }
+    schema
+}
+
+fn table(keys: &[Key]) -> Value {
+    let properties: Map<String, Value> = keys
+        .iter()
+        .map(|key| {
+            let mut value = kind(&key.kind);
+            value["description"] = key.about.into();
+            (key.name.to_owned(), value)
+        })
+        .collect();
+    let required: Vec<&str> = keys.iter().filter(|key| key.required).map(|key| key.name).collect();
+    let mut schema =
+        json!({ "type": "object", "properties": properties, "additionalProperties": false });
+    if !required.is_empty() {
+        schema["required"] = required.into();
+    }
+    schema
+}
+
+fn kind(kind: &Kind) -> Value {
+    /// A name: no slash, no dot or space in front, no space behind.
+    const NAME: &str = r"^[^\s./\\\p{Cc}]([^/\\\p{Cc}]*[^\s/\\\p{Cc}])?$";
+    match kind {
+        Kind::Bool => json!({ "type": "boolean" }),
+        Kind::Text => json!({ "type": "string", "pattern": r"^[^\p{Cc}]+$" }),
+        Kind::Name => json!({ "type": "string", "pattern": NAME, "maxLength": 80 }),
+        Kind::Number(min, max) => {
+            let mut schema = json!({ "type": "number" });
+            if min.is_finite() {
+                schema["minimum"] = number(*min);
+            }
+            if max.is_finite() {
+                schema["maximum"] = number(*max);
+            }
+            schema
+        }
+        Kind::Above(min, max) => {
+            json!({ "type": "number", "exclusiveMinimum": number(*min), "maximum": number(*max) })
+        }
+        Kind::Whole(min, max) => json!({ "type": "integer", "minimum": min, "maximum": max }),
+        Kind::Word(words) => json!({ "enum": words }),
+        Kind::Frames => json!({
+            "type": "string",
+            "pattern": r"^(\d+)?\.\.(=?\d+)?(:0*[1-9]\d*)?$"
+        }),
+        Kind::Display => {
+            // Both spellings, `-` and `_`, as people write them.
+            let names = displays().iter().map(|display| display.name.clone());
+            let all = names.flat_map(|name| [name.replace('_', "-"), name]);
+            let mut all: Vec<String> = all.collect();
+            all.dedup();
+            json!({ "enum": all })
+        }
+        Kind::Metric => json!({ "enum": Metric::ALL.map(Metric::key) }),
+        Kind::List(of, min, max) => {
+            json!({ "type": "array", "items": self::kind(of), "minItems": min, "maxItems": max })
+        }
+        Kind::Table(keys) => table(keys),
+        Kind::Tables(keys) => json!({ "type": "array", "items": table(keys), "minItems": 1 }),
+        Kind::Metrics => {
+            let mut schema = table(&[]);
+            schema["minProperties"] = 1.into();
+            for metric in Metric::ALL {
+                let mut params = table(&[]);
+                for param in metric.info().params {
+                    let mut value = self::kind(&parameter(param.values));
+                    value["description"] = param.about.into();
+                    params["properties"][param.name] = value;
+                }
+                params["description"] = metric.info().about.into();
+                schema["properties"][metric.key()] = params;
+            }
+            schema
+        }
+        Kind::Either(kinds) => json!({ "anyOf": kinds.iter().map(self::kind).collect::<Vec<_>>() }),
+    }
+}
+
+/// Whole numbers without a fraction, as people write them.
+fn number(n: f64) -> Value {
+    if n.fract() == 0.0 && n.abs() < 1e15 { (n as i64).into() } else { n.into() }
+}

@@ -1,0 +1,91 @@
+//! `[[method]]`: which tests each scene has.
+
+use std::path::Path;
+
+use super::Placeholders;
+use super::scenes::{Resolved, unique};
+use super::settings::path;
+use crate::fault::Fault;
+use crate::grammar::quoted;
+use crate::nearest::nearest;
+use crate::node::Node;
+use crate::plan::Eye;
+
+/// The names of the methods; their tests go to the scenes.
+pub(super) fn methods(
+    root: Node<'_>,
+    base: &Path,
+    scenes: &mut [Resolved],
+    faults: &mut Vec<Fault>,
+) -> Vec<String> {
+    let tables = root.tables("method");
+    if tables.is_empty() {
+        faults.push(Fault::new(root.span("method"), "the experiment has no method"));
+    }
+    unique(&tables, "method", faults);
+    for (index, (table, _)) in tables.iter().enumerate() {
+        let wanted = table.names("scenes");
+        for (name, span) in wanted.iter().flatten() {
+            let known = || scenes.iter().map(|scene| scene.scene.name.as_str());
+            if !known().any(|scene| scene == *name) {
+                let fault = Fault::new(span.clone(), format!("there is no scene \"{name}\""));
+                let label = nearest(name, known()).map(|near| format!("did you mean \"{near}\"?"));
+                let help = format!("the scenes are {}", quoted(known()));
+                faults.push(fault.label(label.unwrap_or_default()).help(help));
+            }
+        }
+        for scene in scenes.iter_mut() {
+            let name = &scene.scene.name;
+            if wanted.as_ref().is_none_or(|wanted| wanted.iter().any(|(scene, _)| scene == name)) {
+                tests(*table, index, base, scene, faults);
+            }
+        }
+    }
+    for scene in scenes.iter().filter(|scene| scene.scene.eyes.iter().all(|e| e.tests.is_empty())) {
+        if !tables.is_empty() && faults.is_empty() {
+            let message = format!("no method is scored in scene \"{}\"", scene.scene.name);
+            let fault = Fault::new(scene.span.clone(), message);
+            faults.push(fault.help("name it in the scenes of a method, or take it out"));
+        }
+    }
+    tables.iter().map(|(table, _)| table.text("name").unwrap_or_default().to_owned()).collect()
+}
+
+/// Adds a method's tests to a scene.
+fn tests(table: Node<'_>, index: usize, base: &Path, scene: &mut Resolved, faults: &mut Vec<Fault>) {
+    let method = table.text("name").unwrap_or_default();
+    let name = scene.scene.name.clone();
+    let sides = table.table("test");
+    let two = scene.scene.eyes.len() > 1;
+    let per_eye = sides.is_some() || table.text("test").is_some_and(|text| text.contains("{eye}"));
+    if two != per_eye {
+        let (message, help) = if two {
+            (
+                format!("scene \"{name}\" has two eyes, and method \"{method}\" one test for both"),
+                "put {eye} into the path (it stands for left and right), or write test = { left = \"…\", right = \"…\" }",
+            )
+        } else {
+            (
+                format!("method \"{method}\" has a test for each eye, and scene \"{name}\" has one reference"),
+                "give the scene reference = { left = \"…\", right = \"…\" }, or name the method's scenes",
+            )
+        };
+        faults.push(Fault::new(table.span("test"), message).help(help));
+        return;
+    }
+    for view in &mut scene.scene.eyes {
+        let (text, span) = match (sides, view.eye) {
+            (Some(sides), Some(eye)) => (sides.text(eye.name()), sides.span(eye.name())),
+            _ => (table.text("test"), table.span("test")),
+        };
+        let placeholders = Placeholders {
+            scene: &name,
+            folder: &scene.folder,
+            method: Some(method),
+            eye: view.eye.map(Eye::name),
+        };
+        if let Some(path) = path(placeholders, base, text.unwrap_or_default(), span, faults) {
+            view.tests.push((index, path));
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! From checked tables to the plan: overrides, placeholders, names that refer to each other.
+
+mod methods;
+mod metrics;
+mod plots;
+mod scenes;
+mod settings;
+
+use std::path::{Path, PathBuf};
+
+use crate::experiment::Experiment;
+use crate::fault::Fault;
+use crate::node::Node;
+use crate::plan::Plan;
+
+/// The experiment; mistakes go to `faults`.
+pub(crate) fn experiment(root: Node<'_>, path: &Path, faults: &mut Vec<Fault>) -> Experiment {
+    let base = path.parent().map(Path::to_owned).unwrap_or_default();
+    let (choice, params, set) = metrics::metrics(root, faults);
+    let mut scenes = scenes::scenes(root, &base, &choice, faults);
+    let methods = methods::methods(root, &base, &mut scenes, faults);
+    let names = plots::Names {
+        scenes: scenes.iter().map(|scene| scene.scene.name.clone()).collect(),
+        methods: methods.clone(),
+        metrics: choice.clone(),
+    };
+    Experiment {
+        name: root.text("name").unwrap_or_default().to_owned(),
+        path: path.to_owned(),
+        text: String::new(),
+        plots: plots::plots(root, &names, faults),
+        plan: Plan {
+            base,
+            scenes: scenes.into_iter().map(|scene| scene.scene).collect(),
+            methods,
+            metrics: choice,
+            params,
+            frames: None,
+            hash_inputs: true,
+        },
+        params: set,
+    }
+}
+
+/// What braces in a path stand for.
+#[derive(Debug, Clone, Copy, Default)]
+struct Placeholders<'a> {
+    scene: &'a str,
+    folder: &'a str,
+    method: Option<&'a str>,
+    eye: Option<&'static str>,
+}
+
+impl Placeholders<'_> {
+    /// The path of a text from the file, below `base`.
+    fn path(&self, base: &Path, text: &str) -> Result<PathBuf, (String, String)> {
+        let mut path = String::new();
+        let mut rest = text;
+        while let Some((before, behind)) = rest.split_once('{') {
+            path.push_str(before);
+            let Some((name, after)) = behind.split_once('}') else {
+                return Err((format!("\"{text}\" opens a brace and does not close it"), self.known()));
+            };
+            path.push_str(match name {
+                "scene" => self.scene,
+                "folder" => self.folder,
+                "method" if self.method.is_some() => self.method.unwrap_or_default(),
+                "eye" => self.eye.ok_or_else(|| {
+                    let message = format!("\"{text}\" has {{eye}} in it, and the scene \"{}\" has one reference for both", self.scene);
+                    (message, "give the scene reference = { left = \"…\", right = \"…\" }".to_owned())
+                })?,
+                other => {
+                    return Err((format!("\"{text}\" has {{{other}}} in it, which stands for nothing"), self.known()));
+                }
+            });
+            rest = after;
+        }
+        path.push_str(rest);
+        Ok(base.join(path))
+    }
+
+    fn known(&self) -> String {
+        let method = if self.method.is_some() { ", {method}" } else { "" };
+        format!("braces may hold {{scene}}, {{folder}}{method} or, in a scene with two eyes, {{eye}}")
+    }
+}

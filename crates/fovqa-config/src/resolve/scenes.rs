@@ -1,0 +1,109 @@
+//! `[[scene]]`.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::Path;
+
+use super::Placeholders;
+use super::settings::{Layers, VIEW_HELP, path};
+use crate::fault::Fault;
+use crate::node::Node;
+use crate::plan::{Eye, EyeView, MetricChoice, Scene};
+
+/// A scene, and what its methods need to know.
+pub(super) struct Resolved {
+    pub(super) scene: Scene,
+    /// What `{folder}` stands for.
+    pub(super) folder: String,
+    pub(super) span: Range<usize>,
+}
+
+pub(super) fn scenes(
+    root: Node<'_>,
+    base: &Path,
+    metrics: &MetricChoice,
+    faults: &mut Vec<Fault>,
+) -> Vec<Resolved> {
+    let tables = root.tables("scene");
+    if tables.is_empty() {
+        faults.push(Fault::new(root.span("scene"), "the experiment has no scene"));
+    }
+    unique(&tables, "scene", faults);
+    tables
+        .into_iter()
+        .map(|(table, span)| {
+            let name = table.text("name").unwrap_or_default();
+            let folder = table.text("folder").unwrap_or(name);
+            let references: Vec<(Option<Eye>, &str, Range<usize>)> = match table.table("reference") {
+                None => vec![(None, table.text("reference").unwrap_or_default(), table.span("reference"))],
+                Some(sides) => Eye::BOTH
+                    .into_iter()
+                    .filter_map(|eye| {
+                        Some((Some(eye), sides.text(eye.name())?, sides.span(eye.name())))
+                    })
+                    .collect(),
+            };
+            let eyes = references.into_iter().map(|(eye, text, span)| {
+                let placeholders =
+                    Placeholders { scene: name, folder, method: None, eye: eye.map(Eye::name) };
+                let layers = Layers::new(root, table, eye);
+                EyeView {
+                    eye,
+                    reference: path(placeholders, base, text, span, faults).unwrap_or_default(),
+                    tests: Vec::new(),
+                    settings: layers.settings(base, placeholders, faults),
+                }
+            });
+            let eyes: Vec<EyeView> = eyes.collect();
+            foveal_without_view(root, &eyes, name, metrics, faults);
+            if eyes.len() < 2 {
+                for eye in Eye::BOTH.into_iter().filter(|eye| table.has(eye.name())) {
+                    let message = format!("scene \"{name}\" has no {} eye of its own", eye.name());
+                    let fault = Fault::new(table.span(eye.name()), message);
+                    faults.push(fault.help("give it reference = { left = \"…\", right = \"…\" }"));
+                }
+            }
+            let scene = Scene {
+                name: name.to_owned(),
+                frames: table.text("frames").and_then(|text| text.parse().ok()),
+                allow_missing: table.flag("allow_missing").unwrap_or(false),
+                fps: table.number("fps"),
+                eyes,
+            };
+            Resolved { scene, folder: folder.to_owned(), span }
+        })
+        .collect()
+}
+
+/// Metrics asked for by name that need a view where there is none.
+fn foveal_without_view(
+    root: Node<'_>,
+    eyes: &[EyeView],
+    scene: &str,
+    metrics: &MetricChoice,
+    faults: &mut Vec<Fault>,
+) {
+    let MetricChoice::Named(named) = metrics else { return };
+    if eyes.iter().all(|eye| eye.settings.view.is_some()) {
+        return;
+    }
+    let Some(table) = root.table("metrics") else { return };
+    for (key, span, _) in table.entries() {
+        if named.iter().any(|metric| metric.key() == key && metric.info().needs_view) {
+            let message = format!("{key} needs a view, and scene \"{scene}\" has none");
+            faults.push(Fault::new(span, message).help(VIEW_HELP));
+        }
+    }
+}
+
+/// Says which names there are twice.
+pub(super) fn unique(tables: &[(Node<'_>, Range<usize>)], what: &str, faults: &mut Vec<Fault>) {
+    let mut seen = BTreeMap::new();
+    for (table, _) in tables {
+        let name = table.text("name").unwrap_or_default();
+        if seen.insert(name.to_lowercase(), ()).is_some() {
+            let fault = Fault::new(table.span("name"), format!("there are two {what}s named \"{name}\""));
+            faults.push(fault.label("the second").help("give each its own name, in more than capitals"));
+        }
+    }
+}

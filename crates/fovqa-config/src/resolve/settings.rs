@@ -1,0 +1,281 @@
+//! `[view]`, `[signal]`, and what scenes and eyes override of them.
+
+use std::ops::Range;
+use std::path::Path;
+
+use fovqa_frame::{Crop, SignalChannels, SignalParams, ToneMap, Transfer};
+use fovqa_io::{AlphaPolicy, ReadOptions};
+use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec, find_display};
+use serde_spanned::Spanned;
+use toml::de::DeValue;
+
+use super::Placeholders;
+use crate::fault::Fault;
+use crate::node::{Node, numbers, table};
+use crate::plan::{Eye, Gaze, Nonfinite, Settings};
+
+/// Keys that, one or two together, say what the view is.
+const VIEW_WAYS: [&str; 8] = [
+    "display",
+    "fov_vertical_deg",
+    "fov_horizontal_deg",
+    "fov_diagonal_deg",
+    "frustum",
+    "distance_m",
+    "pixel_pitch_mm",
+    "screen_m",
+];
+
+/// Tables that say how one eye sees a scene, from the most general to the most special.
+pub(super) struct Layers<'a> {
+    tables: Vec<Node<'a>>,
+    eye: Option<Eye>,
+}
+
+impl<'a> Layers<'a> {
+    pub(super) fn new(root: Node<'a>, scene: Node<'a>, eye: Option<Eye>) -> Self {
+        let general = [root.table("view"), root.table("signal")];
+        let mut tables = Vec::new();
+        for table in general.into_iter().flatten() {
+            tables.push(table);
+            tables.extend(eye.and_then(|eye| table.table(eye.name())));
+        }
+        tables.push(scene);
+        tables.extend(eye.and_then(|eye| scene.table(eye.name())));
+        Self { tables, eye }
+    }
+
+    /// The most special table that has a key.
+    fn having(&self, key: &str) -> Option<Node<'a>> {
+        self.tables.iter().rev().find(|table| table.has(key)).copied()
+    }
+
+    fn text(&self, key: &str) -> Option<&'a str> {
+        self.having(key)?.text(key)
+    }
+
+    fn span(&self, key: &str) -> Range<usize> {
+        self.having(key).map(|table| table.span(key)).unwrap_or_default()
+    }
+
+    /// The settings; mistakes go to `faults`.
+    pub(super) fn settings(
+        &self,
+        base: &Path,
+        placeholders: Placeholders<'_>,
+        faults: &mut Vec<Fault>,
+    ) -> Settings {
+        let crop = self.having("crop").and_then(|table| table.array::<4>("crop"));
+        let crop = crop.map(|[x, y, width, height]| {
+            if width < 1.0 || height < 1.0 {
+                let fault = Fault::new(self.span("crop"), "crop has no pixels in it");
+                faults.push(fault.label("[x, y, width, height], width and height above 0"));
+            }
+            let [x, y, width, height] = [x, y, width, height].map(|side| side as usize);
+            Crop { x, y, width, height }
+        });
+        let mask = self.text("mask").and_then(|text| {
+            path(placeholders, base, text, self.span("mask"), faults)
+        });
+        let settings = Settings {
+            read: self.read(),
+            crop,
+            mask,
+            signal: self.signal(),
+            nonfinite: match self.text("nonfinite") {
+                Some("mask") => Nonfinite::Mask,
+                _ => Nonfinite::Error,
+            },
+            view: self.view(faults),
+            gaze: self.gaze(base, placeholders, faults),
+            eccentricity: match self.text("eccentricity") {
+                Some("planar") => EccentricityKind::Planar,
+                _ => EccentricityKind::Angular,
+            },
+            bands: self.bands(faults),
+        };
+        if let Some(what) = settings.lacks_view() {
+            let key = if settings.bands.is_some() { "bands_deg" } else { "gaze" };
+            let fault = Fault::new(self.span(key), format!("{what} needs a view, and none is given"));
+            faults.push(fault.help(VIEW_HELP));
+        }
+        settings
+    }
+
+    fn read(&self) -> ReadOptions {
+        let default = ReadOptions::default();
+        let megapixels = self.having("max_megapixels").and_then(|t| t.number("max_megapixels"));
+        ReadOptions {
+            layer: self.text("layer").map(str::to_owned),
+            alpha: match self.text("alpha") {
+                Some("ignore") => AlphaPolicy::Ignore,
+                Some("over-black") => AlphaPolicy::OverBlack,
+                _ => AlphaPolicy::Error,
+            },
+            max_megapixels: megapixels.map_or(default.max_megapixels, |n| n as u64),
+        }
+    }
+
+    fn signal(&self) -> SignalParams {
+        let stops = self.having("exposure_stops").and_then(|t| t.number("exposure_stops"));
+        SignalParams {
+            transfer: match self.text("transfer") {
+                Some("srgb") => Some(Transfer::Srgb),
+                Some("linear") => Some(Transfer::Linear),
+                Some("pq") => Some(Transfer::Pq),
+                Some("gamma2.2") => Some(Transfer::Gamma22),
+                _ => None,
+            },
+            exposure_stops: stops.unwrap_or(0.0),
+            tonemap: match self.text("tonemap") {
+                Some("reinhard") => ToneMap::Reinhard,
+                Some("aces") => ToneMap::Aces,
+                _ => ToneMap::Clamp,
+            },
+            channels: match self.text("channels") {
+                Some("luma") => SignalChannels::Luma,
+                _ => SignalChannels::Rgb,
+            },
+        }
+    }
+
+    /// The view of the most special table that gives one: what a scene says replaces it whole.
+    fn view(&self, faults: &mut Vec<Fault>) -> Option<ViewSpec> {
+        let gives = |table: &&Node<'_>| VIEW_WAYS.iter().any(|key| table.has(key));
+        let table = *self.tables.iter().rev().find(gives)?;
+        let given: Vec<&str> = VIEW_WAYS.into_iter().filter(|key| table.has(key)).collect();
+        let number = |key| table.number(key);
+        let spec = match given.as_slice() {
+            ["display"] => {
+                table.text("display").and_then(find_display).cloned().map(ViewSpec::Display)
+            }
+            ["fov_vertical_deg" | "fov_horizontal_deg"]
+            | ["fov_vertical_deg", "fov_horizontal_deg"] => Some(ViewSpec::Fov {
+                horizontal_deg: number("fov_horizontal_deg"),
+                vertical_deg: number("fov_vertical_deg"),
+            }),
+            ["fov_diagonal_deg"] => number("fov_diagonal_deg")
+                .map(|diagonal_deg| ViewSpec::FovDiagonal { diagonal_deg }),
+            ["frustum"] => table.table("frustum").and_then(|frustum| {
+                let side = |key| frustum.number(key);
+                Some(ViewSpec::Frustum {
+                    left: side("left")?,
+                    right: side("right")?,
+                    up: side("up")?,
+                    down: side("down")?,
+                })
+            }),
+            ["distance_m", "pixel_pitch_mm"] => number("distance_m")
+                .zip(number("pixel_pitch_mm"))
+                .map(|(distance_m, pitch_mm)| ViewSpec::PixelPitch { distance_m, pitch_mm }),
+            ["distance_m", "screen_m"] => number("distance_m")
+                .zip(table.array("screen_m"))
+                .map(|(distance_m, size_m)| ViewSpec::Screen { distance_m, size_m }),
+            [alone @ ("distance_m" | "pixel_pitch_mm" | "screen_m")] => {
+                let fault = Fault::new(table.span(alone), format!("{alone} alone is no view"));
+                faults.push(fault.help("a flat screen is distance_m with pixel_pitch_mm, or distance_m with screen_m = [width, height]"));
+                return None;
+            }
+            [first, .., last] => {
+                let message = format!("the view is given in more than one way: {}", given.join(", "));
+                let fault = Fault::new(table.span(last), message);
+                faults.push(fault.label(format!("beside {first}")).help("keep one of them"));
+                return None;
+            }
+            _ => None,
+        };
+        if let Some(Err(error)) = spec.as_ref().map(ViewSpec::check) {
+            faults.push(Fault::new(table.span(given[0]), error.to_string()));
+        }
+        spec
+    }
+
+    fn gaze(
+        &self,
+        base: &Path,
+        placeholders: Placeholders<'_>,
+        faults: &mut Vec<Fault>,
+    ) -> Gaze {
+        let Some(value) = self.having("gaze").and_then(|table| table.value("gaze")) else {
+            return Gaze::Centre;
+        };
+        let value = match (table(value), self.eye) {
+            (Some(sides), eye) if sides.has("left") || sides.has("right") => {
+                let one = eye.and_then(|eye| sides.value(eye.name()));
+                if sides.has("trace") || sides.has("hold") {
+                    let message = "gaze has both a trace and the gaze of an eye";
+                    faults.push(Fault::new(value.span(), message).help(
+                        "give each eye its own: { left = { trace = \"…\" }, right = { trace = \"…\" } }",
+                    ));
+                }
+                match one {
+                    Some(one) => one,
+                    None => {
+                        let message = match eye {
+                            None => "gaze is given per eye, and the scene has one reference for both".to_owned(),
+                            Some(eye) => format!("gaze has none for the {} eye", eye.name()),
+                        };
+                        faults.push(Fault::new(value.span(), message));
+                        return Gaze::Centre;
+                    }
+                }
+            }
+            _ => value,
+        };
+        gaze_of(value, base, placeholders, faults)
+    }
+
+    fn bands(&self, faults: &mut Vec<Fault>) -> Option<BandEdges> {
+        let edges = self.having("bands_deg")?.numbers("bands_deg")?;
+        match BandEdges::new(edges) {
+            Ok(edges) => Some(edges),
+            Err(error) => {
+                let fault = Fault::new(self.span("bands_deg"), error.to_string());
+                faults.push(fault.help("write rising degrees, such as [0, 5, 10, 20, 30]"));
+                None
+            }
+        }
+    }
+}
+
+/// What a view may be given as.
+pub(super) const VIEW_HELP: &str = "give one in [view], such as display = \"vive-pro-eye\" or fov_vertical_deg = 100";
+
+fn gaze_of(
+    value: &Spanned<DeValue<'_>>,
+    base: &Path,
+    placeholders: Placeholders<'_>,
+    faults: &mut Vec<Fault>,
+) -> Gaze {
+    if let Some(Ok(point)) = numbers(value).map(<[f64; 2]>::try_from) {
+        return Gaze::Point(point);
+    }
+    let Some(trace) = table(value) else { return Gaze::Centre };
+    let Some(text) = trace.text("trace") else {
+        faults.push(Fault::new(value.span(), "gaze is a table without a trace").help(
+            "write [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }",
+        ));
+        return Gaze::Centre;
+    };
+    match path(placeholders, base, text, trace.span("trace"), faults) {
+        Some(path) => Gaze::Trace { path, hold: trace.flag("hold").unwrap_or(false) },
+        None => Gaze::Centre,
+    }
+}
+
+/// A path with its placeholders filled in.
+pub(super) fn path(
+    placeholders: Placeholders<'_>,
+    base: &Path,
+    text: &str,
+    span: Range<usize>,
+    faults: &mut Vec<Fault>,
+) -> Option<std::path::PathBuf> {
+    match placeholders.path(base, text) {
+        Ok(path) => Some(path),
+        Err((message, help)) => {
+            faults.push(Fault::new(span, message).help(help));
+            None
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! An experiment with all its defaults written out, as run.json keeps it.
+
+use std::collections::BTreeMap;
+
+use fovqa_frame::{SignalChannels, ToneMap, Transfer};
+use fovqa_io::AlphaPolicy;
+use fovqa_metrics::{Metric, ParamValue};
+use fovqa_vision::{EccentricityKind, ViewSpec};
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::experiment::Experiment;
+use crate::plan::{Eye, EyeView, Gaze, MetricChoice, Nonfinite, Plan};
+use crate::plots::Plot;
+
+/// A resolved experiment. Paths are relative to its file, where they begin below it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Resolved {
+    /// Its name.
+    pub name: String,
+    /// The scenes, in order.
+    pub scenes: Vec<ResolvedScene>,
+    /// The methods, in order.
+    pub methods: Vec<String>,
+    /// Every metric by its key, with all its parameters.
+    pub metrics: BTreeMap<String, BTreeMap<String, Value>>,
+    /// Whether these are the default metrics, less what does not fit.
+    pub default_metrics: bool,
+    /// Only these of each scene's frames.
+    pub frames: Option<String>,
+    /// Tables and figures; none: all that fit.
+    pub plots: Vec<Plot>,
+}
+
+/// A scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ResolvedScene {
+    /// Its name.
+    pub name: String,
+    /// Only these frames.
+    pub frames: Option<String>,
+    /// Whether frames without a partner are passed over.
+    pub allow_missing: bool,
+    /// Frames a second.
+    pub fps: Option<f64>,
+    /// One view, or the left and the right eye's.
+    pub eyes: Vec<ResolvedEye>,
+}
+
+/// What one eye sees of a scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ResolvedEye {
+    /// The eye; `None` in a scene with one picture a frame.
+    pub eye: Option<Eye>,
+    /// The reference.
+    pub reference: String,
+    /// The test of each method.
+    pub tests: BTreeMap<String, String>,
+    /// View, gaze and bands, as keys of `[view]`.
+    pub view: Value,
+    /// How files are read, as keys of `[signal]`.
+    pub signal: Value,
+}
+
+impl Experiment {
+    /// The experiment with all its defaults written out.
+    pub fn resolved(&self) -> Resolved {
+        let plan = &self.plan;
+        let scenes = plan.scenes.iter().map(|scene| ResolvedScene {
+            name: scene.name.clone(),
+            frames: scene.frames.map(|range| range.to_string()),
+            allow_missing: scene.allow_missing,
+            fps: scene.fps,
+            eyes: scene.eyes.iter().map(|eye| resolved_eye(plan, eye)).collect(),
+        });
+        let (metrics, default_metrics) = match &plan.metrics {
+            MetricChoice::Default => (Metric::DEFAULT.to_vec(), true),
+            MetricChoice::Named(named) => (named.clone(), false),
+        };
+        let params = |metric: Metric| {
+            let params = metric.info().params.iter().map(|param| {
+                let value = self.params.get(&(metric, param.name)).map(param_value);
+                (param.name.to_owned(), value.unwrap_or_else(|| literal(param.default)))
+            });
+            (metric.key().to_owned(), params.collect())
+        };
+        Resolved {
+            name: self.name.clone(),
+            scenes: scenes.collect(),
+            methods: plan.methods.clone(),
+            metrics: metrics.into_iter().map(params).collect(),
+            default_metrics,
+            frames: plan.frames.map(|range| range.to_string()),
+            plots: self.plots.clone(),
+        }
+    }
+}
+
+/// A default as the registry writes it: TOML, which for numbers, lists and quoted words is JSON.
+fn literal(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|_| text.into())
+}
+
+fn param_value(value: &ParamValue) -> Value {
+    match value {
+        ParamValue::Number(number) => json!(number),
+        ParamValue::Text(text) => json!(text),
+        ParamValue::List(list) => json!(list),
+    }
+}
+
+fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
+    let settings = &eye.settings;
+    let mut view = match &settings.view {
+        None => json!({}),
+        Some(spec) => view_keys(spec),
+    };
+    view["gaze"] = match &settings.gaze {
+        Gaze::Centre => json!("center"),
+        Gaze::Point(point) => json!(point),
+        Gaze::Trace { path, hold } => json!({ "trace": plan.shown(path), "hold": hold }),
+    };
+    view["eccentricity"] = json!(match settings.eccentricity {
+        EccentricityKind::Angular => "angular",
+        EccentricityKind::Planar => "planar",
+    });
+    let edges = settings.bands.as_ref().map(|bands| {
+        let last = bands.iter().last().map(|(_, to)| to);
+        bands.iter().map(|(from, _)| from).chain(last).collect::<Vec<f64>>()
+    });
+    // Default bands depend on the frames; summary.json has those that came out.
+    view["bands_deg"] = json!(edges);
+    let (signal, read) = (&settings.signal, &settings.read);
+    let crop = settings.crop.map(|crop| [crop.x, crop.y, crop.width, crop.height]);
+    let signal = json!({
+        "channels": match signal.channels {
+            SignalChannels::Rgb => "rgb",
+            SignalChannels::Luma => "luma",
+        },
+        "exposure_stops": signal.exposure_stops,
+        "tonemap": match signal.tonemap {
+            ToneMap::Clamp => "clamp",
+            ToneMap::Reinhard => "reinhard",
+            ToneMap::Aces => "aces",
+        },
+        "transfer": match signal.transfer {
+            None => "auto",
+            Some(Transfer::Srgb) => "srgb",
+            Some(Transfer::Linear) => "linear",
+            Some(Transfer::Pq) => "pq",
+            Some(Transfer::Gamma22) => "gamma2.2",
+        },
+        "layer": read.layer,
+        "nonfinite": match settings.nonfinite {
+            Nonfinite::Error => "error",
+            Nonfinite::Mask => "mask",
+        },
+        "alpha": match read.alpha {
+            AlphaPolicy::Error => "error",
+            AlphaPolicy::Ignore => "ignore",
+            AlphaPolicy::OverBlack => "over-black",
+        },
+        "mask": settings.mask.as_ref().map(|path| plan.shown(path)),
+        "crop": crop,
+        "max_megapixels": read.max_megapixels,
+    });
+    let tests = eye.tests.iter();
+    ResolvedEye {
+        eye: eye.eye,
+        reference: plan.shown(&eye.reference),
+        tests: tests.map(|(index, path)| (plan.methods[*index].clone(), plan.shown(path))).collect(),
+        view,
+        signal,
+    }
+}
+
+fn view_keys(spec: &ViewSpec) -> Value {
+    match spec {
+        ViewSpec::Fov { horizontal_deg, vertical_deg } => {
+            let mut view = json!({});
+            for (key, fov) in
+                [("fov_horizontal_deg", horizontal_deg), ("fov_vertical_deg", vertical_deg)]
+            {
+                if let Some(fov) = fov {
+                    view[key] = json!(fov);
+                }
+            }
+            view
+        }
+        ViewSpec::FovDiagonal { diagonal_deg } => json!({ "fov_diagonal_deg": diagonal_deg }),
+        ViewSpec::Frustum { left, right, up, down } => {
+            json!({ "frustum": { "left": left, "right": right, "up": up, "down": down } })
+        }
+        ViewSpec::PixelPitch { distance_m, pitch_mm } => {
+            json!({ "distance_m": distance_m, "pixel_pitch_mm": pitch_mm })
+        }
+        ViewSpec::Screen { distance_m, size_m } => {
+            json!({ "distance_m": distance_m, "screen_m": size_m })
+        }
+        ViewSpec::Display(display) => json!({ "display": display.name }),
+    }
+}

@@ -1,0 +1,136 @@
+//! The folder a run writes to: one run at a time, found wanting before any scoring.
+
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use fovqa_results::{RESULTS_CSV, RUN_JSON, SUMMARY_JSON};
+use thiserror::Error;
+
+use crate::journal::JOURNAL;
+
+/// Its lock is what counts; that it is there says only that the folder is ours.
+const LOCK: &str = ".fovqa.lock";
+
+/// A folder of results, locked for as long as this lives.
+#[derive(Debug)]
+pub struct ResultsFolder {
+    path: PathBuf,
+    /// The system releases it with the process, however that ends.
+    _lock: File,
+}
+
+/// A folder that cannot be written to.
+#[derive(Debug, Error)]
+pub enum FolderError {
+    /// The system refuses.
+    #[error("{}: results cannot be written there: {error}", path.display())]
+    Io {
+        /// The folder.
+        path: PathBuf,
+        /// The reason.
+        error: io::Error,
+    },
+    /// Another process writes to it.
+    #[error("{}: another run is writing there", .0.display())]
+    Busy(PathBuf),
+    /// It has files that a run would replace, and that are of no run.
+    #[error("{}: it has a {file} that is of no run", path.display())]
+    Foreign {
+        /// The folder.
+        path: PathBuf,
+        /// The file.
+        file: &'static str,
+    },
+}
+
+impl FolderError {
+    /// How to mend it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::Io { .. } => "give a folder that can be written to with {output}",
+            Self::Busy(_) => "wait until it is done, or give another folder with {output}",
+            Self::Foreign { .. } => "move it away, or give another folder with {output}",
+        }
+    }
+}
+
+impl ResultsFolder {
+    /// Makes the folder, and locks it.
+    ///
+    /// # Errors
+    /// When it cannot be made or written to, another process has it, or its files are not ours to
+    /// replace.
+    pub fn open(path: &Path) -> Result<Self, FolderError> {
+        let failed = |error| FolderError::Io { path: path.to_owned(), error };
+        fs::create_dir_all(path).map_err(failed)?;
+        let lock = path.join(LOCK);
+        if !lock.exists() && !path.join(RUN_JSON).exists() {
+            let foreign = [RESULTS_CSV, SUMMARY_JSON].into_iter().find(|f| path.join(f).exists());
+            if let Some(file) = foreign {
+                return Err(FolderError::Foreign { path: path.to_owned(), file });
+            }
+        }
+        let lock =
+            File::options().create(true).append(true).open(&lock).map_err(failed)?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(FolderError::Busy(path.to_owned())),
+            Err(TryLockError::Error(error)) => return Err(failed(error)),
+        }
+        // The lock file may be older than what now keeps others from being made.
+        let probe = path.join(format!(".fovqa.{}.tmp", std::process::id()));
+        let made = File::create(&probe).and_then(|mut file| file.write_all(b"fovqa"));
+        let removed = fs::remove_file(&probe);
+        made.and(removed).map_err(failed)?;
+        Ok(Self { path: path.to_owned(), _lock: lock })
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Takes away the results of an earlier run, so that they cannot be taken for this one's.
+    ///
+    /// # Errors
+    /// When the system refuses.
+    pub fn clear(&self) -> Result<(), FolderError> {
+        for file in [JOURNAL, RUN_JSON, SUMMARY_JSON, RESULTS_CSV] {
+            match fs::remove_file(self.path.join(file)) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                    return Err(FolderError::Io { path: self.path.clone(), error });
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_run_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let first = ResultsFolder::open(folder.path()).unwrap();
+        assert!(matches!(ResultsFolder::open(folder.path()), Err(FolderError::Busy(_))));
+        drop(first);
+        ResultsFolder::open(folder.path()).unwrap();
+    }
+
+    #[test]
+    fn files_of_others_are_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join(RESULTS_CSV), "mine").unwrap();
+        let error = ResultsFolder::open(folder.path()).unwrap_err();
+        assert!(matches!(error, FolderError::Foreign { .. }));
+        fs::remove_file(folder.path().join(RESULTS_CSV)).unwrap();
+        let ours = ResultsFolder::open(folder.path()).unwrap();
+        fs::write(folder.path().join(RESULTS_CSV), "old").unwrap();
+        ours.clear().unwrap();
+        assert!(!folder.path().join(RESULTS_CSV).exists());
+    }
+}

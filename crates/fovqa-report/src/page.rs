@@ -1,0 +1,120 @@
+//! The page of a run: its tables and figures on one sheet, readable without a network.
+
+use std::fmt::Write;
+
+use fovqa_results::{RunRecord, SummaryRecord};
+
+use crate::comparison::ComparisonTable;
+
+/// A figure on the page.
+pub(crate) struct PageFigure<'a> {
+    /// Its path without the ending, from the page.
+    pub(crate) path: &'a str,
+    pub(crate) caption: &'a str,
+}
+
+const STYLE: &str = "\
+body{font:16px/1.5 system-ui,sans-serif;color:#222;max-width:1080px;margin:2em auto;padding:0 1em}
+h1{font-size:1.6em;margin-bottom:.2em}h2{font-size:1.2em;margin-top:2em}
+p.note,figcaption,footer{color:#555;font-size:.9em}
+.wide{overflow-x:auto}
+table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9em}
+th,td{padding:.25em .7em;text-align:right;white-space:nowrap}
+thead th{text-align:center;font-weight:600}tbody th{text-align:left;font-weight:400}
+thead tr:last-child th{font-weight:400;border-bottom:1px solid #888;text-align:right}
+thead tr:first-child th:first-child{border-bottom:1px solid #888;text-align:left;vertical-align:bottom}
+td.first{padding-left:1.8em}tbody tr:last-child:not(:first-child)>*{border-top:1px solid #ccc}
+.figures{display:flex;flex-wrap:wrap;gap:1.5em}
+figure{margin:0}figure img{max-width:100%}
+.errors li{color:#a00}
+code{background:#f3f3f3;padding:0 .2em}
+";
+
+/// The page.
+pub(crate) fn page(
+    run: &RunRecord,
+    summary: &SummaryRecord,
+    tables: &[ComparisonTable],
+    figures: &[PageFigure<'_>],
+) -> String {
+    let name = escaped(&run.resolved.name);
+    let mut text = format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{name}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n"
+    );
+    let scored: usize = summary
+        .comparisons
+        .iter()
+        .filter(|comparison| comparison.eye != "both")
+        .map(|comparison| comparison.frames)
+        .sum();
+    let _ = writeln!(
+        text,
+        "<p class=\"note\">{}, {}, {} scored. {}</p>",
+        count(run.resolved.scenes.len(), "scene"),
+        count(run.resolved.methods.len(), "method"),
+        count(scored, "frame"),
+        "All values: <a href=\"results.csv\">results.csv</a>, <a href=\"summary.json\">summary.json</a>, \
+         <a href=\"run.json\">run.json</a>.",
+    );
+    if !summary.errors.is_empty() {
+        let _ = writeln!(text, "<h2>Not scored</h2>\n<ul class=\"errors\">");
+        for error in &summary.errors {
+            let frame = error.frame.map(|frame| format!(", frame {frame}")).unwrap_or_default();
+            let eye = if error.eye.is_empty() { String::new() } else { format!(", {} eye", error.eye) };
+            let place = format!("{}, {}{eye}{frame}", error.scene, error.method);
+            let _ = writeln!(text, "<li>{}: {}</li>", escaped(&place), escaped(&error.message));
+        }
+        text.push_str("</ul>\n");
+    }
+    for table in tables {
+        let _ = write!(
+            text,
+            "<h2>Comparison</h2>\n<div class=\"wide\">\n{}</div>\n\
+             <p class=\"note\">Means over frames; the best of each row in bold.</p>\n",
+            table.html()
+        );
+    }
+    if !figures.is_empty() {
+        text.push_str("<h2>Figures</h2>\n<div class=\"figures\">\n");
+        for PageFigure { path, caption } in figures {
+            let (path, caption) = (escaped(path), escaped(caption));
+            let _ = writeln!(
+                text,
+                "<figure><img src=\"{path}.svg\" alt=\"{caption}\">\n<figcaption>{caption} \
+                 (<a href=\"{path}.svg\">SVG</a>, <a href=\"{path}.png\">PNG</a>, <a href=\"{path}.csv\">CSV</a>)</figcaption></figure>"
+            );
+        }
+        text.push_str("</div>\n");
+    }
+    let _ = writeln!(
+        text,
+        "<footer><p>fovqa {}; experiment <code>{}</code>, SHA-256 <code>{}</code>; {}.</p></footer>\n\
+         </body>\n</html>",
+        escaped(&run.version),
+        escaped(&run.experiment.file),
+        escaped(&run.experiment.sha256),
+        count(run.inputs.len(), "input file"),
+    );
+    text
+}
+
+fn count(n: usize, what: &str) -> String {
+    if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
+}
+
+/// Text that HTML takes as it is, between tags and in attributes.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut plain = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => plain.push_str("&amp;"),
+            '<' => plain.push_str("&lt;"),
+            '>' => plain.push_str("&gt;"),
+            '"' => plain.push_str("&quot;"),
+            c => plain.push(c),
+        }
+    }
+    plain
+}

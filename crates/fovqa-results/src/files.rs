@@ -1,0 +1,111 @@
+//! The files of a run, written whole and read again: whoever looks sees the old file or the new
+//! one, never half of either.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use thiserror::Error;
+
+/// All values, a row each.
+pub const RESULTS_CSV: &str = "results.csv";
+/// Values over the frames.
+pub const SUMMARY_JSON: &str = "summary.json";
+/// What the run was of.
+pub const RUN_JSON: &str = "run.json";
+
+/// A file of a run that cannot be written, or read again.
+#[derive(Debug, Error)]
+pub enum FileError {
+    /// It cannot be written.
+    #[error("{}: it cannot be written: {error}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: io::Error,
+    },
+    /// It cannot be read.
+    #[error("{}: it cannot be read: {error}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: io::Error,
+    },
+    /// It is not what it should be.
+    #[error("{}: it is not {expected}: {detail}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What it should be.
+        expected: &'static str,
+        /// What is wrong.
+        detail: String,
+    },
+}
+
+/// Writes a file whole: under a temporary name beside it, then renamed.
+///
+/// # Errors
+/// When the system refuses either; nothing is left behind then, and what was there stays.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+    let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
+    written.map_err(|error| {
+        // It may not even have come into being.
+        let _ = fs::remove_file(&temporary);
+        FileError::Write { path: path.to_owned(), error }
+    })
+}
+
+/// Writes a value as indented JSON with a newline at its end.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_json_file(path: &Path, value: &impl Serialize) -> Result<(), FileError> {
+    let mut bytes = serde_json::to_vec_pretty(value)
+        .map_err(|error| FileError::Write { path: path.to_owned(), error: error.into() })?;
+    bytes.push(b'\n');
+    write_whole(path, &bytes)
+}
+
+/// Reads a JSON file of a run.
+///
+/// # Errors
+/// When it is not there, or is something else.
+pub fn read_json_file<T: DeserializeOwned>(
+    path: &Path,
+    expected: &'static str,
+) -> Result<T, FileError> {
+    let bytes =
+        fs::read(path).map_err(|error| FileError::Read { path: path.to_owned(), error })?;
+    serde_json::from_slice(&bytes).map_err(|error| FileError::Format {
+        path: path.to_owned(),
+        expected,
+        detail: error.to_string(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_whole_or_not_at_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        write_whole(&path, b"one").unwrap();
+        write_whole(&path, b"two").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"two");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing temporary is left");
+        let blocked = folder.path().join("b");
+        fs::create_dir(&blocked).unwrap();
+        fs::write(blocked.join("c"), b"").unwrap();
+        assert!(write_whole(&blocked, b"x").is_err());
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+}

@@ -1,0 +1,12 @@
+//! JSON: what `score` prints, and the files of a run. Keys may be added, never renamed.
+
+mod run;
+mod score;
+mod summary;
+mod values;
+
+pub use run::{ExperimentRecord, RUN_SCHEMA, RunRecord};
+pub use score::{SCORE_SCHEMA, write_json};
+pub use summary::{
+    BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, SummaryRecord, ViewRecord,
+};

@@ -1,0 +1,135 @@
+//! `--format json`, schema `fovqa.score/1`. Keys may be added, never renamed.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+use fovqa_metrics::Metric;
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+use super::summary::{BandStatistics, ViewRecord, stats};
+use super::values::{MetricMap, Number, Stats};
+use crate::report::{FrameResult, ScoreReport, ViewResult};
+use crate::summary::Summary;
+
+/// Name and version of the format.
+pub const SCORE_SCHEMA: &str = "fovqa.score/1";
+
+/// Writes a report as JSON, indented, with a newline at its end.
+///
+/// # Errors
+/// When the writer refuses.
+pub fn write_json(report: &ScoreReport, mut out: impl Write) -> io::Result<()> {
+    let summary = Summary::of(report);
+    let document = Document {
+        schema: SCORE_SCHEMA,
+        version: env!("CARGO_PKG_VERSION"),
+        view: report.view.as_ref().map(ViewRecord::of),
+        frames: report.frames.iter().map(|f| Frame::of(f, report.view.as_ref())).collect(),
+        sequence: BTreeMap::new(),
+        summary: stats(&summary.statistics),
+        summary_bands: summary.bands.into_iter().map(BandStatistics::from).collect(),
+        gaze_held: report.gaze_held,
+        errors: report
+            .failures
+            .iter()
+            .map(|f| Error {
+                frame: f.frame,
+                reference: &f.reference,
+                test: &f.test,
+                message: &f.message,
+            })
+            .collect(),
+    };
+    serde_json::to_writer_pretty(&mut out, &document)?;
+    writeln!(out)
+}
+
+#[derive(serde::Serialize)]
+struct Document<'a> {
+    schema: &'a str,
+    version: &'static str,
+    view: Option<ViewRecord>,
+    frames: Vec<Frame<'a>>,
+    sequence: BTreeMap<&'a str, Number>,
+    summary: MetricMap<Stats>,
+    summary_bands: Vec<BandStatistics>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gaze_held: Option<usize>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    errors: Vec<Error<'a>>,
+}
+
+#[derive(serde::Serialize)]
+struct Frame<'a> {
+    frame: u64,
+    reference: &'a str,
+    test: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gaze_px: Option<[f64; 2]>,
+    metrics: MetricMap<Number>,
+    bands: Vec<Band>,
+    #[serde(skip_serializing_if = "is_zero")]
+    pixels_outside_bands: u64,
+    #[serde(skip_serializing_if = "is_zero")]
+    pixels_left_out: u64,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_zero(count: &u64) -> bool {
+    *count == 0
+}
+
+impl<'a> Frame<'a> {
+    fn of(frame: &'a FrameResult, view: Option<&ViewResult>) -> Self {
+        let scores = &frame.scores;
+        let edges = view.map(|v| v.bands_deg.as_slice()).unwrap_or_default();
+        Self {
+            frame: frame.frame,
+            reference: &frame.reference,
+            test: &frame.test,
+            gaze_px: frame.gaze_px,
+            metrics: MetricMap(scores.scores.iter().map(|(m, v)| (*m, Number(*v))).collect()),
+            bands: edges
+                .iter()
+                .zip(&scores.bands)
+                .map(|(&(from_deg, to_deg), band)| Band {
+                    from_deg,
+                    to_deg,
+                    pixels: band.pixels,
+                    scores: band.scores.iter().map(|(m, v)| (*m, v.map(Number))).collect(),
+                })
+                .collect(),
+            // Without a view there are no bands to be outside of.
+            pixels_outside_bands: if view.is_some() { scores.outside_bands } else { 0 },
+            pixels_left_out: scores.left_out,
+        }
+    }
+}
+
+struct Band {
+    from_deg: f64,
+    to_deg: f64,
+    pixels: u64,
+    scores: Vec<(Metric, Option<Number>)>,
+}
+
+impl Serialize for Band {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("from_deg", &self.from_deg)?;
+        map.serialize_entry("to_deg", &self.to_deg)?;
+        map.serialize_entry("pixels", &self.pixels)?;
+        for (metric, value) in &self.scores {
+            map.serialize_entry(metric.key(), value)?;
+        }
+        map.end()
+    }
+}
+
+#[derive(serde::Serialize)]
+struct Error<'a> {
+    frame: Option<u64>,
+    reference: &'a str,
+    test: &'a str,
+    message: &'a str,
+}

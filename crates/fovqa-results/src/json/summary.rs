@@ -1,0 +1,267 @@
+//! summary.json: a run's values over its frames, by scene, method and metric.
+
+use std::collections::BTreeMap;
+
+use fovqa_metrics::Metric;
+use serde::de::{Deserialize, Deserializer, Error};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+use super::values::{AnyStats, MetricMap, Number, Stats};
+use crate::report::{Comparison, RunResults, ViewResult};
+use crate::summary::{BandSummary, Statistics, Summary};
+
+/// Name and version of the format.
+pub const SUMMARY_SCHEMA: &str = "fovqa.summary/1";
+
+/// The whole file.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct SummaryRecord {
+    /// Name and version of the format.
+    pub schema: String,
+    /// Version of fovqa.
+    pub version: String,
+    /// Name of the experiment.
+    pub experiment: String,
+    /// One entry a scene, method and eye.
+    pub comparisons: Vec<ComparisonSummary>,
+    /// What could not be scored.
+    pub errors: Vec<ErrorRecord>,
+}
+
+/// One method in one scene, for one eye or both.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ComparisonSummary {
+    /// The scene.
+    pub scene: String,
+    /// The method.
+    pub method: String,
+    /// Values of swept parameters; empty where nothing is swept.
+    pub parameters: String,
+    /// `left`, `right` or `both`; empty in a scene with one picture a frame.
+    pub eye: String,
+    /// Frames that were scored.
+    pub frames: usize,
+    /// Frames, or whole comparisons, that could not be.
+    pub errors: usize,
+    /// The view; `None` without one, and for both eyes.
+    pub view: Option<ViewRecord>,
+    /// Each metric over the frames.
+    #[serde(serialize_with = "metrics_out", deserialize_with = "metrics_in")]
+    pub metrics: BTreeMap<Metric, Statistics>,
+    /// The same per eccentricity band.
+    pub bands: Vec<BandStatistics>,
+}
+
+/// A view, as `score` prints it.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ViewRecord {
+    /// Width in pixels.
+    pub width: usize,
+    /// Height in pixels.
+    pub height: usize,
+    /// Focal length in pixels, along x and y.
+    pub focal_px: [f64; 2],
+    /// Gaze in pixels; of the first frame where it moves.
+    pub gaze_px: [f64; 2],
+    /// `angular` or `planar`.
+    pub eccentricity: String,
+}
+
+/// One band over the frames.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BandStatistics {
+    /// Lower edge.
+    pub from_deg: f64,
+    /// Upper edge.
+    pub to_deg: f64,
+    /// Pixels in all frames together.
+    pub pixels: u64,
+    /// Each metric; `None` where no frame has a value.
+    pub metrics: BTreeMap<Metric, Option<Statistics>>,
+}
+
+/// Something that could not be scored.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct ErrorRecord {
+    /// The scene.
+    pub scene: String,
+    /// The method.
+    pub method: String,
+    /// The eye; empty in a scene with one picture a frame.
+    pub eye: String,
+    /// The frame; `None`: the whole comparison.
+    pub frame: Option<u64>,
+    /// What is wrong.
+    pub message: String,
+}
+
+impl SummaryRecord {
+    /// The summary of a run.
+    pub fn of(experiment: &str, results: &RunResults) -> Self {
+        let errors = results.comparisons.iter().flat_map(|comparison| {
+            comparison.report.failures.iter().map(|failure| ErrorRecord {
+                scene: comparison.scene.clone(),
+                method: comparison.method.clone(),
+                eye: comparison.eye.to_owned(),
+                frame: failure.frame,
+                message: failure.message.clone(),
+            })
+        });
+        Self {
+            schema: SUMMARY_SCHEMA.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            experiment: experiment.to_owned(),
+            comparisons: results.comparisons.iter().map(ComparisonSummary::of).collect(),
+            errors: errors.collect(),
+        }
+    }
+}
+
+impl ComparisonSummary {
+    fn of(comparison: &Comparison) -> Self {
+        let report = &comparison.report;
+        let Summary { statistics, bands } = Summary::of(report);
+        // Both eyes have a view each, and none together.
+        let view = report.view.as_ref().filter(|_| comparison.eye != "both");
+        Self {
+            scene: comparison.scene.clone(),
+            method: comparison.method.clone(),
+            parameters: String::new(),
+            eye: comparison.eye.to_owned(),
+            frames: report.frames.len(),
+            errors: report.failures.len(),
+            view: view.map(ViewRecord::of),
+            metrics: statistics,
+            bands: bands.into_iter().map(BandStatistics::from).collect(),
+        }
+    }
+}
+
+impl From<BandSummary> for BandStatistics {
+    fn from(band: BandSummary) -> Self {
+        let BandSummary { from_deg, to_deg, pixels, statistics } = band;
+        Self { from_deg, to_deg, pixels, metrics: statistics }
+    }
+}
+
+impl ViewRecord {
+    pub(crate) fn of(view: &ViewResult) -> Self {
+        Self {
+            width: view.size[0],
+            height: view.size[1],
+            focal_px: view.focal_px,
+            gaze_px: view.gaze_px,
+            eccentricity: view.eccentricity.to_owned(),
+        }
+    }
+}
+
+fn metrics_out<S: Serializer>(
+    metrics: &BTreeMap<Metric, Statistics>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    stats(metrics).serialize(serializer)
+}
+
+fn metrics_in<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<BTreeMap<Metric, Statistics>, D::Error> {
+    let MetricMap(metrics) = MetricMap::<AnyStats>::deserialize(deserializer)?;
+    Ok(metrics.into_iter().map(|(metric, stats)| (metric, stats.0)).collect())
+}
+
+/// Statistics ready to be written.
+pub(crate) fn stats(metrics: &BTreeMap<Metric, Statistics>) -> MetricMap<Stats> {
+    let stats = |(&metric, &statistics): (&Metric, &Statistics)| (metric, Stats { metric, statistics });
+    MetricMap(metrics.iter().map(stats).collect())
+}
+
+impl Serialize for BandStatistics {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("from_deg", &self.from_deg)?;
+        map.serialize_entry("to_deg", &self.to_deg)?;
+        map.serialize_entry("pixels", &self.pixels)?;
+        for (&metric, statistics) in &self.metrics {
+            let stats = statistics.map(|statistics| Stats { metric, statistics });
+            map.serialize_entry(metric.key(), &stats)?;
+        }
+        map.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for BandStatistics {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(serde::Deserialize)]
+        #[serde(untagged)]
+        enum Value {
+            Number(Number),
+            Statistics(Option<AnyStats>),
+        }
+        let mut values: BTreeMap<String, Value> = BTreeMap::deserialize(deserializer)?;
+        let mut number = |key: &'static str| match values.remove(key) {
+            Some(Value::Number(number)) => Ok(number.0),
+            _ => Err(D::Error::missing_field(key)),
+        };
+        let (from_deg, to_deg) = (number("from_deg")?, number("to_deg")?);
+        let pixels = number("pixels")? as u64;
+        let metrics = values.into_iter().filter_map(|(key, value)| match value {
+            Value::Statistics(stats) => Some((Metric::find(&key)?, stats.map(|stats| stats.0))),
+            Value::Number(_) => None,
+        });
+        Ok(Self { from_deg, to_deg, pixels, metrics: metrics.collect() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        let statistics = Statistics {
+            mean: 27.5,
+            min: 0.1 + 0.2,
+            max: f64::INFINITY,
+            identical_frames: Some(1),
+            pooled: Some(26.25),
+        };
+        let ssim = Statistics { identical_frames: None, pooled: None, max: 1.0, ..statistics };
+        let record = SummaryRecord {
+            schema: SUMMARY_SCHEMA.to_owned(),
+            version: "0".to_owned(),
+            experiment: "e".to_owned(),
+            comparisons: vec![ComparisonSummary {
+                scene: "s".to_owned(),
+                method: "m".to_owned(),
+                parameters: String::new(),
+                eye: "left".to_owned(),
+                frames: 3,
+                errors: 1,
+                view: Some(ViewRecord {
+                    width: 3,
+                    height: 4,
+                    focal_px: [1.1, 2.2],
+                    gaze_px: [0.5, 0.25],
+                    eccentricity: "angular".to_owned(),
+                }),
+                metrics: BTreeMap::from([(Metric::Psnr, statistics), (Metric::Ssim, ssim)]),
+                bands: vec![BandStatistics {
+                    from_deg: 0.0,
+                    to_deg: 5.0,
+                    pixels: 7,
+                    metrics: BTreeMap::from([(Metric::Psnr, Some(statistics)), (Metric::Ssim, None)]),
+                }],
+            }],
+            errors: vec![ErrorRecord {
+                scene: "s".to_owned(),
+                method: "m".to_owned(),
+                eye: String::new(),
+                frame: None,
+                message: "no".to_owned(),
+            }],
+        };
+        let text = serde_json::to_string_pretty(&record).unwrap();
+        assert_eq!(serde_json::from_str::<SummaryRecord>(&text).unwrap(), record, "{text}");
+    }
+}
