@@ -41,7 +41,8 @@ impl Experiment {
     /// # Errors
     /// When it cannot be read, or has mistakes in it: all that can be told, in one go.
     pub fn read(path: &Path) -> Result<Self, ExperimentError> {
-        let unreadable = |reason: String| ExperimentError::Unreadable { path: path.to_owned(), reason };
+        let unreadable =
+            |reason: String| ExperimentError::Unreadable { path: path.to_owned(), reason };
         let kind = fs::metadata(path).map_err(|error| unreadable(reason(&error)))?;
         // Before it is opened, which a pipe without a writer would never end.
         if !kind.is_file() {
@@ -55,8 +56,8 @@ impl Experiment {
         if bytes.len() as u64 > MAX_BYTES {
             return Err(unreadable("it is larger than 4 MiB".to_owned()));
         }
-        let text = String::from_utf8(bytes)
-            .map_err(|_| unreadable("it is not UTF-8 text".to_owned()))?;
+        let text =
+            String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".to_owned()))?;
         Self::parse(path, text)
     }
 

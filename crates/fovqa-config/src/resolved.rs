@@ -168,7 +168,9 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
     ResolvedEye {
         eye: eye.eye,
         reference: plan.shown(&eye.reference),
-        tests: tests.map(|(index, path)| (plan.methods[*index].clone(), plan.shown(path))).collect(),
+        tests: tests
+            .map(|(index, path)| (plan.methods[*index].clone(), plan.shown(path)))
+            .collect(),
         view,
         signal,
     }

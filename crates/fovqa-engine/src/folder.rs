@@ -71,8 +71,7 @@ impl ResultsFolder {
                 return Err(FolderError::Foreign { path: path.to_owned(), file });
             }
         }
-        let lock =
-            File::options().create(true).append(true).open(&lock).map_err(failed)?;
+        let lock = File::options().create(true).append(true).open(&lock).map_err(failed)?;
         match lock.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Err(FolderError::Busy(path.to_owned())),

@@ -6,6 +6,8 @@
 mod error;
 mod events;
 mod find;
+mod folder;
+mod journal;
 mod load;
 mod read_ahead;
 mod retina;
@@ -17,5 +19,7 @@ mod view;
 pub use error::EngineError;
 pub use events::Events;
 pub use find::{Found, FoundFrame, FoundView, Problem, find};
+pub use folder::{FolderError, ResultsFolder};
+pub use journal::{JOURNAL, Journal};
 pub use read_ahead::read_ahead;
 pub use run::{Finished, Record, check, run};

@@ -10,13 +10,13 @@ use fovqa_vision::BandEdges;
 use crate::error::EngineError;
 use crate::events::{Events, Warnings};
 use crate::find::{Found, FoundView, Problem};
-use crate::load::{Loader, Step};
+use crate::load::{Loaded, Loader, Step};
 use crate::read_ahead::read_ahead;
 use crate::setup::farthest_deg;
 use crate::view::ViewRun;
 
 /// A frame of a comparison, scored or not, as soon as it is finished.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug)]
 pub struct Finished<'a> {
     /// The scene.
     pub scene: &'a str,
@@ -24,6 +24,8 @@ pub struct Finished<'a> {
     pub method: &'a str,
     /// The eye, in a scene with two.
     pub eye: Option<Eye>,
+    /// Inputs that were read for it, and for nothing before it, where they were hashed.
+    pub inputs: Vec<Input>,
     /// Its result.
     pub result: Result<&'a FrameResult, &'a Failure>,
 }
@@ -77,9 +79,12 @@ pub fn run(
         };
         scoring.run(&mut reports, &mut progress, record)?;
     }
-    let inputs = inputs.into_iter();
-    let inputs = inputs.map(|(path, FileId { bytes, sha256 })| Input { path, bytes, sha256 });
-    Ok(RunResults { comparisons: in_order(plan, reports), inputs: inputs.collect() })
+    let inputs = inputs.into_iter().map(|(path, id)| input(path, id)).collect();
+    Ok(RunResults { comparisons: in_order(plan, reports), inputs })
+}
+
+fn input(path: String, FileId { bytes, sha256 }: FileId) -> Input {
+    Input { path, bytes, sha256 }
 }
 
 /// Indices of a scene, a method and an eye's view.
@@ -172,22 +177,19 @@ impl Scoring<'_, '_, '_> {
             &steps,
             rayon::current_num_threads(),
             |step| loader.load(step),
-            crate::load::Loaded::bytes,
+            Loaded::bytes,
             |index, loaded| {
                 if stopped.is_err() {
                     return;
                 }
                 let step = &steps[index];
-                for side in loaded.reference.iter().chain([&loaded.test]).flatten() {
-                    if let Some(id) = &side.id {
-                        self.inputs.entry(side.file.clone()).or_insert_with(|| id.clone());
-                    }
-                }
+                let inputs = self.new_inputs(&loaded);
                 let result = run.step(step, loaded, self.warnings);
                 let finished = Finished {
                     scene: &self.scene.name,
                     method: &plan.methods[step.method],
                     eye: eye.eye,
+                    inputs,
                     result: result.as_ref(),
                 };
                 stopped = record(finished);
@@ -208,6 +210,20 @@ impl Scoring<'_, '_, '_> {
             }
         }
         Ok(())
+    }
+
+    /// The files of a step that have not been read before.
+    fn new_inputs(&mut self, loaded: &Loaded) -> Vec<Input> {
+        let mut new = Vec::new();
+        for side in loaded.reference.iter().chain([&loaded.test]).flatten() {
+            if let Some(id) = &side.id
+                && !self.inputs.contains_key(&side.file)
+            {
+                self.inputs.insert(side.file.clone(), id.clone());
+                new.push(input(side.file.clone(), id.clone()));
+            }
+        }
+        new
     }
 
     fn comparison(&self, method: usize) -> Place {

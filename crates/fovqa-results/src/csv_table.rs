@@ -1,10 +1,12 @@
-//! `--format csv`: one long, tidy table, a row a value. Empty cells where a column does not apply.
+//! One long, tidy table, a row a value: what `score --format csv` prints, and results.csv. Empty
+//! cells where a column does not apply. Floats keep their point (`5.0`): readers that guess a
+//! column's type from its first rows are not misled.
 
 use std::io::{self, Write};
 
 use fovqa_metrics::Metric;
 
-use crate::report::ScoreReport;
+use crate::report::{Comparison, RunResults, ScoreReport};
 use crate::summary::{Statistics, Summary};
 
 /// The columns, in order.
@@ -23,9 +25,15 @@ pub const COLUMNS: [&str; 12] = [
     "value",
 ];
 
-/// A row of the table; `scene`, `method`, `parameters`, `eye` and `level` do not apply to `score`.
-#[derive(Default)]
+/// The metric of a row that stands for something that could not be scored.
+pub const ERROR: &str = "error";
+
+/// A row of the table; `parameters` and `level` belong to measures to come.
+#[derive(Default, Clone, Copy)]
 struct Row<'a> {
+    scene: &'a str,
+    method: &'a str,
+    eye: &'a str,
     frame: Option<u64>,
     metric: &'a str,
     statistic: &'a str,
@@ -39,74 +47,114 @@ struct Row<'a> {
 /// # Errors
 /// When the writer refuses.
 pub fn write_csv(report: &ScoreReport, out: impl Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    writer.write_record(COLUMNS).map_err(io_error)?;
-    let edges = report.view.as_ref().map(|v| v.bands_deg.as_slice()).unwrap_or_default();
-    for frame in &report.frames {
-        let row = Row { frame: Some(frame.frame), ..Row::default() };
-        for (metric, value) in &frame.scores.scores {
-            write(&mut writer, &Row { metric: metric.key(), value: Some(*value), ..row })?;
+    let mut table = Table::new(out)?;
+    table.frames(&Row::default(), report)?;
+    table.statistics(report)?;
+    table.0.flush()
+}
+
+/// Writes the values of a run as results.csv: each frame's values, comparison by comparison; behind
+/// those of a comparison, a row [`ERROR`] without a value for each frame that could not be scored,
+/// or one without a frame where the whole could not be.
+///
+/// # Errors
+/// When the writer refuses.
+pub fn write_results_csv(results: &RunResults, out: impl Write) -> io::Result<()> {
+    let mut table = Table::new(out)?;
+    for Comparison { scene, method, eye, report } in &results.comparisons {
+        let row = Row { scene, method, eye, ..Row::default() };
+        table.frames(&row, report)?;
+        for failure in &report.failures {
+            table.write(&Row { frame: failure.frame, metric: ERROR, ..row })?;
         }
-        for (metric, pixels) in [
-            ("pixels_outside_bands", if edges.is_empty() { 0 } else { frame.scores.outside_bands }),
-            ("pixels_left_out", frame.scores.left_out),
+    }
+    table.0.flush()
+}
+
+struct Table<W: Write>(csv::Writer<W>);
+
+impl<W: Write> Table<W> {
+    fn new(out: W) -> io::Result<Self> {
+        let mut writer = csv::Writer::from_writer(out);
+        writer.write_record(COLUMNS).map_err(io_error)?;
+        Ok(Self(writer))
+    }
+
+    fn frames(&mut self, row: &Row<'_>, report: &ScoreReport) -> io::Result<()> {
+        let edges = report.view.as_ref().map(|v| v.bands_deg.as_slice()).unwrap_or_default();
+        for frame in &report.frames {
+            let row = Row { frame: Some(frame.frame), ..*row };
+            for (metric, value) in &frame.scores.scores {
+                self.write(&Row { metric: metric.key(), value: Some(*value), ..row })?;
+            }
+            let outside = if edges.is_empty() { 0 } else { frame.scores.outside_bands };
+            for (metric, pixels) in
+                [("pixels_outside_bands", outside), ("pixels_left_out", frame.scores.left_out)]
+            {
+                if pixels > 0 {
+                    self.write(&Row { metric, value: Some(pixels as f64), ..row })?;
+                }
+            }
+            for (&band, scores) in edges.iter().zip(&frame.scores.bands) {
+                let row = Row { band: Some(band), ..row };
+                let pixels = Some(scores.pixels as f64);
+                self.write(&Row { metric: "pixels", value: pixels, ..row })?;
+                for (metric, value) in &scores.scores {
+                    self.write(&Row { metric: metric.key(), value: *value, ..row })?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn statistics(&mut self, report: &ScoreReport) -> io::Result<()> {
+        let summary = Summary::of(report);
+        for (metric, statistics) in &summary.statistics {
+            self.statistics_of(*metric, None, statistics)?;
+        }
+        for band in &summary.bands {
+            for (metric, statistics) in &band.statistics {
+                if let Some(statistics) = statistics {
+                    let edges = Some((band.from_deg, band.to_deg));
+                    self.statistics_of(*metric, edges, statistics)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn statistics_of(
+        &mut self,
+        metric: Metric,
+        band: Option<(f64, f64)>,
+        statistics: &Statistics,
+    ) -> io::Result<()> {
+        let identical = statistics.identical_frames.map(|n| n as f64);
+        for (statistic, value) in [
+            ("mean", Some(statistics.mean)),
+            ("min", Some(statistics.min)),
+            ("max", Some(statistics.max)),
+            ("identical_frames", identical),
+            ("pooled", statistics.pooled),
         ] {
-            if pixels > 0 {
-                write(&mut writer, &Row { metric, value: Some(pixels as f64), ..row })?;
+            if value.is_some() {
+                let row = Row { metric: metric.key(), statistic, band, value, ..Row::default() };
+                self.write(&row)?;
             }
         }
-        for (&band, scores) in edges.iter().zip(&frame.scores.bands) {
-            let row = Row { band: Some(band), ..row };
-            let pixels = Some(scores.pixels as f64);
-            write(&mut writer, &Row { metric: "pixels", value: pixels, ..row })?;
-            for (metric, value) in &scores.scores {
-                write(&mut writer, &Row { metric: metric.key(), value: *value, ..row })?;
-            }
-        }
+        Ok(())
     }
-    let summary = Summary::of(report);
-    for (metric, statistics) in &summary.statistics {
-        write_statistics(&mut writer, *metric, None, statistics)?;
-    }
-    for band in &summary.bands {
-        for (metric, statistics) in &band.statistics {
-            if let Some(statistics) = statistics {
-                let edges = Some((band.from_deg, band.to_deg));
-                write_statistics(&mut writer, *metric, edges, statistics)?;
-            }
-        }
-    }
-    writer.flush()
-}
 
-fn write_statistics(
-    writer: &mut csv::Writer<impl Write>,
-    metric: Metric,
-    band: Option<(f64, f64)>,
-    statistics: &Statistics,
-) -> io::Result<()> {
-    let identical = statistics.identical_frames.map(|n| n as f64);
-    for (statistic, value) in [
-        ("mean", Some(statistics.mean)),
-        ("min", Some(statistics.min)),
-        ("max", Some(statistics.max)),
-        ("identical_frames", identical),
-        ("pooled", statistics.pooled),
-    ] {
-        if value.is_some() {
-            write(writer, &Row { metric: metric.key(), statistic, band, value, frame: None })?;
-        }
+    fn write(&mut self, row: &Row<'_>) -> io::Result<()> {
+        let text = |value: Option<f64>| value.map(|v| format!("{v:?}")).unwrap_or_default();
+        let frame = row.frame.map(|f| f.to_string()).unwrap_or_default();
+        let (from, to) = (text(row.band.map(|b| b.0)), text(row.band.map(|b| b.1)));
+        let value = text(row.value);
+        let Row { scene, method, eye, metric, statistic, .. } = row;
+        let cells =
+            [scene, method, "", eye, &frame, "pair", metric, statistic, "", &from, &to, &value];
+        self.0.write_record(cells).map_err(io_error)
     }
-    Ok(())
-}
-
-fn write(writer: &mut csv::Writer<impl Write>, row: &Row<'_>) -> io::Result<()> {
-    let text = |value: Option<f64>| value.map(|v| v.to_string()).unwrap_or_default();
-    let frame = row.frame.map(|f| f.to_string()).unwrap_or_default();
-    let (from, to) = (text(row.band.map(|b| b.0)), text(row.band.map(|b| b.1)));
-    let value = text(row.value);
-    let cells = ["", "", "", "", &frame, "pair", row.metric, row.statistic, "", &from, &to, &value];
-    writer.write_record(cells).map_err(io_error)
 }
 
 /// The reason itself, whose kind (a closed pipe, say) csv's own conversion would hide.

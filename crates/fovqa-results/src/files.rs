@@ -81,8 +81,7 @@ pub fn read_json_file<T: DeserializeOwned>(
     path: &Path,
     expected: &'static str,
 ) -> Result<T, FileError> {
-    let bytes =
-        fs::read(path).map_err(|error| FileError::Read { path: path.to_owned(), error })?;
+    let bytes = fs::read(path).map_err(|error| FileError::Read { path: path.to_owned(), error })?;
     serde_json::from_slice(&bytes).map_err(|error| FileError::Format {
         path: path.to_owned(),
         expected,

@@ -24,7 +24,9 @@ pub(crate) fn check(
         let text = name.get_ref().as_ref();
         match keys.iter().find(|key| key.name == text) {
             Some(key) => check_value(&key.kind, value, &inside(place, text), faults),
-            None => faults.push(unknown("key", text, name.span(), place, keys.iter().map(|k| k.name))),
+            None => {
+                faults.push(unknown("key", text, name.span(), place, keys.iter().map(|k| k.name)));
+            }
         }
     }
     for key in keys.iter().filter(|key| key.required && !table.contains_key(key.name)) {
@@ -47,7 +49,8 @@ fn unknown<'a>(
 ) -> Fault {
     let fault = Fault::new(span, format!("{place} has no {what} `{name}`"));
     let guess = nearest(name, known.clone());
-    let label = guess.map_or_else(|| format!("no such {what}"), |near| format!("did you mean {near}?"));
+    let label =
+        guess.map_or_else(|| format!("no such {what}"), |near| format!("did you mean {near}?"));
     fault.label(label).help(format!("there are {}", known.collect::<Vec<_>>().join(", ")))
 }
 
@@ -58,7 +61,9 @@ fn check_metrics(value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fau
     };
     if table.is_empty() {
         let fault = Fault::new(value.span(), format!("[{place}] names no metric"));
-        faults.push(fault.help("name some, such as psnr = {}, or leave the table out for the default ones"));
+        faults.push(
+            fault.help("name some, such as psnr = {}, or leave the table out for the default ones"),
+        );
     }
     for (name, params) in table {
         let text = name.get_ref().as_ref();
@@ -69,23 +74,23 @@ fn check_metrics(value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fau
         };
         let DeValue::Table(params) = params.get_ref() else {
             let fault = Fault::new(params.span(), format!("{place}.{text} is {}", type_of(params)));
-            faults.push(fault.help(format!("write {text} = {{}}, with its parameters between the braces")));
+            faults.push(
+                fault.help(format!("write {text} = {{}}, with its parameters between the braces")),
+            );
             continue;
         };
         for (name, value) in params {
             let param = name.get_ref().as_ref();
-            match metric.info().params.iter().find(|known| known.name == param) {
-                Some(known) => {
-                    let place = format!("{place}.{text}.{param}");
-                    check_value(&parameter(known.values), value, &place, faults);
-                }
-                None => {
-                    let known = metric.info().params.iter().map(|p| p.name);
-                    let none = metric.info().params.is_empty();
-                    let fault = unknown("parameter", param, name.span(), text, known);
-                    faults.push(if none { fault.help(format!("{text} has no parameters")) } else { fault });
-                }
+            let known = metric.info().params;
+            if let Some(known) = known.iter().find(|known| known.name == param) {
+                let place = format!("{place}.{text}.{param}");
+                check_value(&parameter(known.values), value, &place, faults);
+                continue;
             }
+            let names = known.iter().map(|param| param.name);
+            let fault = unknown("parameter", param, name.span(), text, names);
+            let none = || format!("{text} has no parameters");
+            faults.push(if known.is_empty() { fault.help(none()) } else { fault });
         }
     }
 }
@@ -260,7 +265,9 @@ fn name_fits(text: &str) -> Result<(), String> {
         return Err("cannot be empty, or begin or end with a space".to_owned());
     }
     if text.chars().any(|c| c.is_control() || matches!(c, '/' | '\\')) || text.starts_with('.') {
-        return Err("cannot have / or \\ or control characters in it, or begin with a dot".to_owned());
+        return Err(
+            "cannot have / or \\ or control characters in it, or begin with a dot".to_owned()
+        );
     }
     if text.chars().count() > LONGEST {
         return Err(format!("cannot be longer than {LONGEST} characters"));

@@ -60,9 +60,21 @@ const VIEW: &[Key] = &[
     key("fov_diagonal_deg", FOV, "diagonal field of view, °; square pixels"),
     key("frustum", Kind::Table(FRUSTUM), "asymmetric frustum: tangents of its half angles"),
     key("distance_m", LENGTH_M, "distance of the eye from a flat screen, m"),
-    key("pixel_pitch_mm", Kind::Above(0.0, 1e3), "size of a pixel of a flat screen, mm; with distance_m"),
-    key("screen_m", Kind::List(&LENGTH_M, 2, 2), "width and height of a flat screen that the frame fills, m; with distance_m"),
-    key("gaze", Kind::Either(&[Kind::Word(&["center"]), POINT, Kind::Table(TRACE)]), "where the eye looks: \"center\" (the principal point), [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }"),
+    key(
+        "pixel_pitch_mm",
+        Kind::Above(0.0, 1e3),
+        "size of a pixel of a flat screen, mm; with distance_m",
+    ),
+    key(
+        "screen_m",
+        Kind::List(&LENGTH_M, 2, 2),
+        "width and height of a flat screen that the frame fills, m; with distance_m",
+    ),
+    key(
+        "gaze",
+        Kind::Either(&[Kind::Word(&["center"]), POINT, Kind::Table(TRACE)]),
+        "where the eye looks: \"center\" (the principal point), [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }",
+    ),
 ];
 
 /// How frames are read.
@@ -70,19 +82,35 @@ const SIGNAL: &[Key] = &[
     key("channels", Kind::Word(&["rgb", "luma"]), "what is compared"),
     key("exposure_stops", Kind::Number(-100.0, 100.0), "exposure of linear input, stops"),
     key("tonemap", Kind::Word(&["clamp", "reinhard", "aces"]), "tone map of linear input"),
-    key("transfer", Kind::Word(&["auto", "srgb", "linear", "pq", "gamma2.2"]), "how values in the files are encoded"),
+    key(
+        "transfer",
+        Kind::Word(&["auto", "srgb", "linear", "pq", "gamma2.2"]),
+        "how values in the files are encoded",
+    ),
     key("layer", Kind::Text, "colour layer of OpenEXR files that have several"),
     key("nonfinite", Kind::Word(&["error", "mask"]), "what to do about NaN and infinity"),
-    key("alpha", Kind::Word(&["error", "ignore", "over-black"]), "what to do about alpha that is not 1 everywhere"),
+    key(
+        "alpha",
+        Kind::Word(&["error", "ignore", "over-black"]),
+        "what to do about alpha that is not 1 everywhere",
+    ),
     key("mask", Kind::Text, "picture that is white where pixels count"),
-    key("crop", Kind::List(&PIXELS, 4, 4), "[x, y, width, height] to score, in pixels; the view is of the crop"),
+    key(
+        "crop",
+        Kind::List(&PIXELS, 4, 4),
+        "[x, y, width, height] to score, in pixels; the view is of the crop",
+    ),
     key("max_megapixels", Kind::Whole(1, 1_000_000), "most pixels a file may declare, millions"),
 ];
 
 /// What both eyes share.
 const SHARED: &[Key] = &[
     key("eccentricity", Kind::Word(&["angular", "planar"]), "how eccentricity is measured"),
-    key("bands_deg", Kind::List(&BAND_EDGE, 2, BandEdges::MAX_BANDS + 1), "edges of the eccentricity bands, °"),
+    key(
+        "bands_deg",
+        Kind::List(&BAND_EDGE, 2, BandEdges::MAX_BANDS + 1),
+        "edges of the eccentricity bands, °",
+    ),
 ];
 
 const fn joined<const N: usize>(parts: &[&[Key]]) -> [Key; N] {
@@ -125,8 +153,16 @@ static SIGNAL_TABLE: [Key; SIGNAL.len() + 2] = joined(&[
 static SCENE_TABLE: [Key; 6 + VIEW.len() + SHARED.len() + SIGNAL.len() + 2] = joined(&[
     &[
         required("name", Kind::Name, "its name in results, and what {scene} stands for"),
-        required("reference", FILES, "reference frames: file, folder, glob or printf pattern, or { left, right }"),
-        key("folder", Kind::Text, "what {folder} stands for in paths; the scene's name if it is not given"),
+        required(
+            "reference",
+            FILES,
+            "reference frames: file, folder, glob or printf pattern, or { left, right }",
+        ),
+        key(
+            "folder",
+            Kind::Text,
+            "what {folder} stands for in paths; the scene's name if it is not given",
+        ),
         key("fps", Kind::Above(0.0, 1e6), "frames a second"),
         key("frames", Kind::Frames, "only these frames"),
         key("allow_missing", Kind::Bool, "pass over frames without a partner"),
@@ -142,12 +178,20 @@ static SCENE_TABLE: [Key; 6 + VIEW.len() + SHARED.len() + SIGNAL.len() + 2] = jo
 
 static METHOD_TABLE: [Key; 3] = [
     required("name", Kind::Name, "its name in results, and what {method} stands for"),
-    required("test", FILES, "test frames, with {scene}, {folder}, {method} and {eye} for what differs"),
+    required(
+        "test",
+        FILES,
+        "test frames, with {scene}, {folder}, {method} and {eye} for what differs",
+    ),
     key("scenes", NAMES, "only these scenes"),
 ];
 
 static PLOT_TABLE: [Key; 4] = [
-    required("kind", Kind::Word(&["table", "profile", "bars", "frames"]), "table: scenes against metrics and methods; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames"),
+    required(
+        "kind",
+        Kind::Word(&["table", "profile", "bars", "frames"]),
+        "table: scenes against metrics and methods; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames",
+    ),
     key("metric", Kind::Metric, "the metric; if it is not given, a figure for each"),
     key("scenes", NAMES, "only these scenes"),
     key("methods", NAMES, "only these methods"),
@@ -160,7 +204,11 @@ static EXPERIMENT_TABLE: [Key; 8] = [
     key("signal", Kind::Table(&SIGNAL_TABLE), "how frames are read"),
     required("scene", Kind::Tables(&SCENE_TABLE), "the scenes"),
     required("method", Kind::Tables(&METHOD_TABLE), "the methods"),
-    key("metrics", Kind::Metrics, "the metrics with their parameters; if it is not given, the default ones"),
+    key(
+        "metrics",
+        Kind::Metrics,
+        "the metrics with their parameters; if it is not given, the default ones",
+    ),
     key("plot", Kind::Tables(&PLOT_TABLE), "tables and figures; if none is given, all that fit"),
 ];
 

@@ -52,7 +52,13 @@ pub(super) fn methods(
 }
 
 /// Adds a method's tests to a scene.
-fn tests(table: Node<'_>, index: usize, base: &Path, scene: &mut Resolved, faults: &mut Vec<Fault>) {
+fn tests(
+    table: Node<'_>,
+    index: usize,
+    base: &Path,
+    scene: &mut Resolved,
+    faults: &mut Vec<Fault>,
+) {
     let method = table.text("name").unwrap_or_default();
     let name = scene.scene.name.clone();
     let sides = table.table("test");
@@ -66,7 +72,9 @@ fn tests(table: Node<'_>, index: usize, base: &Path, scene: &mut Resolved, fault
             )
         } else {
             (
-                format!("method \"{method}\" has a test for each eye, and scene \"{name}\" has one reference"),
+                format!(
+                    "method \"{method}\" has a test for each eye, and scene \"{name}\" has one reference"
+                ),
                 "give the scene reference = { left = \"…\", right = \"…\" }, or name the method's scenes",
             )
         };

@@ -59,7 +59,10 @@ impl Placeholders<'_> {
         while let Some((before, behind)) = rest.split_once('{') {
             path.push_str(before);
             let Some((name, after)) = behind.split_once('}') else {
-                return Err((format!("\"{text}\" opens a brace and does not close it"), self.known()));
+                return Err((
+                    format!("\"{text}\" opens a brace and does not close it"),
+                    self.known(),
+                ));
             };
             path.push_str(match name {
                 "scene" => self.scene,
@@ -81,6 +84,8 @@ impl Placeholders<'_> {
 
     fn known(&self) -> String {
         let method = if self.method.is_some() { ", {method}" } else { "" };
-        format!("braces may hold {{scene}}, {{folder}}{method} or, in a scene with two eyes, {{eye}}")
+        format!(
+            "braces may hold {{scene}}, {{folder}}{method} or, in a scene with two eyes, {{eye}}"
+        )
     }
 }

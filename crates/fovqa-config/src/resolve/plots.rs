@@ -47,7 +47,8 @@ fn scored(table: Node<'_>, key: &str, kind: PlotKind, names: &Names, faults: &mu
     };
     let keys = || scored.iter().map(|metric| metric.key());
     let Some(metric) = scored.iter().find(|metric| metric.key() == key) else {
-        let fault = Fault::new(table.span("metric"), format!("the plot's metric {key} is not scored"));
+        let fault =
+            Fault::new(table.span("metric"), format!("the plot's metric {key} is not scored"));
         faults.push(fault.help(format!("name it in [metrics]; these are: {}", quoted(keys()))));
         return;
     };

@@ -1,6 +1,6 @@
 //! `[[scene]]`.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::Path;
 
@@ -34,8 +34,13 @@ pub(super) fn scenes(
         .map(|(table, span)| {
             let name = table.text("name").unwrap_or_default();
             let folder = table.text("folder").unwrap_or(name);
-            let references: Vec<(Option<Eye>, &str, Range<usize>)> = match table.table("reference") {
-                None => vec![(None, table.text("reference").unwrap_or_default(), table.span("reference"))],
+            let references: Vec<(Option<Eye>, &str, Range<usize>)> = match table.table("reference")
+            {
+                None => vec![(
+                    None,
+                    table.text("reference").unwrap_or_default(),
+                    table.span("reference"),
+                )],
                 Some(sides) => Eye::BOTH
                     .into_iter()
                     .filter_map(|eye| {
@@ -98,12 +103,15 @@ fn foveal_without_view(
 
 /// Says which names there are twice.
 pub(super) fn unique(tables: &[(Node<'_>, Range<usize>)], what: &str, faults: &mut Vec<Fault>) {
-    let mut seen = BTreeMap::new();
+    let mut seen = BTreeSet::new();
     for (table, _) in tables {
         let name = table.text("name").unwrap_or_default();
-        if seen.insert(name.to_lowercase(), ()).is_some() {
-            let fault = Fault::new(table.span("name"), format!("there are two {what}s named \"{name}\""));
-            faults.push(fault.label("the second").help("give each its own name, in more than capitals"));
+        if !seen.insert(name.to_lowercase()) {
+            let fault =
+                Fault::new(table.span("name"), format!("there are two {what}s named \"{name}\""));
+            faults.push(
+                fault.label("the second").help("give each its own name, in more than capitals"),
+            );
         }
     }
 }

@@ -74,9 +74,9 @@ impl<'a> Layers<'a> {
             let [x, y, width, height] = [x, y, width, height].map(|side| side as usize);
             Crop { x, y, width, height }
         });
-        let mask = self.text("mask").and_then(|text| {
-            path(placeholders, base, text, self.span("mask"), faults)
-        });
+        let mask = self
+            .text("mask")
+            .and_then(|text| path(placeholders, base, text, self.span("mask"), faults));
         let settings = Settings {
             read: self.read(),
             crop,
@@ -96,7 +96,8 @@ impl<'a> Layers<'a> {
         };
         if let Some(what) = settings.lacks_view() {
             let key = if settings.bands.is_some() { "bands_deg" } else { "gaze" };
-            let fault = Fault::new(self.span(key), format!("{what} needs a view, and none is given"));
+            let fault =
+                Fault::new(self.span(key), format!("{what} needs a view, and none is given"));
             faults.push(fault.help(VIEW_HELP));
         }
         settings
@@ -177,7 +178,8 @@ impl<'a> Layers<'a> {
                 return None;
             }
             [first, .., last] => {
-                let message = format!("the view is given in more than one way: {}", given.join(", "));
+                let message =
+                    format!("the view is given in more than one way: {}", given.join(", "));
                 let fault = Fault::new(table.span(last), message);
                 faults.push(fault.label(format!("beside {first}")).help("keep one of them"));
                 return None;
@@ -190,12 +192,7 @@ impl<'a> Layers<'a> {
         spec
     }
 
-    fn gaze(
-        &self,
-        base: &Path,
-        placeholders: Placeholders<'_>,
-        faults: &mut Vec<Fault>,
-    ) -> Gaze {
+    fn gaze(&self, base: &Path, placeholders: Placeholders<'_>, faults: &mut Vec<Fault>) -> Gaze {
         let Some(value) = self.having("gaze").and_then(|table| table.value("gaze")) else {
             return Gaze::Centre;
         };
@@ -208,17 +205,16 @@ impl<'a> Layers<'a> {
                         "give each eye its own: { left = { trace = \"…\" }, right = { trace = \"…\" } }",
                     ));
                 }
-                match one {
-                    Some(one) => one,
-                    None => {
-                        let message = match eye {
-                            None => "gaze is given per eye, and the scene has one reference for both".to_owned(),
-                            Some(eye) => format!("gaze has none for the {} eye", eye.name()),
-                        };
-                        faults.push(Fault::new(value.span(), message));
-                        return Gaze::Centre;
-                    }
-                }
+                let Some(one) = one else {
+                    let one_for_both = "gaze is given per eye, and the scene has one reference";
+                    let message = eye.map_or_else(
+                        || one_for_both.to_owned(),
+                        |eye| format!("gaze has none for the {} eye", eye.name()),
+                    );
+                    faults.push(Fault::new(value.span(), message));
+                    return Gaze::Centre;
+                };
+                one
             }
             _ => value,
         };
@@ -239,7 +235,8 @@ impl<'a> Layers<'a> {
 }
 
 /// What a view may be given as.
-pub(super) const VIEW_HELP: &str = "give one in [view], such as display = \"vive-pro-eye\" or fov_vertical_deg = 100";
+pub(super) const VIEW_HELP: &str =
+    "give one in [view], such as display = \"vive-pro-eye\" or fov_vertical_deg = 100";
 
 fn gaze_of(
     value: &Spanned<DeValue<'_>>,
@@ -252,9 +249,11 @@ fn gaze_of(
     }
     let Some(trace) = table(value) else { return Gaze::Centre };
     let Some(text) = trace.text("trace") else {
-        faults.push(Fault::new(value.span(), "gaze is a table without a trace").help(
-            "write [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }",
-        ));
+        faults.push(
+            Fault::new(value.span(), "gaze is a table without a trace").help(
+                "write [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }",
+            ),
+        );
         return Gaze::Centre;
     };
     match path(placeholders, base, text, trace.span("trace"), faults) {

@@ -1,5 +1,6 @@
 //! `--frames A..B:STEP`.
 
+use std::fmt;
 use std::str::FromStr;
 
 use thiserror::Error;
@@ -25,6 +26,13 @@ impl FrameRange {
         number >= self.from
             && self.to.is_none_or(|to| number < to)
             && (number - self.from).is_multiple_of(self.step)
+    }
+}
+
+impl fmt::Display for FrameRange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let to = self.to.map(|to| to.to_string()).unwrap_or_default();
+        write!(f, "{}..{to}:{}", self.from, self.step)
     }
 }
 
@@ -65,6 +73,8 @@ mod tests {
         assert_eq!(picked("2..=5"), [2, 3, 4, 5]);
         assert_eq!(picked("1..:4"), [1, 5, 9]);
         assert_eq!(picked("..3"), [0, 1, 2]);
+        let range: FrameRange = "2..=5".parse().unwrap();
+        assert_eq!(range.to_string().parse(), Ok(range));
         for bad in ["", "3", "a..b", "1..2:0", "1..2:x", "..=", "-1..2"] {
             assert!(bad.parse::<FrameRange>().is_err(), "{bad}");
         }

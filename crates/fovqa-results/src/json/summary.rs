@@ -172,7 +172,8 @@ fn metrics_in<'de, D: Deserializer<'de>>(
 
 /// Statistics ready to be written.
 pub(crate) fn stats(metrics: &BTreeMap<Metric, Statistics>) -> MetricMap<Stats> {
-    let stats = |(&metric, &statistics): (&Metric, &Statistics)| (metric, Stats { metric, statistics });
+    let stats =
+        |(&metric, &statistics): (&Metric, &Statistics)| (metric, Stats { metric, statistics });
     MetricMap(metrics.iter().map(stats).collect())
 }
 
@@ -250,7 +251,10 @@ mod tests {
                     from_deg: 0.0,
                     to_deg: 5.0,
                     pixels: 7,
-                    metrics: BTreeMap::from([(Metric::Psnr, Some(statistics)), (Metric::Ssim, None)]),
+                    metrics: BTreeMap::from([
+                        (Metric::Psnr, Some(statistics)),
+                        (Metric::Ssim, None),
+                    ]),
                 }],
             }],
             errors: vec![ErrorRecord {
