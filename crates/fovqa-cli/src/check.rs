@@ -52,8 +52,14 @@ fn plan(experiment: &Experiment, found: &Found) -> String {
     for view in &found.views {
         scene(&mut text, experiment, view);
     }
-    let tests: usize = found.views.iter().flat_map(|view| &view.frames).map(|f| f.tests.len()).sum();
-    let _ = writeln!(text, "\n{} to score, into reports/{}", count(tests, "test frame"), experiment.name);
+    let tests: usize =
+        found.views.iter().flat_map(|view| &view.frames).map(|f| f.tests.len()).sum();
+    let _ = writeln!(
+        text,
+        "\n{} to score, into reports/{}",
+        count(tests, "test frame"),
+        experiment.name
+    );
     text
 }
 

@@ -21,7 +21,7 @@ pub(crate) fn note(message: &str) {
 
 /// A message as a terminal may show it: what a file put into it (names, cells) must neither steer
 /// the terminal nor fill it.
-fn shown(message: &str) -> String {
+pub(crate) fn shown(message: &str) -> String {
     const LONGEST: usize = 4000;
     let mut shown = String::new();
     for (count, c) in message.chars().enumerate() {
@@ -32,6 +32,12 @@ fn shown(message: &str) -> String {
         if c.is_control() { shown.extend(c.escape_default()) } else { shown.push(c) }
     }
     shown
+}
+
+/// A message that has been laid out already.
+pub(crate) fn block(text: &str) {
+    // A closed stderr must not change how the run ends.
+    let _ = writeln!(anstream::stderr().lock(), "{}", text.trim_end());
 }
 
 fn say(kind: &str, colour: AnsiColor, message: &str, help: &str) {

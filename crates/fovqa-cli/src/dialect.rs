@@ -13,7 +13,7 @@ pub(crate) enum Dialect {
 }
 
 /// Setting, option, key.
-const SETTINGS: [(&str, &str, &str); 14] = [
+const SETTINGS: [(&str, &str, &str); 15] = [
     ("allow_missing", "--allow-missing", "allow_missing = true"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),
     ("alpha=over-black", "--alpha over-black", "alpha = \"over-black\""),
@@ -26,6 +26,7 @@ const SETTINGS: [(&str, &str, &str); 14] = [
     ("max_megapixels", "--max-megapixels", "max_megapixels"),
     ("metrics", "--metrics", "[metrics]"),
     ("nonfinite=mask", "--nonfinite mask", "nonfinite = \"mask\""),
+    ("output", "--output", "--output"),
     ("transfer", "--transfer", "transfer"),
     (
         "view",

@@ -1,12 +1,17 @@
 //! The command: arguments, progress, exit codes. Everything else is in the crates below.
 
 mod args;
+mod check;
 mod diagnostic;
 mod dialect;
 mod exit;
+mod experiment;
 mod list;
 mod output;
 mod progress;
+mod report;
+mod run;
+mod schema;
 mod score;
 mod threads;
 
@@ -26,14 +31,18 @@ pub fn main() -> ExitCode {
             Ok(cli) => cli,
             Err(error) => return usage(&error),
         };
-        run(cli)
+        dispatch(cli)
     });
     outcome.unwrap_or_else(|_| exit::bug()).into()
 }
 
-fn run(cli: Cli) -> Exit {
+fn dispatch(cli: Cli) -> Exit {
     match cli.command {
         Command::Score(args) => score::run(*args),
+        Command::Run(args) => run::run(&args),
+        Command::Report(args) => report::run(&args),
+        Command::Check(args) => check::run(&args),
+        Command::Schema => schema::run(),
         Command::List { what } => list::run(what),
         Command::Completions { shell } => output::write(|out| {
             let mut script = Vec::new();

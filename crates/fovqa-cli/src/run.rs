@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use fovqa_config::Experiment;
+use fovqa_config::{Experiment, Eye};
 use fovqa_engine::{Found, Journal, ResultsFolder};
 use fovqa_io::FileId;
 use fovqa_report::Drawn;
@@ -54,7 +54,7 @@ fn default_folder(experiment: &Experiment) -> PathBuf {
 pub(crate) fn say_problems(experiment: &Experiment, found: &Found) {
     for problem in &found.problems {
         let scene = &experiment.plan.scenes[problem.scene];
-        let eye = scene.eyes[problem.eye].eye.map(|eye| eye.name());
+        let eye = scene.eyes[problem.eye].eye.map(Eye::name);
         let method = problem.method.map(|method| experiment.plan.methods[method].as_str());
         let place: Vec<&str> =
             [Some(scene.name.as_str()), method, eye].into_iter().flatten().collect();
@@ -85,7 +85,9 @@ fn score(
 /// Writes the results, draws them, and says where they are.
 fn finish(experiment: &Experiment, results: &RunResults, folder: &ResultsFolder) -> Exit {
     let summary = SummaryRecord::of(&experiment.name, results);
-    for error in results.comparisons.iter().flat_map(|c| c.report.failures.iter().map(move |f| (c, f))) {
+    for error in
+        results.comparisons.iter().flat_map(|c| c.report.failures.iter().map(move |f| (c, f)))
+    {
         let (comparison, failure) = error;
         let frame = failure.frame.map(|frame| format!("frame {frame}"));
         let eye = Some(comparison.eye).filter(|eye| !eye.is_empty()).map(str::to_owned);
@@ -99,7 +101,9 @@ fn finish(experiment: &Experiment, results: &RunResults, folder: &ResultsFolder)
     }
     let drawn = match fovqa_report::draw(folder.path()) {
         Ok(drawn) => drawn,
-        Err(error) => return failed(&error, "the results are written; `fovqa report` draws them again"),
+        Err(error) => {
+            return failed(&error, "the results are written; `fovqa report` draws them again");
+        }
     };
     let printed = say(&drawn, folder.path());
     let scored: usize = results.comparisons.iter().map(|c| c.report.frames.len()).sum();
@@ -150,14 +154,15 @@ pub(crate) fn say(drawn: &Drawn, folder: &Path) -> Exit {
         Some(table) => output::write(|out| out.write_all(table.terminal().as_bytes())),
         None => Exit::Done,
     };
-    let figures = drawn.files.iter().filter(|file| file.ends_with(".svg")).count();
-    let figures = match figures {
+    let figures = match drawn.figures {
         0 => String::new(),
         1 => ", 1 figure".to_owned(),
         n => format!(", {n} figures"),
     };
     let folder = folder.display();
-    diagnostic::note(&format!("{folder}: results.csv, summary.json{figures}; look at {folder}/index.html"));
+    diagnostic::note(&format!(
+        "{folder}: results.csv, summary.json{figures}; look at {folder}/index.html"
+    ));
     printed
 }
 

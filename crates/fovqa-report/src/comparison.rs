@@ -8,6 +8,8 @@ use fovqa_config::Plot;
 use fovqa_metrics::{Better, Metric};
 use fovqa_results::{ComparisonSummary, RunRecord, SummaryRecord};
 
+use crate::terminal::printable;
+
 /// A table of means over the frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparisonTable {
@@ -46,9 +48,8 @@ impl ComparisonTable {
             .filter(|name| wanted(&plot.scenes, name))
             .map(String::as_str)
             .collect();
-        let scored = |metric: &Metric| {
-            summary.comparisons.iter().any(|c| c.metrics.contains_key(metric))
-        };
+        let scored =
+            |metric: &Metric| summary.comparisons.iter().any(|c| c.metrics.contains_key(metric));
         let of_plot = |metric: &Metric| plot.metric.as_ref().is_none_or(|key| key == metric.key());
         let metrics: Vec<Metric> =
             Metric::ALL.into_iter().filter(|m| scored(m) && of_plot(m)).collect();
@@ -128,35 +129,39 @@ impl ComparisonTable {
         String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
     }
 
-    /// For a terminal: metric by metric below each other, `*` behind the best of each row.
+    /// For a terminal: metric by metric below each other, or, where there is but one scene, method
+    /// by method; `*` behind the best of each scene.
     pub fn terminal(&self) -> String {
+        if let [row] = self.rows.as_slice() {
+            return self.one_scene(row);
+        }
         let mut text = String::new();
         for (index, metric) in self.metrics.iter().enumerate() {
-            let mut table = Table::new();
-            table
-                .load_preset(presets::NOTHING)
-                .set_content_arrangement(ContentArrangement::Disabled);
             let heading = heading(*metric);
-            table.set_header(
+            let mut table = plain_table(
                 [heading.as_str()].into_iter().chain(self.methods.iter().map(String::as_str)),
             );
             for row in &self.rows {
-                let cells = row.cells[index].iter().map(|cell| {
-                    format!("{}{}", shown(*metric, cell.value), if cell.best { "*" } else { " " })
-                });
-                table.add_row([row.label.clone()].into_iter().chain(cells));
+                let cells = row.cells[index].iter().map(|cell| starred(*metric, cell));
+                table.add_row([printable(&row.label)].into_iter().chain(cells));
             }
-            for (index, column) in table.column_iter_mut().enumerate() {
-                let side = if index == 0 { CellAlignment::Left } else { CellAlignment::Right };
-                column.set_cell_alignment(side);
-                column.set_padding(if index == 0 { (0, 1) } else { (1, 0) });
-            }
-            for line in table.lines() {
-                let _ = writeln!(text, "{}", line.trim_end());
-            }
+            text.push_str(&aligned(table));
             text.push('\n');
         }
         text
+    }
+
+    fn one_scene(&self, row: &Row) -> String {
+        let headings: Vec<String> = self.metrics.iter().map(|metric| heading(*metric)).collect();
+        let label = printable(&row.label);
+        let mut table =
+            plain_table([label.as_str()].into_iter().chain(headings.iter().map(String::as_str)));
+        for (index, method) in self.methods.iter().enumerate() {
+            let metrics = self.metrics.iter().zip(&row.cells);
+            let cells = metrics.map(|(metric, cells)| starred(*metric, &cells[index]));
+            table.add_row([printable(method)].into_iter().chain(cells));
+        }
+        aligned(table)
     }
 
     /// HTML of the same layout.
@@ -179,8 +184,7 @@ impl ComparisonTable {
                 for (index, cell) in cells.iter().enumerate() {
                     let first = if index == 0 { " class=\"first\"" } else { "" };
                     let number = shown(*metric, cell.value);
-                    let number =
-                        if cell.best { format!("<b>{number}</b>") } else { number };
+                    let number = if cell.best { format!("<b>{number}</b>") } else { number };
                     let _ = write!(text, "<td{first}>{number}</td>");
                 }
             }
@@ -189,6 +193,31 @@ impl ComparisonTable {
         text.push_str("</tbody>\n</table>\n");
         text
     }
+}
+
+fn plain_table<'a>(header: impl Iterator<Item = &'a str>) -> Table {
+    let mut table = Table::new();
+    table.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
+    table.set_header(header);
+    table
+}
+
+/// Names to the left, numbers to the right, nothing behind the last column.
+fn aligned(mut table: Table) -> String {
+    for (index, column) in table.column_iter_mut().enumerate() {
+        let side = if index == 0 { CellAlignment::Left } else { CellAlignment::Right };
+        column.set_cell_alignment(side);
+        column.set_padding(if index == 0 { (0, 1) } else { (1, 0) });
+    }
+    let mut text = String::new();
+    for line in table.lines() {
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+    text
+}
+
+fn starred(metric: Metric, cell: &Cell) -> String {
+    format!("{}{}", shown(metric, cell.value), if cell.best { "*" } else { " " })
 }
 
 /// The summary of a method in a scene: of both eyes, where there are two.

@@ -34,8 +34,8 @@ const PNG_SCALE: f32 = 2.0;
 pub struct Drawn {
     /// The first comparison table; `None` where nothing was scored.
     pub table: Option<ComparisonTable>,
-    /// Every file, from the folder of results.
-    pub files: Vec<String>,
+    /// How many figures.
+    pub figures: usize,
 }
 
 /// Why nothing could be drawn.
@@ -79,10 +79,10 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     for plot in &plots {
         if plot.kind == PlotKind::Table {
             let table = ComparisonTable::new(&run, &summary, plot);
-            tables.extend(table.map(|table| (names.free("table".to_owned()), table)));
+            tables.extend(table.map(|table| (names.free("table"), table)));
         }
         for figure in figures(&source, plot) {
-            drawn.push(NamedFigure { name: names.free(figure.name.clone()), ..figure });
+            drawn.push(NamedFigure { name: names.free(&figure.name), ..figure });
         }
     }
 
@@ -111,15 +111,12 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let on_page: Vec<PageFigure<'_>> =
         on_page.map(|(path, figure)| PageFigure { path, caption: &figure.caption }).collect();
     let tables: Vec<ComparisonTable> = tables.into_iter().map(|(_, table)| table).collect();
-    write_whole(
-        &folder.join("index.html"),
-        page(&run, &summary, &tables, &on_page).as_bytes(),
-    )?;
+    write_whole(&folder.join("index.html"), page(&run, &summary, &tables, &on_page).as_bytes())?;
     files.push("index.html".to_owned());
     remove_others(folder, &files);
-    let manifest = Manifest { schema: SCHEMA.to_owned(), files: files.clone() };
+    let manifest = Manifest { schema: SCHEMA.to_owned(), files };
     write_json_file(&folder.join(MANIFEST), &manifest)?;
-    Ok(Drawn { table: tables.into_iter().next(), files })
+    Ok(Drawn { table: tables.into_iter().next(), figures: drawn.len() })
 }
 
 /// Takes away what was drawn of an earlier run.
@@ -146,9 +143,8 @@ fn write_figure(plots: &Path, figure: &NamedFigure) -> Result<(), ReportError> {
 fn remove_others(folder: &Path, kept: &[String]) {
     let manifest: Manifest =
         read_json_file(&folder.join(MANIFEST), "a list of files").unwrap_or_default();
-    let below = |file: &str| {
-        Path::new(file).components().all(|part| matches!(part, Component::Normal(_)))
-    };
+    let below =
+        |file: &str| Path::new(file).components().all(|part| matches!(part, Component::Normal(_)));
     let old = manifest.files.iter().filter(|file| !kept.contains(file) && below(file));
     for file in old {
         // What somebody has taken away already is as good.
@@ -161,8 +157,8 @@ fn remove_others(folder: &Path, kept: &[String]) {
 struct Names(BTreeSet<String>);
 
 impl Names {
-    fn free(&mut self, name: String) -> String {
-        let mut free = name.clone();
+    fn free(&mut self, name: &str) -> String {
+        let mut free = name.to_owned();
         let mut count = 1;
         while !self.0.insert(free.clone()) {
             count += 1;

@@ -101,10 +101,8 @@ impl Selection<'_> {
         let mut figures: Vec<NamedFigure> = Vec::new();
         if let [_, _, ..] = self.scenes.as_slice() {
             let bands = |method: &str| self.mean_bands(metric, method);
-            let caption = format!(
-                "{label} against eccentricity, mean over {} scenes",
-                self.scenes.len()
-            );
+            let caption =
+                format!("{label} against eccentricity, mean over {} scenes", self.scenes.len());
             figures.extend(self.profile(metric, name.clone(), None, caption, bands));
         }
         for scene in &self.scenes {

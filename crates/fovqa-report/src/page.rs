@@ -51,18 +51,18 @@ pub(crate) fn page(
         .sum();
     let _ = writeln!(
         text,
-        "<p class=\"note\">{}, {}, {} scored. {}</p>",
+        "<p class=\"note\">{}, {}, {} scored. All values: <a href=\"results.csv\">results.csv</a>, \
+         <a href=\"summary.json\">summary.json</a>, <a href=\"run.json\">run.json</a>.</p>",
         count(run.resolved.scenes.len(), "scene"),
         count(run.resolved.methods.len(), "method"),
         count(scored, "frame"),
-        "All values: <a href=\"results.csv\">results.csv</a>, <a href=\"summary.json\">summary.json</a>, \
-         <a href=\"run.json\">run.json</a>.",
     );
     if !summary.errors.is_empty() {
         let _ = writeln!(text, "<h2>Not scored</h2>\n<ul class=\"errors\">");
         for error in &summary.errors {
             let frame = error.frame.map(|frame| format!(", frame {frame}")).unwrap_or_default();
-            let eye = if error.eye.is_empty() { String::new() } else { format!(", {} eye", error.eye) };
+            let eye =
+                if error.eye.is_empty() { String::new() } else { format!(", {} eye", error.eye) };
             let place = format!("{}, {}{eye}{frame}", error.scene, error.method);
             let _ = writeln!(text, "<li>{}: {}</li>", escaped(&place), escaped(&error.message));
         }

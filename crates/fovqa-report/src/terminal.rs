@@ -112,7 +112,7 @@ fn heading(report: &ScoreReport) -> String {
 }
 
 /// A file name that cannot steer the terminal.
-fn printable(name: &str) -> String {
+pub(crate) fn printable(name: &str) -> String {
     let shown = |c: char| {
         if c.is_control() { c.escape_default().collect() } else { c.to_string() }
     };

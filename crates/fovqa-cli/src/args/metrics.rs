@@ -4,7 +4,7 @@ use clap::Args;
 use fovqa_config::MetricChoice;
 use fovqa_metrics::{Metric, ParamValue, Params};
 
-use super::nearest::no_such;
+use super::no_such::no_such;
 use super::values::literal;
 
 #[derive(Debug, Args)]

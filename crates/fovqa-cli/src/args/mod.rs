@@ -1,12 +1,14 @@
 //! The command line, as clap sees it.
 
 mod metrics;
-mod nearest;
+mod no_such;
+mod run;
 mod score;
 mod signal;
 mod values;
 mod view;
 
+pub(crate) use run::{CheckArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -22,7 +24,7 @@ use clap::{Parser, Subcommand, ValueEnum};
     arg_required_else_help = true
 )]
 #[command(
-    after_help = "Exit codes: 0 done; 2 the command line is wrong; 3 an input is missing, unreadable or does not\n\
+    after_help = "Exit codes: 0 done; 2 the command line or the experiment file is wrong; 3 an input is missing, unreadable or does not\n\
 fit, or the output cannot be written; 70 a bug in fovqa; 130 interrupted."
 )]
 pub(crate) struct Cli {
@@ -35,6 +37,15 @@ pub(crate) enum Command {
     /// Score test frames against reference frames.
     #[command(after_help = score::EXAMPLES)]
     Score(Box<ScoreArgs>),
+    /// Run an experiment: scenes, methods and metrics of a TOML file, with tables and figures.
+    #[command(after_help = run::EXAMPLES)]
+    Run(RunArgs),
+    /// Draw the tables, figures and page of a run again, without scoring.
+    Report(ReportArgs),
+    /// Check an experiment file, and print its plan and the frames found; reads no pixels.
+    Check(CheckArgs),
+    /// Print the JSON Schema of the experiment file, for editors.
+    Schema,
     /// List what there is: metrics with their parameters, or display presets.
     List {
         /// What to list.

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use fovqa_config::Gaze;
 use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec, displays, find_display};
 
-use super::nearest::no_such;
+use super::no_such::no_such;
 use super::values::{finite, numbers};
 
 /// How eccentricity is measured.
