@@ -37,7 +37,7 @@ pub(crate) fn shown(message: &str) -> String {
 /// A message that has been laid out already.
 pub(crate) fn block(text: &str) {
     // A closed stderr must not change how the run ends.
-    let _ = writeln!(anstream::stderr().lock(), "{}", text.trim_end());
+    let _ = writeln!(anstream::stderr().lock(), "{}\n", text.trim_end());
 }
 
 fn say(kind: &str, colour: AnsiColor, message: &str, help: &str) {

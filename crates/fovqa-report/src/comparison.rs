@@ -68,9 +68,7 @@ impl ComparisonTable {
                 Row { label: (*scene).to_owned(), cells: cells.collect() }
             })
             .collect();
-        if rows.len() > 1 {
-            rows.push(average(&metrics, &rows));
-        }
+        rows.extend(average(&metrics, &rows));
         Some(Self { methods, metrics, rows })
     }
 
@@ -268,8 +266,8 @@ fn marked(metric: Metric, values: impl Iterator<Item = Option<f64>>) -> Vec<Cell
     values.into_iter().map(cell).collect()
 }
 
-/// The means over the scenes that all methods have.
-fn average(metrics: &[Metric], rows: &[Row]) -> Row {
+/// The means over the scenes that all methods have; `None` where there are not two of them.
+fn average(metrics: &[Metric], rows: &[Row]) -> Option<Row> {
     let mut scenes = Vec::new();
     let cells = metrics.iter().enumerate().map(|(index, &metric)| {
         let whole: Vec<&Vec<Cell>> = rows
@@ -287,12 +285,14 @@ fn average(metrics: &[Metric], rows: &[Row]) -> Row {
         )
     });
     let cells = cells.collect();
-    let label = if scenes.iter().all(|count| *count == rows.len()) {
-        "Average".to_owned()
-    } else {
-        "Average of scenes all methods have".to_owned()
+    let (fewest, most) = (scenes.iter().min().copied()?, scenes.iter().max().copied()?);
+    let label = match fewest {
+        0 | 1 => return None,
+        all if all == rows.len() => "Average".to_owned(),
+        count if count == most => format!("Average of the {count} scenes all methods have"),
+        _ => "Average of the scenes all methods have".to_owned(),
     };
-    Row { label, cells }
+    Some(Row { label, cells })
 }
 
 /// The mean of the finite values; infinite where there is no other, `None` without any.

@@ -99,10 +99,13 @@ impl Selection<'_> {
         let name = format!("profile-{}", slug(metric.key()));
         let label = metric.info().label;
         let mut figures: Vec<NamedFigure> = Vec::new();
-        if let [_, _, ..] = self.scenes.as_slice() {
-            let bands = |method: &str| self.mean_bands(metric, method);
-            let caption =
-                format!("{label} against eccentricity, mean over {} scenes", self.scenes.len());
+        let common = self.common_scenes(metric);
+        if common.len() > 1 {
+            let bands = |method: &str| self.mean_bands(metric, &common, method);
+            let which =
+                if common.len() == self.scenes.len() { "" } else { " that all methods have" };
+            let count = common.len();
+            let caption = format!("{label} against eccentricity, mean over {count} scenes{which}");
             figures.extend(self.profile(metric, name.clone(), None, caption, bands));
         }
         for scene in &self.scenes {
@@ -168,14 +171,18 @@ impl Selection<'_> {
             .collect()
     }
 
-    /// The mean over the scenes, of the bands that all of them have.
-    fn mean_bands(&self, metric: Metric, method: &str) -> Vec<Band> {
-        let scenes: Vec<Vec<Band>> = self
-            .scenes
-            .iter()
-            .map(|scene| self.bands(metric, scene, method))
-            .filter(|bands| !bands.is_empty())
-            .collect();
+    /// The scenes in which every method has bands: means over others could not be compared.
+    fn common_scenes(&self, metric: Metric) -> Vec<&str> {
+        let has = |scene: &&str| {
+            self.methods.iter().all(|(method, _)| !self.bands(metric, scene, method).is_empty())
+        };
+        self.scenes.iter().copied().filter(has).collect()
+    }
+
+    /// The mean over scenes, of the bands that all of them have.
+    fn mean_bands(&self, metric: Metric, scenes: &[&str], method: &str) -> Vec<Band> {
+        let scenes: Vec<Vec<Band>> =
+            scenes.iter().map(|scene| self.bands(metric, scene, method)).collect();
         let Some((first, others)) = scenes.split_first() else { return Vec::new() };
         let bands = first.iter().filter_map(|band| {
             let mut values = vec![band.value?];
@@ -262,5 +269,5 @@ fn axis(metric: Metric) -> String {
 pub(crate) fn slug(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() { c } else { '-' };
     let slug: String = name.to_lowercase().chars().map(plain).collect();
-    slug.trim_matches('-').to_owned()
+    slug.split('-').filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
 }

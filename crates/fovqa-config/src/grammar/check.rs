@@ -182,7 +182,7 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
 fn named(place: &str, table: &DeTable<'_>) -> String {
     match table.get("name").map(Spanned::get_ref) {
         Some(DeValue::String(name)) => format!("{place} \"{name}\""),
-        _ => format!("a {place}"),
+        _ => place.to_owned(),
     }
 }
 
