@@ -145,7 +145,9 @@ impl BarChart {
     fn axis_with_room(&self, scale: Option<Scale>, reach_px: f64) -> ValueAxis {
         let Some(scale) = scale else { return ValueAxis::new(&self.y, None) };
         let down_px = if self.from_zero && scale.low < 0.0 { reach_px } else { 0.0 };
-        let up_px = match (self.from_zero, scale.high > 0.0) {
+        // A 0 has its label above, even where all else is negative.
+        let upwards = self.places().filter_map(Place::finite).any(|value| value >= 0.0);
+        let up_px = match (self.from_zero, upwards) {
             (true, true) => reach_px,
             (true, false) => 0.0,
             (false, _) => reach_px + marker::RADIUS_PX,

@@ -5,6 +5,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::drawing::{Mark, Rect, Text};
+use crate::look::{Colour, INK, REFERENCE};
 use crate::{Axis, BarSeries, LineSeries, Look, SpreadSeries, png};
 
 /// Names that break careless layouts.
@@ -110,7 +111,6 @@ fn check(figure: &Figure) {
     }
     let svg = figure.svg().unwrap();
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
-    assert!(png(&svg, 0.5).is_ok());
 }
 
 #[test]
@@ -232,17 +232,62 @@ fn bars_are_as_long_as_their_values() {
     assert!((bars[0].1 - bars[2].0).abs() < 1e-9, "one base line, a negative bar below it");
 }
 
+/// The lines and discs of a colour.
+fn lines_and_discs(figure: &Figure, colour: Colour) -> (Vec<Vec<(f64, f64)>>, usize) {
+    let drawing = figure.draw().unwrap();
+    let line = |mark: &Mark| match mark {
+        Mark::Line(points, stroke) if stroke.colour == colour => Some(points.clone()),
+        _ => None,
+    };
+    let disc = |mark: &&Mark| matches!(mark, Mark::Disc(_, _, c) if *c == colour);
+    (drawing.marks.iter().filter_map(line).collect(), drawing.marks.iter().filter(disc).count())
+}
+
 #[test]
 fn a_gap_is_not_bridged() {
-    let figure =
-        line(vec![vec![(0.0, Some(1.0)), (1.0, Some(2.0)), (2.0, None), (3.0, Some(3.0))]]);
-    let drawing = figure.draw().unwrap();
-    let colour = Look::new(0).colour();
-    let curves = |m: &&Mark| matches!(m, Mark::Line(_, stroke) if stroke.colour == colour);
-    let discs = |m: &&Mark| matches!(m, Mark::Disc(_, _, c) if *c == colour);
+    let y = [Some(1.0), Some(2.0), None, Some(3.0), Some(1.0)];
+    let figure = line(vec![y.iter().enumerate().map(|(x, y)| (x as f64, *y)).collect()]);
+    let (lines, discs) = lines_and_discs(&figure, Look::new(0).colour());
     // Each with its key in the legend.
-    assert_eq!(drawing.marks.iter().filter(curves).count(), 2);
-    assert_eq!(drawing.marks.iter().filter(discs).count(), 4);
+    assert_eq!((lines.len(), discs), (3, 5));
+    assert!(lines.iter().all(|line| line.len() == 2));
+}
+
+#[test]
+fn a_point_between_gaps_is_seen_on_a_reference_too() {
+    let points = vec![(0.0, Some(1.0)), (1.0, None), (2.0, Some(3.0))];
+    let series = vec![LineSeries { reference: true, points, ..LineSeries::default() }];
+    let figure = Figure::Line(LineChart { series, ..LineChart::default() });
+    assert_eq!(lines_and_discs(&figure, REFERENCE).1, 2);
+}
+
+#[test]
+fn ten_values_make_a_box() {
+    let tint = Look::new(0).colour().tint(crate::swatch::TINT);
+    let boxes = |count: u32| {
+        let figure = spread(vec![vec![(0..count).map(f64::from).collect()], vec![vec![]]]);
+        let drawing = figure.draw().unwrap();
+        let area = |mark: &Mark| match mark {
+            Mark::Area(points, colour) if *colour == tint => Some((points[0].1, points[2].1)),
+            _ => None,
+        };
+        // No line but that of a median is in ink.
+        (drawing.marks.iter().filter_map(area).collect::<Vec<_>>(), lines_and_discs(&figure, INK).0)
+    };
+    let (none, strip_median) = boxes(9);
+    assert!(none.is_empty() && strip_median.len() == 1);
+    let (found, medians) = boxes(10);
+    // The key and the box, from 2.25 to 6.75 on an axis of 9 and its air.
+    let (top, bottom) = found[1];
+    let height = crate::layout::PLOT_HEIGHT_PX * 4.5 / (9.0 * 1.12);
+    assert!(found.len() == 2 && (bottom - top - height).abs() < 1e-6, "{found:?}");
+    assert!((medians[0][0].1 - top.midpoint(bottom)).abs() < 1e-6);
+}
+
+#[test]
+fn a_zero_over_negative_bars_has_room_for_its_label() {
+    check(&bars(vec![vec![Some(0.0), Some(-0.0013)]], true));
+    check(&bars(vec![vec![Some(-0.0), Some(-2.0), None]; 4], true));
 }
 
 #[test]
@@ -296,12 +341,23 @@ fn data_are_tidy() {
     assert_eq!(csv, "group,series,value\nRMFR,RMFR,1.0\nRMFR,RMFR,\n");
 }
 
+/// Usual values, or any at all: infinite, tiny, not a number.
+fn value() -> impl Strategy<Value = f64> {
+    prop_oneof![-50.0..50.0, Just(0.0), prop::num::f64::ANY]
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(ProptestConfig {
+        cases: 40, failure_persistence: None, ..ProptestConfig::default()
+    })]
     #[test]
-    fn no_value_breaks_a_figure(values in prop::collection::vec(any::<f64>(), 0..40), series in 1..5usize) {
+    fn no_value_breaks_a_figure(
+        values in prop::collection::vec(value(), 0..40), series in 1..5usize,
+    ) {
         let points: Vec<_> = values.chunks(2).map(|v| (v[0], v.get(1).copied())).collect();
-        check(&line(vec![points; series]));
+        let curves = line(vec![points; series]);
+        check(&curves);
+        prop_assert!(png(&curves.svg().unwrap(), 0.5).is_ok());
         let options: Vec<_> = values.iter().map(|v| Some(*v)).collect();
         check(&bars(vec![options.clone(); series], false));
         check(&bars(vec![options; series], true));
