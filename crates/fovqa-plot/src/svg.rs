@@ -134,4 +134,15 @@ mod tests {
             "{svg}"
         );
     }
+
+    #[test]
+    fn text_stands_on_its_baseline() {
+        // 0.76 of 10 px further down is the baseline; turned, further to the right.
+        let text = Text::new("x", (20.0, 30.0), 10.0, Anchor::Start);
+        let marks = vec![Mark::Text(text.clone()), Mark::Text(text.upwards())];
+        let svg = write(&Drawing { width_px: 48.0, height_px: 32.0, marks }).unwrap();
+        assert!(svg.contains("<text x=\"200\" y=\"224\" dy=\"0.76em\""), "{svg}");
+        assert!(svg.contains("<text x=\"124\" y=\"300\" dy=\"0.76em\""), "{svg}");
+        assert!(svg.contains("rotate(270, 124, 300)"), "{svg}");
+    }
 }

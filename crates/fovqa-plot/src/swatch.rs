@@ -44,3 +44,28 @@ pub(crate) fn draw(drawing: &mut Drawing, rect: Rect, look: Look, fill: Colour) 
         bottom -= group_px;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::Mark;
+
+    #[test]
+    fn stripes_stay_within_and_tell_the_turns_apart() {
+        let stripes = |turn: usize, height: f64| {
+            let look = Look::new(7 * turn);
+            let rect = Rect { left: 5.0, top: 10.0, right: 15.0, bottom: 10.0 + height };
+            let mut drawing = Drawing { width_px: 20.0, height_px: 90.0, marks: Vec::new() };
+            draw(&mut drawing, rect, look, look.colour());
+            let stripe = |mark: &Mark| match mark {
+                Mark::Line(points, stroke) if stroke.colour == WHITE => Some(points[0].1),
+                _ => None,
+            };
+            let ys: Vec<f64> = drawing.marks.iter().filter_map(stripe).collect();
+            assert!(ys.iter().all(|y| *y > rect.top && *y < rect.bottom), "{ys:?}");
+            ys.len()
+        };
+        assert_eq!([0, 1, 2].map(|turn| stripes(turn, 12.5)), [0, 3, 4]);
+        assert!((0..13).all(|height| stripes(5, f64::from(height)) < 7));
+    }
+}

@@ -281,7 +281,9 @@ fn ten_values_make_a_box() {
     let (top, bottom) = found[1];
     let height = crate::layout::PLOT_HEIGHT_PX * 4.5 / (9.0 * 1.12);
     assert!(found.len() == 2 && (bottom - top - height).abs() < 1e-6, "{found:?}");
-    assert!((medians[0][0].1 - top.midpoint(bottom)).abs() < 1e-6);
+    let middle = top.midpoint(bottom);
+    assert!((medians[0][0].1 - middle).abs() < 1e-6);
+    assert!((strip_median[0][0].1 - middle).abs() < 1e-6, "of 0 to 8, in the middle as well");
 }
 
 #[test]
@@ -328,6 +330,26 @@ fn series_must_fit_their_groups() {
 }
 
 #[test]
+fn infinite_values_stand_at_their_border() {
+    let figure = line(vec![vec![
+        (0.0, Some(f64::INFINITY)),
+        (1.0, Some(0.0)),
+        (2.0, Some(1.0)),
+        (3.0, Some(f64::NEG_INFINITY)),
+    ]]);
+    let colour = Look::new(0).colour();
+    let disc = |mark: &Mark| match mark {
+        Mark::Disc((_, y), _, c) if *c == colour => Some(*y),
+        _ => None,
+    };
+    let ys: Vec<f64> = figure.draw().unwrap().marks.iter().filter_map(disc).collect();
+    // The key, the two on the axis, then the one above and the one below.
+    let [_, zero, one, above, below] = ys[..] else { panic!("{ys:?}") };
+    assert!(above < one && one < zero && zero < below, "{ys:?}");
+    assert!((below - above - crate::layout::PLOT_HEIGHT_PX).abs() < 1e-6);
+}
+
+#[test]
 fn data_are_tidy() {
     let csv = line(vec![vec![(1.0, Some(f64::INFINITY)), (2.5, None), (3.0, Some(1e-7))]]).csv();
     assert_eq!(csv, "series,x,y\nRMFR,1.0,inf\nRMFR,2.5,\nRMFR,3.0,1e-7\n");
@@ -337,6 +359,8 @@ fn data_are_tidy() {
     let rows: Vec<&str> = csv.lines().collect();
     assert_eq!(rows[..2], ["group,series,value", "RMFR,RMFR,1.0"]);
     assert_eq!(rows[4], format!("{quoted},{quoted},-inf"));
+    let csv = bars(vec![vec![Some(1.0)]; 7], true).csv();
+    assert!(csv.contains("RMFR,\"many many words, one") && csv.contains("RMFR,\"tab\tand\nline"));
     let csv = spread(vec![vec![vec![1.0, f64::NAN]]]).csv();
     assert_eq!(csv, "group,series,value\nRMFR,RMFR,1.0\nRMFR,RMFR,\n");
 }
