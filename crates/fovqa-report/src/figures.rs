@@ -199,17 +199,19 @@ impl Selection<'_> {
             let value = |scene: &&str| {
                 Some(overall(self.source.summary, scene, method)?.metrics.get(&metric)?.mean)
             };
-            let mut values: Vec<Option<f64>> = self.scenes.iter().map(value).collect();
-            if values.len() > 1 {
-                let all: Option<Vec<f64>> = values.iter().copied().collect();
-                values.push(all.and_then(|all| mean(&all)));
-            }
+            let values = self.scenes.iter().map(value).collect();
             BarSeries { name: method.to_owned(), look, values }
         });
-        let series = series.collect();
+        let mut series: Vec<BarSeries> = series.collect();
         let mut groups: Vec<String> = self.scenes.iter().map(|&scene| scene.to_owned()).collect();
-        if groups.len() > 1 {
+        // Averages are of the same scenes for all methods, or not there.
+        let whole = series.iter().all(|series| series.values.iter().all(Option::is_some));
+        if groups.len() > 1 && whole {
             groups.push("Average".to_owned());
+            for BarSeries { values, .. } in &mut series {
+                let all: Vec<f64> = values.iter().copied().flatten().collect();
+                values.push(mean(&all));
+            }
         }
         let y = Axis::new(axis(metric));
         let figure = Figure::Bar(BarChart { y, groups, series, ..BarChart::default() });
