@@ -4,8 +4,12 @@
 
 mod bad_input;
 mod decoding;
+mod experiment_files;
+mod experiment_folder;
+mod experiments;
 mod fovqa;
 mod golden;
 mod output;
+mod results_folder;
 mod sequences;
 mod signal;

@@ -71,8 +71,8 @@ fn csv_is_one_tidy_table() {
         row[11].parse::<f64>().unwrap()
     };
     assert_eq!(Some(value("psnr", "")), json["frames"][0]["metrics"]["psnr"].as_f64());
-    assert_eq!(Some(value("psnr", "10")), json["frames"][0]["bands"][1]["psnr"].as_f64());
-    assert_eq!(Some(value("pixels", "20")), json["frames"][0]["bands"][2]["pixels"].as_f64());
+    assert_eq!(Some(value("psnr", "10.0")), json["frames"][0]["bands"][1]["psnr"].as_f64());
+    assert_eq!(Some(value("pixels", "20.0")), json["frames"][0]["bands"][2]["pixels"].as_f64());
 }
 
 #[test]

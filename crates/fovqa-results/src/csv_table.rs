@@ -1,7 +1,8 @@
 //! One long, tidy table, a row a value: what `score --format csv` prints, and results.csv. Empty
-//! cells where a column does not apply. Floats keep their point (`5.0`): readers that guess a
-//! column's type from its first rows are not misled.
+//! cells where a column does not apply. Measured values and edges keep their point (`5.0`):
+//! readers that guess a column's type from its first rows are not misled. Counts are whole.
 
+use std::fmt;
 use std::io::{self, Write};
 
 use fovqa_metrics::Metric;
@@ -38,7 +39,23 @@ struct Row<'a> {
     metric: &'a str,
     statistic: &'a str,
     band: Option<(f64, f64)>,
-    value: Option<f64>,
+    value: Option<Value>,
+}
+
+/// A cell of the last column.
+#[derive(Clone, Copy)]
+enum Value {
+    Measured(f64),
+    Count(u64),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Value::Measured(value) => write!(f, "{value:?}"),
+            Value::Count(count) => write!(f, "{count}"),
+        }
+    }
 }
 
 /// Writes a report as CSV: each frame's values and then, without a frame, the statistics over
@@ -85,22 +102,30 @@ impl<W: Write> Table<W> {
         for frame in &report.frames {
             let row = Row { frame: Some(frame.frame), ..*row };
             for (metric, value) in &frame.scores.scores {
-                self.write(&Row { metric: metric.key(), value: Some(*value), ..row })?;
+                self.write(&Row {
+                    metric: metric.key(),
+                    value: Some(Value::Measured(*value)),
+                    ..row
+                })?;
             }
             let outside = if edges.is_empty() { 0 } else { frame.scores.outside_bands };
             for (metric, pixels) in
                 [("pixels_outside_bands", outside), ("pixels_left_out", frame.scores.left_out)]
             {
                 if pixels > 0 {
-                    self.write(&Row { metric, value: Some(pixels as f64), ..row })?;
+                    self.write(&Row { metric, value: Some(Value::Count(pixels)), ..row })?;
                 }
             }
             for (&band, scores) in edges.iter().zip(&frame.scores.bands) {
                 let row = Row { band: Some(band), ..row };
-                let pixels = Some(scores.pixels as f64);
+                let pixels = Some(Value::Count(scores.pixels));
                 self.write(&Row { metric: "pixels", value: pixels, ..row })?;
                 for (metric, value) in &scores.scores {
-                    self.write(&Row { metric: metric.key(), value: *value, ..row })?;
+                    self.write(&Row {
+                        metric: metric.key(),
+                        value: value.map(Value::Measured),
+                        ..row
+                    })?;
                 }
             }
         }
@@ -129,13 +154,14 @@ impl<W: Write> Table<W> {
         band: Option<(f64, f64)>,
         statistics: &Statistics,
     ) -> io::Result<()> {
-        let identical = statistics.identical_frames.map(|n| n as f64);
+        let identical = statistics.identical_frames.map(|n| Value::Count(n as u64));
+        let measured = |value| Some(Value::Measured(value));
         for (statistic, value) in [
-            ("mean", Some(statistics.mean)),
-            ("min", Some(statistics.min)),
-            ("max", Some(statistics.max)),
+            ("mean", measured(statistics.mean)),
+            ("min", measured(statistics.min)),
+            ("max", measured(statistics.max)),
             ("identical_frames", identical),
-            ("pooled", statistics.pooled),
+            ("pooled", statistics.pooled.map(Value::Measured)),
         ] {
             if value.is_some() {
                 let row = Row { metric: metric.key(), statistic, band, value, ..Row::default() };
@@ -146,9 +172,10 @@ impl<W: Write> Table<W> {
     }
 
     fn write(&mut self, row: &Row<'_>) -> io::Result<()> {
-        let text = |value: Option<f64>| value.map(|v| format!("{v:?}")).unwrap_or_default();
+        let text = |value: Option<Value>| value.map(|v| v.to_string()).unwrap_or_default();
+        let edge = |edge: Option<f64>| text(edge.map(Value::Measured));
         let frame = row.frame.map(|f| f.to_string()).unwrap_or_default();
-        let (from, to) = (text(row.band.map(|b| b.0)), text(row.band.map(|b| b.1)));
+        let (from, to) = (edge(row.band.map(|b| b.0)), edge(row.band.map(|b| b.1)));
         let value = text(row.value);
         let Row { scene, method, eye, metric, statistic, .. } = row;
         let cells =

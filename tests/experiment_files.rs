@@ -1,0 +1,419 @@
+//! Experiment files: mistakes are shown in their place, and the JSON Schema agrees with the parser.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::fovqa::{Folder, Run, command, root, shared};
+
+/// A whole experiment of one scene and two methods, over files that are there.
+const GOOD: &str = r#"
+name = "good"
+[view]
+fov_vertical_deg = 60
+[[scene]]
+name = "room"
+reference = "gt"
+[[method]]
+name = "A"
+test = "a"
+[[method]]
+name = "B"
+test = "b"
+[metrics]
+psnr = {}
+ssim = { sigma = 2.0 }
+fpsnr = {}
+"#;
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    for method in ["a", "b"] {
+        folder.png_pair("gt/0000.png", &format!("{method}/0000.png"), 48, 40);
+    }
+    folder
+}
+
+/// What the parser says of a file.
+fn check(folder: &Folder, text: &str) -> Run {
+    folder.write("e.toml", text);
+    folder.run(&["check", "e.toml"])
+}
+
+/// Whether the schema allows a file.
+fn schema_allows(text: &str) -> bool {
+    let schema: Value = Run::from(command(&["schema"]).output().unwrap()).ok().json();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let experiment: Value = toml::from_str(text).unwrap();
+    validator.is_valid(&experiment)
+}
+
+/// A mistake: the line it replaces (or, empty, is put in front of), the line itself, the words of the
+/// message, and whether a schema can tell.
+type Mistake = (&'static str, &'static str, &'static [&'static str], bool);
+
+const MISTAKES: &[Mistake] = &[
+    ("", "colour = \"rgb\"", &["no key `colour`", "e.toml:1:1"], true),
+    ("", "metric = { psnr = {} }", &["no key `metric`", "did you mean metrics?"], true),
+    ("name = \"good\"", "nam = \"good\"", &["did you mean name?", "has no name"], true),
+    ("name = \"good\"", "name = 5", &["name cannot be a whole number", "a name in quotes"], true),
+    ("name = \"good\"", "name = \"../good\"", &["cannot have /"], true),
+    ("name = \"good\"", "schema = 2\nname = \"good\"", &["schema cannot be 2"], true),
+    ("fov_vertical_deg = 60", "fov_vertical_deg = 180", &["cannot be 180", "above 0"], true),
+    ("fov_vertical_deg = 60", "fov_vertical_deg = \"wide\"", &["cannot be text"], true),
+    ("fov_vertical_deg = 60", "fov_vertical_deg = nan", &["cannot be nan"], false),
+    (
+        "fov_vertical_deg = 60",
+        "display = \"vive-pro-ey\"",
+        &["did you mean \"vive_pro_eye\"?"],
+        true,
+    ),
+    (
+        "fov_vertical_deg = 60",
+        "fov_vertical_deg = 60\ndisplay = \"vive-pro-eye\"",
+        &["more than one way: display, fov_vertical_deg"],
+        false,
+    ),
+    ("fov_vertical_deg = 60", "distance_m = 0.5", &["distance_m alone is no view"], false),
+    (
+        "fov_vertical_deg = 60",
+        "frustum = { left = -1, right = -1, up = 1, down = 1 }",
+        &["do not open to both sides"],
+        false,
+    ),
+    ("fov_vertical_deg = 60", "bands_deg = [0, 10]", &["eccentricity bands needs a view"], false),
+    ("fov_vertical_deg = 60", "gaze = [1, 2]", &["a gaze needs a view"], false),
+    ("fov_vertical_deg = 60", "", &["fpsnr needs a view, and scene \"room\" has none"], false),
+    (
+        "fov_vertical_deg = 60",
+        "fov_vertical_deg = 60\nbands_deg = [0, 10, 5]",
+        &["5 does not lie above the one before it, 10"],
+        false,
+    ),
+    ("fov_vertical_deg = 60", "fov_vertical_deg = 60\nbands_deg = [0]", &["a list of 1"], true),
+    (
+        "fov_vertical_deg = 60",
+        "fov_vertical_deg = 60\ngaze = \"centre\"",
+        &["did you mean \"center\"?"],
+        true,
+    ),
+    ("fov_vertical_deg = 60", "fov_vertical_deg = 60\ngaze = [1, 2, 3]", &["a list of 3"], true),
+    (
+        "fov_vertical_deg = 60",
+        "fov_vertical_deg = 60\ngaze = {}",
+        &["a table without a trace"],
+        false,
+    ),
+    (
+        "fov_vertical_deg = 60",
+        "fov_vertical_deg = 60\ngaze = { left = [1, 2], right = [1, 2] }",
+        &["the scene has one reference"],
+        false,
+    ),
+    ("reference = \"gt\"", "", &["scene \"room\" has no reference"], true),
+    ("reference = \"gt\"", "reference = \"gt\"\nfps = 0", &["cannot be 0"], true),
+    ("reference = \"gt\"", "reference = \"gt\"\nframes = \"5\"", &["not a range of frames"], true),
+    (
+        "reference = \"gt\"",
+        "reference = \"{scen}\"",
+        &["{scen} in it, which stands for nothing"],
+        false,
+    ),
+    ("reference = \"gt\"", "reference = \"{scene\"", &["opens a brace"], false),
+    (
+        "reference = \"gt\"",
+        "reference = \"gt\"\ncrop = [0, 0, 0, 5]",
+        &["crop has no pixels"],
+        false,
+    ),
+    (
+        "reference = \"gt\"",
+        "reference = \"gt\"\nleft = { gaze = [1, 2] }",
+        &["no left eye of its own"],
+        false,
+    ),
+    (
+        "reference = \"gt\"",
+        "reference = { left = \"gt\", right = \"gt\" }",
+        &["two eyes, and method \"A\" one test", "{eye}"],
+        false,
+    ),
+    ("reference = \"gt\"", "reference = { left = \"gt\" }", &["has no right"], true),
+    (
+        "test = \"a\"",
+        "test = \"{eye}\"",
+        &["a test for each eye, and scene \"room\" has one"],
+        false,
+    ),
+    (
+        "test = \"a\"",
+        "test = \"a\"\nscenes = [\"rom\"]",
+        &["no scene \"rom\"", "did you mean \"room\"?"],
+        false,
+    ),
+    ("test = \"a\"", "test = \"a\"\nscenes = []", &["a list of 0"], true),
+    ("name = \"B\"", "name = \"A\"", &["two methods named \"A\"", "the second"], false),
+    ("name = \"B\"", "name = \"a\"", &["two methods named \"a\""], false),
+    ("psnr = {}", "pnsr = {}", &["no metric `pnsr`", "did you mean psnr?"], true),
+    ("psnr = {}", "psnr = true", &["metrics.psnr is true or false"], true),
+    (
+        "psnr = {}",
+        "psnr = { peak = 255 }",
+        &["psnr has no parameter `peak`", "no parameters"],
+        true,
+    ),
+    ("sigma = 2.0", "sgma = 2.0", &["did you mean sigma?"], true),
+    ("sigma = 2.0", "sigma = 0", &["metrics.ssim.sigma cannot be 0", "from 0.1 to 64"], true),
+    ("sigma = 2.0", "radius = 2.5", &["metrics.ssim.radius"], true),
+    ("fpsnr = {}", "fpsnr = { weight = \"lee2003\" }", &["did you mean \"lee2002\"?"], true),
+    (
+        "fpsnr = {}",
+        "fpsnr = { weight = \"acuity\", knots_cpd = [1] }",
+        &["knots_cpd cannot be"],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[[plot]]\nkind = \"profiel\"",
+        &["did you mean \"profile\"?"],
+        true,
+    ),
+    ("fpsnr = {}", "fpsnr = {}\n[[plot]]\nmetric = \"psnr\"", &["plot has no kind"], true),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[[plot]]\nkind = \"profile\"\nmetric = \"fpsnr\"",
+        &["fpsnr has no values per band"],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[[plot]]\nkind = \"bars\"\nmetric = \"mse\"",
+        &["mse is not scored"],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[[plot]]\nkind = \"bars\"\nmethods = [\"C\"]",
+        &["no method \"C\""],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[[scene]]\nname = \"room\"\nreference = \"gt\"",
+        &["two scenes named \"room\""],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[plot]\nkind = \"bars\"",
+        &["plot cannot be a table", "[[plot]]"],
+        true,
+    ),
+];
+
+fn with(mistake: &Mistake) -> String {
+    match mistake {
+        ("", line, ..) => format!("{line}{GOOD}"),
+        (place, line, ..) => {
+            assert!(GOOD.contains(place), "{place}");
+            GOOD.replacen(place, line, 1)
+        }
+    }
+}
+
+#[test]
+fn every_mistake_is_shown_in_its_place() {
+    let folder = folder();
+    check(&folder, GOOD).ok();
+    for mistake in MISTAKES {
+        let run = check(&folder, &with(mistake)).fails(2, mistake.2);
+        assert!(run.stderr.contains("e.toml"), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn the_schema_agrees_with_the_parser() {
+    assert!(schema_allows(GOOD));
+    for mistake @ (_, line, _, structural) in MISTAKES {
+        let text = with(mistake);
+        // JSON has no such number.
+        if !line.contains("nan") {
+            assert_eq!(schema_allows(&text), !structural, "{line}");
+        }
+    }
+}
+
+#[test]
+fn the_committed_schema_is_the_one_printed() {
+    let printed = Run::from(command(&["schema"]).output().unwrap()).ok().stdout;
+    let committed = fs::read_to_string(root().join("docs/experiment.schema.json")).unwrap();
+    assert_eq!(committed, printed, "run: fovqa schema > docs/experiment.schema.json");
+}
+
+/// Everything the format has, in one file.
+const RICH: &str = r#"
+schema = 1
+name = "rich"
+
+[view]
+display = "vive_pro_eye"
+gaze = { left = [20, 20], right = { trace = "{scene}/gaze.csv", hold = true } }
+eccentricity = "planar"
+bands_deg = [0, 7.5, 30]
+[view.left]
+frustum = { left = -1.2, right = 0.9, up = 1.1, down = -1.1 }
+
+[signal]
+channels = "luma"
+exposure_stops = -0.5
+tonemap = "reinhard"
+transfer = "srgb"
+nonfinite = "mask"
+alpha = "over-black"
+max_megapixels = 10
+[signal.right]
+crop = [0, 0, 40, 40]
+
+[[scene]]
+name = "room"
+folder = "the room"
+reference = { left = "gt/left.%04d.png", right = "gt/right.%04d.png" }
+fps = 72.5
+frames = "0..=3:1"
+allow_missing = true
+[scene.left]
+crop = [8, 0, 40, 40]
+
+[[scene]]
+name = "hall"
+reference = { left = "gt/left.%04d.png", right = "gt/right.%04d.png" }
+gaze = "center"
+distance_m = 0.5
+screen_m = [1.2, 0.8]
+
+[[method]]
+name = "A"
+test = "{method}/{eye}.%04d.png"
+[[method]]
+name = "B"
+test = { left = "{method}/left.%04d.png", right = "{method}/right.%04d.png" }
+scenes = ["room", "hall"]
+
+[metrics]
+ssim = { radius = "auto", k1 = 0.02 }
+fpsnr = { weight = "acuity", acuity = "linear_mar", m = 0.03 }
+
+[[plot]]
+kind = "table"
+scenes = ["hall"]
+[[plot]]
+kind = "profile"
+metric = "ssim"
+methods = ["B"]
+"#;
+
+#[test]
+fn the_whole_format_is_read_and_resolved() {
+    let folder = Folder::new();
+    for eye in ["left", "right"] {
+        for frame in 0..2 {
+            let reference = format!("gt/{eye}.{frame:04}.png");
+            for method in ["A", "B"] {
+                folder.png_pair(&reference, &format!("{method}/{eye}.{frame:04}.png"), 48, 40);
+            }
+        }
+    }
+    folder.write("room/gaze.csv", "frame,x_px,y_px\n0,10,10\n");
+    assert!(schema_allows(RICH));
+    let plan = check(&folder, RICH).ok().stdout;
+    for words in
+        ["room, left eye: 2 frames, 0 to 1 of 40x40 px", "held over in 1 frame", "16 test frames"]
+    {
+        assert!(plan.contains(words), "{words}:\n{plan}");
+    }
+    folder.run(&["run", "e.toml"]).ok();
+    let record = fs::read_to_string(folder.path("reports/rich/run.json")).unwrap();
+    let record: Value = serde_json::from_str(&record).unwrap();
+    let [left, right] = [0, 1].map(|eye| record["resolved"]["scenes"][0]["eyes"][eye].clone());
+    assert_eq!(left["view"]["frustum"]["left"], -1.2);
+    assert_eq!(left["view"]["gaze"], serde_json::json!([20.0, 20.0]));
+    assert_eq!(left["signal"]["crop"], serde_json::json!([8, 0, 40, 40]));
+    assert_eq!(right["view"]["display"], "vive_pro_eye");
+    assert_eq!(right["view"]["gaze"]["trace"], "room/gaze.csv");
+    assert_eq!(right["signal"]["crop"], serde_json::json!([0, 0, 40, 40]));
+    assert_eq!(right["tests"]["B"], "B/right.%04d.png");
+    let hall = &record["resolved"]["scenes"][1]["eyes"][0];
+    assert_eq!(
+        hall["view"]["screen_m"],
+        serde_json::json!([1.2, 0.8]),
+        "a scene's view replaces all"
+    );
+    assert_eq!(hall["view"]["frustum"], Value::Null);
+    assert_eq!(hall["signal"]["tonemap"], "reinhard");
+    assert_eq!(record["resolved"]["metrics"]["ssim"]["sigma"], 1.5, "defaults are written out");
+    assert_eq!(record["resolved"]["metrics"]["ssim"]["k1"], 0.02);
+    assert_eq!(record["resolved"]["metrics"]["fpsnr"]["knots_deg"][4], 60);
+}
+
+#[test]
+fn files_that_are_no_experiment() {
+    let folder = folder();
+    folder.run(&["run", "nope.toml"]).fails(2, &["nope.toml", "no such file"]);
+    folder.run(&["run", "gt"]).fails(2, &["not a regular file"]);
+    folder.run(&["check", "gt/0000.png"]).fails(2, &["not UTF-8"]);
+    check(&folder, "").fails(2, &["has no name", "has no scene", "has no method"]);
+    check(&folder, "name = \"x").fails(2, &["this is not TOML", "e.toml:1"]);
+    check(&folder, &format!("{GOOD}[signal\n")).fails(2, &["this is not TOML"]);
+    check(&folder, &format!("{GOOD}[metrics]\nmse = {{}}\n")).fails(2, &["this is not TOML"]);
+    folder.write("long.toml", "#".repeat(5 << 20));
+    folder.run(&["check", "long.toml"]).fails(2, &["larger than 4 MiB"]);
+}
+
+#[test]
+fn all_mistakes_are_said_at_once() {
+    let folder = folder();
+    let text = GOOD.replacen("psnr = {}", "pnsr = {}", 1).replace("60", "600");
+    check(&folder, &text).fails(2, &["pnsr", "600", "2 mistakes"]);
+}
+
+#[test]
+fn inputs_that_are_not_there_are_said_by_check() {
+    let folder = folder();
+    let run = check(&folder, &GOOD.replace("test = \"b\"", "test = \"nope\""));
+    assert_eq!(run.code, 3);
+    run.says(&["room, B: nope: there is no such file or folder"]);
+    let run = check(
+        &folder,
+        &GOOD.replace("reference = \"gt\"", "reference = \"gt\"\nframes = \"5..9\""),
+    );
+    assert_eq!(run.code, 3);
+    run.says(&["room: no frame is selected; there are frames 0 to 0"]);
+    let run = check(
+        &folder,
+        &GOOD.replace("reference = \"gt\"", "reference = \"gt\"\nmask = \"no.png\""),
+    );
+    assert_eq!(run.code, 3);
+    run.says(&["the mask no.png: there is no such file"]);
+}
+
+/// Every experiment that belongs to the repository.
+#[test]
+fn the_committed_experiments_are_right() {
+    let data = shared("data");
+    let folder = root().join("configs");
+    let mut seen = 0;
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        if path.extension().is_none_or(|e| e != "toml") || name == "displays.toml" {
+            continue;
+        }
+        seen += 1;
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(schema_allows(&text), "{name}");
+        let run = Run::from(command(&["check", path.to_str().unwrap()]).output().unwrap());
+        let there = data.is_some() || !text.contains("../shared");
+        assert_eq!(run.code, if there { 0 } else { 3 }, "{name}: {}", run.stderr);
+    }
+    assert!(seen > 0);
+}

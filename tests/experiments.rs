@@ -1,0 +1,360 @@
+//! Running experiments: scenes, methods, eyes, and what is in the results.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use fovqa_testkit::synthetic::{codes, disturbed};
+
+use crate::experiment_folder::{HEAD, experiment, json, rows, two_scenes};
+use crate::fovqa::{Folder, root};
+
+#[test]
+fn an_experiment_finds_what_score_finds() {
+    let folder = two_scenes();
+    let run = folder.run(&["run", "e.toml"]).ok().says(&["reports/e/index.html"]);
+    assert!(run.stdout.contains("PSNR (dB) ↑"), "{}", run.stdout);
+    let rows = rows(&folder, "reports/e");
+    let order: Vec<(&str, &str)> =
+        rows.iter().map(|row| (row["scene"].as_str(), row["method"].as_str())).collect();
+    let mut comparisons = order.clone();
+    comparisons.dedup();
+    assert_eq!(comparisons, [("room", "A"), ("room", "B"), ("hall", "A"), ("hall", "B")]);
+    for (scene, method) in comparisons {
+        let (reference, test) =
+            (format!("{scene}/gt"), format!("{scene}/{}", method.to_lowercase()));
+        let score = folder.json(&[
+            &reference,
+            &test,
+            "--fov-vertical",
+            "60",
+            "--metrics",
+            "mse,psnr,ssim,fpsnr",
+        ]);
+        let mut values = 0;
+        for row in rows.iter().filter(|r| r["scene"] == scene && r["method"] == method) {
+            let frame = &score["frames"][row["frame"].parse::<usize>().unwrap()];
+            let want = match row["from_deg"].parse::<f64>() {
+                Err(_) => &frame["metrics"][&row["metric"]],
+                Ok(from) => {
+                    let bands = frame["bands"].as_array().unwrap();
+                    &bands.iter().find(|b| b["from_deg"] == from).unwrap()[&row["metric"]]
+                }
+            };
+            let found = row["value"].parse::<f64>().ok();
+            assert_eq!(found, want.as_f64(), "{row:?}");
+            assert_eq!((row["image"].as_str(), row["statistic"].as_str()), ("pair", ""));
+            values += 1;
+        }
+        let bands = score["frames"][0]["bands"].as_array().unwrap().len();
+        assert_eq!(values, 3 * (4 + 4 * bands));
+        let summary = json(&folder, "reports/e/summary.json");
+        let comparison = summary["comparisons"].as_array().unwrap().iter();
+        let comparison =
+            comparison.clone().find(|c| c["scene"] == scene && c["method"] == method).unwrap();
+        assert_eq!(comparison["metrics"], score["summary"]);
+        assert_eq!(comparison["bands"], score["summary_bands"]);
+        assert_eq!(comparison["view"], score["view"]);
+    }
+}
+
+#[test]
+fn one_bad_input_costs_its_own_rows_alone() {
+    let folder = two_scenes();
+    folder.write("room/a/0001.png", "no picture");
+    folder.png("hall/b/0002.png", 50, 40, &codes(50, 40, 3, 1));
+    let run = folder.run(&["run", "e.toml"]).says(&[
+        "room, A, frame 1: room/a/0001.png: this is not a PNG",
+        "hall, B, frame 2: hall/gt/0002.png has 48x40 pixels and hall/b/0002.png has 50x40",
+        "2 errors, 10 frames scored all the same",
+    ]);
+    assert_eq!(run.code, 3);
+    let rows = rows(&folder, "reports/e");
+    let errors: Vec<_> = rows.iter().filter(|row| row["metric"] == "error").collect();
+    assert_eq!(errors.len(), 2);
+    assert_eq!((errors[0]["scene"].as_str(), errors[0]["frame"].as_str()), ("room", "1"));
+    assert_eq!(errors[0]["value"], "");
+    let frames = |scene: &str, method: &str| {
+        rows.iter()
+            .filter(|r| {
+                r["scene"] == scene
+                    && r["method"] == method
+                    && r["metric"] == "psnr"
+                    && r["from_deg"].is_empty()
+            })
+            .count()
+    };
+    assert_eq!(
+        [frames("room", "A"), frames("room", "B"), frames("hall", "A"), frames("hall", "B")],
+        [2, 3, 3, 2]
+    );
+    let summary = json(&folder, "reports/e/summary.json");
+    assert_eq!(summary["errors"][0]["message"].as_str().unwrap().find("room/a/0001.png"), Some(0));
+    let page = fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    assert!(page.contains("Not scored"), "{page}");
+}
+
+#[test]
+fn a_bad_reference_is_an_error_of_every_method() {
+    let folder = two_scenes();
+    folder.write("room/gt/0001.png", "no picture");
+    let run = folder.run(&["run", "e.toml"]).says(&[
+        "room, A, frame 1",
+        "room, B, frame 1",
+        "2 errors, 10",
+    ]);
+    assert_eq!(run.code, 3);
+}
+
+#[test]
+fn missing_inputs_are_said_and_the_rest_is_scored() {
+    let folder = two_scenes();
+    fs::remove_file(folder.path("room/a/0002.png")).unwrap();
+    fs::remove_dir_all(folder.path("hall/b")).unwrap();
+    let run = folder.run(&["run", "e.toml"]).says(&[
+        "room, A: reference without a test frame: room/gt/0002.png",
+        "allow_missing = true",
+        "hall, B: hall/b: there is no such file or folder",
+    ]);
+    assert_eq!(run.code, 3);
+    let rows = rows(&folder, "reports/e");
+    let scored = |scene: &str, method: &str| {
+        rows.iter()
+            .any(|row| row["scene"] == scene && row["method"] == method && row["metric"] == "psnr")
+    };
+    assert!(
+        scored("room", "A") && scored("room", "B") && scored("hall", "A") && !scored("hall", "B")
+    );
+    // Everything missing: nothing that looks like results.
+    fs::remove_dir_all(folder.path("reports")).unwrap();
+    fs::remove_dir_all(folder.path("hall")).unwrap();
+    fs::remove_dir_all(folder.path("room")).unwrap();
+    folder
+        .run(&["run", "e.toml"])
+        .fails(3, &["room: room/gt", "hall: hall/gt", "nothing was scored"]);
+    assert!(!folder.path("reports/e/results.csv").exists());
+}
+
+#[test]
+fn scenes_override_what_is_general() {
+    let folder = two_scenes();
+    folder.write("gaze.csv", "frame,x_px,y_px\n0,4,4\n1,30,30\n2,nan,nan\n");
+    let text = experiment("[signal]\nchannels = \"luma\"\n[metrics]\npsnr = {}\nfpsnr = {}\n")
+        .replace(
+            "name = \"room\"\n",
+            "name = \"room\"\nfov_horizontal_deg = 90\ngaze = { trace = \"gaze.csv\" }\nchannels = \"rgb\"\nframes = \"1..\"\n",
+        );
+    folder.write("e.toml", text);
+    folder.run(&["run", "e.toml"]).ok();
+    let value = |scene: &str, frame: &str, metric: &str| {
+        let rows = rows(&folder, "reports/e");
+        let of = |row: &&BTreeMap<String, String>| {
+            row["scene"] == scene
+                && row["method"] == "A"
+                && row["frame"] == frame
+                && row["metric"] == metric
+                && row["from_deg"].is_empty()
+        };
+        rows.iter().find(of).map(|row| row["value"].parse::<f64>().unwrap())
+    };
+    let room = folder.json(&[
+        "room/gt",
+        "room/a",
+        "--fov-horizontal",
+        "90",
+        "--gaze",
+        "gaze.csv",
+        "--metrics",
+        "psnr,fpsnr",
+    ]);
+    assert_eq!(value("room", "0", "psnr"), None);
+    for frame in [1, 2] {
+        for metric in ["psnr", "fpsnr"] {
+            assert_eq!(
+                value("room", &frame.to_string(), metric),
+                room["frames"][frame]["metrics"][metric].as_f64()
+            );
+        }
+    }
+    let hall = folder.json(&[
+        "hall/gt",
+        "hall/a",
+        "--fov-vertical",
+        "60",
+        "--channels",
+        "luma",
+        "--metrics",
+        "psnr,fpsnr",
+    ]);
+    assert_eq!(value("hall", "0", "fpsnr"), hall["frames"][0]["metrics"]["fpsnr"].as_f64());
+    // The command line picks among the frames the file picks.
+    folder.run(&["run", "e.toml", "--frames", "0..2"]).ok();
+    assert_eq!((value("room", "0", "psnr"), value("room", "2", "psnr")), (None, None));
+    assert!(value("room", "1", "psnr").is_some() && value("hall", "0", "psnr").is_some());
+}
+
+#[test]
+fn methods_are_scored_in_their_scenes_alone() {
+    let folder = two_scenes();
+    folder.write("e.toml", experiment("scenes = [\"hall\"]\n"));
+    folder.run(&["run", "e.toml"]).ok();
+    let rows = rows(&folder, "reports/e");
+    assert!(!rows.iter().any(|row| row["scene"] == "room" && row["method"] == "B"));
+    assert!(rows.iter().any(|row| row["scene"] == "hall" && row["method"] == "B"));
+    let table = fs::read_to_string(folder.path("reports/e/table.md")).unwrap();
+    assert!(!table.contains("Average"), "one common scene has no average:\n{table}");
+}
+
+/// Left and right of their own size of error, with a gaze each.
+#[test]
+fn two_eyes_are_scored_and_pooled() {
+    let folder = Folder::new();
+    for (seed, eye) in ["left", "right"].into_iter().enumerate() {
+        let reference = codes(48, 40, 3, seed as u64);
+        folder.png(&format!("gt_{eye}.png"), 48, 40, &reference);
+        folder.png(
+            &format!("a_{eye}.png"),
+            48,
+            40,
+            &disturbed(&reference, 20.0 + 30.0 * seed as f64, 3),
+        );
+    }
+    let text = |gaze: &str| {
+        format!(
+            "{HEAD}gaze = {gaze}\n[[scene]]\nname = \"s\"\nreference = {{ left = \"gt_left.png\", right = \"gt_right.png\" }}\n\
+         [[method]]\nname = \"A\"\ntest = \"a_{{eye}}.png\"\n[metrics]\nmse = {{}}\npsnr = {{}}\nssim = {{}}\nfpsnr = {{}}\n"
+        )
+    };
+    folder.write("e.toml", text("{ left = [0, 20], right = [47, 40] }"));
+    folder.run(&["run", "e.toml"]).ok();
+    let found = rows(&folder, "reports/e");
+    let value = |eye: &str, metric: &str| {
+        let row = found
+            .iter()
+            .find(|r| r["eye"] == eye && r["metric"] == metric && r["from_deg"].is_empty());
+        row.unwrap()["value"].parse::<f64>().unwrap()
+    };
+    let eyes: Vec<&str> = found.iter().map(|row| row["eye"].as_str()).collect();
+    assert!(eyes.is_sorted_by_key(|eye| ["left", "right", "both"].iter().position(|e| e == eye)));
+    for (eye, gaze) in [("left", "0,20"), ("right", "47,40")] {
+        let (reference, test) = (format!("gt_{eye}.png"), format!("a_{eye}.png"));
+        let arguments = [&reference, &test, "--fov-vertical", "60", "--gaze", gaze];
+        for metric in ["mse", "psnr", "ssim", "fpsnr"] {
+            let alone = folder.metric(metric, &arguments);
+            assert_eq!(value(eye, metric).to_bits(), alone.to_bits(), "{eye} {metric}");
+        }
+    }
+    let mean = |metric: &str| f64::midpoint(value("left", metric), value("right", metric));
+    assert!((value("both", "mse") - mean("mse")).abs() < 1e-15);
+    assert!(
+        (value("both", "psnr") + 10.0 * mean("mse").log10()).abs() < 1e-12,
+        "of the pooled error"
+    );
+    assert!((value("both", "ssim") - mean("ssim")).abs() < 1e-15);
+    // One list of bands, as far as either eye sees: here the right one looks into a corner.
+    let last = |eye: &str| {
+        let edges = found
+            .iter()
+            .filter(|r| r["eye"] == eye)
+            .filter_map(|r| r["to_deg"].parse::<f64>().ok());
+        edges.fold(0.0, f64::max)
+    };
+    let alone =
+        folder.json(&["gt_right.png", "a_right.png", "--fov-vertical", "60", "--gaze", "47,40"]);
+    let alone = alone["frames"][0]["bands"].as_array().unwrap().last().unwrap()["to_deg"].as_f64();
+    assert_eq!([last("left"), last("right"), last("both")].map(Some), [alone; 3]);
+    // The table and the figures are of both eyes.
+    let table = fs::read_to_string(folder.path("reports/e/table.csv")).unwrap();
+    assert!(table.contains(&format!("{:?}", value("both", "psnr"))), "{table}");
+}
+
+#[test]
+fn names_may_be_anything_that_is_a_name() {
+    let folder = two_scenes();
+    let text = experiment("").replace("\"A\"", "\"A, \\\"quoted\\\" | <b> & *_`\"").replace(
+        "name = \"room\"\nreference = \"room/gt\"",
+        "name = \"Zimmer β: 1\"\nfolder = \"room\"\nreference = \"{folder}/gt\"",
+    );
+    folder.write("e.toml", text.replace("{scene}/", "{folder}/"));
+    folder.run(&["run", "e.toml"]).ok();
+    let name = "A, \"quoted\" | <b> & *_`";
+    assert!(rows(&folder, "reports/e").iter().any(|row| row["method"] == name));
+    let read = |file: &str| fs::read_to_string(folder.path(&format!("reports/e/{file}"))).unwrap();
+    assert!(
+        read("table.md").contains("A, \"quoted\" \\| \\<b\\> & \\*\\_\\`"),
+        "{}",
+        read("table.md")
+    );
+    assert!(read("index.html").contains("A, &quot;quoted&quot; | &lt;b&gt; &amp; *_`"));
+    assert!(read("plots/bars-psnr.svg").contains("&lt;b&gt; &amp;"));
+    assert!(folder.path("reports/e/plots/profile-psnr-zimmer-β-1.png").exists());
+}
+
+#[test]
+fn identical_pictures_are_infinite_everywhere() {
+    let folder = two_scenes();
+    for scene in ["room", "hall"] {
+        for frame in 0..3 {
+            let from = folder.path(&format!("{scene}/gt/{frame:04}.png"));
+            fs::copy(from, folder.path(&format!("{scene}/a/{frame:04}.png"))).unwrap();
+        }
+    }
+    folder.run(&["run", "e.toml"]).ok();
+    let rows = rows(&folder, "reports/e");
+    let psnr = rows.iter().find(|row| row["method"] == "A" && row["metric"] == "psnr").unwrap();
+    assert_eq!(psnr["value"], "inf");
+    let summary = json(&folder, "reports/e/summary.json");
+    assert_eq!(summary["comparisons"][0]["metrics"]["psnr"]["mean"], "inf");
+    let table = fs::read_to_string(folder.path("reports/e/table.md")).unwrap();
+    assert!(table.contains("**inf**"), "{table}");
+    let svg = fs::read_to_string(folder.path("reports/e/plots/bars-psnr.svg")).unwrap();
+    assert!(svg.contains('∞'), "{svg}");
+}
+
+/// The best of each row, and the averages, are those of the values.
+#[test]
+fn the_table_marks_the_best() {
+    let folder = two_scenes();
+    folder.run(&["run", "e.toml"]).ok();
+    let summary = json(&folder, "reports/e/summary.json");
+    let mean = |scene: &str, method: &str, metric: &str| {
+        let comparisons = summary["comparisons"].as_array().unwrap();
+        let c = comparisons.iter().find(|c| c["scene"] == scene && c["method"] == method).unwrap();
+        c["metrics"][metric]["mean"].as_f64().unwrap()
+    };
+    let path = folder.path("reports/e/table.csv");
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let headers = reader.headers().unwrap().clone();
+    let records: Vec<csv::StringRecord> = reader.records().map(|r| r.unwrap()).collect();
+    assert_eq!(
+        records.iter().map(|r| r[0].to_owned()).collect::<Vec<_>>(),
+        ["room", "hall", "Average"]
+    );
+    for (metric, best) in [("mse", "A"), ("psnr", "A"), ("ssim", "A")] {
+        let column =
+            |name: &str| headers.iter().position(|h| h == format!("{metric} {name}")).unwrap();
+        for record in &records {
+            let value: f64 = record[column("B")].parse().unwrap();
+            let want = match &record[0] {
+                "Average" => f64::midpoint(mean("room", "B", metric), mean("hall", "B", metric)),
+                scene => mean(scene, "B", metric),
+            };
+            assert!((value - want).abs() <= 1e-12 * want.abs(), "{record:?}");
+            assert_eq!(&record[column("best")], best, "less noise is better: {record:?}");
+        }
+    }
+    let text = fs::read_to_string(folder.path("reports/e/table.md")).unwrap();
+    let room = text.lines().find(|line| line.starts_with("| room")).unwrap();
+    let bold = format!("**{:.2}**", mean("room", "A", "psnr"));
+    assert!(room.contains(&bold) && room.matches("**").count() == 8, "{room}");
+}
+
+#[test]
+fn the_demo_runs() {
+    let folder = Folder::new();
+    let demo = root().join("configs/demo.toml");
+    folder.run(&["run", demo.to_str().unwrap()]).ok();
+    let summary = json(&folder, "reports/demo/summary.json");
+    // Of the committed golden values (scikit-image), of the same pictures.
+    let psnr = summary["comparisons"][0]["metrics"]["psnr"]["mean"].as_f64().unwrap();
+    assert!((psnr - 28.651_635).abs() < 1e-4, "{psnr}");
+}

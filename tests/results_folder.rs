@@ -1,0 +1,210 @@
+//! The folder of results: the same bytes always, one run at a time, nothing lost.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::experiment_folder::{HEAD, bytes, experiment, json, rows, two_scenes};
+#[cfg(target_os = "linux")]
+use crate::fovqa::peak_kb;
+use crate::fovqa::{Folder, Run, command};
+
+#[test]
+fn the_same_bytes_for_any_threads_and_again_by_report() {
+    let folder = two_scenes();
+    folder.run(&["run", "e.toml", "--threads", "1", "--output", "one"]).ok();
+    folder.run(&["run", "e.toml", "--threads", "8", "--output", "eight"]).ok();
+    let one = bytes(&folder.path("one"));
+    for file in ["results.csv", "summary.json", "run.json", "table.md", "plots/profile-psnr.png"] {
+        assert!(one.contains_key(file), "{file} is not among {:?}", one.keys());
+    }
+    assert_eq!(one, bytes(&folder.path("eight")));
+    // Again over the old results, and drawn again without scoring.
+    folder.run(&["run", "e.toml", "--output", "one"]).ok();
+    assert_eq!(one, bytes(&folder.path("one")));
+    fs::remove_dir_all(folder.path("room")).unwrap();
+    fs::remove_dir_all(folder.path("eight/plots")).unwrap();
+    for file in ["table.md", "table.csv", "index.html"] {
+        fs::remove_file(folder.path(&format!("eight/{file}"))).unwrap();
+    }
+    folder.run(&["report", "eight"]).ok();
+    assert_eq!(one, bytes(&folder.path("eight")));
+}
+
+#[test]
+fn results_do_not_tell_where_they_were_made() {
+    let folder = two_scenes();
+    folder.run(&["run", "e.toml", "--output", "here"]).ok();
+    let here = bytes(&folder.path("here"));
+    let elsewhere = Folder::new();
+    let file = folder.path("e.toml").canonicalize().unwrap();
+    elsewhere.run(&["run", file.to_str().unwrap(), "--output", "there"]).ok();
+    assert_eq!(here, bytes(&elsewhere.path("there")));
+    let record = json(&folder, "here/run.json");
+    let input = &record["inputs"][0];
+    assert_eq!(input["path"], "hall/a/0000.png");
+    let file = fs::read(folder.path("hall/a/0000.png")).unwrap();
+    assert_eq!(input["bytes"], file.len());
+    let id = fovqa_io::FileId::of(file.as_slice()).unwrap();
+    assert_eq!(input["sha256"], id.sha256);
+    assert_eq!(record["inputs"].as_array().unwrap().len(), 2 * 3 * 3);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_found_before_scoring() {
+    let folder = two_scenes();
+    folder.write("file", "");
+    folder.write("room/gt/0000.png", "no picture: scoring would say so");
+    let run = folder.run(&["run", "e.toml", "--output", "file/results"]);
+    let run = run.fails(3, &["file/results: results cannot be written there", "--output"]);
+    assert!(!run.stderr.contains("0000.png"), "{}", run.stderr);
+    folder
+        .run(&["run", "e.toml", "--output", "file"])
+        .fails(3, &["file: results cannot be written"]);
+    // What is not ours is not replaced.
+    folder.write("mine/results.csv", "a,b\n");
+    folder
+        .run(&["run", "e.toml", "--output", "mine"])
+        .fails(3, &["mine: it has a results.csv that is of no run"]);
+    assert_eq!(fs::read(folder.path("mine/results.csv")).unwrap(), b"a,b\n");
+}
+
+/// An experiment that takes a while.
+#[cfg(unix)]
+fn long() -> Folder {
+    let folder = Folder::new();
+    folder.png_pair("gt/0000.png", "a/0000.png", 1000, 1000);
+    for frame in 1..1000 {
+        for side in ["gt", "a"] {
+            let first = folder.path(&format!("{side}/0000.png"));
+            fs::hard_link(first, folder.path(&format!("{side}/{frame:04}.png"))).unwrap();
+        }
+    }
+    let scene =
+        "[[scene]]\nname = \"s\"\nreference = \"gt\"\n[[method]]\nname = \"A\"\ntest = \"a\"\n";
+    folder.write("e.toml", format!("{HEAD}{scene}"));
+    folder
+}
+
+/// The journal, as soon as it has some frames.
+#[cfg(unix)]
+fn wait_for_frames(journal: &Path) -> String {
+    for _ in 0..3000 {
+        let text = fs::read_to_string(journal).unwrap_or_default();
+        if text.matches("\"scores\"").count() > 3 {
+            return text;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    panic!("no frame was journaled in half a minute")
+}
+
+#[cfg(unix)]
+#[test]
+fn one_run_at_a_time_and_a_killed_one_leaves_its_journal() {
+    let folder = long();
+    folder.write("reports/e/old.txt", "not ours");
+    let mut first = command(&["run", "e.toml"])
+        .current_dir(folder.path(""))
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let journal = folder.path("reports/e/journal.jsonl");
+    wait_for_frames(&journal);
+    folder
+        .run(&["run", "e.toml"])
+        .fails(3, &["reports/e: another run is writing there", "--output"]);
+    folder.run(&["run", "e.toml", "--frames", "0..1", "--output", "other"]).ok();
+    first.kill().unwrap();
+    first.wait().unwrap();
+    // Every line but a last piece is whole, and has what a frame was found to have.
+    let text = fs::read_to_string(&journal).unwrap();
+    let whole = text.rsplit_once('\n').unwrap().0;
+    let lines: Vec<Value> = whole.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!(lines[0]["schema"], "fovqa.journal/1");
+    assert!(lines.iter().any(|line| line["input"] == "gt/0000.png"));
+    let frame = lines.iter().find(|line| line["frame"] == 0).unwrap();
+    let row = rows(&folder, "other").into_iter().find(|row| row["metric"] == "psnr").unwrap();
+    assert_eq!(frame["scores"]["psnr"].as_f64(), row["value"].parse().ok());
+    // The lock went with the process; nothing looks like finished results.
+    assert!(!folder.path("reports/e/results.csv").exists());
+    folder.run(&["report", "reports/e"]).fails(3, &["no finished run"]);
+    folder.run(&["run", "e.toml", "--frames", "0..2"]).ok();
+    assert!(folder.path("reports/e/results.csv").exists());
+    assert!(folder.path("reports/e/old.txt").exists(), "what is not ours stays");
+}
+
+#[test]
+fn another_run_takes_the_place_of_the_last() {
+    let folder = two_scenes();
+    folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    assert!(folder.path("out/plots/profile-ssim-hall.svg").exists());
+    folder.write("out/plots/mine.svg", "not ours");
+    folder.write("e.toml", experiment("[metrics]\npsnr = {}\n[[plot]]\nkind = \"bars\"\n"));
+    folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    let plots: Vec<String> = bytes(&folder.path("out/plots")).into_keys().collect();
+    assert_eq!(plots, ["bars-psnr.csv", "bars-psnr.png", "bars-psnr.svg", "mine.svg"]);
+    assert!(!folder.path("out/table.md").exists(), "it was not asked for");
+}
+
+#[test]
+fn a_report_needs_a_finished_run() {
+    let folder = two_scenes();
+    folder.run(&["report", "nowhere"]).fails(3, &["nowhere: there is no finished run in it"]);
+    folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    for (file, text) in [("results.csv", "a,b\n1,2\n"), ("summary.json", "{}"), ("run.json", "[1")]
+    {
+        let path = format!("out/{file}");
+        let whole = fs::read(folder.path(&path)).unwrap();
+        folder.write(&path, text);
+        folder.run(&["report", "out"]).fails(3, &[&path, "it is not"]);
+        folder.write(&path, whole);
+    }
+    folder.run(&["report", "out"]).ok();
+}
+
+/// Decoded, a frame here takes 590 kB: 200 of them with four tests each would take 590 MB.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_for_pixels_does_not_grow_with_frames() {
+    const SIDE: usize = 443;
+    let folder = Folder::new();
+    folder.png_pair("gt/0000.png", "a/0000.png", SIDE, SIDE);
+    for frame in 0..200 {
+        for side in ["gt", "a", "b", "c", "d"] {
+            let first = folder.path(if side == "gt" { "gt/0000.png" } else { "a/0000.png" });
+            let to = folder.path(&format!("{side}/{frame:04}.png"));
+            if !to.exists() {
+                fs::hard_link(first, to).unwrap();
+            }
+        }
+    }
+    let methods: String = ["a", "b", "c", "d"]
+        .map(|m| format!("[[method]]\nname = \"{m}\"\ntest = \"{m}\"\n"))
+        .concat();
+    folder.write(
+        "e.toml",
+        format!("{HEAD}[[scene]]\nname = \"s\"\nreference = \"gt\"\n{methods}[[plot]]\nkind = \"table\"\n"),
+    );
+    let ten = peak_kb(&folder, &["run", "e.toml", "--threads", "2", "--frames", "0..10"]);
+    let all = peak_kb(&folder, &["run", "e.toml", "--threads", "2"]);
+    assert!(ten > 0 && all < ten + 16_000, "{ten} kB for 10 frames, {all} kB for 200");
+}
+
+#[test]
+fn a_closed_pipe_is_no_error() {
+    use std::process::Stdio;
+    let folder = two_scenes();
+    let mut child = command(&["run", "e.toml"])
+        .current_dir(folder.path(""))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let run = Run::from(child.wait_with_output().unwrap());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(folder.path("reports/e/index.html").exists());
+}
