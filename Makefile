@@ -3,8 +3,7 @@
 .PHONY: demo test bench lint
 
 demo:
-	cargo run --release --locked --bin fovqa -- score tests/data/small/living-room/gt.png tests/data/small/living-room/rmfr.png \
-		--fov-vertical 100 --bands 0,5,10,20,30,45,60 --metrics mse,psnr,ssim,ms-ssim,fpsnr,fssim
+	cargo run --release --locked --bin fovqa -- run configs/demo.toml
 
 test:
 	cargo test --release --locked --workspace

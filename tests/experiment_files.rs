@@ -417,3 +417,32 @@ fn the_committed_experiments_are_right() {
     }
     assert!(seen > 0);
 }
+
+/// The names of all properties in a schema.
+fn keys(schema: &Value, found: &mut Vec<String>) {
+    match schema {
+        Value::Object(map) => {
+            if let Some(Value::Object(properties)) = map.get("properties") {
+                found.extend(properties.keys().cloned());
+            }
+            map.values().for_each(|value| keys(value, found));
+        }
+        Value::Array(list) => list.iter().for_each(|value| keys(value, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn every_key_is_documented() {
+    let docs = fs::read_to_string(root().join("docs/experiments.md")).unwrap();
+    let words: Vec<&str> = docs.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
+    let mut schema: Value = Run::from(command(&["schema"]).output().unwrap()).ok().json();
+    // Metrics and their parameters are listed by `fovqa list metrics`.
+    schema["properties"]["metrics"] = Value::Null;
+    let mut found = Vec::new();
+    keys(&schema, &mut found);
+    assert!(found.len() > 40);
+    for key in found {
+        assert!(words.contains(&key.as_str()), "{key}");
+    }
+}

@@ -296,10 +296,11 @@ fn the_same_bytes_for_any_number_of_threads() {
 fn the_readme_shows_the_demo() {
     let makefile = std::fs::read_to_string(root().join("Makefile")).unwrap();
     let demo = makefile.split("demo:").nth(1).unwrap().split("\n\n").next().unwrap();
-    let demo = demo.replace('\\', " ");
     let arguments: Vec<&str> = demo.split(" -- ").nth(1).unwrap().split_whitespace().collect();
-    let output = command(&arguments).current_dir(root()).output().unwrap();
-    let table = Run::from(output).ok().stdout;
+    let folder = Folder::new();
+    let output = folder.path("demo");
+    let arguments = [&arguments[..], &["--output", output.to_str().unwrap()]].concat();
+    let table = Run::from(command(&arguments).current_dir(root()).output().unwrap()).ok().stdout;
     let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
     assert!(readme.contains(&table), "{table}");
 }

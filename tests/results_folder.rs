@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::experiment_folder::{HEAD, bytes, experiment, json, rows, two_scenes};
 #[cfg(target_os = "linux")]
 use crate::fovqa::peak_kb;
-use crate::fovqa::{Folder, Run, command};
+use crate::fovqa::{Folder, Run, command, root};
 
 #[test]
 fn the_same_bytes_for_any_threads_and_again_by_report() {
@@ -207,4 +207,22 @@ fn a_closed_pipe_is_no_error() {
     let run = Run::from(child.wait_with_output().unwrap());
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(folder.path("reports/e/index.html").exists());
+}
+
+/// `reports/demo` is committed: what a run makes here and now is what it made there and then.
+#[test]
+fn the_committed_results_come_out_again() {
+    let folder = Folder::new();
+    let demo = root().join("configs/demo.toml");
+    folder.run(&["run", demo.to_str().unwrap(), "--output", "demo"]).ok();
+    let [found, committed] = [folder.path("demo"), root().join("reports/demo")].map(|results| {
+        let mut files = bytes(&results);
+        // Where somebody has run the demo it is there; it is not committed.
+        files.remove("journal.jsonl");
+        files
+    });
+    for (file, bytes) in &found {
+        assert_eq!(Some(bytes), committed.get(file), "{file}: make demo, look at it, commit it");
+    }
+    assert_eq!(found.len(), committed.len(), "{:?}", committed.keys());
 }

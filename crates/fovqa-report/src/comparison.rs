@@ -21,6 +21,8 @@ pub struct ComparisonTable {
 #[derive(Debug, Clone, PartialEq)]
 struct Row {
     label: String,
+    /// Whether it is of all scenes together.
+    average: bool,
     /// Metric by metric, within it method by method.
     cells: Vec<Vec<Cell>>,
 }
@@ -65,7 +67,7 @@ impl ComparisonTable {
                 let cells = metrics.iter().map(|&metric| {
                     marked(metric, methods.iter().map(|method| value(scene, method, metric)))
                 });
-                Row { label: (*scene).to_owned(), cells: cells.collect() }
+                Row { label: (*scene).to_owned(), average: false, cells: cells.collect() }
             })
             .collect();
         rows.extend(average(&metrics, &rows));
@@ -99,7 +101,22 @@ impl ComparisonTable {
             }
             text.push('\n');
         }
+        for note in self.notes() {
+            let _ = writeln!(text, "\n{note}");
+        }
         text
+    }
+
+    /// What has to be said of the numbers wherever they are shown.
+    pub fn notes(&self) -> Vec<&'static str> {
+        let mut notes = vec!["Means over frames; the best of each row is marked."];
+        if self.metrics.contains(&Metric::Fpsnr) || self.metrics.contains(&Metric::Fssim) {
+            notes.push(
+                "FPSNR and FSSIM: the papers print no constants for the foveal weight, so compare \
+                 methods, not papers.",
+            );
+        }
+        notes
     }
 
     /// CSV: a row a scene, for each metric a column a method (`psnr RMFR`) and one with the best of
@@ -177,7 +194,8 @@ impl ComparisonTable {
         }
         text.push_str("</tr>\n</thead>\n<tbody>\n");
         for row in &self.rows {
-            let _ = write!(text, "<tr><th>{}</th>", crate::page::escaped(&row.label));
+            let class = if row.average { " class=\"average\"" } else { "" };
+            let _ = write!(text, "<tr{class}><th>{}</th>", crate::page::escaped(&row.label));
             for (metric, cells) in self.metrics.iter().zip(&row.cells) {
                 for (index, cell) in cells.iter().enumerate() {
                     let first = if index == 0 { " class=\"first\"" } else { "" };
@@ -292,7 +310,7 @@ fn average(metrics: &[Metric], rows: &[Row]) -> Option<Row> {
         count if count == most => format!("Average of the {count} scenes all methods have"),
         _ => "Average of the scenes all methods have".to_owned(),
     };
-    Some(Row { label, cells })
+    Some(Row { label, average: true, cells })
 }
 
 /// The mean of the finite values; infinite where there is no other, `None` without any.

@@ -14,7 +14,7 @@ pub(crate) struct PageFigure<'a> {
 }
 
 const STYLE: &str = "\
-body{font:16px/1.5 system-ui,sans-serif;color:#222;max-width:1080px;margin:2em auto;padding:0 1em}
+body{font:16px/1.5 system-ui,sans-serif;color:#222;max-width:1280px;margin:2em auto;padding:0 1em}
 h1{font-size:1.6em;margin-bottom:.2em}h2{font-size:1.2em;margin-top:2em}
 p.note,figcaption,footer{color:#555;font-size:.9em}
 .wide{overflow-x:auto}
@@ -23,7 +23,7 @@ th,td{padding:.25em .7em;text-align:right;white-space:nowrap}
 thead th{text-align:center;font-weight:600}tbody th{text-align:left;font-weight:400}
 thead tr:last-child th{font-weight:400;border-bottom:1px solid #888;text-align:right}
 thead tr:first-child th:first-child{border-bottom:1px solid #888;text-align:left;vertical-align:bottom}
-td.first{padding-left:1.8em}tbody tr:last-child:not(:first-child)>*{border-top:1px solid #ccc}
+td.first{padding-left:1.8em}tr.average>*{border-top:1px solid #ccc}
 .figures{display:flex;flex-wrap:wrap;gap:1.5em}
 figure{margin:0}figure img{max-width:100%}
 .errors li{color:#a00}
@@ -71,9 +71,9 @@ pub(crate) fn page(
     for table in tables {
         let _ = write!(
             text,
-            "<h2>Comparison</h2>\n<div class=\"wide\">\n{}</div>\n\
-             <p class=\"note\">Means over frames; the best of each row in bold.</p>\n",
-            table.html()
+            "<h2>Comparison</h2>\n<div class=\"wide\">\n{}</div>\n<p class=\"note\">{}</p>\n",
+            table.html(),
+            table.notes().join(" ")
         );
     }
     if !figures.is_empty() {
