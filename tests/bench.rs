@@ -11,6 +11,7 @@ use std::time::Instant;
 use fovqa_io::{ReadOptions, read_frame};
 use fovqa_testkit::exr_files::{File, Part, Values};
 use fovqa_testkit::png_files::write8;
+use fovqa_testkit::synthetic::{codes, disturbed};
 use wait4::Wait4;
 
 /// Runs of each case; the median counts.
@@ -150,6 +151,50 @@ fn compare(name: &str, pair: &Pair, aim: Option<&str>, aim_beyond: Option<&str>)
     }
 }
 
+/// Methods of the experiments.
+const METHODS: [&str; 4] = ["a", "b", "c", "d"];
+
+/// Writes an experiment of many small frames, and one of a large one: four methods each.
+fn make_experiments(folder: &Path) {
+    const SIDE: usize = 64;
+    let experiment = |name: &str, reference: &str, test: &dyn Fn(&str) -> String| {
+        let methods =
+            METHODS.map(|m| format!("[[method]]\nname = \"{m}\"\ntest = \"{}\"\n", test(m)));
+        let text = format!(
+            "name = \"{name}\"\n[view]\nfov_vertical_deg = 60\n[[scene]]\nname = \"s\"\nreference = \"{reference}\"\n{}",
+            methods.concat()
+        );
+        std::fs::write(folder.join(format!("{name}.toml")), text).unwrap();
+    };
+    experiment("small", "small/gt", &|method| format!("small/{method}"));
+    let [gt, test] = Pair::new(folder, "png", FOUR_K.0, FOUR_K.1).paths;
+    let path = |path: &Path| path.display().to_string();
+    experiment("large", &path(&gt), &|_| path(&test));
+    for (index, side) in ["gt"].into_iter().chain(METHODS).enumerate() {
+        let side = folder.join("small").join(side);
+        std::fs::create_dir_all(&side).unwrap();
+        for frame in 0..1000 {
+            let codes = codes(SIDE, SIDE, 3, frame);
+            let codes = if index == 0 { codes } else { disturbed(&codes, 10.0 * index as f64, 1) };
+            write8(&side.join(format!("{frame:04}.png")), SIDE, SIDE, &codes);
+        }
+    }
+}
+
+/// Whole experiments: scoring, hashing, journal, results, figures.
+fn experiments(folder: &Path) {
+    let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
+    let path = |name: &str| folder.join(name).display().to_string();
+    let cost = |name: &str, more: &[&str]| {
+        let (file, output) = (path(&format!("{name}.toml")), path("results"));
+        measure(fovqa, &[&["run", &file, "--output", &output], more].concat())
+    };
+    let all = Some(4000.0 * 0.004_096);
+    row("64x64 PNG, 4 methods: 10 frames", None, cost("small", &["--frames", "0..10"]), None);
+    row("64x64 PNG, 4 methods: 1,000 frames", all, cost("small", &[]), Some("5 wall s"));
+    row("4K PNG, 4 methods: one frame", Some(4.0 * 8.2944), cost("large", &[]), None);
+}
+
 fn peers(pair: &Pair) {
     let [a, b] = pair.names();
     for filter in ["psnr", "ssim"] {
@@ -180,6 +225,7 @@ fn main() {
             for (width, height) in [FOUR_K, FULL_HD] {
                 make(Path::new(folder), width, height);
             }
+            make_experiments(Path::new(folder));
         }
         _ => report(),
     }
@@ -201,5 +247,6 @@ fn report() {
     compare("4K EXR, half, ZIP", &pair("exr", FOUR_K), None, None);
     let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
     row("fovqa --version", None, measure(fovqa, &["--version"]), Some("0.010 wall s"));
+    experiments(folder.path());
     peers(&four_k);
 }
