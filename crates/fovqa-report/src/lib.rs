@@ -6,6 +6,7 @@ mod figures;
 mod frame_values;
 mod page;
 mod terminal;
+mod text_table;
 
 pub use comparison::ComparisonTable;
 pub use draw::{Drawn, ReportError, clear, draw};

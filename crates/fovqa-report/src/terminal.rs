@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 use fovqa_metrics::{Metric, PairScores};
 use fovqa_results::{ScoreReport, Statistics, Summary};
+
+use crate::text_table::{aligned, plain_table, printable};
 
 /// The report as text: what was compared, each metric, and each band.
 pub fn score_table(report: &ScoreReport) -> String {
@@ -12,7 +13,7 @@ pub fn score_table(report: &ScoreReport) -> String {
     let mut text = heading(report);
     let one = report.frames.len() == 1;
     let mut whole =
-        table(if one { &["", "value"][..] } else { &["", "mean", "min", "max", "pooled"] });
+        plain_table(if one { &["", "value"][..] } else { &["", "mean", "min", "max", "pooled"] });
     for (metric, s) in &summary.statistics {
         let mut row = vec![label(*metric)];
         if one {
@@ -23,7 +24,7 @@ pub fn score_table(report: &ScoreReport) -> String {
         }
         whole.add_row(row);
     }
-    let _ = writeln!(text, "\n{}", finished(whole));
+    let _ = writeln!(text, "\n{}", aligned(whole));
     if let Some(identical) = summary.statistics.values().find_map(|s| s.identical_frames)
         && identical > 0
         && !one
@@ -39,7 +40,7 @@ pub fn score_table(report: &ScoreReport) -> String {
         let labels: Vec<String> = per_band.iter().map(|m| label(*m)).collect();
         let header =
             ["eccentricity", "pixels"].into_iter().chain(labels.iter().map(String::as_str));
-        let mut bands = table(&header.collect::<Vec<_>>());
+        let mut bands = plain_table(&header.collect::<Vec<_>>());
         for band in &summary.bands {
             let mut row = vec![
                 format!("{}° to {}°", band.from_deg, band.to_deg),
@@ -52,7 +53,7 @@ pub fn score_table(report: &ScoreReport) -> String {
             row.extend(per_band.iter().map(|m| cell(m).unwrap_or_else(|| "–".to_owned())));
             bands.add_row(row);
         }
-        let _ = writeln!(text, "\n{}", finished(bands));
+        let _ = writeln!(text, "\n{}", aligned(bands));
         if !one {
             let _ = writeln!(text, "pixels and values are means over the frames");
         }
@@ -111,14 +112,6 @@ fn heading(report: &ScoreReport) -> String {
     text
 }
 
-/// A file name that cannot steer the terminal.
-pub(crate) fn printable(name: &str) -> String {
-    let shown = |c: char| {
-        if c.is_control() { c.escape_default().collect() } else { c.to_string() }
-    };
-    name.chars().map(shown).collect()
-}
-
 fn label(metric: Metric) -> String {
     let info = metric.info();
     if info.unit.is_empty() {
@@ -138,21 +131,4 @@ fn number(metric: Metric, value: f64) -> String {
     } else {
         format!("{value:.5}")
     }
-}
-
-fn table(header: &[&str]) -> Table {
-    let mut table = Table::new();
-    table.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(header.to_vec());
-    table
-}
-
-/// Names to the left, numbers to the right, nothing behind the last column.
-fn finished(mut table: Table) -> String {
-    for (index, column) in table.column_iter_mut().enumerate() {
-        let side = if index == 0 { CellAlignment::Left } else { CellAlignment::Right };
-        column.set_cell_alignment(side);
-        column.set_padding(if index == 0 { (0, 1) } else { (1, 1) });
-    }
-    table.lines().map(|line| line.trim_end().to_owned()).collect::<Vec<_>>().join("\n")
 }

@@ -1,0 +1,30 @@
+//! The table as CSV.
+
+use super::{Cell, ComparisonTable};
+
+impl ComparisonTable {
+    /// CSV: a row a scene, for each metric a column a method (`psnr RMFR`) and one with the best of
+    /// the row (`psnr best`; several share it with ` = ` between them). Full precision.
+    pub fn csv(&self) -> String {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let mut header = vec!["scene".to_owned()];
+        for metric in &self.metrics {
+            header.extend(self.methods.iter().map(|method| format!("{} {method}", metric.key())));
+            header.push(format!("{} best", metric.key()));
+        }
+        // Writing to memory does not fail, and the rows are of one length.
+        let _ = writer.write_record(&header);
+        for row in &self.rows {
+            let mut record = vec![row.label.clone()];
+            for cells in &row.cells {
+                let text = |cell: &Cell| cell.value.map(|v| format!("{v:?}")).unwrap_or_default();
+                record.extend(cells.iter().map(text));
+                let best = self.methods.iter().zip(cells).filter(|(_, cell)| cell.best);
+                let best: Vec<&str> = best.map(|(method, _)| method.as_str()).collect();
+                record.push(best.join(" = "));
+            }
+            let _ = writer.write_record(&record);
+        }
+        String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+    }
+}

@@ -1,0 +1,52 @@
+//! The table in GitHub's Markdown.
+
+use std::fmt::Write;
+
+use super::{ComparisonTable, heading, shown};
+
+impl ComparisonTable {
+    /// GitHub's Markdown; the best of each row in bold.
+    pub fn markdown(&self) -> String {
+        let mut text = String::from("| scene |");
+        for metric in &self.metrics {
+            let blanks = " |".repeat(self.methods.len() - 1);
+            let _ = write!(text, " {} |{blanks}", heading(*metric));
+        }
+        text.push_str("\n| :-- |");
+        text.push_str(&" --: |".repeat(self.metrics.len() * self.methods.len()));
+        text.push_str("\n| |");
+        for _ in &self.metrics {
+            for method in &self.methods {
+                let _ = write!(text, " *{}* |", escaped(method));
+            }
+        }
+        text.push('\n');
+        for row in &self.rows {
+            let _ = write!(text, "| {} |", escaped(&row.label));
+            for (metric, cells) in self.metrics.iter().zip(&row.cells) {
+                for cell in cells {
+                    let number = shown(*metric, cell.value);
+                    let bold = if cell.best { "**" } else { "" };
+                    let _ = write!(text, " {bold}{number}{bold} |");
+                }
+            }
+            text.push('\n');
+        }
+        for note in self.notes() {
+            let _ = writeln!(text, "\n{note}");
+        }
+        text
+    }
+}
+
+/// Text that Markdown takes as it is.
+fn escaped(text: &str) -> String {
+    let mut plain = String::new();
+    for c in text.chars() {
+        if matches!(c, '|' | '*' | '_' | '`' | '\\' | '<' | '>' | '[' | ']' | '#') {
+            plain.push('\\');
+        }
+        plain.push(c);
+    }
+    plain
+}
