@@ -358,3 +358,26 @@ fn the_demo_runs() {
     let psnr = summary["comparisons"][0]["metrics"]["psnr"]["mean"].as_f64().unwrap();
     assert!((psnr - 28.651_635).abs() < 1e-4, "{psnr}");
 }
+
+#[test]
+fn a_number_that_not_all_names_carry_is_no_frame_number() {
+    let folder = two_scenes();
+    let text = experiment("")
+        .replace("\"room/gt\"", "\"room/gt/0002.png\"")
+        .replace("{scene}/a", "{scene}/a/0002.png")
+        .replace("{scene}/b", "{scene}/b/0001.png")
+        .replace("\"{scene}/gt\"", "\"{scene}/gt/0002.png\"");
+    folder.write("e.toml", &text);
+    folder.run(&["run", "e.toml"]).ok();
+    let frames = |method: &str| {
+        let rows = rows(&folder, "reports/e");
+        let mut frames: Vec<String> =
+            rows.iter().filter(|r| r["method"] == method).map(|r| r["frame"].clone()).collect();
+        frames.dedup();
+        frames
+    };
+    assert_eq!((frames("A"), frames("B")), (vec!["0".to_owned()], vec!["0".to_owned()]));
+    folder.write("e.toml", text.replace("b/0001", "b/0002"));
+    folder.run(&["run", "e.toml"]).ok();
+    assert_eq!(frames("B"), ["2"]);
+}

@@ -32,23 +32,48 @@ fn the_same_bytes_for_any_threads_and_again_by_report() {
     assert_eq!(one, bytes(&folder.path("eight")));
 }
 
+/// Whatever went wrong on the way: results name files as the experiment does.
 #[test]
 fn results_do_not_tell_where_they_were_made() {
     let folder = two_scenes();
-    folder.run(&["run", "e.toml", "--output", "here"]).ok();
+    fs::remove_file(folder.path("room/a/0001.png")).unwrap();
+    folder.write("room/b/0001.png", "no picture");
+    fs::remove_dir_all(folder.path("hall/b")).unwrap();
+    folder.write("gaze.csv", "frame,x_px,y_px\n0,1,1\n");
+    folder.png("mask.png", 48, 40, &[255; 48 * 40]);
+    let scene = "[[scene]]\nname = \"short\"\nreference = \"room/gt\"\nfolder = \"room\"\n";
+    let text = experiment("").replace("\"{scene}/a\"", "\"{folder}/a\"").replace(
+        "[[method]]\nname = \"A\"",
+        &format!("{scene}gaze = {{ trace = \"gaze.csv\" }}\n{scene2}mask = \"mask.png\"\ngaze = {{ trace = \"gaze.csv\", hold = true }}\n[[method]]\nname = \"A\"", scene2 = scene.replace("short", "masked")),
+    );
+    folder.write("e.toml", text);
+    assert_eq!(folder.run(&["run", "e.toml", "--output", "here"]).code, 3);
     let here = bytes(&folder.path("here"));
     let elsewhere = Folder::new();
     let file = folder.path("e.toml").canonicalize().unwrap();
-    elsewhere.run(&["run", file.to_str().unwrap(), "--output", "there"]).ok();
+    let run = elsewhere.run(&["run", file.to_str().unwrap(), "--output", "there"]);
+    assert_eq!(run.code, 3);
+    run.says(&[
+        "hall, B: hall/b: there is no such file or folder",
+        "starts in the folder of the experiment file",
+        "short, A: gaze.csv: it has no gaze for frame",
+        "room, B, frame 1: room/b/0001.png: this is not a PNG",
+        "room, A: reference without a test frame: room/gt/0001.png",
+    ]);
     assert_eq!(here, bytes(&elsewhere.path("there")));
     let record = json(&folder, "here/run.json");
-    let input = &record["inputs"][0];
-    assert_eq!(input["path"], "hall/a/0000.png");
-    let file = fs::read(folder.path("hall/a/0000.png")).unwrap();
-    assert_eq!(input["bytes"], file.len());
-    let id = fovqa_io::FileId::of(file.as_slice()).unwrap();
-    assert_eq!(input["sha256"], id.sha256);
-    assert_eq!(record["inputs"].as_array().unwrap().len(), 2 * 3 * 3);
+    let inputs = record["inputs"].as_array().unwrap();
+    let paths: Vec<&str> = inputs.iter().map(|input| input["path"].as_str().unwrap()).collect();
+    assert!(paths.is_sorted());
+    for name in ["hall/a/0000.png", "hall/gt/0002.png", "gaze.csv", "mask.png"] {
+        let input = &inputs[paths.iter().position(|path| *path == name).unwrap()];
+        let file = fs::read(folder.path(name)).unwrap();
+        let id = fovqa_io::FileId::of(file.as_slice()).unwrap();
+        assert_eq!(
+            (input["bytes"].as_u64(), input["sha256"].as_str()),
+            (Some(id.bytes), Some(id.sha256.as_str()))
+        );
+    }
 }
 
 #[test]

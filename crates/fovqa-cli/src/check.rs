@@ -1,9 +1,11 @@
 //! `fovqa check`: the plan and the frames found, without reading a pixel.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
+use std::path::Path;
 
 use fovqa_config::{Experiment, EyeView, Gaze, MetricChoice};
-use fovqa_engine::{EngineError, Found, FoundFrame, FoundView};
+use fovqa_engine::{Found, FoundFrame, FoundView};
 use fovqa_io::frame_size;
 use fovqa_metrics::Metric;
 
@@ -28,13 +30,17 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
 /// Whether every mask is there and can be read.
 fn masks(experiment: &Experiment) -> bool {
     let eyes = experiment.plan.scenes.iter().flat_map(|scene| &scene.eyes);
-    let masks = eyes.filter_map(|eye| eye.settings.mask.as_deref());
-    let unreadable: Vec<EngineError> =
-        masks.filter_map(|mask| frame_size(mask).err()).map(EngineError::Mask).collect();
-    for error in &unreadable {
-        diagnostic::error(&error.to_string(), &Dialect::Experiment.spell(&error.help()));
+    let masks: BTreeSet<&Path> = eyes.filter_map(|eye| eye.settings.mask.as_deref()).collect();
+    let mut readable = true;
+    for mask in masks {
+        if let Err(error) = frame_size(mask) {
+            let (mask, kind) = (experiment.plan.shown(mask), error.kind);
+            let help = Dialect::Experiment.spell(kind.help());
+            diagnostic::error(&format!("the mask {mask}: {kind}"), &help);
+            readable = false;
+        }
     }
-    unreadable.is_empty()
+    readable
 }
 
 fn plan(experiment: &Experiment, found: &Found) -> String {

@@ -13,7 +13,7 @@ pub(crate) enum Dialect {
 }
 
 /// Setting, option, key.
-const SETTINGS: [(&str, &str, &str); 15] = [
+const SETTINGS: [(&str, &str, &str); 16] = [
     ("allow_missing", "--allow-missing", "allow_missing = true"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),
     ("alpha=over-black", "--alpha over-black", "alpha = \"over-black\""),
@@ -27,6 +27,7 @@ const SETTINGS: [(&str, &str, &str); 15] = [
     ("metrics", "--metrics", "[metrics]"),
     ("nonfinite=mask", "--nonfinite mask", "nonfinite = \"mask\""),
     ("output", "--output", "--output"),
+    ("start", "the working directory", "the folder of the experiment file"),
     ("transfer", "--transfer", "transfer"),
     (
         "view",

@@ -1,6 +1,6 @@
 //! What keeps a run from starting at all.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use fovqa_io::ReadError;
 use fovqa_io::sequence::{ListingError, PairingError};
@@ -67,6 +67,20 @@ pub enum EngineError {
 }
 
 impl EngineError {
+    /// The same of other paths: as results show them.
+    pub(crate) fn with_paths(self, shown: &dyn Fn(&Path) -> PathBuf) -> Self {
+        match self {
+            Self::Listing(error) => Self::Listing(error.with_paths(shown)),
+            Self::Pairing(error) => Self::Pairing(error.with_paths(shown)),
+            Self::GazeFile { path, error } => Self::GazeFile { path: shown(&path), error },
+            Self::GazeTrace { path, error } => Self::GazeTrace { path: shown(&path), error },
+            Self::Mask(ReadError { path, kind }) => {
+                Self::Mask(ReadError { path: shown(&path), kind })
+            }
+            other => other,
+        }
+    }
+
     /// Whether the command line is wrong, rather than an input.
     pub fn is_usage(&self) -> bool {
         match self {

@@ -64,7 +64,10 @@ pub fn find(plan: &Plan) -> Found {
     let mut found = Found { views: Vec::new(), problems: Vec::new() };
     for (scene_index, scene) in plan.scenes.iter().enumerate() {
         for (eye, view) in scene.eyes.iter().enumerate() {
-            let problem = |method, error| Problem { scene: scene_index, eye, method, error };
+            let problem = |method, error: EngineError| {
+                let error = error.with_paths(&|path| plan.shown(path).into());
+                Problem { scene: scene_index, eye, method, error }
+            };
             let reference = match list(&view.reference) {
                 Ok(reference) => reference,
                 Err(error) => {

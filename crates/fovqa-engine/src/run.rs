@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_config::{Eye, EyeView, Plan, Scene};
+use fovqa_config::{Eye, EyeView, Gaze, Plan, Scene};
 use fovqa_io::{FileId, frame_size, read_mask};
 use fovqa_results::{Comparison, Failure, FrameResult, Input, RunResults, ScoreReport, both_eyes};
 use fovqa_vision::BandEdges;
@@ -153,7 +153,8 @@ impl Scoring<'_, '_, '_> {
             Some(path) => match read_mask(path, &eye.settings.read) {
                 Ok(mask) => Some(mask),
                 Err(error) => {
-                    let error = EngineError::Mask(error);
+                    let error =
+                        EngineError::Mask(error).with_paths(&|path| plan.shown(path).into());
                     for &(method, _) in &eye.tests {
                         let report = reports.entry(self.comparison(method)).or_default();
                         report.failures.push(whole(error.to_string(), error.help()));
@@ -169,6 +170,7 @@ impl Scoring<'_, '_, '_> {
             report.gaze_held = self.view.trace.as_ref().map(held);
         }
         let bands = self.bands.take();
+        let mut beside = self.inputs_beside();
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics, bands.as_ref());
         let steps: Vec<Step<'_>> = steps(self.view);
         let loader = Loader { plan, settings: &eye.settings };
@@ -183,7 +185,8 @@ impl Scoring<'_, '_, '_> {
                     return;
                 }
                 let step = &steps[index];
-                let inputs = self.new_inputs(&loaded);
+                let mut inputs = std::mem::take(&mut beside);
+                inputs.extend(self.new_inputs(&loaded));
                 let result = run.step(step, loaded, self.warnings);
                 let finished = Finished {
                     scene: &self.scene.name,
@@ -210,6 +213,28 @@ impl Scoring<'_, '_, '_> {
             }
         }
         Ok(())
+    }
+
+    /// What is read once for all frames: mask and gaze trace.
+    fn inputs_beside(&mut self) -> Vec<Input> {
+        let settings = &self.eye.settings;
+        let trace = match &settings.gaze {
+            Gaze::Trace { path, .. } => Some(path),
+            Gaze::Centre | Gaze::Point(_) => None,
+        };
+        let files = [settings.mask.as_ref(), trace].into_iter().flatten();
+        let mut new = Vec::new();
+        for path in files.filter(|_| self.plan.hash_inputs) {
+            let shown = self.plan.shown(path);
+            // It has been read: what has become of it since is said by what it says now.
+            if let Ok(id) = FileId::of_file(path)
+                && !self.inputs.contains_key(&shown)
+            {
+                self.inputs.insert(shown.clone(), id.clone());
+                new.push(input(shown, id));
+            }
+        }
+        new
     }
 
     /// The files of a step that have not been read before.

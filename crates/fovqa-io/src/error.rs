@@ -129,7 +129,7 @@ impl ReadErrorKind {
     pub fn help(&self) -> &'static str {
         match self {
             Self::Io(error) if error.kind() == io::ErrorKind::NotFound => {
-                "check the path; a relative one starts at the working directory"
+                "check the path; a relative one starts in {start}"
             }
             Self::NotRegular => "give a file, a folder or a pattern",
             Self::Io(_) => "check that it is a file and may be read",

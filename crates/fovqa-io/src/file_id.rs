@@ -1,7 +1,9 @@
 //! What tells one version of an input from another: its size and its SHA-256.
 
 use std::fmt::Write;
+use std::fs::File;
 use std::io::{self, Read};
+use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
@@ -15,6 +17,14 @@ pub struct FileId {
 }
 
 impl FileId {
+    /// Of a file.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn of_file(path: &Path) -> io::Result<Self> {
+        Self::of(File::open(path)?)
+    }
+
     /// Of everything a reader still has.
     ///
     /// # Errors

@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::natural_order::{last_number, natural_cmp};
+#[cfg(doc)]
+use crate::ReadErrorKind;
 
 /// Endings of the files that count as images in folders and globs.
 const ENDINGS: [&str; 4] = ["png", "jpg", "jpeg", "exr"];
@@ -81,10 +83,23 @@ fn nothing(other_files: usize) -> String {
 }
 
 impl ListingError {
-    /// How to mend it.
+    /// The same of other paths: as results show them.
+    #[must_use]
+    pub fn with_paths(self, shown: &dyn Fn(&Path) -> PathBuf) -> Self {
+        match self {
+            Self::NotFound(path) => Self::NotFound(shown(&path)),
+            Self::NotRegular(path) => Self::NotRegular(shown(&path)),
+            Self::Io { path, error } => Self::Io { path: shown(&path), error },
+            Self::Empty { path, other_files } => Self::Empty { path: shown(&path), other_files },
+            Self::SameStem(a, b) => Self::SameStem(shown(&a), shown(&b)),
+            Self::Pattern { path, detail } => Self::Pattern { path: shown(&path), detail },
+        }
+    }
+
+    /// How to mend it; settings stand in braces, as in [`ReadErrorKind::help`].
     pub fn help(&self) -> &'static str {
         match self {
-            Self::NotFound(_) => "check the path; a relative one starts at the working directory",
+            Self::NotFound(_) => "check the path; a relative one starts in {start}",
             Self::NotRegular(_) => "give a file, a folder or a pattern",
             Self::Io { .. } => "check that it may be read",
             Self::Empty { .. } => {

@@ -1,7 +1,7 @@
 //! Reference files and test files to pairs.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
@@ -63,6 +63,20 @@ pub enum PairingError {
 }
 
 impl PairingError {
+    /// The same of other paths: as results show them.
+    #[must_use]
+    pub fn with_paths(self, shown: &dyn Fn(&Path) -> PathBuf) -> Self {
+        let all = |paths: Vec<PathBuf>| paths.iter().map(|path| shown(path)).collect();
+        match self {
+            Self::Unpaired(Alone { reference, test }) => {
+                Self::Unpaired(Alone { reference: all(reference), test: all(test) })
+            }
+            Self::Nothing { reference, test } => {
+                Self::Nothing { reference: shown(&reference), test: shown(&test) }
+            }
+        }
+    }
+
     /// How to mend it.
     pub fn help(&self) -> &'static str {
         match self {
