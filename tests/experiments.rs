@@ -381,3 +381,25 @@ fn a_number_that_not_all_names_carry_is_no_frame_number() {
     folder.run(&["run", "e.toml"]).ok();
     assert_eq!(frames("B"), ["2"]);
 }
+
+#[test]
+fn frames_stay_in_order_whichever_are_missing() {
+    let folder = two_scenes();
+    fs::remove_file(folder.path("room/a/0000.png")).unwrap();
+    fs::remove_file(folder.path("room/b/0001.png")).unwrap();
+    let text = experiment("").replace("\"room/gt\"", "\"room/gt\"\nallow_missing = true");
+    folder.write("e.toml", text);
+    folder.run(&["run", "e.toml"]).ok().says(&["room: 2 frames without a partner are passed over"]);
+    let rows = rows(&folder, "reports/e");
+    let frames = |method: &str| {
+        let of = |row: &&BTreeMap<String, String>| {
+            row["scene"] == "room" && row["method"] == method && row["metric"] == "psnr"
+        };
+        let mut frames: Vec<&str> = rows.iter().filter(of).map(|r| r["frame"].as_str()).collect();
+        frames.dedup();
+        frames
+    };
+    assert_eq!((frames("A"), frames("B")), (vec!["1", "2"], vec!["0", "2"]));
+    let table = fs::read_to_string(folder.path("reports/e/table.md")).unwrap();
+    assert!(table.contains("Average"), "{table}");
+}

@@ -118,7 +118,7 @@ fn shown(metric: Metric, value: Option<f64>) -> String {
     }
 }
 
-/// Values with the best marked: what prints as the best does is as good. One method alone is none.
+/// Values with the best marked: what prints as the best does is as good. One value alone is none.
 fn marked(metric: Metric, values: impl Iterator<Item = Option<f64>>) -> Vec<Cell> {
     let values: Vec<Option<f64>> = values.collect();
     let found = values.iter().copied().flatten();
@@ -126,7 +126,7 @@ fn marked(metric: Metric, values: impl Iterator<Item = Option<f64>>) -> Vec<Cell
         Better::Higher => found.reduce(f64::max),
         Better::Lower => found.reduce(f64::min),
     };
-    let several = values.len() > 1;
+    let several = values.iter().flatten().count() > 1;
     let best = best.filter(|_| several).map(|best| shown(metric, Some(best)));
     let cell = |value: Option<f64>| Cell {
         value,
