@@ -396,9 +396,10 @@ fn inputs_that_are_not_there_are_said_by_check() {
     run.says(&["the mask no.png: there is no such file"]);
 }
 
-/// Every experiment that belongs to the repository.
+/// Every experiment that belongs to the repository, run where its data is there.
 #[test]
 fn the_committed_experiments_are_right() {
+    let results = Folder::new();
     let data = shared("data");
     let folder = root().join("configs");
     let mut seen = 0;
@@ -414,6 +415,12 @@ fn the_committed_experiments_are_right() {
         let run = Run::from(command(&["check", path.to_str().unwrap()]).output().unwrap());
         let there = data.is_some() || !text.contains("../shared");
         assert_eq!(run.code, if there { 0 } else { 3 }, "{name}: {}", run.stderr);
+        if there {
+            results.run(&["run", path.to_str().unwrap()]).ok();
+            let table =
+                results.path(&format!("reports/{}/table.md", name.trim_end_matches(".toml")));
+            assert!(fs::read_to_string(table).unwrap().contains("**"), "{name}");
+        }
     }
     assert!(seen > 0);
 }
