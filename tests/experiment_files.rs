@@ -203,6 +203,40 @@ const MISTAKES: &[Mistake] = &[
         &["two scenes named \"room\""],
         false,
     ),
+    ("name = \"B\"", "name = \"Best\"", &["a method cannot be named \"Best\""], false),
+    ("name = \"room\"", "name = \"average\"", &["a scene cannot be named"], false),
+    (
+        "fov_vertical_deg = 60",
+        "fov_vertical_deg = 60\nleft = { gaze = [1, 2] }",
+        &["no scene has a left eye of its own"],
+        false,
+    ),
+    (
+        "fov_vertical_deg = 60",
+        "fov_vertical_deg = 60\nleft = { gaze = { left = [1, 2] } }",
+        &["has no key `left`"],
+        true,
+    ),
+    (
+        "fov_vertical_deg = 60",
+        "eccentricity = \"planar\"",
+        &["a kind of eccentricity needs a view"],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "mse = {}\n[[scene]]\nname = \"hall\"\nreference = \"gt\"\n[[plot]]\nkind = \"bars\"\nscenes = [\"hall\"]\nmethods = [\"C\"]\n[[method]]\nname = \"C\"\ntest = \"a\"\nscenes = [\"room\"]",
+        &["none of its methods is in any of its scenes"],
+        false,
+    ),
+    ("fov_vertical_deg = 60", "display = \"VIVE-pro_eye\"", &["did you mean"], true),
+    (
+        "reference = \"gt\"",
+        "reference = \"gt\"\ncrop = [0, 0, 5.5, 5]",
+        &["crop cannot be 5.5"],
+        true,
+    ),
+    ("reference = \"gt\"", "reference = \"gt\"\nframes = \"+0..5\"", &["not a range"], true),
     (
         "fpsnr = {}",
         "fpsnr = {}\n[plot]\nkind = \"bars\"",
@@ -367,6 +401,88 @@ fn files_that_are_no_experiment() {
     check(&folder, &format!("{GOOD}[metrics]\nmse = {{}}\n")).fails(2, &["this is not TOML"]);
     folder.write("long.toml", "#".repeat(5 << 20));
     folder.run(&["check", "long.toml"]).fails(2, &["larger than 4 MiB"]);
+}
+
+#[test]
+fn two_eyes_have_a_view_each_or_none() {
+    let folder = folder();
+    let text = GOOD
+        .replace("fov_vertical_deg = 60", "left = { fov_vertical_deg = 60 }")
+        .replace("fpsnr = {}", "")
+        .replace("\"gt\"", "{ left = \"gt\", right = \"gt\" }")
+        .replace("test = \"a\"", "test = { left = \"a\", right = \"a\" }")
+        .replace("test = \"b\"", "test = { left = \"b\", right = \"b\" }");
+    check(&folder, &text).fails(2, &["scene \"room\" has a view for its left eye alone"]);
+    check(&folder, &text.replace("left = { fov", "right = { fov")).fails(2, &["right eye alone"]);
+    check(&folder, &text.replace("left = { fov_vertical_deg = 60 }", "")).ok();
+}
+
+#[test]
+fn a_scene_needs_a_method() {
+    let scene = "scenes = [\"room\"]";
+    let text = GOOD
+        .replace("test = \"a\"", &format!("test = \"a\"\n{scene}"))
+        .replace("test = \"b\"", &format!("test = \"b\"\n{scene}"));
+    let hall = "[[scene]]\nname = \"hall\"\nreference = \"gt\"\n";
+    check(&folder(), &format!("{text}{hall}"))
+        .fails(2, &["no method is scored in scene \"hall\"", "take it out"]);
+}
+
+#[test]
+fn a_profile_needs_a_view() {
+    let text = GOOD
+        .replace("fov_vertical_deg = 60", "")
+        .replace("fpsnr = {}", "[[plot]]\nkind = \"profile\"");
+    check(&folder(), &text).fails(2, &["none of its scenes has a view", "[view]"]);
+}
+
+#[test]
+fn an_array_of_tables_names_the_entry_that_is_none() {
+    let text = "name = \"e\"\nscene = [1, { name = \"s\", reference = \"gt\" }]\nmethod = []\n";
+    check(&folder(), text).fails(2, &["an entry of scene cannot be a whole number", "[[scene]]"]);
+}
+
+/// What only the files can tell, but the experiment has wrong.
+#[test]
+fn wrong_patterns_and_times_without_a_rate_are_the_experiments_fault() {
+    let folder = folder();
+    folder.write("gaze.csv", "time_s,x_px,y_px\n0.0,1,1\n");
+    for (change, words) in [
+        ("test = \"gt/%d.%d.png\"", &["room, A: gt/%d.%d.png: it is not a pattern"]),
+        (
+            "test = \"a\"\n[[scene]]\nname = \"hall\"\nreference = \"gt\"\ngaze = { trace = \"gaze.csv\" }",
+            &["give fps"],
+        ),
+    ] {
+        folder.write("e.toml", GOOD.replacen("test = \"a\"", change, 1));
+        for command in ["check", "run"] {
+            let run = folder.run(&[command, "e.toml"]);
+            assert_eq!(run.code, 2, "{}", run.stderr);
+            run.says(words);
+        }
+        assert!(!folder.path("reports/good/results.csv").exists());
+    }
+}
+
+/// Neither a file on one line nor one of mistakes alone fills the terminal, and none steers it.
+#[test]
+fn mistakes_are_shown_within_reason() {
+    let folder = folder();
+    let one_line: String = "{name=\"s\",reference=\"../gt\",k=1},".repeat(3000);
+    let run = check(&folder, &format!("name = \"e\"\nscene=[{one_line}]\n"))
+        .fails(2, &["e.toml:2:", "more mistakes"]);
+    assert!(run.stderr.len() < 20_000, "{}", run.stderr.len());
+    let many: Vec<String> = (0..5000).map(|i| format!("k{i} = 1")).collect();
+    let many = many.join("\n");
+    let run = check(&folder, &many).fails(2, &["4983 more mistakes"]);
+    assert!(run.stderr.len() < 20_000, "{}", run.stderr.len());
+    let run =
+        check(&folder, "name = \"e\"\ncolour = \"\u{9b}31m\" # \u{9b}31m\n").fails(2, &["colour"]);
+    assert!(
+        !run.stderr.chars().any(|c| c.is_control() && c != '\n'),
+        "{}",
+        run.stderr.escape_debug()
+    );
 }
 
 #[test]

@@ -72,7 +72,7 @@ fn one_bad_input_costs_its_own_rows_alone() {
     let errors: Vec<_> = rows.iter().filter(|row| row["metric"] == "error").collect();
     assert_eq!(errors.len(), 2);
     assert_eq!((errors[0]["scene"].as_str(), errors[0]["frame"].as_str()), ("room", "1"));
-    assert_eq!(errors[0]["value"], "");
+    assert_eq!(errors[0]["value"], "nan");
     let frames = |scene: &str, method: &str| {
         rows.iter()
             .filter(|r| {
@@ -124,14 +124,19 @@ fn missing_inputs_are_said_and_the_rest_is_scored() {
     assert!(
         scored("room", "A") && scored("room", "B") && scored("hall", "A") && !scored("hall", "B")
     );
-    // Everything missing: nothing that looks like results.
-    fs::remove_dir_all(folder.path("reports")).unwrap();
+    let errors = json(&folder, "reports/e/summary.json")["errors"].clone();
+    let of: Vec<&str> =
+        errors.as_array().unwrap().iter().map(|e| e["method"].as_str().unwrap()).collect();
+    assert_eq!(of, ["A", "B"], "each of its own method");
+    // Everything missing: errors alone, and nothing left of the results before.
     fs::remove_dir_all(folder.path("hall")).unwrap();
     fs::remove_dir_all(folder.path("room")).unwrap();
     folder
         .run(&["run", "e.toml"])
-        .fails(3, &["room: room/gt", "hall: hall/gt", "nothing was scored"]);
-    assert!(!folder.path("reports/e/results.csv").exists());
+        .fails(3, &["room, A: room/gt: there is no such file", "4 errors, nothing was scored"]);
+    let rows = self::rows(&folder, "reports/e");
+    assert!(rows.len() == 4 && rows.iter().all(|row| row["metric"] == "error"));
+    assert!(!folder.path("reports/e/table.md").exists());
 }
 
 #[test]
@@ -262,6 +267,14 @@ fn two_eyes_are_scored_and_pooled() {
         folder.json(&["gt_right.png", "a_right.png", "--fov-vertical", "60", "--gaze", "47,40"]);
     let alone = alone["frames"][0]["bands"].as_array().unwrap().last().unwrap()["to_deg"].as_f64();
     assert_eq!([last("left"), last("right"), last("both")].map(Some), [alone; 3]);
+    let summary = json(&folder, "reports/e/summary.json");
+    assert_eq!(summary["comparisons"][1]["view"]["gaze_px"], serde_json::json!([47.0, 40.0]));
+    assert_eq!(summary["comparisons"][2]["view"], serde_json::Value::Null, "two views are none");
+    let page = fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    assert!(
+        page.contains("1 scene, 1 method, 2 frames scored"),
+        "both are not counted again: {page}"
+    );
     // The table and the figures are of both eyes.
     let table = fs::read_to_string(folder.path("reports/e/table.csv")).unwrap();
     assert!(table.contains(&format!("{:?}", value("both", "psnr"))), "{table}");
@@ -348,6 +361,113 @@ fn the_table_marks_the_best() {
     assert!(room.contains(&bold) && room.matches("**").count() == 8, "{room}");
 }
 
+/// What cannot be beaten in one scene must not lose by it in the average.
+#[test]
+fn an_infinite_value_makes_its_average_infinite() {
+    let folder = two_scenes();
+    for frame in 0..3 {
+        let file = format!("room/gt/{frame:04}.png");
+        fs::copy(folder.path(&file), folder.path(&file.replace("gt", "a"))).unwrap();
+    }
+    fs::copy(folder.path("hall/gt/0000.png"), folder.path("hall/b/0000.png")).unwrap();
+    folder.run(&["run", "e.toml"]).ok();
+    let table = fs::read_to_string(folder.path("reports/e/table.csv")).unwrap();
+    let average = table.lines().find(|line| line.starts_with("Average")).unwrap();
+    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let cell = |name: &str| {
+        let column = header.iter().position(|h| *h == name).unwrap();
+        average.split(',').nth(column).unwrap()
+    };
+    assert_eq!((cell("psnr A"), cell("psnr best")), ("inf", "A"));
+    let text = fs::read_to_string(folder.path("reports/e/table.md")).unwrap();
+    assert!(text.contains("identical to the reference (hall, B: 1 of 3)"), "{text}");
+}
+
+#[test]
+fn methods_scored_on_fewer_frames_are_said_beside_the_table() {
+    let folder = two_scenes();
+    fs::remove_file(folder.path("room/a/0001.png")).unwrap();
+    folder.write(
+        "e.toml",
+        experiment("").replace("\"room/gt\"", "\"room/gt\"\nallow_missing = true"),
+    );
+    folder.run(&["run", "e.toml"]).ok();
+    for file in ["table.md", "index.html"] {
+        let text = fs::read_to_string(folder.path(&format!("reports/e/{file}"))).unwrap();
+        assert!(
+            text.contains("not scored on the same frames") || text.contains("Not all methods"),
+            "{file}"
+        );
+        assert!(text.contains("(room: A 2 of 3)"), "{file}: {text}");
+    }
+}
+
+/// Numbers of single files tell the eyes apart, not frames; and what has no partner is said.
+#[test]
+fn frames_of_two_eyes_meet() {
+    let folder = Folder::new();
+    for (camera, eye) in ["left", "right"].into_iter().enumerate() {
+        folder.png_pair(&format!("gt_cam{camera}.png"), &format!("a_cam{camera}.png"), 48, 40);
+        for frame in camera..3 {
+            folder.png_pair(
+                &format!("gt/{eye}/{frame}.png"),
+                &format!("a/{eye}/{frame}.png"),
+                48,
+                40,
+            );
+        }
+    }
+    folder.write(
+        "e.toml",
+        format!(
+            "{HEAD}[[scene]]\nname = \"single\"\nreference = {{ left = \"gt_cam0.png\", right = \"gt_cam1.png\" }}\n\
+             [[scene]]\nname = \"sequence\"\nreference = {{ left = \"gt/left\", right = \"gt/right\" }}\n\
+             [[method]]\nname = \"A\"\nscenes = [\"single\"]\ntest = {{ left = \"a_cam0.png\", right = \"a_cam1.png\" }}\n\
+             [[method]]\nname = \"B\"\nscenes = [\"sequence\"]\ntest = \"a/{{eye}}\"\n"
+        ),
+    );
+    folder.run(&["run", "e.toml"]).ok().says(&["sequence, B: 1 frame of one eye have no partner"]);
+    let frames = |scene: &str| {
+        let both = rows(&folder, "reports/e").into_iter();
+        both.filter(|r| {
+            r["scene"] == scene
+                && r["eye"] == "both"
+                && r["metric"] == "psnr"
+                && r["from_deg"].is_empty()
+        })
+        .count()
+    };
+    assert_eq!((frames("single"), frames("sequence")), (1, 2));
+}
+
+#[test]
+fn frames_that_are_not_asked_for_need_no_partner() {
+    let folder = two_scenes();
+    fs::remove_file(folder.path("room/a/0002.png")).unwrap();
+    folder.write("e.toml", experiment("").replace("\"room/gt\"", "\"room/gt\"\nframes = \"0..2\""));
+    folder.run(&["run", "e.toml"]).ok();
+    folder.score(&["room/gt", "room/a", "--frames", "..2"]).ok();
+    folder
+        .score(&["room/gt", "room/a"])
+        .fails(3, &["reference without a test frame: room/gt/0002.png"]);
+}
+
+#[test]
+fn brackets_in_names_are_no_wildcards() {
+    let folder = Folder::new();
+    for method in ["a", "b"] {
+        folder.png_pair("run[1]/s[2]/gt/0.png", &format!("run[1]/s[2]/{method}/0.png"), 48, 40);
+    }
+    let text =
+        experiment("").replace("\"room\"", "\"s[2]\"").replace("room/gt", "{scene}/gt/*.png");
+    let text = text
+        .replace("/a\"", "/a/?.png\"")
+        .replace("name = \"hall\"", "name = \"hall\"\nfolder = \"s[2]\"");
+    folder.write("run[1]/e.toml", text.replace("{scene}", "{folder}"));
+    folder.run(&["run", "run[1]/e.toml"]).ok();
+    assert!(folder.path("reports/e/table.md").exists());
+}
+
 #[test]
 fn the_demo_runs() {
     let folder = Folder::new();
@@ -376,7 +496,7 @@ fn a_number_that_not_all_names_carry_is_no_frame_number() {
         frames.dedup();
         frames
     };
-    assert_eq!((frames("A"), frames("B")), (vec!["0".to_owned()], vec!["0".to_owned()]));
+    assert_eq!((frames("A"), frames("B")), (vec!["2".to_owned()], vec!["0".to_owned()]));
     folder.write("e.toml", text.replace("b/0001", "b/0002"));
     folder.run(&["run", "e.toml"]).ok();
     assert_eq!(frames("B"), ["2"]);

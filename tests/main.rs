@@ -7,6 +7,7 @@ mod decoding;
 mod experiment_files;
 mod experiment_folder;
 mod experiments;
+mod figures;
 mod fovqa;
 mod golden;
 mod output;

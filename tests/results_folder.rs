@@ -87,7 +87,18 @@ fn a_folder_that_cannot_be_written_is_found_before_scoring() {
     folder
         .run(&["run", "e.toml", "--output", "file"])
         .fails(3, &["file: results cannot be written"]);
-    // What is not ours is not replaced.
+    // What is not ours is not replaced: neither results nor drawings, nor by way of a list of files.
+    for file in ["index.html", "table.csv", "journal.jsonl", "run.json", "report.json"] {
+        let folder_of = format!("own/{file}");
+        folder.write(&format!("{folder_of}/{file}"), "{\"files\": [\"thesis.tex\"]}");
+        folder.write(&format!("{folder_of}/thesis.tex"), "mine");
+        folder
+            .run(&["run", "e.toml", "--output", &folder_of])
+            .fails(3, &["that is of no run", file]);
+        assert!(folder.path(&format!("{folder_of}/thesis.tex")).exists());
+    }
+    folder.run(&["report", "own/run.json"]).fails(3, &["run.json"]);
+    assert!(!folder.path("own/run.json/.fovqa.lock").exists(), "not even a lock");
     folder.write("mine/results.csv", "a,b\n");
     folder
         .run(&["run", "e.toml", "--output", "mine"])
@@ -149,7 +160,8 @@ fn one_run_at_a_time_and_a_killed_one_leaves_its_journal() {
     let whole = text.rsplit_once('\n').unwrap().0;
     let lines: Vec<Value> = whole.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(lines[0]["schema"], "fovqa.journal/1");
-    assert!(lines.iter().any(|line| line["input"] == "gt/0000.png"));
+    let inputs = lines.iter().filter(|line| line["input"] == "gt/0000.png");
+    assert_eq!(inputs.count(), 1, "an input is taken down once");
     let frame = lines.iter().find(|line| line["frame"] == 0).unwrap();
     let row = rows(&folder, "other").into_iter().find(|row| row["metric"] == "psnr").unwrap();
     assert_eq!(frame["scores"]["psnr"].as_f64(), row["value"].parse().ok());
@@ -179,8 +191,18 @@ fn a_report_needs_a_finished_run() {
     let folder = two_scenes();
     folder.run(&["report", "nowhere"]).fails(3, &["nowhere: there is no finished run in it"]);
     folder.run(&["run", "e.toml", "--output", "out"]).ok();
-    for (file, text) in [("results.csv", "a,b\n1,2\n"), ("summary.json", "{}"), ("run.json", "[1")]
-    {
+    let whole = fs::read_to_string(folder.path("out/run.json")).unwrap();
+    let newer = whole.replace("fovqa.run/1", "fovqa.run/9");
+    let nobody = whole.replace("\"A\",\n      \"B\"", "");
+    folder.write("out/run.json", &nobody);
+    folder.run(&["report", "out"]).ok();
+    folder.write("out/run.json", &whole);
+    for (file, text) in [
+        ("results.csv", "a,b\n1,2\n"),
+        ("summary.json", "{}"),
+        ("run.json", "{\"schema\": \"fovqa.run/1\"}"),
+        ("run.json", &newer),
+    ] {
         let path = format!("out/{file}");
         let whole = fs::read(folder.path(&path)).unwrap();
         folder.write(&path, text);
@@ -216,6 +238,45 @@ fn memory_for_pixels_does_not_grow_with_frames() {
     let ten = peak_kb(&folder, &["run", "e.toml", "--threads", "2", "--frames", "0..10"]);
     let all = peak_kb(&folder, &["run", "e.toml", "--threads", "2"]);
     assert!(ten > 0 && all < ten + 16_000, "{ten} kB for 10 frames, {all} kB for 200");
+}
+
+/// A drawing that does not need a file any more takes it away, and no other.
+#[test]
+fn a_new_drawing_takes_away_what_it_does_not_draw() {
+    let folder = two_scenes();
+    folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    let run = fs::read_to_string(folder.path("out/run.json")).unwrap();
+    let plots = "\"plots\": [{\"kind\": \"bars\", \"metric\": \"ssim\", \"scenes\": null, \"methods\": null}]";
+    assert!(run.contains("\"plots\": []"));
+    folder.write("out/run.json", run.replace("\"plots\": []", plots));
+    folder.write("out/plots/mine.svg", "not ours");
+    folder.run(&["report", "out"]).ok();
+    let plots: Vec<String> = bytes(&folder.path("out/plots")).into_keys().collect();
+    assert_eq!(plots, ["bars-ssim.csv", "bars-ssim.png", "bars-ssim.svg", "mine.svg"]);
+    assert!(!folder.path("out/table.md").exists());
+}
+
+/// A drawing that is broken off leaves no figures that nobody knows of.
+#[test]
+fn what_a_broken_drawing_left_is_taken_away() {
+    let folder = two_scenes();
+    folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    fs::remove_file(folder.path("out/index.html")).unwrap();
+    fs::create_dir(folder.path("out/index.html")).unwrap();
+    let run = folder.run(&["run", "e.toml", "--output", "out"]);
+    assert_eq!(run.code, 3);
+    run.says(&["index.html: it cannot be written", "`fovqa report` draws them"]);
+    fs::remove_dir(folder.path("out/index.html")).unwrap();
+    folder.write(
+        "e.toml",
+        experiment("")
+            .replace("\"hall\"", "\"lobby\"\nfolder = \"hall\"")
+            .replace("{scene}", "{folder}"),
+    );
+    folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    let left: Vec<String> =
+        bytes(&folder.path("out/plots")).into_keys().filter(|f| f.contains("hall")).collect();
+    assert!(left.is_empty(), "{left:?}");
 }
 
 #[test]

@@ -7,7 +7,6 @@ use std::path::Path;
 use fovqa_config::{Experiment, EyeView, Gaze, MetricChoice};
 use fovqa_engine::{Found, FoundFrame, FoundView};
 use fovqa_io::frame_size;
-use fovqa_metrics::Metric;
 
 use crate::args::CheckArgs;
 use crate::diagnostic;
@@ -24,7 +23,13 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
     let printed = output::write(|out| out.write_all(plan(&experiment, &found).as_bytes()));
     crate::run::say_problems(&experiment, &found);
     let masks = masks(&experiment);
-    if found.problems.is_empty() && masks { printed } else { Exit::Input }
+    if found.problems.iter().any(|problem| problem.error.is_usage()) {
+        Exit::Usage
+    } else if found.problems.is_empty() && masks {
+        printed
+    } else {
+        Exit::Input
+    }
 }
 
 /// Whether every mask is there and can be read.
@@ -45,10 +50,7 @@ fn masks(experiment: &Experiment) -> bool {
 
 fn plan(experiment: &Experiment, found: &Found) -> String {
     let mut text = String::new();
-    let metrics = match &experiment.plan.metrics {
-        MetricChoice::Default => Metric::DEFAULT.to_vec(),
-        MetricChoice::Named(named) => named.clone(),
-    };
+    let metrics = experiment.plan.metrics.metrics();
     let metrics: Vec<&str> = metrics.iter().map(|metric| metric.info().label).collect();
     let by_default = match experiment.plan.metrics {
         MetricChoice::Default => " (by default)",

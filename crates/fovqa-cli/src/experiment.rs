@@ -10,18 +10,21 @@ use miette::{
 use crate::diagnostic;
 use crate::exit::Exit;
 
+/// Mistakes that are shown in full; the others are counted.
+const SHOWN: usize = 20;
+
+/// A line longer than this is not shown: nobody would find the place in it.
+const LONGEST_LINE: usize = 400;
+
 /// The experiment; what is wrong with it has been said otherwise.
 pub(crate) fn read(path: &Path) -> Result<Experiment, Exit> {
     Experiment::read(path).map_err(|error| {
         match &error {
             ExperimentError::Unreadable { .. } => {
-                diagnostic::error(&error.to_string(), "check the path");
+                diagnostic::error(&error.to_string(), "an experiment is a TOML file, in UTF-8");
             }
             ExperimentError::Faults { path, text, faults } => {
-                let source = NamedSource::new(path.display().to_string(), text.clone());
-                for fault in faults {
-                    diagnostic::block(&rendered(&Shown { fault, source: &source }));
-                }
+                say(&diagnostic::shown(&path.display().to_string()), text, faults);
                 if faults.len() > 1 {
                     diagnostic::error(&error.to_string(), "");
                 }
@@ -29,6 +32,47 @@ pub(crate) fn read(path: &Path) -> Result<Experiment, Exit> {
         }
         Exit::Usage
     })
+}
+
+fn say(file: &str, text: &str, faults: &[Fault]) {
+    let source = NamedSource::new(file, printable(text));
+    let long = text.lines().any(|line| line.len() > LONGEST_LINE);
+    for fault in faults.iter().take(SHOWN) {
+        let whole = fault.span.is_empty() && fault.span.start == 0;
+        if whole || long {
+            // What is about the whole file has no place in it.
+            let place = if whole { String::new() } else { format!(":{}", place(text, fault)) };
+            let label = if fault.label.is_empty() { "" } else { "; " };
+            let message = format!("{file}{place}: {}{label}{}", fault.message, fault.label);
+            diagnostic::error(&message, &diagnostic::shown(&fault.help));
+        } else {
+            diagnostic::block(&rendered(&Shown { fault, source: &source }));
+        }
+    }
+    if faults.len() > SHOWN {
+        diagnostic::note(&format!("{} more mistakes are not shown", faults.len() - SHOWN));
+    }
+}
+
+/// Line and column of a mistake, from 1.
+fn place(text: &str, fault: &Fault) -> String {
+    let before = text.get(..fault.span.start).unwrap_or(text);
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+    format!("{line}:{column}")
+}
+
+/// The text with control characters replaced by as many bytes: it must not steer the terminal, and
+/// places in it stay.
+fn printable(text: &str) -> String {
+    let shown = |c: char| match c {
+        '\n' | '\t' => c,
+        '\r' => ' ',
+        c if c.is_control() && c.len_utf8() == 1 => '?',
+        c if c.is_control() => '¿',
+        c => c,
+    };
+    text.chars().map(shown).collect()
 }
 
 fn rendered(fault: &Shown<'_>) -> String {
@@ -58,7 +102,8 @@ impl std::error::Error for Shown<'_> {}
 
 impl Diagnostic for Shown<'_> {
     fn help<'b>(&'b self) -> Option<Box<dyn std::fmt::Display + 'b>> {
-        (!self.fault.help.is_empty()).then(|| Box::new(&self.fault.help) as _)
+        let help = diagnostic::shown(&self.fault.help);
+        (!help.is_empty()).then(|| Box::new(help) as _)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
@@ -67,11 +112,32 @@ impl Diagnostic for Shown<'_> {
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let Fault { span, label, .. } = self.fault;
-        // What is about the whole file has no place in it.
-        if span.is_empty() && span.start == 0 {
-            return None;
-        }
-        let label = (!label.is_empty()).then(|| label.clone());
+        let label = (!label.is_empty()).then(|| diagnostic::shown(label));
         Some(Box::new(std::iter::once(LabeledSpan::new(label, span.start, span.len()))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_file_says_does_not_reach_the_terminal_raw() {
+        let text = "a = \"\u{1b}[31m\"\r\n\tb\u{9b}c";
+        let shown = printable(text);
+        assert_eq!(shown, "a = \"?[31m\" \n\tb¿c");
+        assert_eq!(shown.len(), text.len());
+    }
+
+    #[test]
+    fn places_count_from_one() {
+        let fault = |start| Fault {
+            message: String::new(),
+            span: start..start + 1,
+            label: String::new(),
+            help: String::new(),
+        };
+        assert_eq!(place("äb\ncd", &fault(2)), "1:2");
+        assert_eq!(place("äb\ncd", &fault(5)), "2:2");
     }
 }

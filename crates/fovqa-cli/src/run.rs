@@ -35,10 +35,9 @@ pub(crate) fn run(args: &RunArgs) -> Exit {
         Err(error) => return failed(&error, error.help()),
     };
     let found = fovqa_engine::find(&experiment.plan);
-    if found.views.is_empty() {
+    if found.problems.iter().any(|problem| problem.error.is_usage()) {
         say_problems(&experiment, &found);
-        diagnostic::error("nothing was scored", "");
-        return Exit::Input;
+        return Exit::Usage;
     }
     match score(&experiment, &found, &folder) {
         Ok(results) => finish(&experiment, &results, &folder),
@@ -85,10 +84,43 @@ fn score(
 /// Writes the results, draws them, and says where they are.
 fn finish(experiment: &Experiment, results: &RunResults, folder: &ResultsFolder) -> Exit {
     let summary = SummaryRecord::of(&experiment.name, results);
-    for error in
-        results.comparisons.iter().flat_map(|c| c.report.failures.iter().map(move |f| (c, f)))
-    {
-        let (comparison, failure) = error;
+    say_failures(results);
+    if let Err(error) = write(experiment, results, &summary, folder.path()) {
+        return failed(&error, "free some space, or give another folder with --output");
+    }
+    let drawn = match fovqa_report::draw(folder.path()) {
+        Ok(drawn) => drawn,
+        Err(error) => return failed(&error, DRAW_AGAIN),
+    };
+    let printed = say(&drawn, folder.path());
+    let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
+    let scored: usize = own.map(|comparison| comparison.report.frames.len()).sum();
+    if summary.errors.is_empty() {
+        return printed;
+    }
+    let errors = summary.errors.len();
+    let lines = if errors == 1 { "1 error" } else { &format!("{errors} errors") };
+    let rest = match scored {
+        0 => "nothing was scored".to_owned(),
+        scored => format!("{scored} frames scored all the same"),
+    };
+    diagnostic::error(&format!("{lines}, {rest}"), "");
+    Exit::Input
+}
+
+/// What is left to do when only the drawing failed.
+const DRAW_AGAIN: &str = "the results are written: mend this, and `fovqa report` draws them";
+
+/// Says what could not be scored; of a great many, the first.
+fn say_failures(results: &RunResults) {
+    const SHOWN: usize = 20;
+    let failures = || {
+        let comparisons = results.comparisons.iter();
+        comparisons.flat_map(|comparison| {
+            comparison.report.failures.iter().map(move |failure| (comparison, failure))
+        })
+    };
+    for (comparison, failure) in failures().take(SHOWN) {
         let frame = failure.frame.map(|frame| format!("frame {frame}"));
         let eye = Some(comparison.eye).filter(|eye| !eye.is_empty()).map(str::to_owned);
         let place = [Some(comparison.scene.clone()), Some(comparison.method.clone()), eye, frame];
@@ -96,24 +128,10 @@ fn finish(experiment: &Experiment, results: &RunResults, folder: &ResultsFolder)
         let help = Dialect::Experiment.spell(&failure.help);
         diagnostic::error(&format!("{}: {}", place.join(", "), failure.message), &help);
     }
-    if let Err(error) = write(experiment, results, &summary, folder.path()) {
-        return failed(&error, "free some space, or give another folder with --output");
+    let more = failures().count().saturating_sub(SHOWN);
+    if more > 0 {
+        diagnostic::note(&format!("{more} more errors stand in summary.json"));
     }
-    let drawn = match fovqa_report::draw(folder.path()) {
-        Ok(drawn) => drawn,
-        Err(error) => {
-            return failed(&error, "the results are written; `fovqa report` draws them again");
-        }
-    };
-    let printed = say(&drawn, folder.path());
-    let scored: usize = results.comparisons.iter().map(|c| c.report.frames.len()).sum();
-    if summary.errors.is_empty() {
-        return printed;
-    }
-    let errors = summary.errors.len();
-    let lines = if errors == 1 { "1 error" } else { &format!("{errors} errors") };
-    diagnostic::error(&format!("{lines}, {scored} frames scored all the same"), "");
-    Exit::Input
 }
 
 fn file_hash(text: &str) -> String {

@@ -87,8 +87,8 @@ fn parse(path: &Path, text: &str) -> Result<Experiment, Vec<Fault>> {
     })?;
     let mut faults = Vec::new();
     check(EXPERIMENT, document.get_ref(), "the experiment", 0..0, &mut faults);
-    // What is written right is resolved all the same, so that all mistakes are said at once; but a
-    // name that the grammar refused would only be reported again.
+    // What refers to something is looked at only in a file that is written right: a table whose name
+    // is misspelled would be missed in a dozen other places.
     if !faults.is_empty() {
         return Err(faults);
     }

@@ -46,6 +46,16 @@ pub enum MetricChoice {
     Named(Vec<Metric>),
 }
 
+impl MetricChoice {
+    /// The metrics, before any is left out because it does not fit.
+    pub fn metrics(&self) -> &[Metric] {
+        match self {
+            Self::Default => &Metric::DEFAULT,
+            Self::Named(named) => named,
+        }
+    }
+}
+
 /// One eye of a scene with two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

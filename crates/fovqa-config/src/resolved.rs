@@ -73,11 +73,7 @@ impl Experiment {
             fps: scene.fps,
             eyes: scene.eyes.iter().map(|eye| resolved_eye(plan, eye)).collect(),
         });
-        let (metrics, default_metrics) = match &plan.metrics {
-            MetricChoice::Default => (Metric::DEFAULT.to_vec(), true),
-            MetricChoice::Named(named) => (named.clone(), false),
-        };
-        let params = |metric: Metric| {
+        let params = |&metric: &Metric| {
             let params = metric.info().params.iter().map(|param| {
                 let value = self.params.get(&(metric, param.name)).map(param_value);
                 (param.name.to_owned(), value.unwrap_or_else(|| literal(param.default)))
@@ -88,8 +84,8 @@ impl Experiment {
             name: self.name.clone(),
             scenes: scenes.collect(),
             methods: plan.methods.clone(),
-            metrics: metrics.into_iter().map(params).collect(),
-            default_metrics,
+            metrics: plan.metrics.metrics().iter().map(params).collect(),
+            default_metrics: plan.metrics == MetricChoice::Default,
             frames: plan.frames.map(|range| range.to_string()),
             plots: self.plots.clone(),
         }

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use fovqa_config::{EyeView, Gaze, Plan, Scene};
-use fovqa_io::sequence::{Listing, PairingError, Pairs, list, pair};
+use fovqa_io::sequence::{FramePair, Listing, PairingError, Pairs, list_below, pair};
 use fovqa_vision::{GazeAt, GazeTrace};
 
 use crate::error::EngineError;
@@ -68,7 +68,7 @@ pub fn find(plan: &Plan) -> Found {
                 let error = error.with_paths(&|path| plan.shown(path).into());
                 Problem { scene: scene_index, eye, method, error }
             };
-            let reference = match list(&view.reference) {
+            let reference = match list_below(&plan.base, &view.reference) {
                 Ok(reference) => reference,
                 Err(error) => {
                     found.problems.push(problem(None, error.into()));
@@ -78,9 +78,10 @@ pub fn find(plan: &Plan) -> Found {
             let mut pairings = Vec::new();
             let mut passed_over = 0;
             for (method, test) in &view.tests {
-                match paired(&reference, test) {
+                match paired(plan, &reference, test) {
                     Ok(mut pairs) => {
-                        let alone = std::mem::take(&mut pairs.alone);
+                        let mut alone = std::mem::take(&mut pairs.alone);
+                        alone.retain(|number| is_wanted(plan, scene, number));
                         if scene.allow_missing {
                             passed_over += alone.count();
                         } else if alone.count() > 0 {
@@ -110,34 +111,52 @@ pub fn find(plan: &Plan) -> Found {
                 Err(error) => found.problems.push(problem(None, error)),
             }
         }
+        number_alike(&mut found.views, scene_index);
     }
     found
 }
 
-fn paired(reference: &Listing, test: &Path) -> Result<Pairs, EngineError> {
-    Ok(pair(reference, &list(test)?)?)
+/// Two eyes with one frame each, of different numbers: the numbers tell the eyes apart, and no
+/// frames. (With a gaze trace they have found their gaze by them, and stay.)
+fn number_alike(views: &mut [FoundView], scene: usize) {
+    let first = views.partition_point(|view| view.scene < scene);
+    if let [left, right] = &mut views[first..]
+        && left.trace.is_none()
+        && right.trace.is_none()
+        && let ([left], [right]) = (left.frames.as_mut_slice(), right.frames.as_mut_slice())
+        && left.number != right.number
+    {
+        (left.number, right.number) = (0, 0);
+    }
 }
 
-/// The pairs of all methods, by reference.
+fn paired(plan: &Plan, reference: &Listing, test: &Path) -> Result<Pairs, EngineError> {
+    Ok(pair(reference, &list_below(&plan.base, test)?)?)
+}
+
+/// The pairs of all methods, by number and reference. A reference that is one file can be of
+/// several numbers, where a test beside it carries its number and another does not.
 fn merge(pairings: Vec<(usize, Pairs)>) -> Vec<FoundFrame> {
-    // Single files of a scene can be of several numbers, which then name no frame.
-    let mut frames: BTreeMap<PathBuf, FoundFrame> = BTreeMap::new();
+    let mut frames: BTreeMap<(u64, PathBuf), FoundFrame> = BTreeMap::new();
     let mut order: Vec<(u64, PathBuf)> = Vec::new();
     for (method, pairs) in pairings {
-        for pair in pairs.pairs {
-            let frame = frames.entry(pair.reference.clone()).or_insert_with(|| {
-                order.push((pair.number, pair.reference.clone()));
-                FoundFrame { number: pair.number, reference: pair.reference, tests: Vec::new() }
+        for FramePair { number, reference, test } in pairs.pairs {
+            let key = (number, reference.clone());
+            let frame = frames.entry(key.clone()).or_insert_with(|| {
+                order.push(key);
+                FoundFrame { number, reference, tests: Vec::new() }
             });
-            if frame.number != pair.number {
-                frame.number = 0;
-            }
-            frame.tests.push((method, pair.test));
+            frame.tests.push((method, test));
         }
     }
     // A stable sort: what has one number stays as it was found.
     order.sort_by_key(|(number, _)| *number);
-    order.into_iter().filter_map(|(_, reference)| frames.remove(&reference)).collect()
+    order.into_iter().filter_map(|key| frames.remove(&key)).collect()
+}
+
+/// Whether both the plan and the scene ask for a frame.
+fn is_wanted(plan: &Plan, scene: &Scene, number: u64) -> bool {
+    [scene.frames, plan.frames].into_iter().flatten().all(|range| range.contains(number))
 }
 
 /// The frames both the plan and the scene ask for.
@@ -148,9 +167,7 @@ fn select(
 ) -> Result<Vec<FoundFrame>, EngineError> {
     let numbers = || frames.iter().map(|frame| frame.number);
     let (first, last) = (numbers().min().unwrap_or(0), numbers().max().unwrap_or(0));
-    for range in [scene.frames, plan.frames].into_iter().flatten() {
-        frames.retain(|frame| range.contains(frame.number));
-    }
+    frames.retain(|frame| is_wanted(plan, scene, frame.number));
     if frames.is_empty() {
         return Err(EngineError::NoFrames { first, last });
     }

@@ -1,7 +1,7 @@
 //! The folder a run writes to: one run at a time, found wanting before any scoring.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use fovqa_results::{RESULTS_CSV, RUN_JSON, SUMMARY_JSON};
@@ -9,8 +9,23 @@ use thiserror::Error;
 
 use crate::journal::JOURNAL;
 
-/// Its lock is what counts; that it is there says only that the folder is ours.
+/// Its lock is what counts, not that it is there.
 const LOCK: &str = ".fovqa.lock";
+
+/// What a run writes beside what it draws.
+const OURS: [&str; 7] =
+    [RESULTS_CSV, SUMMARY_JSON, RUN_JSON, JOURNAL, "report.json", "index.html", "table.csv"];
+
+/// Whether a folder has the results of a run, or what one that was killed has left.
+fn is_ours(path: &Path) -> bool {
+    let begins = |file: &str, schema: &str| {
+        let mut head = [0; 256];
+        let read = File::open(path.join(file)).and_then(|mut file| file.read(&mut head));
+        let head = String::from_utf8_lossy(&head[..read.unwrap_or(0)]).into_owned();
+        head.contains(&format!("\"{schema}/"))
+    };
+    begins(RUN_JSON, "fovqa.run") || begins(JOURNAL, "fovqa.journal")
+}
 
 /// A folder of results, locked for as long as this lives.
 #[derive(Debug)]
@@ -64,13 +79,12 @@ impl ResultsFolder {
     pub fn open(path: &Path) -> Result<Self, FolderError> {
         let failed = |error| FolderError::Io { path: path.to_owned(), error };
         fs::create_dir_all(path).map_err(failed)?;
-        let lock = path.join(LOCK);
-        if !lock.exists() && !path.join(RUN_JSON).exists() {
-            let foreign = [RESULTS_CSV, SUMMARY_JSON].into_iter().find(|f| path.join(f).exists());
-            if let Some(file) = foreign {
-                return Err(FolderError::Foreign { path: path.to_owned(), file });
-            }
+        if !is_ours(path)
+            && let Some(file) = OURS.into_iter().find(|file| path.join(file).exists())
+        {
+            return Err(FolderError::Foreign { path: path.to_owned(), file });
         }
+        let lock = path.join(LOCK);
         let lock = File::options().create(true).append(true).open(&lock).map_err(failed)?;
         match lock.try_lock() {
             Ok(()) => {}
@@ -127,8 +141,13 @@ mod tests {
         let error = ResultsFolder::open(folder.path()).unwrap_err();
         assert!(matches!(error, FolderError::Foreign { .. }));
         fs::remove_file(folder.path().join(RESULTS_CSV)).unwrap();
-        let ours = ResultsFolder::open(folder.path()).unwrap();
+        drop(ResultsFolder::open(folder.path()).unwrap());
+        fs::write(folder.path().join(RUN_JSON), "{\"my\": \"run\"}").unwrap();
+        let error = ResultsFolder::open(folder.path()).unwrap_err();
+        assert!(matches!(error, FolderError::Foreign { file: RUN_JSON, .. }), "{error}");
+        fs::write(folder.path().join(RUN_JSON), "{\n  \"schema\": \"fovqa.run/1\"").unwrap();
         fs::write(folder.path().join(RESULTS_CSV), "old").unwrap();
+        let ours = ResultsFolder::open(folder.path()).unwrap();
         ours.clear().unwrap();
         assert!(!folder.path().join(RESULTS_CSV).exists());
     }

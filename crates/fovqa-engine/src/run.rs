@@ -80,7 +80,7 @@ pub fn run(
         scoring.run(&mut reports, &mut progress, record)?;
     }
     let inputs = inputs.into_iter().map(|(path, id)| input(path, id)).collect();
-    Ok(RunResults { comparisons: in_order(plan, reports), inputs })
+    Ok(RunResults { comparisons: in_order(plan, events, reports), inputs })
 }
 
 fn input(path: String, FileId { bytes, sha256 }: FileId) -> Input {
@@ -297,7 +297,11 @@ fn scene_bands(scene: &Scene, found: &Found, index: usize) -> Option<BandEdges> 
 }
 
 /// Comparisons in the order of scenes, methods and eyes, with both eyes behind the two.
-fn in_order(plan: &Plan, mut reports: BTreeMap<Place, ScoreReport>) -> Vec<Comparison> {
+fn in_order(
+    plan: &Plan,
+    events: &dyn Events,
+    mut reports: BTreeMap<Place, ScoreReport>,
+) -> Vec<Comparison> {
     let mut comparisons = Vec::new();
     for (scene_index, scene) in plan.scenes.iter().enumerate() {
         for (method_index, method) in plan.methods.iter().enumerate() {
@@ -312,7 +316,18 @@ fn in_order(plan: &Plan, mut reports: BTreeMap<Place, ScoreReport>) -> Vec<Compa
                 }
             }
             let both = match eyes.as_slice() {
-                [(_, left), (_, right)] => Some(both_eyes(left, right)),
+                [(_, left), (_, right)] => {
+                    let both = both_eyes(left, right);
+                    let alone = left.frames.len() + right.frames.len() - 2 * both.frames.len();
+                    if alone > 0 {
+                        let (scene, frames) =
+                            (&scene.name, if alone == 1 { "frame" } else { "frames" });
+                        events.warn(&format!(
+                            "{scene}, {method}: {alone} {frames} of one eye have no partner of the other, and are not in the results of both"
+                        ));
+                    }
+                    Some(both)
+                }
                 _ => None,
             };
             for (eye, report) in eyes {

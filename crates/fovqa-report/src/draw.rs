@@ -3,13 +3,13 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Component, Path};
+use std::path::Path;
 
 use fovqa_config::PlotKind;
 use fovqa_plot::{PlotError, png};
 use fovqa_results::{
-    FileError, RUN_JSON, RunRecord, SUMMARY_JSON, SummaryRecord, read_json_file, write_json_file,
-    write_whole,
+    FileError, RUN_JSON, RUN_SCHEMA, RunRecord, SUMMARY_JSON, SUMMARY_SCHEMA, SummaryRecord,
+    read_json_file, write_json_file, write_whole,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -65,9 +65,9 @@ struct Manifest {
 /// # Errors
 /// When a file of the run is missing or broken, or the folder cannot be written to.
 pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
-    let run: RunRecord = read_json_file(&folder.join(RUN_JSON), "the record of a run")?;
+    let run: RunRecord = read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
     let summary: SummaryRecord =
-        read_json_file(&folder.join(SUMMARY_JSON), "the summary of a run")?;
+        read_json_file(&folder.join(SUMMARY_JSON), SUMMARY_SCHEMA, "the summary of a run")?;
     let values = FrameValues::read(folder)?;
     let source = Source { run: &run, summary: &summary, values: &values };
     let plots = match run.resolved.plots.as_slice() {
@@ -86,12 +86,20 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
         }
     }
 
-    let mut files = Vec::new();
+    let table_files = tables.iter().flat_map(|(n, _)| [format!("{n}.md"), format!("{n}.csv")]);
+    let figure_files = drawn.iter().flat_map(|figure| {
+        ["svg", "png", "csv"].map(|ending| format!("{PLOTS}/{}.{ending}", figure.name))
+    });
+    let mut files: Vec<String> = table_files.chain(figure_files).collect();
+    files.push("index.html".to_owned());
+    // Said before it is done: whoever comes after a drawing that was broken off knows what is there.
+    let old = drawn_before(folder);
+    let either = old.iter().filter(|old| !files.contains(old)).chain(&files).cloned();
+    write_manifest(folder, either.collect())?;
+
     for (name, table) in &tables {
         for (ending, text) in [("md", table.markdown()), ("csv", table.csv())] {
-            let file = format!("{name}.{ending}");
-            write_whole(&folder.join(&file), text.as_bytes())?;
-            files.push(file);
+            write_whole(&folder.join(format!("{name}.{ending}")), text.as_bytes())?;
         }
     }
     let plots = folder.join(PLOTS);
@@ -102,28 +110,31 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let written: Result<Vec<()>, ReportError> =
         drawn.par_iter().map(|figure| write_figure(&plots, figure)).collect();
     written?;
-    for figure in &drawn {
-        let endings = ["svg", "png", "csv"].into_iter();
-        files.extend(endings.map(|ending| format!("{PLOTS}/{}.{ending}", figure.name)));
-    }
     let paths: Vec<String> = drawn.iter().map(|f| format!("{PLOTS}/{}", f.name)).collect();
     let on_page = paths.iter().zip(&drawn);
     let on_page: Vec<PageFigure<'_>> =
         on_page.map(|(path, figure)| PageFigure { path, caption: &figure.caption }).collect();
     let tables: Vec<ComparisonTable> = tables.into_iter().map(|(_, table)| table).collect();
-    write_whole(&folder.join("index.html"), page(&run, &summary, &tables, &on_page).as_bytes())?;
-    files.push("index.html".to_owned());
-    remove_others(folder, &files);
-    let manifest = Manifest { schema: SCHEMA.to_owned(), files };
-    write_json_file(&folder.join(MANIFEST), &manifest)?;
+    let page = page(&run, &summary, &tables, &on_page);
+    write_whole(&folder.join("index.html"), page.as_bytes())?;
+    remove(folder, old.iter().filter(|old| !files.contains(old)));
+    write_manifest(folder, files)?;
     Ok(Drawn { table: tables.into_iter().next(), figures: drawn.len() })
+}
+
+fn write_manifest(folder: &Path, files: Vec<String>) -> Result<(), FileError> {
+    let manifest = Manifest { schema: SCHEMA.to_owned(), files };
+    write_json_file(&folder.join(MANIFEST), &manifest)
 }
 
 /// Takes away what was drawn of an earlier run.
 pub fn clear(folder: &Path) {
-    remove_others(folder, &[]);
-    // Where there is none, there is nothing to take away.
-    let _ = fs::remove_file(folder.join(MANIFEST));
+    let old = drawn_before(folder);
+    if !old.is_empty() {
+        remove(folder, old.iter());
+        // Where it cannot be taken away, it tells nothing that is not so.
+        let _ = fs::remove_file(folder.join(MANIFEST));
+    }
 }
 
 fn write_figure(plots: &Path, figure: &NamedFigure) -> Result<(), ReportError> {
@@ -139,14 +150,31 @@ fn write_figure(plots: &Path, figure: &NamedFigure) -> Result<(), ReportError> {
     Ok(())
 }
 
-/// Removes the files of the last manifest that are not among `kept`.
-fn remove_others(folder: &Path, kept: &[String]) {
-    let manifest: Manifest =
-        read_json_file(&folder.join(MANIFEST), "a list of files").unwrap_or_default();
-    let below =
-        |file: &str| Path::new(file).components().all(|part| matches!(part, Component::Normal(_)));
-    let old = manifest.files.iter().filter(|file| !kept.contains(file) && below(file));
-    for file in old {
+/// The files of the last manifest. Only what a drawing could have written: a list can be anybody's.
+fn drawn_before(folder: &Path) -> Vec<String> {
+    let manifest = read_json_file(&folder.join(MANIFEST), SCHEMA, "a list of files");
+    let Manifest { mut files, .. } = manifest.unwrap_or_default();
+    files.retain(|file| is_drawn(file));
+    files
+}
+
+fn is_drawn(file: &str) -> bool {
+    let plain = |name: &str| !name.contains(['/', '\\', ':']) && !name.starts_with('.');
+    let ends = |name: &str, endings: &[&str]| {
+        name.rsplit_once('.').is_some_and(|(_, ending)| endings.contains(&ending))
+    };
+    match file.split_once('/') {
+        Some((PLOTS, name)) => plain(name) && ends(name, &["svg", "png", "csv"]),
+        Some(_) => false,
+        None => {
+            file == "index.html"
+                || (file.starts_with("table") && plain(file) && ends(file, &["md", "csv"]))
+        }
+    }
+}
+
+fn remove<'a>(folder: &Path, files: impl Iterator<Item = &'a String>) {
+    for file in files {
         // What somebody has taken away already is as good.
         let _ = fs::remove_file(folder.join(file));
     }
@@ -165,5 +193,39 @@ impl Names {
             free = format!("{name}-{count}");
         }
         free
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_of_files_takes_away_nothing_but_drawings() {
+        for ours in ["index.html", "table.md", "table-2.csv", "plots/bars-psnr.png"] {
+            assert!(is_drawn(ours), "{ours}");
+        }
+        for other in [
+            "thesis.tex",
+            "results.csv",
+            "../table.md",
+            "plots/../x.svg",
+            "plots/a/b.svg",
+            "/x/table.md",
+            "plots/x.tex",
+            "table",
+            "plots/.svg",
+            "a/plots/x.svg",
+            "plots\\x.svg",
+            "",
+        ] {
+            assert!(!is_drawn(other), "{other}");
+        }
+    }
+
+    #[test]
+    fn names_are_given_out_once() {
+        let mut names = Names::default();
+        assert_eq!([names.free("a"), names.free("a"), names.free("a-2")], ["a", "a-2", "a-2-2"]);
     }
 }

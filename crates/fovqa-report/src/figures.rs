@@ -6,7 +6,7 @@ use fovqa_metrics::{Better, Metric};
 use fovqa_plot::{
     Axis, BarChart, BarSeries, Figure, LineChart, LineSeries, Look, SpreadChart, SpreadSeries,
 };
-use fovqa_results::{BandStatistics, RunRecord, SummaryRecord};
+use fovqa_results::{BandStatistics, ComparisonSummary, RunRecord, SummaryRecord};
 
 use crate::comparison::{mean, overall};
 use crate::frame_values::FrameValues;
@@ -43,7 +43,8 @@ pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
     let summary = source.summary;
     let plot = |kind| Plot { kind, metric: None, scenes: None, methods: None };
     let mut kinds = vec![PlotKind::Table, PlotKind::Profile];
-    if summary.comparisons.len() > 1 {
+    let eyes = |c: &&ComparisonSummary| c.eye.is_empty() || c.eye == "both";
+    if summary.comparisons.iter().filter(eyes).count() > 1 {
         kinds.push(PlotKind::Bars);
     }
     if summary.comparisons.iter().any(|comparison| comparison.frames > 1) {
@@ -267,9 +268,15 @@ fn axis(metric: Metric) -> String {
     }
 }
 
+/// What a name may add to a file name.
+const LONGEST_BYTES: usize = 120;
+
 /// A name as part of a file name.
 pub(crate) fn slug(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() { c } else { '-' };
     let slug: String = name.to_lowercase().chars().map(plain).collect();
-    slug.split('-').filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-")
+    let slug = slug.split('-').filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-");
+    // Some characters take four bytes, and a file name has 255.
+    let end = slug.floor_char_boundary(LONGEST_BYTES);
+    slug[..end].to_owned()
 }

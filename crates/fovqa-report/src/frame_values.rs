@@ -44,7 +44,11 @@ impl FrameValues {
                 continue;
             }
             let metric = Metric::ALL.into_iter().find(|m| m.key() == cell(metric));
-            let (Some(metric), Ok(value)) = (metric, cell(value).parse::<f64>()) else { continue };
+            let Some(metric) = metric else { continue };
+            let line = record.position().map_or(0, csv::Position::line);
+            let value = cell(value)
+                .parse::<f64>()
+                .map_err(|_| broken(format!("line {line}: {:?} is no number", cell(value))))?;
             let key = (cell(scene).to_owned(), cell(method).to_owned(), cell(eye).to_owned());
             values.0.entry(key).or_default().entry(metric).or_default().push(value);
         }

@@ -73,7 +73,7 @@ pub(crate) fn page(
             text,
             "<h2>Comparison</h2>\n<div class=\"wide\">\n{}</div>\n<p class=\"note\">{}</p>\n",
             table.html(),
-            table.notes().join(" ")
+            escaped(&table.notes().join(" "))
         );
     }
     if !figures.is_empty() {

@@ -1,18 +1,27 @@
 //! Two eyes as one: squared errors are pooled by pixels, other scores are means of the two.
 
+use std::collections::BTreeMap;
+
 use fovqa_metrics::{BandScores, Metric, PairScores, psnr_db};
 
 use crate::report::{FrameResult, ScoreReport};
 
 /// The report of both eyes: the frames both have, by their numbers.
 pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
+    let edges = |report: &ScoreReport| report.view.as_ref().map(|view| view.bands_deg.clone());
+    let alike = edges(left) == edges(right);
+    let right_frames: BTreeMap<u64, &FrameResult> =
+        right.frames.iter().map(|frame| (frame.frame, frame)).collect();
     let frames = left.frames.iter().filter_map(|l| {
-        let r = right.frames.iter().find(|r| r.frame == l.frame)?;
-        let scores = pooled(&l.scores, &r.scores);
+        let mut scores = pooled(&l.scores, &right_frames.get(&l.frame)?.scores);
+        // Bands of other edges have nothing in common.
+        if !alike {
+            scores.bands.clear();
+        }
         Some(FrameResult { gaze_px: None, scores, ..l.clone() })
     });
     ScoreReport {
-        view: left.view.clone(),
+        view: left.view.clone().filter(|_| alike),
         metrics: left.metrics.iter().copied().filter(|m| right.metrics.contains(m)).collect(),
         frames: frames.collect(),
         failures: Vec::new(),
@@ -81,7 +90,6 @@ fn pooled_score(metric: Metric, mse: Option<f64>, fmse: Option<f64>, l: f64, r: 
 #[allow(clippy::float_cmp, reason = "fractions of two are exact")]
 mod tests {
     use super::*;
-    use std::collections::BTreeMap;
 
     fn scores(mse: f64, ssim: f64, pixels: u64) -> PairScores {
         let scores = BTreeMap::from([

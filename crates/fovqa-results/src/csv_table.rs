@@ -52,6 +52,8 @@ enum Value {
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            // As readers of CSV know it.
+            Value::Measured(value) if value.is_nan() => f.write_str("nan"),
             Value::Measured(value) => write!(f, "{value:?}"),
             Value::Count(count) => write!(f, "{count}"),
         }
@@ -71,7 +73,7 @@ pub fn write_csv(report: &ScoreReport, out: impl Write) -> io::Result<()> {
 }
 
 /// Writes the values of a run as results.csv: each frame's values, comparison by comparison; behind
-/// those of a comparison, a row [`ERROR`] without a value for each frame that could not be scored,
+/// those of a comparison, a row [`ERROR`] with the value `nan` for each frame that could not be scored,
 /// or one without a frame where the whole could not be.
 ///
 /// # Errors
@@ -82,7 +84,8 @@ pub fn write_results_csv(results: &RunResults, out: impl Write) -> io::Result<()
         let row = Row { scene, method, eye, ..Row::default() };
         table.frames(&row, report)?;
         for failure in &report.failures {
-            table.write(&Row { frame: failure.frame, metric: ERROR, ..row })?;
+            let value = Some(Value::Measured(f64::NAN));
+            table.write(&Row { frame: failure.frame, metric: ERROR, value, ..row })?;
         }
     }
     table.0.flush()

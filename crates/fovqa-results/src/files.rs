@@ -73,20 +73,25 @@ pub fn write_json_file(path: &Path, value: &impl Serialize) -> Result<(), FileEr
     write_whole(path, &bytes)
 }
 
-/// Reads a JSON file of a run.
+/// Reads a JSON file of a run, of one schema.
 ///
 /// # Errors
-/// When it is not there, or is something else.
+/// When it is not there, or is something else, or of another version.
 pub fn read_json_file<T: DeserializeOwned>(
     path: &Path,
+    schema: &str,
     expected: &'static str,
 ) -> Result<T, FileError> {
     let bytes = fs::read(path).map_err(|error| FileError::Read { path: path.to_owned(), error })?;
-    serde_json::from_slice(&bytes).map_err(|error| FileError::Format {
-        path: path.to_owned(),
-        expected,
-        detail: error.to_string(),
-    })
+    let format = |detail: String| FileError::Format { path: path.to_owned(), expected, detail };
+    let value: serde_json::Value =
+        serde_json::from_slice(&bytes).map_err(|error| format(error.to_string()))?;
+    match value.get("schema").and_then(serde_json::Value::as_str) {
+        Some(found) if found == schema => {}
+        Some(found) => return Err(format(format!("its schema is {found}, not {schema}"))),
+        None => return Err(format(format!("its schema is not {schema}"))),
+    }
+    serde_json::from_value(value).map_err(|error| format(error.to_string()))
 }
 
 #[cfg(test)]

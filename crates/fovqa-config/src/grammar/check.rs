@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use fovqa_io::sequence::FrameRange;
 use fovqa_metrics::Metric;
-use fovqa_vision::{displays, find_display};
+use fovqa_vision::displays;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -127,10 +127,12 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
                 _ => out_of_range(&written(value.get_ref())),
             }
         }
-        (Kind::Whole(min, max), DeValue::Integer(_)) => match number(value.get_ref()) {
-            Some(n) if (*min as f64..=*max as f64).contains(&n) => {}
-            _ => out_of_range(&written(value.get_ref())),
-        },
+        (Kind::Whole(min, max), DeValue::Integer(_) | DeValue::Float(_)) => {
+            match number(value.get_ref()) {
+                Some(n) if n.fract() == 0.0 && (*min as f64..=*max as f64).contains(&n) => {}
+                _ => out_of_range(&written(value.get_ref())),
+            }
+        }
         (Kind::Word(words), DeValue::String(text)) => {
             if !words.contains(&text.as_ref()) {
                 faults.push(no_such(place, text, span, words.iter().copied()));
@@ -142,8 +144,9 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
             }
         }
         (Kind::Display, DeValue::String(text)) => {
-            if find_display(text).is_none() {
-                let known = displays().iter().map(|display| display.name.as_str());
+            let known = displays().iter().map(|display| display.name.as_str());
+            let spelled = |name: &str| name == text || name.replace('_', "-") == *text;
+            if !known.clone().any(spelled) {
                 faults.push(no_such(place, text, span, known));
             }
         }
@@ -167,6 +170,11 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
                 if let DeValue::Table(table) = item.get_ref() {
                     check(keys, table, &named(place, table), item.span(), faults);
                 }
+            }
+        }
+        (Kind::Tables(_), DeValue::Array(items)) => {
+            for item in items.iter().filter(|item| !is_table(item)) {
+                wrong_type(kind, item, &format!("an entry of {place}"), faults);
             }
         }
         (Kind::Metrics, _) => check_metrics(value, place, faults),
@@ -198,8 +206,9 @@ fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
             kind,
             Kind::Text | Kind::Name | Kind::Word(_) | Kind::Frames | Kind::Display | Kind::Metric
         ),
-        DeValue::Integer(_) => matches!(kind, Kind::Number(..) | Kind::Above(..) | Kind::Whole(..)),
-        DeValue::Float(_) => matches!(kind, Kind::Number(..) | Kind::Above(..)),
+        DeValue::Integer(_) | DeValue::Float(_) => {
+            matches!(kind, Kind::Number(..) | Kind::Above(..) | Kind::Whole(..))
+        }
         DeValue::Array(_) => matches!(kind, Kind::List(..) | Kind::Tables(_)),
         DeValue::Table(_) => matches!(kind, Kind::Table(_) | Kind::Metrics),
         DeValue::Datetime(_) => false,
@@ -209,7 +218,10 @@ fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
 fn wrong_type(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fault>) {
     let fault = Fault::new(value.span(), format!("{place} cannot be {}", type_of(value)));
     faults.push(match kind {
-        Kind::Tables(_) => fault.help(format!("write [[{place}]] above the keys of each")),
+        Kind::Tables(_) => {
+            let name = place.trim_start_matches("an entry of ");
+            fault.help(format!("write [[{name}]] above the keys of each"))
+        }
         kind => fault.label(format!("write {}", kind.in_words())),
     });
 }
@@ -261,6 +273,8 @@ fn written(value: &DeValue<'_>) -> String {
 /// of its own, in file names.
 fn name_fits(text: &str) -> Result<(), String> {
     const LONGEST: usize = 80;
+    /// With room for what stands around it in a file name, whose limit is 255.
+    const LONGEST_BYTES: usize = 200;
     if text.trim().is_empty() || text.trim() != text {
         return Err("cannot be empty, or begin or end with a space".to_owned());
     }
@@ -269,8 +283,10 @@ fn name_fits(text: &str) -> Result<(), String> {
             "cannot have / or \\ or control characters in it, or begin with a dot".to_owned()
         );
     }
-    if text.chars().count() > LONGEST {
-        return Err(format!("cannot be longer than {LONGEST} characters"));
+    if text.chars().count() > LONGEST || text.len() > LONGEST_BYTES {
+        return Err(format!(
+            "cannot be longer than {LONGEST} characters, or {LONGEST_BYTES} bytes"
+        ));
     }
     Ok(())
 }

@@ -52,7 +52,16 @@ const SIDES: &[Key] = &[
 
 const FILES: Kind = Kind::Either(&[Kind::Text, Kind::Table(SIDES)]);
 
-/// How a frame is seen.
+const GAZE: &str = "where the eye looks: \"center\" (the principal point), [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }";
+
+/// The gaze of one eye or, with tables for each, of two.
+const VIEW_GAZE: &[Key] =
+    &[key("gaze", Kind::Either(&[Kind::Word(&["center"]), POINT, Kind::Table(TRACE)]), GAZE)];
+
+/// The gaze of one eye.
+const EYE_GAZE: &[Key] = &[key("gaze", Kind::Either(&ONE_GAZE), "where this eye looks")];
+
+/// The ways to say how a frame is seen.
 const VIEW: &[Key] = &[
     key("display", Kind::Display, "display preset; the frame fills its whole field"),
     key("fov_vertical_deg", FOV, "vertical field of view, °; alone: square pixels"),
@@ -69,11 +78,6 @@ const VIEW: &[Key] = &[
         "screen_m",
         Kind::List(&LENGTH_M, 2, 2),
         "width and height of a flat screen that the frame fills, m; with distance_m",
-    ),
-    key(
-        "gaze",
-        Kind::Either(&[Kind::Word(&["center"]), POINT, Kind::Table(TRACE)]),
-        "where the eye looks: \"center\" (the principal point), [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }",
     ),
 ];
 
@@ -129,12 +133,13 @@ const fn joined<const N: usize>(parts: &[&[Key]]) -> [Key; N] {
     keys
 }
 
-static VIEW_EYE: [Key; VIEW.len()] = joined(&[VIEW]);
+static VIEW_EYE: [Key; VIEW.len() + 1] = joined(&[VIEW, EYE_GAZE]);
 static SIGNAL_EYE: [Key; SIGNAL.len()] = joined(&[SIGNAL]);
-static SCENE_EYE: [Key; VIEW.len() + SIGNAL.len()] = joined(&[VIEW, SIGNAL]);
+static SCENE_EYE: [Key; VIEW.len() + 1 + SIGNAL.len()] = joined(&[VIEW, EYE_GAZE, SIGNAL]);
 
-static VIEW_TABLE: [Key; VIEW.len() + SHARED.len() + 2] = joined(&[
+static VIEW_TABLE: [Key; VIEW.len() + 1 + SHARED.len() + 2] = joined(&[
     VIEW,
+    VIEW_GAZE,
     SHARED,
     &[
         key("left", Kind::Table(&VIEW_EYE), "what is different for the left eye"),
@@ -150,7 +155,7 @@ static SIGNAL_TABLE: [Key; SIGNAL.len() + 2] = joined(&[
     ],
 ]);
 
-static SCENE_TABLE: [Key; 6 + VIEW.len() + SHARED.len() + SIGNAL.len() + 2] = joined(&[
+static SCENE_TABLE: [Key; 6 + VIEW.len() + 1 + SHARED.len() + SIGNAL.len() + 2] = joined(&[
     &[
         required("name", Kind::Name, "its name in results, and what {scene} stands for"),
         required(
@@ -168,6 +173,7 @@ static SCENE_TABLE: [Key; 6 + VIEW.len() + SHARED.len() + SIGNAL.len() + 2] = jo
         key("allow_missing", Kind::Bool, "pass over frames without a partner"),
     ],
     VIEW,
+    VIEW_GAZE,
     SHARED,
     SIGNAL,
     &[

@@ -39,11 +39,12 @@ fn table(keys: &[Key]) -> Value {
 }
 
 fn kind(kind: &Kind) -> Value {
-    /// A name: no slash, no dot or space in front, no space behind.
-    const NAME: &str = r"^[^\s./\\\p{Cc}]([^/\\\p{Cc}]*[^\s/\\\p{Cc}])?$";
+    /// A name: no slash or control character, no dot or space in front, no space behind.
+    const NAME: &str = r"^[^\s./\\\u0000-\u001f\u007f-\u009f]([^/\\\u0000-\u001f\u007f-\u009f]*[^\s/\\\u0000-\u001f\u007f-\u009f])?$";
+    const TEXT: &str = r"^[^\u0000-\u001f\u007f-\u009f]+$";
     match kind {
         Kind::Bool => json!({ "type": "boolean" }),
-        Kind::Text => json!({ "type": "string", "pattern": r"^[^\p{Cc}]+$" }),
+        Kind::Text => json!({ "type": "string", "pattern": TEXT }),
         Kind::Name => json!({ "type": "string", "pattern": NAME, "maxLength": 80 }),
         Kind::Number(min, max) => {
             let mut schema = json!({ "type": "number" });
@@ -62,7 +63,7 @@ fn kind(kind: &Kind) -> Value {
         Kind::Word(words) => json!({ "enum": words }),
         Kind::Frames => json!({
             "type": "string",
-            "pattern": r"^(\d+)?\.\.(=?\d+)?(:0*[1-9]\d*)?$"
+            "pattern": r"^[0-9]{0,18}\.\.(=?[0-9]{1,18})?(:0{0,9}[1-9][0-9]{0,8})?$"
         }),
         Kind::Display => {
             // Both spellings, `-` and `_`, as people write them.

@@ -8,6 +8,8 @@ mod settings;
 
 use std::path::{Path, PathBuf};
 
+use fovqa_io::sequence::{is_glob, literal};
+
 use crate::experiment::Experiment;
 use crate::fault::Fault;
 use crate::node::Node;
@@ -19,16 +21,13 @@ pub(crate) fn experiment(root: Node<'_>, path: &Path, faults: &mut Vec<Fault>) -
     let (choice, params, set) = metrics::metrics(root, faults);
     let mut scenes = scenes::scenes(root, &base, &choice, faults);
     let methods = methods::methods(root, &base, &mut scenes, faults);
-    let names = plots::Names {
-        scenes: scenes.iter().map(|scene| scene.scene.name.clone()).collect(),
-        methods: methods.clone(),
-        metrics: choice.clone(),
-    };
+    let known = plots::Known { scenes: &scenes, methods: &methods, metrics: &choice };
+    let plots = plots::plots(root, &known, faults);
     Experiment {
         name: root.text("name").unwrap_or_default().to_owned(),
         path: path.to_owned(),
         text: String::new(),
-        plots: plots::plots(root, &names, faults),
+        plots,
         plan: Plan {
             base,
             scenes: scenes.into_iter().map(|scene| scene.scene).collect(),
@@ -54,6 +53,15 @@ struct Placeholders<'a> {
 impl Placeholders<'_> {
     /// The path of a text from the file, below `base`.
     fn path(&self, base: &Path, text: &str) -> Result<PathBuf, (String, String)> {
+        // In a pattern, names stand for themselves, whatever characters they have.
+        let pattern = is_glob(Path::new(text));
+        let verbatim = |name: &str| {
+            if pattern {
+                literal(Path::new(name)).to_string_lossy().into_owned()
+            } else {
+                name.to_owned()
+            }
+        };
         let mut path = String::new();
         let mut rest = text;
         while let Some((before, behind)) = rest.split_once('{') {
@@ -64,7 +72,7 @@ impl Placeholders<'_> {
                     self.known(),
                 ));
             };
-            path.push_str(match name {
+            path.push_str(&verbatim(match name {
                 "scene" => self.scene,
                 "folder" => self.folder,
                 "method" if self.method.is_some() => self.method.unwrap_or_default(),
@@ -75,7 +83,7 @@ impl Placeholders<'_> {
                 other => {
                     return Err((format!("\"{text}\" has {{{other}}} in it, which stands for nothing"), self.known()));
                 }
-            });
+            }));
             rest = after;
         }
         path.push_str(rest);

@@ -1,7 +1,7 @@
 //! `[[plot]]`.
 
-use fovqa_metrics::Metric;
-
+use super::scenes::Resolved;
+use super::settings::VIEW_HELP;
 use crate::fault::Fault;
 use crate::grammar::quoted;
 use crate::nearest::nearest;
@@ -10,13 +10,13 @@ use crate::plan::MetricChoice;
 use crate::plots::{Plot, PlotKind};
 
 /// What plots may refer to.
-pub(super) struct Names {
-    pub(super) scenes: Vec<String>,
-    pub(super) methods: Vec<String>,
-    pub(super) metrics: MetricChoice,
+pub(super) struct Known<'a> {
+    pub(super) scenes: &'a [Resolved],
+    pub(super) methods: &'a [String],
+    pub(super) metrics: &'a MetricChoice,
 }
 
-pub(super) fn plots(root: Node<'_>, names: &Names, faults: &mut Vec<Fault>) -> Vec<Plot> {
+pub(super) fn plots(root: Node<'_>, known: &Known<'_>, faults: &mut Vec<Fault>) -> Vec<Plot> {
     let tables = root.tables("plot").into_iter();
     let plots = tables.map(|(table, _)| {
         let kind = match table.text("kind") {
@@ -27,24 +27,45 @@ pub(super) fn plots(root: Node<'_>, names: &Names, faults: &mut Vec<Fault>) -> V
         };
         let metric = table.text("metric");
         if let Some(metric) = metric {
-            scored(table, metric, kind, names, faults);
+            scored(table, metric, kind, known, faults);
         }
-        Plot {
+        let scenes: Vec<&str> = known.scenes.iter().map(|s| s.scene.name.as_str()).collect();
+        let methods: Vec<&str> = known.methods.iter().map(String::as_str).collect();
+        let plot = Plot {
             kind,
             metric: metric.map(str::to_owned),
-            scenes: subset(table, "scenes", &names.scenes, faults),
-            methods: subset(table, "methods", &names.methods, faults),
+            scenes: subset(table, "scenes", &scenes, faults),
+            methods: subset(table, "methods", &methods, faults),
+        };
+        if faults.is_empty() {
+            shows_something(table, &plot, known, faults);
         }
+        plot
     });
     plots.collect()
 }
 
-/// Whether a plot's metric is scored, and fits its kind.
-fn scored(table: Node<'_>, key: &str, kind: PlotKind, names: &Names, faults: &mut Vec<Fault>) {
-    let scored = match &names.metrics {
-        MetricChoice::Default => Metric::DEFAULT.to_vec(),
-        MetricChoice::Named(named) => named.clone(),
+/// Whether any of a plot's methods is in any of its scenes and, for a profile, has bands there.
+fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut Vec<Fault>) {
+    let wanted = |names: &Option<Vec<String>>, name: &str| {
+        names.as_ref().is_none_or(|names| names.iter().any(|n| n == name))
     };
+    let scenes = known.scenes.iter().filter(|scene| wanted(&plot.scenes, &scene.scene.name));
+    let eyes: Vec<_> = scenes.flat_map(|scene| &scene.scene.eyes).collect();
+    let scored = |(method, _): &(usize, _)| wanted(&plot.methods, &known.methods[*method]);
+    let (message, help) = if !eyes.iter().any(|eye| eye.tests.iter().any(scored)) {
+        ("the plot has nothing to show: none of its methods is in any of its scenes", "")
+    } else if plot.kind == PlotKind::Profile && eyes.iter().all(|e| e.settings.view.is_none()) {
+        ("a profile is by eccentricity, and none of its scenes has a view", VIEW_HELP)
+    } else {
+        return;
+    };
+    faults.push(Fault::new(table.span("kind"), message).help(help));
+}
+
+/// Whether a plot's metric is scored, and fits its kind.
+fn scored(table: Node<'_>, key: &str, kind: PlotKind, known: &Known<'_>, faults: &mut Vec<Fault>) {
+    let scored = known.metrics.metrics();
     let keys = || scored.iter().map(|metric| metric.key());
     let Some(metric) = scored.iter().find(|metric| metric.key() == key) else {
         let fault =
@@ -64,14 +85,14 @@ fn scored(table: Node<'_>, key: &str, kind: PlotKind, names: &Names, faults: &mu
 fn subset(
     table: Node<'_>,
     key: &str,
-    known: &[String],
+    known: &[&str],
     faults: &mut Vec<Fault>,
 ) -> Option<Vec<String>> {
     let wanted = table.names(key)?;
     for (name, span) in &wanted {
-        if !known.iter().any(|known| known == name) {
+        if !known.contains(name) {
             let what = key.trim_end_matches('s');
-            let names = || known.iter().map(String::as_str);
+            let names = || known.iter().copied();
             let near = nearest(name, names()).map(|near| format!("did you mean \"{near}\"?"));
             let fault = Fault::new(span.clone(), format!("there is no {what} \"{name}\""));
             let help = format!("the {key} are {}", quoted(names()));

@@ -29,6 +29,7 @@ pub(super) fn scenes(
         faults.push(Fault::new(root.span("scene"), "the experiment has no scene"));
     }
     unique(&tables, "scene", faults);
+    eyes_of_nobody(root, &tables, faults);
     tables
         .into_iter()
         .map(|(table, span)| {
@@ -61,11 +62,21 @@ pub(super) fn scenes(
             });
             let eyes: Vec<EyeView> = eyes.collect();
             foveal_without_view(root, &eyes, name, metrics, faults);
+            if let [left, right] = eyes.as_slice()
+                && left.settings.view.is_some() != right.settings.view.is_some()
+            {
+                let which = if left.settings.view.is_some() { "left" } else { "right" };
+                let message = format!("scene \"{name}\" has a view for its {which} eye alone");
+                faults.push(
+                    Fault::new(span.clone(), message)
+                        .help("give one for both, or one in each of the tables left and right"),
+                );
+            }
             if eyes.len() < 2 {
                 for eye in Eye::BOTH.into_iter().filter(|eye| table.has(eye.name())) {
                     let message = format!("scene \"{name}\" has no {} eye of its own", eye.name());
                     let fault = Fault::new(table.span(eye.name()), message);
-                    faults.push(fault.help("give it reference = { left = \"…\", right = \"…\" }"));
+                    faults.push(fault.help(TWO_EYES));
                 }
             }
             let scene = Scene {
@@ -79,6 +90,23 @@ pub(super) fn scenes(
         })
         .collect()
 }
+
+/// General tables for one eye, where no scene has two.
+fn eyes_of_nobody(root: Node<'_>, scenes: &[(Node<'_>, Range<usize>)], faults: &mut Vec<Fault>) {
+    if scenes.iter().any(|(scene, _)| scene.table("reference").is_some()) {
+        return;
+    }
+    for general in ["view", "signal"].into_iter().filter_map(|key| root.table(key)) {
+        for eye in Eye::BOTH.into_iter().filter(|eye| general.has(eye.name())) {
+            let message = format!("no scene has a {} eye of its own", eye.name());
+            let fault = Fault::new(general.span(eye.name()), message);
+            faults.push(fault.help(TWO_EYES));
+        }
+    }
+}
+
+/// How a scene gets two eyes.
+const TWO_EYES: &str = "give a scene reference = { left = \"…\", right = \"…\" }";
 
 /// Metrics asked for by name that need a view where there is none.
 fn foveal_without_view(
@@ -101,11 +129,22 @@ fn foveal_without_view(
     }
 }
 
-/// Says which names there are twice.
+/// Words of our own tables, and those that readers of CSV take for a missing value.
+const RESERVED: [&str; 10] =
+    ["average", "best", "error", "#na", "<na>", "na", "nan", "none", "null", "inf"];
+
+/// Says which names are there twice, or cannot be.
 pub(super) fn unique(tables: &[(Node<'_>, Range<usize>)], what: &str, faults: &mut Vec<Fault>) {
     let mut seen = BTreeSet::new();
     for (table, _) in tables {
         let name = table.text("name").unwrap_or_default();
+        if RESERVED.contains(&name.to_lowercase().as_str()) {
+            let fault =
+                Fault::new(table.span("name"), format!("a {what} cannot be named \"{name}\""));
+            faults.push(fault.help(
+                "tables use that word, or their readers take it for no value: choose another",
+            ));
+        }
         if !seen.insert(name.to_lowercase()) {
             let fault =
                 Fault::new(table.span("name"), format!("there are two {what}s named \"{name}\""));

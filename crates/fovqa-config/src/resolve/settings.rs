@@ -94,6 +94,10 @@ impl<'a> Layers<'a> {
             },
             bands: self.bands(faults),
         };
+        if settings.view.is_none() && self.having("eccentricity").is_some() {
+            let message = "a kind of eccentricity needs a view, and none is given";
+            faults.push(Fault::new(self.span("eccentricity"), message).help(VIEW_HELP));
+        }
         if let Some(what) = settings.lacks_view() {
             let key = if settings.bands.is_some() { "bands_deg" } else { "gaze" };
             let fault =

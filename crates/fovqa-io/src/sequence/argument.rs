@@ -111,6 +111,29 @@ impl ListingError {
     }
 }
 
+/// The characters of a path as themselves, for a pattern to be made of it: `[`, `*` and `?` in the
+/// names of folders are no wildcards.
+pub fn literal(path: &Path) -> PathBuf {
+    glob::Pattern::escape(&path.to_string_lossy()).into()
+}
+
+/// Whether a path has wildcards in it.
+pub fn is_glob(path: &Path) -> bool {
+    path.to_string_lossy().contains(['*', '?', '['])
+}
+
+/// The files an argument below a folder stands for, as [`list`]; wildcards in the folder's own name
+/// are none.
+///
+/// # Errors
+/// As [`list`].
+pub fn list_below(folder: &Path, argument: &Path) -> Result<Listing, ListingError> {
+    match argument.strip_prefix(folder) {
+        Ok(below) if is_glob(below) && !argument.exists() => list(&literal(folder).join(below)),
+        _ => list(argument),
+    }
+}
+
 /// The files an argument stands for: a file, a folder, a glob (`*.exr`) or a printf pattern
 /// (`gt.%04d.exr`). In folders and globs, files that are not images are passed over.
 ///

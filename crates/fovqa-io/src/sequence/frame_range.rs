@@ -40,19 +40,21 @@ impl FromStr for FrameRange {
     type Err = FrameRangeError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
+        // Plain digits, of a number that fits: no sign, nothing else that parses.
+        let number = |digits: &str| {
+            let plain = digits.len() <= 18 && digits.bytes().all(|b| b.is_ascii_digit());
+            if plain { digits.parse::<u64>().ok() } else { None }
+        };
         let parse = || {
             let (range, step) = match text.split_once(':') {
-                Some((range, step)) => (range, step.parse().ok().filter(|s| *s > 0)?),
+                Some((range, step)) => (range, number(step).filter(|s| *s > 0)?),
                 None => (text, 1),
             };
             let (from, to) = range.split_once("..")?;
-            let from = if from.is_empty() { 0 } else { from.parse().ok()? };
+            let from = if from.is_empty() { 0 } else { number(from)? };
             let (to, inclusive) = to.strip_prefix('=').map_or((to, 0), |to| (to, 1));
-            let to = if to.is_empty() && inclusive == 0 {
-                None
-            } else {
-                Some(to.parse::<u64>().ok()?.checked_add(inclusive)?)
-            };
+            let to =
+                if to.is_empty() && inclusive == 0 { None } else { Some(number(to)? + inclusive) };
             Some(Self { from, to, step })
         };
         parse().ok_or_else(|| FrameRangeError(text.to_owned()))
@@ -75,7 +77,9 @@ mod tests {
         assert_eq!(picked("..3"), [0, 1, 2]);
         let range: FrameRange = "2..=5".parse().unwrap();
         assert_eq!(range.to_string().parse(), Ok(range));
-        for bad in ["", "3", "a..b", "1..2:0", "1..2:x", "..=", "-1..2"] {
+        for bad in
+            ["", "3", "a..b", "1..2:0", "1..2:x", "..=", "-1..2", "+0..2", "0..9999999999999999999"]
+        {
             assert!(bad.parse::<FrameRange>().is_err(), "{bad}");
         }
     }

@@ -30,16 +30,23 @@ pub struct Pairs {
     pub alone: Alone,
 }
 
-/// Files without a partner.
+/// Files without a partner, with their frame number where they have one.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Alone {
     /// References without a test.
-    pub reference: Vec<PathBuf>,
+    pub reference: Vec<(Option<u64>, PathBuf)>,
     /// Tests without a reference.
-    pub test: Vec<PathBuf>,
+    pub test: Vec<(Option<u64>, PathBuf)>,
 }
 
 impl Alone {
+    /// Only the frames that are wanted; what has no number is.
+    pub fn retain(&mut self, wanted: impl Fn(u64) -> bool) {
+        for side in [&mut self.reference, &mut self.test] {
+            side.retain(|(number, _)| number.is_none_or(&wanted));
+        }
+    }
+
     /// How many.
     pub fn count(&self) -> usize {
         self.reference.len() + self.test.len()
@@ -66,7 +73,9 @@ impl PairingError {
     /// The same of other paths: as results show them.
     #[must_use]
     pub fn with_paths(self, shown: &dyn Fn(&Path) -> PathBuf) -> Self {
-        let all = |paths: Vec<PathBuf>| paths.iter().map(|path| shown(path)).collect();
+        let all = |files: Vec<(Option<u64>, PathBuf)>| {
+            files.into_iter().map(|(number, path)| (number, shown(&path))).collect()
+        };
         match self {
             Self::Unpaired(Alone { reference, test }) => {
                 Self::Unpaired(Alone { reference: all(reference), test: all(test) })
@@ -92,8 +101,9 @@ impl PairingError {
 
 fn unpaired(alone: &Alone) -> String {
     const SHOWN: usize = 5;
-    let side = |files: &[PathBuf], of: &str, without: &str| {
-        let names: Vec<_> = files.iter().take(SHOWN).map(|p| p.display().to_string()).collect();
+    let side = |files: &[(Option<u64>, PathBuf)], of: &str, without: &str| {
+        let names = files.iter().take(SHOWN).map(|(_, path)| path.display().to_string());
+        let names: Vec<_> = names.collect();
         let more = files.len().saturating_sub(SHOWN);
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
         format!("{of} without a {without}: {}{more}", names.join(", "))
@@ -134,17 +144,18 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
     let numbered = numbers.len() == reference.files.len();
     let first = numbers.first().copied().filter(|_| numbered).unwrap_or(0);
     let untaken = test.files.iter().zip(&taken).filter(|(_, taken)| !**taken);
-    let mut alone =
-        Alone { reference: Vec::new(), test: untaken.map(|(f, _)| f.path.clone()).collect() };
+    let untaken = untaken.map(|(f, _)| (f.number.filter(|_| numbered), f.path.clone()));
+    let mut alone = Alone { reference: Vec::new(), test: untaken.collect() };
     let mut pairs = Vec::new();
     for (position, (file, partner)) in reference.files.iter().zip(partner).enumerate() {
+        let number = file.number.filter(|_| numbered).unwrap_or(position as u64);
+        let reference = file.path.clone();
         match partner {
-            Some(test_index) => pairs.push(FramePair {
-                number: file.number.filter(|_| numbered).unwrap_or(position as u64),
-                reference: file.path.clone(),
-                test: test.files[test_index].path.clone(),
-            }),
-            None => alone.reference.push(file.path.clone()),
+            Some(index) => {
+                let test = test.files[index].path.clone();
+                pairs.push(FramePair { number, reference, test });
+            }
+            None => alone.reference.push((Some(number), reference)),
         }
     }
     Ok(Pairs { pairs, first, alone })
@@ -212,8 +223,9 @@ mod tests {
             (listing(&["1.png", "2.png", "4.png"]), listing(&["2.png", "3.png"]));
         let Pairs { pairs, alone, .. } = pair(&reference, &test).unwrap();
         assert_eq!(pairs.len(), 1);
-        assert_eq!(alone.reference, [PathBuf::from("1.png"), PathBuf::from("4.png")]);
-        assert_eq!(alone.test, [PathBuf::from("3.png")]);
+        let file = |number, name: &str| (Some(number), PathBuf::from(name));
+        assert_eq!(alone.reference, [file(1, "1.png"), file(4, "4.png")]);
+        assert_eq!(alone.test, [file(3, "3.png")]);
         assert!(matches!(
             pair(&listing(&["a.png"]), &listing(&["b.png"])),
             Err(PairingError::Nothing { .. })

@@ -33,7 +33,7 @@ impl ComparisonTable {
             text.push('\n');
         }
         for note in self.notes() {
-            let _ = writeln!(text, "\n{note}");
+            let _ = writeln!(text, "\n{}", escaped(note));
         }
         text
     }

@@ -16,7 +16,11 @@ pub struct ComparisonTable {
     methods: Vec<String>,
     metrics: Vec<Metric>,
     rows: Vec<Row>,
+    notes: Vec<String>,
 }
+
+const FOVEAL_NOTE: &str = "FPSNR and FSSIM: the papers print no constants for the foveal weight, \
+                           so compare methods, not papers.";
 
 #[derive(Debug, Clone, PartialEq)]
 struct Row {
@@ -55,7 +59,7 @@ impl ComparisonTable {
         let of_plot = |metric: &Metric| plot.metric.as_ref().is_none_or(|key| key == metric.key());
         let metrics: Vec<Metric> =
             Metric::ALL.into_iter().filter(|m| scored(m) && of_plot(m)).collect();
-        if metrics.is_empty() {
+        if metrics.is_empty() || methods.is_empty() || scenes.is_empty() {
             return None;
         }
         let value = |scene: &str, method: &str, metric: Metric| {
@@ -71,19 +75,18 @@ impl ComparisonTable {
             })
             .collect();
         rows.extend(average(&metrics, &rows));
-        Some(Self { methods, metrics, rows })
+        let mut notes = vec!["Means over frames; the best of each row is marked.".to_owned()];
+        if metrics.contains(&Metric::Fpsnr) || metrics.contains(&Metric::Fssim) {
+            notes.push(FOVEAL_NOTE.to_owned());
+        }
+        notes.extend(unequal_frames(summary, &scenes, &methods));
+        notes.extend(identical_frames(summary, &scenes, &methods));
+        Some(Self { methods, metrics, rows, notes })
     }
 
     /// What has to be said of the numbers wherever they are shown.
-    pub fn notes(&self) -> Vec<&'static str> {
-        let mut notes = vec!["Means over frames; the best of each row is marked."];
-        if self.metrics.contains(&Metric::Fpsnr) || self.metrics.contains(&Metric::Fssim) {
-            notes.push(
-                "FPSNR and FSSIM: the papers print no constants for the foveal weight, so compare \
-                 methods, not papers.",
-            );
-        }
-        notes
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 }
 
@@ -164,11 +167,50 @@ fn average(metrics: &[Metric], rows: &[Row]) -> Option<Row> {
     Some(Row { label, average: true, cells })
 }
 
-/// The mean of the finite values; infinite where there is no other, `None` without any.
+/// The plain mean; `None` without any value. Infinite with any that is: what cannot be beaten in one
+/// scene must not lose by it in the average.
 pub(crate) fn mean(values: &[f64]) -> Option<f64> {
-    let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-    if finite.is_empty() {
-        return values.first().copied();
-    }
-    Some(finite.iter().sum::<f64>() / finite.len() as f64)
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// The scenes in which methods were not scored on the same number of frames.
+fn unequal_frames(summary: &SummaryRecord, scenes: &[&str], methods: &[String]) -> Option<String> {
+    let unequal: Vec<String> = scenes
+        .iter()
+        .filter_map(|scene| {
+            let scored: Vec<(&String, usize)> = methods
+                .iter()
+                .filter_map(|method| Some((method, overall(summary, scene, method)?.frames)))
+                .collect();
+            let most = scored.iter().map(|(_, frames)| *frames).max()?;
+            let fewer = scored.iter().filter(|(_, frames)| *frames < most);
+            let fewer: Vec<String> =
+                fewer.map(|(method, frames)| format!("{method} {frames} of {most}")).collect();
+            (!fewer.is_empty()).then(|| format!("{scene}: {}", fewer.join(", ")))
+        })
+        .collect();
+    (!unequal.is_empty()).then(|| {
+        format!("Not all methods were scored on the same frames ({}).", unequal.join("; "))
+    })
+}
+
+/// The frames whose decibels are infinite and in no mean.
+fn identical_frames(
+    summary: &SummaryRecord,
+    scenes: &[&str],
+    methods: &[String],
+) -> Option<String> {
+    let pairs = scenes.iter().flat_map(|scene| methods.iter().map(move |method| (scene, method)));
+    let identical: Vec<String> = pairs
+        .filter_map(|(scene, method)| {
+            let comparison = overall(summary, scene, method)?;
+            let count = comparison.metrics.values().find_map(|s| s.identical_frames)?;
+            (0 < count && count < comparison.frames)
+                .then(|| format!("{scene}, {method}: {count} of {}", comparison.frames))
+        })
+        .collect();
+    (!identical.is_empty()).then(|| {
+        let which = identical.join("; ");
+        format!("Means of decibels leave out frames that are identical to the reference ({which}).")
+    })
 }
