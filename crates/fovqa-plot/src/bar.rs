@@ -200,7 +200,7 @@ impl BarChart {
             swatch::draw(drawing, rect, look, look.colour());
         } else {
             let radius_px = marker::RADIUS_PX.min(frame.groups.pitch_px() / 2.0);
-            marker::draw(drawing, (x, end), look.marker(), radius_px, look.colour());
+            marker::draw(drawing, (x, end), look, radius_px, look.colour());
         }
         if let Some(value) = place.finite() {
             let downwards = self.from_zero && value < 0.0;

@@ -101,7 +101,7 @@ impl Key {
             Self::Curve(look) => {
                 let stroke = Stroke { colour: look.colour(), width_px: CURVE_PX };
                 drawing.dashed(&line, stroke, &look.dash_px());
-                marker::draw(drawing, middle, look.marker(), marker::RADIUS_PX, look.colour());
+                marker::draw(drawing, middle, look, marker::RADIUS_PX, look.colour());
             }
             Self::Reference(look) => {
                 let stroke = Stroke { colour: REFERENCE, width_px: REFERENCE_PX };
@@ -110,7 +110,7 @@ impl Key {
             Self::Bar(look) => swatch::draw(drawing, rect, look, look.colour()),
             Self::Box(look) => swatch::draw(drawing, rect, look, look.colour().tint(swatch::TINT)),
             Self::Marker(look) => {
-                marker::draw(drawing, middle, look.marker(), marker::RADIUS_PX, look.colour());
+                marker::draw(drawing, middle, look, marker::RADIUS_PX, look.colour());
             }
         }
     }

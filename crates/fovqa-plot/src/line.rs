@@ -145,7 +145,7 @@ impl LineChart {
                 for (i, series) in series.iter().enumerate() {
                     let at = (left + i as f64 * BESIDE_PX, border);
                     let colour = series.stroke().colour;
-                    marker::draw(drawing, at, series.look.marker(), marker::RADIUS_PX, colour);
+                    marker::draw(drawing, at, series.look, marker::RADIUS_PX, colour);
                 }
             }
             let xs = groups.keys().map(|tenths| *tenths as f64 / 10.0).collect();
@@ -178,7 +178,7 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
             let near = |(x, y): Point| (at.0 - x).hypot(at.1 - y) < MARKER_PITCH_PX;
             let alone = run.len() == 1;
             if alone || (!series.reference && !last.is_some_and(near)) {
-                marker::draw(drawing, at, series.look.marker(), marker::RADIUS_PX, stroke.colour);
+                marker::draw(drawing, at, series.look, marker::RADIUS_PX, stroke.colour);
                 last = Some(at);
             }
         }

@@ -78,7 +78,8 @@ const MARKERS: [Marker; PALETTE.len()] = [
 /// Which look a series has: give a method the same one in every figure.
 ///
 /// There are seven colours, each with a marker of its own; from the eighth on they come again
-/// with a dash (in bars and boxes: with stripes), which has one dot (stripe) more each time around.
+/// with hollow markers and with a dash (in bars and boxes: with stripes), which has one dot (stripe)
+/// more each time around.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Look {
     /// 0 for the first series, and so on.

@@ -1,7 +1,7 @@
 //! The shapes of markers. Their corners are written out: the same on every machine.
 
 use crate::drawing::{Drawing, Point};
-use crate::look::{Colour, Marker, WHITE};
+use crate::look::{Colour, Look, Marker, WHITE};
 
 /// Half the size of a marker in pixels: large enough to tell the shapes apart in print.
 pub(crate) const RADIUS_PX: f64 = 3.6;
@@ -44,21 +44,32 @@ impl Marker {
     }
 }
 
-/// A marker around a place, with a white rim.
-pub(crate) fn draw(
-    drawing: &mut Drawing,
-    (x, y): Point,
-    marker: Marker,
-    radius_px: f64,
-    colour: Colour,
-) {
-    for (radius, colour) in [(radius_px + RIM_PX, WHITE), (radius_px, colour)] {
-        let corners: Vec<Point> =
-            marker.corners().iter().map(|(dx, dy)| (x + dx * radius, y + dy * radius)).collect();
-        if corners.is_empty() {
-            drawing.disc((x, y), radius, colour);
-        } else {
-            drawing.area(corners, colour);
-        }
+/// Share of the radius that is hollow when the shapes come again, and that of the dot inside the
+/// hole when they come a third time.
+const HOLE: f64 = 0.55;
+const DOT: f64 = 0.25;
+
+/// A marker around a place, with a white rim. Where the shapes come again it is hollow, and from
+/// the third time on it has a dot inside.
+pub(crate) fn draw(drawing: &mut Drawing, at: Point, look: Look, radius_px: f64, colour: Colour) {
+    let mut rings = vec![(radius_px + RIM_PX, WHITE), (radius_px, colour)];
+    if look.turn() > 0 {
+        rings.push((radius_px * HOLE, WHITE));
+    }
+    if look.turn() > 1 {
+        rings.push((radius_px * DOT, colour));
+    }
+    for (radius, colour) in rings {
+        shape(drawing, at, look.marker(), radius, colour);
+    }
+}
+
+fn shape(drawing: &mut Drawing, (x, y): Point, marker: Marker, radius_px: f64, colour: Colour) {
+    let corner = |(dx, dy): &Point| (x + dx * radius_px, y + dy * radius_px);
+    let corners: Vec<Point> = marker.corners().iter().map(corner).collect();
+    if corners.is_empty() {
+        drawing.disc((x, y), radius_px, colour);
+    } else {
+        drawing.area(corners, colour);
     }
 }

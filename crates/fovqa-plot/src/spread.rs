@@ -158,7 +158,7 @@ impl Slot<'_> {
         let step = 2.0 * wide / values.len() as f64;
         for (i, value) in values.iter().enumerate() {
             let at: Point = (self.x - wide + (i as f64 + 0.5) * step, (self.y)(*value));
-            marker::draw(drawing, at, self.look.marker(), POINT_PX, self.look.colour());
+            marker::draw(drawing, at, self.look, POINT_PX, self.look.colour());
         }
     }
 
