@@ -49,3 +49,23 @@ impl<'a> Warnings<'a> {
         }
     }
 }
+
+/// How far a run is.
+pub(crate) struct Progress<'a> {
+    events: &'a dyn Events,
+    done: usize,
+    total: usize,
+}
+
+impl<'a> Progress<'a> {
+    pub(crate) fn new(events: &'a dyn Events, total: usize) -> Self {
+        events.progress(0, total);
+        Self { events, done: 0, total }
+    }
+
+    /// So many more frames are through.
+    pub(crate) fn step(&mut self, frames: usize) {
+        self.done += frames;
+        self.events.progress(self.done, self.total);
+    }
+}

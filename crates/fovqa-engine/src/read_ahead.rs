@@ -1,6 +1,7 @@
 //! Loading the next items while this one is worked on.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
@@ -9,13 +10,14 @@ const WAITING_BYTES: usize = 256 << 20;
 
 /// Loads items on up to `loaders` threads and hands them over in order. `size` tells the bytes of
 /// a loaded item: as many are loaded ahead as fit into 256 MiB, by the largest so far, but always
-/// one. Memory is that and the item `consume` works on, however many items there are.
-pub fn read_ahead<I: Sync, T: Send>(
+/// one. Memory is that and the item `consume` works on, however many items there are. When `consume`
+/// breaks off, nothing more is loaded.
+pub(crate) fn read_ahead<I: Sync, T: Send>(
     items: &[I],
     loaders: usize,
     load: impl Fn(&I) -> T + Sync,
     size: impl Fn(&T) -> usize + Sync,
-    mut consume: impl FnMut(usize, T),
+    mut consume: impl FnMut(usize, T) -> ControlFlow<()>,
 ) {
     let queue = Queue {
         state: Mutex::new(State { next: 0, handed_over: 0, largest: 0, ready: BTreeMap::new() }),
@@ -39,7 +41,9 @@ pub fn read_ahead<I: Sync, T: Send>(
         let abandon = Abandon(&queue);
         for index in 0..items.len() {
             let Some(item) = queue.take(index) else { break };
-            consume(index, item);
+            if consume(index, item).is_break() {
+                break;
+            }
         }
         drop(abandon);
     });
@@ -156,6 +160,7 @@ mod tests {
             |index, (item, _counted)| {
                 assert_eq!(index, item);
                 seen.push(item);
+                ControlFlow::Continue(())
             },
         );
         assert_eq!(seen, items);
@@ -189,12 +194,34 @@ mod tests {
                     4,
                     |_| assert!(!load, "on purpose"),
                     |()| 1,
-                    |index, ()| assert!(load || index < 3, "on purpose"),
+                    |index, ()| {
+                        assert!(load || index < 3, "on purpose");
+                        ControlFlow::Continue(())
+                    },
                 );
             })
             .is_err()
         };
         assert!(panics(true) && panics(false));
+    }
+
+    #[test]
+    fn breaking_off_stops_the_loading() {
+        let loaded = AtomicUsize::new(0);
+        let items = [0; 1000];
+        let mut consumed = 0;
+        read_ahead(
+            &items,
+            3,
+            |_| loaded.fetch_add(1, Ordering::SeqCst),
+            |_| 1,
+            |index, _| {
+                consumed += 1;
+                if index == 4 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            },
+        );
+        assert_eq!(consumed, 5);
+        assert!(loaded.load(Ordering::SeqCst) <= 5 + 3);
     }
 
     #[test]

@@ -2,18 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_config::{Eye, EyeView, Gaze, Plan, Scene};
-use fovqa_io::{FileId, frame_size, read_mask};
+use fovqa_config::{Eye, Plan};
 use fovqa_results::{Comparison, Failure, FrameResult, Input, RunResults, ScoreReport, both_eyes};
-use fovqa_vision::BandEdges;
 
 use crate::error::EngineError;
-use crate::events::{Events, Warnings};
+use crate::events::{Events, Progress, Warnings};
 use crate::find::{Found, FoundView, Problem};
-use crate::load::{Loaded, Loader, Step};
-use crate::read_ahead::read_ahead;
-use crate::setup::farthest_deg;
-use crate::view::ViewRun;
+use crate::inputs::Inputs;
+use crate::scoring::{Scoring, TakenDown, scene_bands};
 
 /// A frame of a comparison, scored or not, as soon as it is finished.
 #[derive(Debug)]
@@ -55,8 +51,7 @@ pub fn run(
     check(plan)?;
     let steps = |view: &FoundView| view.frames.iter().map(|f| f.tests.len()).sum::<usize>();
     let total = found.views.iter().map(steps).sum();
-    let mut progress = Progress { events, done: 0, total };
-    events.progress(0, total);
+    let mut progress = Progress::new(events, total);
     let mut warnings = Warnings::new(events);
     let mut reports: BTreeMap<Place, ScoreReport> = BTreeMap::new();
     for problem in &found.problems {
@@ -65,30 +60,25 @@ pub fn run(
             reports.entry(place).or_default().failures.push(failure.clone());
         }
     }
-    let mut inputs = BTreeMap::new();
+    let mut inputs = Inputs::default();
     for view in &found.views {
         let scene = &plan.scenes[view.scene];
-        let mut scoring = Scoring {
-            plan,
-            scene,
-            view,
-            eye: &scene.eyes[view.eye],
-            bands: scene_bands(scene, found, view.scene),
+        let bands = scene_bands(scene, found, view.scene);
+        let scoring = Scoring { plan, scene, view, bands: bands.as_ref() };
+        let mut taken_down = TakenDown {
+            reports: &mut reports,
             inputs: &mut inputs,
             warnings: &mut warnings,
+            progress: &mut progress,
+            record,
         };
-        scoring.run(&mut reports, &mut progress, record)?;
+        scoring.run(&mut taken_down)?;
     }
-    let inputs = inputs.into_iter().map(|(path, id)| input(path, id)).collect();
-    Ok(RunResults { comparisons: in_order(plan, events, reports), inputs })
-}
-
-fn input(path: String, FileId { bytes, sha256 }: FileId) -> Input {
-    Input { path, bytes, sha256 }
+    Ok(RunResults { comparisons: in_order(plan, events, reports), inputs: inputs.all() })
 }
 
 /// Indices of a scene, a method and an eye's view.
-type Place = (usize, usize, usize);
+pub(crate) type Place = (usize, usize, usize);
 
 /// The comparisons a problem is of.
 fn places(plan: &Plan, problem: &Problem) -> Vec<Place> {
@@ -100,200 +90,8 @@ fn places(plan: &Plan, problem: &Problem) -> Vec<Place> {
         .collect()
 }
 
-fn whole(message: String, help: String) -> Failure {
+pub(crate) fn whole(message: String, help: String) -> Failure {
     Failure { frame: None, reference: String::new(), test: String::new(), message, help }
-}
-
-struct Progress<'a> {
-    events: &'a dyn Events,
-    done: usize,
-    total: usize,
-}
-
-impl Progress<'_> {
-    fn step(&mut self) {
-        self.done += 1;
-        self.events.progress(self.done, self.total);
-    }
-}
-
-/// One view's share of a run.
-struct Scoring<'a, 'w, 'e> {
-    plan: &'a Plan,
-    scene: &'a Scene,
-    view: &'a FoundView,
-    eye: &'a EyeView,
-    bands: Option<BandEdges>,
-    inputs: &'w mut BTreeMap<String, FileId>,
-    warnings: &'w mut Warnings<'e>,
-}
-
-impl Scoring<'_, '_, '_> {
-    fn run(
-        &mut self,
-        reports: &mut BTreeMap<Place, ScoreReport>,
-        progress: &mut Progress<'_>,
-        record: &mut Record<'_>,
-    ) -> Result<(), EngineError> {
-        let (plan, eye) = (self.plan, self.eye);
-        self.warnings.enter(self.place(), self.view.frames.len());
-        let (metrics, left_out) = crate::settle::metrics(plan, &eye.settings)?;
-        for metric in left_out {
-            let label = metric.info().label;
-            let message = format!("{label} is left out: it needs {{view}}");
-            self.warnings.once_a_view(metric.key(), &message);
-        }
-        if self.view.passed_over > 0 {
-            let alone = self.view.passed_over;
-            let message = format!("{alone} frames without a partner are passed over");
-            self.warnings.once_a_view("alone", &message);
-        }
-        let mask = match eye.settings.mask.as_deref() {
-            None => None,
-            Some(path) => match read_mask(path, &eye.settings.read) {
-                Ok(mask) => Some(mask),
-                Err(error) => {
-                    let error =
-                        EngineError::Mask(error).with_paths(&|path| plan.shown(path).into());
-                    for &(method, _) in &eye.tests {
-                        let report = reports.entry(self.comparison(method)).or_default();
-                        report.failures.push(whole(error.to_string(), error.help()));
-                    }
-                    return Ok(());
-                }
-            },
-        };
-        for &(method, _) in &eye.tests {
-            let report = reports.entry(self.comparison(method)).or_default();
-            report.metrics.clone_from(&metrics);
-            let held = |trace: &Vec<fovqa_vision::GazeAt>| trace.iter().filter(|g| g.held).count();
-            report.gaze_held = self.view.trace.as_ref().map(held);
-        }
-        let bands = self.bands.take();
-        let mut beside = self.inputs_beside();
-        let mut run = ViewRun::new(plan, eye, self.view, mask, metrics, bands.as_ref());
-        let steps: Vec<Step<'_>> = steps(self.view);
-        let loader = Loader { plan, settings: &eye.settings };
-        let mut stopped = Ok(());
-        read_ahead(
-            &steps,
-            rayon::current_num_threads(),
-            |step| loader.load(step),
-            Loaded::bytes,
-            |index, loaded| {
-                if stopped.is_err() {
-                    return;
-                }
-                let step = &steps[index];
-                let mut inputs = std::mem::take(&mut beside);
-                inputs.extend(self.new_inputs(&loaded));
-                let result = run.step(step, loaded, self.warnings);
-                let finished = Finished {
-                    scene: &self.scene.name,
-                    method: &plan.methods[step.method],
-                    eye: eye.eye,
-                    inputs,
-                    result: result.as_ref(),
-                };
-                stopped = record(finished);
-                let report = reports.entry(self.comparison(step.method)).or_default();
-                match result {
-                    Ok(frame) => report.frames.push(frame),
-                    Err(failure) => report.failures.push(failure),
-                }
-                progress.step();
-            },
-        );
-        stopped?;
-        for &(method, _) in &eye.tests {
-            let report = reports.entry(self.comparison(method)).or_default();
-            if let Some((view, metrics)) = run.settled() {
-                report.view = view;
-                report.metrics = metrics;
-            }
-        }
-        Ok(())
-    }
-
-    /// What is read once for all frames: mask and gaze trace.
-    fn inputs_beside(&mut self) -> Vec<Input> {
-        let settings = &self.eye.settings;
-        let trace = match &settings.gaze {
-            Gaze::Trace { path, .. } => Some(path),
-            Gaze::Centre | Gaze::Point(_) => None,
-        };
-        let files = [settings.mask.as_ref(), trace].into_iter().flatten();
-        let mut new = Vec::new();
-        for path in files.filter(|_| self.plan.hash_inputs) {
-            let shown = self.plan.shown(path);
-            // It has been read: what has become of it since is said by what it says now.
-            if let Ok(id) = FileId::of_file(path)
-                && !self.inputs.contains_key(&shown)
-            {
-                self.inputs.insert(shown.clone(), id.clone());
-                new.push(input(shown, id));
-            }
-        }
-        new
-    }
-
-    /// The files of a step that have not been read before.
-    fn new_inputs(&mut self, loaded: &Loaded) -> Vec<Input> {
-        let mut new = Vec::new();
-        for side in loaded.reference.iter().chain([&loaded.test]).flatten() {
-            if let Some(id) = &side.id
-                && !self.inputs.contains_key(&side.file)
-            {
-                self.inputs.insert(side.file.clone(), id.clone());
-                new.push(input(side.file.clone(), id.clone()));
-            }
-        }
-        new
-    }
-
-    fn comparison(&self, method: usize) -> Place {
-        (self.view.scene, method, self.view.eye)
-    }
-
-    /// How warnings name the view.
-    fn place(&self) -> String {
-        match self.eye.eye {
-            None => self.scene.name.clone(),
-            Some(eye) => format!("{}, {} eye", self.scene.name, eye.name()),
-        }
-    }
-}
-
-fn steps(view: &FoundView) -> Vec<Step<'_>> {
-    let frames = view.frames.iter().enumerate();
-    let steps = frames.flat_map(|(index, frame)| {
-        frame.tests.iter().enumerate().map(move |(nth, (method, test))| Step {
-            frame: index,
-            reference: (nth == 0).then_some(&*frame.reference),
-            method: *method,
-            test,
-        })
-    });
-    steps.collect()
-}
-
-/// The bands of a scene with two eyes and none given: one list, as far as either eye sees.
-fn scene_bands(scene: &Scene, found: &Found, index: usize) -> Option<BandEdges> {
-    let default = |view: &EyeView| view.settings.view.is_some() && view.settings.bands.is_none();
-    if scene.eyes.len() < 2 || !scene.eyes.iter().all(default) {
-        return None;
-    }
-    let farthest = found.views.iter().filter(|view| view.scene == index).filter_map(|view| {
-        let settings = &scene.eyes[view.eye].settings;
-        let size = |frame: &crate::find::FoundFrame| frame_size(&frame.reference).ok();
-        let (w, h) = match settings.crop {
-            Some(crop) => (crop.width, crop.height),
-            None => view.frames.iter().find_map(size)?,
-        };
-        let resolved = settings.view.as_ref()?.resolve(w, h).ok()?;
-        Some(farthest_deg(settings, view.trace.as_deref(), &resolved.view))
-    });
-    farthest.reduce(f64::max).map(BandEdges::default_up_to)
 }
 
 /// Comparisons in the order of scenes, methods and eyes, with both eyes behind the two.
