@@ -110,7 +110,7 @@ fn figures_of_two_eyes_are_of_both() {
         "e.toml",
         format!(
             "{HEAD}[[scene]]\nname = \"s\"\nreference = {{ left = \"room/gt\", right = \"hall/gt\" }}\n\
-             [[method]]\nname = \"A\"\ntest = {{ left = \"room/a\", right = \"hall/a\" }}\n"
+             [[method]]\nname = \"A\"\ntest = {{ left = \"room/a\", right = \"hall/b\" }}\n"
         ),
     );
     folder.run(&["run", "e.toml"]).ok();

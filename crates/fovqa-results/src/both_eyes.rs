@@ -90,6 +90,7 @@ fn pooled_score(metric: Metric, mse: Option<f64>, fmse: Option<f64>, l: f64, r: 
 #[allow(clippy::float_cmp, reason = "fractions of two are exact")]
 mod tests {
     use super::*;
+    use crate::report::ViewResult;
 
     fn scores(mse: f64, ssim: f64, pixels: u64) -> PairScores {
         let scores = BTreeMap::from([
@@ -145,5 +146,17 @@ mod tests {
         };
         let both = both_eyes(&report(&[1, 2, 4]), &report(&[2, 3, 4]));
         assert_eq!(both.frames.iter().map(|f| f.frame).collect::<Vec<_>>(), [2, 4]);
+        assert_eq!(both.frames[0].scores.bands.len(), 2);
+        let seen = |to_deg| ViewResult {
+            size: [1, 1],
+            focal_px: [1.0; 2],
+            gaze_px: [0.5; 2],
+            eccentricity: "angular",
+            bands_deg: vec![(0.0, 5.0), (5.0, to_deg)],
+        };
+        let [left, right] =
+            [10.0, 20.0].map(|to| ScoreReport { view: Some(seen(to)), ..report(&[1]) });
+        let both = both_eyes(&left, &right);
+        assert!(both.view.is_none() && both.frames[0].scores.bands.is_empty());
     }
 }
