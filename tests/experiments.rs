@@ -297,6 +297,10 @@ fn names_may_be_anything_that_is_a_name() {
         "{}",
         read("table.md")
     );
+    assert!(
+        read("table.tex")
+            .contains("A, ''quoted'' \\textbar{} \\textless{}b\\textgreater{} \\& *\\_`")
+    );
     assert!(read("index.html").contains("A, &quot;quoted&quot; | &lt;b&gt; &amp; *_`"));
     assert!(read("plots/bars-psnr.svg").contains("&lt;b&gt; &amp;"));
     assert!(folder.path("reports/e/plots/profile-psnr-zimmer-β-1.png").exists());
@@ -356,6 +360,10 @@ fn the_table_marks_the_best() {
         }
     }
     let text = fs::read_to_string(folder.path("reports/e/table.md")).unwrap();
+    let latex = fs::read_to_string(folder.path("reports/e/table.tex")).unwrap();
+    let row = latex.lines().find(|line| line.starts_with("room")).unwrap();
+    assert!(row.contains(&format!(" & \\textbf{{{:.2}}} & ", mean("room", "A", "psnr"))), "{row}");
+    assert_eq!(row.split(" & ").count(), 1 + 4 * 2, "four metrics of two methods: {row}");
     let room = text.lines().find(|line| line.starts_with("| room")).unwrap();
     let bold = format!("**{:.2}**", mean("room", "A", "psnr"));
     assert!(room.contains(&bold) && room.matches("**").count() == 8, "{room}");

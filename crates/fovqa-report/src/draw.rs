@@ -86,7 +86,9 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
         }
     }
 
-    let table_files = tables.iter().flat_map(|(n, _)| [format!("{n}.md"), format!("{n}.csv")]);
+    let table_files = tables
+        .iter()
+        .flat_map(|(name, _)| ["md", "csv", "tex"].map(|ending| format!("{name}.{ending}")));
     let figure_files = drawn.iter().flat_map(|figure| {
         ["svg", "png", "csv"].map(|ending| format!("{PLOTS}/{}.{ending}", figure.name))
     });
@@ -98,7 +100,9 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     write_manifest(folder, either.collect())?;
 
     for (name, table) in &tables {
-        for (ending, text) in [("md", table.markdown()), ("csv", table.csv())] {
+        for (ending, text) in
+            [("md", table.markdown()), ("csv", table.csv()), ("tex", table.latex())]
+        {
             write_whole(&folder.join(format!("{name}.{ending}")), text.as_bytes())?;
         }
     }
@@ -168,7 +172,7 @@ fn is_drawn(file: &str) -> bool {
         Some(_) => false,
         None => {
             file == "index.html"
-                || (file.starts_with("table") && plain(file) && ends(file, &["md", "csv"]))
+                || (file.starts_with("table") && plain(file) && ends(file, &["md", "csv", "tex"]))
         }
     }
 }
@@ -202,7 +206,7 @@ mod tests {
 
     #[test]
     fn a_list_of_files_takes_away_nothing_but_drawings() {
-        for ours in ["index.html", "table.md", "table-2.csv", "plots/bars-psnr.png"] {
+        for ours in ["index.html", "table.md", "table-2.csv", "table.tex", "plots/bars-psnr.png"] {
             assert!(is_drawn(ours), "{ours}");
         }
         for other in [

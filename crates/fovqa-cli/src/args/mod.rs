@@ -24,8 +24,8 @@ use clap::{Parser, Subcommand, ValueEnum};
     arg_required_else_help = true
 )]
 #[command(
-    after_help = "Exit codes: 0 done; 2 the command line or the experiment file is wrong; 3 an input is missing, unreadable or does not\n\
-fit, or the output cannot be written; 70 a bug in fovqa; 130 interrupted."
+    after_help = "Exit codes: 0 done; 2 the command line or the experiment file is wrong; 3 an input is missing,\n\
+unreadable or does not fit, or the output cannot be written; 70 a bug in fovqa; 130 interrupted."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]

@@ -3,6 +3,7 @@
 
 mod csv;
 mod html;
+mod latex;
 mod markdown;
 mod terminal;
 
