@@ -4,7 +4,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use fovqa_results::{RESULTS_CSV, RUN_JSON, SUMMARY_JSON};
+use fovqa_results::{REPORT_JSON, RESULTS_CSV, RUN_JSON, SUMMARY_JSON};
 use thiserror::Error;
 
 use crate::journal::JOURNAL;
@@ -12,11 +12,20 @@ use crate::journal::JOURNAL;
 /// Its lock is what counts, not that it is there.
 const LOCK: &str = ".fovqa.lock";
 
-/// What a run writes beside what it draws.
-const OURS: [&str; 7] =
-    [RESULTS_CSV, SUMMARY_JSON, RUN_JSON, JOURNAL, "report.json", "index.html", "table.csv"];
+/// What a run writes, and what is drawn of it at its top.
+const OURS: [&str; 9] = [
+    RESULTS_CSV,
+    SUMMARY_JSON,
+    RUN_JSON,
+    JOURNAL,
+    REPORT_JSON,
+    "index.html",
+    "table.csv",
+    "table.md",
+    "table.tex",
+];
 
-/// Whether a folder has the results of a run, or what one that was killed has left.
+/// Whether a folder has the results of a run, or what one that was killed, or had no room, has left.
 fn is_ours(path: &Path) -> bool {
     let begins = |file: &str, schema: &str| {
         let mut head = [0; 256];
@@ -24,7 +33,14 @@ fn is_ours(path: &Path) -> bool {
         let head = String::from_utf8_lossy(&head[..read.unwrap_or(0)]).into_owned();
         head.contains(&format!("\"{schema}/"))
     };
-    begins(RUN_JSON, "fovqa.run") || begins(JOURNAL, "fovqa.journal")
+    begins(RUN_JSON, "fovqa.run")
+        || begins(JOURNAL, "fovqa.journal")
+        || begins(REPORT_JSON, "fovqa.report")
+}
+
+/// Whether there is something to lose. (A full disk leaves empty files.)
+fn has_content(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|file| file.is_dir() || file.len() > 0)
 }
 
 /// A folder of results, locked for as long as this lives.
@@ -80,7 +96,7 @@ impl ResultsFolder {
         let failed = |error| FolderError::Io { path: path.to_owned(), error };
         fs::create_dir_all(path).map_err(failed)?;
         if !is_ours(path)
-            && let Some(file) = OURS.into_iter().find(|file| path.join(file).exists())
+            && let Some(file) = OURS.into_iter().find(|file| has_content(&path.join(file)))
         {
             return Err(FolderError::Foreign { path: path.to_owned(), file });
         }
@@ -104,12 +120,13 @@ impl ResultsFolder {
         &self.path
     }
 
-    /// Takes away the results of an earlier run, so that they cannot be taken for this one's.
+    /// Takes away the results of an earlier run, so that they cannot be taken for this one's. Its
+    /// journal stays until another is begun: the folder is ours all the while.
     ///
     /// # Errors
     /// When the system refuses.
     pub fn clear(&self) -> Result<(), FolderError> {
-        for file in [JOURNAL, RUN_JSON, SUMMARY_JSON, RESULTS_CSV] {
+        for file in [RESULTS_CSV, SUMMARY_JSON, RUN_JSON] {
             match fs::remove_file(self.path.join(file)) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {
                     return Err(FolderError::Io { path: self.path.clone(), error });
@@ -150,5 +167,13 @@ mod tests {
         let ours = ResultsFolder::open(folder.path()).unwrap();
         ours.clear().unwrap();
         assert!(!folder.path().join(RESULTS_CSV).exists());
+        drop(ours);
+        // What a full disk leaves is nobody's loss.
+        fs::write(folder.path().join(JOURNAL), "").unwrap();
+        drop(ResultsFolder::open(folder.path()).unwrap());
+        fs::write(folder.path().join("table.md"), "mine").unwrap();
+        assert!(ResultsFolder::open(folder.path()).is_err());
+        fs::write(folder.path().join(REPORT_JSON), "{\n  \"schema\": \"fovqa.report/1\"").unwrap();
+        ResultsFolder::open(folder.path()).unwrap();
     }
 }

@@ -8,8 +8,8 @@ use std::path::Path;
 use fovqa_config::PlotKind;
 use fovqa_plot::{PlotError, png};
 use fovqa_results::{
-    FileError, RUN_JSON, RUN_SCHEMA, RunRecord, SUMMARY_JSON, SUMMARY_SCHEMA, SummaryRecord,
-    read_json_file, write_json_file, write_whole,
+    FileError, REPORT_JSON, RUN_JSON, RUN_SCHEMA, RunRecord, SUMMARY_JSON, SUMMARY_SCHEMA,
+    SummaryRecord, read_json_file, write_json_file, write_whole,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -20,11 +20,9 @@ use crate::figures::{NamedFigure, Source, default_plots, figures};
 use crate::frame_values::FrameValues;
 use crate::page::{PageFigure, page};
 
-/// Which files were drawn, so that another drawing takes away what it does not draw again.
-const MANIFEST: &str = "report.json";
 /// Folder of the figures.
 const PLOTS: &str = "plots";
-/// Name and version of the manifest's format.
+/// Name and version of the format of [`REPORT_JSON`].
 const SCHEMA: &str = "fovqa.report/1";
 /// Pixels of a PNG per pixel of the SVG: 288 dots an inch at half a page's width.
 const PNG_SCALE: f32 = 2.0;
@@ -128,7 +126,7 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
 
 fn write_manifest(folder: &Path, files: Vec<String>) -> Result<(), FileError> {
     let manifest = Manifest { schema: SCHEMA.to_owned(), files };
-    write_json_file(&folder.join(MANIFEST), &manifest)
+    write_json_file(&folder.join(REPORT_JSON), &manifest)
 }
 
 /// Takes away what was drawn of an earlier run.
@@ -137,7 +135,7 @@ pub fn clear(folder: &Path) {
     if !old.is_empty() {
         remove(folder, old.iter());
         // Where it cannot be taken away, it tells nothing that is not so.
-        let _ = fs::remove_file(folder.join(MANIFEST));
+        let _ = fs::remove_file(folder.join(REPORT_JSON));
     }
 }
 
@@ -156,7 +154,7 @@ fn write_figure(plots: &Path, figure: &NamedFigure) -> Result<(), ReportError> {
 
 /// The files of the last manifest. Only what a drawing could have written: a list can be anybody's.
 fn drawn_before(folder: &Path) -> Vec<String> {
-    let manifest = read_json_file(&folder.join(MANIFEST), SCHEMA, "a list of files");
+    let manifest = read_json_file(&folder.join(REPORT_JSON), SCHEMA, "a list of files");
     let Manifest { mut files, .. } = manifest.unwrap_or_default();
     files.retain(|file| is_drawn(file));
     files

@@ -15,6 +15,8 @@ pub const RESULTS_CSV: &str = "results.csv";
 pub const SUMMARY_JSON: &str = "summary.json";
 /// What the run was of.
 pub const RUN_JSON: &str = "run.json";
+/// Which files were drawn, so that another drawing takes away what it does not draw again.
+pub const REPORT_JSON: &str = "report.json";
 
 /// A file of a run that cannot be written, or read again.
 #[derive(Debug, Error)]

@@ -10,7 +10,8 @@ mod summary;
 pub use both_eyes::both_eyes;
 pub use csv_table::{COLUMNS, ERROR, write_csv, write_results_csv};
 pub use files::{
-    FileError, RESULTS_CSV, RUN_JSON, SUMMARY_JSON, read_json_file, write_json_file, write_whole,
+    FileError, REPORT_JSON, RESULTS_CSV, RUN_JSON, SUMMARY_JSON, read_json_file, write_json_file,
+    write_whole,
 };
 pub use json::{
     BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, RUN_SCHEMA, RunRecord,
