@@ -250,7 +250,13 @@ fn a_new_drawing_takes_away_what_it_does_not_draw() {
     assert!(run.contains("\"plots\": []"));
     folder.write("out/run.json", run.replace("\"plots\": []", plots));
     folder.write("out/plots/mine.svg", "not ours");
+    // Nor what a list of drawn files names that no drawing could have written.
+    folder.write("out/thesis.tex", "not ours");
+    let list = fs::read_to_string(folder.path("out/report.json")).unwrap();
+    let longer = list.replace("\"index.html\"", "\"index.html\", \"thesis.tex\", \"../e.toml\"");
+    folder.write("out/report.json", longer);
     folder.run(&["report", "out"]).ok();
+    assert!(folder.path("out/thesis.tex").exists() && folder.path("e.toml").exists());
     let plots: Vec<String> = bytes(&folder.path("out/plots")).into_keys().collect();
     assert_eq!(plots, ["bars-ssim.csv", "bars-ssim.png", "bars-ssim.svg", "mine.svg"]);
     assert!(!folder.path("out/table.md").exists());
