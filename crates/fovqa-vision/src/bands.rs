@@ -89,7 +89,8 @@ pub struct Run {
     pub band: u16,
 }
 
-/// Which pixel falls into which band: for each row its runs, from left to right.
+/// Which pixel (or block of pixels) falls into which band: for each row its runs, from left to
+/// right.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BandMap {
     bands: usize,
@@ -100,13 +101,26 @@ pub struct BandMap {
 impl BandMap {
     /// The bands of every pixel centre of a view, decided in f64.
     pub fn new(eccentricity: &Eccentricity, edges: &BandEdges) -> Self {
+        let (width, height) = (eccentricity.view().width, eccentricity.view().height);
+        Self::of_blocks(eccentricity, edges, 1, [width, height])
+    }
+
+    /// The bands of square blocks of `side` pixels, `count` of them across and down from the
+    /// top-left corner, each by its centre.
+    pub fn of_blocks(
+        eccentricity: &Eccentricity,
+        edges: &BandEdges,
+        side: usize,
+        count: [usize; 2],
+    ) -> Self {
         let decide = Decide {
             eccentricity,
             keys: edges.0.iter().map(|&deg| eccentricity.key_of_deg(deg)).collect(),
             edges_deg: &edges.0,
+            side_px: side as f64,
         };
-        let (width, height) = (eccentricity.view().width, eccentricity.view().height);
-        Self::from_rows(edges.count(), height, |y, runs| decide.row(y, width, runs))
+        let [columns, rows] = count;
+        Self::from_rows(edges.count(), rows, |y, runs| decide.row(y, columns, runs))
     }
 
     /// No bands at all: every pixel outside.
@@ -165,15 +179,21 @@ struct Decide<'a> {
     eccentricity: &'a Eccentricity,
     keys: Vec<f64>,
     edges_deg: &'a [f64],
+    /// Side of what is decided on: 1 for pixels.
+    side_px: f64,
 }
 
 impl Decide<'_> {
-    /// How many edges lie at or below the eccentricity of a pixel's centre.
+    fn centre_px(&self, index: usize) -> f64 {
+        (index as f64 + 0.5) * self.side_px
+    }
+
+    /// How many edges lie at or below the eccentricity of the centre of a pixel, or block.
     fn edges_below(&self, x: usize, y: usize) -> usize {
         /// Well above the rounding of a key, so that a pixel nearer than this to an edge is
         /// decided by its eccentricity proper.
         const NEAR: f64 = 1e-12;
-        let (x_px, y_px) = (x as f64 + 0.5, y as f64 + 0.5);
+        let (x_px, y_px) = (self.centre_px(x), self.centre_px(y));
         let key = self.eccentricity.key(x_px, y_px);
         let below = self.keys.partition_point(|edge| *edge <= key);
         let is_near = |edge: Option<&f64>| edge.is_some_and(|e| (e - key).abs() <= NEAR * key);
@@ -189,7 +209,7 @@ impl Decide<'_> {
     /// the same band at both ends has no other in between.
     fn row(&self, y: usize, width: usize, runs: &mut Vec<Run>) {
         let first = runs.len();
-        let turn = self.eccentricity.turning_x_px(y as f64 + 0.5) - 0.5;
+        let turn = self.eccentricity.turning_x_px(self.centre_px(y)) / self.side_px - 0.5;
         // Two pixels to each side of the turn are looked at one by one: its own rounding.
         let turn =
             if turn.is_finite() { turn.floor().clamp(-8.0, width as f64 + 8.0) } else { -8.0 };
@@ -280,6 +300,32 @@ mod tests {
                 prop_assert!(row.windows(2).all(|p| p[0].end < p[1].end && p[0].band != p[1].band));
             }
             prop_assert_eq!(map.pixels(), counted);
+        }
+
+        #[test]
+        fn a_block_is_in_the_band_of_its_centre(
+            fov in 20.0..172.0f64, gx in -60.0..160.0f64, gy in -60.0..130.0f64,
+            planar in any::<bool>(), step in 0.7..40.0f64, side in 2usize..20,
+        ) {
+            let spec = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(fov) };
+            let view = spec.resolve(97, 71).unwrap().view;
+            let kind = if planar { EccentricityKind::Planar } else { EccentricityKind::Angular };
+            let e = Eccentricity::new(view, [gx, gy], kind);
+            let edges: Vec<f64> = (0..30).map(|i| f64::from(i) * step).take_while(|e| *e <= 180.0).collect();
+            let edges = BandEdges::new(edges).unwrap();
+            let (columns, rows) = (97 / side, 71 / side);
+            let map = BandMap::of_blocks(&e, &edges, side, [columns, rows]);
+            prop_assert_eq!(map.rows(), rows);
+            for j in 0..rows {
+                prop_assert_eq!(map.row(j).last().unwrap().end as usize, columns);
+                for i in 0..columns {
+                    let centre = |index: usize| (index as f64 + 0.5) * side as f64;
+                    let deg = e.at_deg(centre(i), centre(j));
+                    let want = edges.iter().position(|(from, to)| (from..to).contains(&deg));
+                    let run = map.row(j).iter().find(|run| i < run.end as usize).unwrap();
+                    prop_assert_eq!(usize::from(run.band), want.unwrap_or(edges.count()));
+                }
+            }
         }
     }
 
