@@ -11,8 +11,10 @@
 mod blocks;
 mod chromaticities;
 mod frame;
+mod luma;
 mod mask;
 mod pair;
+mod side;
 mod signal;
 mod tonemap;
 pub mod transfer;
@@ -20,6 +22,7 @@ pub mod transfer;
 pub use blocks::{BLOCK_ROWS, map_row_blocks};
 pub use chromaticities::Chromaticities;
 pub use frame::{BadPixel, Channels, Crop, CropError, Frame, FrameError, Samples};
+pub use luma::{LumaKind, LumaScratch, LumaSignal};
 pub use mask::Mask;
 pub use pair::{PairSignal, PairTile, Part};
 pub use signal::{Luma, SignalChannels, SignalParams, SignalTables, Transfer};

@@ -52,6 +52,18 @@ impl Mask {
         Mask { width, height, valid }
     }
 
+    /// The blocks of 2x2 pixels that count wholly; an odd last column or row is dropped.
+    #[must_use]
+    pub fn halved(&self) -> Mask {
+        let (width, height) = (self.width / 2, self.height / 2);
+        let rows = (0..height).flat_map(|y| {
+            let (top, bottom) = (self.row(2 * y), self.row(2 * y + 1));
+            let pairs = top.chunks_exact(2).zip(bottom.chunks_exact(2));
+            pairs.map(|(a, b)| a[0] && a[1] && b[0] && b[1])
+        });
+        Mask { width, height, valid: rows.collect() }
+    }
+
     /// The centres of windows of `2 radius + 1` pixels a side in which every pixel counts.
     /// Windows that do not fit into the picture are out as well.
     #[must_use]
@@ -82,6 +94,15 @@ impl Mask {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_bad_pixel_takes_out_its_block() {
+        let mut valid = vec![true; 7 * 5];
+        valid[3 * 7 + 4] = false;
+        let half = Mask::new(7, 5, valid).unwrap().halved();
+        assert_eq!((half.width(), half.height(), half.left_out()), (3, 2, 1));
+        assert!(!half.row(1)[2]);
+    }
 
     #[test]
     fn one_bad_pixel_takes_out_every_window_that_holds_it() {

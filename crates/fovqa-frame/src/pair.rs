@@ -9,7 +9,8 @@ use std::ops::Range;
 use multiversion::multiversion;
 
 use crate::frame::{Channels, Frame};
-use crate::signal::{Luma, SignalChannels, SignalTables, Source};
+use crate::side::Side;
+use crate::signal::{Luma, SignalChannels, SignalTables};
 
 /// Two frames of one size, ready to be read row by row.
 #[derive(Debug)]
@@ -21,12 +22,6 @@ pub struct PairSignal<'a> {
     planes: usize,
     luma: bool,
     peak: f32,
-}
-
-#[derive(Debug)]
-struct Side<'a> {
-    frame: &'a Frame,
-    source: Source<'a>,
 }
 
 /// A tile of a pair: some rows of some columns, for each plane the centred sum `a + b - peak`
@@ -111,7 +106,7 @@ impl<'a> PairSignal<'a> {
         };
         let side = |frame: &'a Frame| {
             let codes = if exact { SignalTables::codes(frame, peak) } else { None };
-            Side { frame, source: codes.unwrap_or_else(|| tables.unit(frame)) }
+            Side::new(frame, codes.unwrap_or_else(|| tables.unit(frame)))
         };
         let gray = [reference, test].iter().all(|f| f.channels() == Channels::Gray);
         let luma = tables.params().channels == SignalChannels::Luma;
@@ -165,93 +160,6 @@ impl<'a> PairSignal<'a> {
             // Of sum and difference rather than of the pictures: an exact difference stays small.
             weigh(sums);
             weigh(differences);
-        }
-    }
-}
-
-impl Side<'_> {
-    /// Reads a stretch of a row into one plane, or three.
-    fn fill(&self, y: usize, xs: Range<usize>, planes: &mut [&mut [f32]]) {
-        let from = self.frame.row_start(y) + xs.start;
-        let pixels = from..from + xs.len();
-        let plane = self.frame.plane_len();
-        let colour = self.frame.channels() == Channels::Rgb;
-        let channels = if colour { 0..3 } else { 0..1 };
-        let interleaved = pixels.start * channels.len()..pixels.end * channels.len();
-        let planar = |c: usize| c * plane + pixels.start..c * plane + pixels.end;
-        match self.source {
-            Source::Codes8(s, scale) => codes8(&s[interleaved], planes, scale),
-            Source::Codes16(s, scale) => codes16(&s[interleaved], planes, scale),
-            Source::Table8(s, table) => {
-                take_apart(&s[interleaved], planes, |c| table[usize::from(c)]);
-            }
-            Source::Table16(s, table) => {
-                take_apart(&s[interleaved], planes, |c| table[usize::from(c)]);
-            }
-            Source::Half(s, table) => {
-                for c in channels {
-                    for (out, v) in planes[c].iter_mut().zip(&s[planar(c)]) {
-                        *out = table[usize::from(v.to_bits())];
-                    }
-                }
-            }
-            Source::Linear(s, to_signal) => {
-                for c in channels {
-                    for (out, &v) in planes[c].iter_mut().zip(&s[planar(c)]) {
-                        *out = to_signal.map(v);
-                    }
-                }
-            }
-            Source::Encoded(s) => {
-                for c in channels {
-                    for (out, &v) in planes[c].iter_mut().zip(&s[planar(c)]) {
-                        *out = encoded(v);
-                    }
-                }
-            }
-        }
-        if !colour && let [gray, others @ ..] = planes {
-            for other in others {
-                other.copy_from_slice(gray);
-            }
-        }
-    }
-}
-
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn codes8(codes: &[u8], planes: &mut [&mut [f32]], scale: f32) {
-    take_apart(codes, planes, |c| f32::from(c) * scale);
-}
-
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn codes16(codes: &[u16], planes: &mut [&mut [f32]], scale: f32) {
-    take_apart(codes, planes, |c| f32::from(c) * scale);
-}
-
-/// An encoded float, kept in range.
-#[allow(clippy::manual_clamp, reason = "clamp would let NaN through; here it becomes 0")]
-fn encoded(value: f32) -> f32 {
-    value.max(0.0).min(1.0)
-}
-
-/// Takes interleaved codes apart: as many into the first plane as it has pixels (gray), or three
-/// into three.
-#[inline(always)]
-fn take_apart<T: Copy>(codes: &[T], planes: &mut [&mut [f32]], value: impl Fn(T) -> f32) {
-    if let [r, g, b] = planes
-        && codes.len() > r.len()
-    {
-        let n = r.len();
-        let (g, b) = (&mut g[..n], &mut b[..n]);
-        let codes = &codes.as_chunks::<3>().0[..n];
-        for x in 0..n {
-            r[x] = value(codes[x][0]);
-            g[x] = value(codes[x][1]);
-            b[x] = value(codes[x][2]);
-        }
-    } else {
-        for (out, &code) in planes[0].iter_mut().zip(codes) {
-            *out = value(code);
         }
     }
 }

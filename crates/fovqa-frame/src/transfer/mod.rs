@@ -1,3 +1,4 @@
 //! Transfer functions, one file each.
 
+pub mod pq;
 pub mod srgb;
