@@ -84,6 +84,20 @@ pub struct Crop {
     pub height: usize,
 }
 
+impl Crop {
+    /// The same rectangle in the coordinates in which `visible` is given, inside of which it lies.
+    pub(crate) fn within(self, visible: Crop) -> Result<Crop, CropError> {
+        let fits = |from: usize, length: usize, size: usize| {
+            length > 0 && from.checked_add(length).is_some_and(|end| end <= size)
+        };
+        let (width, height) = (visible.width, visible.height);
+        if !fits(self.x, self.width, width) || !fits(self.y, self.height, height) {
+            return Err(CropError { crop: self, width, height });
+        }
+        Ok(Crop { x: visible.x + self.x, y: visible.y + self.y, ..self })
+    }
+}
+
 /// A crop that reaches beyond the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error(
@@ -174,14 +188,7 @@ impl Frame {
     /// # Errors
     /// When the rectangle is empty or reaches beyond the frame.
     pub fn cropped(mut self, crop: Crop) -> Result<Self, CropError> {
-        let fits = |from: usize, length: usize, size: usize| {
-            length > 0 && from.checked_add(length).is_some_and(|end| end <= size)
-        };
-        let (width, height) = (self.crop.width, self.crop.height);
-        if !fits(crop.x, crop.width, width) || !fits(crop.y, crop.height, height) {
-            return Err(CropError { crop, width, height });
-        }
-        self.crop = Crop { x: self.crop.x + crop.x, y: self.crop.y + crop.y, ..crop };
+        self.crop = crop.within(self.crop)?;
         Ok(self)
     }
 

@@ -7,10 +7,12 @@
 //! | signal | what metrics see: display-encoded, in `[0, peak]` |
 //! | plane | one channel of the signal, `f32`, row by row |
 //! | mask | which pixels count |
+//! | guides | motion and depth of a frame, raw as decoded |
 
 mod blocks;
 mod chromaticities;
 mod frame;
+mod guides;
 mod luma;
 mod mask;
 mod pair;
@@ -22,6 +24,7 @@ pub mod transfer;
 pub use blocks::{BLOCK_ROWS, map_row_blocks};
 pub use chromaticities::Chromaticities;
 pub use frame::{BadPixel, Channels, Crop, CropError, Frame, FrameError, Samples};
+pub use guides::{Guides, Motion, Plane, PlaneSamples};
 pub use luma::{LumaKind, LumaScratch, LumaSignal};
 pub use mask::Mask;
 pub use pair::{PairSignal, PairTile, Part};

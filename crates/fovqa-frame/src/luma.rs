@@ -112,13 +112,7 @@ impl<'a> LumaSignal<'a> {
 
     /// Reads the columns `xs` of row `y`. NaN and infinity are 0 and 1 in luma; luminance keeps
     /// them.
-    pub fn fill_row(
-        &self,
-        y: usize,
-        xs: Range<usize>,
-        scratch: &mut LumaScratch,
-        out: &mut [f64],
-    ) {
+    pub fn fill_row(&self, y: usize, xs: Range<usize>, scratch: &mut LumaScratch, out: &mut [f64]) {
         let columns = xs.len();
         let out = &mut out[..columns];
         match &self.source {
@@ -162,14 +156,13 @@ impl<'a> LumaSignal<'a> {
 
 /// [`Luma::WEIGHTS`] as they are written, in `f64`.
 const WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
-const _: () = assert!(WEIGHTS[0] as f32 == Luma::WEIGHTS[0] && WEIGHTS[2] as f32 == Luma::WEIGHTS[2]);
+const _: () =
+    assert!(WEIGHTS[0] as f32 == Luma::WEIGHTS[0] && WEIGHTS[2] as f32 == Luma::WEIGHTS[2]);
 
 fn linear<'a>(frame: &'a Frame, tables: &SignalTables) -> Linear<'a> {
     let params = tables.params();
-    let decoder = Decoder {
-        transfer: params.transfer_of(frame),
-        gain: libm::exp2(params.exposure_stops),
-    };
+    let decoder =
+        Decoder { transfer: params.transfer_of(frame), gain: libm::exp2(params.exposure_stops) };
     match frame.samples() {
         Samples::U8(s) => Linear::Codes8(s, decoder.table(1 << 8)),
         Samples::U16(s) => Linear::Codes16(s, decoder.table(1 << 16)),
