@@ -1,17 +1,22 @@
 //! The measures themselves: numbers out of pairs of frames. Knows nothing of files.
 //!
 //! [`Metric`] is the registry: what there is, with units, direction, parameters and source.
-//! [`Scorer`] computes every metric asked for in one pass over the rows of a pair; each metric's
-//! formula stands in a file of its own under `fidelity/`.
+//! [`Scorer`] computes every metric of fidelity asked for in one pass over the rows of a pair,
+//! [`Profiler`] every profile in one over a picture, [`temporal`] compares a picture with the one before
+//! it. Each metric's formula stands in a file of its own under `fidelity/`, `profile/` or `temporal/`.
 
 mod fidelity;
 mod params;
+pub mod profile;
 mod regions;
 mod registry;
+mod sums;
+pub mod temporal;
 
 pub use fidelity::fpsnr::{self, WeightField};
 pub use fidelity::ssim;
 pub use fidelity::{BandScores, PairScores, ScoreError, Scorer, psnr_db};
 pub use params::{ParamError, ParamValue, Params};
-pub use regions::Regions;
-pub use registry::{Better, Metric, MetricInfo, ParamInfo, ParamValues};
+pub use profile::{HaarBand, HaarStatistics, Profile, Profiler};
+pub use regions::{BlockRegions, Regions};
+pub use registry::{Better, Metric, MetricInfo, MetricKind, ParamInfo, ParamValues};

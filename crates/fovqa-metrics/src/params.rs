@@ -3,7 +3,9 @@
 use thiserror::Error;
 
 use crate::fidelity::{fpsnr, ssim};
+use crate::profile::{haar, rms_contrast};
 use crate::registry::{Metric, ParamValues};
+use crate::temporal::atd;
 
 /// A value as a user writes it.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +16,8 @@ pub enum ParamValue {
     Text(String),
     /// A list of numbers.
     List(Vec<f64>),
+    /// `true` or `false`.
+    Flag(bool),
 }
 
 /// Parameters of all metrics.
@@ -23,6 +27,12 @@ pub struct Params {
     pub ssim: ssim::Params,
     /// The foveal weight of FPSNR and FSSIM.
     pub fpsnr: fpsnr::Params,
+    /// RMS contrast.
+    pub rms_contrast: rms_contrast::Params,
+    /// The Haar wavelet.
+    pub haar: haar::Params,
+    /// Average temporal difference.
+    pub atd: atd::Params,
 }
 
 /// A parameter that is not there, or a value it cannot take.
@@ -82,6 +92,9 @@ impl Params {
         let set = known.values.accept(value).then(|| match metric {
             Metric::Ssim => self.ssim.set(known.name, value),
             Metric::Fpsnr => self.fpsnr.set(known.name, value),
+            Metric::RmsContrast => self.rms_contrast.set(known.name, value),
+            Metric::Haar => self.haar.set(known.name, value),
+            Metric::Atd => self.atd.set(known.name, value),
             Metric::Mse | Metric::Psnr | Metric::MsSsim | Metric::Fssim => None,
         });
         set.flatten().ok_or_else(|| ParamError::Value {
@@ -110,11 +123,15 @@ impl ParamValues {
     /// Whether a value is one of these.
     pub fn accept(&self, value: &ParamValue) -> bool {
         match (self, value) {
-            (Self::Number(min, max), ParamValue::Number(n)) => (*min..=*max).contains(n),
-            (Self::WholeOrAuto(min, max), ParamValue::Number(n)) => {
+            (Self::Number(min, max) | Self::NumberOrOff(min, max), ParamValue::Number(n)) => {
+                (*min..=*max).contains(n)
+            }
+            (Self::Whole(min, max) | Self::WholeOrAuto(min, max), ParamValue::Number(n)) => {
                 n.fract() == 0.0 && (f64::from(*min)..=f64::from(*max)).contains(n)
             }
             (Self::WholeOrAuto(..), ParamValue::Text(text)) => text == "auto",
+            (Self::NumberOrOff(..), ParamValue::Text(text)) => text == "off",
+            (Self::Flag, ParamValue::Flag(_)) => true,
             (Self::Word(words), ParamValue::Text(text)) => words.contains(&text.as_str()),
             (Self::Numbers, ParamValue::List(list)) => list.iter().all(|n| n.is_finite()),
             _ => false,
@@ -128,6 +145,7 @@ impl ParamValue {
             ParamValue::Number(n) => n.to_string(),
             ParamValue::Text(t) => format!("{t:?}"),
             ParamValue::List(l) => format!("{l:?}"),
+            ParamValue::Flag(flag) => flag.to_string(),
         }
     }
 
@@ -135,6 +153,14 @@ impl ParamValue {
     pub(crate) fn number(&self) -> Option<f64> {
         match self {
             ParamValue::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
+
+    /// Whether it is `true`.
+    pub(crate) fn flag(&self) -> Option<bool> {
+        match self {
+            ParamValue::Flag(flag) => Some(*flag),
             _ => None,
         }
     }
@@ -165,7 +191,9 @@ mod tests {
         for metric in Metric::ALL {
             for info in metric.info().params {
                 let default = info.default;
-                let value = if let Ok(number) = default.parse() {
+                let value = if let Ok(flag) = default.parse::<bool>() {
+                    ParamValue::Flag(flag)
+                } else if let Ok(number) = default.parse::<f64>() {
                     ParamValue::Number(number)
                 } else if let Some(list) = default.strip_prefix('[') {
                     let list = list.trim_end_matches(']').split(',');

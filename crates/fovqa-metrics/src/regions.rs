@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use fovqa_frame::Mask;
-use fovqa_vision::{BandMap, Run};
+use fovqa_vision::{BandEdges, BandMap, Eccentricity, Run};
 
 /// The band of a pixel that is in no sum at all. Pixels outside all bands still count for the
 /// whole frame; their band is the number of bands.
@@ -69,8 +69,68 @@ impl<'a> Regions<'a> {
     }
 }
 
+/// Bands of the blocks of each level of a wavelet transform, which every level halves: level 1 has
+/// blocks of 2x2 pixels.
+#[derive(Debug, Clone, Default)]
+pub struct BlockRegions<'a>(Cow<'a, [BandMap]>);
+
+impl<'a> BlockRegions<'a> {
+    /// Every block counts. One map a level, as of [`BlockRegions::maps`].
+    pub fn unmasked(maps: &'a [BandMap]) -> Self {
+        Self(Cow::Borrowed(maps))
+    }
+
+    /// Only blocks whose every pixel is in the mask count.
+    pub fn masked(maps: &[BandMap], mask: &Mask) -> BlockRegions<'static> {
+        let mut clean = mask.clone();
+        let maps = maps.iter().map(|map| {
+            clean = clean.halved();
+            intersection(map, &clean)
+        });
+        BlockRegions(Cow::Owned(maps.collect()))
+    }
+
+    /// The maps of `levels` levels for pictures of a size, cropped at the right and bottom to whole
+    /// blocks of the last level.
+    pub fn maps(eccentricity: &Eccentricity, edges: &BandEdges, levels: usize) -> Vec<BandMap> {
+        let (width, height) = (eccentricity.view().width, eccentricity.view().height);
+        let maps = (1..=levels).map(|level| {
+            let count = [width, height].map(|side| (side >> levels) << (levels - level));
+            BandMap::of_blocks(eccentricity, edges, 1 << level, count)
+        });
+        maps.collect()
+    }
+
+    pub(crate) fn levels(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Blocks of a level across the picture.
+    pub(crate) fn columns(&self, level: usize) -> usize {
+        match self.0[level - 1].rows() {
+            0 => 0,
+            _ => self.0[level - 1].row(0).last().map_or(0, |run| run.end as usize),
+        }
+    }
+
+    /// Blocks of a level down the picture.
+    pub(crate) fn rows(&self, level: usize) -> usize {
+        self.0[level - 1].rows()
+    }
+
+    /// Blocks of a level in each band, then in none.
+    pub(crate) fn counts(&self, level: usize) -> Vec<u64> {
+        self.0[level - 1].pixels()
+    }
+
+    pub(crate) fn runs(&self, level: usize, y: usize) -> &[Run] {
+        self.0[level - 1].row(y)
+    }
+}
+
 fn intersection(bands: &BandMap, mask: &Mask) -> BandMap {
-    BandMap::from_rows(bands.bands(), mask.height(), |y, runs| {
+    // Of blocks, the mask has those that a crop leaves out as well.
+    BandMap::from_rows(bands.bands(), bands.rows(), |y, runs| {
         let first = runs.len();
         let mut from = 0;
         for run in bands.row(y) {

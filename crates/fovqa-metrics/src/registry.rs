@@ -1,6 +1,7 @@
 //! What there is to measure.
 
 use crate::fidelity::ssim;
+use crate::profile::haar;
 
 /// A metric.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -17,6 +18,23 @@ pub enum Metric {
     Fpsnr,
     /// Structural similarity under the foveal weight.
     Fssim,
+    /// RMS contrast by eccentricity.
+    RmsContrast,
+    /// Haar wavelet coefficients by level and eccentricity.
+    Haar,
+    /// Average temporal difference.
+    Atd,
+}
+
+/// What a metric is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MetricKind {
+    /// A test against its reference: one number.
+    Fidelity,
+    /// One picture by eccentricity: of reference and test alike, and their ratio.
+    Profile,
+    /// One sequence over time: of reference and test alike, and their ratio.
+    Temporal,
 }
 
 /// Which way a metric points.
@@ -26,6 +44,8 @@ pub enum Better {
     Higher,
     /// Smaller is better.
     Lower,
+    /// Neither: it is held against the reference's.
+    Neither,
 }
 
 /// A parameter of a metric.
@@ -46,8 +66,14 @@ pub struct ParamInfo {
 pub enum ParamValues {
     /// A number from the first to the second.
     Number(f64, f64),
-    /// A whole number from the first to the second, or `auto`.
+    /// The same, or `off`.
+    NumberOrOff(f64, f64),
+    /// A whole number from the first to the second.
+    Whole(u32, u32),
+    /// The same, or `auto`.
     WholeOrAuto(u32, u32),
+    /// `true` or `false`.
+    Flag,
     /// One of these words.
     Word(&'static [&'static str]),
     /// A list of finite numbers.
@@ -58,6 +84,9 @@ impl std::fmt::Display for ParamValues {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Number(min, max) => write!(f, "{min} to {max}"),
+            Self::NumberOrOff(min, max) => write!(f, "{min} to {max}, or off"),
+            Self::Whole(min, max) => write!(f, "a whole number from {min} to {max}"),
+            Self::Flag => f.write_str("true or false"),
             Self::WholeOrAuto(min, max) => write!(f, "a whole number from {min} to {max}, or auto"),
             Self::Word(words) => f.write_str(&words.join(" or ")),
             Self::Numbers => f.write_str("a list of numbers"),
@@ -74,6 +103,8 @@ pub struct MetricInfo {
     pub label: &'static str,
     /// Its unit; empty for a plain number.
     pub unit: &'static str,
+    /// What it is of.
+    pub kind: MetricKind,
     /// Its direction.
     pub better: Better,
     /// Whether it has a value per eccentricity band.
@@ -90,11 +121,28 @@ pub struct MetricInfo {
 
 impl Metric {
     /// All metrics, in the order of tables.
-    pub const ALL: [Metric; 6] =
-        [Metric::Mse, Metric::Psnr, Metric::Ssim, Metric::MsSsim, Metric::Fpsnr, Metric::Fssim];
+    pub const ALL: [Metric; 9] = [
+        Metric::Mse,
+        Metric::Psnr,
+        Metric::Ssim,
+        Metric::MsSsim,
+        Metric::Fpsnr,
+        Metric::Fssim,
+        Metric::RmsContrast,
+        Metric::Haar,
+        Metric::Atd,
+    ];
 
-    /// The metrics of a run that names none.
-    pub const DEFAULT: [Metric; 4] = [Metric::Mse, Metric::Psnr, Metric::Ssim, Metric::Fpsnr];
+    /// The metrics of a run that names none; temporal ones are of sequences alone.
+    pub const DEFAULT: [Metric; 7] = [
+        Metric::Mse,
+        Metric::Psnr,
+        Metric::Ssim,
+        Metric::Fpsnr,
+        Metric::RmsContrast,
+        Metric::Haar,
+        Metric::Atd,
+    ];
 
     /// The metric of a name; `-` and `_` are alike.
     pub fn find(name: &str) -> Option<Metric> {
@@ -111,12 +159,20 @@ impl Metric {
             Metric::MsSsim => &MS_SSIM,
             Metric::Fpsnr => &FPSNR,
             Metric::Fssim => &FSSIM,
+            Metric::RmsContrast => &RMS_CONTRAST,
+            Metric::Haar => &HAAR,
+            Metric::Atd => &ATD,
         }
     }
 
     /// Its name in results.
     pub fn key(self) -> &'static str {
         self.info().key
+    }
+
+    /// Whether it is of one kind.
+    pub fn is(self, kind: MetricKind) -> bool {
+        self.info().kind == kind
     }
 
     /// Whether its value is a number of decibels, infinite for identical pictures.
@@ -129,6 +185,7 @@ const MSE: MetricInfo = MetricInfo {
     key: "mse",
     label: "MSE",
     unit: "",
+    kind: MetricKind::Fidelity,
     better: Better::Lower,
     per_band: true,
     needs_view: false,
@@ -141,6 +198,7 @@ const PSNR: MetricInfo = MetricInfo {
     key: "psnr",
     label: "PSNR",
     unit: "dB",
+    kind: MetricKind::Fidelity,
     better: Better::Higher,
     per_band: true,
     needs_view: false,
@@ -153,6 +211,7 @@ const SSIM: MetricInfo = MetricInfo {
     key: "ssim",
     label: "SSIM",
     unit: "",
+    kind: MetricKind::Fidelity,
     better: Better::Higher,
     per_band: true,
     needs_view: false,
@@ -190,6 +249,7 @@ const MS_SSIM: MetricInfo = MetricInfo {
     key: "ms_ssim",
     label: "MS-SSIM",
     unit: "",
+    kind: MetricKind::Fidelity,
     better: Better::Higher,
     per_band: false,
     needs_view: false,
@@ -202,6 +262,7 @@ const FPSNR: MetricInfo = MetricInfo {
     key: "fpsnr",
     label: "FPSNR",
     unit: "dB",
+    kind: MetricKind::Fidelity,
     better: Better::Higher,
     per_band: false,
     needs_view: true,
@@ -269,12 +330,83 @@ const FSSIM: MetricInfo = MetricInfo {
     key: "fssim",
     label: "FSSIM",
     unit: "",
+    kind: MetricKind::Fidelity,
     better: Better::Higher,
     per_band: false,
     needs_view: true,
     about: "the SSIM map under FPSNR's weight",
     source: "ours: the map of ssim under the weight of fpsnr",
     params: &[],
+};
+
+const RMS_CONTRAST: MetricInfo = MetricInfo {
+    key: "rms_contrast",
+    label: "RMS contrast",
+    unit: "",
+    kind: MetricKind::Profile,
+    better: Better::Neither,
+    per_band: true,
+    needs_view: true,
+    about: "standard deviation of luma in each band, of reference and test, and their ratio",
+    source: "Peli 1990; Patney et al. 2016, Fig. 4",
+    params: &[
+        ParamInfo {
+            name: "signal",
+            default: "\"luma\"",
+            values: ParamValues::Word(&["luma", "luminance"]),
+            about: "of the encoded signal, or of linear light after exposure",
+        },
+        ParamInfo {
+            name: "normalise",
+            default: "\"none\"",
+            values: ParamValues::Word(&["none", "mean"]),
+            about: "divided by the band's mean",
+        },
+    ],
+};
+
+const HAAR: MetricInfo = MetricInfo {
+    key: "haar",
+    label: "Haar wavelet",
+    unit: "",
+    kind: MetricKind::Profile,
+    better: Better::Neither,
+    per_band: true,
+    needs_view: true,
+    about: "wavelet coefficients of luma by level and band (mean_abs, max_abs, energy), of reference and test, and their ratios",
+    source: "Patney et al. 2016, 4.4.2, Fig. 10",
+    params: &[
+        ParamInfo {
+            name: "levels",
+            default: "5",
+            values: ParamValues::Whole(1, haar::MAX_LEVELS),
+            about: "levels; level l is of blocks of 2^l px a side",
+        },
+        ParamInfo {
+            name: "orientations",
+            default: "false",
+            values: ParamValues::Flag,
+            about: "LH, HL and HH one by one too",
+        },
+    ],
+};
+
+const ATD: MetricInfo = MetricInfo {
+    key: "atd",
+    label: "ATD",
+    unit: "",
+    kind: MetricKind::Temporal,
+    better: Better::Lower,
+    per_band: true,
+    needs_view: false,
+    about: "average temporal difference of luma along the motion, of reference and test, and their ratio",
+    source: "Patney et al. 2016, 4.4.3",
+    params: &[ParamInfo {
+        name: "depth_tolerance",
+        default: "0.05",
+        values: ParamValues::NumberOrOff(0.0, 1e6),
+        about: "how much depth may differ along the motion, as a share; off leaves depth out",
+    }],
 };
 
 #[cfg(test)]

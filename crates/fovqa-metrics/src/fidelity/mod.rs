@@ -6,7 +6,6 @@ mod pass;
 mod scorer;
 mod squared_error;
 pub mod ssim;
-mod sums;
 #[cfg(test)]
 mod tests;
 mod weighted_mean;

@@ -12,9 +12,9 @@ use super::fpsnr::WeightField;
 use super::ms_ssim::{HalvedRows, PairRows, Scale, unit_below};
 use super::squared_error::squared_row;
 use super::ssim::rows::{Constants, MapRow, Scratch, map_row};
-use super::sums::{add_by_band, sum, weighted};
 use super::weighted_mean::WeightedMean;
 use crate::regions::{Regions, clipped};
+use crate::sums::{add_by_band, sum, weighted};
 
 /// Columns of a tile. Even, for the 2x2 means. Eleven rows of sum and difference take 23 kB, the
 /// whole tile in RGB half a megabyte.
@@ -62,7 +62,7 @@ pub(crate) struct Sums {
 }
 
 impl Sums {
-    fn new(bands: usize) -> Self {
+    pub(crate) fn new(bands: usize) -> Self {
         Self {
             squared: vec![0.0; bands + 1],
             weighted_squared: WeightedMean::default(),

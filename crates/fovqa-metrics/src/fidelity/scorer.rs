@@ -122,9 +122,10 @@ impl Scorer {
     pub fn unfit(&self, width: usize, height: usize) -> Vec<(Metric, ScoreError)> {
         let side = self.params.ssim.window_side();
         let needed = |metric: Metric| match metric {
-            Metric::Mse | Metric::Psnr | Metric::Fpsnr => 1,
+            Metric::Mse | Metric::Psnr | Metric::Fpsnr | Metric::RmsContrast | Metric::Atd => 1,
             Metric::Ssim | Metric::Fssim => side,
             Metric::MsSsim => side * COARSEST,
+            Metric::Haar => self.params.haar.block_side(),
         };
         self.metrics
             .iter()
@@ -169,7 +170,11 @@ impl Scorer {
             ssim: map.then(|| Constants::new(&self.params.ssim, pair.peak())),
             scales: if self.wants(Metric::MsSsim) { Scales::AndNext } else { Scales::None },
         };
-        let (sums, scale) = run(pair, regions, &wanted);
+        let (sums, scale) = if squared_error || map {
+            run(pair, regions, &wanted)
+        } else {
+            (Sums::new(regions.bands()), None)
+        };
         let ms_ssim = scale.map(|scale| {
             let radius = wanted.ssim.as_ref().map_or(0, Constants::radius);
             coarser_scales(&sums, scale, (pair.width(), pair.height()), radius, &wanted)
@@ -210,6 +215,7 @@ impl Scorer {
                 Metric::Ssim => ssim(sums.ssim.iter().sum(), windows),
                 Metric::MsSsim => ms_ssim.ok_or(no_window)?,
                 Metric::Fssim => sums.weighted_ssim.mean().ok_or(no_window)? / planes,
+                Metric::RmsContrast | Metric::Haar | Metric::Atd => continue,
             };
             scores.insert(metric, value);
         }
@@ -219,11 +225,16 @@ impl Scorer {
                 let mse = (pixels[band] > 0).then(|| mse(sums.squared[band], pixels[band]));
                 let windows = sums.windows[band];
                 let ssim = (windows > 0).then(|| ssim(sums.ssim[band], windows));
-                let per_band = self.metrics.iter().filter(|m| m.info().per_band);
-                let scores = per_band.map(|&metric| match metric {
-                    Metric::Mse => (metric, mse),
-                    Metric::Psnr => (metric, mse.map(psnr_db)),
-                    _ => (metric, ssim),
+                let scores = self.metrics.iter().filter_map(|&metric| match metric {
+                    Metric::Mse => Some((metric, mse)),
+                    Metric::Psnr => Some((metric, mse.map(psnr_db))),
+                    Metric::Ssim => Some((metric, ssim)),
+                    Metric::MsSsim
+                    | Metric::Fpsnr
+                    | Metric::Fssim
+                    | Metric::RmsContrast
+                    | Metric::Haar
+                    | Metric::Atd => None,
                 });
                 let pooled = mse.filter(|_| asks_mse);
                 BandScores { pixels: pixels[band], mse: pooled, scores: scores.collect() }

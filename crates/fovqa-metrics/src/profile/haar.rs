@@ -1,0 +1,200 @@
+//! The Haar wavelet by eccentricity (Patney et al. 2016, 4.4.2 and Fig. 10).
+//!
+//! The orthonormal 2-D transform of the luma: level l describes blocks of 2^l x 2^l pixels. Of a
+//! block's quarters a b / c d, LH = (a + b - c - d) / 2 is low in x and high in y, HL is
+//! (a - b + c - d) / 2 and HH (a - b - c + d) / 2; LL = (a + b + c + d) / 2 goes on to the next level.
+//! The picture is cropped at the right and bottom to a multiple of 2^levels; a coefficient belongs to
+//! the band of its block's centre in the uncropped frame.
+//!
+//! Per level and band, over LH, HL and HH together: mean |c|, max |c| and mean c² (energy), of luma
+//! with peak 1. 0 and above; neither large nor small is better: what counts is how far the test's is
+//! from the reference's (below it: detail lost; above it: noise).
+
+use multiversion::multiversion;
+
+use crate::params::ParamValue;
+
+/// The most levels there may be: blocks of 256 pixels a side.
+pub const MAX_LEVELS: u32 = 8;
+
+/// Parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Params {
+    /// Levels, 1 to [`MAX_LEVELS`].
+    pub levels: u32,
+    /// Whether LH, HL and HH are reported one by one too.
+    pub orientations: bool,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self { levels: 5, orientations: false }
+    }
+}
+
+impl Params {
+    /// Sets what the registry has found to be one of its values.
+    pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+        match name {
+            "levels" => self.levels = value.number()? as u32,
+            "orientations" => self.orientations = value.flag()?,
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// The side of the coarsest block, in pixels: the least a picture may have.
+    pub fn block_side(&self) -> usize {
+        1 << self.levels
+    }
+}
+
+/// Which way a coefficient looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Orientation {
+    /// Low in x, high in y: horizontal edges.
+    Lh,
+    /// High in x, low in y: vertical edges.
+    Hl,
+    /// High in both: diagonals.
+    Hh,
+}
+
+impl Orientation {
+    /// All, in the order of results.
+    pub const ALL: [Orientation; 3] = [Orientation::Lh, Orientation::Hl, Orientation::Hh];
+
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Orientation::Lh => "lh",
+            Orientation::Hl => "hl",
+            Orientation::Hh => "hh",
+        }
+    }
+}
+
+/// What is said of some coefficients.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HaarStatistics {
+    /// Mean |c|.
+    pub mean_abs: f64,
+    /// Max |c|.
+    pub max_abs: f64,
+    /// Mean c².
+    pub energy: f64,
+}
+
+impl HaarStatistics {
+    /// The names of the three, in the order of [`HaarStatistics::values`].
+    pub const NAMES: [&'static str; 3] = ["mean_abs", "max_abs", "energy"];
+
+    /// The three in order.
+    pub fn values(&self) -> [f64; 3] {
+        [self.mean_abs, self.max_abs, self.energy]
+    }
+}
+
+impl From<[f64; 3]> for HaarStatistics {
+    fn from([mean_abs, max_abs, energy]: [f64; 3]) -> Self {
+        Self { mean_abs, max_abs, energy }
+    }
+}
+
+/// One level in one band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HaarBand {
+    /// How many coefficients: three a block.
+    pub coefficients: u64,
+    /// Over all of them; `None` where there is none.
+    pub statistics: Option<HaarStatistics>,
+    /// Of LH, HL and HH, where that is asked for.
+    pub orientations: Option<[HaarStatistics; 3]>,
+}
+
+/// Sums over coefficients of one orientation.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Sums {
+    abs: f64,
+    max: f64,
+    square: f64,
+}
+
+impl Sums {
+    pub(crate) fn merge(&mut self, other: &Self) {
+        self.abs += other.abs;
+        self.max = self.max.max(other.max);
+        self.square += other.square;
+    }
+
+    fn statistics(&self, coefficients: u64) -> HaarStatistics {
+        let count = coefficients as f64;
+        HaarStatistics {
+            mean_abs: self.abs / count,
+            max_abs: self.max,
+            energy: self.square / count,
+        }
+    }
+}
+
+/// The result of `blocks` blocks with these sums of LH, HL and HH.
+pub(crate) fn band(sums: &[Sums; 3], blocks: u64, orientations: bool) -> HaarBand {
+    let mut all = Sums::default();
+    for one in sums {
+        all.merge(one);
+    }
+    let some = blocks > 0;
+    HaarBand {
+        coefficients: 3 * blocks,
+        statistics: some.then(|| all.statistics(3 * blocks)),
+        orientations: (some && orientations).then(|| sums.map(|sums| sums.statistics(blocks))),
+    }
+}
+
+/// One level of one pair of rows: `ll` and the details LH, HL, HH, each half as long as the rows.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+pub(crate) fn level(top: &[f64], bottom: &[f64], ll: &mut [f64], details: [&mut [f64]; 3]) {
+    let (top, bottom) = (top.as_chunks::<2>().0, bottom.as_chunks::<2>().0);
+    let [lh, hl, hh] = details;
+    let n = ll.len();
+    let (top, bottom) = (&top[..n], &bottom[..n]);
+    let (lh, hl, hh) = (&mut lh[..n], &mut hl[..n], &mut hh[..n]);
+    for x in 0..n {
+        let ([a, b], [c, d]) = (top[x], bottom[x]);
+        let (upper, lower) = (a + b, c + d);
+        let (upper_edge, lower_edge) = (a - b, c - d);
+        ll[x] = (upper + lower) * 0.5;
+        lh[x] = (upper - lower) * 0.5;
+        hl[x] = (upper_edge + lower_edge) * 0.5;
+        hh[x] = (upper_edge - lower_edge) * 0.5;
+    }
+}
+
+/// Sums of a stretch of coefficients, lane by lane: in one order for any vector width.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+pub(crate) fn sums(coefficients: &[f64]) -> Sums {
+    const LANES: usize = 8;
+    let mut abs = [0.0; LANES];
+    let mut max = [0.0f64; LANES];
+    let mut square = [0.0; LANES];
+    let (chunks, rest) = coefficients.as_chunks::<LANES>();
+    for chunk in chunks {
+        for i in 0..LANES {
+            let c = chunk[i].abs();
+            abs[i] += c;
+            max[i] = if c > max[i] { c } else { max[i] };
+            square[i] += c * c;
+        }
+    }
+    for (i, c) in rest.iter().enumerate() {
+        let c = c.abs();
+        abs[i] += c;
+        max[i] = if c > max[i] { c } else { max[i] };
+        square[i] += c * c;
+    }
+    Sums {
+        abs: abs.iter().sum(),
+        max: max.into_iter().fold(0.0, f64::max),
+        square: square.iter().sum(),
+    }
+}

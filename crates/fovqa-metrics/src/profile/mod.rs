@@ -1,0 +1,11 @@
+//! One picture by eccentricity: what is measured of reference and test alike, and then compared.
+
+pub mod haar;
+mod pass;
+mod profiler;
+pub mod rms_contrast;
+#[cfg(test)]
+mod tests;
+
+pub use haar::{HaarBand, HaarStatistics, Orientation};
+pub use profiler::{Profile, Profiler};

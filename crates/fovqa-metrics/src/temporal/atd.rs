@@ -1,0 +1,193 @@
+//! ATD, the average temporal difference along the motion (Patney et al. 2016, 4.4.3).
+//!
+//! Of frame t: mean over valid pixels of |Y_t(x) - Y_{t-1}(x + m_t(x))|, Y the luma of the
+//! display-encoded signal, m the backward motion in pixels, bilinear fetch at pixel centres, clamped to the
+//! frame. A pixel is valid when its source x + m lies in [0, W) x [0, H) and, where depth is given,
+//! |Z_{t-1}[s] - Z_t[x]| ≤ `depth_tolerance` |Z_t[x]|, s the pixel that holds the source. Non-finite
+//! motion or depth is not valid. In [0, 1]; lower is steadier, and the ratio to the reference's is the
+//! papers' percentage.
+
+use fovqa_frame::map_row_blocks;
+use multiversion::multiversion;
+
+use super::luma_plane::LumaPlane;
+use super::source::{Link, Sources};
+use crate::params::ParamValue;
+use crate::regions::{Regions, clipped};
+use crate::sums::add_by_band;
+
+/// Parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Params {
+    /// How much depth may differ along the motion, as a share of it; `None`: depth is not looked at.
+    pub depth_tolerance: Option<f64>,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self { depth_tolerance: Some(0.05) }
+    }
+}
+
+impl Params {
+    /// Sets what the registry has found to be one of its values.
+    pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+        match name {
+            "depth_tolerance" => self.depth_tolerance = value.number(),
+            _ => return None,
+        }
+        Some(())
+    }
+}
+
+/// The difference of one band.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct AtdBand {
+    /// The mean over valid pixels; `None` where there is none.
+    pub mean: Option<f64>,
+    /// Valid pixels.
+    pub valid: u64,
+}
+
+/// The difference of one frame to the one before it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct AtdFrame {
+    /// Over the whole frame.
+    pub whole: AtdBand,
+    /// Pixels that could have been valid: all that count.
+    pub pixels: u64,
+    /// Band by band.
+    pub bands: Vec<AtdBand>,
+}
+
+impl AtdFrame {
+    /// Pixels left out.
+    pub fn left_out(&self) -> u64 {
+        self.pixels - self.whole.valid
+    }
+}
+
+/// Columns of a tile: what is known of their sources stays in the first-level cache.
+const TILE_COLUMNS: usize = 256;
+
+/// Sums of a block of rows, per band and then outside all bands.
+struct Sums {
+    /// Picture by picture.
+    differences: Vec<Vec<f64>>,
+    valid: Vec<u64>,
+}
+
+/// The differences of pictures that share their motion, each given as it is now and as it was.
+///
+/// # Panics
+/// When regions, motion, depth or planes are not of one size.
+pub fn differences(
+    link: &Link<'_>,
+    pictures: &[(&LumaPlane, &LumaPlane)],
+    params: &Params,
+) -> Vec<AtdFrame> {
+    let Some((first, _)) = pictures.first() else { return Vec::new() };
+    let size = (first.width(), first.height());
+    let sizes = pictures.iter().flat_map(|(now, before)| [now, before]);
+    assert!(sizes.into_iter().all(|p| (p.width(), p.height()) == size), "pictures of one size");
+    assert_eq!(link.regions.rows(), size.1, "regions of these pictures");
+    let bands = link.regions.bands();
+    let blocks = map_row_blocks(size.1, |rows| {
+        let mut block = Block::new(link, pictures, params, size);
+        for y in rows {
+            for x in (0..size.0).step_by(TILE_COLUMNS) {
+                block.stretch(x, y, TILE_COLUMNS.min(size.0 - x));
+            }
+        }
+        block.sums
+    });
+    let mut all = Sums::new(bands, pictures.len());
+    for block in blocks {
+        all.merge(&block);
+    }
+    let counts = link.regions.pixels();
+    all.differences.iter().map(|sums| frame(link.regions, sums, &all.valid, &counts)).collect()
+}
+
+fn frame(regions: &Regions<'_>, sums: &[f64], valid: &[u64], counts: &[u64]) -> AtdFrame {
+    let band =
+        |sum: f64, valid: u64| AtdBand { mean: (valid > 0).then(|| sum / valid as f64), valid };
+    let bands = sums.iter().zip(valid).take(regions.bands());
+    AtdFrame {
+        whole: band(sums.iter().sum(), valid.iter().sum()),
+        pixels: counts.iter().sum(),
+        bands: bands.map(|(&sum, &valid)| band(sum, valid)).collect(),
+    }
+}
+
+impl Sums {
+    fn new(bands: usize, pictures: usize) -> Self {
+        Self { differences: vec![vec![0.0; bands + 1]; pictures], valid: vec![0; bands + 1] }
+    }
+
+    fn merge(&mut self, other: &Self) {
+        let pictures = self.differences.iter_mut().zip(&other.differences);
+        for (mine, theirs) in pictures.flat_map(|(mine, theirs)| mine.iter_mut().zip(theirs)) {
+            *mine += theirs;
+        }
+        for (mine, theirs) in self.valid.iter_mut().zip(&other.valid) {
+            *mine += theirs;
+        }
+    }
+}
+
+struct Block<'a> {
+    link: &'a Link<'a>,
+    pictures: &'a [(&'a LumaPlane, &'a LumaPlane)],
+    tolerance: Option<f64>,
+    size: (usize, usize),
+    sources: Sources,
+    fetched: Vec<f32>,
+    sums: Sums,
+}
+
+impl<'a> Block<'a> {
+    fn new(
+        link: &'a Link<'a>,
+        pictures: &'a [(&'a LumaPlane, &'a LumaPlane)],
+        params: &Params,
+        size: (usize, usize),
+    ) -> Self {
+        Self {
+            link,
+            pictures,
+            tolerance: params.depth_tolerance,
+            size,
+            sources: Sources::new(TILE_COLUMNS),
+            fetched: vec![0.0; TILE_COLUMNS],
+            sums: Sums::new(link.regions.bands(), pictures.len()),
+        }
+    }
+
+    fn stretch(&mut self, x: usize, y: usize, n: usize) {
+        self.sources.find(self.link, self.tolerance, self.size, (x, y, n));
+        let valid = &self.sources.valid()[..n];
+        let runs = self.link.regions.pixel_runs(y);
+        for (from, to, band) in clipped(runs, x..x + n) {
+            self.sums.valid[usize::from(band)] += count(&valid[from - x..to - x]);
+        }
+        let fetched = &mut self.fetched[..n];
+        for ((now, before), sums) in self.pictures.iter().zip(&mut self.sums.differences) {
+            self.sources.fetch(before, fetched);
+            difference(&now.row(y)[x..x + n], valid, fetched);
+            add_by_band(fetched, x, runs, sums);
+        }
+    }
+}
+
+fn count(valid: &[u32]) -> u64 {
+    u64::from(valid.iter().sum::<u32>())
+}
+
+/// `values` becomes its distance to `now`, and 0 where that is not valid.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn difference(now: &[f32], valid: &[u32], values: &mut [f32]) {
+    for ((value, now), valid) in values.iter_mut().zip(now).zip(valid) {
+        *value = if *valid == 1 { (now - *value).abs() } else { 0.0 };
+    }
+}

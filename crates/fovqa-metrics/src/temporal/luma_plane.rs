@@ -1,0 +1,36 @@
+//! The luma of a whole frame, kept for the next one.
+
+/// Luma, 0 to 1, row by row. Its memory is used again for frame after frame.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LumaPlane {
+    width: usize,
+    values: Vec<f32>,
+}
+
+impl LumaPlane {
+    /// The plane with room for another size; what it holds is not cleared.
+    pub(crate) fn resized(&mut self, width: usize, height: usize) -> &mut Self {
+        self.width = width;
+        self.values.resize(width * height, 0.0);
+        self
+    }
+
+    pub(crate) fn values_mut(&mut self) -> &mut [f32] {
+        &mut self.values
+    }
+
+    /// Width in pixels.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Height in pixels; 0 before anything was put in.
+    pub fn height(&self) -> usize {
+        self.values.len().checked_div(self.width).unwrap_or(0)
+    }
+
+    /// Row `y`.
+    pub(crate) fn row(&self, y: usize) -> &[f32] {
+        &self.values[y * self.width..(y + 1) * self.width]
+    }
+}
