@@ -80,7 +80,7 @@ impl BarChart {
             PlotError::check_groups(&series.name, series.values.len(), self.groups.len())?;
         }
         let scale = self.scale();
-        let rough = ValueAxis::new(&self.y, scale);
+        let rough = ValueAxis::new(&self.y, scale, PLOT_HEIGHT_PX);
         let beside_px = rough.left_px() + MARGIN_PX;
         let groups = GroupAxis::new(&self.groups, self.series.len(), beside_px);
         let finite = || self.places().filter_map(Place::finite);
@@ -113,7 +113,7 @@ impl BarChart {
             let frame = Frame { axis: &axis, groups: &groups, plot, format, values, missing };
             self.draw_series(&mut drawing, &frame);
         }
-        axis.draw(&mut drawing, plot);
+        axis.draw(&mut drawing, plot, 0.0);
         let base = if self.from_zero { axis.y(plot, 0.0) } else { plot.bottom };
         drawing.line(&[(plot.left, base), (plot.right, base)], AXIS_STROKE);
         Ok(drawing)
@@ -143,7 +143,8 @@ impl BarChart {
 
     /// The axis with room beyond the outermost values for their labels.
     fn axis_with_room(&self, scale: Option<Scale>, reach_px: f64) -> ValueAxis {
-        let Some(scale) = scale else { return ValueAxis::new(&self.y, None) };
+        let axis = |scale| ValueAxis::new(&self.y, scale, PLOT_HEIGHT_PX);
+        let Some(scale) = scale else { return axis(None) };
         let down_px = if self.from_zero && scale.low < 0.0 { reach_px } else { 0.0 };
         // A 0 has its label above, even where all else is negative.
         let upwards = self.places().filter_map(Place::finite).any(|value| value >= 0.0);
@@ -153,7 +154,7 @@ impl BarChart {
             (false, _) => reach_px + marker::RADIUS_PX,
         };
         let data_px = PLOT_HEIGHT_PX - up_px - down_px;
-        ValueAxis::new(&self.y, Some(scale.with_air(down_px / data_px, up_px / data_px)))
+        axis(Some(scale.with_air(down_px / data_px, up_px / data_px)))
     }
 
     fn draw_series(&self, drawing: &mut Drawing, frame: &Frame<'_>) {

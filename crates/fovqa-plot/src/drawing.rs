@@ -30,6 +30,16 @@ impl Rect {
         (self.left.midpoint(self.right), self.top.midpoint(self.bottom))
     }
 
+    /// The corners, from the upper left one with the clock.
+    pub(crate) fn corners(self) -> [Point; 4] {
+        [
+            (self.left, self.top),
+            (self.right, self.top),
+            (self.right, self.bottom),
+            (self.left, self.bottom),
+        ]
+    }
+
     /// Whether two rectangles share more than an edge.
     #[cfg(test)]
     pub(crate) fn overlaps(self, other: Self) -> bool {
@@ -151,12 +161,7 @@ impl Drawing {
 
     /// A filled rectangle with an edge.
     pub(crate) fn rect(&mut self, rect: Rect, fill: Colour, edge: Stroke) {
-        let corners = [
-            (rect.left, rect.top),
-            (rect.right, rect.top),
-            (rect.right, rect.bottom),
-            (rect.left, rect.bottom),
-        ];
+        let corners = rect.corners();
         self.area(corners.to_vec(), fill);
         // One corner twice over, so that the last joint is as square as the others.
         self.line(&[&corners[..], &corners[..2]].concat(), edge);

@@ -4,6 +4,7 @@ use crate::bar::BarChart;
 use crate::drawing::Drawing;
 use crate::error::PlotError;
 use crate::line::LineChart;
+use crate::panels::PanelChart;
 use crate::spread::SpreadChart;
 use crate::{svg, tidy};
 
@@ -16,6 +17,8 @@ pub enum Figure {
     Bar(BarChart),
     /// Distributions in groups.
     Spread(SpreadChart),
+    /// Several charts of curves with one legend.
+    Panels(PanelChart),
 }
 
 impl Figure {
@@ -35,19 +38,23 @@ impl Figure {
             Self::Line(chart) => Ok(chart.draw()),
             Self::Bar(chart) => chart.draw(),
             Self::Spread(chart) => chart.draw(),
+            Self::Panels(chart) => Ok(chart.draw()),
         }
     }
 
-    /// The data of the figure as CSV, a row for each value: `series,x,y`, or `group,series,value`.
-    /// A missing value is an empty field, an infinite one `inf` or `-inf`.
+    /// The data of the figure as CSV, a row for each value: `series,x,y`, `panel,series,x,y`, or
+    /// `group,series,value`. A missing value is an empty field, an infinite one `inf` or `-inf`. A
+    /// span has two rows, one for each end, with an empty `y`, after the series of its chart.
     pub fn csv(&self) -> String {
         match self {
             Self::Line(chart) => tidy::line(chart),
             Self::Bar(chart) => tidy::bar(chart),
             Self::Spread(chart) => tidy::spread(chart),
+            Self::Panels(chart) => tidy::panels(chart),
         }
     }
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 mod tests;

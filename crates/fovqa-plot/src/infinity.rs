@@ -10,6 +10,8 @@ use crate::value_label::{Setting, Side};
 pub(crate) const STRIP_PX: f64 = 18.0;
 /// From the border to the edge of a marker on it.
 const MARKER_PX: f64 = 2.0;
+/// How far a label may reach beyond the plot area at its sides: not to the labels of an axis.
+const BESIDE_PX: f64 = 6.0;
 
 /// Heights of the strips that places need above and below the plot area.
 pub(crate) fn strips_px(places: impl Iterator<Item = Place>) -> (f64, f64) {
@@ -27,13 +29,16 @@ pub(crate) fn draw_labels(drawing: &mut Drawing, plot: Rect, mut xs: Vec<f64>, s
         Side::Above => ("∞", plot.top - MARKER_PX),
         Side::Below => ("−∞", plot.bottom + MARKER_PX),
     };
-    let apart_px = width_px(label, VALUE_PX) + 1.0;
+    let label_px = width_px(label, VALUE_PX);
+    let apart_px = label_px + 1.0;
+    let inset_px = (label_px / 2.0 - BESIDE_PX).max(0.0);
     xs.sort_by(f64::total_cmp);
     let mut last = f64::NEG_INFINITY;
     for x in xs {
-        if x - last >= apart_px {
-            Setting::Level.draw(drawing, label, (x, y), side);
-            last = x;
+        let middle = x.clamp(plot.left + inset_px, plot.right - inset_px);
+        if middle - last >= apart_px {
+            Setting::Level.draw(drawing, label, (middle, y), side);
+            last = middle;
         }
     }
 }

@@ -42,27 +42,39 @@ pub(crate) fn begin(
 ) -> (Drawing, Rect) {
     let right = sides.left + plot_width_px;
     let width_px = (right + sides.right).ceil();
-    let head_px = width_px - MARGIN_PX - sides.left;
+    let (mut drawing, top) = head(title, series, sides.left, width_px);
+    let top = top + sides.above;
+    let bottom = top + PLOT_HEIGHT_PX;
+    drawing.height_px = (bottom + sides.below).ceil();
+    (drawing, Rect { left: sides.left, top, right, bottom })
+}
+
+/// A picture of a width with title and legend drawn from `left_px` on, and where they end. It has
+/// no height yet.
+pub(crate) fn head(
+    title: Option<&str>,
+    series: &[(&str, Key)],
+    left_px: f64,
+    width_px: f64,
+) -> (Drawing, f64) {
+    let head_px = width_px - MARGIN_PX - left_px;
     let title = wrap(title.unwrap_or_default(), TITLE_PX, head_px, TITLE_LINES);
     let legend = Legend::new(series, head_px);
 
     let mut drawing = Drawing { width_px, height_px: 0.0, marks: Vec::new() };
     let mut top = MARGIN_PX;
     for line in &title {
-        drawing.text(Text::new(line, (sides.left, top + TITLE_PX), TITLE_PX, Anchor::Start));
+        drawing.text(Text::new(line, (left_px, top + TITLE_PX), TITLE_PX, Anchor::Start));
         top += TITLE_PX * LINE_PITCH;
     }
     if !title.is_empty() {
         top += GAP_PX / 2.0;
     }
     if legend.height_px > 0.0 {
-        legend.draw(&mut drawing, (sides.left, top));
+        legend.draw(&mut drawing, (left_px, top));
         top += legend.height_px + GAP_PX;
     }
-    top += sides.above;
-    let bottom = top + PLOT_HEIGHT_PX;
-    drawing.height_px = (bottom + sides.below).ceil();
-    (drawing, Rect { left: sides.left, top, right, bottom })
+    (drawing, top)
 }
 
 /// Says in the middle of an empty plot area that it is empty.

@@ -1,7 +1,9 @@
 //! The legend: a row of keys and names above the plot area, or several, where it covers no data.
 
+use std::collections::BTreeSet;
+
 use crate::drawing::{Anchor, Drawing, Point, Rect, Stroke, Text};
-use crate::look::{Look, REFERENCE};
+use crate::look::{Look, REFERENCE, SPAN, SPAN_EDGE};
 use crate::text::{CAPITAL, LINE_PITCH, TICK_PX};
 use crate::wrap::{widest_px, wrap};
 use crate::{marker, swatch};
@@ -19,12 +21,15 @@ const MOST_LINES: usize = 3;
 /// Half the height of the key of a bar or box.
 const HALF_SWATCH_PX: f64 = 4.5;
 
+/// Width of the edge of a span's key.
+const SPAN_EDGE_PX: f64 = 0.8;
+
 /// Width of the curve of a series in pixels.
 pub(crate) const CURVE_PX: f64 = 1.6;
 /// Width of a curve of reference.
 pub(crate) const REFERENCE_PX: f64 = 1.4;
 
-/// How a series is drawn.
+/// How a series or span is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Key {
     /// A curve with markers.
@@ -37,6 +42,8 @@ pub(crate) enum Key {
     Box(Look),
     /// Markers alone.
     Marker(Look),
+    /// A shaded span.
+    Span,
 }
 
 /// The lines of each name and where it stands.
@@ -112,8 +119,19 @@ impl Key {
             Self::Marker(look) => {
                 marker::draw(drawing, middle, look, marker::RADIUS_PX, look.colour());
             }
+            Self::Span => {
+                drawing.rect(rect, SPAN, Stroke { colour: SPAN_EDGE, width_px: SPAN_EDGE_PX });
+            }
         }
     }
+}
+
+/// Each name once, with the key it has first.
+pub(crate) fn once<'a>(
+    keys: impl Iterator<Item = (&'a str, Key)>,
+) -> impl Iterator<Item = (&'a str, Key)> {
+    let mut names = BTreeSet::new();
+    keys.filter(move |(name, _)| names.insert(*name))
 }
 
 fn entry_px(lines: &[String]) -> f64 {

@@ -1,8 +1,8 @@
 //! Series to figures as SVG, and PNG from the SVG: curves, bars and distributions, made for half
-//! a page of a paper.
+//! the width of a page of a paper, and panels of curves for the whole of it.
 //!
-//! A figure is plain data ([`LineChart`], [`BarChart`], [`SpreadChart`]); nothing here knows what
-//! was measured. The same figure gives the same bytes on every machine and thread: text is measured
+//! A figure is plain data ([`LineChart`], [`BarChart`], [`SpreadChart`], [`PanelChart`]); nothing
+//! here knows what was measured. The same figure gives the same bytes on every machine and thread: text is measured
 //! and set in a bundled font, and no place depends on a function that differs between platforms.
 //!
 //! ```
@@ -41,9 +41,12 @@ mod line;
 mod look;
 mod marker;
 mod number;
+mod panel_grid;
+mod panels;
 mod png;
 mod position_axis;
 mod scale;
+mod span;
 mod spread;
 mod svg;
 mod swatch;
@@ -60,5 +63,7 @@ pub use error::PlotError;
 pub use figure::Figure;
 pub use line::{LineChart, LineSeries};
 pub use look::Look;
+pub use panels::PanelChart;
 pub use png::png;
+pub use span::Span;
 pub use spread::{SpreadChart, SpreadSeries};

@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use crate::axis::Axis;
 use crate::drawing::{Drawing, Point, Rect, Stroke};
 use crate::infinity;
-use crate::layout::{self, MARGIN_PX, Sides, WIDTH_PX};
-use crate::legend::{CURVE_PX, Key, REFERENCE_PX};
+use crate::layout::{self, LEAST_PLOT_PX, MARGIN_PX, PLOT_HEIGHT_PX, Sides, WIDTH_PX};
+use crate::legend::{self, CURVE_PX, Key, REFERENCE_PX};
 use crate::look::{Look, REFERENCE};
 use crate::marker;
 use crate::position_axis::PositionAxis;
 use crate::scale::{Place, Scale};
+use crate::span::{self, Span};
 use crate::value_axis::ValueAxis;
 use crate::value_label::Side;
 
@@ -30,14 +31,18 @@ pub struct LineChart {
     pub title: Option<String>,
     /// The horizontal axis.
     pub x: Axis,
-    /// The vertical axis. It begins where the data does: the slope and distance of curves are read,
-    /// not their height.
+    /// The vertical axis. It begins where the data does, unless [told](Self::y_from_zero) to begin
+    /// at 0: the slope and distance of curves are read, not their height.
     pub y: Axis,
     /// The curves, the first farthest behind.
     pub series: Vec<LineSeries>,
     /// Where the horizontal axis has its ticks, such as at the edges of bands; round numbers
     /// without.
     pub x_ticks: Option<Vec<f64>>,
+    /// Whether the vertical axis includes 0, and begins there where no value lies below.
+    pub y_from_zero: bool,
+    /// Stretches of the horizontal axis to shade.
+    pub spans: Vec<Span>,
 }
 
 /// One curve.
@@ -73,30 +78,64 @@ impl LineSeries {
     }
 }
 
+/// Where a chart is drawn.
+pub(crate) struct Frame<'a> {
+    pub(crate) x: &'a PositionAxis,
+    pub(crate) y: &'a ValueAxis,
+    pub(crate) plot: Rect,
+    /// Left edge of the room the chart has.
+    pub(crate) edge_px: f64,
+    /// Height of the strip between the plot area and the labels beneath.
+    pub(crate) below_px: f64,
+}
+
 impl LineChart {
     pub(crate) fn draw(&self) -> Drawing {
-        let places = || self.series.iter().flat_map(LineSeries::places);
-        let drawn = || places().filter_map(|(x, place)| Some((x, place?)));
-        let y_scale = Scale::holding(drawn().filter_map(|(_, place)| place.finite()));
-        let y = ValueAxis::new(&self.y, y_scale.map(|scale| scale.with_air(AIR, AIR)));
+        let y = ValueAxis::new(&self.y, self.y_scale(), PLOT_HEIGHT_PX);
         let left = y.left_px();
-        let x = PositionAxis::new(&self.x, self.x_scale(), self.x_ticks(), WIDTH_PX - left);
-        let (above, below) = infinity::strips_px(drawn().map(|(_, place)| place));
+        let room = (WIDTH_PX - left, LEAST_PLOT_PX);
+        let x = PositionAxis::new(&self.x, self.x_scale(), self.x_ticks(), room);
+        let (above, below) = self.strips_px();
         let sides = Sides {
             left: left.max(x.left_px()),
             right: x.right_px(),
             above: above.max(MARGIN_PX),
             below: below + x.below_px(),
         };
-        let keys: Vec<_> = self.series.iter().map(|s| (s.name.as_str(), s.key())).collect();
+        let keys: Vec<_> = self.series_keys().chain(legend::once(self.span_keys())).collect();
         let (mut drawing, plot) =
             layout::begin(self.title.as_deref(), &keys, sides, x.plot_width_px());
+        self.draw_in(&mut drawing, &Frame { x: &x, y: &y, plot, edge_px: 0.0, below_px: below });
+        drawing
+    }
 
-        y.draw_grid(&mut drawing, plot);
-        y.draw(&mut drawing, plot);
-        x.draw(&mut drawing, plot, below);
-        if drawn().next().is_none() {
-            layout::say_no_data(&mut drawing, plot);
+    pub(crate) fn series_keys(&self) -> impl Iterator<Item = (&str, Key)> {
+        self.series.iter().map(|series| (series.name.as_str(), series.key()))
+    }
+
+    /// Of each span that is seen.
+    pub(crate) fn span_keys(&self) -> impl Iterator<Item = (&str, Key)> {
+        let scale = self.x_scale();
+        let seen = move |span: &&Span| scale.is_some_and(|scale| span.ends(scale).is_some());
+        self.spans.iter().filter(seen).map(Span::key)
+    }
+
+    /// Heights of the strips of infinite values above and below the plot area.
+    pub(crate) fn strips_px(&self) -> (f64, f64) {
+        infinity::strips_px(self.drawn())
+    }
+
+    /// Draws all but title and legend.
+    pub(crate) fn draw_in(&self, drawing: &mut Drawing, frame: &Frame<'_>) {
+        let Frame { x, y, plot, .. } = *frame;
+        for (from, to) in self.x_scale().into_iter().flat_map(|scale| self.span_ends(scale)) {
+            span::draw(drawing, plot, (x.x(plot, from), x.x(plot, to)));
+        }
+        y.draw_grid(drawing, plot);
+        y.draw(drawing, plot, frame.edge_px);
+        x.draw(drawing, plot, frame.below_px);
+        if self.drawn().next().is_none() {
+            layout::say_no_data(drawing, plot);
         }
         let at = |px: f64, place: Option<Place>| {
             let value = place.and_then(Place::finite)?;
@@ -104,19 +143,40 @@ impl LineChart {
         };
         for series in &self.series {
             let points: Vec<_> = series.places().map(|(x, place)| at(x, place)).collect();
-            draw_curve(&mut drawing, series, &points);
+            draw_curve(drawing, series, &points);
         }
-        self.draw_infinite(&mut drawing, plot, &x);
-        drawing
+        self.draw_infinite(drawing, plot, x);
+    }
+
+    /// Where its values are drawn.
+    fn drawn(&self) -> impl Iterator<Item = Place> {
+        self.series.iter().flat_map(LineSeries::places).filter_map(|(_, place)| place)
+    }
+
+    fn span_ends(&self, scale: Scale) -> impl Iterator<Item = (f64, f64)> {
+        self.spans.iter().filter_map(move |span| span.ends(scale))
+    }
+
+    /// The range of the vertical axis; none without finite values. Air that would move 0 from an
+    /// end is left out.
+    pub(crate) fn y_scale(&self) -> Option<Scale> {
+        let values = self.drawn().filter_map(Place::finite);
+        if !self.y_from_zero {
+            return Some(Scale::holding(values)?.with_air(AIR, AIR));
+        }
+        let scale = Scale::from_zero(values)?;
+        let air = |beyond: bool| if beyond { AIR } else { 0.0 };
+        Some(scale.with_air(air(scale.low < 0.0), air(scale.high > 0.0)))
     }
 
     /// Given ticks that can be drawn.
-    fn x_ticks(&self) -> Option<&[f64]> {
+    pub(crate) fn x_ticks(&self) -> Option<&[f64]> {
         let ticks = self.x_ticks.as_deref()?;
         ticks.iter().all(|x| finite(*x) == Some(*x)).then_some(ticks)
     }
 
-    fn x_scale(&self) -> Option<Scale> {
+    /// The range of the horizontal axis; none without places along it.
+    pub(crate) fn x_scale(&self) -> Option<Scale> {
         let data = self.series.iter().flat_map(LineSeries::places).map(|(x, _)| x);
         let ticks = self.x_ticks().unwrap_or_default();
         let scale = Scale::holding(data.chain(ticks.iter().copied()))?;

@@ -16,6 +16,10 @@ pub(crate) const INK: Colour = Colour(34, 34, 34);
 pub(crate) const AXIS: Colour = Colour(90, 90, 90);
 /// Lines of the grid: seen, but behind everything.
 pub(crate) const GRID: Colour = Colour(224, 224, 224);
+/// Shaded spans: the lines of the grid are still seen on them, and curves as on paper.
+pub(crate) const SPAN: Colour = Colour(232, 232, 232);
+/// The edge of their key in the legend, which is small.
+pub(crate) const SPAN_EDGE: Colour = Colour(180, 180, 180);
 /// Curves of reference.
 pub(crate) const REFERENCE: Colour = Colour(85, 85, 85);
 

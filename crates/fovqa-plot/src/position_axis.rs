@@ -2,7 +2,7 @@
 
 use crate::axis::{AXIS_STROKE, Axis, LABEL_GAP_PX, TICK_LENGTH_PX, TITLE_GAP_PX};
 use crate::drawing::{Anchor, Drawing, Rect, Text};
-use crate::layout::{LEAST_PLOT_PX, MARGIN_PX, TITLE_LINES};
+use crate::layout::{MARGIN_PX, TITLE_LINES};
 use crate::scale::Scale;
 use crate::text::{DESCENT, LINE_PITCH, TICK_PX, TITLE_PX, width_px};
 use crate::ticks::{Tick, given_ticks, round_ticks};
@@ -21,18 +21,41 @@ pub(crate) struct PositionAxis {
 }
 
 impl PositionAxis {
-    /// An axis in a width, which its last label shares; without a range it has a title alone. Where
-    /// given ticks stand too close, only some get a label.
+    /// An axis in a width, which its last label shares, for a plot area not narrower than the
+    /// least; without a range it has a title alone. Where given ticks stand too close, only some
+    /// get a label.
     pub(crate) fn new(
         axis: &Axis,
         scale: Option<Scale>,
         given: Option<&[f64]>,
-        available_px: f64,
+        (available_px, least_px): (f64, f64),
+    ) -> Self {
+        let width = |ticks: &[Tick]| {
+            (available_px - ticks.last().map_or(0.0, half_px) - MARGIN_PX).max(least_px)
+        };
+        Self::with_width(axis, scale, given, width)
+    }
+
+    /// An axis of a plot area of a width. Where that is too narrow for the fewest ticks there can
+    /// be, only the first gets a label.
+    pub(crate) fn spanning(
+        axis: &Axis,
+        scale: Option<Scale>,
+        given: Option<&[f64]>,
+        plot_width_px: f64,
+    ) -> Self {
+        let mut found = Self::with_width(axis, scale, given, |_| plot_width_px);
+        leave_room(&mut found.ticks, found.scale, found.plot_width_px);
+        found
+    }
+
+    fn with_width(
+        axis: &Axis,
+        scale: Option<Scale>,
+        given: Option<&[f64]>,
+        width: impl Fn(&[Tick]) -> f64,
     ) -> Self {
         let known = scale.unwrap_or(Scale { low: 0.0, high: 1.0 });
-        let width = |ticks: &[Tick]| {
-            (available_px - ticks.last().map_or(0.0, half_px) - MARGIN_PX).max(LEAST_PLOT_PX)
-        };
         let ticks = match (scale, given) {
             (None, _) => Vec::new(),
             (Some(_), Some(places)) => {
@@ -55,14 +78,18 @@ impl PositionAxis {
         self.plot_width_px
     }
 
-    /// Space that the first label needs at the left of the plot area.
+    /// Space that the first label needs at the left of the plot area, with a margin.
     pub(crate) fn left_px(&self) -> f64 {
         MARGIN_PX + self.ticks.first().map_or(0.0, half_px)
     }
 
-    /// Space that the last label needs at the right of the plot area.
+    /// Space that the last label needs at the right of the plot area, with a margin; when that tick
+    /// has none, what one before it needs.
     pub(crate) fn right_px(&self) -> f64 {
-        MARGIN_PX + self.ticks.last().map_or(0.0, half_px)
+        let Some((last, others)) = self.ticks.split_last() else { return MARGIN_PX };
+        let beyond_px =
+            |tick: &Tick| half_px(tick) - (1.0 - self.scale.share(tick.value)) * self.plot_width_px;
+        MARGIN_PX + others.iter().map(beyond_px).fold(half_px(last), f64::max)
     }
 
     /// Space below the plot area.
@@ -118,5 +145,25 @@ fn leave_room(ticks: &mut [Tick], scale: Scale, plot_width_px: f64) {
         } else {
             tick.label.clear();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_stay_apart_where_only_one_fits() {
+        let mut single = 0;
+        for (i, j) in (0..30).flat_map(|i| (0..30).map(move |j| (i, j))) {
+            let low = 1e9 + 0.37 * f64::from(i);
+            let scale = Scale { low, high: low + 1.5 + 0.31 * f64::from(j) };
+            let axis = PositionAxis::spanning(&Axis::default(), Some(scale), None, 140.0);
+            let labelled: Vec<Tick> =
+                axis.ticks.into_iter().filter(|tick| !tick.label.is_empty()).collect();
+            assert!(all_apart(&labelled, scale, 140.0), "{labelled:?}");
+            single += usize::from(labelled.len() == 1);
+        }
+        assert!(single > 0, "it is needed");
     }
 }

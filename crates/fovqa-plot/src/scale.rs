@@ -68,6 +68,15 @@ impl Scale {
         Some(Self { low: low - room, high: high + room })
     }
 
+    /// A range from 0 to the values, to both sides where they lie there; none without values.
+    pub(crate) fn from_zero(values: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut values = values.peekable();
+        values.peek()?;
+        let (low, high) =
+            values.fold((0.0, 0.0), |(low, high): (f64, f64), v| (low.min(v), high.max(v)));
+        Some(Self { low, high: if low < high { high } else { 1.0 } })
+    }
+
     /// Longer by shares of its length at the lower and upper end.
     pub(crate) fn with_air(self, below: f64, above: f64) -> Self {
         let length = self.high - self.low;
@@ -93,6 +102,17 @@ mod tests {
         let airy = scale.with_air(0.25, 0.5);
         assert_eq!((airy.low, airy.high), (-2.0, 5.0));
         assert!(Scale::holding(std::iter::empty()).is_none());
+    }
+
+    #[test]
+    fn begins_at_zero_where_all_lie_on_one_side() {
+        let ends = |values: &[f64]| {
+            Scale::from_zero(values.iter().copied()).map(|scale| (scale.low, scale.high))
+        };
+        assert_eq!(ends(&[3.0, 2.0]), Some((0.0, 3.0)));
+        assert_eq!(ends(&[-3.0, -2.0]), Some((-3.0, 0.0)));
+        assert_eq!(ends(&[-3.0, 2.0]), Some((-3.0, 2.0)));
+        assert_eq!((ends(&[0.0]), ends(&[])), (Some((0.0, 1.0)), None));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::box_summary::{BoxSummary, quantile};
 use crate::drawing::{Drawing, Point, Rect, Stroke};
 use crate::error::PlotError;
 use crate::group_axis::GroupAxis;
-use crate::layout::{self, MARGIN_PX, Sides};
+use crate::layout::{self, MARGIN_PX, PLOT_HEIGHT_PX, Sides};
 use crate::left_out::LeftOut;
 use crate::legend::Key;
 use crate::look::{INK, Look};
@@ -78,7 +78,8 @@ impl SpreadChart {
         let values = || self.series.iter().flat_map(|series| series.values.iter().flatten());
         let places = || values().copied().filter_map(Place::of);
         let scale = Scale::holding(places().filter_map(Place::finite));
-        let axis = ValueAxis::new(&self.y, scale.map(|scale| scale.with_air(AIR, AIR)));
+        let axis =
+            ValueAxis::new(&self.y, scale.map(|scale| scale.with_air(AIR, AIR)), PLOT_HEIGHT_PX);
         let beside_px = axis.left_px() + MARGIN_PX;
         let groups = GroupAxis::new(&self.groups, self.series.len(), beside_px);
         let left_out = LeftOut::of(&self.series, groups.pitch_px());
@@ -92,7 +93,7 @@ impl SpreadChart {
         let (mut drawing, plot) =
             layout::begin(self.title.as_deref(), &keys, sides, groups.plot_width_px());
         axis.draw_grid(&mut drawing, plot);
-        axis.draw(&mut drawing, plot);
+        axis.draw(&mut drawing, plot, 0.0);
         groups.draw(&mut drawing, plot, left_out.below_px());
         let bottom = plot.bottom;
         drawing.line(&[(plot.left, bottom), (plot.right, bottom)], AXIS_STROKE);

@@ -3,6 +3,7 @@
 
 use crate::bar::BarChart;
 use crate::line::LineChart;
+use crate::panels::PanelChart;
 use crate::spread::SpreadChart;
 
 /// A number so that it reads back as the same, and as a float: "1.0".
@@ -24,19 +25,41 @@ fn name(text: &str) -> String {
     }
 }
 
-fn row(csv: &mut String, fields: &[String; 3]) {
+fn row(csv: &mut String, fields: &[String]) {
     csv.push_str(&fields.join(","));
     csv.push('\n');
 }
 
 pub(crate) fn line(chart: &LineChart) -> String {
     let mut csv = "series,x,y\n".to_owned();
-    for series in &chart.series {
-        for (x, y) in &series.points {
-            row(&mut csv, &[name(&series.name), optional(Some(*x)), optional(*y)]);
+    for fields in line_rows(chart) {
+        row(&mut csv, &fields);
+    }
+    csv
+}
+
+pub(crate) fn panels(chart: &PanelChart) -> String {
+    let mut csv = "panel,series,x,y\n".to_owned();
+    for panel in &chart.panels {
+        let title = name(panel.title.as_deref().unwrap_or_default());
+        for [series, x, y] in line_rows(panel) {
+            row(&mut csv, &[title.clone(), series, x, y]);
         }
     }
     csv
+}
+
+/// The points of the curves, then the two ends of each span, which have no value.
+fn line_rows(chart: &LineChart) -> impl Iterator<Item = [String; 3]> {
+    let points = chart.series.iter().flat_map(|series| {
+        let fields =
+            |(x, y): &(f64, Option<f64>)| [name(&series.name), optional(Some(*x)), optional(*y)];
+        series.points.iter().map(fields)
+    });
+    let ends = chart.spans.iter().flat_map(|span| {
+        [span.from, span.to].map(|x| [name(&span.name), optional(Some(x)), String::new()])
+    });
+    points.chain(ends)
 }
 
 pub(crate) fn bar(chart: &BarChart) -> String {

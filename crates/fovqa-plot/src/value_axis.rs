@@ -2,7 +2,7 @@
 
 use crate::axis::{AXIS_STROKE, Axis, GRID_STROKE, LABEL_GAP_PX, TICK_LENGTH_PX, TITLE_GAP_PX};
 use crate::drawing::{Anchor, Drawing, Rect, Text};
-use crate::layout::{MARGIN_PX, PLOT_HEIGHT_PX, TITLE_LINES};
+use crate::layout::{MARGIN_PX, TITLE_LINES};
 use crate::scale::Scale;
 use crate::text::{CAPITAL, LINE_PITCH, TICK_PX, TITLE_PX, width_px};
 use crate::ticks::{Tick, round_ticks};
@@ -20,20 +20,20 @@ pub(crate) struct ValueAxis {
 }
 
 impl ValueAxis {
-    /// An axis of a range; without one it has a title alone.
-    pub(crate) fn new(axis: &Axis, scale: Option<Scale>) -> Self {
-        let title = wrap(&axis.title, TITLE_PX, PLOT_HEIGHT_PX, TITLE_LINES);
+    /// An axis of a range for a plot area of a height; without a range it has a title alone.
+    pub(crate) fn new(axis: &Axis, scale: Option<Scale>, plot_height_px: f64) -> Self {
+        let title = wrap(&axis.title, TITLE_PX, plot_height_px, TITLE_LINES);
         let Some(scale) = scale else {
             return Self { scale: Scale { low: 0.0, high: 1.0 }, ticks: Vec::new(), title };
         };
         let apart = |ticks: &[Tick]| {
             let step = scale.share(ticks[1].value) - scale.share(ticks[0].value);
-            step * PLOT_HEIGHT_PX >= PITCH_PX
+            step * plot_height_px >= PITCH_PX
         };
         Self { scale, ticks: round_ticks(scale.low, scale.high, apart), title }
     }
 
-    /// Space at the left of the plot area, the picture's margin included.
+    /// Space at the left of the plot area, with a margin.
     pub(crate) fn left_px(&self) -> f64 {
         let labels =
             self.ticks.iter().map(|tick| width_px(&tick.label, TICK_PX)).fold(0.0, f64::max);
@@ -57,8 +57,9 @@ impl ValueAxis {
         }
     }
 
-    /// Draws line, ticks, labels and title.
-    pub(crate) fn draw(&self, drawing: &mut Drawing, plot: Rect) {
+    /// Draws line, ticks and labels, and the title a margin away from the edge at the left, which
+    /// is 0 where that is the picture's.
+    pub(crate) fn draw(&self, drawing: &mut Drawing, plot: Rect, edge_px: f64) {
         drawing.line(&[(plot.left, plot.top), (plot.left, plot.bottom)], AXIS_STROKE);
         for tick in &self.ticks {
             let y = self.y(plot, tick.value);
@@ -68,7 +69,7 @@ impl ValueAxis {
             drawing.text(Text::new(&tick.label, at, TICK_PX, Anchor::End));
         }
         for (i, line) in self.title.iter().enumerate() {
-            let baseline = MARGIN_PX + TITLE_PX * (1.0 + i as f64 * LINE_PITCH);
+            let baseline = edge_px + MARGIN_PX + TITLE_PX * (1.0 + i as f64 * LINE_PITCH);
             let at = (baseline, plot.centre().1);
             drawing.text(Text::new(line, at, TITLE_PX, Anchor::Middle).upwards());
         }

@@ -5,8 +5,8 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::drawing::{Mark, Rect, Text};
-use crate::look::{Colour, INK, REFERENCE};
-use crate::{Axis, BarSeries, LineSeries, Look, SpreadSeries, png};
+use crate::look::{AXIS, Colour, GRID, INK, REFERENCE, SPAN};
+use crate::{Axis, BarSeries, LineSeries, Look, Span, SpreadSeries, png};
 
 /// Names that break careless layouts.
 const HOSTILE: [&str; 8] = [
@@ -50,7 +50,7 @@ fn line(series: Vec<Vec<(f64, Option<f64>)>>) -> Figure {
         points,
     });
     let (x, y) = (Axis::new("Eccentricity (°)"), Axis::new("PSNR (dB)"));
-    Figure::Line(LineChart { title: None, x, y, series: series.collect(), x_ticks: None })
+    Figure::Line(LineChart { x, y, series: series.collect(), ..LineChart::default() })
 }
 
 /// Bars, or markers where not from zero: `values[series][group]`.
@@ -74,6 +74,30 @@ fn spread(values: Vec<Vec<Vec<f64>>>) -> Figure {
     });
     let y = Axis::new("a title that is far too long for the height of this axis, whoever wrote it");
     Figure::Spread(SpreadChart { title: None, y, groups, series: series.collect() })
+}
+
+/// A chart of the same curves in each of some panels, with a span and hostile titles.
+fn panels(series: &[Vec<(f64, Option<f64>)>], count: usize, columns: usize) -> Figure {
+    let Figure::Line(chart) = line(series.to_vec()) else { unreachable!() };
+    let panel = |i: usize| LineChart {
+        title: (i % 4 != 3).then(|| name(i)),
+        y: Axis::new(if i % 7 == 6 { "another measure" } else { "Error energy" }),
+        series: chart.series.iter().skip(i % 2).cloned().collect(),
+        y_from_zero: i.is_multiple_of(3),
+        spans: vec![span(-1.0, 1.0)],
+        ..chart.clone()
+    };
+    let panels = (0..count).map(panel).collect();
+    Figure::Panels(PanelChart { title: Some(name(5)), panels, columns })
+}
+
+fn span(from: f64, to: f64) -> Span {
+    Span { name: "saccade".to_owned(), from, to }
+}
+
+/// Points at 0, 1, 2 and so on.
+fn points(values: &[f64]) -> Vec<(f64, Option<f64>)> {
+    values.iter().enumerate().map(|(x, y)| (x as f64, Some(*y))).collect()
 }
 
 fn texts(figure: &Figure) -> Vec<String> {
@@ -365,6 +389,262 @@ fn data_are_tidy() {
     assert_eq!(csv, "group,series,value\nRMFR,RMFR,1.0\nRMFR,RMFR,\n");
 }
 
+/// A chart over 0 to 3 with spans.
+fn with_spans(spans: Vec<Span>) -> LineChart {
+    let series = LineSeries { points: points(&[1.0, 3.0, 2.0, 4.0]), ..LineSeries::default() };
+    LineChart { series: vec![series], spans, ..LineChart::default() }
+}
+
+/// The plot areas of a drawing from their axis lines, which meet in the lower left corner.
+fn plots(drawing: &Drawing) -> Vec<Rect> {
+    let mut plots = Vec::new();
+    let mut axis: Option<[(f64, f64); 2]> = None;
+    for mark in &drawing.marks {
+        let Mark::Line(points, stroke) = mark else { continue };
+        let [from, to] = points[..] else { continue };
+        if stroke.colour != AXIS {
+            continue;
+        }
+        match axis {
+            Some([top, bottom]) if from == bottom && to.1 == bottom.1 => {
+                plots.push(Rect { left: top.0, top: top.1, right: to.0, bottom: bottom.1 });
+            }
+            _ if from.0 == to.0 && to.1 - from.1 > 100.0 => axis = Some([from, to]),
+            _ => {}
+        }
+    }
+    plots
+}
+
+/// The shaded spans in the plot areas, not those in the legend.
+fn shaded(drawing: &Drawing) -> Vec<Rect> {
+    let area = |mark: &Mark| match mark {
+        Mark::Area(points, SPAN) => {
+            let ((left, top), (right, bottom)) = (points[0], points[2]);
+            Some(Rect { left, top, right, bottom })
+        }
+        _ => None,
+    };
+    let areas = drawing.marks.iter().filter_map(area);
+    areas.filter(|area| area.height() > 100.0).collect()
+}
+
+#[test]
+fn spans_are_behind_all_else_and_as_high_as_the_plot_area() {
+    let drawing = with_spans(vec![span(1.0, 2.0)]).draw();
+    let (plot, area) = (plots(&drawing)[0], shaded(&drawing)[0]);
+    assert_eq!((area.top, area.bottom), (plot.top, plot.bottom));
+    // An axis from 0 to 3 and its air.
+    let unit = plot.width() / (3.0 * 1.04);
+    assert!((area.left - (plot.left + 1.06 * unit)).abs() < 1e-6);
+    assert!((area.width() - unit).abs() < 1e-6);
+    let high = |mark: &&Mark| matches!(mark, Mark::Area(p, SPAN) if p[2].1 - p[0].1 > 100.0);
+    let at = drawing.marks.iter().position(|mark| high(&mark)).unwrap();
+    let over = |mark: &Mark| match mark {
+        Mark::Line(_, stroke) => [GRID, AXIS, Look::new(0).colour()].contains(&stroke.colour),
+        _ => false,
+    };
+    assert_eq!(drawing.marks.iter().position(over), Some(at + 1), "no line is before it");
+}
+
+#[test]
+fn spans_end_at_the_plot_area() {
+    let beyond = [span(-1e9, 0.5), span(2.5, 1e300), span(9.0, 2.9), span(0.0, 0.0)];
+    let mut chart = with_spans(beyond.to_vec());
+    for ticks in [None, Some(vec![0.0, 3.0])] {
+        chart.x_ticks = ticks;
+        let drawing = chart.draw();
+        let (plot, areas) = (plots(&drawing)[0], shaded(&drawing));
+        let bare = with_spans(Vec::new());
+        assert_eq!(
+            plots(&LineChart { x_ticks: chart.x_ticks.clone(), ..bare }.draw())[0].width(),
+            plot.width()
+        );
+        assert_eq!(areas.len(), 4);
+        assert!(areas.iter().all(|a| a.left >= plot.left && a.right <= plot.right));
+        assert!(
+            (areas[0].left, areas[1].right, areas[2].right) == (plot.left, plot.right, plot.right)
+        );
+        assert!(areas.iter().all(|a| a.width() > 1.4), "wide enough to be seen");
+        check(&Figure::Line(chart.clone()));
+    }
+}
+
+#[test]
+fn spans_that_cannot_be_seen_are_not_drawn() {
+    let (inf, nan) = (f64::INFINITY, f64::NAN);
+    for (from, to) in [(1.0, inf), (-inf, 1.0), (nan, 1.0), (1.0, nan), (4.0, 9.0), (-9.0, -1.0)] {
+        let figure = Figure::Line(with_spans(vec![span(from, to)]));
+        check(&figure);
+        assert!(shaded(&figure.draw().unwrap()).is_empty(), "{from} to {to}");
+        assert_eq!(count(&figure, "saccade"), 0, "nor have they a key");
+    }
+    let empty = LineChart { spans: vec![span(0.0, 1.0)], ..LineChart::default() };
+    assert!(shaded(&empty.draw()).is_empty());
+}
+
+#[test]
+fn spans_of_one_name_have_one_key() {
+    let blink = Span { name: "blink".to_owned(), from: 0.0, to: 0.5 };
+    let figure = Figure::Line(with_spans(vec![span(0.5, 1.0), span(2.0, 2.5), blink]));
+    check(&figure);
+    assert_eq!((count(&figure, "saccade"), count(&figure, "blink")), (1, 1));
+    assert_eq!(shaded(&figure.draw().unwrap()).len(), 3);
+}
+
+#[test]
+fn an_axis_from_zero_begins_there() {
+    let ends = |values: &[f64], y_from_zero: bool| {
+        let Figure::Line(chart) = line(vec![points(values)]) else { unreachable!() };
+        let chart = LineChart { y_from_zero, ..chart };
+        check(&Figure::Line(chart.clone()));
+        let scale = chart.y_scale().unwrap();
+        (scale.low, scale.high)
+    };
+    let near = |(a, b): (f64, f64), (c, d): (f64, f64)| (a - c).hypot(b - d) < 1e-9;
+    assert!(near(ends(&[20.0, 30.0], true), (0.0, 31.8)));
+    assert!(near(ends(&[-20.0, -30.0], true), (-31.8, 0.0)));
+    assert!(near(ends(&[-20.0, 30.0], true), (-23.0, 33.0)), "air to both sides");
+    assert!(near(ends(&[20.0, 30.0], false), (19.4, 30.6)));
+    assert!(ends(&[0.0, 0.0], true).0.abs() < 1e-12);
+    assert!(ends(&[3e-5, f64::INFINITY], true).0.abs() < 1e-12);
+}
+
+#[test]
+fn labels_of_infinite_values_keep_off_the_axis() {
+    let (sub, inf) = (f64::NEG_INFINITY, f64::INFINITY);
+    for values in [[sub, 5.0, 7.0, sub], [inf, -5.0, -7.0, inf]] {
+        let Figure::Line(chart) = line(vec![points(&values)]) else { unreachable!() };
+        for x_ticks in [vec![0.0, 3.0], vec![-9.0, 2.999_999, 3.0], vec![0.0, 1e-9, 3.0]] {
+            let x_ticks = Some(x_ticks);
+            let chart = LineChart { x_ticks, y_from_zero: true, ..chart.clone() };
+            check(&Figure::Line(chart.clone()));
+            let panels = vec![chart; 3];
+            check(&Figure::Panels(PanelChart { panels, columns: 3, ..PanelChart::default() }));
+        }
+    }
+}
+
+#[test]
+fn panels_stay_inside_the_picture() {
+    for (count, columns) in (1..9).flat_map(|count| (1..5).map(move |c| (count, c))) {
+        let curves: Vec<_> = (0..5).map(|s| points(&ODD[s..][..5])).collect();
+        check(&panels(&curves, count, columns));
+        let infinite = points(&[f64::INFINITY, 1e-5, 3e-5, f64::NEG_INFINITY]);
+        check(&panels(&[infinite.clone(), infinite], count, columns));
+    }
+    for (i, a) in ODD.into_iter().enumerate() {
+        for b in ODD {
+            let xy = vec![(a, Some(b)), (b, Some(a))];
+            check(&panels(&[xy, vec![(a, None)]], 4, 2 + i % 3));
+        }
+    }
+}
+
+#[test]
+fn plot_areas_of_panels_are_aligned() {
+    for columns in 1..5 {
+        let mut figure = panels(&[points(&[3e-5, 1e-6]), points(&[1.0, -2.0])], 8, columns);
+        let Figure::Panels(chart) = &mut figure else { unreachable!() };
+        chart.panels[1].series[0].points = points(&[f64::INFINITY, 123_456.7, f64::NEG_INFINITY]);
+        chart.panels[2].series.clear();
+        let plots = plots(&figure.draw().unwrap());
+        assert_eq!(plots.len(), 8);
+        for (i, a) in plots.iter().enumerate() {
+            for (j, b) in plots[..i].iter().enumerate() {
+                let rows = (a.top, a.bottom) == (b.top, b.bottom);
+                assert_eq!(rows, i / columns == j / columns, "{i} and {j} of {columns}");
+                let lined_up = (a.left, a.right) == (b.left, b.right);
+                assert_eq!(lined_up, i % columns == j % columns, "{i} and {j} of {columns}");
+                assert!(!a.overlaps(*b) && (a.width() - b.width()).abs() < 1e-6);
+            }
+        }
+    }
+}
+
+#[test]
+fn panels_share_a_legend() {
+    let mut figure = panels(&[points(&[1.0, 2.0]), points(&[2.0, 3.0])], 5, 3);
+    let Figure::Panels(chart) = &mut figure else { unreachable!() };
+    chart.title = None;
+    let names = [["KFR", "RMFR"], ["RMFR", "VaFR"], ["Hyper3", "KFR"]];
+    for (panel, names) in chart.panels.iter_mut().zip(names.iter().cycle()) {
+        panel.title = None;
+        let series = |name: &&str| LineSeries {
+            name: (*name).to_owned(),
+            points: points(&[1.0, 2.0]),
+            ..LineSeries::default()
+        };
+        panel.series = names.iter().map(series).collect();
+    }
+    check(&figure);
+    let names = ["KFR", "RMFR", "VaFR", "Hyper3", "saccade"];
+    assert_eq!(texts(&figure)[..5], names);
+    assert!(names.iter().all(|name| count(&figure, name) == 1));
+}
+
+#[test]
+fn a_row_of_one_measure_has_its_title_once() {
+    let figure = panels(&[points(&[1.0, 2.0])], 8, 3);
+    // The last row has two.
+    assert_eq!((count(&figure, "Error energy"), count(&figure, "another measure")), (3, 1));
+    let two = panels(&[points(&[1.0, 2.0])], 8, 4);
+    assert_eq!((count(&two, "Error energy"), count(&two, "another measure")), (4, 1));
+    assert_eq!(count(&two, "Eccentricity (°)"), 8);
+}
+
+#[test]
+fn panels_have_the_width_of_a_column_or_a_page() {
+    let curves = [points(&[3e-3, 1e-6])];
+    let width = |count, columns| panels(&curves, count, columns).draw().unwrap().width_px;
+    let Figure::Panels(chart) = panels(&curves, 1, 1) else { unreachable!() };
+    assert_eq!(width(1, 1), chart.panels[0].draw().width_px);
+    assert_eq!((width(5, 1), width(5, 0), width(1, 3)), (width(1, 1), width(1, 1), width(1, 1)));
+    for columns in 2..5 {
+        assert!((940.0..=961.0).contains(&width(8, columns)), "{columns}");
+    }
+}
+
+#[test]
+fn panels_without_data_say_so() {
+    for columns in [0, 1, 3, usize::MAX] {
+        let figure = Figure::Panels(PanelChart { columns, ..PanelChart::default() });
+        check(&figure);
+        assert_eq!((count(&figure, "no data"), figure.csv().as_str()), (1, "panel,series,x,y\n"));
+        let mut some = panels(&[points(&[1.0, 2.0]), points(&[2.0])], 4, columns);
+        let Figure::Panels(chart) = &mut some else { unreachable!() };
+        chart.panels[1].series.clear();
+        chart.panels[2] = LineChart::default();
+        check(&some);
+        assert_eq!(count(&some, "no data"), 2);
+    }
+}
+
+#[test]
+fn data_of_panels_and_spans_are_tidy() {
+    let mut chart = with_spans(vec![span(0.5, f64::INFINITY), span(2.0, f64::NAN)]);
+    chart.series[0].points.truncate(1);
+    chart.series.push(LineSeries {
+        name: "b".to_owned(),
+        points: vec![(2.0, None)],
+        ..LineSeries::default()
+    });
+    let rows = [",0.0,1.0", "b,2.0,", "saccade,0.5,", "saccade,inf,", "saccade,2.0,", "saccade,,"];
+    let csv = |head: &str, panel: &str| {
+        rows.iter().fold(format!("{head}\n"), |csv, row| format!("{csv}{panel}{row}\n"))
+    };
+    assert_eq!(Figure::Line(chart.clone()).csv(), csv("series,x,y", ""));
+    chart.title = Some("Sponza, 2".to_owned());
+    let untitled = with_spans(Vec::new());
+    let panels = PanelChart { panels: vec![chart, untitled], columns: 2, ..PanelChart::default() };
+    let all = Figure::Panels(panels).csv();
+    let first = csv("panel,series,x,y", "\"Sponza, 2\",");
+    assert_eq!(
+        all.strip_prefix(first.as_str()),
+        Some(",,0.0,1.0\n,,1.0,3.0\n,,2.0,2.0\n,,3.0,4.0\n")
+    );
+}
+
 /// Usual values, or any at all: infinite, tiny, not a number.
 fn value() -> impl Strategy<Value = f64> {
     prop_oneof![-50.0..50.0, Just(0.0), prop::num::f64::ANY]
@@ -386,5 +666,26 @@ proptest! {
         check(&bars(vec![options.clone(); series], false));
         check(&bars(vec![options; series], true));
         check(&spread(vec![values.chunks(12).map(<[f64]>::to_vec).collect(); series]));
+    }
+
+    #[test]
+    fn no_value_breaks_panels(
+        values in prop::collection::vec(value(), 0..40),
+        count in 1..9usize,
+        columns in 1..5usize,
+        ticks in prop::collection::vec(value(), 0..4),
+    ) {
+        let points: Vec<_> = values.chunks(2).map(|v| (v[0], v.get(1).copied())).collect();
+        let mut figure = panels(&[points.clone(), points], count, columns);
+        let Figure::Panels(chart) = &mut figure else { unreachable!() };
+        for (i, panel) in chart.panels.iter_mut().enumerate() {
+            let shift = |(x, y): &mut (f64, Option<f64>)| (*x, y.map(|y| y / 10f64.powi(i as i32)));
+            panel.series.iter_mut().flat_map(|s| &mut s.points).for_each(|p| *p = shift(p));
+            panel.x_ticks = (i % 2 == 1).then(|| ticks.clone());
+            panel.spans = values.chunks(2).map(|v| span(v[0], v[v.len() - 1])).collect();
+        }
+        check(&figure);
+        let Figure::Panels(chart) = figure else { unreachable!() };
+        check(&Figure::Line(chart.panels[0].clone()));
     }
 }
