@@ -238,6 +238,7 @@ impl Guides {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what is only passed on comes back exactly")]
 mod tests {
     use super::*;
 

@@ -4,12 +4,13 @@ use std::fs::File;
 use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
-use fovqa_frame::{Frame, Mask};
+use fovqa_frame::{Frame, Guides, Mask};
 
 use crate::alpha::AlphaPolicy;
 use crate::contain::contained;
 use crate::error::{ReadError, ReadErrorKind};
 use crate::file_id::FileId;
+use crate::guides::{GuideOptions, GuideSearch};
 use crate::{exr, raster};
 
 /// How files are read.
@@ -21,13 +22,16 @@ pub struct ReadOptions {
     pub alpha: AlphaPolicy,
     /// Most pixels a file may declare, in millions.
     pub max_megapixels: u64,
+    /// Motion and depth to read beside the colour.
+    pub guides: GuideOptions,
 }
 
 impl Default for ReadOptions {
-    /// No layer, alpha an error, 256 megapixels: three times the retinal resolution of the
-    /// papers (11520x6480), 768 MB of 8-bit RGB.
+    /// No layer, alpha an error, no guides, 256 megapixels: three times the retinal resolution of
+    /// the papers (11520x6480), 768 MB of 8-bit RGB.
     fn default() -> Self {
-        Self { layer: None, alpha: AlphaPolicy::Error, max_megapixels: 256 }
+        let guides = GuideOptions::default();
+        Self { layer: None, alpha: AlphaPolicy::Error, max_megapixels: 256, guides }
     }
 }
 
@@ -62,6 +66,8 @@ pub enum Note {
     ConvertedPrimaries,
     /// An EXIF orientation that is not applied.
     Orientation,
+    /// The data window of motion or depth does not cover the display window; the rest is NaN.
+    UncoveredGuides,
 }
 
 impl Note {
@@ -81,6 +87,10 @@ impl Note {
                 "the chromaticities attribute is not Rec.709; colours were converted".to_owned()
             }
             Note::Orientation => "the EXIF orientation is not applied".to_owned(),
+            Note::UncoveredGuides => {
+                "the data window of motion or depth does not cover the display window; uncovered pixels have none"
+                    .to_owned()
+            }
         }
     }
 }
@@ -92,11 +102,23 @@ pub struct Decoded {
     pub frame: Frame,
     /// Remarks.
     pub notes: Vec<Note>,
+    /// Motion and depth, where they were asked for and are there.
+    pub guides: Guides,
+    /// What was looked for to find them.
+    pub guide_search: GuideSearch,
+}
+
+impl Decoded {
+    /// A frame of a file that cannot hold guides.
+    pub(crate) fn without_guides(frame: Frame, notes: Vec<Note>, options: &ReadOptions) -> Self {
+        let guide_search = GuideSearch::in_vain(&options.guides);
+        Self { frame, notes, guides: Guides::default(), guide_search }
+    }
 }
 
 const PNG_MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 const JPEG_MAGIC: &[u8] = b"\xff\xd8\xff";
-const EXR_MAGIC: &[u8] = b"\x76\x2f\x31\x01";
+pub(crate) const EXR_MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 
 /// Reads a PNG, JPEG or OpenEXR file; its first bytes tell which, not its name.
 ///
@@ -128,7 +150,7 @@ pub fn read_frame_and_hash(
 }
 
 /// Opens a regular file.
-fn open(path: &Path) -> Result<File, ReadErrorKind> {
+pub(crate) fn open(path: &Path) -> Result<File, ReadErrorKind> {
     let kind = std::fs::metadata(path)?;
     if kind.is_dir() {
         return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
@@ -147,13 +169,19 @@ fn decode(file: File, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
     })
 }
 
-fn decode_by_magic(file: File, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
+/// A file, and its first bytes.
+pub(crate) fn buffered(file: File) -> Result<(BufReader<File>, Vec<u8>), ReadErrorKind> {
     /// Large enough to keep system calls rare, small enough for the second-level cache.
     const BUFFER: usize = 256 << 10;
     let mut file = BufReader::with_capacity(BUFFER, file);
     let mut magic = Vec::with_capacity(8);
     file.by_ref().take(8).read_to_end(&mut magic)?;
     file.rewind()?;
+    Ok((file, magic))
+}
+
+fn decode_by_magic(file: File, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
+    let (file, magic) = buffered(file)?;
     if magic.starts_with(PNG_MAGIC) {
         raster::read_png(file, options)
     } else if magic.starts_with(JPEG_MAGIC) {
@@ -196,7 +224,8 @@ pub fn frame_size(path: &Path) -> Result<(usize, usize), ReadError> {
 /// # Errors
 /// As [`read_frame`].
 pub fn read_mask(path: &Path, options: &ReadOptions) -> Result<Mask, ReadError> {
-    let options = ReadOptions { alpha: AlphaPolicy::Ignore, ..options.clone() };
+    let guides = GuideOptions::default();
+    let options = ReadOptions { alpha: AlphaPolicy::Ignore, guides, ..options.clone() };
     let frame = read_frame(path, &options)?.frame;
     let (width, height, channels) = (frame.width(), frame.height(), frame.channels().count());
     let half = match frame.samples() {

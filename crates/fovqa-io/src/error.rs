@@ -117,6 +117,30 @@ pub enum ReadErrorKind {
     /// Chromaticities that span no colour space.
     #[error("its chromaticities attribute does not span a colour space")]
     Chromaticities,
+    /// A file of motion or depth that is not OpenEXR.
+    #[error("this is not an OpenEXR file, the only kind that motion and depth are read from")]
+    NotOpenExr,
+    /// No motion, or no depth.
+    #[error("it has no {what}, which was looked for as {wanted}; its channels are {channels}")]
+    NoGuide {
+        /// `motion` or `depth`.
+        what: &'static str,
+        /// The names that were looked for.
+        wanted: String,
+        /// The channels there are.
+        channels: String,
+    },
+    /// Several channels that could be the motion, or the depth.
+    #[error("several of its channels could be the {what}: {channels}")]
+    SeveralGuides {
+        /// `motion` or `depth`.
+        what: &'static str,
+        /// These channels.
+        channels: String,
+    },
+    /// Parts whose pixels do not lie on each other.
+    #[error("its parts have different display windows")]
+    DisplayWindows,
 }
 
 impl ReadErrorKind {
@@ -154,8 +178,21 @@ impl ReadErrorKind {
                 "nothing of it would be seen: check the render's region"
             }
             Self::Chromaticities => "write the file with valid primaries, or without the attribute",
+            Self::NotOpenExr => "save motion and depth as OpenEXR",
+            Self::NoGuide { .. } => "name the channels, or render them",
+            Self::SeveralGuides { .. } => "name the one that is meant, with its layer in front",
+            Self::DisplayWindows => "save all parts with the display window of the colour",
         }
     }
+}
+
+/// Names with commas between them, not more than a message holds.
+pub(crate) fn listed(names: impl Iterator<Item = String>) -> String {
+    const SHOWN: usize = 24;
+    let names: Vec<String> = names.collect();
+    let more = names.len().saturating_sub(SHOWN);
+    let shown = names[..names.len() - more].join(", ");
+    if more > 0 { format!("{shown} and {more} more") } else { shown }
 }
 
 fn io_reason(error: &io::Error) -> String {

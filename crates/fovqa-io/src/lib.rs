@@ -1,4 +1,5 @@
-//! Files to frames: PNG, JPEG and OpenEXR, sequences of them, and limits on what is read.
+//! Files to frames: PNG, JPEG and OpenEXR, with motion and depth where OpenEXR has them, sequences
+//! of them, and limits on what is read.
 //!
 //! Every decoder's mistake (an error, a panic, a declared size beyond reason) ends as a
 //! [`ReadError`] that names the file: one bad file never takes the others with it.
@@ -9,6 +10,7 @@ mod decode;
 mod error;
 mod exr;
 mod file_id;
+mod guides;
 mod raster;
 pub mod sequence;
 
@@ -19,3 +21,7 @@ pub use decode::{
 };
 pub use error::{ReadError, ReadErrorKind};
 pub use file_id::FileId;
+pub use guides::{
+    DecodedGuides, DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels,
+    MotionUnit, NamedMotion, Sought, read_guides, read_guides_and_hash,
+};

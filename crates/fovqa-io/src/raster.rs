@@ -118,7 +118,7 @@ fn read_samples(
     let channels = if colours == 1 { Channels::Gray } else { Channels::Rgb };
     let frame = Frame::new(width, height as usize, channels, samples)
         .map_err(|e| ReadErrorKind::Damaged { format, detail: e.to_string() })?;
-    Ok(Decoded { frame, notes: Vec::new() })
+    Ok(Decoded::without_guides(frame, Vec::new(), options))
 }
 
 /// A code of 8 or 16 bits.

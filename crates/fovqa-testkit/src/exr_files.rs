@@ -1,4 +1,4 @@
-//! OpenEXR files: any channels, layers, parts and windows, and a deep one.
+//! OpenEXR files: any channels, layers, parts and windows, a deep one, and ways to break them.
 
 use std::path::Path;
 
@@ -37,6 +37,18 @@ impl Part {
     pub fn new(size: (usize, usize), channels: &[(&str, Values)]) -> Self {
         let channels = channels.iter().map(|(name, v)| ((*name).to_owned(), v.clone())).collect();
         Self { name: "", at: (0, 0), size, channels }
+    }
+
+    /// The same with a name.
+    #[must_use]
+    pub fn named(self, name: &'static str) -> Self {
+        Self { name, ..self }
+    }
+
+    /// The same with the corner of its data window elsewhere.
+    #[must_use]
+    pub fn placed(self, at: (i32, i32)) -> Self {
+        Self { at, ..self }
     }
 
     /// R, G and B as half floats, all of them `value(x, y)`.
@@ -107,6 +119,66 @@ impl File {
             .to_file(path)
             .expect("a writable path");
     }
+}
+
+/// Where the blocks of a file start, for each of its parts: the entries of its offset tables.
+///
+/// # Panics
+/// When its headers or tables cannot be read.
+pub fn block_starts(file: &[u8]) -> Vec<Vec<usize>> {
+    let (mut at, parts) = offset_tables(file);
+    let mut table = |blocks: usize| {
+        let entries = file[at..at + 8 * blocks].as_chunks::<8>().0.iter();
+        at += 8 * blocks;
+        entries.map(|entry| u64::from_le_bytes(*entry) as usize).collect()
+    };
+    parts.into_iter().map(&mut table).collect()
+}
+
+/// A file in which one block of a part is taken for another one of that part.
+///
+/// # Panics
+/// When its headers cannot be read or have no such blocks.
+pub fn with_block_as(file: &[u8], part: usize, block: usize, other: usize) -> Vec<u8> {
+    let (tables, parts) = offset_tables(file);
+    let table = tables + 8 * parts[..part].iter().sum::<usize>();
+    let mut file = file.to_vec();
+    file.copy_within(table + 8 * other..table + 8 * other + 8, table + 8 * block);
+    file
+}
+
+/// Where the offset tables start, and how many blocks each part has.
+fn offset_tables(file: &[u8]) -> (usize, Vec<usize>) {
+    let mut rest = file;
+    let meta = exr::meta::MetaData::read_from_buffered(&mut rest, false).expect("whole headers");
+    (file.len() - rest.len(), meta.headers.iter().map(|header| header.chunk_count).collect())
+}
+
+/// A file whose first channel of this name, of half floats, says that it has every second column.
+///
+/// # Panics
+/// When there is none.
+pub fn with_subsampled(file: &[u8], channel: &str) -> Vec<u8> {
+    // The name, the type, a flag and three zeros, then how often there is a sample.
+    let entry = [channel.as_bytes(), b"\0\x01\0\0\0"].concat();
+    let at = file.windows(entry.len()).position(|w| w == entry).expect("the channel");
+    let mut file = file.to_vec();
+    file[at + entry.len() + 4] = 2;
+    file
+}
+
+/// A file of several parts, the last of which says that it holds deep data. Only its headers
+/// still make sense.
+///
+/// # Panics
+/// When it has no parts with a type.
+pub fn with_deep_part(file: &[u8]) -> Vec<u8> {
+    let flat = b"string\0\x0d\0\0\0scanlineimage";
+    let at = file.windows(flat.len()).rposition(|w| w == flat).expect("the type of a part");
+    let deep = b"string\0\x0c\0\0\0deepscanline";
+    let mut file = [&file[..at], deep, &file[at + flat.len()..]].concat();
+    file[5] |= 0x08;
+    file
 }
 
 /// The bytes of a deep scan-line file, as far as its offset table.

@@ -128,6 +128,7 @@ impl SignalArgs {
                 AlphaArg::OverBlack => AlphaPolicy::OverBlack,
             },
             max_megapixels: self.max_megapixels,
+            ..ReadOptions::default()
         }
     }
 

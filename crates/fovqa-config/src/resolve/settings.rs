@@ -118,6 +118,7 @@ impl<'a> Layers<'a> {
                 _ => AlphaPolicy::Error,
             },
             max_megapixels: megapixels.map_or(default.max_megapixels, |n| n as u64),
+            ..default
         }
     }
 

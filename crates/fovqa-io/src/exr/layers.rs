@@ -6,10 +6,10 @@
 
 use ::exr::meta::header::Header;
 
-use crate::error::ReadErrorKind;
+use crate::error::{ReadErrorKind, listed};
 
 /// The name under which the channels without a prefix are asked for.
-const ROOT: &str = "root";
+pub(super) const ROOT: &str = "root";
 
 /// A colour layer.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,6 +22,13 @@ pub(crate) struct Layer {
     pub(crate) colour: Vec<usize>,
     /// Channel index of A.
     pub(crate) alpha: Option<usize>,
+}
+
+impl Layer {
+    /// Part and prefix as one name, empty for channels that have neither.
+    pub(crate) fn full_name(&self) -> &str {
+        if self.name == ROOT { "" } else { &self.name }
+    }
 }
 
 /// The colour layer asked for, or the only one.
@@ -53,15 +60,6 @@ pub(crate) fn choose(headers: &[Header], wanted: Option<&str>) -> Result<Layer, 
     Ok(layers.swap_remove(0))
 }
 
-/// Names with commas between them, not more than a message holds.
-fn listed(names: impl Iterator<Item = String>) -> String {
-    const SHOWN: usize = 24;
-    let names: Vec<String> = names.collect();
-    let more = names.len().saturating_sub(SHOWN);
-    let shown = names[..names.len() - more].join(", ");
-    if more > 0 { format!("{shown} and {more} more") } else { shown }
-}
-
 fn colour_layers(part: usize, header: &Header) -> Vec<Layer> {
     let names: Vec<String> = header.channels.list.iter().map(|c| c.name.to_string()).collect();
     let split: Vec<(&str, &str)> =
@@ -70,8 +68,7 @@ fn colour_layers(part: usize, header: &Header) -> Vec<Layer> {
     // Channels stand in alphabetical order, which need not keep a layer's together.
     prefixes.sort_unstable();
     prefixes.dedup();
-    let part_name = header.own_attributes.layer_name.as_ref().map(ToString::to_string);
-    let part_name = part_name.unwrap_or_default();
+    let part_name = part_name(header);
     let find = |prefix: &str, names: [&str; 2]| {
         split.iter().position(|(p, channel)| {
             *p == prefix && names.iter().any(|name| channel.eq_ignore_ascii_case(name))
@@ -100,14 +97,28 @@ fn colour_layers(part: usize, header: &Header) -> Vec<Layer> {
 }
 
 fn layer_name(part: &str, prefix: &str) -> String {
-    let repeated = prefix == part || prefix.starts_with(&format!("{part}."));
-    match (part, prefix) {
-        ("", "") => ROOT.to_owned(),
-        (part, "") => part.to_owned(),
-        ("", prefix) => prefix.to_owned(),
-        (_, prefix) if repeated => prefix.to_owned(),
-        (part, prefix) => format!("{part}.{prefix}"),
+    match joined(part, prefix) {
+        name if name.is_empty() => ROOT.to_owned(),
+        name => name,
     }
+}
+
+/// The name of a part in front of a layer's or a channel's, which may begin with it already.
+pub(super) fn joined(part: &str, name: &str) -> String {
+    let rest = name.strip_prefix(part);
+    let repeated = rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+    match (part, name) {
+        (part, "") => part.to_owned(),
+        ("", name) => name.to_owned(),
+        (_, name) if repeated => name.to_owned(),
+        (part, name) => format!("{part}.{name}"),
+    }
+}
+
+/// The name of a part, empty where it has none.
+pub(super) fn part_name(header: &Header) -> String {
+    let name = header.own_attributes.layer_name.as_ref().map(ToString::to_string);
+    name.unwrap_or_default()
 }
 
 #[cfg(test)]

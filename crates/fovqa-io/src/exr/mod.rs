@@ -1,10 +1,15 @@
-//! OpenEXR: one colour layer of one part, brought to the display window and to Rec.709.
+//! OpenEXR: one colour layer of one part, brought to the display window and to Rec.709, and the
+//! guides beside it.
 
+mod channels;
+mod guides;
 mod layers;
 mod pixels;
+mod window;
 
 use std::io::{ErrorKind, Read, Seek};
 
+use ::exr::block::reader::Reader;
 use ::exr::math::Vec2;
 use ::exr::meta::MetaData;
 use ::exr::meta::header::Header;
@@ -13,50 +18,37 @@ use fovqa_frame::{Channels, Chromaticities, Frame, Samples};
 use crate::alpha::{AlphaPolicy, require_opaque};
 use crate::decode::{Decoded, Note, ReadOptions};
 use crate::error::ReadErrorKind;
-use pixels::{Planes, Window};
+use crate::guides::{DecodedGuides, Place};
+use pixels::{Planes, Request};
+use window::Window;
 
 /// The size of a file's display window.
 pub(crate) fn size(mut file: impl Read + Seek + Send) -> Result<(usize, usize), ReadErrorKind> {
     let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
     let size = meta.headers.first().map(|header| header.shared_attributes.display_window.size);
-    let detail = || "it has no parts".to_owned();
-    let size =
-        size.ok_or_else(|| ReadErrorKind::Damaged { format: "OpenEXR", detail: detail() })?;
+    let size = size.ok_or_else(no_parts)?;
     Ok((size.width(), size.height()))
 }
 
 pub(crate) fn read(
-    mut file: impl Read + Seek + Send,
+    file: impl Read + Seek + Send,
     options: &ReadOptions,
 ) -> Result<Decoded, ReadErrorKind> {
-    // Sizes first: whatever else is wrong with the file, nothing may be allocated for them.
-    let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
-    for header in &meta.headers {
-        if header.deep {
-            return Err(ReadErrorKind::Deep);
-        }
-        if let Some(channel) = header.channels.list.iter().find(|c| c.sampling != Vec2(1, 1)) {
-            return Err(ReadErrorKind::Subsampled { channel: channel.name.to_string() });
-        }
-        let Vec2(w, h) = header.max_block_pixel_size();
-        let block = (w as u64)
-            .saturating_mul(h as u64)
-            .saturating_mul(header.channels.bytes_per_pixel as u64);
-        options.check_block(block)?;
-        for size in [header.layer_size, header.shared_attributes.display_window.size] {
-            options.check_size(size.0 as u64, size.1 as u64)?;
-        }
-    }
-    file.rewind()?;
-    let reader = ::exr::block::read(file, false).map_err(damaged)?;
-    let layer = layers::choose(reader.headers(), options.layer.as_deref())?;
-    let header = &reader.headers()[layer.part];
+    let reader = reader(file, options)?;
+    let headers = reader.headers();
+    let layer = layers::choose(headers, options.layer.as_deref())?;
+    let header = &headers[layer.part];
     let window = Window::of(header)?;
     let alpha = layer.alpha.filter(|_| options.alpha == AlphaPolicy::Error);
     let primaries = primaries(header)?.filter(|_| layer.colour.len() == 3);
+    let found = guides::find(headers, &options.guides, Place::BesideColour, layer.full_name())?;
 
     let channels: Vec<usize> = layer.colour.iter().copied().chain(alpha).collect();
-    let mut planes = pixels::read(reader, layer.part, &channels, &window)?;
+    let mut requests = found.requests(headers, &headers[layer.part])?;
+    requests.insert(0, Request { part: layer.part, channels, window });
+    let mut planes = pixels::read(reader, &requests)?;
+    let guide_planes = planes.split_off(1);
+    let mut planes = planes.pop().unwrap_or_else(|| unreachable!("planes for each request"));
     if alpha.is_some() {
         // Pixels without data are no part of the picture: they are opaque black.
         let alpha = planes.pop_as_f32().into_iter().enumerate();
@@ -77,7 +69,60 @@ pub(crate) fn read(
     let colour = if layer.colour.len() == 3 { Channels::Rgb } else { Channels::Gray };
     let frame = Frame::new(window.display_width, window.display_height, colour, samples)
         .map_err(|e| ReadErrorKind::Damaged { format: "OpenEXR", detail: e.to_string() })?;
-    Ok(Decoded { frame, notes })
+    let (guides, note) = found.guides(&requests[1..], guide_planes)?;
+    notes.extend(note);
+    Ok(Decoded { frame, notes, guides, guide_search: found.search })
+}
+
+/// Reads the guides of a file that need not have colour. All that was asked for has to be there.
+pub(crate) fn read_guides(
+    file: impl Read + Seek + Send,
+    options: &ReadOptions,
+) -> Result<DecodedGuides, ReadErrorKind> {
+    let reader = reader(file, options)?;
+    let headers = reader.headers();
+    let layer = options.layer.as_deref().filter(|&layer| layer != layers::ROOT);
+    let found = guides::find(headers, &options.guides, Place::Alone, layer.unwrap_or_default())?;
+    let missing = found.search.missing_motion().or_else(|| found.search.missing_depth());
+    if let Some(missing) = missing {
+        return Err(missing);
+    }
+    let Some(first) = headers.first() else { return Err(no_parts()) };
+    let requests = found.requests(headers, first)?;
+    let planes = pixels::read(reader, &requests)?;
+    let (guides, note) = found.guides(&requests, planes)?;
+    Ok(DecodedGuides { guides, notes: note.into_iter().collect(), search: found.search })
+}
+
+/// Reads the headers. Sizes are checked first: whatever else is wrong with the file, nothing may be
+/// allocated for them.
+fn reader<R: Read + Seek + Send>(
+    mut file: R,
+    options: &ReadOptions,
+) -> Result<Reader<R>, ReadErrorKind> {
+    let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
+    for header in &meta.headers {
+        if header.deep {
+            return Err(ReadErrorKind::Deep);
+        }
+        if let Some(channel) = header.channels.list.iter().find(|c| c.sampling != Vec2(1, 1)) {
+            return Err(ReadErrorKind::Subsampled { channel: channel.name.to_string() });
+        }
+        let Vec2(w, h) = header.max_block_pixel_size();
+        let block = (w as u64)
+            .saturating_mul(h as u64)
+            .saturating_mul(header.channels.bytes_per_pixel as u64);
+        options.check_block(block)?;
+        for size in [header.layer_size, header.shared_attributes.display_window.size] {
+            options.check_size(size.0 as u64, size.1 as u64)?;
+        }
+    }
+    file.rewind()?;
+    ::exr::block::read(file, false).map_err(damaged)
+}
+
+fn no_parts() -> ReadErrorKind {
+    ReadErrorKind::Damaged { format: "OpenEXR", detail: "it has no parts".to_owned() }
 }
 
 fn damaged(error: ::exr::error::Error) -> ReadErrorKind {

@@ -1,4 +1,4 @@
-//! Chosen channels of one part, block by block, into planes of the display window.
+//! Chosen channels of some parts, block by block, into planes of the display window.
 
 use std::collections::BTreeSet;
 use std::io::{Read, Seek};
@@ -10,82 +10,16 @@ use ::exr::block::reader::Reader;
 use ::exr::compression::Compression;
 use ::exr::math::Vec2;
 use ::exr::meta::MetaData;
-use ::exr::meta::attribute::SampleType;
-use ::exr::meta::header::Header;
-use fovqa_frame::Samples;
+use ::exr::meta::attribute::{ChannelList, SampleType};
+use fovqa_frame::{PlaneSamples, Samples};
 use half::f16;
 use half::vec::HalfBitsVecExt;
 use rayon::prelude::*;
 
 use super::damaged;
+use super::window::Window;
 use crate::contain::contained;
 use crate::error::ReadErrorKind;
-
-/// The display window, and where the data window lies in it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Window {
-    pub(crate) display_width: usize,
-    pub(crate) display_height: usize,
-    /// Position of the data window's corner relative to the display window's.
-    data_at: (i64, i64),
-    data_size: (usize, usize),
-}
-
-impl Window {
-    pub(crate) fn of(header: &Header) -> Result<Self, ReadErrorKind> {
-        let display = header.shared_attributes.display_window;
-        let data = header.own_attributes.layer_position;
-        let size = header.layer_size;
-        let window = Self {
-            display_width: display.size.0,
-            display_height: display.size.1,
-            data_at: (
-                i64::from(data.0) - i64::from(display.position.0),
-                i64::from(data.1) - i64::from(display.position.1),
-            ),
-            data_size: (size.0, size.1),
-        };
-        if window.columns().is_empty() || window.rows().is_empty() {
-            let text = |w: usize, h: usize, x: i32, y: i32| format!("{w}x{h}{x:+}{y:+}");
-            return Err(ReadErrorKind::DisjointWindows {
-                data: text(size.0, size.1, data.0, data.1),
-                display: text(
-                    display.size.0,
-                    display.size.1,
-                    display.position.0,
-                    display.position.1,
-                ),
-            });
-        }
-        Ok(window)
-    }
-
-    /// Columns of the display window that hold data.
-    fn columns(&self) -> Range<usize> {
-        overlap(self.data_at.0, self.data_size.0, self.display_width)
-    }
-
-    /// Rows of the display window that hold data.
-    fn rows(&self) -> Range<usize> {
-        overlap(self.data_at.1, self.data_size.1, self.display_height)
-    }
-
-    /// Whether pixel `index` of the display window holds data.
-    pub(crate) fn has_data(&self, index: usize) -> bool {
-        let (x, y) = (index % self.display_width, index / self.display_width);
-        self.columns().contains(&x) && self.rows().contains(&y)
-    }
-
-    pub(crate) fn data_covers_display(&self) -> bool {
-        self.columns() == (0..self.display_width) && self.rows() == (0..self.display_height)
-    }
-}
-
-fn overlap(at: i64, length: usize, size: usize) -> Range<usize> {
-    let from = at.clamp(0, size as i64);
-    let to = at.saturating_add(length as i64).clamp(0, size as i64);
-    from as usize..to as usize
-}
 
 /// Planes of the display window, one after the other.
 #[derive(Debug)]
@@ -113,6 +47,32 @@ impl Planes {
                 last.into_iter().map(f16::to_f32).collect()
             }
             Planes::Float(values, size) => values.split_off(values.len() - *size),
+        }
+    }
+
+    /// Makes pixels that hold no data NaN, in each plane.
+    pub(crate) fn blank(&mut self, uncovered: impl Iterator<Item = Range<usize>>) {
+        for range in uncovered {
+            match self {
+                Planes::Half(values, size) => {
+                    for plane in values.chunks_exact_mut(*size) {
+                        plane[range.clone()].fill(f16::NAN);
+                    }
+                }
+                Planes::Float(values, size) => {
+                    for plane in values.chunks_exact_mut(*size) {
+                        plane[range.clone()].fill(f32::NAN);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The samples of a single plane.
+    pub(crate) fn into_plane(self) -> PlaneSamples {
+        match self {
+            Planes::Half(values, _) => PlaneSamples::F16(values),
+            Planes::Float(values, _) => PlaneSamples::F32(values),
         }
     }
 
@@ -166,29 +126,76 @@ const CHUNKS_AT_ONCE: usize = 32;
 /// … and as long as they, with all their channels, stay small.
 const BYTES_AT_ONCE: usize = 64 << 20;
 
-/// Reads `channels` of a part at full resolution.
+/// Channels of one part, to be read into planes of one type.
+#[derive(Debug)]
+pub(crate) struct Request {
+    pub(crate) part: usize,
+    /// Channel indices, each at most once.
+    pub(crate) channels: Vec<usize>,
+    pub(crate) window: Window,
+}
+
+/// A request that is being read.
+#[derive(Debug)]
+struct Filling<'a> {
+    request: &'a Request,
+    kinds: Vec<SampleType>,
+    planes: Planes,
+    /// Samples read of each channel.
+    read: Vec<usize>,
+}
+
+impl<'a> Filling<'a> {
+    fn new(request: &'a Request, meta: &MetaData) -> Self {
+        let all = &meta.headers[request.part].channels.list;
+        let kinds: Vec<SampleType> = request.channels.iter().map(|&c| all[c].sample_type).collect();
+        let half = kinds.iter().all(|kind| *kind == SampleType::F16);
+        let planes = Planes::new(half, kinds.len(), request.window.display_len());
+        let read = vec![0; kinds.len()];
+        Self { request, kinds, planes, read }
+    }
+
+    /// Takes what it needs of a block of its part.
+    fn take(&mut self, block: &UncompressedBlock, all: &ChannelList) {
+        let Request { channels, window, .. } = self.request;
+        for line in block.lines(all) {
+            let Some(plane) = channels.iter().position(|&c| c == line.location.channel) else {
+                continue;
+            };
+            self.read[plane] += line.location.sample_count;
+            let Vec2(x, y) = line.location.position;
+            if let Some((at, bytes)) = window.visible(x, y, line.value, self.kinds[plane]) {
+                self.planes.put(plane * window.display_len() + at, self.kinds[plane], bytes);
+            }
+        }
+    }
+
+    fn finish(self) -> Result<Planes, ReadErrorKind> {
+        let expected = self.request.window.data_len();
+        if self.read.iter().any(|&read| read != expected) {
+            let detail = "some of its blocks are missing".to_owned();
+            return Err(ReadErrorKind::Damaged { format: "OpenEXR", detail });
+        }
+        Ok(self.planes)
+    }
+}
+
+/// Reads channels at full resolution, all requests in one pass over the blocks of their parts;
+/// the planes of a request stand in the order of its channels.
 pub(crate) fn read(
     reader: Reader<impl Read + Seek + Send>,
-    part: usize,
-    channels: &[usize],
-    window: &Window,
-) -> Result<Planes, ReadErrorKind> {
-    let kinds: Vec<SampleType> =
-        channels.iter().map(|&c| reader.headers()[part].channels.list[c].sample_type).collect();
-    let size = window.display_width * window.display_height;
-    let half = kinds.iter().all(|kind| *kind == SampleType::F16);
+    requests: &[Request],
+) -> Result<Vec<Planes>, ReadErrorKind> {
     let meta = reader.meta_data().clone();
     let mut chunks = reader
         .filter_chunks(false, |_, tile, block| {
-            block.layer == part && tile.level_index == Vec2(0, 0)
+            tile.level_index == Vec2(0, 0) && requests.iter().any(|r| r.part == block.layer)
         })
         .map_err(damaged)?;
     // Only now: the offset table has been read, so the file is at least that long.
-    let mut planes = Planes::new(half, channels.len(), size);
-    let Vec2(w, h) = meta.headers[part].max_block_pixel_size();
-    let block_bytes = (w * h * meta.headers[part].channels.bytes_per_pixel).max(1);
-    let at_once = (BYTES_AT_ONCE / block_bytes).clamp(1, CHUNKS_AT_ONCE);
-    let mut samples_read = vec![0usize; channels.len()];
+    let mut fillings: Vec<Filling> =
+        requests.iter().map(|request| Filling::new(request, &meta)).collect();
+    let at_once = chunks_at_once(&meta, requests);
     let mut blocks_seen = BTreeSet::new();
     loop {
         let batch: Vec<Chunk> =
@@ -199,28 +206,27 @@ pub(crate) fn read(
         let blocks: Vec<_> = batch.into_par_iter().map(|chunk| decompress(chunk, &meta)).collect();
         for block in blocks {
             let block = block?;
-            if !blocks_seen.insert((block.index.pixel_position.0, block.index.pixel_position.1)) {
+            let (part, Vec2(x, y)) = (block.index.layer, block.index.pixel_position);
+            if !blocks_seen.insert((part, x, y)) {
                 let detail = "one of its blocks is there twice".to_owned();
                 return Err(ReadErrorKind::Damaged { format: "OpenEXR", detail });
             }
-            for line in block.lines(&meta.headers[part].channels) {
-                let Some(plane) = channels.iter().position(|&c| c == line.location.channel) else {
-                    continue;
-                };
-                samples_read[plane] += line.location.sample_count;
-                let Vec2(x, y) = line.location.position;
-                if let Some((at, bytes)) = visible(window, x, y, line.value, kinds[plane]) {
-                    planes.put(plane * size + at, kinds[plane], bytes);
-                }
+            for filling in fillings.iter_mut().filter(|filling| filling.request.part == part) {
+                filling.take(&block, &meta.headers[part].channels);
             }
         }
     }
-    let expected = window.data_size.0 * window.data_size.1;
-    if samples_read.iter().any(|&read| read != expected) {
-        let detail = "some of its blocks are missing".to_owned();
-        return Err(ReadErrorKind::Damaged { format: "OpenEXR", detail });
-    }
-    Ok(planes)
+    fillings.into_iter().map(Filling::finish).collect()
+}
+
+/// How many chunks to decompress at the same time.
+fn chunks_at_once(meta: &MetaData, requests: &[Request]) -> usize {
+    let bytes = requests.iter().map(|request| {
+        let header = &meta.headers[request.part];
+        let Vec2(w, h) = header.max_block_pixel_size();
+        w * h * header.channels.bytes_per_pixel
+    });
+    (BYTES_AT_ONCE / bytes.max().unwrap_or(0).max(1)).clamp(1, CHUNKS_AT_ONCE)
 }
 
 fn decompress(chunk: Chunk, meta: &MetaData) -> Result<UncompressedBlock, ReadErrorKind> {
@@ -272,37 +278,4 @@ fn check_dwa_counters(chunk: &Chunk, meta: &MetaData) -> Result<(), ReadErrorKin
         return Err(ReadErrorKind::Damaged { format: "OpenEXR", detail });
     }
     Ok(())
-}
-
-/// The part of a line inside the display window: where it goes, and its bytes.
-fn visible<'a>(
-    window: &Window,
-    x: usize,
-    y: usize,
-    bytes: &'a [u8],
-    kind: SampleType,
-) -> Option<(usize, &'a [u8])> {
-    let sample = if kind == SampleType::F16 { 2 } else { 4 };
-    let (x, y) = (x as i64 + window.data_at.0, y as i64 + window.data_at.1);
-    let columns = overlap(x, bytes.len() / sample, window.display_width);
-    if columns.is_empty() || !(0..window.display_height as i64).contains(&y) {
-        return None;
-    }
-    let skip = (columns.start as i64 - x) as usize;
-    let bytes = &bytes[skip * sample..(skip + columns.len()) * sample];
-    Some((y as usize * window.display_width + columns.start, bytes))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn overlap_of_windows() {
-        assert_eq!(overlap(-3, 10, 5), 0..5);
-        assert_eq!(overlap(2, 10, 5), 2..5);
-        assert_eq!(overlap(-3, 5, 5), 0..2);
-        assert!(overlap(5, 3, 5).is_empty());
-        assert!(overlap(-3, 3, 5).is_empty());
-    }
 }

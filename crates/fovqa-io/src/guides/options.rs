@@ -1,0 +1,82 @@
+//! What to look for beside the colour.
+
+use super::preset::GuidePreset;
+
+/// Which channels hold the motion and the depth of a frame. By default neither is looked for.
+///
+/// Names are matched without regard to case, from a dot on: `Vector.X` is also
+/// `ViewLayer.Vector.X`, and the name of a part counts like a layer in front. Of several such
+/// channels the one whose first name is that of the colour layer is meant.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GuideOptions {
+    /// The motion.
+    pub motion: MotionChannels,
+    /// The depth.
+    pub depth: DepthChannels,
+}
+
+impl GuideOptions {
+    /// Whether nothing is looked for.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// The channels of backward motion: the position in the previous frame is the position in this
+/// one plus the motion.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum MotionChannels {
+    /// Not read.
+    #[default]
+    None,
+    /// `motion.X` and `motion.Y` in pixels, else the names of the presets in the order of
+    /// [`GuidePreset::ALL`]. In a file of its own also `X`, `Y`, `Z` and `W` together as Blender
+    /// writes them, `X` and `Y` in pixels, and `R` and `G` as Falcor writes them.
+    Auto,
+    /// Those of a renderer.
+    Preset(GuidePreset),
+    /// Those of these names.
+    Named(NamedMotion),
+}
+
+/// Channels of motion and what their values mean: the motion in pixels is
+/// `sample * sign * scale`, times the size of the unit in pixels.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedMotion {
+    /// The channels across and down.
+    pub channels: [String; 2],
+    /// 1, or -1 where the axis points to the left or up, or where the motion is that from the
+    /// previous frame to this one.
+    pub sign: [f64; 2],
+    /// Units for one unit of a sample.
+    pub scale: [f64; 2],
+    /// The unit.
+    pub unit: MotionUnit,
+}
+
+/// What motion is counted in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum MotionUnit {
+    /// Pixels.
+    #[default]
+    Pixels,
+    /// Widths and heights of the display window.
+    Frame,
+    /// Halves of them: coordinates that go from -1 to 1 across the display window.
+    Ndc,
+}
+
+/// The channel of depth.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum DepthChannels {
+    /// Not read.
+    #[default]
+    None,
+    /// `Z` of the colour's own layer, else the names of the presets in the order of
+    /// [`GuidePreset::ALL`]. In a file of its own also `Y`, `R` or the only channel.
+    Auto,
+    /// That of a renderer.
+    Preset(GuidePreset),
+    /// That of this name.
+    Named(String),
+}

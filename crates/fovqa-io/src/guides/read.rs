@@ -1,0 +1,67 @@
+//! Files that hold motion or depth and need no colour.
+
+use std::fs::File;
+use std::io::Seek;
+use std::path::Path;
+
+use fovqa_frame::Guides;
+
+use super::search::GuideSearch;
+use crate::contain::contained;
+use crate::decode::{EXR_MAGIC, Note, ReadOptions, buffered, open};
+use crate::error::{ReadError, ReadErrorKind};
+use crate::exr;
+use crate::file_id::FileId;
+
+/// The guides of a file and what there is to say about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DecodedGuides {
+    /// The guides; whatever was asked for is there.
+    pub guides: Guides,
+    /// Remarks.
+    pub notes: Vec<Note>,
+    /// Which channels they are.
+    pub search: GuideSearch,
+}
+
+/// Reads motion and depth, as `options.guides` asks for them, from an OpenEXR file that need not
+/// have colour; `options.layer` tells which of several layers is meant, if there are several.
+///
+/// # Errors
+/// When the file cannot be read, is not OpenEXR, is damaged or too large, or lacks a channel
+/// that was asked for. A decoder that panics is an error too.
+pub fn read_guides(path: &Path, options: &ReadOptions) -> Result<DecodedGuides, ReadError> {
+    open(path).and_then(|file| decode(file, options)).map_err(|kind| kind.at(path))
+}
+
+/// The same, and the identity of the bytes that were decoded.
+///
+/// # Errors
+/// As [`read_guides`].
+pub fn read_guides_and_hash(
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<(DecodedGuides, FileId), ReadError> {
+    let read = || {
+        let mut file = open(path)?;
+        let id = FileId::of(&mut file)?;
+        file.rewind()?;
+        Ok((decode(file, options)?, id))
+    };
+    read().map_err(|kind: ReadErrorKind| kind.at(path))
+}
+
+fn decode(file: File, options: &ReadOptions) -> Result<DecodedGuides, ReadErrorKind> {
+    let read = || {
+        let (file, magic) = buffered(file)?;
+        if magic.starts_with(EXR_MAGIC) {
+            exr::read_guides(file, options)
+        } else {
+            Err(ReadErrorKind::NotOpenExr)
+        }
+    };
+    contained(read).unwrap_or_else(|| {
+        let detail = "the decoder broke down on it".to_owned();
+        Err(ReadErrorKind::Damaged { format: "OpenEXR", detail })
+    })
+}

@@ -1,0 +1,837 @@
+//! Motion and depth of OpenEXR files, as a caller sees them.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+#![allow(clippy::float_cmp, reason = "what is only passed on comes back exactly")]
+
+use std::fs;
+use std::path::PathBuf;
+
+use exr::prelude::{Blocks, Compression, Encoding, LineOrder, Vec2};
+use fovqa_frame::{Crop, Guides, Motion, Plane};
+use fovqa_io::{
+    AlphaPolicy, Decoded, DecodedGuides, DepthChannels, FileId, GuideOptions, GuidePreset,
+    GuideSearch, MotionChannels, MotionUnit, NamedMotion, Note, ReadErrorKind, ReadOptions,
+    read_frame, read_frame_and_hash, read_guides, read_guides_and_hash,
+};
+use fovqa_testkit::exr_files::{
+    File, Part, Values, block_starts, deep, with_block_as, with_deep_part, with_subsampled,
+};
+use fovqa_testkit::png_files::write8;
+use tempfile::TempDir;
+
+const W: usize = 40;
+const H: usize = 36;
+const SIZE: (usize, usize) = (W, H);
+
+/// A value for each pixel, exact as half float, and different from channel to channel.
+fn value(seed: usize, x: usize, y: usize) -> f32 {
+    ((x * 7 + y * 13 + seed * 101) % 1000) as f32 / 4.0
+}
+
+fn values(seed: usize, (w, h): (usize, usize)) -> Vec<f32> {
+    (0..w * h).map(|i| value(seed, i % w, i / w)).collect()
+}
+
+fn half(seed: usize) -> Values {
+    Values::Half(values(seed, SIZE))
+}
+
+fn float(seed: usize) -> Values {
+    Values::Float(values(seed, SIZE))
+}
+
+/// Half floats by name, with the seeds 0, 1, 2 and so on.
+fn part(names: &[&str]) -> Part {
+    let channels: Vec<_> = names.iter().enumerate().map(|(i, name)| (*name, half(i))).collect();
+    Part::new(SIZE, &channels)
+}
+
+/// Files, where the tests are done with them.
+struct Folder(TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self) -> PathBuf {
+        self.0.path().join("file.exr")
+    }
+
+    fn file(&self, parts: Vec<Part>) -> PathBuf {
+        self.written(&File::new(parts))
+    }
+
+    fn written(&self, file: &File) -> PathBuf {
+        file.write(&self.path());
+        self.path()
+    }
+
+    fn bytes(&self, bytes: impl AsRef<[u8]>) -> PathBuf {
+        fs::write(self.path(), bytes).unwrap();
+        self.path()
+    }
+}
+
+fn options(motion: MotionChannels, depth: DepthChannels) -> ReadOptions {
+    ReadOptions { guides: GuideOptions { motion, depth }, ..ReadOptions::default() }
+}
+
+fn auto() -> ReadOptions {
+    options(MotionChannels::Auto, DepthChannels::Auto)
+}
+
+fn preset(preset: GuidePreset) -> ReadOptions {
+    options(MotionChannels::Preset(preset), DepthChannels::Preset(preset))
+}
+
+fn named(channels: [&str; 2]) -> MotionChannels {
+    MotionChannels::Named(NamedMotion {
+        channels: channels.map(str::to_owned),
+        sign: [1.0; 2],
+        scale: [1.0; 2],
+        unit: MotionUnit::Pixels,
+    })
+}
+
+fn depth_named(channel: &str) -> DepthChannels {
+    DepthChannels::Named(channel.to_owned())
+}
+
+fn frame_of(parts: Vec<Part>, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
+    let folder = Folder::new();
+    read_frame(&folder.file(parts), options).map_err(|error| error.kind)
+}
+
+fn guides_of(parts: Vec<Part>, options: &ReadOptions) -> Result<DecodedGuides, ReadErrorKind> {
+    let folder = Folder::new();
+    read_guides(&folder.file(parts), options).map_err(|error| error.kind)
+}
+
+#[track_caller]
+fn is_seed(plane: &Plane, seed: usize) {
+    let wrong = (0..W * H).find(|i| plane.at(i % W, i / W) != value(seed, i % W, i / W));
+    assert_eq!((plane.file_size(), wrong), (SIZE, None), "channel {seed}");
+}
+
+/// Motion that is these channels times a scale.
+#[track_caller]
+fn is_motion(motion: &Motion, seeds: [usize; 2], scale: [f64; 2]) {
+    assert_eq!((motion.file_size(), motion.scale()), (SIZE, scale));
+    let (mut across, mut down) = (vec![0.0; W], vec![0.0; W]);
+    for y in 0..H {
+        motion.fill_row(y, 0..W, &mut across, &mut down);
+        for x in 0..W {
+            assert_eq!([across[x], down[x]], seeds.map(|seed| value(seed, x, y)), "({x}, {y})");
+        }
+    }
+}
+
+#[track_caller]
+fn is_said(error: &ReadErrorKind, words: &[&str]) {
+    let said = format!("{error}; {}", error.help());
+    for word in words {
+        assert!(said.contains(word), "{word:?} is not in: {said}");
+    }
+}
+
+fn found(sought: Option<&fovqa_io::Sought>) -> Option<&str> {
+    sought.and_then(|sought| sought.found.as_deref())
+}
+
+// ---- beside the colour ----
+
+#[test]
+fn nothing_is_looked_for_by_default() {
+    let parts = vec![part(&["R", "G", "B", "Z", "motion.X", "motion.Y"])];
+    let decoded = frame_of(parts, &ReadOptions::default()).unwrap();
+    assert_eq!(decoded.guides, Guides::default());
+    assert_eq!(decoded.guide_search, GuideSearch::default());
+    assert!(GuideOptions::default().is_none());
+    assert!(decoded.guide_search.missing_motion().is_none());
+    assert!(decoded.guide_search.missing_depth().is_none());
+}
+
+#[test]
+fn motion_and_depth_beside_the_colour() {
+    let decoded =
+        frame_of(vec![part(&["R", "G", "B", "Z", "motion.X", "motion.Y"])], &auto()).unwrap();
+    is_motion(decoded.guides.motion.as_ref().unwrap(), [4, 5], [1.0, 1.0]);
+    is_seed(decoded.guides.depth.as_ref().unwrap(), 3);
+    assert_eq!(decoded.guides.bytes(), 3 * 2 * W * H, "half floats stay");
+    let search = &decoded.guide_search;
+    assert_eq!(found(search.motion.as_ref()), Some("motion.X + motion.Y"));
+    assert_eq!(found(search.depth.as_ref()), Some("Z"));
+    assert_eq!(search.channels, ["B", "G", "R", "Z", "motion.X", "motion.Y"]);
+    assert!(search.missing_motion().is_none() && search.missing_depth().is_none());
+    assert!(decoded.notes.is_empty());
+}
+
+#[test]
+fn motion_or_depth_alone() {
+    let parts = || vec![part(&["R", "G", "B", "Z", "motion.X", "motion.Y"])];
+    let motion = options(MotionChannels::Auto, DepthChannels::None);
+    let decoded = frame_of(parts(), &motion).unwrap();
+    assert!(decoded.guides.motion.is_some() && decoded.guides.depth.is_none());
+    assert!(decoded.guide_search.depth.is_none());
+    let depth = options(MotionChannels::None, DepthChannels::Auto);
+    let decoded = frame_of(parts(), &depth).unwrap();
+    assert!(decoded.guides.motion.is_none());
+    is_seed(decoded.guides.depth.as_ref().unwrap(), 3);
+}
+
+#[test]
+fn each_channel_has_a_type_of_its_own() {
+    let whole: Vec<u32> = (0..W * H).map(|i| i as u32 + 16_777_000).collect();
+    let channels = [
+        ("R", half(0)),
+        ("G", half(1)),
+        ("B", half(2)),
+        ("motion.X", half(3)),
+        ("motion.Y", float(4)),
+        ("Z", Values::Uint(whole.clone())),
+    ];
+    let decoded = frame_of(vec![Part::new(SIZE, &channels)], &auto()).unwrap();
+    is_motion(decoded.guides.motion.as_ref().unwrap(), [3, 4], [1.0, 1.0]);
+    assert_eq!(decoded.guides.motion.as_ref().unwrap().bytes(), (2 + 4) * W * H);
+    let depth = decoded.guides.depth.unwrap();
+    assert_eq!(depth.at(7, 30), whole[30 * W + 7] as f32);
+    assert!(matches!(decoded.frame.samples(), fovqa_frame::Samples::F16(_)));
+}
+
+/// Colour of three parts and many compressions, with alpha, with other primaries, with and
+/// without guides.
+#[test]
+fn the_colour_is_the_same_with_guides() {
+    let colour = || {
+        let opaque = Values::Half(vec![1.0; W * H]);
+        let channels = [("R", half(0)), ("G", float(1)), ("B", half(2)), ("A", opaque)];
+        Part::new(SIZE, &channels).named("rgba")
+    };
+    let guides = || part(&["motion.X", "motion.Y", "Z"]).named("other");
+    let folder = Folder::new();
+    for blocks in [Blocks::ScanLines, Blocks::Tiles(Vec2(17, 13))] {
+        for compression in [Compression::ZIP16, Compression::PIZ, Compression::Uncompressed] {
+            let encoding = Encoding { compression, blocks, line_order: LineOrder::Increasing };
+            let mut together = colour();
+            together.channels.extend(guides().channels);
+            let parts = [vec![together], vec![guides(), colour()], vec![colour(), guides()]];
+            let files = parts.map(|parts| File { encoding, ..File::new(parts) });
+            for chromaticities in [None, Some([(0.7, 0.3), (0.2, 0.8), (0.1, 0.1), (0.3, 0.3)])] {
+                for file in &files {
+                    let path = folder.written(&File { chromaticities, ..file.clone() });
+                    let plain = read_frame(&path, &ReadOptions::default()).unwrap();
+                    let ours = options(MotionChannels::Auto, depth_named("Z"));
+                    let (rich, id) = read_frame_and_hash(&path, &ours).unwrap();
+                    assert_eq!((&rich.frame, &rich.notes), (&plain.frame, &plain.notes));
+                    assert_eq!(id, FileId::of_file(&path).unwrap());
+                    is_motion(rich.guides.motion.as_ref().unwrap(), [0, 1], [1.0, 1.0]);
+                    is_seed(rich.guides.depth.as_ref().unwrap(), 2);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn alpha_is_still_looked_at() {
+    let parts = vec![part(&["R", "G", "B", "A", "Z", "motion.X", "motion.Y"])];
+    let error = frame_of(parts.clone(), &auto()).unwrap_err();
+    assert!(matches!(error, ReadErrorKind::Alpha { .. }), "{error}");
+    let ignore = ReadOptions { alpha: AlphaPolicy::Ignore, ..auto() };
+    is_seed(frame_of(parts, &ignore).unwrap().guides.depth.as_ref().unwrap(), 4);
+}
+
+#[test]
+fn what_is_missing_is_none_and_can_be_said() {
+    let decoded = frame_of(vec![part(&["R", "G", "B", "motion.X", "albedo"])], &auto()).unwrap();
+    assert_eq!(decoded.guides, Guides::default(), "one of two is none");
+    let motion = decoded.guide_search.missing_motion().unwrap();
+    is_said(&motion, &["no motion", "motion.X + motion.Y", "Vector.X + Vector.Y", "albedo"]);
+    let depth = decoded.guide_search.missing_depth().unwrap();
+    is_said(&depth, &["no depth", "Z, Depth.Z", "WorldDepth.R", "B, G, R"]);
+    let ours = options(named(["flow.U", "flow.V"]), depth_named("far"));
+    let decoded = frame_of(vec![part(&["R", "G", "B"])], &ours).unwrap();
+    is_said(&decoded.guide_search.missing_motion().unwrap(), &["flow.U + flow.V"]);
+    is_said(&decoded.guide_search.missing_depth().unwrap(), &["as far;"]);
+}
+
+#[test]
+fn other_formats_hold_no_guides() {
+    let folder = Folder::new();
+    let png = folder.path().with_extension("png");
+    write8(&png, W, H, &[7; W * H]);
+    let decoded = read_frame(&png, &auto()).unwrap();
+    assert_eq!(decoded.guides, Guides::default());
+    let missing = decoded.guide_search.missing_motion().unwrap();
+    is_said(&missing, &["no motion", "motion.X + motion.Y", "those of its colour"]);
+    assert!(decoded.guide_search.missing_depth().is_some());
+    let error = read_guides(&png, &auto()).unwrap_err();
+    assert_eq!(error.path, png);
+    is_said(&error.kind, &["not an OpenEXR file", "save motion and depth as OpenEXR"]);
+    let error = read_guides(&folder.bytes("text"), &auto()).unwrap_err();
+    assert!(matches!(error.kind, ReadErrorKind::NotOpenExr));
+}
+
+// ---- names ----
+
+/// `ViewLayer.Vector.X`, with all of it, or some, in the name of the part.
+#[test]
+fn parts_and_layers_are_in_front_of_names() {
+    let blender = preset(GuidePreset::Blender);
+    let colour = || part(&["R", "G", "B"]).named("ViewLayer.Combined");
+    let vector = |lead: &str| {
+        let names = ["X", "Y", "Z", "W"].map(|name| format!("{lead}{name}"));
+        part(&names.each_ref().map(String::as_str))
+    };
+    let depth = |name| part(&["R", name]);
+    for parts in [
+        vec![colour(), vector("").named("ViewLayer.Vector"), depth("Z").named("ViewLayer.Depth")],
+        vec![colour(), vector("").named("Vector"), depth("Z").named("Depth")],
+        vec![vector("Vector.").named("ViewLayer"), depth("Depth.Z").named("a"), colour()],
+        vec![
+            vector("ViewLayer.Vector.").named("ViewLayer"),
+            depth("Depth.Z").named("Depth"),
+            colour(),
+        ],
+        vec![vector("VIEWLAYER.vector.").named("a"), depth("DEPTH.z").named("b"), colour()],
+    ] {
+        let what = format!("{parts:?}");
+        let decoded = frame_of(parts, &blender).expect(&what);
+        let motion = decoded.guides.motion.as_ref().expect(&what);
+        is_motion(motion, [0, 1], [1.0, -1.0]);
+        is_seed(decoded.guides.depth.as_ref().unwrap(), 1);
+        is_seed_frame(&decoded);
+    }
+    let decoded = frame_of(
+        vec![colour(), vector("").named("ViewLayer.Vector"), depth("Z").named("ViewLayer.Depth")],
+        &auto(),
+    );
+    let search = decoded.unwrap().guide_search;
+    assert_eq!(found(search.motion.as_ref()), Some("ViewLayer.Vector.X + ViewLayer.Vector.Y"));
+    assert_eq!(found(search.depth.as_ref()), Some("ViewLayer.Depth.Z"));
+}
+
+/// The colour is that of the channels 0, 1 and 2 of its part.
+#[track_caller]
+fn is_seed_frame(decoded: &Decoded) {
+    for c in 0..3 {
+        assert_eq!(decoded.frame.sample(c, 9, 8), value(c, 9, 8));
+    }
+}
+
+#[test]
+fn names_begin_at_a_dot() {
+    let names = ["R", "G", "B", "xmotion.X", "xmotion.Y", "FooZ", "motion.X.A", "motion.Y.A"];
+    assert_eq!(frame_of(vec![part(&names)], &auto()).unwrap().guides, Guides::default());
+}
+
+#[test]
+fn both_channels_of_motion_are_of_one_layer() {
+    let ours = options(named(["u", "v"]), DepthChannels::None);
+    let motion = |other| {
+        let parts = vec![part(&["R", "G", "B", "a.u", other])];
+        frame_of(parts, &ours).unwrap().guides.motion
+    };
+    assert!(motion("b.v").is_none());
+    assert!(motion("v").is_none());
+    is_motion(&motion("a.v").unwrap(), [3, 4], [1.0, 1.0]);
+}
+
+fn two_layers() -> Part {
+    part(&[
+        "near.Combined.R",
+        "near.Combined.G",
+        "near.Combined.B",
+        "near.Vector.X",
+        "near.Vector.Y",
+        "near.Depth.Z",
+        "far.Combined.R",
+        "far.Combined.G",
+        "far.Combined.B",
+        "far.Vector.X",
+        "far.Vector.Y",
+        "far.Depth.Z",
+    ])
+}
+
+#[test]
+fn of_several_layers_that_of_the_colour() {
+    for (layer, [x, y, z]) in [("near.Combined", [3, 4, 5]), ("far.Combined", [9, 10, 11])] {
+        for ours in [
+            auto(),
+            preset(GuidePreset::Blender),
+            options(named(["vector.x", "vector.y"]), depth_named("depth.z")),
+        ] {
+            let ours = ReadOptions { layer: Some(layer.to_owned()), ..ours };
+            let guides = frame_of(vec![two_layers()], &ours).unwrap().guides;
+            let motion = guides.motion.as_ref().unwrap();
+            assert_eq!(
+                motion.at(3, 5).map(f64::abs),
+                [x, y].map(|seed| f64::from(value(seed, 3, 5)))
+            );
+            is_seed(guides.depth.as_ref().unwrap(), z);
+        }
+    }
+    // Whole names are meant whatever the colour's layer is.
+    let far = options(named(["far.Vector.X", "far.Vector.Y"]), depth_named("far.depth.z"));
+    let far = ReadOptions { layer: Some("near.Combined".to_owned()), ..far };
+    let guides = frame_of(vec![two_layers()], &far).unwrap().guides;
+    is_motion(guides.motion.as_ref().unwrap(), [9, 10], [1.0, 1.0]);
+    is_seed(guides.depth.as_ref().unwrap(), 11);
+}
+
+#[test]
+fn a_whole_name_goes_before_that_of_a_layer() {
+    let names = ["L.C.R", "L.C.G", "L.C.B", "far", "L.far", "u", "v", "L.u", "L.v"];
+    let guides = frame_of(vec![part(&names)], &options(named(["u", "v"]), depth_named("far")));
+    let guides = guides.unwrap().guides;
+    is_motion(guides.motion.as_ref().unwrap(), [5, 6], [1.0, 1.0]);
+    is_seed(guides.depth.as_ref().unwrap(), 3);
+}
+
+#[test]
+fn several_that_could_be_meant_are_an_error() {
+    let mut rest = two_layers();
+    rest.channels.retain(|(name, _)| !name.contains("Combined"));
+    let colour = part(&["R", "G", "B"]).named("other");
+    let parts = vec![colour, rest.named("left")];
+    let motion = frame_of(parts.clone(), &options(MotionChannels::Auto, DepthChannels::None));
+    let pairs = [
+        "could be the motion",
+        "left.near.Vector.X + left.near.Vector.Y",
+        "left.far.Vector.X + left.far.Vector.Y",
+        "name the one",
+    ];
+    is_said(&motion.unwrap_err(), &pairs);
+    let depth = options(MotionChannels::None, depth_named("Depth.Z"));
+    let words = ["could be the depth", "left.far.Depth.Z, left.near.Depth.Z"];
+    is_said(&frame_of(parts.clone(), &depth).unwrap_err(), &words);
+    let near = options(MotionChannels::None, depth_named("near.Depth.Z"));
+    assert!(frame_of(parts, &near).unwrap().guides.depth.is_some());
+    // Two of the colour's own layer.
+    let two = vec![part(&["a.R", "a.G", "a.B", "a.b.Depth.Z", "a.c.Depth.Z"])];
+    is_said(&frame_of(two, &auto()).unwrap_err(), &["a.b.Depth.Z, a.c.Depth.Z"]);
+}
+
+#[test]
+fn automatic_names_have_an_order() {
+    let names = ["R", "G", "B", "Vector.X", "Vector.Y", "motion.X", "motion.Y", "Depth.Z", "Z"];
+    let guides = frame_of(vec![part(&names)], &auto()).unwrap().guides;
+    is_motion(guides.motion.as_ref().unwrap(), [5, 6], [1.0, 1.0]);
+    is_seed(guides.depth.as_ref().unwrap(), 8);
+    let guides = frame_of(vec![part(&names[..5])], &auto()).unwrap().guides;
+    is_motion(guides.motion.as_ref().unwrap(), [3, 4], [1.0, -1.0]);
+}
+
+/// Normals, positions and mist end in Z too.
+#[test]
+fn automatic_depth_is_no_other_z() {
+    for names in [
+        &["R", "G", "B", "N.X", "N.Y", "N.Z", "ViewLayer.Mist.Z", "Vector.Z"][..],
+        &["R", "G", "B", "X", "Y", "Z"],
+        &["L.C.R", "L.C.G", "L.C.B", "L.C.X", "L.C.Y", "L.C.Z"],
+    ] {
+        assert!(frame_of(vec![part(names)], &auto()).unwrap().guides.depth.is_none(), "{names:?}");
+    }
+    for names in [
+        &["L.C.R", "L.C.G", "L.C.B", "Z"][..],
+        &["L.C.R", "L.C.G", "L.C.B", "L.Z"],
+        &["L.C.R", "L.C.G", "L.C.B", "L.C.Z"],
+    ] {
+        let parts = vec![part(names).named("L")];
+        is_seed(frame_of(parts, &auto()).unwrap().guides.depth.as_ref().unwrap(), 3);
+    }
+    let mist = options(MotionChannels::None, depth_named("Mist.Z"));
+    let parts = vec![part(&["R", "G", "B", "ViewLayer.Mist.Z"])];
+    is_seed(frame_of(parts, &mist).unwrap().guides.depth.as_ref().unwrap(), 3);
+}
+
+// ---- what the values mean ----
+
+#[test]
+fn named_motion_has_sign_scale_and_unit() {
+    let motion = |unit| {
+        let motion = NamedMotion {
+            channels: ["u".to_owned(), "v".to_owned()],
+            sign: [-1.0, 1.0],
+            scale: [0.5, 3.0],
+            unit,
+        };
+        let ours = options(MotionChannels::Named(motion), DepthChannels::None);
+        let folder = Folder::new();
+        // The frame is the display window, not the larger data window.
+        let parts = vec![part(&["R", "G", "B", "u", "v"]).placed((-3, -2))];
+        let file = File { display: Some(((0, 0), (20, 30))), ..File::new(parts) };
+        read_frame(&folder.written(&file), &ours).unwrap().guides.motion.unwrap()
+    };
+    for (unit, scale) in [
+        (MotionUnit::Pixels, [-0.5, 3.0]),
+        (MotionUnit::Frame, [-10.0, 90.0]),
+        (MotionUnit::Ndc, [-5.0, 45.0]),
+    ] {
+        let motion = motion(unit);
+        assert_eq!((motion.file_size(), motion.scale()), ((20, 30), scale));
+        let at = [value(3, 7, 11), value(4, 7, 11)].map(f64::from);
+        assert_eq!(motion.at(4, 9), [at[0] * scale[0], at[1] * scale[1]]);
+    }
+}
+
+#[test]
+fn presets_mean_what_their_renderers_write() {
+    let (w, h) = (W as f64, H as f64);
+    let unreal = "FinalImageMovieRenderQueue_MotionVectors";
+    let unreal = [format!("{unreal}.R"), format!("{unreal}.G")];
+    let cases = [
+        (GuidePreset::Blender, ["V.Vector.X", "V.Vector.Y"], "V.Depth.Z", [1.0, -1.0], 0.0),
+        (GuidePreset::Falcor, ["mvec.R", "mvec.G"], "linearZ.R", [w, h], 0.0),
+        (
+            GuidePreset::Unreal,
+            [unreal[0].as_str(), unreal[1].as_str()],
+            "FinalImageMovieRenderQueue_WorldDepth.R",
+            [-w, h],
+            0.5,
+        ),
+        (GuidePreset::Mitsuba, ["motion.X", "motion.Y"], "depth.T", [1.0, 1.0], 0.0),
+    ];
+    for (given, [x, y], depth, scale, offset) in cases {
+        let parts = vec![part(&["R", "G", "B", x, y, depth])];
+        for ours in [preset(given), auto()] {
+            let guides = frame_of(parts.clone(), &ours).unwrap().guides;
+            let motion = guides.motion.unwrap();
+            assert_eq!(motion.scale(), scale, "{}", given.name());
+            for (x, y) in [(0, 0), (13, 20)] {
+                let at = [value(3, x, y), value(4, x, y)].map(|v| f64::from(v) - offset);
+                assert_eq!(motion.at(x, y), [at[0] * scale[0], at[1] * scale[1]]);
+                let (mut across, mut down) = ([0.0], [0.0]);
+                motion.fill_row(y, x..x + 1, &mut across, &mut down);
+                assert_eq!([across[0], down[0]].map(f64::from), at);
+            }
+            is_seed(guides.depth.as_ref().unwrap(), 5);
+        }
+    }
+    let names = GuidePreset::ALL.map(GuidePreset::name);
+    assert_eq!(names, ["blender", "falcor", "unreal", "mitsuba"]);
+}
+
+#[test]
+fn a_preset_looks_for_its_own_names_alone() {
+    let parts = vec![part(&["R", "G", "B", "Z", "motion.X", "motion.Y"])];
+    let decoded = frame_of(parts, &preset(GuidePreset::Blender)).unwrap();
+    assert_eq!(decoded.guides, Guides::default());
+    let missing = decoded.guide_search.missing_motion().unwrap();
+    is_said(&missing, &["looked for as Vector.X + Vector.Y;"]);
+}
+
+// ---- windows ----
+
+#[test]
+fn guides_are_cropped_like_the_frame() {
+    let decoded = frame_of(vec![part(&["R", "G", "B", "Z", "motion.X", "motion.Y"])], &auto());
+    let crop = Crop { x: 5, y: 6, width: 20, height: 11 };
+    let decoded = decoded.unwrap();
+    let (frame, guides) =
+        (decoded.frame.cropped(crop).unwrap(), decoded.guides.cropped(crop).unwrap());
+    assert_eq!(frame.sample(0, 2, 3), value(0, 7, 9));
+    assert_eq!(guides.depth.as_ref().unwrap().at(2, 3), value(3, 7, 9));
+    assert_eq!(guides.motion.unwrap().at(2, 3), [4, 5].map(|seed| f64::from(value(seed, 7, 9))));
+}
+
+/// A region render of depth beside motion with overscan.
+#[test]
+fn pixels_outside_of_a_data_window_are_nan() {
+    let region = (10, 9);
+    let (at, display) = ((107, 205), ((100, 200), SIZE));
+    for float in [false, true] {
+        let values = |seed| {
+            let values = values(seed, region);
+            if float { Values::Float(values) } else { Values::Half(values) }
+        };
+        let colour = part(&["R", "G", "B"]).named("rgba").placed((100, 200));
+        let depth = Part::new(region, &[("Z", values(7))]).named("Depth").placed(at);
+        let vector = part(&["motion.X", "motion.Y"]).named("motion").placed((97, 201));
+        let folder = Folder::new();
+        let file = File { display: Some(display), ..File::new(vec![colour, depth, vector]) };
+        let decoded = read_frame(&folder.written(&file), &auto()).unwrap();
+        assert_eq!(decoded.notes, [Note::UncoveredGuides], "the colour is whole");
+        assert!(decoded.notes[0].in_words().contains("motion or depth"));
+        let (depth, motion) = (decoded.guides.depth.unwrap(), decoded.guides.motion.unwrap());
+        for (x, y) in (0..W * H).map(|i| (i % W, i / W)) {
+            let inside = (7..17).contains(&x) && (5..14).contains(&y);
+            let got = depth.at(x, y);
+            assert_eq!(got.is_nan(), !inside, "({x}, {y})");
+            assert!(!inside || got == value(7, x - 7, y - 5));
+            let inside = (0..37).contains(&x) && y >= 1;
+            let got = motion.at(x, y);
+            assert_eq!(got.map(f64::is_nan), [!inside; 2], "({x}, {y})");
+            assert!(!inside || got == [0, 1].map(|seed| f64::from(value(seed, x + 3, y - 1))));
+        }
+    }
+}
+
+#[test]
+fn pixels_without_colour_and_guides_are_noted_as_both() {
+    let folder = Folder::new();
+    let parts = vec![part(&["R", "G", "B", "Z"]).placed((3, 0))];
+    let file = File { display: Some(((0, 0), SIZE)), ..File::new(parts) };
+    let depth = options(MotionChannels::None, DepthChannels::Auto);
+    let decoded = read_frame(&folder.written(&file), &depth).unwrap();
+    assert_eq!(decoded.notes, [Note::UncoveredPixels, Note::UncoveredGuides]);
+    assert_eq!(decoded.frame.sample(0, 0, 0), 0.0);
+    assert!(decoded.guides.depth.unwrap().at(0, 0).is_nan());
+}
+
+#[test]
+fn parts_have_one_display_window() {
+    let folder = Folder::new();
+    let parts = vec![part(&["R", "G", "B"]).named("a"), part(&["Z"]).named("Depth")];
+    let mut bytes = fs::read(folder.file(parts)).unwrap();
+    let window = b"displayWindow\0box2i\0";
+    let at = bytes.windows(window.len()).rposition(|w| w == window).unwrap() + window.len() + 4;
+    bytes[at + 8] -= 1;
+    let path = folder.bytes(&bytes);
+    read_frame(&path, &ReadOptions::default()).unwrap();
+    let error = read_frame(&path, &auto()).unwrap_err().kind;
+    assert!(matches!(error, ReadErrorKind::DisplayWindows), "{error}");
+}
+
+#[test]
+fn a_guide_outside_of_the_display_window_is_an_error() {
+    let folder = Folder::new();
+    let depth = part(&["Z"]).named("Depth").placed((40, 0));
+    let parts = vec![part(&["R", "G", "B"]).named("a"), depth];
+    let file = File { display: Some(((0, 0), SIZE)), ..File::new(parts) };
+    let path = folder.written(&file);
+    read_frame(&path, &ReadOptions::default()).unwrap();
+    let error = read_frame(&path, &auto()).unwrap_err().kind;
+    assert!(matches!(error, ReadErrorKind::DisjointWindows { .. }), "{error}");
+}
+
+// ---- files of their own ----
+
+#[test]
+fn a_file_of_guides_needs_no_colour() {
+    let folder = Folder::new();
+    let path = folder.file(vec![part(&["Z", "motion.X", "motion.Y"])]);
+    let (decoded, id) = read_guides_and_hash(&path, &auto()).unwrap();
+    assert_eq!(decoded, read_guides(&path, &auto()).unwrap());
+    assert_eq!(id, FileId::of_file(&path).unwrap());
+    is_motion(decoded.guides.motion.as_ref().unwrap(), [1, 2], [1.0, 1.0]);
+    is_seed(decoded.guides.depth.as_ref().unwrap(), 0);
+    assert_eq!(found(decoded.search.depth.as_ref()), Some("Z"));
+    assert!(decoded.notes.is_empty());
+}
+
+#[test]
+fn bare_names_of_motion_in_a_file_of_its_own() {
+    let (w, h) = (W as f64, H as f64);
+    let motion = |names: &[&str], given: MotionChannels| {
+        let ours = options(given, DepthChannels::None);
+        guides_of(vec![part(names)], &ours).map(|decoded| decoded.guides.motion.unwrap())
+    };
+    let scale = |names: &[&str], given| motion(names, given).unwrap().scale();
+    is_motion(&motion(&["X", "Y"], MotionChannels::Auto).unwrap(), [0, 1], [1.0, 1.0]);
+    is_motion(&motion(&["R", "G", "B"], MotionChannels::Auto).unwrap(), [0, 1], [w, h]);
+    is_motion(&motion(&["X", "Y", "Z", "W"], MotionChannels::Auto).unwrap(), [0, 1], [1.0, -1.0]);
+    assert_eq!(scale(&["x", "y"], MotionChannels::Preset(GuidePreset::Blender)), [1.0, -1.0]);
+    assert_eq!(scale(&["R", "G"], MotionChannels::Preset(GuidePreset::Falcor)), [w, h]);
+    assert_eq!(scale(&["X", "Y"], MotionChannels::Preset(GuidePreset::Mitsuba)), [1.0, 1.0]);
+    let unreal = MotionChannels::Preset(GuidePreset::Unreal);
+    let unreal = motion(&["R", "G", "B", "A"], unreal).unwrap();
+    assert_eq!(unreal.scale(), [-w, h]);
+    assert_eq!(unreal.at(2, 1)[0], (f64::from(value(0, 2, 1)) - 0.5) * -w);
+    // Layers that say what they are go before bare names, those of other things are none.
+    let both = ["X", "Y", "Vector.X", "Vector.Y"];
+    is_motion(&motion(&both, MotionChannels::Auto).unwrap(), [2, 3], [1.0, -1.0]);
+    assert!(motion(&["N.X", "N.Y", "albedo.R", "albedo.G"], MotionChannels::Auto).is_err());
+    assert!(motion(&["R", "G"], MotionChannels::Preset(GuidePreset::Blender)).is_err());
+    assert!(motion(&["X", "Y"], named(["motion.X", "motion.Y"])).is_err());
+}
+
+#[test]
+fn bare_names_of_depth_in_a_file_of_its_own() {
+    let depth = |names: &[&str], given: DepthChannels| {
+        let ours = options(MotionChannels::None, given);
+        guides_of(vec![part(names)], &ours).map(|decoded| decoded.guides.depth.unwrap())
+    };
+    for (names, seed) in [
+        (&["Z"][..], 0),
+        (&["Y"], 0),
+        (&["R"], 0),
+        (&["R", "G", "B"], 0),
+        (&["distance"], 0),
+        (&["deep.down"], 0),
+        (&["A", "Z", "R"], 1),
+        (&["A", "Depth.Z", "R"], 1),
+        (&["X", "Y", "Z"], 2),
+    ] {
+        is_seed(&depth(names, DepthChannels::Auto).expect(names[0]), seed);
+    }
+    for names in [&["X", "Y"][..], &["X", "Y", "Z", "W"], &["a", "b"], &["N.X", "N.Y", "N.Z"]] {
+        let error = depth(names, DepthChannels::Auto).unwrap_err();
+        is_said(&error, &["no depth", "the only channel", names[0]]);
+    }
+    for (given, name) in [
+        (GuidePreset::Blender, "V"),
+        (GuidePreset::Falcor, "R"),
+        (GuidePreset::Unreal, "R"),
+        (GuidePreset::Mitsuba, "Y"),
+    ] {
+        is_seed(&depth(&["b", name], DepthChannels::Preset(given)).unwrap(), 1);
+    }
+    is_seed(&depth(&["a", "b"], depth_named("B")).unwrap(), 1);
+}
+
+#[test]
+fn a_channel_of_motion_is_not_taken_for_depth() {
+    let error = guides_of(vec![part(&["R", "G", "B"])], &auto()).unwrap_err();
+    is_said(&error, &["no depth", "B, G, R"]);
+    let guides = guides_of(vec![part(&["X", "Y", "Z"])], &auto()).unwrap().guides;
+    is_motion(guides.motion.as_ref().unwrap(), [0, 1], [1.0, 1.0]);
+    is_seed(guides.depth.as_ref().unwrap(), 2);
+}
+
+#[test]
+fn what_a_file_of_guides_lacks_is_an_error() {
+    let error = guides_of(vec![part(&["Z", "normal"])], &auto()).unwrap_err();
+    is_said(&error, &["no motion", "motion.X + motion.Y", "channels are Z, normal", "render them"]);
+    let ours = options(MotionChannels::Auto, depth_named("far"));
+    let error = guides_of(vec![part(&["motion.X", "motion.Y"])], &ours).unwrap_err();
+    is_said(&error, &["no depth", "as far;", "channels are motion.X, motion.Y"]);
+    assert_eq!(
+        guides_of(vec![part(&["any"])], &ReadOptions::default()).unwrap().guides,
+        Guides::default(),
+        "nothing is lacking when nothing is asked for"
+    );
+}
+
+#[test]
+fn the_layer_tells_which_guides_of_a_file_are_meant() {
+    let error = guides_of(vec![two_layers()], &auto()).unwrap_err();
+    is_said(&error, &["could be the motion", "far.Vector.X", "near.Vector.X"]);
+    let far = ReadOptions { layer: Some("far.Combined".to_owned()), ..auto() };
+    let guides = guides_of(vec![two_layers()], &far).unwrap().guides;
+    is_motion(guides.motion.as_ref().unwrap(), [9, 10], [1.0, -1.0]);
+    is_seed(guides.depth.as_ref().unwrap(), 11);
+    let root = ReadOptions { layer: Some("root".to_owned()), ..auto() };
+    let names = ["motion.X", "motion.Y", "a.motion.X", "a.motion.Y", "Z"];
+    let guides = guides_of(vec![part(&names)], &root).unwrap().guides;
+    is_motion(guides.motion.as_ref().unwrap(), [0, 1], [1.0, 1.0]);
+}
+
+#[test]
+fn a_file_of_guides_has_parts_and_windows_too() {
+    let folder = Folder::new();
+    let motion = part(&["X", "Y"]).named("motion").placed((-2, 0));
+    let depth = part(&["Z"]).named("depth").placed((0, 5));
+    let file = File { display: Some(((0, 0), SIZE)), ..File::new(vec![motion, depth]) };
+    let decoded = read_guides(&folder.written(&file), &auto()).unwrap();
+    assert_eq!(decoded.notes, [Note::UncoveredGuides]);
+    let (motion, depth) = (decoded.guides.motion.unwrap(), decoded.guides.depth.unwrap());
+    assert_eq!(motion.at(1, 2), [0, 1].map(|seed| f64::from(value(seed, 3, 2))));
+    assert!(motion.at(W - 1, 0)[0].is_nan());
+    assert_eq!(depth.at(1, 6), value(0, 1, 1));
+    assert!(depth.at(1, 4).is_nan());
+}
+
+// ---- hostile files ----
+
+fn colour_and_guides() -> Vec<Part> {
+    let guides = part(&["Z", "motion.X", "motion.Y"]);
+    vec![part(&["R", "G", "B"]).named("rgba"), guides.named("rgba.other")]
+}
+
+fn ours() -> ReadOptions {
+    options(MotionChannels::Auto, depth_named("Z"))
+}
+
+#[test]
+fn damage_to_the_guides_is_no_damage_to_the_colour() {
+    let folder = Folder::new();
+    let whole = fs::read(folder.file(colour_and_guides())).unwrap();
+    let plain = read_frame(&folder.path(), &ReadOptions::default()).unwrap();
+    read_frame(&folder.path(), &ours()).unwrap();
+    let starts = block_starts(&whole);
+    assert_eq!(starts.iter().map(Vec::len).collect::<Vec<_>>(), [3, 3]);
+    for (part, blocks) in starts.iter().enumerate() {
+        // Part, row, length, then the compressed samples.
+        let mut broken = whole.clone();
+        broken[blocks[1] + 12..blocks[1] + 40].fill(0xa5);
+        let path = folder.bytes(&broken);
+        let colour = read_frame(&path, &ReadOptions::default());
+        let (rich, guides) = (read_frame(&path, &ours()), read_guides(&path, &ours()));
+        let error = rich.unwrap_err().kind;
+        assert!(matches!(error, ReadErrorKind::Damaged { .. }), "{error}");
+        assert_eq!(colour.is_ok(), part == 1);
+        assert_eq!(guides.is_ok(), part == 0);
+        if let Ok(colour) = colour {
+            assert_eq!(colour, plain);
+        }
+    }
+}
+
+#[test]
+fn blocks_of_guides_that_are_missing_or_there_twice() {
+    let folder = Folder::new();
+    let whole = fs::read(folder.file(colour_and_guides())).unwrap();
+    let twice = folder.bytes(with_block_as(&whole, 1, 2, 0));
+    is_said(&read_frame(&twice, &ours()).unwrap_err().kind, &["one of its blocks is there twice"]);
+    is_said(&read_guides(&twice, &ours()).unwrap_err().kind, &["there twice"]);
+    read_frame(&twice, &ReadOptions::default()).unwrap();
+    // A block that says it is of the other part.
+    let starts = block_starts(&whole);
+    let mut stray = whole.clone();
+    stray[starts[1][1]] = 0;
+    let stray = folder.bytes(&stray);
+    assert!(read_frame(&stray, &ours()).is_err());
+    assert!(read_guides(&stray, &ours()).is_err());
+    read_frame(&stray, &ReadOptions::default()).unwrap();
+}
+
+#[test]
+fn guide_files_that_are_cut_short_or_flipped() {
+    let folder = Folder::new();
+    let whole = fs::read(folder.file(colour_and_guides())).unwrap();
+    for length in [4, 5, 100, whole.len() / 2, whole.len() - 3] {
+        let path = folder.bytes(&whole[..length]);
+        let error = read_guides(&path, &ours()).unwrap_err().kind;
+        assert!(matches!(error, ReadErrorKind::Damaged { .. }), "{length}: {error}");
+    }
+    for at in 4..whole.len() {
+        let mut flipped = whole.clone();
+        flipped[at] ^= 0x55;
+        let path = folder.bytes(&flipped);
+        // Some bits do not matter; none may be more than an error.
+        let _ = read_guides(&path, &auto());
+        let _ = read_frame(&path, &ours());
+    }
+}
+
+#[test]
+fn kinds_of_guides_that_are_not_read() {
+    let folder = Folder::new();
+    let whole = fs::read(folder.file(colour_and_guides())).unwrap();
+    let path = folder.bytes(with_subsampled(&whole, "motion.Y"));
+    is_said(&read_frame(&path, &ours()).unwrap_err().kind, &["motion.Y is subsampled"]);
+    is_said(&read_guides(&path, &ours()).unwrap_err().kind, &["motion.Y is subsampled"]);
+    let path = folder.bytes(with_deep_part(&whole));
+    is_said(&read_frame(&path, &ours()).unwrap_err().kind, &["deep data"]);
+    is_said(&read_guides(&path, &ours()).unwrap_err().kind, &["deep data"]);
+    is_said(&read_guides(&folder.bytes(deep()), &ours()).unwrap_err().kind, &["deep data"]);
+}
+
+#[test]
+fn sizes_of_guide_files_are_limited() {
+    let folder = Folder::new();
+    let whole = fs::read(folder.file(vec![part(&["Z"])])).unwrap();
+    let depth = options(MotionChannels::None, DepthChannels::Auto);
+    for window in ["dataWindow\0box2i\0", "displayWindow\0box2i\0"] {
+        let at = whole.windows(window.len()).position(|w| w == window.as_bytes()).unwrap();
+        let corner = at + window.len() + 4 + 8;
+        let mut huge = whole.clone();
+        huge[corner..corner + 4].copy_from_slice(&99_999i32.to_le_bytes());
+        huge[corner + 4..corner + 8].copy_from_slice(&99_999i32.to_le_bytes());
+        let error = read_guides(&folder.bytes(&huge), &depth).unwrap_err().kind;
+        is_said(&error, &["100000x100000", "megapixels"]);
+    }
+}
