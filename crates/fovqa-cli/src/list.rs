@@ -26,6 +26,7 @@ fn metrics() -> String {
         let better = match info.better {
             Better::Higher => "higher is better",
             Better::Lower => "lower is better",
+            Better::Neither => "neither high nor low is better",
         };
         let default = if Metric::DEFAULT.contains(&metric) { ", by default" } else { "" };
         let bands = if info.per_band { ", per band too" } else { "" };

@@ -34,10 +34,7 @@ impl<'a> Node<'a> {
     }
 
     pub(crate) fn flag(self, key: &str) -> Option<bool> {
-        match self.value(key)?.get_ref() {
-            DeValue::Boolean(flag) => Some(*flag),
-            _ => None,
-        }
+        flag(self.value(key)?)
     }
 
     pub(crate) fn number(self, key: &str) -> Option<f64> {
@@ -82,6 +79,13 @@ impl<'a> Node<'a> {
 pub(crate) fn text<'a>(value: &'a Spanned<DeValue<'a>>) -> Option<&'a str> {
     match value.get_ref() {
         DeValue::String(text) => Some(text),
+        _ => None,
+    }
+}
+
+pub(crate) fn flag(value: &Spanned<DeValue<'_>>) -> Option<bool> {
+    match value.get_ref() {
+        DeValue::Boolean(flag) => Some(*flag),
         _ => None,
     }
 }

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use fovqa_frame::{Crop, SignalParams};
-use fovqa_io::ReadOptions;
 use fovqa_io::sequence::FrameRange;
+use fovqa_io::{GuideOptions, ReadOptions};
 use fovqa_metrics::{Metric, Params};
 use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec};
 use serde::{Deserialize, Serialize};
@@ -100,6 +100,13 @@ pub struct Settings {
     pub eccentricity: EccentricityKind,
     /// The bands; `None`: the default ones.
     pub bands: Option<BandEdges>,
+    /// Which channels hold motion and depth, for what compares frames over time. Those of `read` are
+    /// not looked at.
+    pub guides: GuideOptions,
+    /// Files of their own that hold the motion: file, folder, glob or printf pattern.
+    pub motion_files: Option<PathBuf>,
+    /// The same of the depth.
+    pub depth_files: Option<PathBuf>,
 }
 
 impl Settings {

@@ -1,16 +1,17 @@
 //! An experiment with all its defaults written out, as run.json keeps it.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use fovqa_frame::{SignalChannels, ToneMap, Transfer};
-use fovqa_io::AlphaPolicy;
+use fovqa_io::{AlphaPolicy, DepthChannels, MotionChannels, MotionUnit, NamedMotion};
 use fovqa_metrics::{Metric, ParamValue};
 use fovqa_vision::{EccentricityKind, ViewSpec};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::experiment::Experiment;
-use crate::plan::{Eye, EyeView, Gaze, MetricChoice, Nonfinite, Plan};
+use crate::plan::{Eye, EyeView, Gaze, MetricChoice, Nonfinite, Plan, Settings};
 use crate::plots::Plot;
 
 /// A resolved experiment. Paths are relative to its file, where they begin below it.
@@ -102,6 +103,7 @@ fn param_value(value: &ParamValue) -> Value {
         ParamValue::Number(number) => json!(number),
         ParamValue::Text(text) => json!(text),
         ParamValue::List(list) => json!(list),
+        ParamValue::Flag(flag) => json!(flag),
     }
 }
 
@@ -159,6 +161,8 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
         "mask": settings.mask.as_ref().map(|path| plan.shown(path)),
         "crop": crop,
         "max_megapixels": read.max_megapixels,
+        "motion": motion_keys(plan, settings),
+        "depth": depth_keys(plan, settings),
     });
     let tests = eye.tests.iter();
     ResolvedEye {
@@ -170,6 +174,49 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
         view,
         signal,
     }
+}
+
+fn motion_keys(plan: &Plan, settings: &Settings) -> Value {
+    let mut keys = match &settings.guides.motion {
+        MotionChannels::None => json!("none"),
+        MotionChannels::Auto => json!("auto"),
+        MotionChannels::Preset(preset) => json!(preset.name()),
+        MotionChannels::Named(NamedMotion { channels, sign, scale, unit }) => json!({
+            "channels": channels,
+            "sign": sign,
+            "scale": scale,
+            "unit": match unit {
+                MotionUnit::Pixels => "pixels",
+                MotionUnit::Frame => "frame",
+                MotionUnit::Ndc => "ndc",
+            },
+        }),
+    };
+    with_files(&mut keys, plan, settings.motion_files.as_deref());
+    keys
+}
+
+fn depth_keys(plan: &Plan, settings: &Settings) -> Value {
+    let mut keys = match &settings.guides.depth {
+        DepthChannels::None => json!("none"),
+        DepthChannels::Auto => json!("auto"),
+        DepthChannels::Preset(preset) => json!(preset.name()),
+        DepthChannels::Named(channel) => json!({ "channel": channel }),
+    };
+    with_files(&mut keys, plan, settings.depth_files.as_deref());
+    keys
+}
+
+/// Adds files of their own, as the experiment file has them: in a table.
+fn with_files(keys: &mut Value, plan: &Plan, files: Option<&Path>) {
+    let Some(files) = files else { return };
+    if let Value::String(word) = keys {
+        *keys = match word.as_str() {
+            "auto" | "none" => json!({}),
+            preset => json!({ "preset": preset }),
+        };
+    }
+    keys["files"] = json!(plan.shown(files));
 }
 
 fn view_keys(spec: &ViewSpec) -> Value {

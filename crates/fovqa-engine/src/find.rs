@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use fovqa_config::{EyeView, Gaze, Plan, Scene};
 use fovqa_io::sequence::{FramePair, Listing, PairingError, Pairs, list_below, pair};
+use fovqa_metrics::Metric;
 use fovqa_vision::{GazeAt, GazeTrace};
 
 use crate::error::EngineError;
@@ -40,10 +41,23 @@ pub struct FoundView {
 pub struct FoundFrame {
     /// Frame number.
     pub number: u64,
+    /// Its position among all references there are, from 0.
+    pub position: usize,
     /// The reference.
     pub reference: PathBuf,
+    /// Files of their own for motion and depth.
+    pub guides: GuideFiles,
     /// Tests, with the index of their method, which rises.
     pub tests: Vec<(usize, PathBuf)>,
+}
+
+/// Files that hold the motion or the depth of a frame and nothing else.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct GuideFiles {
+    /// The motion.
+    pub motion: Option<PathBuf>,
+    /// The depth.
+    pub depth: Option<PathBuf>,
 }
 
 /// An input that cannot be scored.
@@ -97,7 +111,8 @@ pub fn find(plan: &Plan) -> Found {
                 continue;
             }
             let first = pairings[0].1.first;
-            match select(plan, scene, merge(pairings)).and_then(|frames| {
+            match select(plan, scene, merge(pairings)).and_then(|mut frames| {
+                find_guides(plan, view, &reference, &mut frames)?;
                 let trace = gaze_trace(view, scene, &frames, first)?;
                 Ok((frames, trace))
             }) {
@@ -140,11 +155,12 @@ fn merge(pairings: Vec<(usize, Pairs)>) -> Vec<FoundFrame> {
     let mut frames: BTreeMap<(u64, PathBuf), FoundFrame> = BTreeMap::new();
     let mut order: Vec<(u64, PathBuf)> = Vec::new();
     for (method, pairs) in pairings {
-        for FramePair { number, reference, test } in pairs.pairs {
+        for FramePair { number, position, reference, test } in pairs.pairs {
             let key = (number, reference.clone());
             let frame = frames.entry(key.clone()).or_insert_with(|| {
                 order.push(key);
-                FoundFrame { number, reference, tests: Vec::new() }
+                let guides = GuideFiles::default();
+                FoundFrame { number, position, reference, guides, tests: Vec::new() }
             });
             frame.tests.push((method, test));
         }
@@ -152,6 +168,34 @@ fn merge(pairings: Vec<(usize, Pairs)>) -> Vec<FoundFrame> {
     // A stable sort: what has one number stays as it was found.
     order.sort_by_key(|(number, _)| *number);
     order.into_iter().filter_map(|key| frames.remove(&key)).collect()
+}
+
+/// Finds the files of motion and depth that belong to the references, where there are such files and
+/// they are of any use. A frame without one has none: whether that is a mistake is seen along the whole
+/// sequence.
+fn find_guides(
+    plan: &Plan,
+    view: &EyeView,
+    reference: &Listing,
+    frames: &mut [FoundFrame],
+) -> Result<(), EngineError> {
+    if !plan.metrics.metrics().contains(&Metric::Atd) {
+        return Ok(());
+    }
+    let of = |files: &Option<PathBuf>| -> Result<BTreeMap<PathBuf, PathBuf>, EngineError> {
+        let Some(files) = files else { return Ok(BTreeMap::new()) };
+        let pairs = paired(plan, reference, files)?.pairs.into_iter();
+        Ok(pairs.map(|pair| (pair.reference, pair.test)).collect())
+    };
+    let motion = of(&view.settings.motion_files)?;
+    let depth = of(&view.settings.depth_files)?;
+    for frame in frames {
+        frame.guides = GuideFiles {
+            motion: motion.get(&frame.reference).cloned(),
+            depth: depth.get(&frame.reference).cloned(),
+        };
+    }
+    Ok(())
 }
 
 /// Whether both the plan and the scene ask for a frame.

@@ -7,7 +7,9 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use fovqa_results::{Failure, FrameResult, Input};
+use fovqa_metrics::temporal::{AtdBand, AtdFrame};
+use fovqa_metrics::{HaarBand, Profile};
+use fovqa_results::{Failure, FrameResult, Input, Sides};
 use serde_json::{Map, Value, json};
 
 use crate::error::EngineError;
@@ -98,4 +100,38 @@ fn scored(line: &mut Value, result: &FrameResult) {
     line["pixels_left_out"] = json!(scores.left_out);
     line["squared_error"] = json!(scores.mse);
     line["weighted_squared_error"] = json!(scores.weighted_squared_error);
+    line["gaze_step_deg"] = json!(result.gaze_step_deg);
+    if let Some(profiles) = &result.profiles {
+        line["profiles"] = sides(profiles, profile);
+    }
+    if let Some(atd) = &result.atd {
+        line["atd"] = sides(atd, difference);
+    }
+}
+
+fn sides<T>(sides: &Sides<T>, of: impl Fn(&T) -> Value) -> Value {
+    json!({ "reference": of(&sides.reference), "test": of(&sides.test) })
+}
+
+/// Wavelet coefficients as lists, level by level and band by band: their number, then mean, maximum and
+/// energy of all, then those of each orientation.
+fn profile(profile: &Profile) -> Value {
+    let band = |band: &HaarBand| {
+        let statistics = band.statistics.iter().chain(band.orientations.iter().flatten());
+        let values = statistics.flat_map(|statistics| statistics.values().map(Value::from));
+        std::iter::once(Value::from(band.coefficients)).chain(values).collect::<Value>()
+    };
+    let level = |level: &Vec<HaarBand>| level.iter().map(band).collect::<Value>();
+    let haar = profile.haar.as_ref().map(|levels| levels.iter().map(level).collect::<Value>());
+    json!({ "rms_contrast": profile.rms_contrast, "haar": haar })
+}
+
+/// Pixels that count, then the mean and the valid pixels of the whole frame, and of each band.
+fn difference(atd: &AtdFrame) -> Value {
+    let pair = |band: &AtdBand| json!([band.mean, band.valid]);
+    json!({
+        "pixels": atd.pixels,
+        "whole": pair(&atd.whole),
+        "bands": atd.bands.iter().map(pair).collect::<Value>(),
+    })
 }

@@ -16,6 +16,7 @@ mod run;
 mod scoring;
 mod settle;
 mod setup;
+mod temporal;
 mod view;
 
 pub use error::EngineError;

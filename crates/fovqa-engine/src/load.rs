@@ -3,9 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use fovqa_config::{Nonfinite, Plan, Settings};
-use fovqa_frame::{BadPixel, CropError, Frame, Mask, Transfer};
-use fovqa_io::{FileId, Note, ReadError, read_frame, read_frame_and_hash};
+use fovqa_frame::{BadPixel, CropError, Frame, Guides, Mask, Motion, Plane, Transfer};
+use fovqa_io::{
+    DepthChannels, FileId, GuideOptions, GuideSearch, MotionChannels, Note, ReadError,
+    ReadErrorKind, ReadOptions, read_frame, read_frame_and_hash, read_guides, read_guides_and_hash,
+};
 use thiserror::Error;
+
+use crate::find::GuideFiles;
 
 /// Why a pair cannot be compared.
 #[derive(Debug, Error)]
@@ -66,8 +71,8 @@ impl From<LoadError> for Fault {
 pub(crate) struct Step<'a> {
     /// Index of the frame.
     pub(crate) frame: usize,
-    /// The reference, where this is the first test of its frame.
-    pub(crate) reference: Option<&'a Path>,
+    /// The reference, where this is the first test of its frame, and what has files of its own.
+    pub(crate) reference: Option<(&'a Path, &'a GuideFiles)>,
     /// Index of the method.
     pub(crate) method: usize,
     /// The test.
@@ -84,7 +89,7 @@ impl Loaded {
     /// Bytes of its pixels.
     pub(crate) fn bytes(&self) -> usize {
         let bytes = |side: &Result<Side, LoadError>| match side {
-            Ok(side) => side.frame.bytes(),
+            Ok(side) => side.frame.bytes() + side.guides.bytes(),
             Err(_) => 0,
         };
         self.reference.as_ref().map_or(0, bytes) + bytes(&self.test)
@@ -96,9 +101,13 @@ pub(crate) struct Side {
     /// The file, as results show it.
     pub(crate) file: String,
     pub(crate) frame: Frame,
-    pub(crate) id: Option<FileId>,
+    /// Motion and depth, where they are wanted and there.
+    pub(crate) guides: Guides,
+    /// The files read for it, where they are hashed.
+    pub(crate) ids: Vec<(String, FileId)>,
     pub(crate) notes: Vec<String>,
     bad: Option<BadPixel>,
+    missing: Missing,
 }
 
 impl Side {
@@ -141,27 +150,114 @@ pub(crate) fn comparable(
 pub(crate) struct Loader<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) settings: &'a Settings,
+    /// Whether motion and depth are of any use.
+    pub(crate) guides: bool,
 }
 
 impl Loader<'_> {
     /// The files of a step, at the same time.
     pub(crate) fn load(&self, step: &Step<'_>) -> Loaded {
-        let (reference, test) =
-            rayon::join(|| step.reference.map(|path| self.side(path)), || self.side(step.test));
+        let first = step.frame == 0;
+        let (reference, test) = rayon::join(
+            || step.reference.map(|(path, guides)| self.reference(path, guides, first)),
+            || self.side(step.test, &self.test_guides()),
+        );
         Loaded { reference, test }
     }
 
-    fn side(&self, path: &Path) -> Result<Side, LoadError> {
-        let Settings { read, signal, crop, .. } = self.settings;
+    /// What is looked for in a test: its own motion and depth, unless the reference's are known to
+    /// stand in files of their own, whose names may mean colours here.
+    fn test_guides(&self) -> GuideOptions {
+        let Settings { guides, motion_files, depth_files, .. } = self.settings;
+        let mut wanted = if self.guides { guides.clone() } else { GuideOptions::default() };
+        if motion_files.is_some() {
+            wanted.motion = MotionChannels::None;
+        }
+        if depth_files.is_some() {
+            wanted.depth = DepthChannels::None;
+        }
+        wanted
+    }
+
+    /// A reference with its motion and depth, from its own file or from others.
+    fn reference(&self, path: &Path, files: &GuideFiles, first: bool) -> Result<Side, LoadError> {
+        let mut side = self.side(path, &self.test_guides())?;
+        if !self.guides {
+            return Ok(side);
+        }
+        let named = &self.settings.guides;
+        if let Some(file) = &files.motion {
+            let motion = GuideOptions { motion: named.motion.clone(), ..GuideOptions::default() };
+            side.guides.motion = self.guides_of(file, &motion, &mut side)?.motion;
+        }
+        if let Some(file) = &files.depth {
+            let depth = GuideOptions { depth: named.depth.clone(), ..GuideOptions::default() };
+            side.guides.depth = self.guides_of(file, &depth, &mut side)?.depth;
+        }
+        // What a user has named has to be there; what is only looked for need not.
+        let missing_motion = side.missing.motion.take().filter(|_| !first);
+        for kind in [missing_motion, side.missing.depth.take()].into_iter().flatten() {
+            let path = PathBuf::from(&side.file);
+            return Err(LoadError::Read(ReadError { path, kind }));
+        }
+        Ok(side)
+    }
+
+    /// Motion or depth from a file of its own.
+    fn guides_of(
+        &self,
+        path: &Path,
+        wanted: &GuideOptions,
+        side: &mut Side,
+    ) -> Result<Guides, LoadError> {
         let file = self.plan.shown(path);
         let named = |error: ReadError| ReadError { path: PathBuf::from(&file), ..error };
-        let (decoded, id) = if self.plan.hash_inputs {
-            let (decoded, id) = read_frame_and_hash(path, read).map_err(named)?;
-            (decoded, Some(id))
+        let options = ReadOptions { guides: wanted.clone(), ..self.settings.read.clone() };
+        let decoded = if self.plan.hash_inputs {
+            let (decoded, id) = read_guides_and_hash(path, &options).map_err(named)?;
+            side.ids.push((file.clone(), id));
+            decoded
         } else {
-            (read_frame(path, read).map_err(named)?, None)
+            read_guides(path, &options).map_err(named)?
         };
+        side.notes.extend(decoded.notes.iter().map(Note::in_words));
+        let guides = decoded.guides;
+        let motion = guides.motion.as_ref().map(Motion::file_size);
+        let size = motion.or(guides.depth.as_ref().map(Plane::file_size));
+        if let Some(size) = size.filter(|size| *size != side.frame.file_size()) {
+            return Err(LoadError::Size {
+                reference: side.file.clone(),
+                reference_size: side.frame.file_size(),
+                test: file,
+                test_size: size,
+            });
+        }
+        self.cropped(guides, &file)
+    }
+
+    fn cropped(&self, guides: Guides, file: &str) -> Result<Guides, LoadError> {
+        match self.settings.crop {
+            Some(crop) => guides
+                .cropped(crop)
+                .map_err(|error| LoadError::Crop { file: file.to_owned(), error }),
+            None => Ok(guides),
+        }
+    }
+
+    fn side(&self, path: &Path, guides: &GuideOptions) -> Result<Side, LoadError> {
+        let Settings { signal, crop, .. } = self.settings;
+        let file = self.plan.shown(path);
+        let named = |error: ReadError| ReadError { path: PathBuf::from(&file), ..error };
+        let read = ReadOptions { guides: guides.clone(), ..self.settings.read.clone() };
+        let (decoded, ids) = if self.plan.hash_inputs {
+            let (decoded, id) = read_frame_and_hash(path, &read).map_err(named)?;
+            (decoded, vec![(file.clone(), id)])
+        } else {
+            (read_frame(path, &read).map_err(named)?, Vec::new())
+        };
+        let missing = Missing::of(guides, &decoded.guide_search);
         let mut notes: Vec<String> = decoded.notes.iter().map(Note::in_words).collect();
+        let guides = self.cropped(decoded.guides, &file)?;
         let frame = match *crop {
             Some(crop) => decoded
                 .frame
@@ -180,6 +276,24 @@ impl Loader<'_> {
             }
         }
         let bad = frame.bad_pixel();
-        Ok(Side { file, frame, id, notes, bad })
+        Ok(Side { file, frame, guides, ids, notes, bad, missing })
+    }
+}
+
+/// What a user has named and a file does not have.
+#[derive(Debug, Default)]
+struct Missing {
+    motion: Option<ReadErrorKind>,
+    depth: Option<ReadErrorKind>,
+}
+
+impl Missing {
+    fn of(wanted: &GuideOptions, search: &GuideSearch) -> Self {
+        let named_motion = !matches!(wanted.motion, MotionChannels::None | MotionChannels::Auto);
+        let named_depth = !matches!(wanted.depth, DepthChannels::None | DepthChannels::Auto);
+        Self {
+            motion: search.missing_motion().filter(|_| named_motion),
+            depth: search.missing_depth().filter(|_| named_depth),
+        }
     }
 }

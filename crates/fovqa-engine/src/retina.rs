@@ -1,50 +1,221 @@
-//! What depends on view and gaze alone, computed once for as long as they stay.
+//! What depends on view and gaze alone, computed once a gaze: a fixation serves many frames, and eyes
+//! come back to where they were.
 
-use fovqa_metrics::{Params, WeightField};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use fovqa_frame::Mask;
+use fovqa_metrics::{BlockRegions, Params, Regions, WeightField};
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, View};
 
 /// Largest precomputed weight field: 8K UHD fits, the retinal 11520x6480 is computed row by row.
 const MAX_FIELD_BYTES: usize = 256 << 20;
 
+/// Memory for retinas that may be asked for again.
+const KEPT_BYTES: usize = 256 << 20;
+
+/// A gaze that serves fewer pairs does not pay for its weight field being written down.
+const USES_OF_A_FIELD: usize = 3;
+
 /// Bands and weights of one gaze.
 #[derive(Debug)]
 pub(crate) struct Retina {
-    gaze_px: [f64; 2],
     pub(crate) bands: BandMap,
+    /// Bands of the blocks of each level of the wavelet.
+    pub(crate) blocks: Vec<BandMap>,
     pub(crate) weight: Option<WeightField>,
+    /// What the mask leaves of the bands.
+    masked: Option<(Regions<'static>, BlockRegions<'static>)>,
+    /// Memory it takes, without what the mask leaves, which is of the same size.
+    bytes: usize,
 }
 
 impl Retina {
-    /// Whether it is of this gaze.
-    pub(crate) fn is_at(&self, gaze_px: [f64; 2]) -> bool {
-        self.gaze_px.map(f64::to_bits) == gaze_px.map(f64::to_bits)
+    /// The regions of a frame: bands, less what the mask leaves out.
+    pub(crate) fn regions(&self) -> (Cow<'_, Regions<'_>>, Cow<'_, BlockRegions<'_>>) {
+        match &self.masked {
+            Some((regions, blocks)) => (Cow::Borrowed(regions), Cow::Borrowed(blocks)),
+            None => (
+                Cow::Owned(Regions::unmasked(&self.bands)),
+                Cow::Owned(BlockRegions::unmasked(&self.blocks)),
+            ),
+        }
+    }
+
+    /// The same for a frame of which only these pixels count.
+    pub(crate) fn regions_within(
+        &self,
+        mask: &Mask,
+        window_radius: usize,
+    ) -> (Cow<'_, Regions<'_>>, Cow<'_, BlockRegions<'_>>) {
+        let regions = Regions::masked(&self.bands, mask, window_radius);
+        (Cow::Owned(regions), Cow::Owned(BlockRegions::masked(&self.blocks, mask)))
     }
 }
 
-/// How to make them.
+/// How an eye sees the frames.
 #[derive(Debug)]
-pub(crate) struct RetinaMaker<'a> {
+pub(crate) struct Sight {
     pub(crate) view: View,
     pub(crate) kind: EccentricityKind,
     pub(crate) edges: BandEdges,
+}
+
+/// How retinas are made.
+#[derive(Debug)]
+pub(crate) struct RetinaMaker<'a> {
+    /// `None` without a view: no bands then.
+    pub(crate) sight: Option<Sight>,
+    pub(crate) size: (usize, usize),
     pub(crate) params: &'a Params,
     pub(crate) foveal: bool,
-    /// Whether one gaze serves many frames.
-    pub(crate) keep: bool,
+    pub(crate) haar_levels: Option<usize>,
+    pub(crate) mask: Option<Mask>,
+    /// Radius of the windows whose every pixel has to count.
+    pub(crate) window_radius: usize,
+    /// How many pairs each gaze serves.
+    pub(crate) uses: BTreeMap<Key, usize>,
+}
+
+/// A gaze, to the bit.
+pub(crate) type Key = [u64; 2];
+
+pub(crate) fn key(gaze_px: [f64; 2]) -> Key {
+    gaze_px.map(f64::to_bits)
 }
 
 impl RetinaMaker<'_> {
-    /// Bands and weights of a gaze; `last` is used again if it is of the same gaze.
-    pub(crate) fn at(&self, gaze_px: [f64; 2], last: Option<Retina>) -> Retina {
-        if let Some(retina) = last.filter(|retina| retina.is_at(gaze_px)) {
-            return retina;
-        }
-        let eccentricity = Eccentricity::new(self.view, gaze_px, self.kind);
-        let fits = self.view.width * self.view.height * size_of::<f32>() <= MAX_FIELD_BYTES;
+    fn make(&self, gaze_px: [f64; 2]) -> Retina {
+        let (bands, blocks, weight) = match &self.sight {
+            None => (BandMap::without_bands(self.size.0, self.size.1), Vec::new(), None),
+            Some(sight) => self.seen(sight, gaze_px),
+        };
+        let masked = self.mask.as_ref().map(|mask| {
+            let regions = Regions::masked(&bands, mask, self.window_radius);
+            (regions, BlockRegions::masked(&blocks, mask))
+        });
+        let maps = blocks.iter().chain([&bands]).map(BandMap::bytes).sum::<usize>();
+        let bytes = maps + weight.as_ref().map_or(0, WeightField::bytes);
+        Retina { bands, blocks, weight, masked, bytes }
+    }
+
+    fn seen(
+        &self,
+        sight: &Sight,
+        gaze_px: [f64; 2],
+    ) -> (BandMap, Vec<BandMap>, Option<WeightField>) {
+        let eccentricity = Eccentricity::new(sight.view, gaze_px, sight.kind);
+        let fits = self.size.0 * self.size.1 * size_of::<f32>() <= MAX_FIELD_BYTES;
+        let often = self.uses.get(&key(gaze_px)).is_some_and(|uses| *uses >= USES_OF_A_FIELD);
         let weight = self.foveal.then(|| {
             let field = WeightField::new(eccentricity, &self.params.fpsnr);
-            if self.keep && fits { field.precomputed() } else { field }
+            if often && fits { field.precomputed() } else { field }
         });
-        Retina { gaze_px, bands: BandMap::new(&eccentricity, &self.edges), weight }
+        let levels = self.haar_levels.unwrap_or(0);
+        let blocks = BlockRegions::maps(&eccentricity, &sight.edges, levels);
+        (BandMap::new(&eccentricity, &sight.edges), blocks, weight)
+    }
+}
+
+/// Retinas that were made, as many as fit into a bound: those used last.
+#[derive(Debug)]
+pub(crate) struct Retinas<'a> {
+    pub(crate) maker: RetinaMaker<'a>,
+    kept: BTreeMap<Key, Kept>,
+    bound_bytes: usize,
+    bytes: usize,
+    clock: u64,
+}
+
+#[derive(Debug)]
+struct Kept {
+    retina: Arc<Retina>,
+    used: u64,
+}
+
+impl<'a> Retinas<'a> {
+    pub(crate) fn new(maker: RetinaMaker<'a>) -> Self {
+        Self { maker, kept: BTreeMap::new(), bound_bytes: KEPT_BYTES, bytes: 0, clock: 0 }
+    }
+
+    /// The retina of a gaze.
+    pub(crate) fn at(&mut self, gaze_px: [f64; 2]) -> Arc<Retina> {
+        self.clock += 1;
+        if let Some(kept) = self.kept.get_mut(&key(gaze_px)) {
+            kept.used = self.clock;
+            return Arc::clone(&kept.retina);
+        }
+        let retina = Arc::new(self.maker.make(gaze_px));
+        self.bytes += retina.bytes;
+        let kept = Kept { retina: Arc::clone(&retina), used: self.clock };
+        self.kept.insert(key(gaze_px), kept);
+        self.forget();
+        retina
+    }
+
+    /// Lets go of what was not used for longest, until the rest is within the bound.
+    fn forget(&mut self) {
+        while self.bytes > self.bound_bytes && self.kept.len() > 1 {
+            let oldest = self.kept.iter().min_by_key(|(_, kept)| kept.used).map(|(key, _)| *key);
+            let Some(kept) = oldest.and_then(|key| self.kept.remove(&key)) else { return };
+            self.bytes -= kept.retina.bytes;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fovqa_vision::ViewSpec;
+
+    fn retinas(params: &Params) -> Retinas<'_> {
+        let spec = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(90.0) };
+        let sight = Sight {
+            view: spec.resolve(64, 48).unwrap().view,
+            kind: EccentricityKind::Angular,
+            edges: BandEdges::new(vec![0.0, 10.0, 20.0]).unwrap(),
+        };
+        Retinas::new(RetinaMaker {
+            sight: Some(sight),
+            size: (64, 48),
+            params,
+            foveal: true,
+            haar_levels: Some(3),
+            mask: None,
+            window_radius: 5,
+            uses: BTreeMap::from([(key([1.0, 1.0]), USES_OF_A_FIELD), (key([2.0, 2.0]), 1)]),
+        })
+    }
+
+    #[test]
+    fn a_gaze_that_comes_back_is_not_computed_again() {
+        let params = Params::default();
+        let mut retinas = retinas(&params);
+        let first = retinas.at([1.0, 1.0]);
+        let other = retinas.at([2.0, 2.0]);
+        assert!(!Arc::ptr_eq(&first, &other));
+        assert!(Arc::ptr_eq(&first, &retinas.at([1.0, 1.0])));
+        assert_eq!(first.blocks.len(), 3);
+        assert!(first.bytes > other.bytes + 64 * 48 * 4 - 1000, "its weights are written down");
+    }
+
+    #[test]
+    fn as_many_are_kept_as_fit_and_those_used_last() {
+        let params = Params::default();
+        let mut retinas = retinas(&params);
+        let gaze = |i: usize| [10.0 + i as f64, 3.0];
+        let first = retinas.at(gaze(0));
+        retinas.bound_bytes = 4 * first.bytes;
+        for i in 1..50 {
+            retinas.at(gaze(i));
+            assert!(Arc::ptr_eq(&first, &retinas.at(gaze(0))), "used all the time");
+            assert!(retinas.bytes <= retinas.bound_bytes && retinas.kept.len() <= 5);
+        }
+        assert!(retinas.kept.contains_key(&key(gaze(49))));
+        assert!(!retinas.kept.contains_key(&key(gaze(30))));
+        retinas.bound_bytes = 0;
+        retinas.at(gaze(60));
+        assert_eq!(retinas.kept.len(), 1, "the present one stays");
     }
 }

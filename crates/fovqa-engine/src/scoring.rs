@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use fovqa_config::{EyeView, Gaze, Plan, Scene};
+use fovqa_config::{EyeView, Gaze, MetricChoice, Plan, Scene};
 use fovqa_frame::Mask;
 use fovqa_io::{FileId, frame_size, read_mask};
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Metric, MetricKind};
 use fovqa_results::{Input, ScoreReport};
 use fovqa_vision::{BandEdges, GazeAt};
 
@@ -65,8 +65,9 @@ impl Scoring<'_> {
             report.gaze_held = self.view.trace.as_ref().map(held);
         }
         let mut beside = self.inputs_beside(down.inputs);
+        let guides = metrics.contains(&Metric::Atd);
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics, self.bands);
-        let loader = Loader { plan, settings: &eye.settings };
+        let loader = Loader { plan, settings: &eye.settings, guides };
         let mut written = Ok(());
         read_ahead(
             &steps,
@@ -77,7 +78,9 @@ impl Scoring<'_> {
                 let step = &steps[index];
                 let mut inputs = std::mem::take(&mut beside);
                 for side in loaded.reference.iter().chain([&loaded.test]).flatten() {
-                    inputs.extend(side.id.as_ref().and_then(|id| down.inputs.add(&side.file, id)));
+                    for (file, id) in &side.ids {
+                        inputs.extend(down.inputs.add(file, id));
+                    }
                 }
                 let result = run.step(step, loaded, down.warnings);
                 written = (down.record)(Finished {
@@ -103,6 +106,7 @@ impl Scoring<'_> {
                 let report = self.report(method, down);
                 report.view = view;
                 report.metrics = metrics;
+                report.atd_guides = run.atd_guides(method);
             }
         }
         Ok(())
@@ -115,7 +119,10 @@ impl Scoring<'_> {
             Some(eye) => format!("{}, {} eye", self.scene.name, eye.name()),
         };
         down.warnings.enter(place, self.view.frames.len());
-        let (metrics, left_out) = crate::settle::metrics(self.plan, &self.eye().settings)?;
+        let (mut metrics, left_out) = crate::settle::metrics(self.plan, &self.eye().settings)?;
+        if self.plan.metrics == MetricChoice::Default && self.view.frames.len() < 2 {
+            metrics.retain(|metric| !metric.is(MetricKind::Temporal));
+        }
         for metric in left_out {
             let label = metric.info().label;
             let message = format!("{label} is left out: it needs {{view}}");
@@ -165,7 +172,7 @@ fn steps(view: &FoundView) -> Vec<Step<'_>> {
     let steps = frames.flat_map(|(index, frame)| {
         frame.tests.iter().enumerate().map(move |(nth, (method, test))| Step {
             frame: index,
-            reference: (nth == 0).then_some(&*frame.reference),
+            reference: (nth == 0).then_some((&*frame.reference, &frame.guides)),
             method: *method,
             test,
         })

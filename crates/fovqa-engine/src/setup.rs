@@ -1,16 +1,17 @@
 //! What the size of the first frame settles for all: metrics that fit, view, bands, weights, mask.
 
-use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use fovqa_config::{Gaze, MetricChoice, Plan, Settings};
 use fovqa_frame::Mask;
-use fovqa_metrics::{Metric, Regions, Scorer};
+use fovqa_metrics::{Metric, Profiler, Scorer, WeightField};
 use fovqa_results::ViewResult;
-use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, GazeAt, View, ViewSpec};
+use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind, GazeAt, View, ViewSpec};
 
 use crate::events::Warnings;
 use crate::load::Fault;
-use crate::retina::{Retina, RetinaMaker};
+use crate::retina::{Key, Retina, RetinaMaker, Retinas, Sight, key};
 
 /// Settled once, used for every frame.
 pub(crate) struct Setup<'a> {
@@ -18,13 +19,11 @@ pub(crate) struct Setup<'a> {
     /// The file whose size it is.
     pub(crate) first_file: String,
     pub(crate) scorer: Scorer,
+    pub(crate) profiler: Profiler,
     pub(crate) view: Option<ViewResult>,
-    mask: Option<Mask>,
-    maker: Option<RetinaMaker<'a>>,
-    retina: Option<Retina>,
-    no_bands: BandMap,
-    /// What the mask leaves of the present gaze's bands.
-    masked: Option<Regions<'static>>,
+    retinas: Retinas<'a>,
+    /// That of the present gaze.
+    retina: Arc<Retina>,
 }
 
 /// What a setup is made from.
@@ -36,7 +35,8 @@ pub(crate) struct Inputs<'a, 'b> {
     pub(crate) metrics: &'b [Metric],
     pub(crate) mask: Option<&'b Mask>,
     pub(crate) trace: Option<&'a [GazeAt]>,
-    pub(crate) frames: usize,
+    /// How many pairs each frame has.
+    pub(crate) pairs: &'b [usize],
     /// Size of the files, before any crop.
     pub(crate) file_size: (usize, usize),
 }
@@ -59,127 +59,119 @@ impl<'a> Setup<'a> {
                 metrics.retain(|m| *m != metric);
             }
         }
-        let foveal = metrics.iter().any(|m| m.info().needs_view);
+        let foveal = metrics.iter().any(|m| WEIGHTED.contains(m));
+        let profiler = Profiler::new(&metrics, &plan.params);
         let mut scorer = Scorer::new(metrics, plan.params.clone());
         if plan.metrics == MetricChoice::Default {
             scorer = scorer.lenient();
         }
-        let mut setup = Self {
+        let seen = inputs.settings.view.as_ref().map(|spec| look(inputs, spec, size, warnings));
+        let (sight, view) = seen.transpose()?.unzip();
+        let gaze_px = view.as_ref().map_or([0.0; 2], |view: &ViewResult| view.gaze_px);
+        let mut retinas = Retinas::new(RetinaMaker {
+            sight,
             size,
-            first_file,
-            scorer,
-            view: None,
-            mask,
-            maker: None,
-            retina: None,
-            no_bands: BandMap::without_bands(size.0, size.1),
-            masked: None,
-        };
-        if let Some(spec) = &inputs.settings.view {
-            setup.look(inputs, spec, foveal, warnings)?;
-        }
-        Ok(setup)
-    }
-
-    /// Settles view, bands and weights.
-    fn look(
-        &mut self,
-        inputs: &Inputs<'a, '_>,
-        spec: &ViewSpec,
-        foveal: bool,
-        warnings: &mut Warnings<'_>,
-    ) -> Result<(), Fault> {
-        let (w, h) = self.size;
-        let resolved = spec.resolve(w, h).map_err(|error| Fault {
-            message: error.to_string(),
-            help: "give a view that fits frames of this size".to_owned(),
-        })?;
-        if let Some([dw, dh]) = resolved.stretched_from {
-            let message = format!(
-                "frames of {w}x{h} are stretched over the display's {dw}x{dh}: they fill its whole field"
-            );
-            warnings.once_a_view("stretched", &message);
-        }
-        let (view, kind) = (resolved.view, inputs.settings.eccentricity);
-        let gaze_px = first_gaze(inputs.settings, inputs.trace, &view);
-        let bands = inputs.scene_bands.or(inputs.settings.bands.as_ref());
-        let edges = bands.cloned().unwrap_or_else(|| {
-            BandEdges::default_up_to(farthest_deg(inputs.settings, inputs.trace, &view))
-        });
-        self.view = Some(ViewResult {
-            size: [w, h],
-            focal_px: view.focal_px,
-            gaze_px,
-            eccentricity: match kind {
-                EccentricityKind::Angular => "angular",
-                EccentricityKind::Planar => "planar",
-            },
-            bands_deg: edges.iter().collect(),
-        });
-        let maker = RetinaMaker {
-            view,
-            kind,
-            edges,
-            params: &inputs.plan.params,
+            params: &plan.params,
             foveal,
-            keep: inputs.frames > 1 && inputs.trace.is_none(),
-        };
-        let retina = maker.at(gaze_px, None);
-        if retina.weight.as_ref().is_some_and(fovqa_metrics::WeightField::is_flat) {
+            haar_levels: profiler.haar_levels(),
+            mask,
+            window_radius: scorer.window_radius(),
+            uses: uses(inputs, gaze_px),
+        });
+        let retina = retinas.at(gaze_px);
+        if retina.weight.as_ref().is_some_and(WeightField::is_flat)
+            && let Some(sight) = &retinas.maker.sight
+        {
             let message = format!(
                 "the view shows {:.2} cycles per degree at most, less than the eye sees anywhere in the \
                  frame: the foveal weight is flat, and foveal metrics equal their plain forms",
-                view.nyquist_cpd()
+                sight.view.nyquist_cpd()
             );
             warnings.once_a_view("flat weight", &message);
         }
-        (self.maker, self.retina) = (Some(maker), Some(retina));
-        Ok(())
+        Ok(Self { size, first_file, scorer, profiler, view, retinas, retina })
     }
 
     /// Moves the gaze, where there is a view.
     pub(crate) fn look_at(&mut self, gaze_px: [f64; 2]) {
-        if let Some(maker) = &self.maker {
-            if !self.retina.as_ref().is_some_and(|retina| retina.is_at(gaze_px)) {
-                self.masked = None;
-            }
-            self.retina = Some(maker.at(gaze_px, self.retina.take()));
+        if self.view.is_some() {
+            self.retina = self.retinas.at(gaze_px);
         }
     }
 
-    /// Makes ready what the mask alone decides, if it has not been since the gaze moved.
-    pub(crate) fn apply_mask(&mut self) {
-        if let (Some(mask), None) = (&self.mask, &self.masked) {
-            let regions = Regions::masked(self.bands(), mask, self.scorer.window_radius());
-            self.masked = Some(regions);
+    /// What depends on the present gaze.
+    pub(crate) fn retina(&self) -> Arc<Retina> {
+        Arc::clone(&self.retina)
+    }
+
+    /// The lens mask.
+    pub(crate) fn mask(&self) -> Option<&Mask> {
+        self.retinas.maker.mask.as_ref()
+    }
+
+    /// Where pixels are finite, less what the lens mask leaves out.
+    pub(crate) fn within_mask(&self, finite: &Mask) -> Mask {
+        let mut both = finite.clone();
+        if let Some(mask) = self.mask() {
+            both.intersect(mask);
         }
+        both
     }
 
-    /// The regions of a frame: bands, less what the mask and the frame's own bad pixels leave out.
-    pub(crate) fn regions(&self, finite: Option<&Mask>) -> Cow<'_, Regions<'_>> {
-        match (finite, &self.masked) {
-            (None, Some(masked)) => Cow::Borrowed(masked),
-            (None, None) => Cow::Owned(Regions::unmasked(self.bands())),
-            (Some(finite), _) => {
-                let mut both = finite.clone();
-                if let Some(mask) = &self.mask {
-                    both.intersect(mask);
-                }
-                let radius = self.scorer.window_radius();
-                Cow::Owned(Regions::masked(self.bands(), &both, radius))
-            }
-        }
+    /// How far the gaze has moved, degrees; `None` without a view.
+    pub(crate) fn gaze_step_deg(&self, from_px: [f64; 2], to_px: [f64; 2]) -> Option<f64> {
+        let sight = self.retinas.maker.sight.as_ref()?;
+        let from = Eccentricity::new(sight.view, from_px, EccentricityKind::Angular);
+        Some(from.at_deg(to_px[0], to_px[1]))
     }
+}
 
-    /// The bands of the present gaze; none without a view.
-    fn bands(&self) -> &BandMap {
-        self.retina.as_ref().map_or(&self.no_bands, |retina| &retina.bands)
-    }
+/// Metrics under the foveal weight.
+const WEIGHTED: [Metric; 2] = [Metric::Fpsnr, Metric::Fssim];
 
-    /// The foveal weight of the present gaze.
-    pub(crate) fn weight(&self) -> Option<&fovqa_metrics::WeightField> {
-        self.retina.as_ref()?.weight.as_ref()
+/// How many pairs each gaze serves.
+fn uses(inputs: &Inputs<'_, '_>, gaze_px: [f64; 2]) -> BTreeMap<Key, usize> {
+    let mut uses = BTreeMap::new();
+    for (frame, pairs) in inputs.pairs.iter().enumerate() {
+        let gaze = inputs.trace.map_or(gaze_px, |trace| trace[frame].px);
+        *uses.entry(key(gaze)).or_default() += pairs;
     }
+    uses
+}
+
+/// Settles how the frames are seen.
+fn look(
+    inputs: &Inputs<'_, '_>,
+    spec: &ViewSpec,
+    (w, h): (usize, usize),
+    warnings: &mut Warnings<'_>,
+) -> Result<(Sight, ViewResult), Fault> {
+    let resolved = spec.resolve(w, h).map_err(|error| Fault {
+        message: error.to_string(),
+        help: "give a view that fits frames of this size".to_owned(),
+    })?;
+    if let Some([dw, dh]) = resolved.stretched_from {
+        let message = format!(
+            "frames of {w}x{h} are stretched over the display's {dw}x{dh}: they fill its whole field"
+        );
+        warnings.once_a_view("stretched", &message);
+    }
+    let (view, kind) = (resolved.view, inputs.settings.eccentricity);
+    let bands = inputs.scene_bands.or(inputs.settings.bands.as_ref());
+    let edges = bands.cloned().unwrap_or_else(|| {
+        BandEdges::default_up_to(farthest_deg(inputs.settings, inputs.trace, &view))
+    });
+    let result = ViewResult {
+        size: [w, h],
+        focal_px: view.focal_px,
+        gaze_px: first_gaze(inputs.settings, inputs.trace, &view),
+        eccentricity: match kind {
+            EccentricityKind::Angular => "angular",
+            EccentricityKind::Planar => "planar",
+        },
+        bands_deg: edges.iter().collect(),
+    };
+    Ok((Sight { view, kind, edges }, result))
 }
 
 /// The gaze of the first frame.

@@ -2,14 +2,16 @@
 
 use fovqa_config::{EyeView, Plan};
 use fovqa_frame::{Mask, PairSignal, SignalTables};
-use fovqa_metrics::{Metric, ScoreError};
-use fovqa_results::{Failure, FrameResult, ViewResult};
+use fovqa_metrics::temporal::LumaPlane;
+use fovqa_metrics::{BlockRegions, Metric, MetricKind, Profile, Profiler, Regions, ScoreError};
+use fovqa_results::{AtdGuides, Failure, FrameResult, GuideSource, Sides, ViewResult};
 use fovqa_vision::BandEdges;
 
 use crate::events::Warnings;
 use crate::find::FoundView;
 use crate::load::{Fault, Loaded, Side, Step, comparable};
 use crate::setup::{Inputs, Setup};
+use crate::temporal::{Counted, Present, Temporal};
 
 /// The state of a view while its frames are scored.
 pub(crate) struct ViewRun<'a> {
@@ -21,8 +23,12 @@ pub(crate) struct ViewRun<'a> {
     bands: Option<&'a BandEdges>,
     tables: SignalTables,
     setup: Option<Setup<'a>>,
-    /// The reference of the present frame.
+    /// The reference of the present frame, and its profile, where that is the same for all tests.
     reference: Option<Result<Side, Fault>>,
+    profile: Option<Profile>,
+    temporal: Option<Temporal>,
+    /// Position of the reference's frame.
+    position: usize,
 }
 
 impl<'a> ViewRun<'a> {
@@ -35,7 +41,26 @@ impl<'a> ViewRun<'a> {
         bands: Option<&'a BandEdges>,
     ) -> Self {
         let tables = SignalTables::new(eye.settings.signal);
-        Self { plan, eye, view, mask, metrics, bands, tables, setup: None, reference: None }
+        let temporal = metrics.contains(&Metric::Atd).then(|| Temporal::new(plan.params.atd));
+        Self {
+            plan,
+            eye,
+            view,
+            mask,
+            metrics,
+            bands,
+            tables,
+            setup: None,
+            reference: None,
+            profile: None,
+            temporal,
+            position: 0,
+        }
+    }
+
+    /// What the differences over time of a method were taken along.
+    pub(crate) fn atd_guides(&self, method: usize) -> AtdGuides {
+        self.temporal.as_ref().map(|temporal| temporal.guides(method)).unwrap_or_default()
     }
 
     /// The view and the metrics that fit it, once a pair could be compared.
@@ -52,6 +77,11 @@ impl<'a> ViewRun<'a> {
         warnings: &mut Warnings<'_>,
     ) -> Result<FrameResult, Failure> {
         if let Some(reference) = loaded.reference {
+            if let (Some(Ok(old)), Some(temporal)) = (&self.reference, &mut self.temporal) {
+                temporal.leave(old, self.position);
+            }
+            self.position = self.view.frames[step.frame].position;
+            self.profile = None;
             self.reference = Some(reference.map_err(Fault::from));
         }
         let reference = self.reference.take();
@@ -101,7 +131,7 @@ impl<'a> ViewRun<'a> {
                     metrics: &self.metrics,
                     mask: self.mask.as_ref(),
                     trace: view.trace.as_deref(),
-                    frames: view.frames.len(),
+                    pairs: &view.frames.iter().map(|f| f.tests.len()).collect::<Vec<_>>(),
                     file_size: reference.frame.file_size(),
                 };
                 none.insert(Setup::new(&inputs, size, reference.file.clone(), warnings)?)
@@ -123,16 +153,54 @@ impl<'a> ViewRun<'a> {
         if let Some(gaze) = gaze_px.or(setup.view.as_ref().map(|view| view.gaze_px)) {
             warn_of_gaze(gaze, size, warnings);
         }
-        setup.apply_mask();
-        let regions = setup.regions(finite.as_ref());
+        let position = view.frames[step.frame].position;
+        let present = Present { reference, test, method: step.method, position };
+        if let Some(temporal) = &mut self.temporal {
+            temporal.check(&present, step.frame == 0)?;
+        }
+        let retina = setup.retina();
+        let (regions, blocks) = match &finite {
+            None => retina.regions(),
+            Some(finite) => {
+                let mask = setup.within_mask(finite);
+                retina.regions_within(&mask, setup.scorer.window_radius())
+            }
+        };
         let signal = PairSignal::new(&reference.frame, &test.frame, &self.tables);
-        let scores =
-            setup.scorer.score(&signal, &regions, setup.weight()).map_err(|error| Fault {
-                message: format!("{}: {error}", test.file),
-                help: format!("leave it out of {{metrics}}, or {}", score_help(&error)),
-            })?;
+        let scores = setup.scorer.score(&signal, &regions, retina.weight.as_ref());
+        let scores = scores.map_err(|error| Fault {
+            message: format!("{}: {error}", test.file),
+            help: format!("leave it out of {{metrics}}, or {}", score_help(&error)),
+        })?;
+        let measured = Measuring {
+            profiler: &setup.profiler,
+            tables: &self.tables,
+            regions: &regions,
+            blocks: &blocks,
+        };
+        let known = self.profile.take().filter(|_| finite.is_none());
+        let profiles = measured.both(&present, known, self.temporal.as_mut());
+        if finite.is_none() {
+            self.profile = profiles.as_ref().map(|profiles| profiles.reference.clone());
+        }
+        let counted = Counted { regions: &regions, finite, mask: setup.mask() };
+        let atd = self.temporal.as_mut().and_then(|temporal| {
+            let found = temporal.differences(&present, counted)?;
+            if temporal.guides(step.method).motion == GuideSource::None {
+                warnings.once_a_view("no motion", NO_MOTION);
+            }
+            Some(found)
+        });
+        let follows = step.frame > 0 && view.frames[step.frame - 1].position + 1 == position;
+        let gaze_step_deg =
+            view.trace.as_ref().filter(|_| follows).and_then(|trace| {
+                setup.gaze_step_deg(trace[step.frame - 1].px, trace[step.frame].px)
+            });
         let number = view.frames[step.frame].number;
-        for metric in setup.scorer.metrics().iter().filter(|m| !scores.scores.contains_key(m)) {
+        let left_out = |metric: &&Metric| {
+            metric.is(MetricKind::Fidelity) && !scores.scores.contains_key(metric)
+        };
+        for metric in setup.scorer.metrics().iter().filter(left_out) {
             let label = metric.info().label;
             let message = format!(
                 "{label} is left out of frame {number}: the mask leaves no whole window for it"
@@ -144,8 +212,49 @@ impl<'a> ViewRun<'a> {
             reference: reference.file.clone(),
             test: test.file.clone(),
             gaze_px,
+            gaze_step_deg,
             scores,
+            profiles,
+            atd,
         })
+    }
+}
+
+/// Said where differences over time are taken without motion vectors.
+const NO_MOTION: &str =
+    "ATD is taken without motion vectors: whatever moves counts as a difference";
+
+/// How the pictures of a pair are measured one by one.
+struct Measuring<'a> {
+    profiler: &'a Profiler,
+    tables: &'a SignalTables,
+    regions: &'a Regions<'a>,
+    blocks: &'a BlockRegions<'a>,
+}
+
+impl Measuring<'_> {
+    /// The profiles of a pair, where any are asked for; what is `known` of its reference is not measured
+    /// again. The luma of both is left where the next frame finds it.
+    fn both(
+        &self,
+        present: &Present<'_>,
+        known: Option<Profile>,
+        mut temporal: Option<&mut Temporal>,
+    ) -> Option<Sides<Profile>> {
+        if self.profiler.is_idle() && temporal.is_none() {
+            return None;
+        }
+        let plane = temporal.as_deref_mut().and_then(|t| t.reference_luma(present.position));
+        let reference = match known {
+            Some(known) => known,
+            None => self.one(present.reference, plane),
+        };
+        let test = self.one(present.test, temporal.map(Temporal::test_luma));
+        (!self.profiler.is_idle()).then_some(Sides { reference, test })
+    }
+
+    fn one(&self, side: &Side, plane: Option<&mut LumaPlane>) -> Profile {
+        self.profiler.measure(&side.frame, self.tables, self.regions, self.blocks, plane)
     }
 }
 

@@ -156,6 +156,7 @@ impl Selection<'_> {
             y: Axis::new(axis(metric)),
             series,
             x_ticks: Some(edges).filter(|edges| edges.len() <= MOST_EDGE_TICKS),
+            ..LineChart::default()
         });
         Some(NamedFigure { name, caption, figure })
     }
@@ -260,6 +261,7 @@ fn axis(metric: Metric) -> String {
     let better = match info.better {
         Better::Higher => "higher is better",
         Better::Lower => "lower is better",
+        Better::Neither => "",
     };
     if info.unit.is_empty() {
         format!("{} ({better})", info.label)

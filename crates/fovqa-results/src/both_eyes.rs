@@ -1,9 +1,12 @@
-//! Two eyes as one: squared errors are pooled by pixels, other scores are means of the two.
+//! Two eyes as one: squared errors, wavelet coefficients and differences over time are pooled, other
+//! scores are means of the two.
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::{BandScores, Metric, PairScores, psnr_db};
+use fovqa_metrics::temporal::{AtdBand, AtdFrame};
+use fovqa_metrics::{BandScores, HaarBand, HaarStatistics, Metric, PairScores, Profile, psnr_db};
 
+use crate::compared::Sides;
 use crate::report::{FrameResult, ScoreReport};
 
 /// The report of both eyes: the frames both have, by their numbers.
@@ -13,12 +16,29 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
     let right_frames: BTreeMap<u64, &FrameResult> =
         right.frames.iter().map(|frame| (frame.frame, frame)).collect();
     let frames = left.frames.iter().filter_map(|l| {
-        let mut scores = pooled(&l.scores, &right_frames.get(&l.frame)?.scores);
+        let r = right_frames.get(&l.frame)?;
+        let mut scores = pooled(&l.scores, &r.scores);
+        let mut profiles =
+            l.profiles.as_ref().zip(r.profiles.as_ref()).map(|(l, r)| both(l, r, profile));
+        let mut atd = l.atd.as_ref().zip(r.atd.as_ref()).map(|(l, r)| both(l, r, difference));
         // Bands of other edges have nothing in common.
         if !alike {
             scores.bands.clear();
+            profiles = None;
+            for side in atd.iter_mut().flat_map(|atd| [&mut atd.reference, &mut atd.test]) {
+                side.bands.clear();
+            }
         }
-        Some(FrameResult { gaze_px: None, scores, ..l.clone() })
+        Some(FrameResult {
+            frame: l.frame,
+            reference: l.reference.clone(),
+            test: l.test.clone(),
+            gaze_px: None,
+            gaze_step_deg: None,
+            scores,
+            profiles,
+            atd,
+        })
     });
     ScoreReport {
         view: left.view.clone().filter(|_| alike),
@@ -26,6 +46,69 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
         frames: frames.collect(),
         failures: Vec::new(),
         gaze_held: None,
+        atd_guides: left.atd_guides,
+    }
+}
+
+/// Reference and test of both eyes.
+fn both<T>(left: &Sides<T>, right: &Sides<T>, pool: impl Fn(&T, &T) -> T) -> Sides<T> {
+    Sides {
+        reference: pool(&left.reference, &right.reference),
+        test: pool(&left.test, &right.test),
+    }
+}
+
+/// Contrasts are averaged, wavelet coefficients pooled.
+fn profile(left: &Profile, right: &Profile) -> Profile {
+    let rms_contrast = left.rms_contrast.as_ref().zip(right.rms_contrast.as_ref());
+    let haar = left.haar.as_ref().zip(right.haar.as_ref());
+    Profile {
+        rms_contrast: rms_contrast.map(|(left, right)| {
+            left.iter().zip(right).map(|(l, r)| either(*l, *r, f64::midpoint)).collect()
+        }),
+        haar: haar.map(|(left, right)| {
+            let levels = left.iter().zip(right);
+            levels.map(|(l, r)| l.iter().zip(r).map(|(l, r)| wavelet(l, r)).collect()).collect()
+        }),
+    }
+}
+
+fn wavelet(left: &HaarBand, right: &HaarBand) -> HaarBand {
+    let coefficients = left.coefficients + right.coefficients;
+    let share = right.coefficients as f64 / (coefficients as f64).max(1.0);
+    let pool = |l: HaarStatistics, r: HaarStatistics| HaarStatistics {
+        mean_abs: l.mean_abs + (r.mean_abs - l.mean_abs) * share,
+        max_abs: l.max_abs.max(r.max_abs),
+        energy: l.energy + (r.energy - l.energy) * share,
+    };
+    HaarBand {
+        coefficients,
+        statistics: either(left.statistics, right.statistics, pool),
+        orientations: either(left.orientations, right.orientations, |l, r| {
+            std::array::from_fn(|i| pool(l[i], r[i]))
+        }),
+    }
+}
+
+/// Differences over time are pooled by valid pixels.
+fn difference(left: &AtdFrame, right: &AtdFrame) -> AtdFrame {
+    let band = |l: &AtdBand, r: &AtdBand| {
+        let valid = l.valid + r.valid;
+        let share = r.valid as f64 / (valid as f64).max(1.0);
+        AtdBand { mean: either(l.mean, r.mean, |l, r| l + (r - l) * share), valid }
+    };
+    AtdFrame {
+        whole: band(&left.whole, &right.whole),
+        pixels: left.pixels + right.pixels,
+        bands: left.bands.iter().zip(&right.bands).map(|(l, r)| band(l, r)).collect(),
+    }
+}
+
+/// What one eye has not is the other's.
+fn either<T>(left: Option<T>, right: Option<T>, pool: impl Fn(T, T) -> T) -> Option<T> {
+    match (left, right) {
+        (Some(left), Some(right)) => Some(pool(left, right)),
+        (one, None) | (None, one) => one,
     }
 }
 
@@ -56,12 +139,7 @@ fn pooled_band(left: &BandScores, right: &BandScores) -> BandScores {
     let mse = pooled_mse((left.mse, left.pixels), (right.mse, right.pixels));
     let scores = left.scores.iter().filter_map(|(&metric, &l)| {
         let r = *right.scores.get(&metric)?;
-        // What one eye has not is the other's.
-        let score = match (l, r) {
-            (Some(l), Some(r)) => Some(pooled_score(metric, mse, None, l, r)),
-            (one, None) | (None, one) => one,
-        };
-        Some((metric, score))
+        Some((metric, either(l, r, |l, r| pooled_score(metric, mse, None, l, r))))
     });
     BandScores { pixels: left.pixels + right.pixels, mse, scores: scores.collect() }
 }
@@ -82,7 +160,12 @@ fn pooled_score(metric: Metric, mse: Option<f64>, fmse: Option<f64>, l: f64, r: 
         Metric::Mse => mse.unwrap_or_else(|| f64::midpoint(l, r)),
         Metric::Psnr => mse.map_or_else(|| f64::midpoint(l, r), psnr_db),
         Metric::Fpsnr => fmse.map_or_else(|| f64::midpoint(l, r), psnr_db),
-        Metric::Ssim | Metric::MsSsim | Metric::Fssim => f64::midpoint(l, r),
+        Metric::Ssim
+        | Metric::MsSsim
+        | Metric::Fssim
+        | Metric::RmsContrast
+        | Metric::Haar
+        | Metric::Atd => f64::midpoint(l, r),
     }
 }
 
@@ -137,7 +220,10 @@ mod tests {
             reference: String::new(),
             test: String::new(),
             gaze_px: None,
+            gaze_step_deg: None,
             scores: scores(0.5, 0.5, 1),
+            profiles: None,
+            atd: None,
         };
         let report = |frames: &[u64]| ScoreReport {
             metrics: vec![Metric::Mse],

@@ -7,7 +7,8 @@ use std::io::{self, Write};
 
 use fovqa_metrics::Metric;
 
-use crate::report::{Comparison, RunResults, ScoreReport};
+use crate::compared::{Compared, HaarStatistic};
+use crate::report::{Comparison, FrameResult, RunResults, ScoreReport};
 use crate::summary::{Statistics, Summary};
 
 /// The columns, in order.
@@ -29,15 +30,38 @@ pub const COLUMNS: [&str; 12] = [
 /// The metric of a row that stands for something that could not be scored.
 pub const ERROR: &str = "error";
 
-/// A row of the table; `parameters` and `level` belong to measures to come.
+/// What a value is of.
+#[derive(Default, Clone, Copy, PartialEq, Eq)]
+enum Image {
+    #[default]
+    Pair,
+    Reference,
+    Test,
+    Ratio,
+}
+
+impl Image {
+    fn name(self) -> &'static str {
+        match self {
+            Image::Pair => "pair",
+            Image::Reference => "reference",
+            Image::Test => "test",
+            Image::Ratio => "ratio",
+        }
+    }
+}
+
+/// A row of the table; `parameters` belongs to sweeps to come.
 #[derive(Default, Clone, Copy)]
 struct Row<'a> {
     scene: &'a str,
     method: &'a str,
     eye: &'a str,
     frame: Option<u64>,
+    image: Image,
     metric: &'a str,
     statistic: &'a str,
+    level: Option<usize>,
     band: Option<(f64, f64)>,
     value: Option<Value>,
 }
@@ -104,13 +128,12 @@ impl<W: Write> Table<W> {
         let edges = report.view.as_ref().map(|v| v.bands_deg.as_slice()).unwrap_or_default();
         for frame in &report.frames {
             let row = Row { frame: Some(frame.frame), ..*row };
+            self.gaze(&row, frame)?;
             for (metric, value) in &frame.scores.scores {
-                self.write(&Row {
-                    metric: metric.key(),
-                    value: Some(Value::Measured(*value)),
-                    ..row
-                })?;
+                let value = Some(Value::Measured(*value));
+                self.write(&Row { metric: metric.key(), value, ..row })?;
             }
+            self.whole_frame_compared(&row, frame)?;
             let outside = if edges.is_empty() { 0 } else { frame.scores.outside_bands };
             for (metric, pixels) in
                 [("pixels_outside_bands", outside), ("pixels_left_out", frame.scores.left_out)]
@@ -119,7 +142,7 @@ impl<W: Write> Table<W> {
                     self.write(&Row { metric, value: Some(Value::Count(pixels)), ..row })?;
                 }
             }
-            for (&band, scores) in edges.iter().zip(&frame.scores.bands) {
+            for (index, (&band, scores)) in edges.iter().zip(&frame.scores.bands).enumerate() {
                 let row = Row { band: Some(band), ..row };
                 let pixels = Some(Value::Count(scores.pixels));
                 self.write(&Row { metric: "pixels", value: pixels, ..row })?;
@@ -130,6 +153,59 @@ impl<W: Write> Table<W> {
                         ..row
                     })?;
                 }
+                self.compared(&row, &frame.compared_in(index))?;
+            }
+            for level in 1..=frame.haar_levels() {
+                for (index, &band) in edges.iter().enumerate() {
+                    let row = Row { band: Some(band), level: Some(level), ..row };
+                    let coefficients = Some(Value::Count(frame.coefficients(level, index)));
+                    let (metric, statistic) = (Metric::Haar.key(), "coefficients");
+                    self.write(&Row { metric, statistic, value: coefficients, ..row })?;
+                    self.compared(&row, &frame.compared_haar(level, index))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Where the eye looks, where that moves.
+    fn gaze(&mut self, row: &Row<'_>, frame: &FrameResult) -> io::Result<()> {
+        let [x, y] = frame.gaze_px.map_or([None; 2], |px| px.map(Some));
+        for (metric, value) in
+            [("gaze_x_px", x), ("gaze_y_px", y), ("gaze_step_deg", frame.gaze_step_deg)]
+        {
+            if value.is_some() {
+                self.write(&Row { metric, value: value.map(Value::Measured), ..*row })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What is compared of whole frames, with the share of pixels that could not be.
+    fn whole_frame_compared(&mut self, row: &Row<'_>, frame: &FrameResult) -> io::Result<()> {
+        self.compared(row, frame.compared().as_slice())?;
+        let Some(atd) = &frame.atd else { return Ok(()) };
+        for (image, side) in [(Image::Reference, &atd.reference), (Image::Test, &atd.test)] {
+            let share = side.left_out() as f64 / (side.pixels as f64).max(1.0);
+            let (metric, statistic) = (Metric::Atd.key(), "left_out");
+            let value = Some(Value::Measured(share));
+            self.write(&Row { image, metric, statistic, value, ..*row })?;
+        }
+        Ok(())
+    }
+
+    /// Three rows each: of the reference, of the test, and their ratio.
+    fn compared(&mut self, row: &Row<'_>, compared: &[Compared]) -> io::Result<()> {
+        for (measure, sides) in compared {
+            let statistic = measure.statistic.map(HaarStatistic::name).unwrap_or_default();
+            for (image, value) in [
+                (Image::Reference, sides.reference),
+                (Image::Test, sides.test),
+                (Image::Ratio, sides.ratio()),
+            ] {
+                let metric = measure.metric.key();
+                let value = value.map(Value::Measured);
+                self.write(&Row { image, metric, statistic: &statistic, value, ..*row })?;
             }
         }
         Ok(())
@@ -146,6 +222,38 @@ impl<W: Write> Table<W> {
                     let edges = Some((band.from_deg, band.to_deg));
                     self.statistics_of(*metric, edges, statistics)?;
                 }
+            }
+        }
+        self.compared_statistics(&summary)
+    }
+
+    fn compared_statistics(&mut self, summary: &Summary) -> io::Result<()> {
+        for (measure, statistics) in &summary.compared {
+            let band = measure.band.and_then(|index| summary.bands.get(index));
+            let of = measure.statistic.map(|statistic| format!("{}_", statistic.name()));
+            let of = of.unwrap_or_default();
+            let row = Row {
+                metric: measure.metric.key(),
+                level: measure.level,
+                band: band.map(|band| (band.from_deg, band.to_deg)),
+                ..Row::default()
+            };
+            for (image, spread) in
+                [(Image::Reference, statistics.reference), (Image::Test, statistics.test)]
+            {
+                let Some(spread) = spread else { continue };
+                for (statistic, value) in
+                    [("mean", spread.mean), ("min", spread.min), ("max", spread.max)]
+                {
+                    let (statistic, value) = (format!("{of}{statistic}"), Value::Measured(value));
+                    self.write(&Row { image, statistic: &statistic, value: Some(value), ..row })?;
+                }
+            }
+            if let Some(ratio) = statistics.ratio {
+                let maximum = measure.statistic.is_some_and(HaarStatistic::is_maximum);
+                let statistic = format!("{of}{}", if maximum { "max" } else { "mean" });
+                let (image, value) = (Image::Ratio, Some(Value::Measured(ratio)));
+                self.write(&Row { image, statistic: &statistic, value, ..row })?;
             }
         }
         Ok(())
@@ -180,9 +288,11 @@ impl<W: Write> Table<W> {
         let frame = row.frame.map(|f| f.to_string()).unwrap_or_default();
         let (from, to) = (edge(row.band.map(|b| b.0)), edge(row.band.map(|b| b.1)));
         let value = text(row.value);
+        let level = row.level.map(|level| level.to_string()).unwrap_or_default();
         let Row { scene, method, eye, metric, statistic, .. } = row;
+        let image = row.image.name();
         let cells =
-            [scene, method, "", eye, &frame, "pair", metric, statistic, "", &from, &to, &value];
+            [scene, method, "", eye, &frame, image, metric, statistic, &level, &from, &to, &value];
         self.0.write_record(cells).map_err(io_error)
     }
 }

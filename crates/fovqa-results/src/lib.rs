@@ -1,6 +1,7 @@
 //! Scores as data: what a run found, its summary, JSON and tidy CSV.
 
 mod both_eyes;
+mod compared;
 mod csv_table;
 mod files;
 mod json;
@@ -8,14 +9,18 @@ mod report;
 mod summary;
 
 pub use both_eyes::both_eyes;
+pub use compared::{Compared, HaarStatistic, Measure, Sides};
 pub use csv_table::{COLUMNS, ERROR, write_csv, write_results_csv};
 pub use files::{
     FileError, REPORT_JSON, RESULTS_CSV, RUN_JSON, SUMMARY_JSON, read_json_file, write_json_file,
     write_whole,
 };
 pub use json::{
-    BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, RUN_SCHEMA, RunRecord,
-    SCORE_SCHEMA, SUMMARY_SCHEMA, SummaryRecord, ViewRecord, write_json,
+    BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, RUN_SCHEMA,
+    RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, SummaryRecord, ViewRecord, write_json,
 };
-pub use report::{Comparison, Failure, FrameResult, Input, RunResults, ScoreReport, ViewResult};
-pub use summary::{BandSummary, Statistics, Summary};
+pub use report::{
+    AtdGuides, Comparison, Failure, FrameResult, GuideSource, Input, RunResults, ScoreReport,
+    ViewResult,
+};
+pub use summary::{AtdSummary, BandSummary, SideStatistics, Spread, Statistics, Summary};

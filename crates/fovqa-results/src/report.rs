@@ -1,7 +1,10 @@
 //! What a run of `score` found.
 
-use fovqa_metrics::{Metric, PairScores};
+use fovqa_metrics::temporal::AtdFrame;
+use fovqa_metrics::{Metric, PairScores, Profile};
 use serde::{Deserialize, Serialize};
+
+use crate::compared::Sides;
 
 /// The view the frames were scored under.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,8 +32,36 @@ pub struct FrameResult {
     pub test: String,
     /// Gaze, where it comes from a trace.
     pub gaze_px: Option<[f64; 2]>,
+    /// How far the gaze has moved since the frame before, degrees, where it comes from a trace.
+    pub gaze_step_deg: Option<f64>,
     /// The scores.
     pub scores: PairScores,
+    /// Profiles of each picture, where some are asked for.
+    pub profiles: Option<Sides<Profile>>,
+    /// Differences to the frame before, where there is one.
+    pub atd: Option<Sides<AtdFrame>>,
+}
+
+/// Whose motion or depth a sequence was compared along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum GuideSource {
+    /// Nobody's: there is none.
+    #[default]
+    None,
+    /// The reference's, for the test too.
+    Reference,
+    /// Each its own.
+    Test,
+}
+
+/// What differences over time were taken along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct AtdGuides {
+    /// Motion vectors.
+    pub motion: GuideSource,
+    /// Depth.
+    pub depth: GuideSource,
 }
 
 /// A frame that could not be scored, or a whole comparison.
@@ -61,6 +92,8 @@ pub struct ScoreReport {
     pub failures: Vec<Failure>,
     /// Frames whose gaze was held over from an earlier one; `None` without a trace.
     pub gaze_held: Option<usize>,
+    /// What differences over time were taken along.
+    pub atd_guides: AtdGuides,
 }
 
 /// A comparison of a run: one method in one scene, for one eye or both.

@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::{Metric, PairScores, psnr_db};
+use fovqa_metrics::temporal::AtdFrame;
+use fovqa_metrics::{Metric, MetricKind, PairScores, psnr_db};
 
-use crate::report::{FrameResult, ScoreReport};
+use crate::compared::{HaarStatistic, Measure, Sides};
+use crate::report::{FrameResult, GuideSource, ScoreReport};
 
 /// One measure over the frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +22,53 @@ pub struct Statistics {
     pub identical_frames: Option<usize>,
     /// For PSNR and FPSNR: the decibels of the error pooled over all frames.
     pub pooled: Option<f64>,
+}
+
+/// Mean and extremes over the frames.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Spread {
+    /// The mean.
+    pub mean: f64,
+    /// The smallest value.
+    pub min: f64,
+    /// The largest value.
+    pub max: f64,
+}
+
+/// A measure of reference and test alike over the frames.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct SideStatistics {
+    /// The reference's; `None` where no frame has a value.
+    pub reference: Option<Spread>,
+    /// The test's.
+    pub test: Option<Spread>,
+    /// test / reference: of the means or, of maxima, of the largest.
+    pub ratio: Option<f64>,
+}
+
+/// Differences over time of a whole sequence.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct AtdSummary {
+    /// Mean over frames, of the reference; `None` where no two frames could be compared.
+    pub reference: Option<f64>,
+    /// The same of the test.
+    pub test: Option<f64>,
+    /// test / reference: the papers' percentage.
+    pub ratio: Option<f64>,
+    /// Share of the pixels that were left out, 0 to 1.
+    pub left_out: Option<f64>,
+    /// The same of the test, where it was compared along its own motion or depth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out_test: Option<f64>,
+    /// Frames that could be compared with the one before.
+    pub frames: usize,
+    /// Whose motion it was taken along.
+    pub motion: GuideSource,
+    /// Whose depth.
+    pub depth: GuideSource,
+    /// Why a value is missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
 }
 
 /// One band over the frames.
@@ -42,6 +91,12 @@ pub struct Summary {
     pub statistics: BTreeMap<Metric, Statistics>,
     /// Bands.
     pub bands: Vec<BandSummary>,
+    /// Measures of reference and test alike.
+    pub compared: BTreeMap<Measure, SideStatistics>,
+    /// Coefficients of each level and band of the wavelet, in all frames together.
+    pub coefficients: BTreeMap<(usize, usize), u64>,
+    /// Differences over time, where they are asked for.
+    pub atd: Option<AtdSummary>,
 }
 
 impl Summary {
@@ -62,7 +117,8 @@ impl Summary {
             .map(|(index, &(from_deg, to_deg))| {
                 let scores = |f: &FrameResult| f.scores.bands[index].clone();
                 let bands: Vec<_> = frames.iter().map(scores).collect();
-                let per_band = report.metrics.iter().filter(|m| m.info().per_band);
+                let fidelity = |m: &&Metric| m.info().per_band && m.is(MetricKind::Fidelity);
+                let per_band = report.metrics.iter().filter(fidelity);
                 let statistics = per_band.map(|&metric| {
                     let values = bands.iter().filter_map(|b| b.scores.get(&metric).copied()?);
                     let pooled = pooled_psnr(metric, bands.iter().map(|b| (b.mse, b.pixels)));
@@ -76,7 +132,92 @@ impl Summary {
                 }
             })
             .collect();
-        Self { statistics, bands }
+        let mut coefficients = BTreeMap::new();
+        let bands_of = |frame: &FrameResult| frame.scores.bands.len();
+        for frame in frames {
+            for level in 1..=frame.haar_levels() {
+                for band in 0..bands_of(frame) {
+                    *coefficients.entry((level, band)).or_default() +=
+                        frame.coefficients(level, band);
+                }
+            }
+        }
+        let atd = report.metrics.contains(&Metric::Atd).then(|| AtdSummary::of(report));
+        Self { statistics, bands, compared: compared(frames), coefficients, atd }
+    }
+}
+
+/// Each measure of reference and test alike over the frames.
+fn compared(frames: &[FrameResult]) -> BTreeMap<Measure, SideStatistics> {
+    let mut values: BTreeMap<Measure, Sides<Vec<f64>>> = BTreeMap::new();
+    for (measure, sides) in frames.iter().flat_map(FrameResult::all_compared) {
+        let entry = values.entry(measure).or_default();
+        entry.reference.extend(sides.reference);
+        entry.test.extend(sides.test);
+    }
+    let statistics = values.into_iter().map(|(measure, values)| {
+        let maximum = measure.statistic.is_some_and(HaarStatistic::is_maximum);
+        (measure, SideStatistics::of(&values, maximum))
+    });
+    statistics.collect()
+}
+
+impl Spread {
+    /// `None` without a value.
+    fn of(values: &[f64]) -> Option<Self> {
+        let min = values.iter().copied().reduce(f64::min)?;
+        let max = values.iter().copied().reduce(f64::max)?;
+        Some(Self { mean: values.iter().sum::<f64>() / values.len() as f64, min, max })
+    }
+}
+
+impl SideStatistics {
+    fn of(values: &Sides<Vec<f64>>, maximum: bool) -> Self {
+        let Sides { reference, test } = values.map(|values| Spread::of(values));
+        let statistics = Self { reference, test, ratio: None };
+        Self { ratio: statistics.headline(maximum).ratio(), ..statistics }
+    }
+
+    /// What stands for all frames: the means or, of maxima, the largest.
+    pub fn headline(&self, maximum: bool) -> Sides<Option<f64>> {
+        let of = |spread: Spread| if maximum { spread.max } else { spread.mean };
+        Sides { reference: self.reference.map(of), test: self.test.map(of) }
+    }
+}
+
+impl AtdSummary {
+    fn of(report: &ScoreReport) -> Self {
+        let found = || report.frames.iter().filter_map(|frame| frame.atd.as_ref());
+        let pairs =
+            found().filter_map(|atd| Some((atd.reference.whole.mean?, atd.test.whole.mean?)));
+        let (reference, test): (Vec<f64>, Vec<f64>) = pairs.unzip();
+        let frames = reference.len();
+        let mean = |values: &[f64]| Spread::of(values).map(|spread| spread.mean);
+        let sides = Sides { reference: mean(&reference), test: mean(&test) };
+        let left_out = |side: fn(&Sides<AtdFrame>) -> &AtdFrame| {
+            let sum = |of: fn(&AtdFrame) -> u64| found().map(|atd| of(side(atd))).sum::<u64>();
+            let pixels = sum(|atd| atd.pixels);
+            (pixels > 0).then(|| sum(AtdFrame::left_out) as f64 / pixels as f64)
+        };
+        let guides = report.atd_guides;
+        let own = [guides.motion, guides.depth].contains(&GuideSource::Test);
+        let reason = match () {
+            () if frames > 0 => sides.reason(),
+            () if report.frames.len() < 2 => Some("needs two frames"),
+            () if found().next().is_none() => Some("no two of the frames follow each other"),
+            () => Some("no pixel can be compared"),
+        };
+        Self {
+            reference: sides.reference,
+            test: sides.test,
+            ratio: sides.ratio(),
+            left_out: left_out(|atd| &atd.reference),
+            left_out_test: left_out(|atd| &atd.test).filter(|_| own),
+            frames,
+            motion: guides.motion,
+            depth: guides.depth,
+            reason: reason.map(str::to_owned),
+        }
     }
 }
 

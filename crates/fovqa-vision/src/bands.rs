@@ -144,6 +144,11 @@ impl BandMap {
         Self { bands, starts, runs }
     }
 
+    /// Bytes of memory it takes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.starts.as_slice()) + size_of_val(self.runs.as_slice())
+    }
+
     /// How many bands there are.
     pub fn bands(&self) -> usize {
         self.bands

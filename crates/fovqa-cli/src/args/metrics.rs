@@ -11,7 +11,7 @@ use super::values::literal;
 #[command(next_help_heading = "Metrics")]
 pub(crate) struct MetricArgs {
     /// Metrics with commas between them; `fovqa list metrics` shows them
-    /// [default: mse,psnr,ssim,fpsnr, less what does not fit]
+    /// [default: mse,psnr,ssim,fpsnr,rms-contrast,haar and, for a sequence, atd; less what does not fit]
     #[arg(long, verbatim_doc_comment, value_name = "NAME,NAME,…", value_delimiter = ',', value_parser = metric)]
     metrics: Vec<Metric>,
     /// A parameter of a metric, such as ssim.sigma=1.5

@@ -1,5 +1,6 @@
 //! The command line, as clap sees it.
 
+mod guides;
 mod metrics;
 mod no_such;
 mod run;

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use fovqa_config::{EyeView, Plan, Scene, Settings};
 use fovqa_io::sequence::FrameRange;
 
+use super::guides::GuideArgs;
 use super::metrics::MetricArgs;
 use super::signal::SignalArgs;
 use super::values::positive;
@@ -50,6 +51,8 @@ pub(crate) struct ScoreArgs {
     view: ViewArgs,
     #[command(flatten)]
     signal: SignalArgs,
+    #[command(flatten)]
+    guides: GuideArgs,
     /// Frames by their numbers, from A up to, but without, B
     #[arg(long, value_name = "A..B:STEP", help_heading = "Sequence")]
     frames: Option<FrameRange>,
@@ -67,7 +70,11 @@ pub(crate) struct ScoreArgs {
 impl ScoreArgs {
     /// The plan; the error is a wrong command line.
     pub(crate) fn plan(self) -> Result<Plan, String> {
+        let (motion_files, depth_files) = self.guides.files();
         let settings = Settings {
+            guides: self.guides.options(),
+            motion_files,
+            depth_files,
             view: self.view.spec()?,
             gaze: self.view.gaze(),
             eccentricity: self.view.eccentricity(),

@@ -50,7 +50,7 @@ pub(crate) fn literal(text: &str) -> Result<ParamValue, String> {
     match value {
         None => Ok(ParamValue::Text(text.to_owned())),
         Some(toml::Value::String(text)) => Ok(ParamValue::Text(text)),
-        Some(toml::Value::Boolean(flag)) => Ok(ParamValue::Text(flag.to_string())),
+        Some(toml::Value::Boolean(flag)) => Ok(ParamValue::Flag(flag)),
         Some(toml::Value::Array(list)) => {
             let numbers: Option<Vec<f64>> = list.iter().map(number).collect();
             numbers.map(ParamValue::List).ok_or_else(|| "a list holds numbers alone".to_owned())
@@ -72,6 +72,7 @@ mod tests {
         assert_eq!(literal("[0, 1.5]"), Ok(ParamValue::List(vec![0.0, 1.5])));
         assert_eq!(literal("acuity"), Ok(ParamValue::Text("acuity".into())));
         assert_eq!(literal("\"acuity\""), Ok(ParamValue::Text("acuity".into())));
+        assert_eq!(literal("true"), Ok(ParamValue::Flag(true)));
         assert_eq!(literal("1\nother = 2"), Ok(ParamValue::Text("1\nother = 2".into())));
         assert!(literal("[1, \"a\"]").is_err());
         assert!(literal("{ a = 1 }").is_err());

@@ -105,6 +105,48 @@ const SIGNAL: &[Key] = &[
         "[x, y, width, height] to score, in pixels; the view is of the crop",
     ),
     key("max_megapixels", Kind::Whole(1, 1_000_000), "most pixels a file may declare, millions"),
+    key(
+        "motion",
+        Kind::Either(&[GUIDES, Kind::Table(MOTION)]),
+        "backward motion vectors: \"auto\", \"none\", the renderer, or { channels = [\"Vector.X\", \"Vector.Y\"], sign = [1, -1] }",
+    ),
+    key(
+        "depth",
+        Kind::Either(&[GUIDES, Kind::Table(DEPTH)]),
+        "depth: \"auto\", \"none\", the renderer, or { channel = \"Z\" }",
+    ),
+];
+
+/// How motion or depth is found by itself, or by whom it was rendered.
+const GUIDES: Kind = Kind::Word(&["auto", "none", "blender", "falcor", "unreal", "mitsuba"]);
+const PRESET: Kind = Kind::Word(&["blender", "falcor", "unreal", "mitsuba"]);
+const CHANNEL_SCALE: Kind = Kind::Number(-1e9, 1e9);
+
+const MOTION: &[Key] = &[
+    key("channels", Kind::List(&Kind::Text, 2, 2), "names of the channels for x and y"),
+    key("preset", PRESET, "the renderer, instead of channels"),
+    key(
+        "sign",
+        Kind::List(&Kind::Number(-1.0, 1.0), 2, 2),
+        "1 or -1 each: what turns x to the right, y down, and both back to the frame before",
+    ),
+    key(
+        "scale",
+        Kind::Either(&[CHANNEL_SCALE, Kind::List(&CHANNEL_SCALE, 2, 2)]),
+        "units for 1 in the channels",
+    ),
+    key(
+        "unit",
+        Kind::Word(&["pixels", "frame", "ndc"]),
+        "pixels, widths and heights of the frame, or halves of these (-1 to 1 across)",
+    ),
+    key("files", Kind::Text, "OpenEXR files of their own, which pair with the reference frames"),
+];
+
+const DEPTH: &[Key] = &[
+    key("channel", Kind::Text, "name of the channel"),
+    key("preset", PRESET, "the renderer, instead of a channel"),
+    key("files", Kind::Text, "OpenEXR files of their own, which pair with the reference frames"),
 ];
 
 /// What both eyes share.

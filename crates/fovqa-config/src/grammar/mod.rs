@@ -101,10 +101,14 @@ pub(crate) fn quoted<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
 pub(crate) fn parameter(values: ParamValues) -> Kind {
     const AUTO: Kind = Kind::Word(&["auto"]);
     const FINITE: Kind = Kind::Number(f64::NEG_INFINITY, f64::INFINITY);
-    /// Whole numbers come with few ranges; each needs a place to live.
+    /// Kinds that are one of several come with few ranges; each needs a place to live.
     const WINDOW_RADIUS: [Kind; 2] = [Kind::Whole(1, 224), AUTO];
+    const TOLERANCE: [Kind; 2] = [Kind::Number(0.0, 1e6), Kind::Word(&["off"])];
     match values {
         ParamValues::Number(min, max) => Kind::Number(min, max),
+        ParamValues::NumberOrOff(..) => Kind::Either(&TOLERANCE),
+        ParamValues::Whole(min, max) => Kind::Whole(min as u64, max as u64),
+        ParamValues::Flag => Kind::Bool,
         ParamValues::WholeOrAuto(..) => Kind::Either(&WINDOW_RADIUS),
         ParamValues::Word(words) => Kind::Word(words),
         ParamValues::Numbers => Kind::List(&FINITE, 1, 1000),
@@ -117,9 +121,15 @@ mod tests {
     use fovqa_metrics::Metric;
 
     #[test]
-    fn whole_parameters_have_the_range_of_their_metric() {
+    fn parameters_of_several_kinds_have_the_range_of_their_metric() {
         for metric in Metric::ALL {
             for param in metric.info().params {
+                if let ParamValues::NumberOrOff(min, max) = param.values {
+                    let Kind::Either([Kind::Number(low, high), _]) = parameter(param.values) else {
+                        panic!("{}", param.name)
+                    };
+                    assert_eq!([min, max].map(f64::to_bits), [*low, *high].map(f64::to_bits));
+                }
                 if let ParamValues::WholeOrAuto(min, max) = param.values {
                     let Kind::Either([Kind::Whole(low, high), _]) = parameter(param.values) else {
                         panic!("{}", param.name)

@@ -8,7 +8,7 @@ use toml::de::DeValue;
 
 use crate::fault::Fault;
 use crate::grammar::number;
-use crate::node::{Node, numbers, table, text};
+use crate::node::{Node, flag, numbers, table, text};
 use crate::plan::MetricChoice;
 
 /// Parameters an experiment sets.
@@ -47,4 +47,5 @@ fn param_value(value: &Spanned<DeValue<'_>>) -> Option<ParamValue> {
         .map(ParamValue::Number)
         .or_else(|| text(value).map(|text| ParamValue::Text(text.to_owned())))
         .or_else(|| numbers(value).map(ParamValue::List))
+        .or_else(|| flag(value).map(ParamValue::Flag))
 }

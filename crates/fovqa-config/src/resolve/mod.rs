@@ -1,5 +1,6 @@
 //! From checked tables to the plan: overrides, placeholders, names that refer to each other.
 
+mod guides;
 mod methods;
 mod metrics;
 mod plots;

@@ -10,6 +10,7 @@ use serde_spanned::Spanned;
 use toml::de::DeValue;
 
 use super::Placeholders;
+use super::guides::guides;
 use crate::fault::Fault;
 use crate::node::{Node, numbers, table};
 use crate::plan::{Eye, Gaze, Nonfinite, Settings};
@@ -77,7 +78,12 @@ impl<'a> Layers<'a> {
         let mask = self
             .text("mask")
             .and_then(|text| path(placeholders, base, text, self.span("mask"), faults));
+        let guides =
+            guides(self.having("motion"), self.having("depth"), base, placeholders, faults);
         let settings = Settings {
+            guides: guides.options,
+            motion_files: guides.motion_files,
+            depth_files: guides.depth_files,
             read: self.read(),
             crop,
             mask,

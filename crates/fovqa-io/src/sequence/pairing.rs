@@ -13,6 +13,9 @@ pub struct FramePair {
     /// The frame's number: that of the reference's name, or its position among the references,
     /// from 0, where their names have none that tells them apart.
     pub number: u64,
+    /// Its position among the references, from 0: frames follow each other where these do, whatever
+    /// their numbers.
+    pub position: usize,
     /// Reference file.
     pub reference: PathBuf,
     /// Test file.
@@ -128,7 +131,7 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
         // A number both names carry is the frame's.
         let number = reference.number.filter(|n| test.number == Some(*n)).unwrap_or(0);
         let (reference, test) = (reference.path.clone(), test.path.clone());
-        let pairs = vec![FramePair { number, reference, test }];
+        let pairs = vec![FramePair { number, position: 0, reference, test }];
         return Ok(Pairs { pairs, first: number, alone: Alone::default() });
     }
     let mut partner: Vec<Option<usize>> = vec![None; reference.files.len()];
@@ -153,7 +156,7 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
         match partner {
             Some(index) => {
                 let test = test.files[index].path.clone();
-                pairs.push(FramePair { number, reference, test });
+                pairs.push(FramePair { number, position, reference, test });
             }
             None => alone.reference.push((Some(number), reference)),
         }
@@ -215,6 +218,7 @@ mod tests {
         .unwrap()
         .pairs;
         assert_eq!((pairs[0].number, pairs[0].test.clone()), (7, PathBuf::from("rmfr_7.png")));
+        assert_eq!(pairs.iter().map(|p| p.position).collect::<Vec<_>>(), [0, 1]);
     }
 
     #[test]
@@ -222,7 +226,7 @@ mod tests {
         let (reference, test) =
             (listing(&["1.png", "2.png", "4.png"]), listing(&["2.png", "3.png"]));
         let Pairs { pairs, alone, .. } = pair(&reference, &test).unwrap();
-        assert_eq!(pairs.len(), 1);
+        assert_eq!((pairs.len(), pairs[0].position), (1, 1), "the second of the references");
         let file = |number, name: &str| (Some(number), PathBuf::from(name));
         assert_eq!(alone.reference, [file(1, "1.png"), file(4, "4.png")]);
         assert_eq!(alone.test, [file(3, "3.png")]);

@@ -197,6 +197,12 @@ impl WeightField {
         Self { eccentricity, curve, rows: None }
     }
 
+    /// Bytes of memory it takes.
+    pub fn bytes(&self) -> usize {
+        let rows = self.rows.iter().flatten();
+        size_of::<Self>() + rows.map(|row| size_of_val(row.as_slice())).sum::<usize>()
+    }
+
     /// Whether f is the display's Nyquist frequency in the whole frame: FPSNR is PSNR then.
     pub fn is_flat(&self) -> bool {
         let mut farthest = [self.eccentricity.max_deg() as f32];

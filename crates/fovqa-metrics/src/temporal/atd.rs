@@ -11,7 +11,7 @@ use fovqa_frame::map_row_blocks;
 use multiversion::multiversion;
 
 use super::luma_plane::LumaPlane;
-use super::source::{Link, Sources};
+use super::source::{Link, Sources, Stretch};
 use crate::params::ParamValue;
 use crate::regions::{Regions, clipped};
 use crate::sums::add_by_band;
@@ -165,7 +165,9 @@ impl<'a> Block<'a> {
     }
 
     fn stretch(&mut self, x: usize, y: usize, n: usize) {
-        self.sources.find(self.link, self.tolerance, self.size, (x, y, n));
+        let (width, height) = self.size;
+        let at = Stretch { x, y, pixels: n, width, height };
+        self.sources.find(self.link, self.tolerance, at);
         let valid = &self.sources.valid()[..n];
         let runs = self.link.regions.pixel_runs(y);
         for (from, to, band) in clipped(runs, x..x + n) {
@@ -173,7 +175,7 @@ impl<'a> Block<'a> {
         }
         let fetched = &mut self.fetched[..n];
         for ((now, before), sums) in self.pictures.iter().zip(&mut self.sums.differences) {
-            self.sources.fetch(before, fetched);
+            self.sources.fetch(before, at, fetched);
             difference(&now.row(y)[x..x + n], valid, fetched);
             add_by_band(fetched, x, runs, sums);
         }

@@ -30,6 +30,7 @@ impl LumaPlane {
     }
 
     /// Row `y`.
+    #[inline(always)]
     pub(crate) fn row(&self, y: usize) -> &[f32] {
         &self.values[y * self.width..(y + 1) * self.width]
     }

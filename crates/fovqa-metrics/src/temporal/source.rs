@@ -20,22 +20,32 @@ pub struct Link<'a> {
     pub mask_before: Option<&'a Mask>,
 }
 
-/// Pixels whose sources are fetched from consecutive places where they have one motion.
+/// Pixels whose sources are fetched from consecutive places where they have one motion: a vector of the
+/// widest kind.
 const STRETCH: usize = 16;
 
-/// Where the pixels of a stretch of a row come from.
+/// A stretch of a row, and the frame it is of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stretch {
+    pub(crate) x: usize,
+    pub(crate) y: usize,
+    pub(crate) pixels: usize,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+}
+
+/// Where the pixels of a stretch come from. A source lies between four taps: the upper left is `whole`
+/// pixels away, across and down, and `weight` is that of the taps to its right and below it.
 #[derive(Debug)]
 pub(crate) struct Sources {
     motion: [Vec<f32>; 2],
     depth: Vec<f32>,
-    /// Column and row of the upper left of the four taps; -1 is beyond the border.
-    tap: [Vec<i32>; 2],
-    /// Column and row of the pixel that holds the source.
-    holder: [Vec<i32>; 2],
-    /// Weight of the taps to the right, and of those below.
+    whole: [Vec<i32>; 2],
     weight: [Vec<f32>; 2],
     /// 1 where the source can be compared, 0 elsewhere.
     valid: Vec<u32>,
+    /// For each whole [`STRETCH`], whether its pixels move together and all their taps are in the frame.
+    together: Vec<bool>,
 }
 
 impl Sources {
@@ -44,10 +54,10 @@ impl Sources {
         Self {
             motion: std::array::from_fn(|_| vec![0.0; columns]),
             depth: vec![0.0; columns],
-            tap: std::array::from_fn(|_| vec![0; columns]),
-            holder: std::array::from_fn(|_| vec![0; columns]),
+            whole: std::array::from_fn(|_| vec![0; columns]),
             weight: std::array::from_fn(|_| vec![0.0; columns]),
             valid: vec![1; columns],
+            together: vec![false; columns.div_ceil(STRETCH)],
         }
     }
 
@@ -56,70 +66,70 @@ impl Sources {
         &self.valid
     }
 
-    /// Finds the sources of the columns from `x` on, `n` of them, of row `y`.
-    pub(crate) fn find(
-        &mut self,
-        link: &Link<'_>,
-        tolerance: Option<f64>,
-        (width, height): (usize, usize),
-        (x, y, n): (usize, usize, usize),
-    ) {
-        if let Some(motion) = link.motion {
-            let [mx, my] = &mut self.motion;
-            motion.fill_row(y, x..x + n, &mut mx[..n], &mut my[..n]);
-            self.valid[..n].fill(1);
-            let [across, down] = motion.scale();
-            let axes = [
-                Axis { from: x as f64, step: 1.0, scale: across, side: width as f64 },
-                Axis { from: y as f64, step: 0.0, scale: down, side: height as f64 },
-            ];
-            for (i, axis) in axes.into_iter().enumerate() {
-                let mut followed = Followed {
-                    tap: &mut self.tap[i],
-                    holder: &mut self.holder[i],
-                    weight: &mut self.weight[i],
-                    valid: &mut self.valid,
-                };
-                follow(&self.motion[i][..n], axis, &mut followed);
+    /// Finds the sources of a stretch.
+    pub(crate) fn find(&mut self, link: &Link<'_>, tolerance: Option<f64>, at: Stretch) {
+        let n = at.pixels;
+        self.valid[..n].fill(1);
+        match link.motion {
+            Some(motion) => self.follow(motion, at),
+            None => {
+                for axis in 0..2 {
+                    self.whole[axis][..n].fill(0);
+                    self.weight[axis][..n].fill(0.0);
+                }
             }
-        } else {
-            self.valid[..n].fill(1);
-            for i in 0..n {
-                self.holder[0][i] = (x + i) as i32;
-            }
-            self.holder[1][..n].fill(y as i32);
-            self.tap[0][..n].copy_from_slice(&self.holder[0][..n]);
-            self.tap[1][..n].fill(y as i32);
-            self.weight.iter_mut().for_each(|weight| weight[..n].fill(0.0));
         }
+        self.find_together(at);
         if let (Some((now, before)), Some(tolerance)) = (link.depth, tolerance) {
-            now.fill_row(y, x..x + n, &mut self.depth[..n]);
-            self.compare_depth(before, tolerance, n);
+            now.fill_row(at.y, at.x..at.x + n, &mut self.depth[..n]);
+            compare_depth(self, before, tolerance, at);
         }
         if let Some(mask) = link.mask_before {
-            self.keep_unmasked(mask, n);
+            self.keep_unmasked(mask, at);
         }
     }
 
-    /// Leaves out pixels whose source lies at another depth: what has just come into sight.
-    fn compare_depth(&mut self, before: &DepthPlane, tolerance: f64, n: usize) {
-        let [columns, rows] = &self.holder;
-        for i in 0..n {
-            if self.valid[i] == 1 {
-                let now = f64::from(self.depth[i]);
-                let then = f64::from(before.row(rows[i] as usize)[columns[i] as usize]);
-                // False for whatever is not finite: sky may be far, but not infinitely far.
-                let alike = now.is_finite() && (then - now).abs() <= tolerance * now.abs();
-                self.valid[i] = u32::from(alike);
+    fn follow(&mut self, motion: &Motion, at: Stretch) {
+        let n = at.pixels;
+        let [mx, my] = &mut self.motion;
+        motion.fill_row(at.y, at.x..at.x + n, &mut mx[..n], &mut my[..n]);
+        let starts = [(at.x as i32, 1, at.width), (at.y as i32, 0, at.height)];
+        for (axis, (first, step, side)) in starts.into_iter().enumerate() {
+            let line = Line { first, step, side: side as u32 };
+            let found = Found {
+                whole: &mut self.whole[axis][..n],
+                weight: &mut self.weight[axis][..n],
+                valid: &mut self.valid[..n],
+            };
+            let samples = &self.motion[axis][..n];
+            let scale = motion.scale()[axis];
+            if scale.abs().to_bits() == 1f64.to_bits() {
+                follow_signed(samples, scale as f32, line, found);
+            } else {
+                follow_scaled(samples, scale, line, found);
             }
+        }
+    }
+
+    /// Finds the stretches whose pixels move together.
+    fn find_together(&mut self, at: Stretch) {
+        let [across, down] = self.whole.each_ref().map(|whole| &whole[..at.pixels]);
+        let parts = across.chunks(STRETCH).zip(down.chunks(STRETCH));
+        for (i, ((across, down), together)) in parts.zip(&mut self.together).enumerate() {
+            let (x, y) = ((at.x + i * STRETCH) as i64, at.y as i64);
+            let (left, top) = (x + i64::from(across[0]), y + i64::from(down[0]));
+            let inside = left >= 0
+                && top >= 0
+                && left + (across.len() as i64) < at.width as i64
+                && top + 1 < at.height as i64;
+            *together = inside && across.len() == STRETCH && alike(across) && alike(down);
         }
     }
 
     /// Leaves out pixels with a tap that has weight and does not count.
-    fn keep_unmasked(&mut self, mask: &Mask, n: usize) {
-        let (width, height) = (mask.width(), mask.height());
-        for i in 0..n {
-            let taps = Taps::at(self.tap[0][i], self.tap[1][i], width, height);
+    fn keep_unmasked(&mut self, mask: &Mask, at: Stretch) {
+        for i in 0..at.pixels {
+            let taps = self.taps(i, at);
             let [right, below] = [self.weight[0][i] > 0.0, self.weight[1][i] > 0.0];
             let counts = |x: usize, y: usize| mask.row(y)[x];
             let clean = || {
@@ -134,58 +144,38 @@ impl Sources {
         }
     }
 
-    /// The luma at the sources of `out.len()` pixels; anything where they are not valid.
-    pub(crate) fn fetch(&self, before: &LumaPlane, out: &mut [f32]) {
-        let n = out.len();
-        let mut i = 0;
-        while i < n {
-            let end = (i + STRETCH).min(n);
-            match self.together(i..end, before) {
-                Some((top, bottom)) => {
-                    let [right, below] = self.weight.each_ref().map(|weight| &weight[i..end]);
-                    between(top, bottom, right, below, &mut out[i..end]);
-                }
-                None => (i..end).for_each(|i| {
-                    if self.valid[i] == 1 {
-                        out[i] = self.fetch_one(before, i);
-                    }
-                }),
-            }
-            i = end;
+    /// The luma at the sources of a stretch; anything where they are not valid.
+    pub(crate) fn fetch(&self, before: &LumaPlane, at: Stretch, out: &mut [f32]) {
+        fetch(self, before, at, out);
+    }
+
+    /// The taps of a pixel, kept within the frame.
+    #[inline(always)]
+    fn taps(&self, i: usize, at: Stretch) -> Taps {
+        let x = (at.x + i) as i32 + self.whole[0][i];
+        let y = at.y as i32 + self.whole[1][i];
+        Taps {
+            left: within(x, at.width),
+            right: within(x + 1, at.width),
+            top: within(y, at.height),
+            bottom: within(y + 1, at.height),
         }
     }
 
-    /// The rows of taps of a stretch whose pixels move together and stay inside of the frame.
-    fn together<'a>(
-        &self,
-        stretch: std::ops::Range<usize>,
-        before: &'a LumaPlane,
-    ) -> Option<(&'a [f32], &'a [f32])> {
-        let [columns, rows] = self.tap.each_ref().map(|tap| &tap[stretch.clone()]);
-        let (&x, &y) = (columns.first()?, rows.first()?);
-        let inside = x >= 0
-            && y >= 0
-            && x as usize + stretch.len() < before.width()
-            && y as usize + 1 < before.height();
-        if !inside || !consecutive(columns, x) || !equal(rows, y) {
-            return None;
-        }
-        let (x, y) = (x as usize, y as usize);
-        let taps = x..=x + stretch.len();
-        Some((&before.row(y)[taps.clone()], &before.row(y + 1)[taps]))
-    }
-
-    fn fetch_one(&self, before: &LumaPlane, i: usize) -> f32 {
-        let taps = Taps::at(self.tap[0][i], self.tap[1][i], before.width(), before.height());
-        let (top, bottom) = (before.row(taps.top), before.row(taps.bottom));
-        let [right, below] = [self.weight[0][i], self.weight[1][i]];
-        let upper = top[taps.left] + (top[taps.right] - top[taps.left]) * right;
-        let lower = bottom[taps.left] + (bottom[taps.right] - bottom[taps.left]) * right;
-        upper + (lower - upper) * below
+    /// The upper left tap of a stretch whose pixels move together.
+    #[inline(always)]
+    fn first_tap(&self, i: usize, at: Stretch) -> (usize, usize) {
+        let x = (at.x + i) as i64 + i64::from(self.whole[0][i]);
+        (x as usize, (at.y as i64 + i64::from(self.whole[1][i])) as usize)
     }
 }
 
-/// Four pixels, kept within the frame.
+#[inline(always)]
+fn within(at: i32, side: usize) -> usize {
+    at.clamp(0, side as i32 - 1) as usize
+}
+
+/// Four pixels.
 struct Taps {
     left: usize,
     right: usize,
@@ -193,79 +183,150 @@ struct Taps {
     bottom: usize,
 }
 
-impl Taps {
-    fn at(x: i32, y: i32, width: usize, height: usize) -> Self {
-        let within = |at: i32, side: usize| at.clamp(0, side as i32 - 1) as usize;
-        Self {
-            left: within(x, width),
-            right: within(x.saturating_add(1), width),
-            top: within(y, height),
-            bottom: within(y.saturating_add(1), height),
-        }
-    }
-}
-
-/// One axis of a stretch of a row.
+/// Pixels along one axis of the frame.
 #[derive(Clone, Copy)]
-struct Axis {
-    /// Position of its first pixel.
-    from: f64,
-    /// From each pixel to the next: 1 along the row, 0 across it.
-    step: f64,
-    /// Pixels of motion for one unit of a sample.
-    scale: f64,
-    /// The frame's side, pixels.
-    side: f64,
+struct Line {
+    /// Position of the first.
+    first: i32,
+    /// From each to the next: 1 along the row, 0 across it.
+    step: i32,
+    /// The frame's side.
+    side: u32,
 }
 
 /// Where motion along one axis leads.
-struct Followed<'a> {
-    tap: &'a mut [i32],
-    holder: &'a mut [i32],
+struct Found<'a> {
+    whole: &'a mut [i32],
     weight: &'a mut [f32],
     valid: &'a mut [u32],
 }
 
-/// Follows motion along one axis. In f64: a pixel that just leaves the frame, or its neighbour, has to be
-/// told from one that does not.
+/// Motion as far as this, or that is not a number, leads nowhere.
+const FARTHEST_PX: f32 = (1 << 21) as f32;
+
+/// Follows motion in pixels, of either sign. In f32 throughout, and yet a source just inside of a pixel is told
+/// from one just outside of it: the part of the motion beyond whole pixels is exact, or, of small motion
+/// to the left or up, too near to 1 to be mistaken.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn follow(motion: &[f32], axis: Axis, out: &mut Followed<'_>) {
+fn follow_signed(motion: &[f32], sign: f32, line: Line, found: Found<'_>) {
+    /// Added to a whole number, it leaves that in the lowest bits: a conversion that vectorises.
+    const BITS: f32 = (3 << 22) as f32;
     let n = motion.len();
-    let (tap, holder) = (&mut out.tap[..n], &mut out.holder[..n]);
-    let (weight, valid) = (&mut out.weight[..n], &mut out.valid[..n]);
+    let Found { whole, weight, valid } = found;
+    let (whole, weight, valid) = (&mut whole[..n], &mut weight[..n], &mut valid[..n]);
     for i in 0..n {
-        // Pixel centres are at +0.5; the taps around a source are half a pixel to each side of it.
-        let between = axis.from + axis.step * i as f64 + f64::from(motion[i]) * axis.scale;
-        let source = between + 0.5;
-        let inside = source >= 0.0 && source < axis.side;
-        let between = if inside { between } else { 0.0 };
-        let first = between.floor();
-        tap[i] = first as i32;
-        holder[i] = (between + 0.5).floor() as i32;
-        weight[i] = (between - first) as f32;
-        valid[i] &= u32::from(inside);
+        let near = motion[i].abs() < FARTHEST_PX;
+        let pixels = if near { motion[i] * sign } else { 0.0 };
+        let floor = pixels.floor();
+        weight[i] = pixels - floor;
+        whole[i] = (floor + BITS).to_bits() as i32 - BITS.to_bits() as i32;
+        // Centres are at +0.5: the source is in its tap's pixel, or from half a pixel on in the next.
+        let holder = line.first + line.step * i as i32 + whole[i] + i32::from(weight[i] >= 0.5);
+        valid[i] &= u32::from(near) & u32::from((holder as u32) < line.side);
+    }
+}
+
+/// The same of motion in other units, in f64.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn follow_scaled(motion: &[f32], scale: f64, line: Line, found: Found<'_>) {
+    const BITS: f64 = (3u64 << 51) as f64;
+    let n = motion.len();
+    let Found { whole, weight, valid } = found;
+    let (whole, weight, valid) = (&mut whole[..n], &mut weight[..n], &mut valid[..n]);
+    for i in 0..n {
+        let pixels = f64::from(motion[i]) * scale;
+        let near = pixels.abs() < f64::from(FARTHEST_PX);
+        let pixels = if near { pixels } else { 0.0 };
+        let floor = pixels.floor();
+        let part = pixels - floor;
+        weight[i] = part as f32;
+        whole[i] = ((floor + BITS).to_bits() as i64 - BITS.to_bits() as i64) as i32;
+        let holder = line.first + line.step * i as i32 + whole[i] + i32::from(part >= 0.5);
+        valid[i] &= u32::from(near) & u32::from((holder as u32) < line.side);
+    }
+}
+
+/// Whether all numbers are one. A fold, not `all`: without an early way out it vectorises.
+fn alike(numbers: &[i32]) -> bool {
+    let first = numbers.first().copied().unwrap_or_default();
+    numbers.iter().fold(0, |apart, number| apart | (number ^ first)) == 0
+}
+
+/// Leaves out pixels whose source lies at another depth: what has just come into sight.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn compare_depth(sources: &mut Sources, before: &DepthPlane, tolerance: f64, at: Stretch) {
+    let mut then = [0.0f32; STRETCH];
+    for (part, start) in (0..at.pixels).step_by(STRETCH).enumerate() {
+        let end = (start + STRETCH).min(at.pixels);
+        let n = end - start;
+        let (right, below) = (&sources.weight[0][start..end], &sources.weight[1][start..end]);
+        if sources.together[part]
+            && let (x, y) = sources.first_tap(start, at)
+            && let Some(top) = stretch_of(before.row(y), x)
+            && let Some(bottom) = stretch_of(before.row(y + 1), x)
+            && let (Some(right), Some(below)) =
+                (right.first_chunk::<STRETCH>(), below.first_chunk::<STRETCH>())
+        {
+            for i in 0..STRETCH {
+                let upper = if right[i] >= 0.5 { top[i + 1] } else { top[i] };
+                let lower = if right[i] >= 0.5 { bottom[i + 1] } else { bottom[i] };
+                then[i] = if below[i] >= 0.5 { lower } else { upper };
+            }
+        } else {
+            for i in 0..n {
+                let taps = sources.taps(start + i, at);
+                let row = before.row(if below[i] >= 0.5 { taps.bottom } else { taps.top });
+                then[i] = row[if right[i] >= 0.5 { taps.right } else { taps.left }];
+            }
+        }
+        let (now, valid) = (&sources.depth[start..end], &mut sources.valid[start..end]);
+        for i in 0..n {
+            let (now, then) = (f64::from(now[i]), f64::from(then[i]));
+            // False for whatever is not finite: sky may be far, but not infinitely far.
+            let near = (then - now).abs() <= tolerance * now.abs();
+            valid[i] &= u32::from(near) & u32::from(now.abs() < f64::INFINITY);
+        }
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn between(top: &[f32], bottom: &[f32], right: &[f32], below: &[f32], out: &mut [f32]) {
-    let n = out.len();
-    let (top, bottom) = (&top[..=n], &bottom[..=n]);
-    let (right, below) = (&right[..n], &below[..n]);
-    for i in 0..n {
-        let upper = top[i] + (top[i + 1] - top[i]) * right[i];
-        let lower = bottom[i] + (bottom[i + 1] - bottom[i]) * right[i];
-        out[i] = upper + (lower - upper) * below[i];
+fn fetch(sources: &Sources, before: &LumaPlane, at: Stretch, out: &mut [f32]) {
+    for (part, out) in out[..at.pixels].chunks_mut(STRETCH).enumerate() {
+        let (start, n) = (part * STRETCH, out.len());
+        let end = start + n;
+        let (right, below) = (&sources.weight[0][start..end], &sources.weight[1][start..end]);
+        if sources.together[part]
+            && let (x, y) = sources.first_tap(start, at)
+            && let Some(top) = stretch_of(before.row(y), x)
+            && let Some(bottom) = stretch_of(before.row(y + 1), x)
+            && let (Some(right), Some(below)) =
+                (right.first_chunk::<STRETCH>(), below.first_chunk::<STRETCH>())
+            && let Some(out) = out.first_chunk_mut::<STRETCH>()
+        {
+            for i in 0..STRETCH {
+                let upper = between(top[i], top[i + 1], right[i]);
+                let lower = between(bottom[i], bottom[i + 1], right[i]);
+                out[i] = between(upper, lower, below[i]);
+            }
+        } else {
+            for i in 0..n {
+                let taps = sources.taps(start + i, at);
+                let (top, bottom) = (before.row(taps.top), before.row(taps.bottom));
+                let upper = between(top[taps.left], top[taps.right], right[i]);
+                let lower = between(bottom[taps.left], bottom[taps.right], right[i]);
+                out[i] = between(upper, lower, below[i]);
+            }
+        }
     }
 }
 
-/// Whether numbers rise one by one from `first`. Folds, not `all`: without an early way out they
-/// vectorise.
-fn consecutive(numbers: &[i32], first: i32) -> bool {
-    let steps = numbers.iter().zip(first..);
-    steps.fold(0, |apart, (number, want)| apart | (number ^ want)) == 0
+/// The taps of pixels that move together.
+#[inline(always)]
+fn stretch_of(row: &[f32], x: usize) -> Option<&[f32; STRETCH + 1]> {
+    row.get(x..)?.first_chunk()
 }
 
-fn equal(numbers: &[i32], first: i32) -> bool {
-    numbers.iter().fold(0, |apart, number| apart | (number ^ first)) == 0
+#[inline(always)]
+fn between(from: f32, to: f32, weight: f32) -> f32 {
+    from + (to - from) * weight
 }

@@ -66,6 +66,7 @@ fn heading(metric: Metric) -> String {
     let arrow = match info.better {
         Better::Higher => "$\\uparrow$",
         Better::Lower => "$\\downarrow$",
+        Better::Neither => "",
     };
     format!("{}{unit} {arrow}", escaped(info.label))
 }

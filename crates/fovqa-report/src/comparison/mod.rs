@@ -108,6 +108,7 @@ fn heading(metric: Metric) -> String {
     let arrow = match info.better {
         Better::Higher => "↑",
         Better::Lower => "↓",
+        Better::Neither => "",
     };
     format!("{}{unit} {arrow}", info.label)
 }
@@ -129,6 +130,7 @@ fn marked(metric: Metric, values: impl Iterator<Item = Option<f64>>) -> Vec<Cell
     let best = match metric.info().better {
         Better::Higher => found.reduce(f64::max),
         Better::Lower => found.reduce(f64::min),
+        Better::Neither => None,
     };
     let several = values.iter().flatten().count() > 1;
     let best = best.filter(|_| several).map(|best| shown(metric, Some(best)));

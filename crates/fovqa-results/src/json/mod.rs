@@ -1,10 +1,12 @@
 //! JSON: what `score` prints, and the files of a run. Keys may be added, never renamed.
 
+mod compared;
 mod run;
 mod score;
 mod summary;
 mod values;
 
+pub use compared::{HaarRecord, SideValues};
 pub use run::{ExperimentRecord, RUN_SCHEMA, RunRecord};
 pub use score::{SCORE_SCHEMA, write_json};
 pub use summary::{

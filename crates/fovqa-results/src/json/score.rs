@@ -1,15 +1,15 @@
 //! `--format json`, schema `fovqa.score/1`. Keys may be added, never renamed.
 
-use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use fovqa_metrics::Metric;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
+use super::compared::{HaarRecord, SideValues, haar, in_band, summary_haar};
 use super::summary::{BandStatistics, ViewRecord, stats};
 use super::values::{MetricMap, Number, Stats};
 use crate::report::{FrameResult, ScoreReport, ViewResult};
-use crate::summary::Summary;
+use crate::summary::{AtdSummary, Spread, Summary};
 
 /// Name and version of the format.
 pub const SCORE_SCHEMA: &str = "fovqa.score/1";
@@ -25,9 +25,10 @@ pub fn write_json(report: &ScoreReport, mut out: impl Write) -> io::Result<()> {
         version: env!("CARGO_PKG_VERSION"),
         view: report.view.as_ref().map(ViewRecord::of),
         frames: report.frames.iter().map(|f| Frame::of(f, report.view.as_ref())).collect(),
-        sequence: BTreeMap::new(),
+        sequence: Sequence { atd: summary.atd.clone() },
         summary: stats(&summary.statistics),
-        summary_bands: summary.bands.into_iter().map(BandStatistics::from).collect(),
+        summary_haar: summary_haar(&summary),
+        summary_bands: BandStatistics::all(&summary),
         gaze_held: report.gaze_held,
         errors: report
             .failures
@@ -50,13 +51,32 @@ struct Document<'a> {
     version: &'static str,
     view: Option<ViewRecord>,
     frames: Vec<Frame<'a>>,
-    sequence: BTreeMap<&'a str, Number>,
+    sequence: Sequence,
     summary: MetricMap<Stats>,
     summary_bands: Vec<BandStatistics>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    summary_haar: Vec<HaarRecord<Spread>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     gaze_held: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<Error<'a>>,
+}
+
+/// Measures of the sequence as a whole.
+#[derive(serde::Serialize)]
+struct Sequence {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    atd: Option<AtdSummary>,
+}
+
+/// Differences of a frame to the one before it.
+#[derive(serde::Serialize)]
+struct Atd {
+    #[serde(flatten)]
+    sides: SideValues<f64>,
+    /// Share of pixels left out, of the reference and of the test.
+    left_out: f64,
+    left_out_test: f64,
 }
 
 #[derive(serde::Serialize)]
@@ -66,8 +86,14 @@ struct Frame<'a> {
     test: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     gaze_px: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gaze_step_deg: Option<f64>,
     metrics: MetricMap<Number>,
     bands: Vec<Band>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    haar: Vec<HaarRecord<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    atd: Option<Atd>,
     #[serde(skip_serializing_if = "is_zero")]
     pixels_outside_bands: u64,
     #[serde(skip_serializing_if = "is_zero")]
@@ -88,17 +114,25 @@ impl<'a> Frame<'a> {
             reference: &frame.reference,
             test: &frame.test,
             gaze_px: frame.gaze_px,
+            gaze_step_deg: frame.gaze_step_deg,
             metrics: MetricMap(scores.scores.iter().map(|(m, v)| (*m, Number(*v))).collect()),
             bands: edges
                 .iter()
                 .zip(&scores.bands)
-                .map(|(&(from_deg, to_deg), band)| Band {
+                .enumerate()
+                .map(|(index, (&(from_deg, to_deg), band))| Band {
                     from_deg,
                     to_deg,
                     pixels: band.pixels,
                     scores: band.scores.iter().map(|(m, v)| (*m, v.map(Number))).collect(),
+                    compared: in_band(frame, index),
                 })
                 .collect(),
+            haar: haar(frame, view),
+            atd: frame.atd.as_ref().zip(frame.compared()).map(|(atd, (_, sides))| {
+                let share = atd.map(|side| side.left_out() as f64 / (side.pixels as f64).max(1.0));
+                Atd { sides: sides.into(), left_out: share.reference, left_out_test: share.test }
+            }),
             // Without a view there are no bands to be outside of.
             pixels_outside_bands: if view.is_some() { scores.outside_bands } else { 0 },
             pixels_left_out: scores.left_out,
@@ -111,6 +145,7 @@ struct Band {
     to_deg: f64,
     pixels: u64,
     scores: Vec<(Metric, Option<Number>)>,
+    compared: Vec<(Metric, SideValues<f64>)>,
 }
 
 impl Serialize for Band {
@@ -121,6 +156,9 @@ impl Serialize for Band {
         map.serialize_entry("pixels", &self.pixels)?;
         for (metric, value) in &self.scores {
             map.serialize_entry(metric.key(), value)?;
+        }
+        for (metric, sides) in &self.compared {
+            map.serialize_entry(metric.key(), sides)?;
         }
         map.end()
     }

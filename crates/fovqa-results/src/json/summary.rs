@@ -6,9 +6,10 @@ use fovqa_metrics::Metric;
 use serde::de::{Deserialize, Deserializer, Error};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
+use super::compared::{HaarRecord, SideValues, in_summary_band, summary_haar};
 use super::values::{AnyStats, MetricMap, Number, Stats};
 use crate::report::{Comparison, RunResults, ViewResult};
-use crate::summary::{BandSummary, Statistics, Summary};
+use crate::summary::{AtdSummary, BandSummary, Spread, Statistics, Summary};
 
 /// Name and version of the format.
 pub const SUMMARY_SCHEMA: &str = "fovqa.summary/1";
@@ -50,6 +51,12 @@ pub struct ComparisonSummary {
     pub metrics: BTreeMap<Metric, Statistics>,
     /// The same per eccentricity band.
     pub bands: Vec<BandStatistics>,
+    /// The wavelet by level and band.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub haar: Vec<HaarRecord<Spread>>,
+    /// Differences over time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub atd: Option<AtdSummary>,
 }
 
 /// A view, as `score` prints it.
@@ -78,6 +85,8 @@ pub struct BandStatistics {
     pub pixels: u64,
     /// Each metric; `None` where no frame has a value.
     pub metrics: BTreeMap<Metric, Option<Statistics>>,
+    /// Measures of reference and test alike.
+    pub compared: BTreeMap<Metric, SideValues<Spread>>,
 }
 
 /// Something that could not be scored.
@@ -120,7 +129,7 @@ impl SummaryRecord {
 impl ComparisonSummary {
     fn of(comparison: &Comparison) -> Self {
         let report = &comparison.report;
-        let Summary { statistics, bands } = Summary::of(report);
+        let summary = Summary::of(report);
         // Both eyes have a view each, and none together.
         let view = report.view.as_ref().filter(|_| comparison.eye != "both");
         Self {
@@ -131,16 +140,26 @@ impl ComparisonSummary {
             frames: report.frames.len(),
             errors: report.failures.len(),
             view: view.map(ViewRecord::of),
-            metrics: statistics,
-            bands: bands.into_iter().map(BandStatistics::from).collect(),
+            bands: BandStatistics::all(&summary),
+            haar: summary_haar(&summary),
+            atd: summary.atd,
+            metrics: summary.statistics,
         }
     }
 }
 
-impl From<BandSummary> for BandStatistics {
-    fn from(band: BandSummary) -> Self {
-        let BandSummary { from_deg, to_deg, pixels, statistics } = band;
-        Self { from_deg, to_deg, pixels, metrics: statistics }
+impl BandStatistics {
+    /// All bands of a summary.
+    pub(crate) fn all(summary: &Summary) -> Vec<Self> {
+        let bands = summary.bands.iter().enumerate();
+        let statistics = |(index, band): (usize, &BandSummary)| Self {
+            from_deg: band.from_deg,
+            to_deg: band.to_deg,
+            pixels: band.pixels,
+            metrics: band.statistics.clone(),
+            compared: in_summary_band(summary, index),
+        };
+        bands.map(statistics).collect()
     }
 }
 
@@ -187,6 +206,9 @@ impl Serialize for BandStatistics {
             let stats = statistics.map(|statistics| Stats { metric, statistics });
             map.serialize_entry(metric.key(), &stats)?;
         }
+        for (metric, sides) in &self.compared {
+            map.serialize_entry(metric.key(), sides)?;
+        }
         map.end()
     }
 }
@@ -198,6 +220,7 @@ impl<'de> Deserialize<'de> for BandStatistics {
         enum Value {
             Number(Number),
             Statistics(Option<AnyStats>),
+            Compared(SideValues<Spread>),
         }
         let mut values: BTreeMap<String, Value> = BTreeMap::deserialize(deserializer)?;
         let mut number = |key: &'static str| match values.remove(key) {
@@ -206,17 +229,28 @@ impl<'de> Deserialize<'de> for BandStatistics {
         };
         let (from_deg, to_deg) = (number("from_deg")?, number("to_deg")?);
         let pixels = number("pixels")? as u64;
-        let metrics = values.into_iter().filter_map(|(key, value)| match value {
-            Value::Statistics(stats) => Some((Metric::find(&key)?, stats.map(|stats| stats.0))),
-            Value::Number(_) => None,
-        });
-        Ok(Self { from_deg, to_deg, pixels, metrics: metrics.collect() })
+        let (mut metrics, mut compared) = (BTreeMap::new(), BTreeMap::new());
+        for (key, value) in values {
+            let Some(metric) = Metric::find(&key) else { continue };
+            match value {
+                Value::Statistics(stats) => {
+                    metrics.insert(metric, stats.map(|stats| stats.0));
+                }
+                Value::Compared(sides) => {
+                    compared.insert(metric, sides);
+                }
+                Value::Number(_) => {}
+            }
+        }
+        Ok(Self { from_deg, to_deg, pixels, metrics, compared })
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::compared::{HaarSides, HaarValues};
     use super::*;
+    use crate::report::GuideSource;
 
     #[test]
     fn what_is_written_is_read_again() {
@@ -228,6 +262,34 @@ mod tests {
             pooled: Some(26.25),
         };
         let ssim = Statistics { identical_frames: None, pooled: None, max: 1.0, ..statistics };
+        let spread = Spread { mean: 0.1 + 0.2, min: 0.0, max: 1.0 };
+        let sides = SideValues {
+            reference: Some(spread),
+            test: Some(Spread { mean: 0.5, ..spread }),
+            ratio: Some(0.5 / 0.3),
+            reason: None,
+        };
+        let nothing = SideValues {
+            reference: None,
+            test: None,
+            ratio: None,
+            reason: Some("no value".to_owned()),
+        };
+        let values = HaarValues { mean_abs: Some(spread), max_abs: Some(spread), energy: None };
+        let of = HaarSides {
+            reference: values.clone(),
+            test: values,
+            ratio: HaarValues { mean_abs: Some(1.0), max_abs: Some(1.0), energy: None },
+            reason: Some("the reference is 0".to_owned()),
+        };
+        let haar = HaarRecord {
+            level: 3,
+            from_deg: 0.0,
+            to_deg: 5.0,
+            coefficients: 12,
+            orientations: BTreeMap::from([("lh".to_owned(), of.clone())]),
+            all: of,
+        };
         let record = SummaryRecord {
             schema: SUMMARY_SCHEMA.to_owned(),
             version: "0".to_owned(),
@@ -255,7 +317,23 @@ mod tests {
                         (Metric::Psnr, Some(statistics)),
                         (Metric::Ssim, None),
                     ]),
+                    compared: BTreeMap::from([
+                        (Metric::RmsContrast, sides.clone()),
+                        (Metric::Atd, nothing),
+                    ]),
                 }],
+                haar: vec![haar],
+                atd: Some(AtdSummary {
+                    reference: Some(0.25),
+                    test: Some(0.1 + 0.2),
+                    ratio: Some(1.2),
+                    left_out: Some(0.01),
+                    left_out_test: None,
+                    frames: 2,
+                    motion: GuideSource::Reference,
+                    depth: GuideSource::None,
+                    reason: None,
+                }),
             }],
             errors: vec![ErrorRecord {
                 scene: "s".to_owned(),

@@ -1,0 +1,112 @@
+//! `motion` and `depth`: which channels, of which files.
+
+use std::path::{Path, PathBuf};
+
+use fovqa_io::{DepthChannels, GuideOptions, GuidePreset, MotionChannels, MotionUnit, NamedMotion};
+
+use super::Placeholders;
+use super::settings::path;
+use crate::fault::Fault;
+use crate::node::Node;
+
+/// Motion and depth, and the files that hold nothing else.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Guides {
+    pub(super) options: GuideOptions,
+    pub(super) motion_files: Option<PathBuf>,
+    pub(super) depth_files: Option<PathBuf>,
+}
+
+/// What the tables that have `motion` and `depth` say.
+pub(super) fn guides(
+    motion: Option<Node<'_>>,
+    depth: Option<Node<'_>>,
+    base: &Path,
+    placeholders: Placeholders<'_>,
+    faults: &mut Vec<Fault>,
+) -> Guides {
+    let files = |table: Option<Node<'_>>, faults: &mut Vec<Fault>| {
+        let table = table?;
+        path(placeholders, base, table.text("files")?, table.span("files"), faults)
+    };
+    let motion_table = motion.and_then(|at| at.table("motion"));
+    let depth_table = depth.and_then(|at| at.table("depth"));
+    Guides {
+        motion_files: files(motion_table, faults),
+        depth_files: files(depth_table, faults),
+        options: GuideOptions {
+            motion: match (motion_table, motion.and_then(|at| at.text("motion"))) {
+                (Some(table), _) => named_motion(table, faults),
+                (None, Some("none")) => MotionChannels::None,
+                (None, Some(word)) => {
+                    preset(word).map_or(MotionChannels::Auto, MotionChannels::Preset)
+                }
+                (None, None) => MotionChannels::Auto,
+            },
+            depth: match (depth_table, depth.and_then(|at| at.text("depth"))) {
+                (Some(table), _) => named_depth(table, faults),
+                (None, Some("none")) => DepthChannels::None,
+                (None, Some(word)) => {
+                    preset(word).map_or(DepthChannels::Auto, DepthChannels::Preset)
+                }
+                (None, None) => DepthChannels::Auto,
+            },
+        },
+    }
+}
+
+fn preset(word: &str) -> Option<GuidePreset> {
+    GuidePreset::ALL.into_iter().find(|preset| preset.name() == word)
+}
+
+fn named_motion(table: Node<'_>, faults: &mut Vec<Fault>) -> MotionChannels {
+    either(table, "channels", faults);
+    let Some(names) = table.names("channels") else {
+        for key in ["sign", "scale", "unit"].into_iter().filter(|key| table.has(key)) {
+            let message = format!("{key} is that of channels, and none are named");
+            let fault = Fault::new(table.span(key), message);
+            faults.push(fault.help("add channels = [\"…\", \"…\"]: a preset has its own"));
+        }
+        let named = table.text("preset").and_then(preset);
+        return named.map_or(MotionChannels::Auto, MotionChannels::Preset);
+    };
+    let Ok([x, y]) = <[(&str, _); 2]>::try_from(names) else { return MotionChannels::Auto };
+    let sign = table.array("sign").unwrap_or([1.0; 2]);
+    if sign.iter().any(|sign| sign.abs() < 1.0) {
+        let fault = Fault::new(table.span("sign"), "a sign is 1 or -1");
+        faults.push(fault.help("other factors are a scale"));
+    }
+    let scale = table.number("scale").map(|scale| [scale; 2]).or_else(|| table.array("scale"));
+    let scale = scale.unwrap_or([1.0; 2]);
+    if scale.contains(&0.0) {
+        faults.push(Fault::new(table.span("scale"), "a scale of 0 leaves no motion"));
+    }
+    MotionChannels::Named(NamedMotion {
+        channels: [x.0.to_owned(), y.0.to_owned()],
+        sign,
+        scale,
+        unit: match table.text("unit") {
+            Some("frame") => MotionUnit::Frame,
+            Some("ndc") => MotionUnit::Ndc,
+            _ => MotionUnit::Pixels,
+        },
+    })
+}
+
+fn named_depth(table: Node<'_>, faults: &mut Vec<Fault>) -> DepthChannels {
+    either(table, "channel", faults);
+    match (table.text("channel"), table.text("preset").and_then(preset)) {
+        (Some(name), _) => DepthChannels::Named(name.to_owned()),
+        (None, Some(preset)) => DepthChannels::Preset(preset),
+        (None, None) => DepthChannels::Auto,
+    }
+}
+
+/// Channels or a preset, not both; and something.
+fn either(table: Node<'_>, channels: &str, faults: &mut Vec<Fault>) {
+    if table.has(channels) && table.has("preset") {
+        let message = format!("both {channels} and a preset are given");
+        let fault = Fault::new(table.span("preset"), message);
+        faults.push(fault.label(format!("beside {channels}")).help("keep one of them"));
+    }
+}
