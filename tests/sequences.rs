@@ -164,12 +164,15 @@ fn a_mask_follows_a_moving_gaze() {
         &(0..48 * 40).map(|i| if i % 48 < 6 { 0 } else { 255 }).collect::<Vec<_>>(),
     );
     folder.write("gaze.csv", "frame,x_px,y_px\n0,40,20\n1,10,4\n");
-    let bands =
-        ["gt", "test", "--fov-vertical", "60", "--mask", "mask.png", "--bands", "0,10,25,80"];
+    let metrics = ["gt", "test", "--metrics", "mse,psnr,ssim,rms-contrast,haar"];
+    let bands = ["--fov-vertical", "60", "--mask", "mask.png", "--bands", "0,10,25,80"];
+    let bands = [&metrics[..], &bands[..]].concat();
     let moving = folder.json(&[&bands[..], &["--gaze", "gaze.csv"]].concat());
     for (frame, gaze, range) in [(0, "40,20", "0..1"), (1, "10,4", "1..2")] {
         let fixed = folder.json(&[&bands[..], &["--gaze", gaze, "--frames", range]].concat());
-        assert_eq!(moving["frames"][frame]["bands"], fixed["frames"][0]["bands"]);
+        for part in ["bands", "haar"] {
+            assert_eq!(moving["frames"][frame][part], fixed["frames"][0][part]);
+        }
     }
 }
 

@@ -14,6 +14,10 @@ pub enum PlotKind {
     Bars,
     /// A metric's spread over the frames.
     Frames,
+    /// A metric frame by frame, with saccades marked.
+    Sequence,
+    /// Test / reference by eccentricity, as a table.
+    Ratios,
 }
 
 /// One table or figure, or one for each metric.
@@ -27,4 +31,17 @@ pub struct Plot {
     pub scenes: Option<Vec<String>>,
     /// Its methods; `None`: all.
     pub methods: Option<Vec<String>>,
+    /// Levels of the wavelet; `None`: all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub levels: Option<Vec<usize>>,
+    /// Statistic of the wavelet; `None`: its energy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub statistic: Option<String>,
+}
+
+impl Plot {
+    /// A plot of one kind, of all there is.
+    pub fn of(kind: PlotKind) -> Self {
+        Self { kind, metric: None, scenes: None, methods: None, levels: None, statistic: None }
+    }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use fovqa_config::PlotKind;
+use fovqa_config::{Plot, PlotKind};
 use fovqa_plot::{PlotError, png};
 use fovqa_results::{
     FileError, REPORT_JSON, RUN_JSON, RUN_SCHEMA, RunRecord, SUMMARY_JSON, SUMMARY_SCHEMA,
@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::comparison::ComparisonTable;
-use crate::figures::{NamedFigure, Source, default_plots, figures};
+use crate::figures::{NamedFigure, Source, default_plots, figures, ratio_tables};
 use crate::frame_values::FrameValues;
 use crate::page::{PageFigure, page};
 
@@ -75,9 +75,8 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let mut names = Names::default();
     let (mut tables, mut drawn) = (Vec::new(), Vec::new());
     for plot in &plots {
-        if plot.kind == PlotKind::Table {
-            let table = ComparisonTable::new(&run, &summary, plot);
-            tables.extend(table.map(|table| (names.free("table"), table)));
+        for (name, table) in tables_of(&source, plot) {
+            tables.push((names.free(&name), table));
         }
         for figure in figures(&source, plot) {
             drawn.push(NamedFigure { name: names.free(&figure.name), ..figure });
@@ -122,6 +121,18 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     remove(folder, old.iter().filter(|old| !files.contains(old)));
     write_manifest(folder, files)?;
     Ok(Drawn { table: tables.into_iter().next(), figures: drawn.len() })
+}
+
+/// The tables of a plot, with their names.
+fn tables_of(source: &Source<'_>, plot: &Plot) -> Vec<(String, ComparisonTable)> {
+    match plot.kind {
+        PlotKind::Table => {
+            let table = ComparisonTable::new(source.run, source.summary, plot);
+            table.map(|table| ("table".to_owned(), table)).into_iter().collect()
+        }
+        PlotKind::Ratios => ratio_tables(source, plot),
+        _ => Vec::new(),
+    }
 }
 
 fn write_manifest(folder: &Path, files: Vec<String>) -> Result<(), FileError> {
@@ -170,7 +181,9 @@ fn is_drawn(file: &str) -> bool {
         Some(_) => false,
         None => {
             file == "index.html"
-                || (file.starts_with("table") && plain(file) && ends(file, &["md", "csv", "tex"]))
+                || (["table", "ratios"].iter().any(|name| file.starts_with(name))
+                    && plain(file)
+                    && ends(file, &["md", "csv", "tex"]))
         }
     }
 }
@@ -204,7 +217,14 @@ mod tests {
 
     #[test]
     fn a_list_of_files_takes_away_nothing_but_drawings() {
-        for ours in ["index.html", "table.md", "table-2.csv", "table.tex", "plots/bars-psnr.png"] {
+        for ours in [
+            "index.html",
+            "table.md",
+            "table-2.csv",
+            "table.tex",
+            "ratios-haar.md",
+            "plots/bars-psnr.png",
+        ] {
             assert!(is_drawn(ours), "{ours}");
         }
         for other in [

@@ -71,7 +71,8 @@ pub(crate) fn page(
     for table in tables {
         let _ = write!(
             text,
-            "<h2>Comparison</h2>\n<div class=\"wide\">\n{}</div>\n<p class=\"note\">{}</p>\n",
+            "<h2>{}</h2>\n<div class=\"wide\">\n{}</div>\n<p class=\"note\">{}</p>\n",
+            escaped(table.caption()),
             table.html(),
             escaped(&table.notes().join(" "))
         );

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use fovqa_metrics::{Metric, PairScores};
-use fovqa_results::{ScoreReport, Statistics, Summary};
+use fovqa_metrics::{Metric, MetricKind, PairScores};
+use fovqa_results::{AtdSummary, GuideSource, Measure, ScoreReport, Statistics, Summary};
 
 use crate::text_table::{aligned, plain_table, printable};
 
@@ -24,7 +24,9 @@ pub fn score_table(report: &ScoreReport) -> String {
         }
         whole.add_row(row);
     }
-    let _ = writeln!(text, "\n{}", aligned(whole));
+    if !summary.statistics.is_empty() {
+        let _ = writeln!(text, "\n{}", aligned(whole));
+    }
     if let Some(identical) = summary.statistics.values().find_map(|s| s.identical_frames)
         && identical > 0
         && !one
@@ -34,30 +36,11 @@ pub fn score_table(report: &ScoreReport) -> String {
         let _ = writeln!(text, "{identical} of {frames} frames are identical{means}");
     }
 
-    let per_band: Vec<Metric> =
-        report.metrics.iter().copied().filter(|m| m.info().per_band).collect();
-    if !summary.bands.is_empty() && !per_band.is_empty() {
-        let labels: Vec<String> = per_band.iter().map(|m| label(*m)).collect();
-        let header =
-            ["eccentricity", "pixels"].into_iter().chain(labels.iter().map(String::as_str));
-        let mut bands = plain_table(&header.collect::<Vec<_>>());
-        for band in &summary.bands {
-            let mut row = vec![
-                format!("{}° to {}°", band.from_deg, band.to_deg),
-                format!("{:.0}", band.pixels as f64 / report.frames.len().max(1) as f64),
-            ];
-            let cell = |metric: &Metric| {
-                let statistics: Option<&Statistics> = band.statistics.get(metric)?.as_ref();
-                statistics.map(|s| number(*metric, s.mean))
-            };
-            row.extend(per_band.iter().map(|m| cell(m).unwrap_or_else(|| "–".to_owned())));
-            bands.add_row(row);
-        }
-        let _ = writeln!(text, "\n{}", aligned(bands));
-        if !one {
-            let _ = writeln!(text, "pixels and values are means over the frames");
-        }
+    if let Some(atd) = &summary.atd {
+        let _ = writeln!(text, "\n{}", atd_in_words(atd));
     }
+    text.push_str(&band_table(report, &summary));
+    text.push_str(&haar_table(&summary));
     let count = |pixels: fn(&PairScores) -> u64| -> u64 {
         report.frames.iter().map(|frame| pixels(&frame.scores)).sum()
     };
@@ -71,6 +54,104 @@ pub fn score_table(report: &ScoreReport) -> String {
         }
     }
     text
+}
+
+/// Each band with the metrics that have a value there; of contrast and differences over time, the test's
+/// and in brackets its share of the reference's.
+fn band_table(report: &ScoreReport, summary: &Summary) -> String {
+    let per_band = report.metrics.iter().copied().filter(|m| m.info().per_band);
+    let (fidelity, compared): (Vec<Metric>, Vec<Metric>) =
+        per_band.filter(|m| *m != Metric::Haar).partition(|m| m.is(MetricKind::Fidelity));
+    if summary.bands.is_empty() || (fidelity.is_empty() && compared.is_empty()) {
+        return String::new();
+    }
+    let labels: Vec<String> = fidelity.iter().chain(&compared).map(|m| label(*m)).collect();
+    let header = ["eccentricity", "pixels"].into_iter().chain(labels.iter().map(String::as_str));
+    let mut table = plain_table(&header.collect::<Vec<_>>());
+    for (index, band) in summary.bands.iter().enumerate() {
+        let mut row = vec![
+            format!("{}° to {}°", band.from_deg, band.to_deg),
+            format!("{:.0}", band.pixels as f64 / report.frames.len().max(1) as f64),
+        ];
+        let cell = |metric: &Metric| {
+            let statistics: Option<&Statistics> = band.statistics.get(metric)?.as_ref();
+            statistics.map(|s| number(*metric, s.mean))
+        };
+        let beside = |metric: &Metric| {
+            let measure =
+                Measure { metric: *metric, level: None, band: Some(index), statistic: None };
+            let statistics = summary.compared.get(&measure)?;
+            let test = number(*metric, statistics.test?.mean);
+            Some(format!("{test} ({})", percent(statistics.ratio)))
+        };
+        let missing = || "–".to_owned();
+        row.extend(fidelity.iter().map(|m| cell(m).unwrap_or_else(missing)));
+        row.extend(compared.iter().map(|m| beside(m).unwrap_or_else(missing)));
+        table.add_row(row);
+    }
+    let mut text = format!("\n{}\n", aligned(table));
+    if report.frames.len() != 1 {
+        text.push_str("pixels and values are means over the frames\n");
+    }
+    if !compared.is_empty() {
+        text.push_str("in brackets: test / reference\n");
+    }
+    text
+}
+
+/// What is left of the energy of each level in each band.
+fn haar_table(summary: &Summary) -> String {
+    let levels = summary.coefficients.keys().map(|(level, _)| *level).max().unwrap_or(0);
+    if levels == 0 {
+        return String::new();
+    }
+    let names: Vec<String> = (1..=levels).map(|level| format!("level {level}")).collect();
+    let header = ["Haar energy, test / reference"].into_iter();
+    let mut table =
+        plain_table(&header.chain(names.iter().map(String::as_str)).collect::<Vec<_>>());
+    for (index, band) in summary.bands.iter().enumerate() {
+        let ratio = |level: usize| {
+            let of_level = |measure: &&Measure| {
+                let energy = measure
+                    .statistic
+                    .is_some_and(|s| s.orientation().is_none() && s.statistic() == "energy");
+                energy && measure.level == Some(level) && measure.band == Some(index)
+            };
+            let found = summary.compared.keys().find(of_level);
+            percent(found.and_then(|measure| summary.compared[measure].ratio))
+        };
+        let label = format!("{}° to {}°", band.from_deg, band.to_deg);
+        table.add_row([label].into_iter().chain((1..=levels).map(ratio)));
+    }
+    format!("\n{}\n", aligned(table))
+}
+
+fn percent(ratio: Option<f64>) -> String {
+    ratio.map_or_else(|| "–".to_owned(), |ratio| format!("{:.1} %", ratio * 100.0))
+}
+
+fn atd_in_words(atd: &AtdSummary) -> String {
+    let (Some(reference), Some(test)) = (atd.reference, atd.test) else {
+        let reason = atd.reason.as_deref().unwrap_or("no value");
+        return format!("ATD: no value: {reason}");
+    };
+    let ratio = atd.ratio.map(|_| format!(", {} of it", percent(atd.ratio))).unwrap_or_default();
+    let left_out = atd.left_out.unwrap_or(0.0) * 100.0;
+    let along = match atd.motion {
+        GuideSource::None => "without motion vectors, so that whatever moves counts",
+        GuideSource::Reference => "along the reference's motion",
+        GuideSource::Test => "each along its own motion",
+    };
+    let depth = match atd.depth {
+        GuideSource::None => "",
+        GuideSource::Reference | GuideSource::Test => " and depth",
+    };
+    let depth = if atd.motion == GuideSource::None { "" } else { depth };
+    format!(
+        "ATD: reference {}, test {}{ratio}; {along}{depth}; {left_out:.2} % of pixels left out",
+        number(Metric::Atd, reference),
+        number(Metric::Atd, test),
+    )
 }
 
 fn heading(report: &ScoreReport) -> String {

@@ -16,8 +16,9 @@ pub use files::{
     write_whole,
 };
 pub use json::{
-    BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, RUN_SCHEMA,
-    RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, SummaryRecord, ViewRecord, write_json,
+    BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,
+    HaarValues, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, SummaryRecord,
+    ViewRecord, write_json,
 };
 pub use report::{
     AtdGuides, Comparison, Failure, FrameResult, GuideSource, Input, RunResults, ScoreReport,

@@ -234,15 +234,25 @@ static METHOD_TABLE: [Key; 3] = [
     key("scenes", NAMES, "only these scenes"),
 ];
 
-static PLOT_TABLE: [Key; 4] = [
+static PLOT_TABLE: [Key; 6] = [
     required(
         "kind",
-        Kind::Word(&["table", "profile", "bars", "frames"]),
-        "table: scenes against metrics and methods; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames",
+        Kind::Word(&["table", "profile", "bars", "frames", "sequence", "ratios"]),
+        "table: scenes against metrics and methods; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames; sequence: frame by frame, saccades marked; ratios: table of test / reference by eccentricity",
     ),
     key("metric", Kind::Metric, "the metric; if it is not given, a figure for each"),
     key("scenes", NAMES, "only these scenes"),
     key("methods", NAMES, "only these methods"),
+    key(
+        "levels",
+        Kind::List(&Kind::Whole(1, 8), 1, 8),
+        "levels of the wavelet, a panel or a column each; all if it is not given",
+    ),
+    key(
+        "statistic",
+        Kind::Word(&["mean_abs", "max_abs", "energy"]),
+        "statistic of the wavelet; energy if it is not given",
+    ),
 ];
 
 static EXPERIMENT_TABLE: [Key; 8] = [

@@ -22,7 +22,8 @@ pub(crate) fn experiment(root: Node<'_>, path: &Path, faults: &mut Vec<Fault>) -
     let (choice, params, set) = metrics::metrics(root, faults);
     let mut scenes = scenes::scenes(root, &base, &choice, faults);
     let methods = methods::methods(root, &base, &mut scenes, faults);
-    let known = plots::Known { scenes: &scenes, methods: &methods, metrics: &choice };
+    let known =
+        plots::Known { scenes: &scenes, methods: &methods, metrics: &choice, params: &params };
     let plots = plots::plots(root, &known, faults);
     Experiment {
         name: root.text("name").unwrap_or_default().to_owned(),

@@ -1,5 +1,7 @@
 //! `[[plot]]`.
 
+use fovqa_metrics::{Metric, MetricKind, Params};
+
 use super::scenes::Resolved;
 use super::settings::VIEW_HELP;
 use crate::fault::Fault;
@@ -14,6 +16,7 @@ pub(super) struct Known<'a> {
     pub(super) scenes: &'a [Resolved],
     pub(super) methods: &'a [String],
     pub(super) metrics: &'a MetricChoice,
+    pub(super) params: &'a Params,
 }
 
 pub(super) fn plots(root: Node<'_>, known: &Known<'_>, faults: &mut Vec<Fault>) -> Vec<Plot> {
@@ -23,12 +26,15 @@ pub(super) fn plots(root: Node<'_>, known: &Known<'_>, faults: &mut Vec<Fault>) 
             Some("profile") => PlotKind::Profile,
             Some("bars") => PlotKind::Bars,
             Some("frames") => PlotKind::Frames,
+            Some("sequence") => PlotKind::Sequence,
+            Some("ratios") => PlotKind::Ratios,
             _ => PlotKind::Table,
         };
         let metric = table.text("metric");
         if let Some(metric) = metric {
             scored(table, metric, kind, known, faults);
         }
+        wavelet(table, metric, kind, known, faults);
         let scenes: Vec<&str> = known.scenes.iter().map(|s| s.scene.name.as_str()).collect();
         let methods: Vec<&str> = known.methods.iter().map(String::as_str).collect();
         let plot = Plot {
@@ -36,6 +42,8 @@ pub(super) fn plots(root: Node<'_>, known: &Known<'_>, faults: &mut Vec<Fault>) 
             metric: metric.map(str::to_owned),
             scenes: subset(table, "scenes", &scenes, faults),
             methods: subset(table, "methods", &methods, faults),
+            levels: levels(table),
+            statistic: table.text("statistic").map(str::to_owned),
         };
         if faults.is_empty() {
             shows_something(table, &plot, known, faults);
@@ -55,8 +63,13 @@ fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut
     let scored = |(method, _): &(usize, _)| wanted(&plot.methods, &known.methods[*method]);
     let (message, help) = if !eyes.iter().any(|eye| eye.tests.iter().any(scored)) {
         ("the plot has nothing to show: none of its methods is in any of its scenes", "")
-    } else if plot.kind == PlotKind::Profile && eyes.iter().all(|e| e.settings.view.is_none()) {
-        ("a profile is by eccentricity, and none of its scenes has a view", VIEW_HELP)
+    } else if matches!(plot.kind, PlotKind::Profile | PlotKind::Ratios)
+        && eyes.iter().all(|e| e.settings.view.is_none())
+    {
+        ("the plot is by eccentricity, and none of its scenes has a view", VIEW_HELP)
+    } else if plot.metric.is_none() && !known.metrics.metrics().iter().any(|m| fits(*m, plot.kind))
+    {
+        ("the plot has nothing to show: no metric that is scored fits its kind", "")
     } else {
         return;
     };
@@ -73,11 +86,59 @@ fn scored(table: Node<'_>, key: &str, kind: PlotKind, known: &Known<'_>, faults:
         faults.push(fault.help(format!("name it in [metrics]; these are: {}", quoted(keys()))));
         return;
     };
-    if kind == PlotKind::Profile && !metric.info().per_band {
-        let message = format!("{key} has no values per band, so that it has no profile");
-        let banded = scored.iter().filter(|metric| metric.info().per_band);
-        let help = format!("these have: {}", quoted(banded.map(|metric| metric.key())));
-        faults.push(Fault::new(table.span("metric"), message).help(help));
+    if !fits(*metric, kind) {
+        let why = match (kind, metric.info().kind) {
+            (PlotKind::Profile, _) => "has no values per band, so that it has no profile",
+            (PlotKind::Ratios, _) => "compares test with reference itself, so that it has no ratio",
+            _ => "is of each picture by eccentricity: draw it as profile or ratios",
+        };
+        let others = scored.iter().filter(|metric| fits(**metric, kind));
+        let help = format!("these fit: {}", quoted(others.map(|metric| metric.key())));
+        faults.push(Fault::new(table.span("metric"), format!("{key} {why}")).help(help));
+    }
+}
+
+/// Whether a metric can be shown in a kind of plot.
+fn fits(metric: Metric, kind: PlotKind) -> bool {
+    match kind {
+        PlotKind::Profile => metric.info().per_band,
+        PlotKind::Ratios => !metric.is(MetricKind::Fidelity),
+        PlotKind::Table | PlotKind::Bars | PlotKind::Frames | PlotKind::Sequence => {
+            !metric.is(MetricKind::Profile)
+        }
+    }
+}
+
+/// The levels of a list.
+fn levels(table: Node<'_>) -> Option<Vec<usize>> {
+    let levels = table.numbers("levels")?;
+    Some(levels.into_iter().map(|level| level as usize).collect())
+}
+
+/// Whether levels and statistic are of a plot that has any.
+fn wavelet(
+    table: Node<'_>,
+    metric: Option<&str>,
+    kind: PlotKind,
+    known: &Known<'_>,
+    faults: &mut Vec<Fault>,
+) {
+    let fits = matches!(kind, PlotKind::Profile | PlotKind::Ratios);
+    if !fits || metric != Some(Metric::Haar.key()) {
+        for key in ["levels", "statistic"].into_iter().filter(|key| table.has(key)) {
+            let message = format!("{key} is of the wavelet, and the plot is not");
+            let fault = Fault::new(table.span(key), message);
+            faults.push(
+                fault.help("it goes with kind = \"profile\" or \"ratios\" and metric = \"haar\""),
+            );
+        }
+        return;
+    }
+    let most = known.params.haar.levels as usize;
+    if let Some(level) = levels(table).iter().flatten().find(|level| **level > most) {
+        let message = format!("level {level} is not scored: there are {most}");
+        let fault = Fault::new(table.span("levels"), message);
+        faults.push(fault.help(format!("write haar = {{ levels = {level} }} in [metrics]")));
     }
 }
 

@@ -1,24 +1,31 @@
 //! The table as CSV.
 
+use fovqa_metrics::Better;
+
 use super::{Cell, ComparisonTable};
 
 impl ComparisonTable {
-    /// CSV: a row a scene, for each metric a column a method (`psnr RMFR`) and one with the best of
-    /// the row (`psnr best`; several share it with ` = ` between them). Full precision.
+    /// CSV: for each measure a column a method (`psnr RMFR`) and one with the best of
+    /// the row (`psnr best`; several share it with ` = ` between them), where one is. Full precision.
     pub fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        let mut header = vec!["scene".to_owned()];
-        for metric in &self.metrics {
-            header.extend(self.methods.iter().map(|method| format!("{} {method}", metric.key())));
-            header.push(format!("{} best", metric.key()));
+        let mut header = vec![self.corner.to_owned()];
+        for group in &self.groups {
+            header.extend(self.methods.iter().map(|method| format!("{} {method}", group.key)));
+            if group.better != Better::Neither {
+                header.push(format!("{} best", group.key));
+            }
         }
         // Writing to memory does not fail, and the rows are of one length.
         let _ = writer.write_record(&header);
         for row in &self.rows {
             let mut record = vec![row.label.clone()];
-            for cells in &row.cells {
+            for (group, cells) in self.groups.iter().zip(&row.cells) {
                 let text = |cell: &Cell| cell.value.map(|v| format!("{v:?}")).unwrap_or_default();
                 record.extend(cells.iter().map(text));
+                if group.better == Better::Neither {
+                    continue;
+                }
                 let best = self.methods.iter().zip(cells).filter(|(_, cell)| cell.best);
                 let best: Vec<&str> = best.map(|(method, _)| method.as_str()).collect();
                 record.push(best.join(" = "));

@@ -2,19 +2,20 @@
 
 use std::fmt::Write;
 
-use super::{ComparisonTable, heading, shown};
+use super::ComparisonTable;
 use crate::page::escaped;
 
 impl ComparisonTable {
     /// HTML of the same layout.
     pub(crate) fn html(&self) -> String {
-        let mut text = String::from("<table>\n<thead>\n<tr><th rowspan=\"2\">scene</th>");
-        for metric in &self.metrics {
+        let corner = self.corner;
+        let mut text = format!("<table>\n<thead>\n<tr><th rowspan=\"2\">{corner}</th>");
+        for group in &self.groups {
             let span = self.methods.len();
-            let _ = write!(text, "<th colspan=\"{span}\">{}</th>", heading(*metric));
+            let _ = write!(text, "<th colspan=\"{span}\">{}</th>", group.heading());
         }
         text.push_str("</tr>\n<tr>");
-        for _ in &self.metrics {
+        for _ in &self.groups {
             for method in &self.methods {
                 let _ = write!(text, "<th>{}</th>", escaped(method));
             }
@@ -23,10 +24,10 @@ impl ComparisonTable {
         for row in &self.rows {
             let class = if row.average { " class=\"average\"" } else { "" };
             let _ = write!(text, "<tr{class}><th>{}</th>", escaped(&row.label));
-            for (metric, cells) in self.metrics.iter().zip(&row.cells) {
+            for (group, cells) in self.groups.iter().zip(&row.cells) {
                 for (index, cell) in cells.iter().enumerate() {
                     let first = if index == 0 { " class=\"first\"" } else { "" };
-                    let number = shown(*metric, cell.value);
+                    let number = group.shown(cell.value);
                     let number = if cell.best { format!("<b>{number}</b>") } else { number };
                     let _ = write!(text, "<td{first}>{number}</td>");
                 }

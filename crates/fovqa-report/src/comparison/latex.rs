@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
-use fovqa_metrics::{Better, Metric};
+use fovqa_metrics::Better;
 
-use super::{ComparisonTable, Row, shown};
+use super::group::Group;
+use super::{ComparisonTable, Row};
 
 impl ComparisonTable {
     /// A `tabular` to be put into a `table`; the best of each row in bold. Needs
@@ -15,18 +16,18 @@ impl ComparisonTable {
             let _ = writeln!(text, "% {note}");
         }
         let methods = self.methods.len();
-        let columns = format!(" {}", "r".repeat(methods)).repeat(self.metrics.len());
+        let columns = format!(" {}", "r".repeat(methods)).repeat(self.groups.len());
         let _ = writeln!(text, "\\begin{{tabular}}{{l{columns}}}\n\\toprule");
-        for metric in &self.metrics {
-            let _ = write!(text, " & \\multicolumn{{{methods}}}{{c}}{{{}}}", heading(*metric));
+        for group in &self.groups {
+            let _ = write!(text, " & \\multicolumn{{{methods}}}{{c}}{{{}}}", heading(group));
         }
         text.push_str(" \\\\\n");
-        for index in 0..self.metrics.len() {
+        for index in 0..self.groups.len() {
             let first = 2 + index * methods;
             let _ = write!(text, "\\cmidrule(lr){{{first}-{}}}", first + methods - 1);
         }
-        text.push_str("\nscene");
-        for _ in &self.metrics {
+        let _ = write!(text, "\n{}", self.corner);
+        for _ in &self.groups {
             for method in &self.methods {
                 let _ = write!(text, " & {}", escaped(method));
             }
@@ -44,9 +45,9 @@ impl ComparisonTable {
 
     fn latex_row(&self, row: &Row, text: &mut String) {
         text.push_str(&escaped(&row.label));
-        for (metric, cells) in self.metrics.iter().zip(&row.cells) {
+        for (group, cells) in self.groups.iter().zip(&row.cells) {
             for cell in cells {
-                let number = number(*metric, cell.value);
+                let number = number(group, cell.value);
                 if cell.best {
                     // Mathematics is bold by a switch of its own.
                     let switch = if number.contains('$') { "\\boldmath" } else { "" };
@@ -60,23 +61,25 @@ impl ComparisonTable {
     }
 }
 
-fn heading(metric: Metric) -> String {
-    let info = metric.info();
-    let unit = if info.unit.is_empty() { String::new() } else { format!(" ({})", info.unit) };
-    let arrow = match info.better {
-        Better::Higher => "$\\uparrow$",
-        Better::Lower => "$\\downarrow$",
+fn heading(group: &Group) -> String {
+    let unit = match group.unit {
+        "" => String::new(),
+        unit => format!(" ({})", escaped(unit)),
+    };
+    let arrow = match group.better {
+        Better::Higher => " $\\uparrow$",
+        Better::Lower => " $\\downarrow$",
         Better::Neither => "",
     };
-    format!("{}{unit} {arrow}", escaped(info.label))
+    format!("{}{unit}{arrow}", escaped(&group.label))
 }
 
-fn number(metric: Metric, value: Option<f64>) -> String {
+fn number(group: &Group, value: Option<f64>) -> String {
     match value {
         None => "--".to_owned(),
         Some(value) if value.is_infinite() => "$\\infty$".to_owned(),
         value => {
-            let text = shown(metric, value);
+            let text = group.shown(value);
             // 1.36e-3 is code, and no number of a paper.
             match text.split_once('e') {
                 Some((digits, exponent)) => format!("${digits} \\cdot 10^{{{exponent}}}$"),
@@ -99,6 +102,7 @@ fn escaped(text: &str) -> String {
             '>' => plain.push_str("\\textgreater{}"),
             '|' => plain.push_str("\\textbar{}"),
             '"' => plain.push_str("''"),
+            '°' => plain.push_str("$^{\\circ}$"),
             c => plain.push(c),
         }
     }

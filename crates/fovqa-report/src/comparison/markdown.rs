@@ -2,20 +2,20 @@
 
 use std::fmt::Write;
 
-use super::{ComparisonTable, heading, shown};
+use super::ComparisonTable;
 
 impl ComparisonTable {
     /// GitHub's Markdown; the best of each row in bold.
     pub fn markdown(&self) -> String {
-        let mut text = String::from("| scene |");
-        for metric in &self.metrics {
+        let mut text = format!("| {} |", self.corner);
+        for group in &self.groups {
             let blanks = " |".repeat(self.methods.len() - 1);
-            let _ = write!(text, " {} |{blanks}", heading(*metric));
+            let _ = write!(text, " {} |{blanks}", group.heading());
         }
         text.push_str("\n| :-- |");
-        text.push_str(&" --: |".repeat(self.metrics.len() * self.methods.len()));
+        text.push_str(&" --: |".repeat(self.groups.len() * self.methods.len()));
         text.push_str("\n| |");
-        for _ in &self.metrics {
+        for _ in &self.groups {
             for method in &self.methods {
                 let _ = write!(text, " *{}* |", escaped(method));
             }
@@ -23,9 +23,9 @@ impl ComparisonTable {
         text.push('\n');
         for row in &self.rows {
             let _ = write!(text, "| {} |", escaped(&row.label));
-            for (metric, cells) in self.metrics.iter().zip(&row.cells) {
+            for (group, cells) in self.groups.iter().zip(&row.cells) {
                 for cell in cells {
-                    let number = shown(*metric, cell.value);
+                    let number = group.shown(cell.value);
                     let bold = if cell.best { "**" } else { "" };
                     let _ = write!(text, " {bold}{number}{bold} |");
                 }

@@ -1,34 +1,50 @@
-//! The comparison table of the papers (RMFR, Table 1): a row a scene, metrics side by side, within
-//! each the methods, the best of each row marked, an average row at the end.
+//! Tables that compare methods: measures side by side, within each a column a method. The papers' (RMFR,
+//! Table 1) has a row a scene, the best of each row marked, an average row at the end; that of ratios
+//! ([`ratios`]) a row an eccentricity band.
 
 mod csv;
+mod group;
 mod html;
 mod latex;
 mod markdown;
+mod ratios;
 mod terminal;
 
 use fovqa_config::Plot;
 use fovqa_metrics::{Better, Metric};
-use fovqa_results::{ComparisonSummary, RunRecord, SummaryRecord};
+use fovqa_results::{ComparisonSummary, GuideSource, RunRecord, SummaryRecord};
 
-/// A table of means over the frames.
+use group::Group;
+pub(crate) use ratios::{Ratios, statistic, statistic_in_words};
+
+/// A table of values over the frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparisonTable {
+    /// What it is of, for the page.
+    caption: String,
+    /// What its rows are.
+    corner: &'static str,
     methods: Vec<String>,
-    metrics: Vec<Metric>,
+    groups: Vec<Group>,
     rows: Vec<Row>,
     notes: Vec<String>,
 }
 
+/// What the rows of the papers' table are.
+const SCENE: &str = "scene";
+
 const FOVEAL_NOTE: &str = "FPSNR and FSSIM: the papers print no constants for the foveal weight, \
                            so compare methods, not papers.";
+
+const ATD_NOTE: &str =
+    "ATD: average temporal difference of the test in percent of the reference's.";
 
 #[derive(Debug, Clone, PartialEq)]
 struct Row {
     label: String,
     /// Whether it is of all scenes together.
     average: bool,
-    /// Metric by metric, within it method by method.
+    /// Group by group, within it method by method.
     cells: Vec<Vec<Cell>>,
 }
 
@@ -55,34 +71,55 @@ impl ComparisonTable {
             .filter(|name| wanted(&plot.scenes, name))
             .map(String::as_str)
             .collect();
-        let scored =
-            |metric: &Metric| summary.comparisons.iter().any(|c| c.metrics.contains_key(metric));
+        let scored = |metric: &Metric| {
+            let has = |c: &ComparisonSummary| match metric {
+                Metric::Atd => c.atd.as_ref().is_some_and(|atd| atd.ratio.is_some()),
+                metric => c.metrics.contains_key(metric),
+            };
+            summary.comparisons.iter().any(has)
+        };
         let of_plot = |metric: &Metric| plot.metric.as_ref().is_none_or(|key| key == metric.key());
         let metrics: Vec<Metric> =
             Metric::ALL.into_iter().filter(|m| scored(m) && of_plot(m)).collect();
         if metrics.is_empty() || methods.is_empty() || scenes.is_empty() {
             return None;
         }
+        let groups: Vec<Group> = metrics.iter().map(|metric| group(*metric)).collect();
         let value = |scene: &str, method: &str, metric: Metric| {
-            Some(overall(summary, scene, method)?.metrics.get(&metric)?.mean)
+            value(overall(summary, scene, method)?, metric)
         };
         let mut rows: Vec<Row> = scenes
             .iter()
             .map(|scene| {
-                let cells = metrics.iter().map(|&metric| {
-                    marked(metric, methods.iter().map(|method| value(scene, method, metric)))
+                let cells = metrics.iter().zip(&groups).map(|(&metric, group)| {
+                    marked(group, methods.iter().map(|method| value(scene, method, metric)))
                 });
                 Row { label: (*scene).to_owned(), average: false, cells: cells.collect() }
             })
             .collect();
-        rows.extend(average(&metrics, &rows));
+        rows.extend(average(&groups, &rows));
         let mut notes = vec!["Means over frames; the best of each row is marked.".to_owned()];
         if metrics.contains(&Metric::Fpsnr) || metrics.contains(&Metric::Fssim) {
             notes.push(FOVEAL_NOTE.to_owned());
         }
+        if metrics.contains(&Metric::Atd) {
+            notes.push(ATD_NOTE.to_owned());
+            notes.extend(without_motion(summary, &scenes, &methods));
+        }
         notes.extend(unequal_frames(summary, &scenes, &methods));
         notes.extend(identical_frames(summary, &scenes, &methods));
-        Some(Self { methods, metrics, rows, notes })
+        let (caption, corner) = ("Comparison".to_owned(), SCENE);
+        Some(Self { caption, corner, methods, groups, rows, notes })
+    }
+
+    /// Whether its rows are scenes.
+    fn is_of_scenes(&self) -> bool {
+        self.corner == SCENE
+    }
+
+    /// What it is of.
+    pub fn caption(&self) -> &str {
+        &self.caption
     }
 
     /// What has to be said of the numbers wherever they are shown.
@@ -101,50 +138,45 @@ pub(crate) fn overall<'a>(
     summary.comparisons.iter().filter(eyes).find(|c| c.scene == scene && c.method == method)
 }
 
-/// Metric, unit, and which way is better.
-fn heading(metric: Metric) -> String {
+/// The columns of a metric: its values or, over time, the papers' percentage.
+fn group(metric: Metric) -> Group {
     let info = metric.info();
-    let unit = if info.unit.is_empty() { String::new() } else { format!(" ({})", info.unit) };
-    let arrow = match info.better {
-        Better::Higher => "↑",
-        Better::Lower => "↓",
-        Better::Neither => "",
-    };
-    format!("{}{unit} {arrow}", info.label)
+    match metric {
+        Metric::Atd => Group::ratio(info.label.to_owned(), "atd_percent".to_owned(), info.better),
+        metric => Group::of(metric),
+    }
 }
 
-fn shown(metric: Metric, value: Option<f64>) -> String {
-    match value {
-        None => "–".to_owned(),
-        Some(value) if value.is_infinite() => "inf".to_owned(),
-        Some(value) if metric.is_decibel() => format!("{value:.2}"),
-        Some(value) if metric == Metric::Mse && value != 0.0 => format!("{value:.2e}"),
-        Some(value) => format!("{value:.4}"),
+/// What these columns show of a comparison.
+pub(crate) fn value(comparison: &ComparisonSummary, metric: Metric) -> Option<f64> {
+    match metric {
+        Metric::Atd => Some(comparison.atd.as_ref()?.ratio? * 100.0),
+        metric => Some(comparison.metrics.get(&metric)?.mean),
     }
 }
 
 /// Values with the best marked: what prints as the best does is as good. One value alone is none.
-fn marked(metric: Metric, values: impl Iterator<Item = Option<f64>>) -> Vec<Cell> {
+fn marked(group: &Group, values: impl Iterator<Item = Option<f64>>) -> Vec<Cell> {
     let values: Vec<Option<f64>> = values.collect();
     let found = values.iter().copied().flatten();
-    let best = match metric.info().better {
+    let best = match group.better {
         Better::Higher => found.reduce(f64::max),
         Better::Lower => found.reduce(f64::min),
         Better::Neither => None,
     };
     let several = values.iter().flatten().count() > 1;
-    let best = best.filter(|_| several).map(|best| shown(metric, Some(best)));
+    let best = best.filter(|_| several).map(|best| group.shown(Some(best)));
     let cell = |value: Option<f64>| Cell {
         value,
-        best: value.is_some() && best.as_ref() == Some(&shown(metric, value)),
+        best: value.is_some() && best.as_ref() == Some(&group.shown(value)),
     };
     values.into_iter().map(cell).collect()
 }
 
 /// The means over the scenes that all methods have; `None` where there are not two of them.
-fn average(metrics: &[Metric], rows: &[Row]) -> Option<Row> {
+fn average(groups: &[Group], rows: &[Row]) -> Option<Row> {
     let mut scenes = Vec::new();
-    let cells = metrics.iter().enumerate().map(|(index, &metric)| {
+    let cells = groups.iter().enumerate().map(|(index, group)| {
         let whole: Vec<&Vec<Cell>> = rows
             .iter()
             .map(|row| &row.cells[index])
@@ -153,7 +185,7 @@ fn average(metrics: &[Metric], rows: &[Row]) -> Option<Row> {
         scenes.push(whole.len());
         let methods = rows[0].cells[index].len();
         marked(
-            metric,
+            group,
             (0..methods).map(|method| {
                 mean(&whole.iter().filter_map(|cells| cells[method].value).collect::<Vec<_>>())
             }),
@@ -174,6 +206,20 @@ fn average(metrics: &[Metric], rows: &[Row]) -> Option<Row> {
 /// scene must not lose by it in the average.
 pub(crate) fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// The scenes in which differences over time were taken without motion vectors.
+fn without_motion(summary: &SummaryRecord, scenes: &[&str], methods: &[String]) -> Option<String> {
+    let still = |scene: &&&str| {
+        let atd = |method: &String| overall(summary, scene, method)?.atd.as_ref();
+        let taken = methods.iter().filter_map(atd).filter(|atd| atd.ratio.is_some());
+        taken.clone().count() > 0 && taken.clone().all(|atd| atd.motion == GuideSource::None)
+    };
+    let still: Vec<&str> = scenes.iter().filter(still).copied().collect();
+    let which = still.join(", ");
+    (!still.is_empty()).then(|| {
+        format!("ATD without motion vectors, whatever moves counts as a difference: {which}.")
+    })
 }
 
 /// The scenes in which methods were not scored on the same number of frames.

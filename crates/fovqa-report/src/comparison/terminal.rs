@@ -1,8 +1,7 @@
 //! The table on a terminal.
 
-use fovqa_metrics::Metric;
-
-use super::{Cell, ComparisonTable, Row, heading, shown};
+use super::group::Group;
+use super::{Cell, ComparisonTable, Row};
 use crate::text_table::{aligned, plain_table, printable};
 
 impl ComparisonTable {
@@ -12,14 +11,18 @@ impl ComparisonTable {
         if let [row] = self.rows.as_slice() {
             return self.one_scene(row);
         }
-        let mut text = String::new();
-        for (index, metric) in self.metrics.iter().enumerate() {
-            let heading = heading(*metric);
+        let mut text = if self.is_of_scenes() {
+            String::new()
+        } else {
+            format!("{}\n\n", printable(&self.caption))
+        };
+        for (index, group) in self.groups.iter().enumerate() {
+            let heading = group.heading();
             let methods = self.methods.iter().map(String::as_str);
             let header: Vec<&str> = [heading.as_str()].into_iter().chain(methods).collect();
             let mut table = plain_table(&header);
             for row in &self.rows {
-                let cells = row.cells[index].iter().map(|cell| starred(*metric, cell));
+                let cells = row.cells[index].iter().map(|cell| starred(group, cell));
                 table.add_row([printable(&row.label)].into_iter().chain(cells));
             }
             text.push_str(&aligned(table));
@@ -29,20 +32,20 @@ impl ComparisonTable {
     }
 
     fn one_scene(&self, row: &Row) -> String {
-        let headings: Vec<String> = self.metrics.iter().map(|metric| heading(*metric)).collect();
+        let headings: Vec<String> = self.groups.iter().map(Group::heading).collect();
         let label = printable(&row.label);
         let headings = headings.iter().map(String::as_str);
         let header: Vec<&str> = [label.as_str()].into_iter().chain(headings).collect();
         let mut table = plain_table(&header);
         for (index, method) in self.methods.iter().enumerate() {
-            let metrics = self.metrics.iter().zip(&row.cells);
-            let cells = metrics.map(|(metric, cells)| starred(*metric, &cells[index]));
+            let groups = self.groups.iter().zip(&row.cells);
+            let cells = groups.map(|(group, cells)| starred(group, &cells[index]));
             table.add_row([printable(method)].into_iter().chain(cells));
         }
         aligned(table) + "\n"
     }
 }
 
-fn starred(metric: Metric, cell: &Cell) -> String {
-    format!("{}{}", shown(metric, cell.value), if cell.best { "*" } else { " " })
+fn starred(group: &Group, cell: &Cell) -> String {
+    format!("{}{}", group.shown(cell.value), if cell.best { "*" } else { " " })
 }

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use fovqa_metrics::profile::Orientation;
 use fovqa_metrics::{HaarStatistics, Metric};
 use serde::{Deserialize, Serialize};
 
@@ -121,8 +122,7 @@ pub(crate) fn haar(frame: &FrameResult, view: Option<&ViewResult>) -> Vec<HaarRe
 
 /// The wavelet over the frames.
 pub(crate) fn summary_haar(summary: &Summary) -> Vec<HaarRecord<Spread>> {
-    let mut by_place: BTreeMap<(usize, usize), Vec<(HaarStatistic, SideValues<Spread>)>> =
-        BTreeMap::new();
+    let mut by_place: BTreeMap<(usize, usize), Vec<Named<Spread>>> = BTreeMap::new();
     for (measure, statistics) in &summary.compared {
         if let (Some(level), Some(band), Some(statistic)) =
             (measure.level, measure.band, measure.statistic)
@@ -139,15 +139,18 @@ pub(crate) fn summary_haar(summary: &Summary) -> Vec<HaarRecord<Spread>> {
     by_place.into_iter().filter_map(record).collect()
 }
 
+/// A statistic with its values.
+type Named<T> = (HaarStatistic, SideValues<T>);
+
 fn haar_record<T: Clone>(
     level: usize,
     (from_deg, to_deg): (f64, f64),
     coefficients: u64,
-    values: Vec<(HaarStatistic, SideValues<T>)>,
+    values: Vec<Named<T>>,
 ) -> HaarRecord<T> {
     let mut of: BTreeMap<Option<&str>, Vec<SideValues<T>>> = BTreeMap::new();
     for (statistic, sides) in values {
-        of.entry(statistic.orientation().map(|o| o.name())).or_default().push(sides);
+        of.entry(statistic.orientation().map(Orientation::name)).or_default().push(sides);
     }
     let all = sides(of.remove(&None).unwrap_or_default());
     let orientations =
@@ -158,17 +161,18 @@ fn haar_record<T: Clone>(
 /// The three statistics, in their order, as the three fields.
 fn sides<T: Clone>(values: Vec<SideValues<T>>) -> HaarSides<T> {
     debug_assert!(values.len() <= HaarStatistics::NAMES.len(), "one a statistic");
-    fn three<T, V>(
-        values: &[SideValues<T>],
-        of: impl Fn(&SideValues<T>) -> Option<V>,
-    ) -> HaarValues<V> {
-        let value = |index: usize| values.get(index).and_then(&of);
-        HaarValues { mean_abs: value(0), max_abs: value(1), energy: value(2) }
-    }
     HaarSides {
         reference: three(&values, |sides| sides.reference.clone()),
         test: three(&values, |sides| sides.test.clone()),
         ratio: three(&values, |sides| sides.ratio),
         reason: values.into_iter().find_map(|sides| sides.reason),
     }
+}
+
+fn three<T, V>(
+    values: &[SideValues<T>],
+    of: impl Fn(&SideValues<T>) -> Option<V>,
+) -> HaarValues<V> {
+    let value = |index: usize| values.get(index).and_then(&of);
+    HaarValues { mean_abs: value(0), max_abs: value(1), energy: value(2) }
 }

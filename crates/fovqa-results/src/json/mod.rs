@@ -6,7 +6,7 @@ mod score;
 mod summary;
 mod values;
 
-pub use compared::{HaarRecord, SideValues};
+pub use compared::{HaarRecord, HaarSides, HaarValues, SideValues};
 pub use run::{ExperimentRecord, RUN_SCHEMA, RunRecord};
 pub use score::{SCORE_SCHEMA, write_json};
 pub use summary::{

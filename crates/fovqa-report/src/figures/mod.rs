@@ -1,15 +1,18 @@
 //! Which figures a run has, and what is in them: values against eccentricity, per scene and
 //! method, and over frames. A method has one colour and marker in all of them.
 
+mod compared;
+mod sequence;
+
 use fovqa_config::{Plot, PlotKind};
-use fovqa_metrics::{Better, Metric};
+use fovqa_metrics::{Better, Metric, MetricKind};
 use fovqa_plot::{
     Axis, BarChart, BarSeries, Figure, LineChart, LineSeries, Look, SpreadChart, SpreadSeries,
 };
 use fovqa_results::{BandStatistics, ComparisonSummary, RunRecord, SummaryRecord};
 
-use crate::comparison::{mean, overall};
-use crate::frame_values::FrameValues;
+use crate::comparison::{ComparisonTable, Ratios, mean, overall, statistic, value};
+use crate::frame_values::{FrameValues, Image};
 
 /// A figure with its name and what it says.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,8 +44,7 @@ struct Selection<'a> {
 /// The plots of a run that asks for none: all that have something to show.
 pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
     let summary = source.summary;
-    let plot = |kind| Plot { kind, metric: None, scenes: None, methods: None };
-    let mut kinds = vec![PlotKind::Table, PlotKind::Profile];
+    let mut kinds = vec![PlotKind::Table, PlotKind::Ratios, PlotKind::Profile];
     let eyes = |c: &&ComparisonSummary| c.eye.is_empty() || c.eye == "both";
     if summary.comparisons.iter().filter(eyes).count() > 1 {
         kinds.push(PlotKind::Bars);
@@ -50,42 +52,68 @@ pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
     if summary.comparisons.iter().any(|comparison| comparison.frames > 1) {
         kinds.push(PlotKind::Frames);
     }
-    kinds.into_iter().map(plot).collect()
+    let mut plots: Vec<Plot> = kinds.into_iter().map(Plot::of).collect();
+    if summary.comparisons.iter().any(|c| c.atd.as_ref().is_some_and(|atd| atd.frames > 1)) {
+        let metric = Some(Metric::Atd.key().to_owned());
+        plots.push(Plot { metric, ..Plot::of(PlotKind::Sequence) });
+    }
+    plots
 }
 
 /// The figures of a plot; none for a table.
 pub(crate) fn figures(source: &Source<'_>, plot: &Plot) -> Vec<NamedFigure> {
-    let wanted = |names: &Option<Vec<String>>, name: &str| {
-        names.as_ref().is_none_or(|names| names.iter().any(|n| n == name))
-    };
-    let resolved = &source.run.resolved;
-    let scenes = resolved.scenes.iter().map(|scene| scene.name.as_str());
-    let methods = resolved.methods.iter().enumerate();
-    let selection = Selection {
-        source,
-        scenes: scenes.filter(|scene| wanted(&plot.scenes, scene)).collect(),
-        methods: methods
-            .filter(|(_, method)| wanted(&plot.methods, method))
-            .map(|(index, method)| (method.as_str(), Look::new(index)))
-            .collect(),
-    };
+    let selection = Selection::new(source, plot);
     let metrics = metrics(source, plot);
     match plot.kind {
-        PlotKind::Table => Vec::new(),
+        PlotKind::Table | PlotKind::Ratios => Vec::new(),
         PlotKind::Profile => {
-            metrics.into_iter().flat_map(|metric| selection.profiles(metric)).collect()
+            metrics.into_iter().flat_map(|metric| selection.profiles(metric, plot)).collect()
+        }
+        PlotKind::Sequence => {
+            metrics.into_iter().flat_map(|metric| selection.sequences(metric)).collect()
         }
         PlotKind::Bars => metrics.into_iter().map(|metric| selection.bars(metric)).collect(),
         PlotKind::Frames => metrics.into_iter().map(|metric| selection.frames(metric)).collect(),
     }
 }
 
+/// The tables of ratios of a plot: one a metric and scene.
+pub(crate) fn ratio_tables(source: &Source<'_>, plot: &Plot) -> Vec<(String, ComparisonTable)> {
+    let selection = Selection::new(source, plot);
+    let methods: Vec<&str> = selection.methods.iter().map(|(method, _)| *method).collect();
+    let table = |(metric, scene): (Metric, &str)| {
+        let name = format!("ratios-{}", slug(metric.key()));
+        let alone = selection.scenes.len() == 1;
+        let name = if alone { name } else { format!("{name}-{}", slug(scene)) };
+        let ratios = Ratios {
+            metric,
+            scene,
+            methods: &methods,
+            levels: plot.levels.as_deref(),
+            statistic: statistic(plot),
+        };
+        Some((name, ComparisonTable::ratios(source.run, source.summary, &ratios)?))
+    };
+    let metrics = metrics(source, plot).into_iter();
+    let each =
+        metrics.flat_map(|metric| selection.scenes.iter().map(move |scene| (metric, *scene)));
+    each.filter_map(table).collect()
+}
+
 /// The metrics of a plot: its own, or all that were scored and fit, without MSE where PSNR says
 /// the same.
-fn metrics(source: &Source<'_>, plot: &Plot) -> Vec<Metric> {
-    let scored =
-        |metric: Metric| source.summary.comparisons.iter().any(|c| c.metrics.contains_key(&metric));
-    let fits = |metric: Metric| plot.kind != PlotKind::Profile || metric.info().per_band;
+pub(crate) fn metrics(source: &Source<'_>, plot: &Plot) -> Vec<Metric> {
+    let summary = source.summary;
+    let scored = |metric: Metric| summary.comparisons.iter().any(|c| is_scored(c, metric));
+    let fits = |metric: Metric| match plot.kind {
+        PlotKind::Profile => metric.info().per_band,
+        PlotKind::Ratios => !metric.is(MetricKind::Fidelity),
+        // Its share of the reference's stands in a column of the table.
+        PlotKind::Bars | PlotKind::Frames if plot.metric.is_none() => {
+            metric.is(MetricKind::Fidelity)
+        }
+        _ => !metric.is(MetricKind::Profile),
+    };
     let wanted = |metric: Metric| match &plot.metric {
         Some(key) => key == metric.key(),
         None => metric != Metric::Mse || !scored(Metric::Psnr),
@@ -94,9 +122,44 @@ fn metrics(source: &Source<'_>, plot: &Plot) -> Vec<Metric> {
     all.filter(|&metric| scored(metric) && fits(metric) && wanted(metric)).collect()
 }
 
-impl Selection<'_> {
-    /// The profile of each scene and, where there are several, of their mean.
-    fn profiles(&self, metric: Metric) -> Vec<NamedFigure> {
+fn is_scored(comparison: &ComparisonSummary, metric: Metric) -> bool {
+    match metric.info().kind {
+        MetricKind::Fidelity => comparison.metrics.contains_key(&metric),
+        MetricKind::Temporal => comparison.atd.as_ref().is_some_and(|atd| atd.frames > 0),
+        MetricKind::Profile if metric == Metric::Haar => !comparison.haar.is_empty(),
+        MetricKind::Profile => comparison.bands.iter().any(|b| b.compared.contains_key(&metric)),
+    }
+}
+
+impl<'a> Selection<'a> {
+    fn new(source: &'a Source<'a>, plot: &Plot) -> Self {
+        let wanted = |names: &Option<Vec<String>>, name: &str| {
+            names.as_ref().is_none_or(|names| names.iter().any(|n| n == name))
+        };
+        let resolved = &source.run.resolved;
+        let scenes = resolved.scenes.iter().map(|scene| scene.name.as_str());
+        let methods = resolved.methods.iter().enumerate();
+        Self {
+            source,
+            scenes: scenes.filter(|scene| wanted(&plot.scenes, scene)).collect(),
+            methods: methods
+                .filter(|(_, method)| wanted(&plot.methods, method))
+                .map(|(index, method)| (method.as_str(), Look::new(index)))
+                .collect(),
+        }
+    }
+
+    /// The title of a figure of one scene among several.
+    fn title(&self, scene: &str) -> Option<String> {
+        (self.scenes.len() > 1).then(|| scene.to_owned())
+    }
+
+    /// The profile of each scene and, of a metric of fidelity in several, of their mean.
+    fn profiles(&self, metric: Metric, plot: &Plot) -> Vec<NamedFigure> {
+        if !metric.is(MetricKind::Fidelity) {
+            let scenes = self.scenes.iter();
+            return scenes.filter_map(|scene| self.compared(metric, scene, plot)).collect();
+        }
         let name = format!("profile-{}", slug(metric.key()));
         let label = metric.info().label;
         let mut figures: Vec<NamedFigure> = Vec::new();
@@ -198,9 +261,7 @@ impl Selection<'_> {
 
     fn bars(&self, metric: Metric) -> NamedFigure {
         let series = self.methods.iter().map(|&(method, look)| {
-            let value = |scene: &&str| {
-                Some(overall(self.source.summary, scene, method)?.metrics.get(&metric)?.mean)
-            };
+            let value = |scene: &&str| value(overall(self.source.summary, scene, method)?, metric);
             let values = self.scenes.iter().map(value).collect();
             BarSeries { name: method.to_owned(), look, values }
         });
@@ -215,21 +276,27 @@ impl Selection<'_> {
                 values.push(mean(&all));
             }
         }
-        let y = Axis::new(axis(metric));
+        let y = match metric {
+            Metric::Atd => Axis::new("ATD in % of the reference (lower is better)"),
+            metric => Axis::new(axis(metric)),
+        };
         let figure = Figure::Bar(BarChart { y, groups, series, ..BarChart::default() });
         let caption = format!("{} per scene and method, mean over frames", metric.info().label);
         NamedFigure { name: format!("bars-{}", slug(metric.key())), caption, figure }
+    }
+
+    /// The values of single frames: of the test, where the metric is of one picture.
+    fn values(&self, scene: &str, method: &str, metric: Metric) -> Vec<f64> {
+        let image = if metric.is(MetricKind::Fidelity) { Image::Pair } else { Image::Test };
+        let values = self.source.values.of(scene, method, (metric, image));
+        values.iter().map(|(_, value)| *value).collect()
     }
 
     fn frames(&self, metric: Metric) -> NamedFigure {
         let series = self.methods.iter().map(|&(method, look)| SpreadSeries {
             name: method.to_owned(),
             look,
-            values: self
-                .scenes
-                .iter()
-                .map(|scene| self.source.values.of(scene, method, metric))
-                .collect(),
+            values: self.scenes.iter().map(|scene| self.values(scene, method, metric)).collect(),
         });
         let series = series.collect();
         let groups = self.scenes.iter().map(|&scene| scene.to_owned()).collect();
@@ -259,14 +326,14 @@ impl Band {
 fn axis(metric: Metric) -> String {
     let info = metric.info();
     let better = match info.better {
-        Better::Higher => "higher is better",
-        Better::Lower => "lower is better",
+        Better::Higher => " (higher is better)",
+        Better::Lower => " (lower is better)",
         Better::Neither => "",
     };
     if info.unit.is_empty() {
-        format!("{} ({better})", info.label)
+        format!("{}{better}", info.label)
     } else {
-        format!("{} in {} ({better})", info.label, info.unit)
+        format!("{} in {}{better}", info.label, info.unit)
     }
 }
 

@@ -1,0 +1,76 @@
+//! A group of columns: one measure, within it a column a method.
+
+use fovqa_metrics::{Better, Metric};
+
+/// What the columns of a group show.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Group {
+    /// Its name for people.
+    pub(crate) label: String,
+    /// Its unit; empty for a plain number.
+    pub(crate) unit: &'static str,
+    /// Its direction.
+    pub(crate) better: Better,
+    /// Its name in CSV.
+    pub(crate) key: String,
+    digits: Digits,
+}
+
+/// How numbers are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Digits {
+    Decibels,
+    Scientific,
+    Share,
+    Percent,
+}
+
+impl Group {
+    /// A metric's own values.
+    pub(crate) fn of(metric: Metric) -> Self {
+        let info = metric.info();
+        let digits = match metric {
+            Metric::Mse => Digits::Scientific,
+            metric if metric.is_decibel() => Digits::Decibels,
+            _ => Digits::Share,
+        };
+        Self {
+            label: info.label.to_owned(),
+            unit: info.unit,
+            better: info.better,
+            key: info.key.to_owned(),
+            digits,
+        }
+    }
+
+    /// Percentages of the reference's value.
+    pub(crate) fn ratio(label: String, key: String, better: Better) -> Self {
+        Self { label, unit: "% of reference", better, key, digits: Digits::Percent }
+    }
+
+    /// Name, unit, and which way is better.
+    pub(crate) fn heading(&self) -> String {
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
+        let arrow = match self.better {
+            Better::Higher => " ↑",
+            Better::Lower => " ↓",
+            Better::Neither => "",
+        };
+        format!("{}{unit}{arrow}", self.label)
+    }
+
+    /// A value for people.
+    pub(crate) fn shown(&self, value: Option<f64>) -> String {
+        match (value, self.digits) {
+            (None, _) => "–".to_owned(),
+            (Some(value), _) if value.is_infinite() => "inf".to_owned(),
+            (Some(value), Digits::Decibels) => format!("{value:.2}"),
+            (Some(value), Digits::Scientific) if value != 0.0 => format!("{value:.2e}"),
+            (Some(value), Digits::Percent) if value != 0.0 && value.abs() < 0.1 => {
+                format!("{value:.1e}")
+            }
+            (Some(value), Digits::Percent) => format!("{value:.1}"),
+            (Some(value), _) => format!("{value:.4}"),
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! What is left of the reference in each eccentricity band: test / reference, in percent.
+
+use fovqa_config::Plot;
+use fovqa_metrics::{Better, HaarStatistics, Metric};
+use fovqa_results::{ComparisonSummary, HaarRecord, RunRecord, Spread, SummaryRecord};
+
+use super::group::Group;
+use super::{Cell, ComparisonTable, Row, overall};
+
+/// What a table of ratios is of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ratios<'a> {
+    pub(crate) metric: Metric,
+    pub(crate) scene: &'a str,
+    pub(crate) methods: &'a [&'a str],
+    /// Levels of the wavelet; `None`: all.
+    pub(crate) levels: Option<&'a [usize]>,
+    /// Statistic of the wavelet.
+    pub(crate) statistic: &'a str,
+}
+
+/// The statistic of the wavelet that is shown where none is named.
+pub(crate) const DEFAULT_STATISTIC: &str = "energy";
+
+/// What a plot says of the wavelet.
+pub(crate) fn statistic(plot: &Plot) -> &str {
+    plot.statistic.as_deref().unwrap_or(DEFAULT_STATISTIC)
+}
+
+/// A statistic of the wavelet for people.
+pub(crate) fn statistic_in_words(statistic: &str) -> &'static str {
+    match statistic {
+        "mean_abs" => "mean |c|",
+        "max_abs" => "max |c|",
+        _ => "energy",
+    }
+}
+
+/// A ratio of the wavelet.
+pub(crate) fn haar_ratio(record: &HaarRecord<Spread>, statistic: &str) -> Option<f64> {
+    let ratio = &record.all.ratio;
+    match HaarStatistics::NAMES.iter().position(|name| *name == statistic) {
+        Some(0) => ratio.mean_abs,
+        Some(1) => ratio.max_abs,
+        _ => ratio.energy,
+    }
+}
+
+impl ComparisonTable {
+    /// The table of one metric in one scene; `None` where nothing of it was scored.
+    pub(crate) fn ratios(
+        run: &RunRecord,
+        summary: &SummaryRecord,
+        ratios: &Ratios<'_>,
+    ) -> Option<Self> {
+        let of = |method: &&str| overall(summary, ratios.scene, method);
+        let found: Vec<&ComparisonSummary> = ratios.methods.iter().filter_map(of).collect();
+        let bands = found.iter().map(|c| c.bands.as_slice()).find(|bands| !bands.is_empty())?;
+        let levels = ratios.levels_of(&found);
+        let groups = ratios.groups(&levels);
+        let row = |label: String, value: &dyn Fn(&ComparisonSummary, usize) -> Option<f64>| {
+            let cells = (0..groups.len()).map(|group| {
+                let value = |method: &&str| Some(value(of(method)?, group)? * 100.0);
+                let cell = |value| Cell { value, best: false };
+                ratios.methods.iter().map(|method| cell(value(method))).collect()
+            });
+            Row { label, average: false, cells: cells.collect() }
+        };
+        let mut rows: Vec<Row> = bands
+            .iter()
+            .map(|band| {
+                let edges = (band.from_deg, band.to_deg);
+                let label = format!("{}° to {}°", band.from_deg, band.to_deg);
+                row(label, &|comparison, group| {
+                    ratios.in_band(comparison, edges, levels.get(group))
+                })
+            })
+            .collect();
+        if ratios.metric == Metric::Atd {
+            let whole = |c: &ComparisonSummary, _| c.atd.as_ref()?.ratio;
+            rows.push(Row { average: true, ..row("whole frame".to_owned(), &whole) });
+        }
+        let cells = rows.iter().flat_map(|row| row.cells.iter().flatten());
+        if groups.is_empty() || cells.clone().all(|cell| cell.value.is_none()) {
+            return None;
+        }
+        let scene = if run.resolved.scenes.len() > 1 {
+            format!(", {}", ratios.scene)
+        } else {
+            String::new()
+        };
+        Some(Self {
+            caption: format!("{}, test / reference{scene}", ratios.label()),
+            corner: "eccentricity",
+            methods: ratios.methods.iter().map(|&method| method.to_owned()).collect(),
+            groups,
+            rows,
+            notes: vec![NOTE.to_owned()],
+        })
+    }
+}
+
+const NOTE: &str = "Of means over frames (max |c|: of the largest). 100 % is as much as in the reference; \
+                    – where the reference has nothing, or nothing was measured.";
+
+impl Ratios<'_> {
+    fn label(&self) -> String {
+        let label = self.metric.info().label;
+        match self.metric {
+            Metric::Haar => format!("{label} {}", statistic_in_words(self.statistic)),
+            _ => label.to_owned(),
+        }
+    }
+
+    /// The levels to show; none but for the wavelet.
+    fn levels_of(&self, found: &[&ComparisonSummary]) -> Vec<usize> {
+        if self.metric != Metric::Haar {
+            return Vec::new();
+        }
+        let mut levels: Vec<usize> =
+            found.iter().flat_map(|c| c.haar.iter().map(|record| record.level)).collect();
+        levels.sort_unstable();
+        levels.dedup();
+        levels.retain(|level| self.levels.is_none_or(|wanted| wanted.contains(level)));
+        levels
+    }
+
+    fn groups(&self, levels: &[usize]) -> Vec<Group> {
+        let key = self.metric.key();
+        match self.metric {
+            Metric::Haar => levels
+                .iter()
+                .map(|level| {
+                    let key = format!("{key}_{}_{level}_percent", self.statistic);
+                    Group::ratio(format!("level {level}"), key, Better::Neither)
+                })
+                .collect(),
+            _ => vec![Group::ratio(self.label(), format!("{key}_percent"), Better::Neither)],
+        }
+    }
+
+    fn in_band(
+        &self,
+        comparison: &ComparisonSummary,
+        edges: (f64, f64),
+        level: Option<&usize>,
+    ) -> Option<f64> {
+        let is_it = |from: f64, to: f64| (from, to) == edges;
+        match level {
+            Some(&level) => {
+                let mut records = comparison.haar.iter();
+                let of = |r: &&HaarRecord<Spread>| r.level == level && is_it(r.from_deg, r.to_deg);
+                haar_ratio(records.find(of)?, self.statistic)
+            }
+            None => {
+                let band = comparison.bands.iter().find(|b| is_it(b.from_deg, b.to_deg))?;
+                band.compared.get(&self.metric)?.ratio
+            }
+        }
+    }
+}

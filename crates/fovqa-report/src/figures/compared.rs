@@ -1,0 +1,151 @@
+//! What is measured of each picture, against eccentricity: a line a method, the reference dashed. The
+//! wavelet has a panel a level (Patney et al. 2016, Figs. 4 and 10).
+
+use fovqa_config::Plot;
+use fovqa_metrics::Metric;
+use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look, PanelChart};
+use fovqa_results::{ComparisonSummary, HaarRecord, Spread};
+
+use super::{MOST_EDGE_TICKS, NamedFigure, Selection, axis, slug};
+use crate::comparison::{overall, statistic, statistic_in_words};
+
+/// Panels beside each other.
+const COLUMNS: usize = 3;
+
+/// A band's values of reference and test.
+#[derive(Debug, Clone, Copy)]
+struct Values {
+    from_deg: f64,
+    to_deg: f64,
+    reference: Option<f64>,
+    test: Option<f64>,
+}
+
+impl Selection<'_> {
+    /// The profile of a scene; `None` where nothing of it was scored.
+    pub(super) fn compared(&self, metric: Metric, scene: &str, plot: &Plot) -> Option<NamedFigure> {
+        let name = format!("profile-{}", slug(metric.key()));
+        let name = if self.scenes.len() == 1 { name } else { format!("{name}-{}", slug(scene)) };
+        let (figure, what) = match metric {
+            Metric::Haar => {
+                let words = statistic_in_words(statistic(plot));
+                (self.wavelet(scene, plot)?, format!("Haar wavelet {words} by level"))
+            }
+            metric => {
+                let values = |c: &ComparisonSummary| banded(c, metric);
+                let chart = self.chart(scene, Axis::new(axis(metric)), values)?;
+                // Contrasts differ by little: their distance is read, not their height.
+                let y_from_zero = metric != Metric::RmsContrast;
+                let chart = LineChart { title: self.title(scene), y_from_zero, ..chart };
+                (Figure::Line(chart), metric.info().label.to_owned())
+            }
+        };
+        let caption = format!("{what} against eccentricity, {scene}; the reference is dashed");
+        Some(NamedFigure { name, caption, figure })
+    }
+
+    fn wavelet(&self, scene: &str, plot: &Plot) -> Option<Figure> {
+        let summary = self.source.summary;
+        let of = |(method, _): &(&str, Look)| overall(summary, scene, method);
+        let records = self.methods.iter().filter_map(of).flat_map(|c| &c.haar);
+        let mut levels: Vec<usize> = records.map(|record| record.level).collect();
+        levels.sort_unstable();
+        levels.dedup();
+        levels.retain(|level| plot.levels.as_ref().is_none_or(|wanted| wanted.contains(level)));
+        let statistic = statistic(plot);
+        let panel = |level: &usize| {
+            let y = Axis::new(format!("Wavelet {}", statistic_in_words(statistic)));
+            let values = |c: &ComparisonSummary| levelled(c, *level, statistic);
+            let chart = self.chart(scene, y, values)?;
+            let side = 1u64 << level;
+            let title = Some(format!("Level {level} ({side}×{side} px)"));
+            // Half as wide as a chart alone: every other edge.
+            let x_ticks = chart.x_ticks.map(|ticks| ticks.into_iter().step_by(2).collect());
+            Some(LineChart { title, x_ticks, ..chart })
+        };
+        let panels: Vec<LineChart> = levels.iter().filter_map(panel).collect();
+        (!panels.is_empty()).then_some(Figure::Panels(PanelChart {
+            title: self.title(scene),
+            panels,
+            columns: COLUMNS,
+        }))
+    }
+
+    fn chart(
+        &self,
+        scene: &str,
+        y: Axis,
+        values: impl Fn(&ComparisonSummary) -> Vec<Values>,
+    ) -> Option<LineChart> {
+        let mut edges: Vec<f64> = Vec::new();
+        let mut reference: Option<LineSeries> = None;
+        let mut series = Vec::new();
+        for &(method, look) in &self.methods {
+            let Some(comparison) = overall(self.source.summary, scene, method) else { continue };
+            let bands = values(comparison);
+            if bands.is_empty() {
+                continue;
+            }
+            edges.extend(bands.iter().flat_map(|band| [band.from_deg, band.to_deg]));
+            let points = |of: fn(&Values) -> Option<f64>| {
+                let centre = |band: &Values| f64::midpoint(band.from_deg, band.to_deg);
+                bands.iter().map(|band| (centre(band), of(band))).collect()
+            };
+            let name = method.to_owned();
+            let test =
+                LineSeries { name, look, points: points(|b| b.test), ..LineSeries::default() };
+            series.push(test);
+            reference.get_or_insert_with(|| LineSeries {
+                name: "reference".to_owned(),
+                reference: true,
+                points: points(|band| band.reference),
+                ..LineSeries::default()
+            });
+        }
+        // Over the others, which it may hide behind.
+        series.push(reference?);
+        edges.sort_by(f64::total_cmp);
+        edges.dedup_by(|a, b| a.to_bits() == b.to_bits());
+        Some(LineChart {
+            title: None,
+            x: Axis::new("Eccentricity (°)"),
+            y,
+            series,
+            x_ticks: Some(edges).filter(|edges| edges.len() <= MOST_EDGE_TICKS),
+            y_from_zero: true,
+            ..LineChart::default()
+        })
+    }
+}
+
+fn banded(comparison: &ComparisonSummary, metric: Metric) -> Vec<Values> {
+    let mean = |spread: &Option<Spread>| spread.map(|spread| spread.mean);
+    let bands = comparison.bands.iter().filter_map(|band| {
+        let sides = band.compared.get(&metric)?;
+        Some(Values {
+            from_deg: band.from_deg,
+            to_deg: band.to_deg,
+            reference: mean(&sides.reference),
+            test: mean(&sides.test),
+        })
+    });
+    bands.collect()
+}
+
+fn levelled(comparison: &ComparisonSummary, level: usize, statistic: &str) -> Vec<Values> {
+    let records = comparison.haar.iter().filter(|record| record.level == level);
+    let values = records.map(|record: &HaarRecord<Spread>| {
+        let of = |values: &fovqa_results::HaarValues<Spread>| match statistic {
+            "mean_abs" => values.mean_abs.map(|spread| spread.mean),
+            "max_abs" => values.max_abs.map(|spread| spread.max),
+            _ => values.energy.map(|spread| spread.mean),
+        };
+        Values {
+            from_deg: record.from_deg,
+            to_deg: record.to_deg,
+            reference: of(&record.all.reference),
+            test: of(&record.all.test),
+        }
+    });
+    values.collect()
+}
