@@ -224,6 +224,10 @@ fn the_colour_is_the_same_with_guides() {
                     let ours = options(MotionChannels::Auto, depth_named("Z"));
                     let (rich, id) = read_frame_and_hash(&path, &ours).unwrap();
                     assert_eq!((&rich.frame, &rich.notes), (&plain.frame, &plain.notes));
+                    assert!(matches!(rich.frame.samples(), fovqa_frame::Samples::F32(_)));
+                    assert!(
+                        chromaticities.is_some() || rich.frame.sample(1, 9, 8) == value(1, 9, 8)
+                    );
                     assert_eq!(id, FileId::of_file(&path).unwrap());
                     is_motion(rich.guides.motion.as_ref().unwrap(), [0, 1], [1.0, 1.0]);
                     is_seed(rich.guides.depth.as_ref().unwrap(), 2);
@@ -379,6 +383,19 @@ fn of_several_layers_that_of_the_colour() {
     let guides = frame_of(vec![two_layers()], &far).unwrap().guides;
     is_motion(guides.motion.as_ref().unwrap(), [9, 10], [1.0, 1.0]);
     is_seed(guides.depth.as_ref().unwrap(), 11);
+}
+
+/// The colour's own layer may be that without a name, and goes before a name without a layer.
+#[test]
+fn automatic_names_of_the_root_and_of_a_layer() {
+    let both = ["motion.X", "motion.Y", "L.motion.X", "L.motion.Y", "L.Depth.Z", "Depth.Z"];
+    for (colour, [x, y], depth) in [("", [3, 4], 8), ("L.C.", [5, 6], 7)] {
+        let colour = ["R", "G", "B"].map(|name| format!("{colour}{name}"));
+        let colour = colour.each_ref().map(String::as_str);
+        let guides = frame_of(vec![part(&[&colour[..], &both].concat())], &auto()).unwrap().guides;
+        is_motion(guides.motion.as_ref().unwrap(), [x, y], [1.0, 1.0]);
+        is_seed(guides.depth.as_ref().unwrap(), depth);
+    }
 }
 
 #[test]

@@ -36,11 +36,12 @@ pub enum GuidePreset {
     /// motion", "normalized to the entire screen", to be scaled by the width of the image
     /// (dev.epicgames.com, Cinematic Render Passes). So the offset is 0.5 and the unit the frame.
     /// The direction is not in that text. The engine's velocity is current minus previous
-    /// (`PostProcessVelocityLookup` among its material shaders) in clip space, whose y points up:
-    /// the sign is `[-1, 1]`. A public script that turns these channels into optical flow has
-    /// that sign too, but twice the scale; so the scale rests on the documentation alone. Check
-    /// both on a known motion before trusting them. Half floats hold values near 0.5 in steps of
-    /// 1/4096 to 1/2048 of the frame, up to a pixel: 32 bits are better.
+    /// (`PostProcessVelocityLookup` among its material shaders), taken here to be in clip space,
+    /// whose y points up: the sign is `[-1, 1]`. A public script that turns these channels into
+    /// optical flow has that sign too, but twice the scale; so the scale rests on the
+    /// documentation alone. Check both on a known motion before trusting them. Half floats hold
+    /// values near 0.5 in steps of 1/4096 to 1/2048 of the frame, up to a pixel: 32 bits are
+    /// better.
     ///
     /// Depth is in centimetres.
     Unreal,
