@@ -147,7 +147,10 @@ fn gaze_traces_move_the_bands() {
         let (moving, fixed) = (&json["frames"][frame], &fixed["frames"][0]);
         assert_eq!(moving["metrics"], fixed["metrics"]);
         for band in 0..edges.len() - 1 {
-            assert_eq!(moving["bands"][band], fixed["bands"][band]);
+            let mut moving = moving["bands"][band].clone();
+            // A frame alone has none before it.
+            moving.as_object_mut().unwrap().remove("atd");
+            assert_eq!(moving, fixed["bands"][band]);
         }
     }
     let held = folder.score(&[&arguments[..], &["--format", "table"]].concat()).ok().stdout;

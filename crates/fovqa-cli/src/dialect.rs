@@ -13,7 +13,7 @@ pub(crate) enum Dialect {
 }
 
 /// Setting, option, key.
-const SETTINGS: [(&str, &str, &str); 16] = [
+const SETTINGS: [(&str, &str, &str); 17] = [
     ("allow_missing", "--allow-missing", "allow_missing = true"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),
     ("alpha=over-black", "--alpha over-black", "alpha = \"over-black\""),
@@ -22,6 +22,11 @@ const SETTINGS: [(&str, &str, &str); 16] = [
     ("frames", "--frames A..B", "frames = \"A..B\" (or --frames A..B)"),
     ("gaze", "X,Y", "[X, Y]"),
     ("gaze_hold", "--gaze-hold", "hold = true beside trace"),
+    (
+        "guides",
+        "--motion or --depth",
+        "motion = { channels = [\"…\", \"…\"] } or depth = { channel = \"…\" }",
+    ),
     ("layer", "--layer", "layer = \"…\""),
     ("max_megapixels", "--max-megapixels", "max_megapixels"),
     ("metrics", "--metrics", "[metrics]"),

@@ -8,7 +8,7 @@ use fovqa_io::FileId;
 use fovqa_report::Drawn;
 use fovqa_results::{
     ExperimentRecord, FileError, RESULTS_CSV, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
-    SUMMARY_JSON, SummaryRecord, write_json_file, write_results_csv, write_whole,
+    SUMMARY_JSON, SummaryRecord, write_json_file, write_results_csv, write_whole_with,
 };
 
 use crate::args::RunArgs;
@@ -145,11 +145,7 @@ fn write(
     summary: &SummaryRecord,
     folder: &Path,
 ) -> Result<(), FileError> {
-    let mut csv = Vec::new();
-    let path = folder.join(RESULTS_CSV);
-    write_results_csv(results, &mut csv)
-        .map_err(|error| FileError::Write { path: path.clone(), error })?;
-    write_whole(&path, &csv)?;
+    write_whole_with(&folder.join(RESULTS_CSV), |out| write_results_csv(results, out))?;
     write_json_file(&folder.join(SUMMARY_JSON), summary)?;
     let file = experiment.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let record = RunRecord {

@@ -117,7 +117,8 @@ fn sides<T>(sides: &Sides<T>, of: impl Fn(&T) -> Value) -> Value {
 /// energy of all, then those of each orientation.
 fn profile(profile: &Profile) -> Value {
     let band = |band: &HaarBand| {
-        let statistics = band.statistics.iter().chain(band.orientations.iter().flatten());
+        let statistics =
+            band.statistics.iter().chain(band.orientations.as_deref().into_iter().flatten());
         let values = statistics.flat_map(|statistics| statistics.values().map(Value::from));
         std::iter::once(Value::from(band.coefficients)).chain(values).collect::<Value>()
     };

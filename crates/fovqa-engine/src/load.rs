@@ -196,11 +196,10 @@ impl Loader<'_> {
         }
         // What a user has named has to be there; what is only looked for need not.
         let missing_motion = side.missing.motion.take().filter(|_| !first);
-        for kind in [missing_motion, side.missing.depth.take()].into_iter().flatten() {
-            let path = PathBuf::from(&side.file);
-            return Err(LoadError::Read(ReadError { path, kind }));
+        match missing_motion.or(side.missing.depth.take()) {
+            Some(kind) => Err(LoadError::Read(ReadError { path: PathBuf::from(&side.file), kind })),
+            None => Ok(side),
         }
-        Ok(side)
     }
 
     /// Motion or depth from a file of its own.

@@ -106,6 +106,37 @@ impl<'a> ViewRun<'a> {
         })
     }
 
+    /// Settles what the first frame decides, and holds the others against it.
+    fn settle(&mut self, reference: &Side, warnings: &mut Warnings<'_>) -> Result<(), Fault> {
+        let (size, view) = (reference.size(), self.view);
+        let setup = match &mut self.setup {
+            Some(setup) => setup,
+            none => {
+                let inputs = Inputs {
+                    plan: self.plan,
+                    settings: &self.eye.settings,
+                    scene_bands: self.bands,
+                    metrics: &self.metrics,
+                    mask: self.mask.as_ref(),
+                    trace: view.trace.as_deref(),
+                    pairs: &view.frames.iter().map(|f| f.tests.len()).collect::<Vec<_>>(),
+                    file_size: reference.frame.file_size(),
+                };
+                none.insert(Setup::new(&inputs, size, reference.file.clone(), warnings)?)
+            }
+        };
+        if size == setup.size {
+            return Ok(());
+        }
+        Err(Fault {
+            message: format!(
+                "{} has {}x{} pixels and {}, the first of the sequence, has {}x{}",
+                reference.file, size.0, size.1, setup.first_file, setup.size.0, setup.size.1
+            ),
+            help: "a sequence has one size".to_owned(),
+        })
+    }
+
     fn score(
         &mut self,
         step: &Step<'_>,
@@ -119,33 +150,9 @@ impl<'a> ViewRun<'a> {
                 warnings.once(note, &format!("{}: {note}", side.file));
             }
         }
-        let size = reference.size();
-        let (plan, view) = (self.plan, self.view);
-        let setup = match &mut self.setup {
-            Some(setup) => setup,
-            none => {
-                let inputs = Inputs {
-                    plan,
-                    settings: &self.eye.settings,
-                    scene_bands: self.bands,
-                    metrics: &self.metrics,
-                    mask: self.mask.as_ref(),
-                    trace: view.trace.as_deref(),
-                    pairs: &view.frames.iter().map(|f| f.tests.len()).collect::<Vec<_>>(),
-                    file_size: reference.frame.file_size(),
-                };
-                none.insert(Setup::new(&inputs, size, reference.file.clone(), warnings)?)
-            }
-        };
-        if size != setup.size {
-            return Err(Fault {
-                message: format!(
-                    "{} has {}x{} pixels and {}, the first of the sequence, has {}x{}",
-                    reference.file, size.0, size.1, setup.first_file, setup.size.0, setup.size.1
-                ),
-                help: "a sequence has one size".to_owned(),
-            });
-        }
+        self.settle(reference, warnings)?;
+        let (view, size) = (self.view, reference.size());
+        let Some(setup) = &mut self.setup else { unreachable!("it has just been settled") };
         let gaze_px = view.trace.as_ref().map(|trace| trace[step.frame].px);
         if let Some(gaze_px) = gaze_px {
             setup.look_at(gaze_px);

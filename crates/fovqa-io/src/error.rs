@@ -179,8 +179,10 @@ impl ReadErrorKind {
             }
             Self::Chromaticities => "write the file with valid primaries, or without the attribute",
             Self::NotOpenExr => "save motion and depth as OpenEXR",
-            Self::NoGuide { .. } => "name the channels, or render them",
-            Self::SeveralGuides { .. } => "name the one that is meant, with its layer in front",
+            Self::NoGuide { .. } => "name the channels with {guides}, or render them",
+            Self::SeveralGuides { .. } => {
+                "name the one that is meant with {guides}, its layer in front"
+            }
             Self::DisplayWindows => "save all parts with the display window of the colour",
         }
     }

@@ -84,8 +84,8 @@ fn wavelet(left: &HaarBand, right: &HaarBand) -> HaarBand {
     HaarBand {
         coefficients,
         statistics: either(left.statistics, right.statistics, pool),
-        orientations: either(left.orientations, right.orientations, |l, r| {
-            std::array::from_fn(|i| pool(l[i], r[i]))
+        orientations: either(left.orientations.clone(), right.orientations.clone(), |l, r| {
+            Box::new(std::array::from_fn(|i| pool(l[i], r[i])))
         }),
     }
 }

@@ -141,7 +141,7 @@ impl FrameResult {
                 let band = band.as_ref()?;
                 let statistics = match of.checked_sub(1) {
                     None => band.statistics?,
-                    Some(index) => band.orientations?[index],
+                    Some(index) => band.orientations.as_ref()?[index],
                 };
                 Some(statistics.values()[statistic])
             });

@@ -1,8 +1,8 @@
 //! The files of a run, written whole and read again: whoever looks sees the old file or the new
 //! one, never half of either.
 
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -54,9 +54,25 @@ pub enum FileError {
 /// # Errors
 /// When the system refuses either; nothing is left behind then, and what was there stays.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    write_whole_with(path, |out| out.write_all(bytes))
+}
+
+/// The same, of a file too large to be held in memory.
+///
+/// # Errors
+/// As [`write_whole`].
+pub fn write_whole_with(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), FileError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
-    let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
+    let written = File::create(&temporary).and_then(|file| {
+        let mut out = BufWriter::new(file);
+        write(&mut out)?;
+        out.flush()?;
+        fs::rename(&temporary, path)
+    });
     written.map_err(|error| {
         // It may not even have come into being.
         let _ = fs::remove_file(&temporary);

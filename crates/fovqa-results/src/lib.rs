@@ -13,7 +13,7 @@ pub use compared::{Compared, HaarStatistic, Measure, Sides};
 pub use csv_table::{COLUMNS, ERROR, write_csv, write_results_csv};
 pub use files::{
     FileError, REPORT_JSON, RESULTS_CSV, RUN_JSON, SUMMARY_JSON, read_json_file, write_json_file,
-    write_whole,
+    write_whole, write_whole_with,
 };
 pub use json::{
     BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,

@@ -149,11 +149,11 @@ impl Summary {
 
 /// Each measure of reference and test alike over the frames.
 fn compared(frames: &[FrameResult]) -> BTreeMap<Measure, SideStatistics> {
-    let mut values: BTreeMap<Measure, Sides<Vec<f64>>> = BTreeMap::new();
+    let mut values: BTreeMap<Measure, Sides<Gathered>> = BTreeMap::new();
     for (measure, sides) in frames.iter().flat_map(FrameResult::all_compared) {
         let entry = values.entry(measure).or_default();
-        entry.reference.extend(sides.reference);
-        entry.test.extend(sides.test);
+        entry.reference.add(sides.reference);
+        entry.test.add(sides.test);
     }
     let statistics = values.into_iter().map(|(measure, values)| {
         let maximum = measure.statistic.is_some_and(HaarStatistic::is_maximum);
@@ -162,18 +162,32 @@ fn compared(frames: &[FrameResult]) -> BTreeMap<Measure, SideStatistics> {
     statistics.collect()
 }
 
-impl Spread {
+/// Values on their way to a [`Spread`].
+#[derive(Debug, Clone, Copy, Default)]
+struct Gathered {
+    sum: f64,
+    count: usize,
+    extremes: Option<(f64, f64)>,
+}
+
+impl Gathered {
+    fn add(&mut self, value: Option<f64>) {
+        let Some(value) = value else { return };
+        let (min, max) = self.extremes.unwrap_or((value, value));
+        self.extremes = Some((min.min(value), max.max(value)));
+        self.sum += value;
+        self.count += 1;
+    }
+
     /// `None` without a value.
-    fn of(values: &[f64]) -> Option<Self> {
-        let min = values.iter().copied().reduce(f64::min)?;
-        let max = values.iter().copied().reduce(f64::max)?;
-        Some(Self { mean: values.iter().sum::<f64>() / values.len() as f64, min, max })
+    fn spread(&self) -> Option<Spread> {
+        self.extremes.map(|(min, max)| Spread { mean: self.sum / self.count as f64, min, max })
     }
 }
 
 impl SideStatistics {
-    fn of(values: &Sides<Vec<f64>>, maximum: bool) -> Self {
-        let Sides { reference, test } = values.map(|values| Spread::of(values));
+    fn of(values: &Sides<Gathered>, maximum: bool) -> Self {
+        let Sides { reference, test } = values.map(Gathered::spread);
         let statistics = Self { reference, test, ratio: None };
         Self { ratio: statistics.headline(maximum).ratio(), ..statistics }
     }
@@ -188,12 +202,15 @@ impl SideStatistics {
 impl AtdSummary {
     fn of(report: &ScoreReport) -> Self {
         let found = || report.frames.iter().filter_map(|frame| frame.atd.as_ref());
-        let pairs =
-            found().filter_map(|atd| Some((atd.reference.whole.mean?, atd.test.whole.mean?)));
-        let (reference, test): (Vec<f64>, Vec<f64>) = pairs.unzip();
-        let frames = reference.len();
-        let mean = |values: &[f64]| Spread::of(values).map(|spread| spread.mean);
-        let sides = Sides { reference: mean(&reference), test: mean(&test) };
+        let mut gathered: Sides<Gathered> = Sides::default();
+        for atd in found() {
+            if let (Some(reference), Some(test)) = (atd.reference.whole.mean, atd.test.whole.mean) {
+                gathered.reference.add(Some(reference));
+                gathered.test.add(Some(test));
+            }
+        }
+        let frames = gathered.test.count;
+        let sides = gathered.map(|values| values.spread().map(|spread| spread.mean));
         let left_out = |side: fn(&Sides<AtdFrame>) -> &AtdFrame| {
             let sum = |of: fn(&AtdFrame) -> u64| found().map(|atd| of(side(atd))).sum::<u64>();
             let pixels = sum(|atd| atd.pixels);

@@ -102,14 +102,14 @@ impl From<[f64; 3]> for HaarStatistics {
 }
 
 /// One level in one band.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct HaarBand {
     /// How many coefficients: three a block.
     pub coefficients: u64,
     /// Over all of them; `None` where there is none.
     pub statistics: Option<HaarStatistics>,
-    /// Of LH, HL and HH, where that is asked for.
-    pub orientations: Option<[HaarStatistics; 3]>,
+    /// Of LH, HL and HH, where that is asked for, which is seldom.
+    pub orientations: Option<Box<[HaarStatistics; 3]>>,
 }
 
 /// Sums over coefficients of one orientation.
@@ -147,7 +147,8 @@ pub(crate) fn band(sums: &[Sums; 3], blocks: u64, orientations: bool) -> HaarBan
     HaarBand {
         coefficients: 3 * blocks,
         statistics: some.then(|| all.statistics(3 * blocks)),
-        orientations: (some && orientations).then(|| sums.map(|sums| sums.statistics(blocks))),
+        orientations: (some && orientations)
+            .then(|| Box::new(sums.map(|sums| sums.statistics(blocks)))),
     }
 }
 

@@ -173,7 +173,8 @@ fn marked(group: &Group, values: impl Iterator<Item = Option<f64>>) -> Vec<Cell>
     values.into_iter().map(cell).collect()
 }
 
-/// The means over the scenes that all methods have; `None` where there are not two of them.
+/// The means over the scenes that all methods have, of the measures for which there are at least two;
+/// `None` where there is no such measure.
 fn average(groups: &[Group], rows: &[Row]) -> Option<Row> {
     let mut scenes = Vec::new();
     let cells = groups.iter().enumerate().map(|(index, group)| {
@@ -182,19 +183,19 @@ fn average(groups: &[Group], rows: &[Row]) -> Option<Row> {
             .map(|row| &row.cells[index])
             .filter(|cells| cells.iter().all(|cell| cell.value.is_some()))
             .collect();
-        scenes.push(whole.len());
+        let several = whole.len() > 1;
+        if several {
+            scenes.push(whole.len());
+        }
+        let of = |method: usize| {
+            mean(&whole.iter().filter_map(|cells| cells[method].value).collect::<Vec<_>>())
+        };
         let methods = rows[0].cells[index].len();
-        marked(
-            group,
-            (0..methods).map(|method| {
-                mean(&whole.iter().filter_map(|cells| cells[method].value).collect::<Vec<_>>())
-            }),
-        )
+        marked(group, (0..methods).map(|method| of(method).filter(|_| several)))
     });
     let cells = cells.collect();
     let (fewest, most) = (scenes.iter().min().copied()?, scenes.iter().max().copied()?);
     let label = match fewest {
-        0 | 1 => return None,
         all if all == rows.len() => "Average".to_owned(),
         count if count == most => format!("Average of the {count} scenes all methods have"),
         _ => "Average of the scenes all methods have".to_owned(),

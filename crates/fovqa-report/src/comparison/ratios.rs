@@ -146,16 +146,12 @@ impl Ratios<'_> {
         level: Option<&usize>,
     ) -> Option<f64> {
         let is_it = |from: f64, to: f64| (from, to) == edges;
-        match level {
-            Some(&level) => {
-                let mut records = comparison.haar.iter();
-                let of = |r: &&HaarRecord<Spread>| r.level == level && is_it(r.from_deg, r.to_deg);
-                haar_ratio(records.find(of)?, self.statistic)
-            }
-            None => {
-                let band = comparison.bands.iter().find(|b| is_it(b.from_deg, b.to_deg))?;
-                band.compared.get(&self.metric)?.ratio
-            }
-        }
+        let Some(&level) = level else {
+            let band = comparison.bands.iter().find(|b| is_it(b.from_deg, b.to_deg))?;
+            return band.compared.get(&self.metric)?.ratio;
+        };
+        let mut records = comparison.haar.iter();
+        let of = |r: &&HaarRecord<Spread>| r.level == level && is_it(r.from_deg, r.to_deg);
+        haar_ratio(records.find(of)?, self.statistic)
     }
 }
