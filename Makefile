@@ -1,9 +1,14 @@
 # Each line is plain cargo, for those without make. Everything but `lint` shares the release profile.
 
-.PHONY: demo test bench lint
+.PHONY: demo figures test bench lint
 
 demo:
 	cargo run --release --locked --bin fovqa -- run configs/demo.toml
+
+figures:
+	for figure in 4 10 12; do \
+	  cargo run --release --locked --bin fovqa -- run configs/papers/patney-fig-$$figure.toml --output reports/papers/patney-fig-$$figure || exit; \
+	done
 
 test:
 	cargo test --release --locked --workspace

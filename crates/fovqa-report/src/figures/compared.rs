@@ -59,8 +59,13 @@ impl Selection<'_> {
             let chart = self.chart(scene, y, values)?;
             let side = 1u64 << level;
             let title = Some(format!("Level {level} ({side}×{side} px)"));
-            // Half as wide as a chart alone: every other edge.
-            let x_ticks = chart.x_ticks.map(|ticks| ticks.into_iter().step_by(2).collect());
+            // Half as wide as a chart alone: of many edges every other one.
+            let every =
+                |ticks: &Vec<f64>| if ticks.len() > MOST_EDGE_TICKS / 2 + 1 { 2 } else { 1 };
+            let x_ticks = chart.x_ticks.map(|ticks| {
+                let every = every(&ticks);
+                ticks.into_iter().step_by(every).collect()
+            });
             Some(LineChart { title, x_ticks, ..chart })
         };
         let panels: Vec<LineChart> = levels.iter().filter_map(panel).collect();
