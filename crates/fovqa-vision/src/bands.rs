@@ -113,14 +113,12 @@ impl BandMap {
         side: usize,
         count: [usize; 2],
     ) -> Self {
-        let decide = Decide {
-            eccentricity,
-            keys: edges.0.iter().map(|&deg| eccentricity.key_of_deg(deg)).collect(),
-            edges_deg: &edges.0,
-            side_px: side as f64,
-        };
+        let decide = Decide::new(eccentricity, edges, side);
+        let mut ends = [vec![0; edges.0.len() + 1], vec![0; edges.0.len() + 1]];
         let [columns, rows] = count;
-        Self::from_rows(edges.count(), rows, |y, runs| decide.row(y, columns, runs))
+        Self::from_rows(edges.count(), rows, |y, runs| {
+            RowRuns::new(&decide, y, &mut ends, runs).fill(columns);
+        })
     }
 
     /// No bands at all: every pixel outside.
@@ -180,26 +178,36 @@ impl BandMap {
     }
 }
 
+/// Well above the rounding of a key, so that a pixel nearer than this to an edge is decided by its
+/// eccentricity proper.
+const NEAR: f64 = 1e-12;
+
 struct Decide<'a> {
     eccentricity: &'a Eccentricity,
     keys: Vec<f64>,
+    /// For each number of edges below, the keys between which it is that, clear of any edge.
+    clear: Vec<(f64, f64)>,
     edges_deg: &'a [f64],
     /// Side of what is decided on: 1 for pixels.
     side_px: f64,
 }
 
-impl Decide<'_> {
+impl<'a> Decide<'a> {
+    fn new(eccentricity: &'a Eccentricity, edges: &'a BandEdges, side: usize) -> Self {
+        let keys: Vec<_> = edges.0.iter().map(|&deg| eccentricity.key_of_deg(deg)).collect();
+        let from = keys.iter().map(|edge| edge * (1.0 + 2.0 * NEAR));
+        let to = keys.iter().map(|edge| edge * (1.0 - 2.0 * NEAR));
+        let clear = [f64::NEG_INFINITY].into_iter().chain(from).zip(to.chain([f64::INFINITY]));
+        let clear = clear.collect();
+        Self { eccentricity, keys, clear, edges_deg: &edges.0, side_px: side as f64 }
+    }
+
     fn centre_px(&self, index: usize) -> f64 {
         (index as f64 + 0.5) * self.side_px
     }
 
-    /// How many edges lie at or below the eccentricity of the centre of a pixel, or block.
-    fn edges_below(&self, x: usize, y: usize) -> usize {
-        /// Well above the rounding of a key, so that a pixel nearer than this to an edge is
-        /// decided by its eccentricity proper.
-        const NEAR: f64 = 1e-12;
-        let (x_px, y_px) = (self.centre_px(x), self.centre_px(y));
-        let key = self.eccentricity.key(x_px, y_px);
+    /// How many edges lie at or below the eccentricity of a point.
+    fn edges_below(&self, key: f64, [x_px, y_px]: [f64; 2]) -> usize {
         let below = self.keys.partition_point(|edge| *edge <= key);
         let is_near = |edge: Option<&f64>| edge.is_some_and(|e| (e - key).abs() <= NEAR * key);
         let near_one_below = below > 0 && is_near(self.keys.get(below - 1));
@@ -209,60 +217,113 @@ impl Decide<'_> {
         }
         below
     }
+}
+
+/// The runs of one row being found.
+struct RowRuns<'a> {
+    decide: &'a Decide<'a>,
+    y_px: f64,
+    /// Where a run last ended, in this row or one above, for each number of edges below it; first
+    /// where eccentricity falls, then where it rises.
+    ends: &'a mut [Vec<usize>; 2],
+    /// Those of the rows above, then those of this one from `first`.
+    runs: &'a mut Vec<Run>,
+    first: usize,
+    /// Edges below the last pixel.
+    below: usize,
+}
+
+impl<'a> RowRuns<'a> {
+    fn new(
+        decide: &'a Decide<'a>,
+        y: usize,
+        ends: &'a mut [Vec<usize>; 2],
+        runs: &'a mut Vec<Run>,
+    ) -> Self {
+        Self { decide, y_px: decide.centre_px(y), ends, first: runs.len(), runs, below: 0 }
+    }
+
+    /// How many edges lie at or below the eccentricity of the centre of a pixel, or block. Sooner
+    /// if as many as expected: by a branch, which the processor foresees.
+    fn edges_below(&self, x: usize, expected: usize) -> usize {
+        let x_px = self.decide.centre_px(x);
+        let key = self.decide.eccentricity.key(x_px, self.y_px);
+        let (from, to) = self.decide.clear[expected];
+        if from < key && key < to {
+            return expected;
+        }
+        self.decide.edges_below(key, [x_px, self.y_px])
+    }
 
     /// Along a row eccentricity turns once at most and is monotone to each side: a stretch with
     /// the same band at both ends has no other in between.
-    fn row(&self, y: usize, width: usize, runs: &mut Vec<Run>) {
-        let first = runs.len();
-        let turn = self.eccentricity.turning_x_px(self.centre_px(y)) / self.side_px - 0.5;
+    fn fill(&mut self, width: usize) {
+        let turn = self.decide.eccentricity.turning_x_px(self.y_px) / self.decide.side_px - 0.5;
         // Two pixels to each side of the turn are looked at one by one: its own rounding.
         let turn =
             if turn.is_finite() { turn.floor().clamp(-8.0, width as f64 + 8.0) } else { -8.0 };
         let near = |offset: f64| ((turn + offset).max(0.0) as usize).min(width);
         let (left, right) = (near(-2.0), near(4.0));
-        self.stretch(y, 0, left, first, runs);
+        self.stretch(0, left);
         for x in left..right {
-            self.push(x + 1, self.edges_below(x, y), first, runs);
+            self.push(x + 1, self.edges_below(x, self.below));
         }
-        self.stretch(y, right, width, first, runs);
+        self.stretch(right, width);
     }
 
-    fn stretch(&self, y: usize, from: usize, to: usize, first: usize, runs: &mut Vec<Run>) {
-        if from < to {
-            let ends = (self.edges_below(from, y), self.edges_below(to - 1, y));
-            self.halve(y, (from, ends.0), (to - 1, ends.1), first, runs);
+    fn stretch(&mut self, from: usize, to: usize) {
+        if from >= to {
+            return;
         }
+        let last = (to - 1, self.edges_below(to - 1, self.below));
+        let mut start = (from, self.edges_below(from, self.below));
+        while start.1 != last.1 {
+            let next = self.next_run(start, last);
+            self.ends[usize::from(last.1 > start.1)][start.1] = next.0;
+            self.push(next.0, start.1);
+            start = next;
+        }
+        self.push(to, last.1);
     }
 
-    fn halve(
+    /// The first pixel with other edges below than `inside`, up to `outside`, which has others.
+    /// Rows are alike: looks where the run above ended, ever farther from there until the end is
+    /// passed, and then halves what is left.
+    fn next_run(
         &self,
-        y: usize,
-        (from, below_from): (usize, usize),
-        (last, below_last): (usize, usize),
-        first: usize,
-        runs: &mut Vec<Run>,
-    ) {
-        if below_from == below_last {
-            self.push(last + 1, below_from, first, runs);
-        } else if last - from == 1 {
-            self.push(last, below_from, first, runs);
-            self.push(last + 1, below_last, first, runs);
-        } else {
-            let middle = from.midpoint(last);
-            let below_middle = self.edges_below(middle, y);
-            self.halve(y, (from, below_from), (middle, below_middle), first, runs);
-            self.halve(y, (middle, below_middle), (last, below_last), first, runs);
+        (mut inside, below): (usize, usize),
+        mut outside: (usize, usize),
+    ) -> (usize, usize) {
+        let rises = outside.1 > below;
+        let beyond = if rises { below + 1 } else { below - 1 };
+        let (mut x, mut step) = (self.ends[usize::from(rises)][below], 1);
+        let mut expected = beyond;
+        while outside.0 - inside > 1 {
+            if x <= inside || x >= outside.0 {
+                x = inside.midpoint(outside.0);
+            }
+            let below_x = self.edges_below(x, expected);
+            if below_x == below {
+                (inside, expected) = (x, beyond);
+                x += step;
+            } else {
+                (outside, expected) = ((x, below_x), below);
+                x = x.saturating_sub(step);
+            }
+            step = (2 * step).min(outside.0 - inside);
         }
+        outside
     }
 
     /// Ends a run at column `end`, or lengthens the one before it.
-    fn push(&self, end: usize, edges_below: usize, first: usize, runs: &mut Vec<Run>) {
-        let bands = self.edges_deg.len() - 1;
+    fn push(&mut self, end: usize, edges_below: usize) {
+        self.below = edges_below;
+        let bands = self.decide.edges_deg.len() - 1;
         let inside = (1..=bands).contains(&edges_below);
         let band = if inside { edges_below - 1 } else { bands } as u16;
-        match runs[first..].last_mut() {
+        match self.runs[self.first..].last_mut() {
             Some(run) if run.band == band => run.end = end as u32,
-            _ => runs.push(Run { end: end as u32, band }),
+            _ => self.runs.push(Run { end: end as u32, band }),
         }
     }
 }
@@ -271,7 +332,9 @@ impl Decide<'_> {
 mod tests {
     use super::*;
     use crate::eccentricity::EccentricityKind;
-    use crate::view::ViewSpec;
+    use crate::view::{View, ViewSpec};
+    use proptest::array::uniform2;
+    use proptest::collection::vec;
     use proptest::prelude::*;
 
     fn brute(e: &Eccentricity, edges: &BandEdges, x: usize, y: usize) -> usize {
@@ -330,6 +393,50 @@ mod tests {
                     let run = map.row(j).iter().find(|run| i < run.end as usize).unwrap();
                     prop_assert_eq!(usize::from(run.band), want.unwrap_or(edges.count()));
                 }
+            }
+        }
+
+        #[test]
+        fn bands_that_come_and_go_between_rows_are_found(
+            (width, height) in (1usize..130, 1usize..60), side in 1usize..4,
+            focal_px in uniform2(30.0..300.0f64), principal_px in uniform2(-50.0..150.0f64),
+            gaze_px in uniform2(-150.0..250.0f64), far in 0i32..2, on_grid in any::<bool>(),
+            planar in any::<bool>(), on_pixels in vec((0usize..130, 0usize..60, -1i8..=1), 0..40),
+            between_deg in vec(0.0..=180.0f64, 2..12), straight_back in any::<bool>(),
+        ) {
+            let view = View { width, height, focal_px, principal_px };
+            let kind = if planar { EccentricityKind::Planar } else { EccentricityKind::Angular };
+            let gaze_px = gaze_px.map(|v| v * 10f64.powi(far));
+            let gaze_px = if on_grid { gaze_px.map(|v| v.floor() + 0.5) } else { gaze_px };
+            let e = Eccentricity::new(view, gaze_px, kind);
+            let centre = |index: usize| (index as f64 + 0.5) * side as f64;
+            // Exactly on a pixel, or the least bit to one side of it.
+            let on_pixels = on_pixels.iter().map(|&(x, y, aside)| {
+                let deg = e.at_deg(centre(x % width), centre(y % height));
+                match aside {
+                    -1 => deg.next_down().max(0.0),
+                    1 => deg.next_up().min(180.0),
+                    _ => deg,
+                }
+            });
+            let mut edges: Vec<f64> = on_pixels.chain(between_deg).collect();
+            edges.extend(straight_back.then_some(180.0));
+            edges.sort_by(f64::total_cmp);
+            edges.dedup();
+            let edges = BandEdges::new(edges).unwrap();
+            let map = BandMap::of_blocks(&e, &edges, side, [width, height]);
+            for y in 0..height {
+                let mut want: Vec<Run> = Vec::new();
+                for x in 0..width {
+                    let deg = e.at_deg(centre(x), centre(y));
+                    let band = edges.iter().position(|(from, to)| (from..to).contains(&deg));
+                    let run = Run { end: x as u32 + 1, band: band.unwrap_or(edges.count()) as u16 };
+                    match want.last_mut() {
+                        Some(last) if last.band == run.band => *last = run,
+                        _ => want.push(run),
+                    }
+                }
+                prop_assert_eq!(map.row(y), want, "row {}", y);
             }
         }
     }
