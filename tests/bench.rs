@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use fovqa_io::{ReadOptions, read_frame};
+use fovqa_io::{DepthChannels, GuideOptions, MotionChannels, ReadOptions, read_frame};
 use fovqa_testkit::exr_files::{File, Part, Values};
 use fovqa_testkit::png_files::write8;
 use fovqa_testkit::synthetic::{codes, disturbed};
@@ -17,8 +17,10 @@ use wait4::Wait4;
 /// Runs of each case; the median counts.
 const RUNS: usize = 7;
 
-/// This program decoding alone, for comparison.
+/// This program decoding alone, for comparison: colour, with motion and depth where a file has them and
+/// they are of use.
 const DECODE: &str = "--decode-only";
+const DECODE_ALL: &str = "--decode-all";
 
 /// This program writing the inputs into a folder.
 const MAKE: &str = "--make-inputs";
@@ -28,6 +30,12 @@ const FULL_HD: (usize, usize) = (1920, 1080);
 
 const FIDELITY: [&str; 6] =
     ["--fov-vertical", "60", "--metrics", "mse,psnr,ssim,ms-ssim,fpsnr,fssim", "--format", "json"];
+
+const PROFILES: [&str; 6] =
+    ["--fov-vertical", "60", "--metrics", "rms-contrast,haar", "--format", "json"];
+
+/// Frames of the sequence.
+const FRAMES: usize = 8;
 
 /// What a run took.
 #[derive(Clone, Copy)]
@@ -132,6 +140,64 @@ fn make(folder: &Path, width: usize, height: usize) {
     }
 }
 
+/// Writes a sequence: references with motion and depth, and tests without.
+fn make_sequence(folder: &Path, width: usize, height: usize) {
+    let light = |name: &str, c: usize| {
+        let codes = enlarged(name, width, height);
+        let light = |code: &u8| (f32::from(*code) / 255.0).powf(2.2);
+        Values::Half(codes.iter().skip(c).step_by(3).map(light).collect())
+    };
+    let each = |value: &dyn Fn(f32, f32) -> f32| {
+        let at = |i: usize| value((i % width) as f32, (i / width) as f32);
+        Values::Half((0..width * height).map(at).collect())
+    };
+    // A camera that moves forward and turns a little, before a floor.
+    let channels = [
+        ("R", light("gt.png", 0)),
+        ("G", light("gt.png", 1)),
+        ("B", light("gt.png", 2)),
+        ("Z", each(&|_, y| 3000.0 / (y + 100.0))),
+        ("motion.X", each(&|x, y| (x - 1900.0) * 0.004 + y * 0.0003 + 0.37)),
+        ("motion.Y", each(&|x, y| (y - 1000.0) * 0.003 + x * 0.0005 - 0.2)),
+    ];
+    for side in ["gt", "test"] {
+        std::fs::create_dir_all(folder.join("sequence").join(side)).unwrap();
+    }
+    let path = |side: &str, frame: usize, ending: &str| {
+        folder.join("sequence").join(side).join(format!("{frame:04}.{ending}"))
+    };
+    File::new(vec![Part::new((width, height), &channels)]).write(&path("gt", 0, "exr"));
+    write8(&path("test", 0, "png"), width, height, &enlarged("rmfr.png", width, height));
+    for frame in 1..FRAMES {
+        for (side, ending) in [("gt", "exr"), ("test", "png")] {
+            std::fs::hard_link(path(side, 0, ending), path(side, frame, ending)).unwrap();
+        }
+    }
+}
+
+/// Differences over time, a frame, beyond decoding.
+fn sequence(folder: &Path) {
+    let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
+    let this = std::env::current_exe().unwrap().display().to_string();
+    let [gt, test] =
+        ["gt", "test"].map(|side| folder.join("sequence").join(side).display().to_string());
+    let decode = measure(&this, &[DECODE_ALL, &gt, &test]);
+    let score = measure(fovqa, &["score", &gt, &test, "--metrics", "atd", "--format", "json"]);
+    let megapixels = FRAMES as f64 * 8.2944;
+    let name = "4K EXR, motion, depth; PNG; 8 frames";
+    row(&format!("{name}: decoding"), Some(megapixels), decode, None);
+    row(&format!("{name}: ATD"), Some(megapixels), score, None);
+    if let (Some(decode), Some(score)) = (decode, score) {
+        let frames = (FRAMES - 1) as f64;
+        let beyond = Cost {
+            cpu_s: (score.cpu_s - decode.cpu_s) / frames,
+            wall_s: (score.wall_s - decode.wall_s) / frames,
+            peak_mib: score.peak_mib - decode.peak_mib,
+        };
+        row("4K: ATD, a frame beyond decoding", Some(8.2944), Some(beyond), Some("0.08"));
+    }
+}
+
 fn compare(name: &str, pair: &Pair, aim: Option<&str>, aim_beyond: Option<&str>) {
     let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
     let this = std::env::current_exe().unwrap().display().to_string();
@@ -141,14 +207,19 @@ fn compare(name: &str, pair: &Pair, aim: Option<&str>, aim_beyond: Option<&str>)
     let score = measure(fovqa, &[&["score", a, b][..], &FIDELITY].concat());
     row(&format!("{name}: decoding alone"), megapixels, decode, None);
     row(&format!("{name}: six metrics, bands"), megapixels, score, aim);
-    if let (Some(decode), Some(score)) = (decode, score) {
-        let beyond = Cost {
+    let beyond = |score: Option<Cost>| {
+        let (score, decode) = (score?, decode?);
+        Some(Cost {
             cpu_s: score.cpu_s - decode.cpu_s,
             wall_s: score.wall_s - decode.wall_s,
             peak_mib: score.peak_mib - decode.peak_mib,
-        };
-        row(&format!("{name}: beyond decoding"), megapixels, Some(beyond), aim_beyond);
-    }
+        })
+    };
+    row(&format!("{name}: beyond decoding"), megapixels, beyond(score), aim_beyond);
+    let profiles = measure(fovqa, &[&["score", a, b][..], &PROFILES].concat());
+    let aim = aim_beyond.map(|_| "0.06");
+    let what = format!("{name}: contrast, wavelet beyond that");
+    row(&what, megapixels, beyond(profiles), aim);
 }
 
 /// Methods of the experiments.
@@ -221,11 +292,21 @@ fn main() {
                 read_frame(Path::new(file), &ReadOptions::default()).unwrap();
             }
         }
+        [DECODE_ALL, folders @ ..] => {
+            let auto = GuideOptions { motion: MotionChannels::Auto, depth: DepthChannels::Auto };
+            let options = ReadOptions { guides: auto, ..ReadOptions::default() };
+            for folder in folders {
+                for file in std::fs::read_dir(folder).unwrap() {
+                    read_frame(&file.unwrap().path(), &options).unwrap();
+                }
+            }
+        }
         [MAKE, folder] => {
             for (width, height) in [FOUR_K, FULL_HD] {
                 make(Path::new(folder), width, height);
             }
             make_experiments(Path::new(folder));
+            make_sequence(Path::new(folder), FOUR_K.0, FOUR_K.1);
         }
         _ => report(),
     }
@@ -245,6 +326,7 @@ fn report() {
     compare("4K PNG", &four_k, Some("0.60 CPU s, 350 MiB"), Some("0.30"));
     compare("1080p PNG", &pair("png", FULL_HD), Some("0.18 CPU s"), None);
     compare("4K EXR, half, ZIP", &pair("exr", FOUR_K), None, None);
+    sequence(folder.path());
     let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
     row("fovqa --version", None, measure(fovqa, &["--version"]), Some("0.010 wall s"));
     experiments(folder.path());

@@ -15,6 +15,9 @@ impl DepthPlane {
     pub fn take(&mut self, depth: &Plane) {
         let width = depth.width();
         self.width = width;
+        if self.values.is_empty() {
+            self.values = vec![0.0; width * depth.height()];
+        }
         self.values.resize(width * depth.height(), 0.0);
         let blocks = self.values.par_chunks_mut(BLOCK_ROWS * width).enumerate();
         blocks.for_each(|(block, rows)| {
@@ -22,6 +25,12 @@ impl DepthPlane {
                 depth.fill_row(block * BLOCK_ROWS + y, 0..width, row);
             }
         });
+    }
+
+    /// All values.
+    #[inline(always)]
+    pub(crate) fn values(&self) -> &[f32] {
+        &self.values
     }
 
     /// Row `y`.

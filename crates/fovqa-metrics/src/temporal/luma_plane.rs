@@ -11,6 +11,10 @@ impl LumaPlane {
     /// The plane with room for another size; what it holds is not cleared.
     pub(crate) fn resized(&mut self, width: usize, height: usize) -> &mut Self {
         self.width = width;
+        if self.values.is_empty() {
+            // Zeroed by the system, page by page as it is written.
+            self.values = vec![0.0; width * height];
+        }
         self.values.resize(width * height, 0.0);
         self
     }
@@ -27,6 +31,12 @@ impl LumaPlane {
     /// Height in pixels; 0 before anything was put in.
     pub fn height(&self) -> usize {
         self.values.len().checked_div(self.width).unwrap_or(0)
+    }
+
+    /// All values.
+    #[inline(always)]
+    pub(crate) fn values(&self) -> &[f32] {
+        &self.values
     }
 
     /// Row `y`.

@@ -44,8 +44,19 @@ pub(crate) struct Sources {
     weight: [Vec<f32>; 2],
     /// 1 where the source can be compared, 0 elsewhere.
     valid: Vec<u32>,
-    /// For each whole [`STRETCH`], whether its pixels move together and all their taps are in the frame.
-    together: Vec<bool>,
+    /// How the taps of each [`STRETCH`] lie.
+    reach: Vec<Reach>,
+}
+
+/// How the taps of some pixels lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Reach {
+    /// Side by side, within the frame: the pixels, a whole stretch of them, move together.
+    Together,
+    /// Within the frame.
+    Inside,
+    /// Some of them beyond its border.
+    Beyond,
 }
 
 impl Sources {
@@ -57,7 +68,7 @@ impl Sources {
             whole: std::array::from_fn(|_| vec![0; columns]),
             weight: std::array::from_fn(|_| vec![0.0; columns]),
             valid: vec![1; columns],
-            together: vec![false; columns.div_ceil(STRETCH)],
+            reach: vec![Reach::Beyond; columns.div_ceil(STRETCH)],
         }
     }
 
@@ -79,7 +90,7 @@ impl Sources {
                 }
             }
         }
-        self.find_together(at);
+        self.find_reach(at);
         if let (Some((now, before)), Some(tolerance)) = (link.depth, tolerance) {
             now.fill_row(at.y, at.x..at.x + n, &mut self.depth[..n]);
             compare_depth(self, before, tolerance, at);
@@ -111,18 +122,23 @@ impl Sources {
         }
     }
 
-    /// Finds the stretches whose pixels move together.
-    fn find_together(&mut self, at: Stretch) {
+    /// Finds how the taps of each stretch lie.
+    fn find_reach(&mut self, at: Stretch) {
         let [across, down] = self.whole.each_ref().map(|whole| &whole[..at.pixels]);
         let parts = across.chunks(STRETCH).zip(down.chunks(STRETCH));
-        for (i, ((across, down), together)) in parts.zip(&mut self.together).enumerate() {
+        for (i, ((across, down), reach)) in parts.zip(&mut self.reach).enumerate() {
             let (x, y) = ((at.x + i * STRETCH) as i64, at.y as i64);
-            let (left, top) = (x + i64::from(across[0]), y + i64::from(down[0]));
-            let inside = left >= 0
-                && top >= 0
-                && left + (across.len() as i64) < at.width as i64
-                && top + 1 < at.height as i64;
-            *together = inside && across.len() == STRETCH && alike(across) && alike(down);
+            let (left, right) = extremes(across);
+            let (up, below) = extremes(down);
+            let inside = x + i64::from(left) >= 0
+                && y + i64::from(up) >= 0
+                && x + i64::from(right) + (across.len() as i64) < at.width as i64
+                && y + i64::from(below) + 1 < at.height as i64;
+            *reach = match (inside, left == right && up == below && across.len() == STRETCH) {
+                (true, true) => Reach::Together,
+                (true, false) => Reach::Inside,
+                (false, _) => Reach::Beyond,
+            };
         }
     }
 
@@ -162,11 +178,12 @@ impl Sources {
         }
     }
 
-    /// The upper left tap of a stretch whose pixels move together.
+    /// The upper left tap of a pixel whose taps are in the frame, as an index into its plane.
     #[inline(always)]
-    fn first_tap(&self, i: usize, at: Stretch) -> (usize, usize) {
+    fn first_tap(&self, i: usize, at: Stretch) -> usize {
         let x = (at.x + i) as i64 + i64::from(self.whole[0][i]);
-        (x as usize, (at.y as i64 + i64::from(self.whole[1][i])) as usize)
+        let y = at.y as i64 + i64::from(self.whole[1][i]);
+        (y * at.width as i64 + x) as usize
     }
 }
 
@@ -246,10 +263,11 @@ fn follow_scaled(motion: &[f32], scale: f64, line: Line, found: Found<'_>) {
     }
 }
 
-/// Whether all numbers are one. A fold, not `all`: without an early way out it vectorises.
-fn alike(numbers: &[i32]) -> bool {
+/// The smallest and the largest of some numbers.
+#[inline(always)]
+fn extremes(numbers: &[i32]) -> (i32, i32) {
     let first = numbers.first().copied().unwrap_or_default();
-    numbers.iter().fold(0, |apart, number| apart | (number ^ first)) == 0
+    numbers.iter().fold((first, first), |(low, high), &n| (low.min(n), high.max(n)))
 }
 
 /// Leaves out pixels whose source lies at another depth: what has just come into sight.
@@ -260,10 +278,10 @@ fn compare_depth(sources: &mut Sources, before: &DepthPlane, tolerance: f64, at:
         let end = (start + STRETCH).min(at.pixels);
         let n = end - start;
         let (right, below) = (&sources.weight[0][start..end], &sources.weight[1][start..end]);
-        if sources.together[part]
-            && let (x, y) = sources.first_tap(start, at)
-            && let Some(top) = stretch_of(before.row(y), x)
-            && let Some(bottom) = stretch_of(before.row(y + 1), x)
+        let reach = sources.reach[part];
+        if reach == Reach::Together
+            && let [Some(top), Some(bottom)] =
+                taps_of(before.values(), sources.first_tap(start, at), at)
             && let (Some(right), Some(below)) =
                 (right.first_chunk::<STRETCH>(), below.first_chunk::<STRETCH>())
         {
@@ -272,6 +290,11 @@ fn compare_depth(sources: &mut Sources, before: &DepthPlane, tolerance: f64, at:
                 let lower = if right[i] >= 0.5 { bottom[i + 1] } else { bottom[i] };
                 then[i] = if below[i] >= 0.5 { lower } else { upper };
             }
+        } else if reach == Reach::Inside {
+            for i in 0..n {
+                let holder = usize::from(right[i] >= 0.5) + usize::from(below[i] >= 0.5) * at.width;
+                then[i] = before.values()[sources.first_tap(start + i, at) + holder];
+            }
         } else {
             for i in 0..n {
                 let taps = sources.taps(start + i, at);
@@ -279,7 +302,13 @@ fn compare_depth(sources: &mut Sources, before: &DepthPlane, tolerance: f64, at:
                 then[i] = row[if right[i] >= 0.5 { taps.right } else { taps.left }];
             }
         }
-        let (now, valid) = (&sources.depth[start..end], &mut sources.valid[start..end]);
+        let now = &sources.depth[start..end];
+        if let Some(now) = now.first_chunk()
+            && clearly_alike(now, &then, tolerance as f32)
+        {
+            continue;
+        }
+        let valid = &mut sources.valid[start..end];
         for i in 0..n {
             let (now, then) = (f64::from(now[i]), f64::from(then[i]));
             // False for whatever is not finite: sky may be far, but not infinitely far.
@@ -289,16 +318,28 @@ fn compare_depth(sources: &mut Sources, before: &DepthPlane, tolerance: f64, at:
     }
 }
 
+/// Whether depths agree with so much to spare that f32 can tell, as most do.
+#[inline(always)]
+fn clearly_alike(now: &[f32; STRETCH], then: &[f32; STRETCH], tolerance: f32) -> bool {
+    const TO_SPARE: f32 = 0.999;
+    let mut alike = true;
+    for i in 0..STRETCH {
+        let near = (then[i] - now[i]).abs() <= TO_SPARE * tolerance * now[i].abs();
+        alike &= near & (now[i].abs() < f32::MAX);
+    }
+    alike
+}
+
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn fetch(sources: &Sources, before: &LumaPlane, at: Stretch, out: &mut [f32]) {
     for (part, out) in out[..at.pixels].chunks_mut(STRETCH).enumerate() {
         let (start, n) = (part * STRETCH, out.len());
         let end = start + n;
         let (right, below) = (&sources.weight[0][start..end], &sources.weight[1][start..end]);
-        if sources.together[part]
-            && let (x, y) = sources.first_tap(start, at)
-            && let Some(top) = stretch_of(before.row(y), x)
-            && let Some(bottom) = stretch_of(before.row(y + 1), x)
+        let reach = sources.reach[part];
+        if reach == Reach::Together
+            && let [Some(top), Some(bottom)] =
+                taps_of(before.values(), sources.first_tap(start, at), at)
             && let (Some(right), Some(below)) =
                 (right.first_chunk::<STRETCH>(), below.first_chunk::<STRETCH>())
             && let Some(out) = out.first_chunk_mut::<STRETCH>()
@@ -306,6 +347,15 @@ fn fetch(sources: &Sources, before: &LumaPlane, at: Stretch, out: &mut [f32]) {
             for i in 0..STRETCH {
                 let upper = between(top[i], top[i + 1], right[i]);
                 let lower = between(bottom[i], bottom[i + 1], right[i]);
+                out[i] = between(upper, lower, below[i]);
+            }
+        } else if reach == Reach::Inside {
+            for i in 0..n {
+                let first = sources.first_tap(start + i, at);
+                let (top, bottom) =
+                    (&before.values()[first..], &before.values()[first + at.width..]);
+                let upper = between(top[0], top[1], right[i]);
+                let lower = between(bottom[0], bottom[1], right[i]);
                 out[i] = between(upper, lower, below[i]);
             }
         } else {
@@ -320,10 +370,14 @@ fn fetch(sources: &Sources, before: &LumaPlane, at: Stretch, out: &mut [f32]) {
     }
 }
 
-/// The taps of pixels that move together.
+/// The upper and the lower taps of pixels that move together, the first of which is at an index.
 #[inline(always)]
-fn stretch_of(row: &[f32], x: usize) -> Option<&[f32; STRETCH + 1]> {
-    row.get(x..)?.first_chunk()
+fn taps_of(values: &[f32], first: usize, at: Stretch) -> [Option<&[f32; STRETCH + 1]>; 2] {
+    let below = first + at.width;
+    [
+        values.get(first..).and_then(<[f32]>::first_chunk),
+        values.get(below..).and_then(<[f32]>::first_chunk),
+    ]
 }
 
 #[inline(always)]
