@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
-use fovqa_metrics::{Better, Metric};
+use fovqa_metrics::{Better, Metric, MetricKind};
 use fovqa_vision::displays;
 
 use crate::args::Listed;
@@ -28,8 +28,16 @@ fn metrics() -> String {
             Better::Lower => "lower is better",
             Better::Neither => "neither high nor low is better",
         };
-        let default = if Metric::DEFAULT.contains(&metric) { ", by default" } else { "" };
-        let bands = if info.per_band { ", per band too" } else { "" };
+        let default = match (Metric::DEFAULT.contains(&metric), info.kind) {
+            (false, _) => "",
+            (true, MetricKind::Temporal) => ", by default for sequences",
+            (true, _) => ", by default",
+        };
+        let bands = match (info.per_band, info.kind) {
+            (false, _) => "",
+            (true, MetricKind::Profile) => ", per band",
+            (true, _) => ", per band too",
+        };
         let view = if info.needs_view { ", needs a view" } else { "" };
         let _ = writeln!(text, "{} ({}{unit})", info.key, info.label);
         let _ = writeln!(text, "    {}", info.about);

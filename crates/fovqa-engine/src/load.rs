@@ -26,6 +26,8 @@ pub(crate) enum LoadError {
         test: String,
         test_size: (usize, usize),
     },
+    #[error("{file}: no file of {what} belongs to it")]
+    NoGuideFile { file: String, what: &'static str },
     #[error("{file}: channel {} is {} at pixel ({}, {}){}", bad.channel, bad.value, bad.x, bad.y, more(bad.pixels))]
     Nonfinite { file: String, bad: BadPixel },
 }
@@ -45,6 +47,9 @@ impl LoadError {
             Self::Crop { .. } => "{crop} is in pixels of the file",
             Self::Size { .. } => {
                 "nothing is resampled: render both at one size, or cut with {crop}"
+            }
+            Self::NoGuideFile { .. } => {
+                "files of motion and depth pair with the reference by name, then by the last number in it"
             }
             Self::Nonfinite { .. } => {
                 "mend the render, or leave such pixels out with {nonfinite=mask}"
@@ -186,6 +191,16 @@ impl Loader<'_> {
             return Ok(side);
         }
         let named = &self.settings.guides;
+        let lacks =
+            |wanted: &Option<PathBuf>, file: &Option<PathBuf>| wanted.is_some() && file.is_none();
+        for (what, lacks) in [
+            ("motion", !first && lacks(&self.settings.motion_files, &files.motion)),
+            ("depth", lacks(&self.settings.depth_files, &files.depth)),
+        ] {
+            if lacks {
+                return Err(LoadError::NoGuideFile { file: side.file, what });
+            }
+        }
         if let Some(file) = &files.motion {
             let motion = GuideOptions { motion: named.motion.clone(), ..GuideOptions::default() };
             side.guides.motion = self.guides_of(file, &motion, &mut side)?.motion;
