@@ -12,6 +12,9 @@ use crate::output;
 use crate::progress::Terminal;
 use crate::threads;
 
+/// Of a great many failures, as many as a terminal holds.
+const FAILURES_SHOWN: usize = 20;
+
 pub(crate) fn run(args: ScoreArgs) -> Exit {
     let format = args.format;
     if let Err(message) = threads::start(args.threads) {
@@ -32,7 +35,7 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
             return if error.is_usage() { Exit::Usage } else { Exit::Input };
         }
     };
-    for failure in &report.failures {
+    for failure in report.failures.iter().take(FAILURES_SHOWN) {
         let frame = match failure.frame {
             Some(frame) if report.failures.len() + report.frames.len() > 1 => {
                 format!("frame {frame}: ")
@@ -41,6 +44,12 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
         };
         let help = Dialect::Options.spell(&failure.help);
         diagnostic::error(&format!("{frame}{}", failure.message), &help);
+    }
+    let more = report.failures.len().saturating_sub(FAILURES_SHOWN);
+    if more > 0 {
+        diagnostic::note(&format!(
+            "{more} more frames could not be scored; --format json lists them"
+        ));
     }
     // Nothing that looks like a result where nothing was scored.
     let written = if report.frames.is_empty() {
