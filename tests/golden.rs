@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fovqa_testkit::golden::{Case, cases};
+use fovqa_testkit::golden::{AtdValues, Case, Haar, atd, cases};
 use serde_json::Value;
 
 use crate::fovqa::{Run, command, root, shared};
@@ -10,11 +10,15 @@ use crate::fovqa::{Run, command, root, shared};
 /// Largest deviations from scikit-image and NumPy (docs/metrics.md).
 const PSNR_DB: f64 = 1e-4;
 const SSIM: f64 = 1e-5;
+const RMS_CONTRAST: f64 = 1e-6;
+/// Relative deviations from PyWavelets and NumPy.
+const HAAR: f64 = 1e-5;
+const ATD: f64 = 1e-4;
 
 fn score(folder: &Path, case: &Case, channels: &str) -> Value {
     let file = |name: &str| folder.join(name).display().to_string();
     let list = |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
-    let metrics = "mse,psnr,ssim,fpsnr,fssim".to_owned()
+    let metrics = "mse,psnr,ssim,fpsnr,fssim,rms-contrast,haar".to_owned()
         + if case.width.min(case.height) >= 176 { ",ms-ssim" } else { "" };
     let (reference, test) = (file(&case.reference), file(&case.test));
     let (fov, bands) = (case.vfov_deg.to_string(), list(&case.bands_deg));
@@ -91,8 +95,104 @@ fn check(folder: &Path) {
                 assert_eq!(found["pixels"], band.pixels, "{what}");
                 assert_eq!(found["to_deg"], band.to_deg, "{what}");
                 near(&what, &found["psnr"], band.psnr, PSNR_DB);
+                for (side, contrast) in
+                    [("reference", band.rms_contrast_reference), ("test", band.rms_contrast_test)]
+                {
+                    let found = &found["rms_contrast"][side];
+                    assert!(contrast.is_some(), "{what}: no contrast to hold it to");
+                    near(&format!("{what} contrast {side}"), found, contrast, RMS_CONTRAST);
+                }
+            }
+            check_haar(&case.id, &frame["haar"], "reference", &case.haar_reference);
+            check_haar(&case.id, &frame["haar"], "test", &case.haar_test);
+        }
+    }
+}
+
+/// All levels and bands of one picture; where the golden values have none, there is none.
+fn check_haar(id: &str, found: &Value, side: &str, golden: &[Haar]) {
+    let found = found.as_array().unwrap();
+    assert!(!golden.is_empty());
+    for Haar { level, from_deg, to_deg, coefficients, mean_abs, max_abs, energy } in golden {
+        let is_it = |h: &&Value| h["level"] == *level && h["from_deg"] == *from_deg;
+        let found = found.iter().find(is_it).unwrap();
+        let what = format!("{id} {side} level {level} from {from_deg}°");
+        assert_eq!(found["to_deg"], *to_deg, "{what}");
+        assert_eq!(found["coefficients"], *coefficients, "{what}");
+        for (statistic, want) in [("mean_abs", mean_abs), ("max_abs", max_abs), ("energy", energy)]
+        {
+            let what = format!("{what} {statistic}");
+            near(&what, &found[side][statistic], Some(*want), HAAR * want);
+        }
+    }
+    let some = found.iter().filter(|found| found["coefficients"] != 0).count();
+    assert_eq!(some, golden.len(), "{id}");
+}
+
+/// The differences over time of both methods of a sequence, along the motion in its ground truth.
+fn check_atd(golden: &Path, data: &Path) {
+    let golden = atd(golden);
+    let exposure = golden.exposure_stops.to_string();
+    let reference = data.join("gt").display().to_string();
+    for method in ["rmfr_noaa", "rmfr_taa"] {
+        let test = data.join(method).display().to_string();
+        for (values, tolerance) in [
+            (&golden.atd, "atd.depth_tolerance=0.05"),
+            (&golden.atd_borders_only, "atd.depth_tolerance=off"),
+        ] {
+            let arguments = [
+                "score",
+                &reference,
+                &test,
+                "--metrics",
+                "atd",
+                "--exposure",
+                &exposure,
+                "--set",
+                tolerance,
+                "--format",
+                "json",
+            ];
+            let json = Run::from(command(&arguments).output().unwrap()).ok().json();
+            let with_depth = !tolerance.ends_with("off");
+            let all = &json["sequence"]["atd"];
+            assert_eq!(all["motion"], "reference");
+            assert_eq!(all["depth"], if with_depth { "reference" } else { "none" });
+            for (side, sequence) in [("reference", "gt"), ("test", method)] {
+                let AtdValues { mean, frames } = &values[sequence];
+                let what = format!("{sequence} {tolerance}");
+                near(&what, &all[side], Some(*mean), ATD * mean);
+                let found = json["frames"].as_array().unwrap();
+                assert_eq!((found.len(), found[0].get("atd")), (frames.len() + 1, None));
+                for (found, want) in found[1..].iter().zip(frames) {
+                    let what = format!("{what} frame {}", found["frame"]);
+                    near(&what, &found["atd"][side], Some(*want), ATD * want);
+                }
+            }
+            if with_depth {
+                let left_out = &golden.left_out;
+                let mean = left_out.iter().sum::<f64>() / left_out.len() as f64;
+                near("left out", &all["left_out"], Some(mean), 1e-12);
+                assert_eq!(all.get("left_out_test"), None, "the test has no motion of its own");
+                for (frame, want) in left_out.iter().enumerate() {
+                    let found = &json["frames"][frame + 1]["atd"];
+                    near(&format!("left out of {frame}"), &found["left_out"], Some(*want), 1e-12);
+                    assert_eq!(found["left_out"], found["left_out_test"]);
+                }
             }
         }
+    }
+}
+
+#[test]
+fn differences_over_time_of_the_committed_sequence() {
+    check_atd(&root().join("tests/golden/small"), &root().join("tests/data/small/classroom"));
+}
+
+#[test]
+fn differences_over_time_of_the_long_sequence() {
+    if let (Some(golden), Some(data)) = (shared("golden/sequence"), shared("data/sequence")) {
+        check_atd(&golden, &data);
     }
 }
 

@@ -1,9 +1,11 @@
 //! Golden values: what independent implementations found for the same pictures.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 /// One pair of pictures with its values. `None` for decibels of identical pictures, or for what
 /// is not defined.
@@ -30,6 +32,8 @@ pub struct Case {
     pub fssim_rgb: f64,
     pub fssim_luma: f64,
     pub bands: Vec<Band>,
+    pub haar_reference: Vec<Haar>,
+    pub haar_test: Vec<Haar>,
 }
 
 /// Values of one band.
@@ -41,6 +45,44 @@ pub struct Band {
     pub pixels: u64,
     #[serde(default)]
     pub psnr: Option<f64>,
+    #[serde(default)]
+    pub rms_contrast_reference: Option<f64>,
+    #[serde(default)]
+    pub rms_contrast_test: Option<f64>,
+}
+
+/// One picture's wavelet coefficients of one level in one band.
+#[derive(Debug, Clone, Deserialize)]
+#[allow(missing_docs, reason = "a field is named after what it holds")]
+pub struct Haar {
+    pub level: usize,
+    pub from_deg: f64,
+    pub to_deg: f64,
+    pub coefficients: u64,
+    pub mean_abs: f64,
+    pub max_abs: f64,
+    pub energy: f64,
+}
+
+/// Differences over time of the ground truth and of methods, by their folders.
+#[derive(Debug, Clone, Deserialize)]
+#[allow(missing_docs, reason = "a field is named after what it holds")]
+pub struct AtdCase {
+    pub exposure_stops: f64,
+    /// Sources beyond the borders and at another depth left out.
+    pub atd: BTreeMap<String, AtdValues>,
+    /// Sources beyond the borders alone left out.
+    pub atd_borders_only: BTreeMap<String, AtdValues>,
+    /// Share of the pixels left out with depth, from the second frame on.
+    pub left_out: Vec<f64>,
+}
+
+/// Differences over time of one sequence, from its second frame on.
+#[derive(Debug, Clone, Deserialize)]
+#[allow(missing_docs, reason = "a field is named after what it holds")]
+pub struct AtdValues {
+    pub mean: f64,
+    pub frames: Vec<f64>,
 }
 
 /// The cases of `golden.json` in a folder.
@@ -48,6 +90,18 @@ pub struct Band {
 /// # Panics
 /// When it is not there, or not what it should be.
 pub fn cases(folder: &Path) -> Vec<Case> {
-    let text = fs::read_to_string(folder.join("golden.json")).expect("golden.json");
-    serde_json::from_str(&text).expect("golden.json in its form")
+    values(folder, "golden.json")
+}
+
+/// `atd.json` in a folder.
+///
+/// # Panics
+/// When it is not there, or not what it should be.
+pub fn atd(folder: &Path) -> AtdCase {
+    values(folder, "atd.json")
+}
+
+fn values<T: DeserializeOwned>(folder: &Path, file: &str) -> T {
+    let text = fs::read_to_string(folder.join(file)).expect("a file of golden values");
+    serde_json::from_str(&text).expect("golden values in their form")
 }
