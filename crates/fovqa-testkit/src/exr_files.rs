@@ -57,6 +57,22 @@ impl Part {
         let half = Values::Half(plane);
         Self::new(size, &[("R", half.clone()), ("G", half.clone()), ("B", half)])
     }
+
+    /// The same with more channels.
+    #[must_use]
+    pub fn with(mut self, channels: &[(&str, Values)]) -> Self {
+        self.channels.extend(Self::new(self.size, channels).channels);
+        self
+    }
+
+    /// The same with all its channels in a layer.
+    #[must_use]
+    pub fn in_layer(mut self, layer: &str) -> Self {
+        for (name, _) in &mut self.channels {
+            *name = format!("{layer}.{name}");
+        }
+        self
+    }
 }
 
 /// How a file is put together.
