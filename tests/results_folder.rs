@@ -240,6 +240,29 @@ fn memory_for_pixels_does_not_grow_with_frames() {
     assert!(ten > 0 && all < ten + 16_000, "{ten} kB for 10 frames, {all} kB for 200");
 }
 
+/// All that is found of a frame, with every default metric: what is kept of it until the end is small.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_for_values_hardly_grows_with_frames() {
+    let folder = Folder::new();
+    folder.png_pair("gt/0000.png", "a/0000.png", 48, 40);
+    for frame in 1..1000 {
+        for side in ["gt", "a"] {
+            let first = folder.path(&format!("{side}/0000.png"));
+            fs::hard_link(first, folder.path(&format!("{side}/{frame:04}.png"))).unwrap();
+        }
+    }
+    folder.write(
+        "e.toml",
+        format!("{HEAD}[[scene]]\nname = \"s\"\nreference = \"gt\"\n[[method]]\nname = \"A\"\ntest = \"a\"\n[[plot]]\nkind = \"table\"\n"),
+    );
+    let ten = peak_kb(&folder, &["run", "e.toml", "--threads", "2", "--frames", "0..10"]);
+    let all = peak_kb(&folder, &["run", "e.toml", "--threads", "2"]);
+    assert!(ten > 0 && all < ten + 16_000, "{ten} kB for 10 frames, {all} kB for 1000");
+    let haar = rows(&folder, "reports/e").iter().filter(|row| row["metric"] == "haar").count();
+    assert!(haar > 1000 * 5 * 7, "{haar}");
+}
+
 /// A drawing that does not need a file any more takes it away, and no other.
 #[test]
 fn a_new_drawing_takes_away_what_it_does_not_draw() {
