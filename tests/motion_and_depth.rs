@@ -213,7 +213,7 @@ fn motion_files_that_do_not_fit_are_errors_of_their_frame() {
     std::fs::remove_file(folder.path("motion/0002.exr")).unwrap();
     let run = score();
     assert_eq!(run.code, 3);
-    run.says(&["frame 2: gt/0002.exr has no motion vectors, and frames before it have some"]);
+    run.says(&["frame 2: gt/0002.exr: no file of motion belongs to it"]);
     folder.png("motion/0002.png", W, H, &codes(W, H, 3, 1));
     let run = score();
     assert_eq!(run.code, 3);
