@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use fovqa_frame::{Guides, Mask, Plane};
 use fovqa_metrics::Regions;
-use fovqa_metrics::temporal::{AtdFrame, DepthPlane, Link, LumaPlane, atd, differences};
+use fovqa_metrics::temporal::{AtdFrame, KeptPlane, Link, atd, differences};
 use fovqa_results::{AtdGuides, GuideSource, Sides};
 
 use crate::load::{Fault, Side};
@@ -15,14 +15,14 @@ pub(crate) struct Temporal {
     reference: Reference,
     tests: BTreeMap<usize, Test>,
     /// The luma of the test at hand.
-    test_luma: LumaPlane,
+    test_luma: KeptPlane,
 }
 
 /// The reference, now and before.
 #[derive(Default)]
 struct Reference {
-    now: LumaPlane,
-    before: LumaPlane,
+    now: KeptPlane,
+    before: KeptPlane,
     /// Positions of the frames the two are of.
     at: Option<usize>,
     before_at: Option<usize>,
@@ -35,7 +35,7 @@ struct Reference {
 /// A test, before.
 #[derive(Default)]
 struct Test {
-    luma: LumaPlane,
+    luma: KeptPlane,
     /// Position of the frame it is of.
     at: Option<usize>,
     depth: Depth,
@@ -48,7 +48,7 @@ struct Test {
 /// Depth of the frame before.
 #[derive(Default)]
 struct Depth {
-    plane: DepthPlane,
+    plane: KeptPlane,
     at: Option<usize>,
 }
 
@@ -60,7 +60,7 @@ impl Depth {
         }
     }
 
-    fn of(&self, position: usize) -> Option<&DepthPlane> {
+    fn of(&self, position: usize) -> Option<&KeptPlane> {
         (self.at == Some(position)).then_some(&self.plane)
     }
 }
@@ -118,7 +118,7 @@ impl Temporal {
             params,
             reference: Reference::default(),
             tests: BTreeMap::new(),
-            test_luma: LumaPlane::default(),
+            test_luma: KeptPlane::default(),
         }
     }
 
@@ -129,7 +129,7 @@ impl Temporal {
     }
 
     /// Where the reference's luma goes; `None` where it is there already.
-    pub(crate) fn reference_luma(&mut self, position: usize) -> Option<&mut LumaPlane> {
+    pub(crate) fn reference_luma(&mut self, position: usize) -> Option<&mut KeptPlane> {
         let reference = &mut self.reference;
         if reference.at == Some(position) {
             return None;
@@ -141,7 +141,7 @@ impl Temporal {
     }
 
     /// Where the test's luma goes.
-    pub(crate) fn test_luma(&mut self) -> &mut LumaPlane {
+    pub(crate) fn test_luma(&mut self) -> &mut KeptPlane {
         &mut self.test_luma
     }
 

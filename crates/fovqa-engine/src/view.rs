@@ -2,7 +2,7 @@
 
 use fovqa_config::{EyeView, Plan};
 use fovqa_frame::{Mask, PairSignal, SignalTables};
-use fovqa_metrics::temporal::LumaPlane;
+use fovqa_metrics::temporal::KeptPlane;
 use fovqa_metrics::{BlockRegions, Metric, MetricKind, Profile, Profiler, Regions, ScoreError};
 use fovqa_results::{AtdGuides, Failure, FrameResult, GuideSource, Sides, ViewResult};
 use fovqa_vision::BandEdges;
@@ -260,7 +260,7 @@ impl Measuring<'_> {
         (!self.profiler.is_idle()).then_some(Sides { reference, test })
     }
 
-    fn one(&self, side: &Side, plane: Option<&mut LumaPlane>) -> Profile {
+    fn one(&self, side: &Side, plane: Option<&mut KeptPlane>) -> Profile {
         if self.profiler.is_idle() && plane.is_none() {
             return Profile::default();
         }

@@ -137,6 +137,14 @@ pub fn read_frame_and_hash(
     path: &Path,
     options: &ReadOptions,
 ) -> Result<(Decoded, FileId), ReadError> {
+    hashed(path, |file| decode(file, options))
+}
+
+/// What is decoded of a file, with the identity of its bytes.
+pub(crate) fn hashed<T>(
+    path: &Path,
+    decode: impl FnOnce(File) -> Result<T, ReadErrorKind>,
+) -> Result<(T, FileId), ReadError> {
     let read = || {
         let mut file = open(path)?;
         // One more pass over the file, whose pages are in memory from then on: no decoder reads all
@@ -144,7 +152,7 @@ pub fn read_frame_and_hash(
         // taken for it.
         let id = FileId::of(&mut file)?;
         file.rewind()?;
-        Ok((decode(file, options)?, id))
+        Ok((decode(file)?, id))
     };
     read().map_err(|kind: ReadErrorKind| kind.at(path))
 }

@@ -23,7 +23,7 @@ pub enum GuidePreset {
     /// its own, with `R` and `G`.
     ///
     /// "Motion vector pointing from current to previous position expressed in screen space
-    /// [0,1] with origin in the top-left corner" (`calcMotionVector` in NVIDIAGameWorks/Falcor,
+    /// \[0,1\] with origin in the top-left corner" (`calcMotionVector` in NVIDIAGameWorks/Falcor,
     /// Source/Falcor/Utils/Helpers.slang; channel names in
     /// Source/RenderPasses/GBuffer/GBuffer/GBuffer.cpp and GBufferRaster.cpp). So the unit is
     /// the frame and the sign `[1, 1]`. `linearZ` holds the depth in R and its derivative in G;

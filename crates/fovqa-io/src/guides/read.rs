@@ -1,14 +1,13 @@
 //! Files that hold motion or depth and need no colour.
 
 use std::fs::File;
-use std::io::Seek;
 use std::path::Path;
 
 use fovqa_frame::Guides;
 
 use super::search::GuideSearch;
 use crate::contain::contained;
-use crate::decode::{EXR_MAGIC, Note, ReadOptions, buffered, open};
+use crate::decode::{EXR_MAGIC, Note, ReadOptions, buffered, hashed, open};
 use crate::error::{ReadError, ReadErrorKind};
 use crate::exr;
 use crate::file_id::FileId;
@@ -42,13 +41,7 @@ pub fn read_guides_and_hash(
     path: &Path,
     options: &ReadOptions,
 ) -> Result<(DecodedGuides, FileId), ReadError> {
-    let read = || {
-        let mut file = open(path)?;
-        let id = FileId::of(&mut file)?;
-        file.rewind()?;
-        Ok((decode(file, options)?, id))
-    };
-    read().map_err(|kind: ReadErrorKind| kind.at(path))
+    hashed(path, |file| decode(file, options))
 }
 
 fn decode(file: File, options: &ReadOptions) -> Result<DecodedGuides, ReadErrorKind> {

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::haar::{self, Sums};
 use super::rms_contrast::Moments;
 use crate::regions::{BlockRegions, Regions, clipped};
-use crate::temporal::LumaPlane;
+use crate::temporal::KeptPlane;
 
 /// Columns of a tile, as many as the coarsest block within a block of rows times something.
 const TILE_COLUMNS: usize = 512;
@@ -69,7 +69,7 @@ impl ProfileSums {
 
 /// Runs the pass, blocks of rows in parallel, and adds them up in order. `plane`, of the picture's
 /// size, is filled with the luma.
-pub(crate) fn run(wanted: &Wanted<'_>, plane: Option<&mut LumaPlane>) -> ProfileSums {
+pub(crate) fn run(wanted: &Wanted<'_>, plane: Option<&mut KeptPlane>) -> ProfileSums {
     let (width, height) = (wanted.luma.width(), wanted.luma.height());
     let ranges = (0..height).step_by(BLOCK_ROWS).map(|y| y..(y + BLOCK_ROWS).min(height));
     let rows: Vec<Option<&mut [f32]>> = match plane {

@@ -8,7 +8,7 @@ use super::rms_contrast;
 use crate::params::Params;
 use crate::regions::{BlockRegions, Regions};
 use crate::registry::Metric;
-use crate::temporal::LumaPlane;
+use crate::temporal::KeptPlane;
 
 /// What there is to say of one picture.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -57,7 +57,7 @@ impl Profiler {
         tables: &SignalTables,
         regions: &Regions<'_>,
         blocks: &BlockRegions<'_>,
-        plane: Option<&mut LumaPlane>,
+        plane: Option<&mut KeptPlane>,
     ) -> Profile {
         assert_eq!(regions.rows(), frame.height(), "regions of this picture");
         let plane = plane.map(|plane| plane.resized(frame.width(), frame.height()));

@@ -7,7 +7,7 @@ use fovqa_testkit::synthetic::{codes, rgb8};
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, ViewSpec};
 
 use super::*;
-use crate::temporal::LumaPlane;
+use crate::temporal::KeptPlane;
 use crate::{BlockRegions, Metric, ParamValue, Params, Regions};
 
 const EDGES_DEG: [f64; 4] = [0.0, 10.0, 20.0, 35.0];
@@ -54,7 +54,7 @@ impl Setup {
         rows.collect()
     }
 
-    fn measure(&self, plane: Option<&mut LumaPlane>) -> Profile {
+    fn measure(&self, plane: Option<&mut KeptPlane>) -> Profile {
         let profiler = Profiler::new(&[Metric::RmsContrast, Metric::Haar], &self.params);
         let edges = BandEdges::new(EDGES_DEG.to_vec()).unwrap();
         let bands = BandMap::new(&self.eccentricity, &edges);
@@ -261,7 +261,7 @@ fn parameters_of_contrast() {
 #[test]
 fn the_luma_is_left_for_the_next_frame() {
     let setup = Setup::new(600, 131);
-    let mut plane = LumaPlane::default();
+    let mut plane = KeptPlane::default();
     setup.measure(Some(&mut plane));
     assert_eq!((plane.width(), plane.height()), (600, 131));
     for (y, row) in setup.luma().iter().enumerate() {

@@ -3,14 +3,14 @@
 //! Of frame t: mean over valid pixels of |Y_t(x) - Y_{t-1}(x + m_t(x))|, Y the luma of the
 //! display-encoded signal, m the backward motion in pixels, bilinear fetch at pixel centres, clamped to the
 //! frame. A pixel is valid when its source x + m lies in [0, W) x [0, H) and, where depth is given,
-//! |Z_{t-1}[s] - Z_t[x]| ≤ `depth_tolerance` |Z_t[x]|, s the pixel that holds the source. Non-finite
+//! |Z_{t-1}(s) - Z_t(x)| ≤ `depth_tolerance` |Z_t(x)|, s the pixel that holds the source. Non-finite
 //! motion or depth is not valid. In [0, 1]; lower is steadier, and the ratio to the reference's is the
 //! papers' percentage.
 
 use fovqa_frame::map_row_blocks;
 use multiversion::multiversion;
 
-use super::luma_plane::LumaPlane;
+use super::kept_plane::KeptPlane;
 use super::source::{Link, Sources, Stretch};
 use crate::params::ParamValue;
 use crate::regions::{Regions, clipped};
@@ -83,7 +83,7 @@ struct Sums {
 /// When regions, motion, depth or planes are not of one size.
 pub fn differences(
     link: &Link<'_>,
-    pictures: &[(&LumaPlane, &LumaPlane)],
+    pictures: &[(&KeptPlane, &KeptPlane)],
     params: &Params,
 ) -> Vec<AtdFrame> {
     let Some((first, _)) = pictures.first() else { return Vec::new() };
@@ -138,7 +138,7 @@ impl Sums {
 
 struct Block<'a> {
     link: &'a Link<'a>,
-    pictures: &'a [(&'a LumaPlane, &'a LumaPlane)],
+    pictures: &'a [(&'a KeptPlane, &'a KeptPlane)],
     tolerance: Option<f64>,
     size: (usize, usize),
     sources: Sources,
@@ -149,7 +149,7 @@ struct Block<'a> {
 impl<'a> Block<'a> {
     fn new(
         link: &'a Link<'a>,
-        pictures: &'a [(&'a LumaPlane, &'a LumaPlane)],
+        pictures: &'a [(&'a KeptPlane, &'a KeptPlane)],
         params: &Params,
         size: (usize, usize),
     ) -> Self {

@@ -3,8 +3,7 @@
 use fovqa_frame::{Mask, Motion, Plane};
 use multiversion::multiversion;
 
-use super::depth_plane::DepthPlane;
-use super::luma_plane::LumaPlane;
+use super::kept_plane::KeptPlane;
 use crate::regions::Regions;
 
 /// How a frame hangs together with the one before it.
@@ -13,7 +12,7 @@ pub struct Link<'a> {
     /// Backward motion; `None`: nothing moves.
     pub motion: Option<&'a Motion>,
     /// Depth of this frame and of the one before it; `None`: it is not looked at.
-    pub depth: Option<(&'a Plane, &'a DepthPlane)>,
+    pub depth: Option<(&'a Plane, &'a KeptPlane)>,
     /// Which pixels of this frame count, and into which band.
     pub regions: &'a Regions<'a>,
     /// Which pixels of the frame before it count; `None`: all.
@@ -161,7 +160,7 @@ impl Sources {
     }
 
     /// The luma at the sources of a stretch; anything where they are not valid.
-    pub(crate) fn fetch(&self, before: &LumaPlane, at: Stretch, out: &mut [f32]) {
+    pub(crate) fn fetch(&self, before: &KeptPlane, at: Stretch, out: &mut [f32]) {
         fetch(self, before, at, out);
     }
 
@@ -272,7 +271,7 @@ fn extremes(numbers: &[i32]) -> (i32, i32) {
 
 /// Leaves out pixels whose source lies at another depth: what has just come into sight.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn compare_depth(sources: &mut Sources, before: &DepthPlane, tolerance: f64, at: Stretch) {
+fn compare_depth(sources: &mut Sources, before: &KeptPlane, tolerance: f64, at: Stretch) {
     let mut then = [0.0f32; STRETCH];
     for (part, start) in (0..at.pixels).step_by(STRETCH).enumerate() {
         let end = (start + STRETCH).min(at.pixels);
@@ -331,7 +330,7 @@ fn clearly_alike(now: &[f32; STRETCH], then: &[f32; STRETCH], tolerance: f32) ->
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn fetch(sources: &Sources, before: &LumaPlane, at: Stretch, out: &mut [f32]) {
+fn fetch(sources: &Sources, before: &KeptPlane, at: Stretch, out: &mut [f32]) {
     for (part, out) in out[..at.pixels].chunks_mut(STRETCH).enumerate() {
         let (start, n) = (part * STRETCH, out.len());
         let end = start + n;

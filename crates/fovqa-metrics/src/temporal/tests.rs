@@ -15,8 +15,8 @@ fn noise(seed: u32, i: usize) -> f32 {
     ((h ^ (h >> 13)) % 1000) as f32 / 1000.0
 }
 
-fn plane(width: usize, height: usize, value: impl Fn(usize, usize) -> f32) -> LumaPlane {
-    let mut plane = LumaPlane::default();
+fn plane(width: usize, height: usize, value: impl Fn(usize, usize) -> f32) -> KeptPlane {
+    let mut plane = KeptPlane::default();
     let values = plane.resized(width, height).values_mut();
     for (i, v) in values.iter_mut().enumerate() {
         *v = value(i % width, i / width);
@@ -29,8 +29,8 @@ fn channel(width: usize, height: usize, value: impl Fn(usize, usize) -> f32) -> 
     Plane::new(width, height, PlaneSamples::F32(values)).unwrap()
 }
 
-fn depth_plane(width: usize, height: usize, value: impl Fn(usize, usize) -> f32) -> DepthPlane {
-    let mut plane = DepthPlane::default();
+fn depth_plane(width: usize, height: usize, value: impl Fn(usize, usize) -> f32) -> KeptPlane {
+    let mut plane = KeptPlane::default();
     plane.take(&channel(width, height, value));
     plane
 }
@@ -55,7 +55,7 @@ fn pattern(x: i64, y: i64) -> f32 {
     noise(3, (y * 4096 + x + 70_000) as usize)
 }
 
-fn only(link: &Link<'_>, now: &LumaPlane, before: &LumaPlane) -> AtdFrame {
+fn only(link: &Link<'_>, now: &KeptPlane, before: &KeptPlane) -> AtdFrame {
     differences(link, &[(now, before)], &Params::default()).remove(0)
 }
 

@@ -1,13 +1,17 @@
-//! The luma of a whole frame, kept for the next one.
+//! One value a pixel of a whole frame, kept for the next one.
 
-/// Luma, 0 to 1, row by row. Its memory is used again for frame after frame.
+use fovqa_frame::{BLOCK_ROWS, Plane};
+use rayon::prelude::*;
+
+/// Luma, 0 to 1, or depth in the renderer's units, row by row. Its memory is used again for frame after
+/// frame.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct LumaPlane {
+pub struct KeptPlane {
     width: usize,
     values: Vec<f32>,
 }
 
-impl LumaPlane {
+impl KeptPlane {
     /// The plane with room for another size; what it holds is not cleared.
     pub(crate) fn resized(&mut self, width: usize, height: usize) -> &mut Self {
         self.width = width;
@@ -17,6 +21,17 @@ impl LumaPlane {
         }
         self.values.resize(width * height, 0.0);
         self
+    }
+
+    /// Takes the values of another plane over.
+    pub fn take(&mut self, plane: &Plane) {
+        let width = plane.width();
+        let values = self.resized(width, plane.height()).values_mut();
+        values.par_chunks_mut(BLOCK_ROWS * width).enumerate().for_each(|(block, rows)| {
+            for (y, row) in rows.chunks_exact_mut(width).enumerate() {
+                plane.fill_row(block * BLOCK_ROWS + y, 0..width, row);
+            }
+        });
     }
 
     pub(crate) fn values_mut(&mut self) -> &mut [f32] {
