@@ -128,7 +128,9 @@ fn motion_and_depth_may_be_files_of_their_own() {
 fn motion_is_missing_in_the_first_frame_alone() {
     let folder = moved(5);
     write(&folder, "gt/0000.exr", part(moving(1, 0)));
-    is_steady(&atd(&folder, &[])["sequence"]["atd"]);
+    for which in ["auto", "mitsuba", "motion.X,motion.Y"] {
+        is_steady(&atd(&folder, &["--motion", which])["sequence"]["atd"]);
+    }
     write(&folder, "gt/0002.exr", part(moving(1, 2)));
     let run = folder.score(&["gt", "test", "--metrics", "atd", "--format", "json"]);
     assert_eq!(run.code, 3);

@@ -269,6 +269,30 @@ fn a_damaged_frame_costs_its_own_difference_and_the_next() {
     assert_eq!(json["sequence"]["atd"]["frames"], 2);
 }
 
+/// What one method lacks costs the others nothing, and itself the frame behind it.
+#[test]
+fn a_damaged_frame_of_one_method_costs_no_other() {
+    let folder = restless(4);
+    for frame in 0..4 {
+        write(&folder, &format!("b/{frame:04}.exr"), part(moving(3, frame * frame)));
+    }
+    folder.write("test/0001.exr", "no picture");
+    let method = "[[method]]\nname = \"B\"\ntest = \"b\"\n[metrics]";
+    folder.write("e.toml", experiment("").replace("[metrics]", method));
+    assert_eq!(folder.run(&["run", "e.toml"]).code, 3);
+    let rows = rows(&folder, "reports/e");
+    let frames = |method: &str| -> Vec<&str> {
+        let of = rows.iter().filter(|row| {
+            row["method"] == method && row["image"] == "test" && row["statistic"].is_empty()
+        });
+        of.map(|row| row["frame"].as_str()).collect()
+    };
+    assert_eq!((frames("A"), frames("B")), (vec!["3"], vec!["1", "2", "3"]));
+    let summary = experiment_folder::json(&folder, "reports/e/summary.json");
+    let alone = folder.json(&["gt", "b", "--metrics", "atd"]);
+    assert_eq!(summary["comparisons"][1]["atd"], alone["sequence"]["atd"]);
+}
+
 /// Holes: a pixel of the reference before, and one of the test now.
 const HOLES: [(usize, usize); 2] = [(20, 10), (40, 20)];
 
