@@ -241,6 +241,18 @@ fn a_test_with_motion_and_depth_of_its_own_is_compared_along_them() {
     assert_eq!((&all["reference"], &all["test"]), (&json!(0.0), &json!(0.0)));
     assert_eq!(all["left_out"], 0.0);
     near(&all["left_out_test"], beyond_borders());
+    // Also where the reference's motion stands in files of its own, but not by names that a user has
+    // given these, which may be those of colours in a test.
+    for frame in 0..3 {
+        let [x, y] = motion([0.0; 2]).map(|(_, values)| values);
+        write(&folder, &format!("mv/{frame}.exr"), Part::new(SIZE, &[("R", x), ("G", y)]));
+    }
+    let named = ["--motion-files", "mv", "--motion", "R,G"];
+    for (arguments, source) in [(&named[..2], "test"), (&named[..], "reference")] {
+        let all = &atd(&folder, arguments)["sequence"]["atd"];
+        assert_eq!((&all["motion"], &all["reference"]), (&json!(source), &json!(0.0)));
+        assert_eq!(all["test"] == 0.0, source == "test", "{all}");
+    }
     // With a depth of its own that jumps, nothing of it can be compared.
     for frame in 0..3 {
         let test = part(moving(2, frame)).with(&motion(MOTION)).with(&z(1.0 + frame as f32));

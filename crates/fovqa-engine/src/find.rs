@@ -1,7 +1,7 @@
 //! What can be settled before a pixel is read: the frames of every scene, paired, and the gaze of
 //! each.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -91,10 +91,12 @@ pub fn find(plan: &Plan) -> Found {
             };
             let mut pairings = Vec::new();
             let mut passed_over = 0;
+            let mut without_reference = BTreeSet::new();
             for (method, test) in &view.tests {
                 match paired(plan, &reference, test) {
                     Ok(mut pairs) => {
                         let mut alone = std::mem::take(&mut pairs.alone);
+                        without_reference.extend(alone.test.iter().filter_map(|(n, _)| *n));
                         alone.retain(|number| is_wanted(plan, scene, number));
                         if scene.allow_missing {
                             passed_over += alone.count();
@@ -111,7 +113,12 @@ pub fn find(plan: &Plan) -> Found {
                 continue;
             }
             let first = pairings[0].1.first;
-            match select(plan, scene, merge(pairings)).and_then(|mut frames| {
+            let mut frames = merge(pairings);
+            // Where a test has no reference, one is missing: what is on both sides is no neighbour.
+            for frame in &mut frames {
+                frame.position += without_reference.range(..frame.number).count();
+            }
+            match select(plan, scene, frames).and_then(|mut frames| {
                 find_guides(plan, view, &reference, &mut frames)?;
                 let trace = gaze_trace(view, scene, &frames, first)?;
                 Ok((frames, trace))

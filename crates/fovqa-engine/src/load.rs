@@ -165,20 +165,20 @@ impl Loader<'_> {
         let first = step.frame == 0;
         let (reference, test) = rayon::join(
             || step.reference.map(|(path, guides)| self.reference(path, guides, first)),
-            || self.side(step.test, &self.test_guides()),
+            || self.side(step.test, &self.beside_colour()),
         );
         Loaded { reference, test }
     }
 
-    /// What is looked for in a test: its own motion and depth, unless the reference's are known to
-    /// stand in files of their own, whose names may mean colours here.
-    fn test_guides(&self) -> GuideOptions {
+    /// What is looked for beside the colour: not the names a user has given channels of files of their
+    /// own, which may be those of colours here.
+    fn beside_colour(&self) -> GuideOptions {
         let Settings { guides, motion_files, depth_files, .. } = self.settings;
         let mut wanted = if self.guides { guides.clone() } else { GuideOptions::default() };
-        if motion_files.is_some() {
+        if motion_files.is_some() && matches!(wanted.motion, MotionChannels::Named(_)) {
             wanted.motion = MotionChannels::None;
         }
-        if depth_files.is_some() {
+        if depth_files.is_some() && matches!(wanted.depth, DepthChannels::Named(_)) {
             wanted.depth = DepthChannels::None;
         }
         wanted
@@ -186,7 +186,7 @@ impl Loader<'_> {
 
     /// A reference with its motion and depth, from its own file or from others.
     fn reference(&self, path: &Path, files: &GuideFiles, first: bool) -> Result<Side, LoadError> {
-        let mut side = self.side(path, &self.test_guides())?;
+        let mut side = self.side(path, &self.beside_colour())?;
         if !self.guides {
             return Ok(side);
         }
@@ -210,8 +210,10 @@ impl Loader<'_> {
             side.guides.depth = self.guides_of(file, &depth, &mut side)?.depth;
         }
         // What a user has named has to be there; what is only looked for need not.
-        let missing_motion = side.missing.motion.take().filter(|_| !first);
-        match missing_motion.or(side.missing.depth.take()) {
+        let missing_motion =
+            side.missing.motion.take().filter(|_| !first && files.motion.is_none());
+        let missing_depth = side.missing.depth.take().filter(|_| files.depth.is_none());
+        match missing_motion.or(missing_depth) {
             Some(kind) => Err(LoadError::Read(ReadError { path: PathBuf::from(&side.file), kind })),
             None => Ok(side),
         }

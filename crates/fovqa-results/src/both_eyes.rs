@@ -7,7 +7,7 @@ use fovqa_metrics::temporal::{AtdBand, AtdFrame};
 use fovqa_metrics::{BandScores, HaarBand, HaarStatistics, Metric, PairScores, Profile, psnr_db};
 
 use crate::compared::Sides;
-use crate::report::{FrameResult, ScoreReport};
+use crate::report::{AtdGuides, FrameResult, GuideSource, ScoreReport};
 
 /// The report of both eyes: the frames both have, by their numbers.
 pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
@@ -46,7 +46,19 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
         frames: frames.collect(),
         failures: Vec::new(),
         gaze_held: None,
-        atd_guides: left.atd_guides,
+        atd_guides: AtdGuides {
+            motion: common(left.atd_guides.motion, right.atd_guides.motion),
+            depth: common(left.atd_guides.depth, right.atd_guides.depth),
+        },
+    }
+}
+
+/// What holds for both eyes: nothing, where one of them has nothing.
+fn common(left: GuideSource, right: GuideSource) -> GuideSource {
+    match (left, right) {
+        (GuideSource::None, _) | (_, GuideSource::None) => GuideSource::None,
+        (GuideSource::Reference, GuideSource::Reference) => GuideSource::Reference,
+        _ => GuideSource::Test,
     }
 }
 
@@ -211,6 +223,26 @@ mod tests {
         assert_eq!((both.pixels, both.outside_bands, both.left_out), (400, 2, 4));
         assert_eq!(both.bands[0].scores[&Metric::Mse], Some(0.4375));
         assert_eq!(both.bands[1].scores[&Metric::Ssim], None);
+    }
+
+    #[test]
+    fn motion_of_both_is_what_both_have() {
+        use GuideSource::{None, Reference, Test};
+        for (left, right, both) in [
+            (None, Reference, None),
+            (Test, None, None),
+            (Reference, Reference, Reference),
+            (Reference, Test, Test),
+            (Test, Test, Test),
+        ] {
+            assert_eq!(common(left, right), both, "{left:?} {right:?}");
+        }
+        let of = |motion| ScoreReport {
+            atd_guides: AtdGuides { motion, depth: Reference },
+            ..ScoreReport::default()
+        };
+        let guides = both_eyes(&of(Reference), &of(None)).atd_guides;
+        assert_eq!(guides, AtdGuides { motion: None, depth: Reference });
     }
 
     #[test]
