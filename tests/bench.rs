@@ -21,6 +21,7 @@ const RUNS: usize = 7;
 /// they are of use.
 const DECODE: &str = "--decode-only";
 const DECODE_ALL: &str = "--decode-all";
+const DECODE_COLOUR: &str = "--decode-colour";
 
 /// This program writing the inputs into a folder.
 const MAKE: &str = "--make-inputs";
@@ -175,26 +176,34 @@ fn make_sequence(folder: &Path, width: usize, height: usize) {
     }
 }
 
-/// Differences over time, a frame, beyond decoding.
+/// Differences over time: alone, and what they add to profiles, without the decoding of motion and depth.
 fn sequence(folder: &Path) {
     let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
     let this = std::env::current_exe().unwrap().display().to_string();
     let [gt, test] =
         ["gt", "test"].map(|side| folder.join("sequence").join(side).display().to_string());
-    let decode = measure(&this, &[DECODE_ALL, &gt, &test]);
-    let score = measure(fovqa, &["score", &gt, &test, "--metrics", "atd", "--format", "json"]);
+    let [all, colour] = [DECODE_ALL, DECODE_COLOUR].map(|what| measure(&this, &[what, &gt, &test]));
+    let score = |metrics: &str| {
+        let view = ["--fov-vertical", "60", "--threads", "1", "--format", "json", "--metrics"];
+        measure(fovqa, &[&["score", &gt, &test][..], &view, &[metrics]].concat())
+    };
+    let (alone, profiles) = (score("atd"), score("rms-contrast,haar"));
+    let both = score("rms-contrast,haar,atd");
     let megapixels = FRAMES as f64 * 8.2944;
     let name = "4K EXR, motion, depth; PNG; 8 frames";
-    row(&format!("{name}: decoding"), Some(megapixels), decode, None);
-    row(&format!("{name}: ATD"), Some(megapixels), score, None);
-    if let (Some(decode), Some(score)) = (decode, score) {
+    row(&format!("{name}: decoding"), Some(megapixels), all, None);
+    row(&format!("{name}: ATD"), Some(megapixels), alone, None);
+    if let (Some(all), Some(colour), Some(profiles), Some(both)) = (all, colour, profiles, both) {
         let frames = (FRAMES - 1) as f64;
-        let beyond = Cost {
-            cpu_s: (score.cpu_s - decode.cpu_s) / frames,
-            wall_s: (score.wall_s - decode.wall_s) / frames,
-            peak_mib: score.peak_mib - decode.peak_mib,
+        let added = |figure: fn(&Cost) -> f64| {
+            (figure(&both) - figure(&profiles)) - (figure(&all) - figure(&colour))
         };
-        row("4K: ATD, a frame beyond decoding", Some(8.2944), Some(beyond), Some("0.08"));
+        let added = Cost {
+            cpu_s: added(|c| c.cpu_s) / frames,
+            wall_s: added(|c| c.wall_s) / frames,
+            peak_mib: added(|c| c.peak_mib),
+        };
+        row("4K: what ATD adds to profiles, a frame", Some(8.2944), Some(added), Some("0.08"));
     }
 }
 
@@ -292,9 +301,10 @@ fn main() {
                 read_frame(Path::new(file), &ReadOptions::default()).unwrap();
             }
         }
-        [DECODE_ALL, folders @ ..] => {
+        [what @ (DECODE_ALL | DECODE_COLOUR), folders @ ..] => {
             let auto = GuideOptions { motion: MotionChannels::Auto, depth: DepthChannels::Auto };
-            let options = ReadOptions { guides: auto, ..ReadOptions::default() };
+            let guides = if *what == DECODE_ALL { auto } else { GuideOptions::default() };
+            let options = ReadOptions { guides, ..ReadOptions::default() };
             for folder in folders {
                 for file in std::fs::read_dir(folder).unwrap() {
                     read_frame(&file.unwrap().path(), &options).unwrap();

@@ -89,7 +89,8 @@ impl Sources {
                 }
             }
         }
-        self.find_reach(at);
+        let [across, down] = self.whole.each_ref().map(|whole| &whole[..n]);
+        find_reach(across, down, at, &mut self.reach);
         if let (Some((now, before)), Some(tolerance)) = (link.depth, tolerance) {
             now.fill_row(at.y, at.x..at.x + n, &mut self.depth[..n]);
             compare_depth(self, before, tolerance, at);
@@ -118,26 +119,6 @@ impl Sources {
             } else {
                 follow_scaled(samples, scale, line, found);
             }
-        }
-    }
-
-    /// Finds how the taps of each stretch lie.
-    fn find_reach(&mut self, at: Stretch) {
-        let [across, down] = self.whole.each_ref().map(|whole| &whole[..at.pixels]);
-        let parts = across.chunks(STRETCH).zip(down.chunks(STRETCH));
-        for (i, ((across, down), reach)) in parts.zip(&mut self.reach).enumerate() {
-            let (x, y) = ((at.x + i * STRETCH) as i64, at.y as i64);
-            let (left, right) = extremes(across);
-            let (up, below) = extremes(down);
-            let inside = x + i64::from(left) >= 0
-                && y + i64::from(up) >= 0
-                && x + i64::from(right) + (across.len() as i64) < at.width as i64
-                && y + i64::from(below) + 1 < at.height as i64;
-            *reach = match (inside, left == right && up == below && across.len() == STRETCH) {
-                (true, true) => Reach::Together,
-                (true, false) => Reach::Inside,
-                (false, _) => Reach::Beyond,
-            };
         }
     }
 
@@ -262,11 +243,36 @@ fn follow_scaled(motion: &[f32], scale: f64, line: Line, found: Found<'_>) {
     }
 }
 
+/// Finds how the taps of each stretch lie.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn find_reach(across: &[i32], down: &[i32], at: Stretch, reach: &mut [Reach]) {
+    for (i, reach) in reach.iter_mut().enumerate().take(across.len().div_ceil(STRETCH)) {
+        let (start, end) = (i * STRETCH, ((i + 1) * STRETCH).min(across.len()));
+        let (x, y) = ((at.x + start) as i64, at.y as i64);
+        let (left, right) = extremes(&across[start..end]);
+        let (up, below) = extremes(&down[start..end]);
+        let inside = x + i64::from(left) >= 0
+            && y + i64::from(up) >= 0
+            && x + i64::from(right) + ((end - start) as i64) < at.width as i64
+            && y + i64::from(below) + 1 < at.height as i64;
+        *reach = match (inside, left == right && up == below && end - start == STRETCH) {
+            (true, true) => Reach::Together,
+            (true, false) => Reach::Inside,
+            (false, _) => Reach::Beyond,
+        };
+    }
+}
+
 /// The smallest and the largest of some numbers.
 #[inline(always)]
 fn extremes(numbers: &[i32]) -> (i32, i32) {
     let first = numbers.first().copied().unwrap_or_default();
-    numbers.iter().fold((first, first), |(low, high), &n| (low.min(n), high.max(n)))
+    let (mut low, mut high) = (first, first);
+    for &number in numbers {
+        low = low.min(number);
+        high = high.max(number);
+    }
+    (low, high)
 }
 
 /// Leaves out pixels whose source lies at another depth: what has just come into sight.
