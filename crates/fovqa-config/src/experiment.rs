@@ -5,7 +5,8 @@ use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use fovqa_metrics::{Metric, ParamValue};
+use fovqa_metrics::Metric;
+use fovqa_params::ParamValue;
 use toml::de::DeTable;
 
 use crate::fault::{ExperimentError, Fault};

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use fovqa_frame::{SignalChannels, ToneMap, Transfer};
 use fovqa_io::{AlphaPolicy, DepthChannels, MotionChannels, MotionUnit, NamedMotion};
-use fovqa_metrics::{Metric, ParamValue};
+use fovqa_metrics::Metric;
+use fovqa_params::ParamValue;
 use fovqa_vision::{EccentricityKind, ViewSpec};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -103,6 +104,7 @@ fn param_value(value: &ParamValue) -> Value {
         ParamValue::Number(number) => json!(number),
         ParamValue::Text(text) => json!(text),
         ParamValue::List(list) => json!(list),
+        ParamValue::Pairs(pairs) => json!(pairs),
         ParamValue::Flag(flag) => json!(flag),
     }
 }

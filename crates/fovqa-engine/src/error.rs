@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use fovqa_io::ReadError;
 use fovqa_io::sequence::{ListingError, PairingError};
-use fovqa_metrics::{Metric, ParamError};
+use fovqa_metrics::Metric;
+use fovqa_params::ParamError;
 use fovqa_vision::{GazeTraceError, ViewError};
 use thiserror::Error;
 

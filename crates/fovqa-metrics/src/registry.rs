@@ -1,5 +1,7 @@
 //! What there is to measure.
 
+use fovqa_params::{ParamInfo, ParamValues};
+
 use crate::fidelity::ssim;
 use crate::profile::haar;
 
@@ -46,52 +48,6 @@ pub enum Better {
     Lower,
     /// Neither: it is held against the reference's.
     Neither,
-}
-
-/// A parameter of a metric.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ParamInfo {
-    /// Its name in `--set METRIC.NAME=VALUE`.
-    pub name: &'static str,
-    /// Its default, as TOML.
-    pub default: &'static str,
-    /// What it may be.
-    pub values: ParamValues,
-    /// What it is, with its unit.
-    pub about: &'static str,
-}
-
-/// What a parameter may be.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ParamValues {
-    /// A number from the first to the second.
-    Number(f64, f64),
-    /// The same, or `off`.
-    NumberOrOff(f64, f64),
-    /// A whole number from the first to the second.
-    Whole(u32, u32),
-    /// The same, or `auto`.
-    WholeOrAuto(u32, u32),
-    /// `true` or `false`.
-    Flag,
-    /// One of these words.
-    Word(&'static [&'static str]),
-    /// A list of finite numbers.
-    Numbers,
-}
-
-impl std::fmt::Display for ParamValues {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Number(min, max) => write!(f, "{min} to {max}"),
-            Self::NumberOrOff(min, max) => write!(f, "{min} to {max}, or off"),
-            Self::Whole(min, max) => write!(f, "a whole number from {min} to {max}"),
-            Self::Flag => f.write_str("true or false"),
-            Self::WholeOrAuto(min, max) => write!(f, "a whole number from {min} to {max}, or auto"),
-            Self::Word(words) => f.write_str(&words.join(" or ")),
-            Self::Numbers => f.write_str("a list of numbers"),
-        }
-    }
 }
 
 /// What there is to say about a metric.
@@ -227,7 +183,7 @@ const SSIM: MetricInfo = MetricInfo {
         ParamInfo {
             name: "radius",
             default: "\"auto\"",
-            values: ParamValues::WholeOrAuto(1, ssim::MAX_RADIUS),
+            values: ParamValues::WholeOr(1, ssim::MAX_RADIUS, "auto"),
             about: "window radius, px; auto is 3.5 sigma, rounded (5)",
         },
         ParamInfo {
@@ -404,7 +360,7 @@ const ATD: MetricInfo = MetricInfo {
     params: &[ParamInfo {
         name: "depth_tolerance",
         default: "0.05",
-        values: ParamValues::NumberOrOff(0.0, 1e6),
+        values: ParamValues::NumberOr(0.0, 1e6, "off"),
         about: "how much depth may differ along the motion, as a share; off leaves depth out",
     }],
 };

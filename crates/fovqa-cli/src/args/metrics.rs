@@ -2,7 +2,8 @@
 
 use clap::Args;
 use fovqa_config::MetricChoice;
-use fovqa_metrics::{Metric, ParamValue, Params};
+use fovqa_metrics::{Metric, Params};
+use fovqa_params::ParamValue;
 
 use super::no_such::no_such;
 use super::values::literal;

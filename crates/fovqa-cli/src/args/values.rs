@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use fovqa_frame::Crop;
-use fovqa_metrics::ParamValue;
+use fovqa_params::ParamValue;
 
 /// `N` numbers with commas between them.
 pub(crate) fn numbers<const N: usize>(text: &str, form: &str) -> Result<[f64; N], String> {

@@ -115,27 +115,34 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
                 faults.push(Fault::new(span, format!("{place} {why}")));
             }
         }
-        (Kind::Number(min, max), DeValue::Integer(_) | DeValue::Float(_)) => {
-            match number(value.get_ref()) {
-                Some(n) if n.is_finite() && *min <= n && n <= *max => {}
-                _ => out_of_range(&written(value.get_ref())),
-            }
-        }
+        (
+            Kind::Number(min, max) | Kind::NumberOr(min, max, _),
+            DeValue::Integer(_) | DeValue::Float(_),
+        ) => match number(value.get_ref()) {
+            Some(n) if n.is_finite() && *min <= n && n <= *max => {}
+            _ => out_of_range(&written(value.get_ref())),
+        },
         (Kind::Above(min, max), DeValue::Integer(_) | DeValue::Float(_)) => {
             match number(value.get_ref()) {
                 Some(n) if *min < n && n <= *max => {}
                 _ => out_of_range(&written(value.get_ref())),
             }
         }
-        (Kind::Whole(min, max), DeValue::Integer(_) | DeValue::Float(_)) => {
-            match number(value.get_ref()) {
-                Some(n) if n.fract() == 0.0 && (*min as f64..=*max as f64).contains(&n) => {}
-                _ => out_of_range(&written(value.get_ref())),
-            }
-        }
+        (
+            Kind::Whole(min, max) | Kind::WholeOr(min, max, _),
+            DeValue::Integer(_) | DeValue::Float(_),
+        ) => match number(value.get_ref()) {
+            Some(n) if n.fract() == 0.0 && (*min as f64..=*max as f64).contains(&n) => {}
+            _ => out_of_range(&written(value.get_ref())),
+        },
         (Kind::Word(words), DeValue::String(text)) => {
             if !words.contains(&text.as_ref()) {
                 faults.push(no_such(place, text, span, words.iter().copied()));
+            }
+        }
+        (Kind::NumberOr(_, _, word) | Kind::WholeOr(_, _, word), DeValue::String(text)) => {
+            if text.as_ref() != *word {
+                faults.push(no_such(place, text, span, [*word].into_iter()));
             }
         }
         (Kind::Frames, DeValue::String(text)) => {
@@ -204,10 +211,24 @@ fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
         DeValue::Boolean(_) => matches!(kind, Kind::Bool),
         DeValue::String(_) => matches!(
             kind,
-            Kind::Text | Kind::Name | Kind::Word(_) | Kind::Frames | Kind::Display | Kind::Metric
+            Kind::Text
+                | Kind::Name
+                | Kind::NumberOr(..)
+                | Kind::WholeOr(..)
+                | Kind::Word(_)
+                | Kind::Frames
+                | Kind::Display
+                | Kind::Metric
         ),
         DeValue::Integer(_) | DeValue::Float(_) => {
-            matches!(kind, Kind::Number(..) | Kind::Above(..) | Kind::Whole(..))
+            matches!(
+                kind,
+                Kind::Number(..)
+                    | Kind::Above(..)
+                    | Kind::Whole(..)
+                    | Kind::NumberOr(..)
+                    | Kind::WholeOr(..)
+            )
         }
         DeValue::Array(_) => matches!(kind, Kind::List(..) | Kind::Tables(_)),
         DeValue::Table(_) => matches!(kind, Kind::Table(_) | Kind::Metrics),

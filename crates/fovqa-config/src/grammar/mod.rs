@@ -9,7 +9,7 @@ pub(crate) use check::{check, number};
 pub(crate) use experiment::EXPERIMENT;
 pub use schema::schema;
 
-use fovqa_metrics::ParamValues;
+use fovqa_params::ParamValues;
 
 /// A key of a table.
 #[derive(Debug, Clone, Copy)]
@@ -35,6 +35,10 @@ pub(crate) enum Kind {
     Above(f64, f64),
     /// A whole number from the first to the second.
     Whole(u64, u64),
+    /// The same, or a word.
+    NumberOr(f64, f64, &'static str),
+    /// A whole number from the first to the second, or a word.
+    WholeOr(u64, u64, &'static str),
     /// One of these words.
     Word(&'static [&'static str]),
     /// A range of frames, `A..B:STEP`.
@@ -68,6 +72,12 @@ impl Kind {
             },
             Kind::Above(min, max) => format!("a number above {min}, up to {max}"),
             Kind::Whole(min, max) => format!("a whole number from {min} to {max}"),
+            Kind::NumberOr(min, max, word) => {
+                format!("{}; or \"{word}\"", Kind::Number(*min, *max).in_words())
+            }
+            Kind::WholeOr(min, max, word) => {
+                format!("{}; or \"{word}\"", Kind::Whole(*min, *max).in_words())
+            }
             Kind::Word(words) => format!("one of {}", quoted(words.iter().copied())),
             Kind::Frames => "a range of frames such as \"0..100\" or \"0..100:5\"".to_owned(),
             Kind::Display => "the name of a display (`fovqa list displays`)".to_owned(),
@@ -99,44 +109,18 @@ pub(crate) fn quoted<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
 
 /// The kind of a metric's parameter.
 pub(crate) fn parameter(values: ParamValues) -> Kind {
-    const AUTO: Kind = Kind::Word(&["auto"]);
     const FINITE: Kind = Kind::Number(f64::NEG_INFINITY, f64::INFINITY);
-    /// Kinds that are one of several come with few ranges; each needs a place to live.
-    const WINDOW_RADIUS: [Kind; 2] = [Kind::Whole(1, 224), AUTO];
-    const TOLERANCE: [Kind; 2] = [Kind::Number(0.0, 1e6), Kind::Word(&["off"])];
+    const PAIR: Kind = Kind::List(&FINITE, 2, 2);
+    /// Either needs a place for its kinds to live; every parameter of pairs has the same word.
+    const PAIRS_OR_NONE: [Kind; 2] = [Kind::List(&PAIR, 1, 1000), Kind::Word(&["none"])];
     match values {
         ParamValues::Number(min, max) => Kind::Number(min, max),
-        ParamValues::NumberOrOff(..) => Kind::Either(&TOLERANCE),
+        ParamValues::NumberOr(min, max, word) => Kind::NumberOr(min, max, word),
         ParamValues::Whole(min, max) => Kind::Whole(min as u64, max as u64),
         ParamValues::Flag => Kind::Bool,
-        ParamValues::WholeOrAuto(..) => Kind::Either(&WINDOW_RADIUS),
+        ParamValues::WholeOr(min, max, word) => Kind::WholeOr(min as u64, max as u64, word),
         ParamValues::Word(words) => Kind::Word(words),
         ParamValues::Numbers => Kind::List(&FINITE, 1, 1000),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use fovqa_metrics::Metric;
-
-    #[test]
-    fn parameters_of_several_kinds_have_the_range_of_their_metric() {
-        for metric in Metric::ALL {
-            for param in metric.info().params {
-                if let ParamValues::NumberOrOff(min, max) = param.values {
-                    let Kind::Either([Kind::Number(low, high), _]) = parameter(param.values) else {
-                        panic!("{}", param.name)
-                    };
-                    assert_eq!([min, max].map(f64::to_bits), [*low, *high].map(f64::to_bits));
-                }
-                if let ParamValues::WholeOrAuto(min, max) = param.values {
-                    let Kind::Either([Kind::Whole(low, high), _]) = parameter(param.values) else {
-                        panic!("{}", param.name)
-                    };
-                    assert_eq!((u64::from(min), u64::from(max)), (*low, *high), "{}", param.name);
-                }
-            }
-        }
+        ParamValues::PairsOr(_) => Kind::Either(&PAIRS_OR_NONE),
     }
 }

@@ -60,6 +60,8 @@ fn kind(kind: &Kind) -> Value {
             json!({ "type": "number", "exclusiveMinimum": number(*min), "maximum": number(*max) })
         }
         Kind::Whole(min, max) => json!({ "type": "integer", "minimum": min, "maximum": max }),
+        Kind::NumberOr(min, max, word) => either(&Kind::Number(*min, *max), word),
+        Kind::WholeOr(min, max, word) => either(&Kind::Whole(*min, *max), word),
         Kind::Word(words) => json!({ "enum": words }),
         Kind::Frames => json!({
             "type": "string",
@@ -96,6 +98,10 @@ fn kind(kind: &Kind) -> Value {
         }
         Kind::Either(kinds) => json!({ "anyOf": kinds.iter().map(self::kind).collect::<Vec<_>>() }),
     }
+}
+
+fn either(kind: &Kind, word: &str) -> Value {
+    json!({ "anyOf": [self::kind(kind), { "enum": [word] }] })
 }
 
 /// Whole numbers without a fraction, as people write them.

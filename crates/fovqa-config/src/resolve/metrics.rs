@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::{Metric, ParamValue, Params};
+use fovqa_metrics::{Metric, Params};
+use fovqa_params::ParamValue;
 use serde_spanned::Spanned;
 use toml::de::DeValue;
 

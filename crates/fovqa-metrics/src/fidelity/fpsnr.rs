@@ -13,7 +13,7 @@ use fovqa_vision::Eccentricity;
 use fovqa_vision::acuity::{GeislerPerry, LinearMar, PiecewiseMar};
 use multiversion::multiversion;
 
-use crate::params::ParamValue;
+use fovqa_params::ParamValue;
 
 /// Which curve the weight follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

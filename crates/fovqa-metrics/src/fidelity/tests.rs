@@ -9,7 +9,8 @@ use fovqa_testkit::synthetic::{codes, disturbed, rgb8};
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, View, ViewSpec};
 
 use super::*;
-use crate::{Metric, ParamValue, Params, Regions, WeightField};
+use crate::{Metric, Params, Regions, WeightField};
+use fovqa_params::ParamValue;
 
 const ALL: [Metric; 6] =
     [Metric::Mse, Metric::Psnr, Metric::Ssim, Metric::MsSsim, Metric::Fpsnr, Metric::Fssim];

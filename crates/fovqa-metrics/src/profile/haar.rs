@@ -12,7 +12,7 @@
 
 use multiversion::multiversion;
 
-use crate::params::ParamValue;
+use fovqa_params::ParamValue;
 
 /// The most levels there may be: blocks of 256 pixels a side.
 pub const MAX_LEVELS: u32 = 8;

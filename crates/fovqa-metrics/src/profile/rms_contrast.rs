@@ -8,7 +8,7 @@
 use fovqa_frame::LumaKind;
 use multiversion::multiversion;
 
-use crate::params::ParamValue;
+use fovqa_params::ParamValue;
 
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

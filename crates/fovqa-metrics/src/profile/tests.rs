@@ -8,7 +8,8 @@ use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, ViewSpec}
 
 use super::*;
 use crate::temporal::KeptPlane;
-use crate::{BlockRegions, Metric, ParamValue, Params, Regions};
+use crate::{BlockRegions, Metric, Params, Regions};
+use fovqa_params::ParamValue;
 
 const EDGES_DEG: [f64; 4] = [0.0, 10.0, 20.0, 35.0];
 

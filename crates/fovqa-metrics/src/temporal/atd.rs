@@ -12,9 +12,9 @@ use multiversion::multiversion;
 
 use super::kept_plane::KeptPlane;
 use super::source::{Link, Sources, Stretch};
-use crate::params::ParamValue;
 use crate::regions::{Regions, clipped};
 use crate::sums::add_by_band;
+use fovqa_params::ParamValue;
 
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]

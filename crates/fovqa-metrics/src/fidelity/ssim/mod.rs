@@ -14,7 +14,7 @@
 
 pub(crate) mod rows;
 
-use crate::params::ParamValue;
+use fovqa_params::ParamValue;
 
 /// Window and constants.
 #[derive(Debug, Clone, PartialEq)]
