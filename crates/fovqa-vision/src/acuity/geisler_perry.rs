@@ -2,6 +2,8 @@
 //! `f_c(e) = e₂ ln(1 / CT₀) / (α (e + e₂))`, from their contrast threshold
 //! `CT(f, e) = CT₀ exp(α f (e + e₂) / e₂)` at `CT = 1`.
 
+use fovqa_params::ParamValue;
+
 /// Parameters of the contrast threshold.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GeislerPerry {
@@ -20,6 +22,17 @@ impl Default for GeislerPerry {
 }
 
 impl GeislerPerry {
+    /// Sets what the registry has found to be one of its values.
+    pub(super) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+        match name {
+            "alpha" => self.alpha = value.number()?,
+            "e2_deg" => self.e2_deg = value.number()?,
+            "ct0" => self.ct0 = value.number()?,
+            _ => return None,
+        }
+        Some(())
+    }
+
     /// `f_c(e) (e + e₂)`: the cut-off is this over `e + e₂`.
     pub fn numerator(&self) -> f64 {
         self.e2_deg * libm::log(1.0 / self.ct0) / self.alpha

@@ -1,5 +1,7 @@
 //! The linear minimum angle of resolution, `1/f = m e + ω₀` (Guenter et al. 2012; VaFR, Eq. 2).
 
+use fovqa_params::ParamValue;
+
 /// A line of the minimum angle of resolution over eccentricity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearMar {
@@ -16,6 +18,16 @@ impl Default for LinearMar {
 }
 
 impl LinearMar {
+    /// Sets what the registry has found to be one of its values.
+    pub(super) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+        match name {
+            "m" => self.m = value.number()?,
+            "omega0_deg" => self.omega0_deg = value.number()?,
+            _ => return None,
+        }
+        Some(())
+    }
+
     /// Acuity in cycles per degree at `eccentricity_deg` ≥ 0.
     pub fn cutoff_cpd(&self, eccentricity_deg: f64) -> f64 {
         1.0 / (self.m * eccentricity_deg + self.omega0_deg)

@@ -1,10 +1,18 @@
 //! Acuity: the highest spatial frequency seen at an eccentricity, in cycles per degree. One model
 //! a file; each is a pure function of f64.
+//!
+//! [`AcuityModel`] is the registry: a model with its parameters, set by name. [`AcuityCurve`] is what
+//! curves and methods compute with: every model here is a minimum angle of resolution (MAR) that is
+//! piecewise linear in eccentricity, so that the samples up to an eccentricity have a closed form.
 
+mod curve;
 mod geisler_perry;
 mod linear_mar;
+mod model;
 mod piecewise_mar;
 
+pub use curve::AcuityCurve;
 pub use geisler_perry::GeislerPerry;
 pub use linear_mar::LinearMar;
-pub use piecewise_mar::{PiecewiseMar, PiecewiseMarError};
+pub use model::{AcuityInfo, AcuityModel};
+pub use piecewise_mar::{PiecewiseMar, PiecewiseMarError, PiecewiseParams};

@@ -1,11 +1,63 @@
 //! Acuity whose inverse is piecewise linear over eccentricity (VaFR, Eq. 12).
 
+use fovqa_params::ParamValue;
 use thiserror::Error;
+
+use super::AcuityCurve;
+use super::model::CPD;
 
 /// `1/f` linear between knots, and beyond the last knot on at the last slope.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PiecewiseMar {
     knots: Vec<(f64, f64)>,
+}
+
+/// Parameters: the knots as two lists, and what a device shows of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PiecewiseParams {
+    /// Eccentricities of the knots in degrees, rising from 0.
+    pub knots_deg: Vec<f64>,
+    /// Acuity at these, cycles per degree.
+    pub knots_cpd: Vec<f64>,
+    /// The highest frequency a device shows (VaFR, Fig. 3: 9 for the Vive Pro Eye, 18 for the Pimax
+    /// Crystal), cycles per degree.
+    pub cap_cpd: Option<f64>,
+}
+
+impl Default for PiecewiseParams {
+    fn default() -> Self {
+        let (knots_deg, knots_cpd) = PiecewiseMar::default().knots.into_iter().unzip();
+        Self { knots_deg, knots_cpd, cap_cpd: None }
+    }
+}
+
+impl PiecewiseParams {
+    /// Sets what a registry has found to be one of its values; `None` where the name is no
+    /// parameter.
+    pub fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+        match name {
+            "knots_deg" => self.knots_deg = value.list()?,
+            "knots_cpd" => self.knots_cpd = value.list()?,
+            "cap_cpd" => self.cap_cpd = value.number(),
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// The curve through the knots, capped.
+    ///
+    /// # Errors
+    /// When the knots are no curve.
+    pub fn curve(&self) -> Result<AcuityCurve, PiecewiseMarError> {
+        let knots = PiecewiseMar::new(&self.knots_deg, &self.knots_cpd)?.knots;
+        if let Some(&(_, found_cpd)) = knots.iter().find(|knot| !CPD.contains(&knot.1)) {
+            return Err(PiecewiseMarError::Frequency { found_cpd });
+        }
+        let mars: Vec<(f64, f64)> = knots.iter().map(|&(deg, cpd)| (deg, 1.0 / cpd)).collect();
+        let &[.., before, last] = mars.as_slice() else { return Err(PiecewiseMarError::Order) };
+        let curve = AcuityCurve::through(&mars, (last.1 - before.1) / (last.0 - before.0));
+        Ok(self.cap_cpd.map_or(curve.clone(), |cap_cpd| curve.capped(cap_cpd)))
+    }
 }
 
 /// Knots that make no acuity curve.
@@ -22,13 +74,13 @@ pub enum PiecewiseMarError {
         frequencies: usize,
     },
     /// Eccentricities that do not rise from 0.
-    #[error("the knots' eccentricities do not start at 0 and rise")]
+    #[error("the knots' eccentricities do not start at 0° and rise, up to 180°")]
     Order,
     /// Acuity that rises at the end: beyond the last knot it would grow without bound.
     #[error("acuity does not fall from the knot before the last to the last")]
     Rising,
-    /// A frequency that is not positive.
-    #[error("the knot of {found_cpd} cpd is not a positive frequency")]
+    /// A frequency beyond any eye.
+    #[error("the knot of {found_cpd} cpd is not between 0.01 and 1000 cycles per degree")]
     Frequency {
         /// What was given.
         found_cpd: f64,
@@ -56,7 +108,10 @@ impl PiecewiseMar {
                 frequencies: knots_cpd.len(),
             });
         }
-        if knots_deg[0] != 0.0 || !knots_deg.windows(2).all(|pair| pair[1] > pair[0]) {
+        if knots_deg[0] != 0.0
+            || !knots_deg.windows(2).all(|pair| pair[1] > pair[0])
+            || knots_deg.iter().any(|deg| *deg > 180.0)
+        {
             return Err(PiecewiseMarError::Order);
         }
         if let Some(&found_cpd) = knots_cpd.iter().find(|f| !(**f > 0.0 && f.is_finite())) {

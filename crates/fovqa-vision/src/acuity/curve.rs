@@ -1,0 +1,157 @@
+//! An acuity model ready to compute with: its minimum angle of resolution as a chain of lines.
+
+/// Acuity over eccentricity, `1/f` piecewise linear and, beyond its last knot, on at the last slope.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AcuityCurve {
+    /// Never empty; the first begins at 0°.
+    segments: Vec<Segment>,
+}
+
+/// A line of the minimum angle of resolution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Segment {
+    from_deg: f64,
+    /// `1/f` where it begins, in degrees per cycle.
+    mar_deg: f64,
+    /// Degrees per cycle and degree.
+    slope: f64,
+    /// `∫ 2f de` from 0° to where it begins.
+    samples_before: f64,
+}
+
+impl AcuityCurve {
+    /// A curve through knots of eccentricity and minimum angle of resolution, both in degrees, which
+    /// rise from 0° and are positive, with a slope beyond the last.
+    pub(crate) fn through(knots: &[(f64, f64)], last_slope: f64) -> Self {
+        let mut segments: Vec<Segment> = Vec::with_capacity(knots.len());
+        for (i, &(from_deg, mar_deg)) in knots.iter().enumerate() {
+            let slope = knots
+                .get(i + 1)
+                .map_or(last_slope, |next| (next.1 - mar_deg) / (next.0 - from_deg));
+            let samples_before = segments.last().map_or(0.0, |last| last.samples_to(from_deg));
+            segments.push(Segment { from_deg, mar_deg, slope, samples_before });
+        }
+        Self { segments }
+    }
+
+    /// The curve cut off at a frequency, such as the highest a device shows: `min(f, cap)`, with a
+    /// knot of its own where the two cross.
+    pub(crate) fn capped(&self, cap_cpd: f64) -> Self {
+        let least = 1.0 / cap_cpd;
+        let mut knots: Vec<(f64, f64)> = Vec::new();
+        for (i, segment) in self.segments.iter().enumerate() {
+            knots.push((segment.from_deg, segment.mar_deg.max(least)));
+            let end_deg = self.segments.get(i + 1).map_or(f64::INFINITY, |next| next.from_deg);
+            let crossing_deg = segment.from_deg + (least - segment.mar_deg) / segment.slope;
+            if crossing_deg > segment.from_deg && crossing_deg < end_deg {
+                knots.push((crossing_deg, least));
+            }
+        }
+        // The last line falls or is flat, so that the cap ends on it or holds for good.
+        Self::through(&knots, self.segments[self.segments.len() - 1].slope)
+    }
+
+    fn at(&self, eccentricity_deg: f64) -> &Segment {
+        let next = self.segments.partition_point(|segment| segment.from_deg <= eccentricity_deg);
+        &self.segments[next.saturating_sub(1)]
+    }
+
+    /// Acuity in cycles per degree at `eccentricity_deg` ≥ 0.
+    pub fn cutoff_cpd(&self, eccentricity_deg: f64) -> f64 {
+        let segment = self.at(eccentricity_deg);
+        1.0 / (segment.mar_deg + segment.slope * (eccentricity_deg - segment.from_deg))
+    }
+
+    /// `u(e) = ∫ 2f de` from 0° to `eccentricity_deg` ≥ 0: how many samples at the rate of acuity
+    /// stand between the gaze and there.
+    pub fn samples_to(&self, eccentricity_deg: f64) -> f64 {
+        self.at(eccentricity_deg).samples_to(eccentricity_deg)
+    }
+
+    /// The eccentricity in degrees up to which there are so many `samples` ≥ 0: the inverse of
+    /// [`AcuityCurve::samples_to`].
+    pub fn eccentricity_deg(&self, samples: f64) -> f64 {
+        let next = self.segments.partition_point(|segment| segment.samples_before <= samples);
+        self.segments[next.saturating_sub(1)].eccentricity_deg(samples)
+    }
+
+    /// Eccentricities in degrees where the slope of `1/f` changes, rising; 0 is left out.
+    pub fn knots_deg(&self) -> impl Iterator<Item = f64> + '_ {
+        self.segments.iter().skip(1).map(|segment| segment.from_deg)
+    }
+}
+
+impl Segment {
+    /// `∫ 2 de / (a + b (e - e₀)) = 2/b ln(1 + b (e - e₀) / a)`: with log1p, since a flat piece has
+    /// `b = 0`, where the printed logarithm is singular.
+    fn samples_to(&self, eccentricity_deg: f64) -> f64 {
+        let x = (eccentricity_deg - self.from_deg) / self.mar_deg;
+        let t = self.slope * x;
+        let mean = if t == 0.0 { 1.0 } else { libm::log1p(t) / t };
+        self.samples_before + 2.0 * x * mean
+    }
+
+    fn eccentricity_deg(&self, samples: f64) -> f64 {
+        let half = (samples - self.samples_before) / 2.0;
+        let t = self.slope * half;
+        let mean = if t == 0.0 { 1.0 } else { libm::expm1(t) / t };
+        self.from_deg + self.mar_deg * half * mean
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use crate::acuity::{AcuityModel, PiecewiseParams};
+
+    fn piecewise(knots_cpd: [f64; 5], cap_cpd: Option<f64>) -> super::AcuityCurve {
+        let knots_deg = vec![0.0, 10.0, 20.0, 30.0, 60.0];
+        let params = PiecewiseParams { knots_deg, knots_cpd: knots_cpd.to_vec(), cap_cpd };
+        AcuityModel::Piecewise(params).curve().unwrap()
+    }
+
+    /// VaFR's buffer is as wide as the samples up to 60°: 932.3 with f(60°) = 5, 900.1 with 4.
+    #[test]
+    fn the_published_width_of_a_buffer() {
+        let flat = piecewise([40.0, 10.0, 6.0, 5.0, 5.0], None);
+        assert!((flat.samples_to(60.0) - 932.3).abs() < 0.05, "{}", flat.samples_to(60.0));
+        let falling = piecewise([40.0, 10.0, 6.0, 5.0, 4.0], None);
+        assert!((falling.samples_to(60.0) - 900.1).abs() < 0.05);
+    }
+
+    #[test]
+    fn a_cap_breaks_exactly_where_acuity_falls_below_it() {
+        let capped = piecewise([40.0, 10.0, 6.0, 5.0, 4.0], Some(9.0));
+        // 1/f = 1/10 + (1/6 - 1/10)/10 (e - 10) = 1/9 at 10 + 5/3 degrees.
+        let knots: Vec<f64> = capped.knots_deg().collect();
+        assert!(knots.iter().any(|knot| (knot - (10.0 + 5.0 / 3.0)).abs() < 1e-12), "{knots:?}");
+        for (e, cpd) in [(0.0, 9.0), (5.0, 9.0), (20.0, 6.0), (60.0, 4.0)] {
+            assert!((capped.cutoff_cpd(e) - cpd).abs() < 1e-12, "{e}");
+        }
+        let uncapped = piecewise([40.0, 10.0, 6.0, 5.0, 4.0], Some(400.0));
+        assert_eq!(uncapped, piecewise([40.0, 10.0, 6.0, 5.0, 4.0], None));
+        let always = piecewise([40.0, 10.0, 6.0, 5.0, 5.0], Some(2.0));
+        assert!((always.cutoff_cpd(90.0) - 2.0).abs() < 1e-12);
+    }
+
+    proptest! {
+        #[test]
+        fn samples_are_the_integral_and_turn_back(
+            knots in prop::array::uniform5(1.0..60.0f64), e in 0.0..89.0f64,
+            cap in prop::option::of(2.0..30.0f64)
+        ) {
+            let mut knots = knots;
+            knots[4] = knots[4].min(knots[3]);
+            let curve = piecewise(knots, cap);
+            let u = curve.samples_to(e);
+            prop_assert!((curve.eccentricity_deg(u) - e).abs() < 1e-9);
+            let h = 1e-5;
+            let away = curve.knots_deg().all(|knot| (knot - e).abs() > 2.0 * h);
+            if away && e > h {
+                let slope = (curve.samples_to(e + h) - curve.samples_to(e - h)) / (2.0 * h);
+                prop_assert!((slope / (2.0 * curve.cutoff_cpd(e)) - 1.0).abs() < 1e-6);
+            }
+        }
+    }
+}
