@@ -36,7 +36,8 @@ impl AcuityCurve {
 
     /// The curve cut off at a frequency, such as the highest a device shows: `min(f, cap)`, with a
     /// knot of its own where the two cross.
-    pub(crate) fn capped(&self, cap_cpd: f64) -> Self {
+    #[must_use]
+    pub fn capped(&self, cap_cpd: f64) -> Self {
         let least = 1.0 / cap_cpd;
         let mut knots: Vec<(f64, f64)> = Vec::new();
         for (i, segment) in self.segments.iter().enumerate() {

@@ -1,0 +1,160 @@
+//! Coarse pixel shading (Patney et al. 2016, section 4.3).
+//!
+//! Rates of 1, ½ and ¼ per axis. The requested rate is 1 up to e_f and falls linearly to ¼ over T
+//! degrees: clamp(1 - 0.75 (e - e_f) / T, ¼, 1); it is taken to the smallest rate not below it
+//! (`ceil`), to the `nearest`, or as it is (`continuous`). The normalised rate S = (1 - request) / 0.75
+//! feeds the temporal filter. A quad covers 2x2, 4x4 or 8x8 pixels: its samples are a quarter as many
+//! quads, of the display's pixels likewise, so that shares are the same.
+
+use fovqa_params::{ParamInfo, ParamValue, ParamValues};
+
+use crate::foveation::{Counts, Foveation, Rates};
+use crate::registry::MethodInfo;
+use crate::setting::{Place, Setting};
+
+/// How a requested rate becomes one the hardware has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Quantise {
+    /// The smallest not below it.
+    #[default]
+    Ceil,
+    /// The nearest; halfway, the larger.
+    Nearest,
+    /// As it is.
+    Continuous,
+}
+
+/// Parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Params {
+    /// e_f, up to which all is shaded, degrees. Default 15 (head-mounted; 7.5 on a desktop).
+    pub foveal_deg: f64,
+    /// T, over which the rate falls, degrees. Default 20.
+    pub transition_deg: f64,
+    /// How a requested rate becomes one the hardware has.
+    pub quantise: Quantise,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self { foveal_deg: 15.0, transition_deg: 20.0, quantise: Quantise::Ceil }
+    }
+}
+
+impl Params {
+    pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+        match name {
+            "foveal_deg" => self.foveal_deg = value.number()?,
+            "transition_deg" => self.transition_deg = value.number()?,
+            "quantise" => {
+                self.quantise = match value.text()? {
+                    "ceil" => Quantise::Ceil,
+                    "nearest" => Quantise::Nearest,
+                    "continuous" => Quantise::Continuous,
+                    _ => return None,
+                }
+            }
+            _ => return None,
+        }
+        Some(())
+    }
+}
+
+pub(crate) const INFO: MethodInfo = MethodInfo {
+    key: "cps",
+    label: "CPS",
+    about: "coarse pixel shading: one sample for 1, 2x2 or 4x4 pixels",
+    source: "Patney et al. 2016, section 4.3",
+    params: &[
+        ParamInfo {
+            name: "foveal_deg",
+            default: "15",
+            values: ParamValues::Number(0.0, 89.0),
+            about: "e_f, up to which every pixel is shaded, ° (7.5 on a desktop)",
+        },
+        ParamInfo {
+            name: "transition_deg",
+            default: "20",
+            values: ParamValues::Number(0.001, 1000.0),
+            about: "T, over which the rate falls to a quarter, °",
+        },
+        ParamInfo {
+            name: "quantise",
+            default: "\"ceil\"",
+            values: ParamValues::Word(&["ceil", "nearest", "continuous"]),
+            about: "how the rate becomes one of 1, 1/2, 1/4",
+        },
+    ],
+};
+
+/// The least rate per axis.
+const LEAST: f64 = 0.25;
+
+/// Coarse pixel shading of a frame.
+#[derive(Debug, Clone, Copy)]
+pub struct Cps {
+    setting: Setting,
+    params: Params,
+}
+
+impl Cps {
+    /// Applies the method.
+    pub fn new(params: &Params, setting: &Setting) -> Self {
+        Self { setting: *setting, params: *params }
+    }
+
+    /// The requested rate per axis at an eccentricity in degrees.
+    pub fn request(&self, eccentricity_deg: f64) -> f64 {
+        let Params { foveal_deg, transition_deg, .. } = self.params;
+        let beyond = (eccentricity_deg - foveal_deg) / transition_deg;
+        (1.0 - (1.0 - LEAST) * beyond).clamp(LEAST, 1.0)
+    }
+
+    /// The normalised rate S of the temporal filter, 0 where all is shaded, 1 at the coarsest.
+    pub fn normalised(&self, eccentricity_deg: f64) -> f64 {
+        (1.0 - self.request(eccentricity_deg)) / (1.0 - LEAST)
+    }
+
+    fn rate(&self, radius_px: f64) -> f64 {
+        let request = self.request(self.setting.eccentricity_deg(radius_px));
+        let stepped = |full: bool, half: bool| match (full, half) {
+            (true, _) => 1.0,
+            (false, true) => 0.5,
+            (false, false) => LEAST,
+        };
+        match self.params.quantise {
+            Quantise::Ceil => stepped(request > 0.5, request > LEAST),
+            Quantise::Nearest => stepped(request >= 0.75, request >= 0.375),
+            Quantise::Continuous => request,
+        }
+    }
+}
+
+impl Foveation for Cps {
+    fn rates(&self, place: Place) -> Option<Rates> {
+        Some(Rates::both(self.rate(place.radius_px)))
+    }
+
+    fn counts(&self) -> Counts {
+        let Params { foveal_deg, transition_deg, .. } = self.params;
+        // Where the request passes 1, 3/4, 1/2, 3/8 and 1/4: some form of rounding steps there.
+        let breaks: Vec<f64> = [0.0, 1.0 / 3.0, 2.0 / 3.0, 5.0 / 6.0, 1.0]
+            .into_iter()
+            .map(|share| foveal_deg + share * transition_deg)
+            .filter(|e| *e < 89.9)
+            .map(|e| self.setting.radius_px(e))
+            .collect();
+        let breaks: Vec<f64> = std::iter::once(0.0).chain(breaks).collect();
+        let samples = self.setting.integrate(&breaks, |r| {
+            let rate = self.rate(r);
+            rate * rate
+        });
+        Counts {
+            buffers: Vec::new(),
+            samples,
+            samples_on_screen: samples,
+            samples_beyond: 0.0,
+            samples_seen: samples,
+        }
+    }
+}

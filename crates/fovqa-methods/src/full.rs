@@ -1,0 +1,51 @@
+//! The display's own rate: every pixel shaded once. What others are held against.
+
+use crate::foveation::{Counts, Foveation, Mapping, Rates};
+use crate::setting::{Place, Setting};
+
+/// Every pixel of a frame.
+#[derive(Debug, Clone, Copy)]
+pub struct Full {
+    setting: Setting,
+}
+
+impl Full {
+    /// Full shading of a frame.
+    pub fn new(setting: &Setting) -> Self {
+        Self { setting: *setting }
+    }
+}
+
+impl Mapping for Full {
+    fn buffer(&self, _layer: usize) -> [f64; 2] {
+        self.setting.size_px()
+    }
+
+    fn to_buffer(&self, _layer: usize, place: Place) -> [f64; 2] {
+        let ([x, y], [gx, gy]) = (place.offset_px(), self.setting.gaze_px());
+        [x + gx, y + gy]
+    }
+
+    fn to_screen(&self, _layer: usize, [x, y]: [f64; 2]) -> Place {
+        let [gx, gy] = self.setting.gaze_px();
+        Place::at([x - gx, y - gy])
+    }
+
+    fn is_polar(&self) -> bool {
+        false
+    }
+}
+
+impl Foveation for Full {
+    fn rates(&self, _place: Place) -> Option<Rates> {
+        Some(Rates::both(1.0))
+    }
+
+    fn counts(&self) -> Counts {
+        Counts::of(self.setting.size_px(), self.setting.pixels())
+    }
+
+    fn mapping(&self) -> Option<&dyn Mapping> {
+        Some(self)
+    }
+}
