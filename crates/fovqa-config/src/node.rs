@@ -97,6 +97,12 @@ pub(crate) fn numbers(value: &Spanned<DeValue<'_>>) -> Option<Vec<f64>> {
     }
 }
 
+/// A list of pairs of numbers.
+pub(crate) fn pairs(value: &Spanned<DeValue<'_>>) -> Option<Vec<[f64; 2]>> {
+    let DeValue::Array(items) = value.get_ref() else { return None };
+    items.iter().map(|item| numbers(item)?.try_into().ok()).collect()
+}
+
 pub(crate) fn table<'a>(value: &'a Spanned<DeValue<'a>>) -> Option<Node<'a>> {
     match value.get_ref() {
         DeValue::Table(table) => Some(Node::new(table)),

@@ -17,6 +17,17 @@ pub enum BudgetOf {
     OnScreen,
 }
 
+/// A method at a budget.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Budgeted {
+    /// The method with its free parameter solved.
+    pub method: Method,
+    /// The free parameter.
+    pub parameter: &'static str,
+    /// Its value.
+    pub value: f64,
+}
+
 /// A budget that cannot be had.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum BudgetError {
@@ -67,7 +78,7 @@ impl Method {
         setting: &Setting,
         share: f64,
         of: BudgetOf,
-    ) -> Result<Method, BudgetError> {
+    ) -> Result<Budgeted, BudgetError> {
         if let Self::Guenter(params) = self
             && params.fit == Fit::Optimised
         {
@@ -110,7 +121,7 @@ impl Method {
                 dense = middle;
             }
         }
-        Ok(with(dense))
+        Ok(Budgeted { method: with(dense), parameter: free.name, value: dense })
     }
 
     fn free(&self) -> Option<Free> {

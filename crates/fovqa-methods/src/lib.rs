@@ -44,7 +44,7 @@ mod setting;
 pub mod vafr;
 pub mod visual_polar;
 
-pub use budget::{BudgetError, BudgetOf};
+pub use budget::{BudgetError, BudgetOf, Budgeted};
 pub use error::MethodError;
 pub use foveation::{Counts, Foveation, Mapping, Rates, Reach};
 pub use registry::{Method, MethodInfo};

@@ -358,7 +358,7 @@ fn a_budget_is_met_or_its_range_is_said() {
                     assert_eq!(method, "full");
                     continue;
                 }
-                found => found.unwrap(),
+                found => found.unwrap().method,
             };
             let counts = found.over(&setting).unwrap().counts();
             let samples = match of {

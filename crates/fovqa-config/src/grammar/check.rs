@@ -1,14 +1,16 @@
 //! A parsed file against the grammar: unknown keys, wrong types, values out of range.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use fovqa_io::sequence::FrameRange;
 use fovqa_metrics::Metric;
+use fovqa_params::ParamInfo;
 use fovqa_vision::displays;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{Key, Kind, parameter, quoted};
+use super::{Key, Kind, parameter, quoted, resolution};
 use crate::fault::Fault;
 use crate::nearest::nearest;
 
@@ -80,18 +82,52 @@ fn check_metrics(value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fau
             continue;
         };
         for (name, value) in params {
-            let param = name.get_ref().as_ref();
-            let known = metric.info().params;
-            if let Some(known) = known.iter().find(|known| known.name == param) {
-                let place = format!("{place}.{text}.{param}");
-                check_value(&parameter(known.values), value, &place, faults);
-                continue;
-            }
-            let names = known.iter().map(|param| param.name);
-            let fault = unknown("parameter", param, name.span(), text, names);
-            let none = || format!("{text} has no parameters");
-            faults.push(if known.is_empty() { fault.help(none()) } else { fault });
+            check_param(metric.info().params, name, value, (place, text), faults);
         }
+    }
+}
+
+/// A parameter of a metric, model or method.
+fn check_param(
+    known: &'static [ParamInfo],
+    name: &Spanned<Cow<'_, str>>,
+    value: &Spanned<DeValue<'_>>,
+    (place, owner): (&str, &str),
+    faults: &mut Vec<Fault>,
+) {
+    let param = name.get_ref().as_ref();
+    if let Some(known) = known.iter().find(|known| known.name == param) {
+        let place = format!("{place}.{owner}.{param}");
+        return check_value(&parameter(known.values), value, &place, faults);
+    }
+    let names = known.iter().map(|param| param.name);
+    let fault = unknown("parameter", param, name.span(), owner, names);
+    let none = || format!("{owner} has no parameters");
+    faults.push(if known.is_empty() { fault.help(none()) } else { fault });
+}
+
+/// A table that names a model, with its parameters.
+fn check_model(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fault>) {
+    let (Some((what, models)), DeValue::Table(table)) = (kind.models(), value.get_ref()) else {
+        return wrong_type(kind, value, place, faults);
+    };
+    let keys = || models.iter().map(|model| model.0);
+    let Some(model) = table.get("model") else {
+        let fault = Fault::new(value.span(), format!("{place} has no model"));
+        return faults.push(fault.help(format!("add model = …: {}", quoted(keys()))));
+    };
+    let DeValue::String(text) = model.get_ref() else {
+        return wrong_type(&Kind::Text, model, &format!("{place}.model"), faults);
+    };
+    let name = text.replace('-', "_");
+    let Some(&(owner, params)) = models.iter().find(|model| model.0 == name) else {
+        let fault = Fault::new(model.span(), format!("there is no {what} \"{text}\""));
+        let near = nearest(text, keys()).map(|near| format!("did you mean \"{near}\"?"));
+        let help = format!("it is one of {}", quoted(keys()));
+        return faults.push(fault.label(near.unwrap_or_default()).help(help));
+    };
+    for (name, value) in table.iter().filter(|(name, _)| name.get_ref() != "model") {
+        check_param(params, name, value, (place, owner), faults);
     }
 }
 
@@ -135,16 +171,10 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
             Some(n) if n.fract() == 0.0 && (*min as f64..=*max as f64).contains(&n) => {}
             _ => out_of_range(&written(value.get_ref())),
         },
-        (Kind::Word(words), DeValue::String(text)) => {
-            if !words.contains(&text.as_ref()) {
-                faults.push(no_such(place, text, span, words.iter().copied()));
-            }
-        }
         (Kind::NumberOr(_, _, word) | Kind::WholeOr(_, _, word), DeValue::String(text)) => {
-            if text.as_ref() != *word {
-                faults.push(no_such(place, text, span, [*word].into_iter()));
-            }
+            one_of(&[word], text, place, span, faults);
         }
+        (Kind::Word(words), DeValue::String(text)) => one_of(words, text, place, span, faults),
         (Kind::Frames, DeValue::String(text)) => {
             if let Err(error) = text.parse::<FrameRange>() {
                 faults.push(Fault::new(span, format!("{place}: {error}")));
@@ -161,6 +191,11 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
             let known = Metric::ALL.into_iter().map(Metric::key);
             if !known.clone().any(|key| key == text) {
                 faults.push(no_such(place, text, span, known));
+            }
+        }
+        (Kind::Resolution, DeValue::String(text)) => {
+            if resolution(text).is_none() {
+                out_of_range(&format!("\"{text}\""));
             }
         }
         (Kind::List(kind, min, max), DeValue::Array(items)) => {
@@ -184,12 +219,19 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
                 wrong_type(kind, item, &format!("an entry of {place}"), faults);
             }
         }
+        (Kind::Method | Kind::Acuity, _) => check_model(kind, value, place, faults),
         (Kind::Metrics, _) => check_metrics(value, place, faults),
         (Kind::Either(kinds), _) => match kinds.iter().find(|kind| is_of(kind, value)) {
             Some(kind) => check_value(kind, value, place, faults),
             None => wrong_type(kind, value, place, faults),
         },
         _ => wrong_type(kind, value, place, faults),
+    }
+}
+
+fn one_of(words: &[&str], text: &str, place: &str, span: Range<usize>, faults: &mut Vec<Fault>) {
+    if !words.contains(&text) {
+        faults.push(no_such(place, text, span, words.iter().copied()));
     }
 }
 
@@ -219,6 +261,7 @@ fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
                 | Kind::Frames
                 | Kind::Display
                 | Kind::Metric
+                | Kind::Resolution
         ),
         DeValue::Integer(_) | DeValue::Float(_) => {
             matches!(
@@ -231,7 +274,9 @@ fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
             )
         }
         DeValue::Array(_) => matches!(kind, Kind::List(..) | Kind::Tables(_)),
-        DeValue::Table(_) => matches!(kind, Kind::Table(_) | Kind::Metrics),
+        DeValue::Table(_) => {
+            matches!(kind, Kind::Table(_) | Kind::Metrics | Kind::Method | Kind::Acuity)
+        }
         DeValue::Datetime(_) => false,
     }
 }

@@ -4,11 +4,11 @@ use fovqa_vision::BandEdges;
 
 use super::{Key, Kind};
 
-const fn key(name: &'static str, kind: Kind, about: &'static str) -> Key {
+pub(super) const fn key(name: &'static str, kind: Kind, about: &'static str) -> Key {
     Key { name, required: false, kind, about }
 }
 
-const fn required(name: &'static str, kind: Kind, about: &'static str) -> Key {
+pub(super) const fn required(name: &'static str, kind: Kind, about: &'static str) -> Key {
     Key { name, required: true, kind, about }
 }
 
@@ -18,7 +18,7 @@ const FOV: Kind = Kind::Above(0.0, 179.999);
 const TANGENT: Kind = Kind::Number(-6000.0, 6000.0);
 /// Pixels, a long way outside any frame.
 const POSITION: Kind = Kind::Number(-1e6, 1e6);
-const POINT: Kind = Kind::List(&POSITION, 2, 2);
+pub(super) const POSITION_PAIR: Kind = Kind::List(&POSITION, 2, 2);
 const LENGTH_M: Kind = Kind::Above(0.0, 1e4);
 const PIXELS: Kind = Kind::Whole(0, 1_000_000);
 const BAND_EDGE: Kind = Kind::Number(0.0, 180.0);
@@ -43,7 +43,7 @@ const ONE_TRACE: &[Key] = &[
     key("hold", Kind::Bool, "frames beyond the trace keep its last gaze"),
 ];
 
-const ONE_GAZE: [Kind; 3] = [Kind::Word(&["center"]), POINT, Kind::Table(ONE_TRACE)];
+const ONE_GAZE: [Kind; 3] = [Kind::Word(&["center"]), POSITION_PAIR, Kind::Table(ONE_TRACE)];
 
 const SIDES: &[Key] = &[
     required("left", Kind::Text, "frames of the left eye"),
@@ -55,14 +55,17 @@ const FILES: Kind = Kind::Either(&[Kind::Text, Kind::Table(SIDES)]);
 const GAZE: &str = "where the eye looks: \"center\" (the principal point), [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }";
 
 /// The gaze of one eye or, with tables for each, of two.
-const VIEW_GAZE: &[Key] =
-    &[key("gaze", Kind::Either(&[Kind::Word(&["center"]), POINT, Kind::Table(TRACE)]), GAZE)];
+const VIEW_GAZE: &[Key] = &[key(
+    "gaze",
+    Kind::Either(&[Kind::Word(&["center"]), POSITION_PAIR, Kind::Table(TRACE)]),
+    GAZE,
+)];
 
 /// The gaze of one eye.
 const EYE_GAZE: &[Key] = &[key("gaze", Kind::Either(&ONE_GAZE), "where this eye looks")];
 
 /// The ways to say how a frame is seen.
-const VIEW: &[Key] = &[
+pub(super) const VIEW: &[Key] = &[
     key("display", Kind::Display, "display preset; the frame fills its whole field"),
     key("fov_vertical_deg", FOV, "vertical field of view, °; alone: square pixels"),
     key("fov_horizontal_deg", FOV, "horizontal field of view, °; alone: square pixels"),
@@ -159,7 +162,7 @@ const SHARED: &[Key] = &[
     ),
 ];
 
-const fn joined<const N: usize>(parts: &[&[Key]]) -> [Key; N] {
+pub(super) const fn joined<const N: usize>(parts: &[&[Key]]) -> [Key; N] {
     let mut keys = [key("", Kind::Bool, ""); N];
     let (mut part, mut at) = (0, 0);
     while part < parts.len() {

@@ -2,14 +2,18 @@
 //! description, from which the file is checked, mistakes are explained and the JSON Schema is made.
 
 mod check;
+mod curves;
 mod experiment;
 mod schema;
 
 pub(crate) use check::{check, number};
+pub(crate) use curves::CURVES;
 pub(crate) use experiment::EXPERIMENT;
-pub use schema::schema;
+pub use schema::{curves_schema, schema};
 
-use fovqa_params::ParamValues;
+use fovqa_methods::Method;
+use fovqa_params::{ParamInfo, ParamValues};
+use fovqa_vision::acuity::AcuityModel;
 
 /// A key of a table.
 #[derive(Debug, Clone, Copy)]
@@ -47,6 +51,12 @@ pub(crate) enum Kind {
     Display,
     /// The name of a metric.
     Metric,
+    /// A frame's size as text, `2560x1440`.
+    Resolution,
+    /// A table of a foveation method, `model`, and its parameters.
+    Method,
+    /// The same of an acuity model.
+    Acuity,
     /// A list of so many values of one kind.
     List(&'static Kind, usize, usize),
     /// A table.
@@ -82,6 +92,9 @@ impl Kind {
             Kind::Frames => "a range of frames such as \"0..100\" or \"0..100:5\"".to_owned(),
             Kind::Display => "the name of a display (`fovqa list displays`)".to_owned(),
             Kind::Metric => "the name of a metric".to_owned(),
+            Kind::Resolution => "a size such as \"2560x1440\", each side 1 to 100000".to_owned(),
+            Kind::Method => "a table such as { model = \"rmfr\", sigma = 2.6 }".to_owned(),
+            Kind::Acuity => "a table such as { model = \"piecewise\", cap_cpd = 9 }".to_owned(),
             Kind::List(kind, min, max) => {
                 let count = match (min, max) {
                     (min, max) if min == max => format!("a list of {min}: each "),
@@ -100,6 +113,37 @@ impl Kind {
             }
         }
     }
+}
+
+/// A model that a table may name: its name and its parameters.
+pub(crate) type Model = (&'static str, &'static [ParamInfo]);
+
+impl Kind {
+    /// The models a table of this kind may name, and what they are called.
+    pub(crate) fn models(&self) -> Option<(&'static str, Vec<Model>)> {
+        match self {
+            Kind::Method => {
+                let models = Method::all().map(|m| (m.key(), m.info().params));
+                Some(("method", models.to_vec()))
+            }
+            Kind::Acuity => {
+                let models = AcuityModel::all().map(|m| (m.info().key, m.info().params));
+                Some(("acuity model", models.to_vec()))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Width and height of a frame's size as text, each 1 to 100000.
+pub fn resolution(text: &str) -> Option<[usize; 2]> {
+    const MOST: usize = 100_000;
+    let (width, height) = text.split_once(['x', '×'])?;
+    let side = |text: &str| {
+        let side: usize = text.trim().parse().ok()?;
+        (1..=MOST).contains(&side).then_some(side)
+    };
+    Some([side(width)?, side(height)?])
 }
 
 /// Words in quotes, with commas between them.

@@ -1,18 +1,29 @@
 //! The grammar as JSON Schema, for editors.
 
 use fovqa_metrics::Metric;
+use fovqa_params::ParamInfo;
 use fovqa_vision::displays;
 use serde_json::{Map, Value, json};
 
-use super::{EXPERIMENT, Key, Kind, parameter};
+use super::{CURVES, EXPERIMENT, Key, Kind, Model, parameter};
 
 /// The JSON Schema of an experiment file.
 pub fn schema() -> Value {
-    let mut schema = table(EXPERIMENT);
+    let about = "Scenes, methods and metrics of one fovqa experiment (TOML)";
+    headed(table(EXPERIMENT), "fovqa experiment", about)
+}
+
+/// The JSON Schema of a file of curves.
+pub fn curves_schema() -> Value {
+    let about = "Foveation methods against acuity: curves, figures and tables of fovqa (TOML)";
+    headed(table(CURVES), "fovqa curves", about)
+}
+
+fn headed(mut schema: Value, title: &str, description: &str) -> Value {
     let head = json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "fovqa experiment",
-        "description": "Scenes, methods and metrics of one fovqa experiment (TOML)",
+        "title": title,
+        "description": description,
     });
     if let (Value::Object(schema), Value::Object(head)) = (&mut schema, head) {
         schema.extend(head);
@@ -76,6 +87,13 @@ fn kind(kind: &Kind) -> Value {
             json!({ "enum": all })
         }
         Kind::Metric => json!({ "enum": Metric::ALL.map(Metric::key) }),
+        Kind::Resolution => {
+            json!({ "type": "string", "pattern": r"^ *0*([1-9][0-9]{0,4}|100000) *[x×] *0*([1-9][0-9]{0,4}|100000) *$" })
+        }
+        Kind::Method | Kind::Acuity => {
+            let models = kind.models().map(|(_, models)| models).unwrap_or_default();
+            json!({ "anyOf": models.iter().map(|model| self::model(*model)).collect::<Vec<_>>() })
+        }
         Kind::List(of, min, max) => {
             json!({ "type": "array", "items": self::kind(of), "minItems": min, "maxItems": max })
         }
@@ -85,12 +103,7 @@ fn kind(kind: &Kind) -> Value {
             let mut schema = table(&[]);
             schema["minProperties"] = 1.into();
             for metric in Metric::ALL {
-                let mut params = table(&[]);
-                for param in metric.info().params {
-                    let mut value = self::kind(&parameter(param.values));
-                    value["description"] = param.about.into();
-                    params["properties"][param.name] = value;
-                }
+                let mut params = params(metric.info().params);
                 params["description"] = metric.info().about.into();
                 schema["properties"][metric.key()] = params;
             }
@@ -98,6 +111,26 @@ fn kind(kind: &Kind) -> Value {
         }
         Kind::Either(kinds) => json!({ "anyOf": kinds.iter().map(self::kind).collect::<Vec<_>>() }),
     }
+}
+
+fn params(known: &[ParamInfo]) -> Value {
+    let mut params = table(&[]);
+    for param in known {
+        let mut value = self::kind(&parameter(param.values));
+        value["description"] = param.about.into();
+        params["properties"][param.name] = value;
+    }
+    params
+}
+
+fn model((name, known): Model) -> Value {
+    let mut schema = params(known);
+    // Both spellings, `-` and `_`, as people write them.
+    let mut names = vec![name.to_owned(), name.replace('_', "-")];
+    names.dedup();
+    schema["properties"]["model"] = json!({ "enum": names });
+    schema["required"] = json!(["model"]);
+    schema
 }
 
 fn either(kind: &Kind, word: &str) -> Value {

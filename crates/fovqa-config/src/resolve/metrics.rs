@@ -9,7 +9,7 @@ use toml::de::DeValue;
 
 use crate::fault::Fault;
 use crate::grammar::number;
-use crate::node::{Node, flag, numbers, table, text};
+use crate::node::{Node, flag, numbers, pairs, table, text};
 use crate::plan::MetricChoice;
 
 /// Parameters an experiment sets.
@@ -43,10 +43,11 @@ pub(super) fn metrics(root: Node<'_>, faults: &mut Vec<Fault>) -> (MetricChoice,
     (MetricChoice::Named(named), params, set)
 }
 
-fn param_value(value: &Spanned<DeValue<'_>>) -> Option<ParamValue> {
+pub(super) fn param_value(value: &Spanned<DeValue<'_>>) -> Option<ParamValue> {
     number(value.get_ref())
         .map(ParamValue::Number)
         .or_else(|| text(value).map(|text| ParamValue::Text(text.to_owned())))
         .or_else(|| numbers(value).map(ParamValue::List))
+        .or_else(|| pairs(value).map(ParamValue::Pairs))
         .or_else(|| flag(value).map(ParamValue::Flag))
 }

@@ -1,11 +1,15 @@
 //! From checked tables to the plan: overrides, placeholders, names that refer to each other.
 
+mod curves;
 mod guides;
 mod methods;
 mod metrics;
 mod plots;
 mod scenes;
 mod settings;
+mod view;
+
+pub(crate) use curves::curves;
 
 use std::path::{Path, PathBuf};
 

@@ -3,7 +3,7 @@
 use fovqa_metrics::{Metric, MetricKind, Params};
 
 use super::scenes::Resolved;
-use super::settings::VIEW_HELP;
+use super::view::VIEW_HELP;
 use crate::fault::Fault;
 use crate::grammar::quoted;
 use crate::nearest::nearest;
@@ -143,7 +143,7 @@ fn wavelet(
 }
 
 /// Names of a list that have to be known.
-fn subset(
+pub(super) fn subset(
     table: Node<'_>,
     key: &str,
     known: &[&str],

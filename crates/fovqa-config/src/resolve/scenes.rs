@@ -5,7 +5,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::Placeholders;
-use super::settings::{Layers, VIEW_HELP, path};
+use super::settings::{Layers, path};
+use super::view::VIEW_HELP;
 use crate::fault::Fault;
 use crate::node::Node;
 use crate::plan::{Eye, EyeView, MetricChoice, Scene};

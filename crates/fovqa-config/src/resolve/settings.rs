@@ -5,27 +5,16 @@ use std::path::Path;
 
 use fovqa_frame::{Crop, SignalChannels, SignalParams, ToneMap, Transfer};
 use fovqa_io::{AlphaPolicy, ReadOptions};
-use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec, find_display};
+use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec};
 use serde_spanned::Spanned;
 use toml::de::DeValue;
 
 use super::Placeholders;
 use super::guides::guides;
+use super::view::{VIEW_HELP, gives_view, view};
 use crate::fault::Fault;
 use crate::node::{Node, numbers, table};
 use crate::plan::{Eye, Gaze, Nonfinite, Settings};
-
-/// Keys that, one or two together, say what the view is.
-const VIEW_WAYS: [&str; 8] = [
-    "display",
-    "fov_vertical_deg",
-    "fov_horizontal_deg",
-    "fov_diagonal_deg",
-    "frustum",
-    "distance_m",
-    "pixel_pitch_mm",
-    "screen_m",
-];
 
 /// Tables that say how one eye sees a scene, from the most general to the most special.
 pub(super) struct Layers<'a> {
@@ -153,54 +142,7 @@ impl<'a> Layers<'a> {
 
     /// The view of the most special table that gives one: what a scene says replaces it whole.
     fn view(&self, faults: &mut Vec<Fault>) -> Option<ViewSpec> {
-        let gives = |table: &&Node<'_>| VIEW_WAYS.iter().any(|key| table.has(key));
-        let table = *self.tables.iter().rev().find(gives)?;
-        let given: Vec<&str> = VIEW_WAYS.into_iter().filter(|key| table.has(key)).collect();
-        let number = |key| table.number(key);
-        let spec = match given.as_slice() {
-            ["display"] => {
-                table.text("display").and_then(find_display).cloned().map(ViewSpec::Display)
-            }
-            ["fov_vertical_deg" | "fov_horizontal_deg"]
-            | ["fov_vertical_deg", "fov_horizontal_deg"] => Some(ViewSpec::Fov {
-                horizontal_deg: number("fov_horizontal_deg"),
-                vertical_deg: number("fov_vertical_deg"),
-            }),
-            ["fov_diagonal_deg"] => number("fov_diagonal_deg")
-                .map(|diagonal_deg| ViewSpec::FovDiagonal { diagonal_deg }),
-            ["frustum"] => table.table("frustum").and_then(|frustum| {
-                let side = |key| frustum.number(key);
-                Some(ViewSpec::Frustum {
-                    left: side("left")?,
-                    right: side("right")?,
-                    up: side("up")?,
-                    down: side("down")?,
-                })
-            }),
-            ["distance_m", "pixel_pitch_mm"] => number("distance_m")
-                .zip(number("pixel_pitch_mm"))
-                .map(|(distance_m, pitch_mm)| ViewSpec::PixelPitch { distance_m, pitch_mm }),
-            ["distance_m", "screen_m"] => number("distance_m")
-                .zip(table.array("screen_m"))
-                .map(|(distance_m, size_m)| ViewSpec::Screen { distance_m, size_m }),
-            [alone @ ("distance_m" | "pixel_pitch_mm" | "screen_m")] => {
-                let fault = Fault::new(table.span(alone), format!("{alone} alone is no view"));
-                faults.push(fault.help("a flat screen is distance_m with pixel_pitch_mm, or distance_m with screen_m = [width, height]"));
-                return None;
-            }
-            [first, .., last] => {
-                let message =
-                    format!("the view is given in more than one way: {}", given.join(", "));
-                let fault = Fault::new(table.span(last), message);
-                faults.push(fault.label(format!("beside {first}")).help("keep one of them"));
-                return None;
-            }
-            _ => None,
-        };
-        if let Some(Err(error)) = spec.as_ref().map(ViewSpec::check) {
-            faults.push(Fault::new(table.span(given[0]), error.to_string()));
-        }
-        spec
+        view(*self.tables.iter().rev().find(|table| gives_view(**table))?, faults)
     }
 
     fn gaze(&self, base: &Path, placeholders: Placeholders<'_>, faults: &mut Vec<Fault>) -> Gaze {
@@ -244,10 +186,6 @@ impl<'a> Layers<'a> {
         }
     }
 }
-
-/// What a view may be given as.
-pub(super) const VIEW_HELP: &str =
-    "give one in [view], such as display = \"vive-pro-eye\" or fov_vertical_deg = 100";
 
 fn gaze_of(
     value: &Spanned<DeValue<'_>>,

@@ -1,0 +1,257 @@
+//! A file of curves: foveation methods over eccentricity, and what is drawn and tabulated of them.
+
+use std::path::{Path, PathBuf};
+
+use fovqa_methods::{BudgetOf, Method, MethodError, Setting};
+use fovqa_vision::acuity::AcuityModel;
+use fovqa_vision::{EccentricityKind, Tangential, View};
+
+use crate::fault::ExperimentError;
+use crate::file;
+use crate::grammar::CURVES;
+use crate::resolve;
+
+/// What a file of curves asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurvesFile {
+    /// Its name.
+    pub name: String,
+    /// What it shows, for its page; may be empty.
+    pub about: String,
+    /// Its file.
+    pub path: PathBuf,
+    /// The file's text.
+    pub text: String,
+    /// What is to be computed.
+    pub plan: CurvePlan,
+}
+
+/// Curves, figures and tables.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CurvePlan {
+    /// The curves, a method's for each of its settings one after the other.
+    pub curves: Vec<CurveSpec>,
+    /// What rates are held against.
+    pub acuity: AcuityModel,
+    /// The eccentricities.
+    pub range: CurveRange,
+    /// Figures; none: all that fit.
+    pub plots: Vec<CurvePlot>,
+    /// Tables; none: all that fit, where no figures are named either.
+    pub tables: Vec<CurveTable>,
+}
+
+/// The eccentricities of curves: from 0 on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveRange {
+    /// From one to the next, degrees.
+    pub step_deg: f64,
+    /// The last one, degrees, for methods whose curves do not end with the frame.
+    pub to_deg: f64,
+}
+
+impl Default for CurveRange {
+    fn default() -> Self {
+        Self { step_deg: 0.25, to_deg: 60.0 }
+    }
+}
+
+impl CurveRange {
+    /// Steps finer than this are no longer told apart in a plot or a table.
+    pub const LEAST_STEP_DEG: f64 = 0.001;
+    /// Where eccentricity ends.
+    pub const MOST_DEG: f64 = 179.0;
+}
+
+/// One curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveSpec {
+    /// The name its file gives it: the same for every setting.
+    pub name: String,
+    /// What is drawn.
+    pub source: CurveSource,
+    /// Parameters that are not at their defaults, `name=value` with `;` between them.
+    pub parameters: String,
+}
+
+/// What a curve is of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum CurveSource {
+    /// An acuity model, which is of no screen.
+    Acuity(AcuityModel),
+    /// A method on a screen.
+    Method {
+        /// The method, its budget solved.
+        method: Method,
+        /// The screen.
+        setting: CurveSetting,
+    },
+}
+
+/// A screen, a gaze, and how rates are measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveSetting {
+    /// The frame.
+    pub view: View,
+    /// The gaze in pixels.
+    pub gaze_px: [f64; 2],
+    /// Direction of the curve from the gaze, degrees from +x towards +y.
+    pub direction_deg: f64,
+    /// What a degree across the curve is.
+    pub tangential: Tangential,
+    /// How eccentricity is measured.
+    pub eccentricity: EccentricityKind,
+}
+
+impl CurveSetting {
+    /// What methods are applied to.
+    ///
+    /// # Errors
+    /// When the frame has no pixels or the gaze is no place.
+    pub fn setting(&self) -> Result<Setting, MethodError> {
+        Setting::new(&self.view, self.gaze_px)
+    }
+}
+
+/// A budget that a method is solved for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveBudget {
+    /// Samples over the frame's pixels.
+    pub share: f64,
+    /// Which samples.
+    pub of: BudgetOf,
+}
+
+/// A figure.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CurvePlot {
+    /// What it shows.
+    pub kind: CurvePlotKind,
+    /// Its file's name; the kind's without.
+    pub name: Option<String>,
+    /// What stands above it.
+    pub title: Option<String>,
+    /// Names of its curves; all without.
+    pub curves: Option<Vec<String>>,
+    /// Which rate.
+    pub rate: RateKind,
+    /// In which unit.
+    pub unit: RateUnit,
+    /// What has a panel of its own.
+    pub panels: PanelOf,
+    /// Whether over- and under-sampled areas are shaded; without, where a panel has one curve.
+    pub areas: Option<bool>,
+    /// Whether the display's own rate is drawn too.
+    pub display: bool,
+    /// Ends of the vertical axis.
+    pub y_limits: Option<[f64; 2]>,
+    /// Whether values stand on a logarithmic axis.
+    pub log: bool,
+    /// Eccentricities whose rings are drawn over a picture, degrees.
+    pub rings_deg: Vec<f64>,
+    /// Values of f, of RMFR's half axis.
+    pub f: Vec<f64>,
+}
+
+/// What a figure of curves shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CurvePlotKind {
+    /// Rates and acuity against eccentricity.
+    #[default]
+    Rates,
+    /// Samples per pixel over the field, as a picture.
+    Density,
+    /// DEAMP: shaded pixels within a layer's angle (Fig. 5b).
+    Accumulated,
+    /// RMFR: where a half axis goes (Fig. 3).
+    HalfAxis,
+}
+
+/// Which rate a figure shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RateKind {
+    /// Along the line from the gaze.
+    #[default]
+    Radial,
+    /// Across it.
+    Tangential,
+    /// Both, side by side.
+    Both,
+}
+
+/// The unit of rates in a figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RateUnit {
+    /// Cycles per degree.
+    #[default]
+    Cpd,
+    /// Samples per pixel along the direction: the display's own rate is 1.
+    PerPixel,
+}
+
+/// What has a panel of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum PanelOf {
+    /// Nothing: all curves in one.
+    One,
+    /// Each curve with its settings.
+    #[default]
+    Curve,
+    /// Each resolution.
+    Resolution,
+    /// Each gaze.
+    Gaze,
+    /// Each direction.
+    Direction,
+}
+
+/// A table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveTable {
+    /// What it shows.
+    pub kind: CurveTableKind,
+    /// Names of its curves; all without.
+    pub curves: Option<Vec<String>>,
+}
+
+/// What a table of curves shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CurveTableKind {
+    /// Samples per frame and load, curves against resolutions (VaFR, Table 1).
+    Samples,
+    /// Buffer, samples, share of pixels and theoretical speed-up.
+    SpeedUp,
+    /// The share of the field below acuity, and the samples spent above it.
+    Acuity,
+}
+
+impl CurvesFile {
+    /// Reads a file of curves. No other file is looked at.
+    ///
+    /// # Errors
+    /// When it cannot be read, or has mistakes in it: all that can be told, in one go.
+    pub fn read(path: &Path) -> Result<Self, ExperimentError> {
+        Self::parse(path, file::read(path)?)
+    }
+
+    /// Parses the text of a file of curves.
+    ///
+    /// # Errors
+    /// When it has mistakes in it.
+    pub fn parse(path: &Path, text: String) -> Result<Self, ExperimentError> {
+        let resolved = file::parse(path, &text, CURVES, resolve::curves);
+        let (name, about, plan) = resolved?;
+        Ok(Self { name, about, path: path.to_owned(), text, plan })
+    }
+
+    /// Whether a file is one of curves rather than an experiment: it has curves, plots or tables,
+    /// and nothing that is scored.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn is_one(path: &Path) -> Result<bool, ExperimentError> {
+        let text = file::read(path)?;
+        let any = |keys: &[&str]| file::has(&text, keys);
+        Ok(any(&["curve", "plot", "table"]) && !any(&["scene", "method", "metrics", "signal"]))
+    }
+}

@@ -1,0 +1,85 @@
+//! A TOML file, read, parsed and held against a grammar.
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+
+use toml::de::DeTable;
+
+use crate::fault::{ExperimentError, Fault};
+use crate::grammar::{Key, check};
+use crate::node::Node;
+
+/// Far more than anybody writes.
+const MAX_BYTES: u64 = 4 << 20;
+
+/// The text of a file. No other file is looked at.
+pub(crate) fn read(path: &Path) -> Result<String, ExperimentError> {
+    let unreadable = |reason: String| ExperimentError::Unreadable { path: path.to_owned(), reason };
+    let kind = fs::metadata(path).map_err(|error| unreadable(reason(&error)))?;
+    // Before it is opened, which a pipe without a writer would never end.
+    if !kind.is_file() {
+        return Err(unreadable("it is not a regular file".to_owned()));
+    }
+    let file = fs::File::open(path).map_err(|error| unreadable(reason(&error)))?;
+    let mut bytes = Vec::new();
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(reason(&error)))?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(unreadable("it is larger than 4 MiB".to_owned()));
+    }
+    String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".to_owned()))
+}
+
+fn reason(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// What a text says, once the grammar has found it right and `resolve` has no fault with it.
+pub(crate) fn parse<T>(
+    path: &Path,
+    text: &str,
+    keys: &[Key],
+    resolve: impl FnOnce(Node<'_>, &mut Vec<Fault>) -> T,
+) -> Result<T, ExperimentError> {
+    parsed(text, keys, resolve).map_err(|mut faults| {
+        faults.sort_by_key(|fault| (fault.span.start, fault.span.end));
+        // What is general is read once for each scene and eye.
+        faults.dedup();
+        ExperimentError::Faults { path: path.to_owned(), text: text.to_owned(), faults }
+    })
+}
+
+fn parsed<T>(
+    text: &str,
+    keys: &[Key],
+    resolve: impl FnOnce(Node<'_>, &mut Vec<Fault>) -> T,
+) -> Result<T, Vec<Fault>> {
+    let document = document(text)?;
+    let mut faults = Vec::new();
+    check(keys, document.get_ref(), "the experiment", 0..0, &mut faults);
+    // What refers to something is looked at only in a file that is written right: a table whose name
+    // is misspelled would be missed in a dozen other places.
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let resolved = resolve(Node::new(document.get_ref()), &mut faults);
+    if faults.is_empty() { Ok(resolved) } else { Err(faults) }
+}
+
+fn document(text: &str) -> Result<serde_spanned::Spanned<DeTable<'_>>, Vec<Fault>> {
+    DeTable::parse(text).map_err(|error| {
+        // A mistake at the very end has no character of its own to point to.
+        let span = error.span().unwrap_or_default();
+        let span = span.start.min(text.len())..span.end.min(text.len());
+        vec![Fault::new(span, format!("this is not TOML: {}", error.message()))]
+    })
+}
+
+/// Whether a text has any of these keys at its top.
+pub(crate) fn has(text: &str, keys: &[&str]) -> bool {
+    document(text)
+        .is_ok_and(|document| keys.iter().any(|key| document.get_ref().contains_key(*key)))
+}

@@ -1,0 +1,128 @@
+//! The keys of a file of curves.
+
+use super::experiment::{POSITION_PAIR, VIEW, joined, key, required};
+use super::{Key, Kind};
+
+/// A gaze that is the same for all: a point, or the centre.
+const GAZE: Kind = Kind::Either(&[Kind::Word(&["center"]), POSITION_PAIR]);
+const NAMES: Kind = Kind::List(&Kind::Name, 1, 1000);
+
+/// On which screens: what a curve may have otherwise than the rest.
+const SCREENS: &[Key] = &[
+    key(
+        "resolutions",
+        Kind::List(&Kind::Resolution, 1, 100),
+        "sizes of the frame, such as [\"2560x1440\"]; a curve for each",
+    ),
+    key(
+        "gazes",
+        Kind::List(&GAZE, 1, 100),
+        "where the eye looks: \"center\" or [x, y] in pixels; a curve for each",
+    ),
+    key(
+        "directions_deg",
+        Kind::List(&Kind::Number(-360.0, 360.0), 1, 100),
+        "directions from the gaze, ° from +x towards +y (0: right, 90: down); a curve for each",
+    ),
+    key(
+        "tangential",
+        Kind::Word(&["paper", "angle"]),
+        "what a degree across the curve is: as along it, or of visual angle",
+    ),
+    key("eccentricity", Kind::Word(&["planar", "angular"]), "how eccentricity is measured"),
+];
+
+static VIEW_TABLE: [Key; VIEW.len() + SCREENS.len()] = joined(&[VIEW, SCREENS]);
+
+static CURVE_TABLE: [Key; 5 + VIEW.len() + SCREENS.len()] = joined(&[
+    &[
+        required("name", Kind::Name, "its name in legends and tables"),
+        key("method", Kind::Method, "the method: { model = \"kfr\", sigma = 1.8 }"),
+        key("acuity", Kind::Acuity, "or an acuity model: { model = \"piecewise\", cap_cpd = 9 }"),
+        key(
+            "budget",
+            Kind::Above(0.0, 1000.0),
+            "samples over the frame's pixels; sets the method's free parameter",
+        ),
+        key(
+            "budget_of",
+            Kind::Word(&["buffer", "on_screen"]),
+            "which samples a budget counts: all, or those that fall into the frame",
+        ),
+    ],
+    VIEW,
+    SCREENS,
+]);
+
+static PLOT_TABLE: [Key; 13] = [
+    required(
+        "kind",
+        Kind::Word(&["rates", "density", "accumulated", "half_axis"]),
+        "rates: rates and acuity against eccentricity; density: samples per pixel over the field, a picture; accumulated: DEAMP's shaded pixels within an angle (Fig. 5b); half_axis: RMFR's mapping of a half axis (Fig. 3)",
+    ),
+    key("name", Kind::Name, "name of its files; if it is not given, the kind"),
+    key("title", Kind::Text, "what stands above it"),
+    key("curves", NAMES, "only these curves"),
+    key(
+        "rate",
+        Kind::Word(&["radial", "tangential", "both"]),
+        "along the line from the gaze, across it, or both side by side",
+    ),
+    key(
+        "unit",
+        Kind::Word(&["cpd", "per_pixel"]),
+        "cycles per degree, or samples per pixel: the display's own rate is 1",
+    ),
+    key(
+        "panels",
+        Kind::Word(&["one", "curve", "resolution", "gaze", "direction"]),
+        "what has a panel of its own; if it is not given, each curve with its settings",
+    ),
+    key(
+        "areas",
+        Kind::Bool,
+        "shade where the rate is above and below acuity; if it is not given, in panels of one curve",
+    ),
+    key("display", Kind::Bool, "draw the display's own rate too"),
+    key(
+        "y_limits",
+        Kind::List(&Kind::Number(0.0, 1e6), 2, 2),
+        "ends of the vertical axis; curves are cut there",
+    ),
+    key("log", Kind::Bool, "a logarithmic axis (of a picture: of its colours)"),
+    key(
+        "rings_deg",
+        Kind::List(&Kind::Above(0.0, 89.0), 1, 20),
+        "eccentricities whose rings are drawn over a picture, °",
+    ),
+    key(
+        "f",
+        Kind::List(&Kind::Number(1.001, 1e6), 1, 20),
+        "for half_axis: values of f, each a curve",
+    ),
+];
+
+static TABLE_TABLE: [Key; 2] = [
+    required(
+        "kind",
+        Kind::Word(&["samples", "speed_up", "acuity"]),
+        "samples: samples and load, curves against resolutions; speed_up: buffer, samples, share of the pixels, theoretical speed-up; acuity: share of the field below acuity, samples spent above it",
+    ),
+    key("curves", NAMES, "only these curves"),
+];
+
+static CURVES_TABLE: [Key; 10] = [
+    key("schema", Kind::Whole(1, 1), "version of this format"),
+    required("name", Kind::Name, "its name, and that of its folder below reports/"),
+    key("about", Kind::Text, "what it shows, for its page"),
+    key("view", Kind::Table(&VIEW_TABLE), "the screens, for all curves"),
+    key("step_deg", Kind::Number(0.001, 60.0), "from one eccentricity to the next, °; 0.25"),
+    key("to_deg", Kind::Above(0.0, 179.0), "the last eccentricity, °; 60"),
+    key("acuity", Kind::Acuity, "what rates are held against; { model = \"piecewise\" }"),
+    key("curve", Kind::Tables(&CURVE_TABLE), "the curves"),
+    key("plot", Kind::Tables(&PLOT_TABLE), "figures; if none and no table is given, all that fit"),
+    key("table", Kind::Tables(&TABLE_TABLE), "tables; likewise"),
+];
+
+/// The whole file.
+pub(crate) const CURVES: &[Key] = &CURVES_TABLE;
