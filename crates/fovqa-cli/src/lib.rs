@@ -2,6 +2,7 @@
 
 mod args;
 mod check;
+mod curves;
 mod diagnostic;
 mod dialect;
 mod exit;
@@ -42,6 +43,7 @@ fn dispatch(cli: Cli) -> Exit {
         Command::Run(args) => run::run(&args),
         Command::Report(args) => report::run(&args),
         Command::Check(args) => check::run(&args),
+        Command::Curves(args) => curves::run(&args),
         Command::Schema => schema::run(),
         Command::List { what } => list::run(what),
         Command::Completions { shell } => output::write(|out| {

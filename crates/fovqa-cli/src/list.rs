@@ -3,7 +3,10 @@
 use std::fmt::Write as _;
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use fovqa_methods::Method;
 use fovqa_metrics::{Better, Metric, MetricKind};
+use fovqa_params::ParamInfo;
+use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::displays;
 
 use crate::args::Listed;
@@ -13,6 +16,7 @@ use crate::output;
 pub(crate) fn run(what: Listed) -> Exit {
     let text = match what {
         Listed::Metrics => metrics(),
+        Listed::Methods => methods(),
         Listed::Displays => display_presets(),
     };
     output::write(|out| out.write_all(text.as_bytes()))
@@ -43,15 +47,45 @@ fn metrics() -> String {
         let _ = writeln!(text, "    {}", info.about);
         let _ = writeln!(text, "    {better}{bands}{view}{default}");
         let _ = writeln!(text, "    source: {}", info.source);
-        for param in info.params {
-            let _ = writeln!(
-                text,
-                "      --set {}.{}={}  {}; {}",
-                info.key, param.name, param.default, param.about, param.values
-            );
-        }
-        text.push('\n');
+        parameters(&mut text, &format!("{}.", info.key), info.params);
     }
+    ended(text)
+}
+
+fn methods() -> String {
+    let mut text = String::from("Foveation methods, `--method NAME`\n\n");
+    for method in Method::all() {
+        let info = method.info();
+        entry(&mut text, info.key, info.label, info.about, info.source);
+        parameters(&mut text, "", info.params);
+    }
+    text.push_str("Acuity models, `--acuity NAME`\n\n");
+    for model in AcuityModel::all() {
+        let info = model.info();
+        entry(&mut text, info.key, info.label, info.about, info.source);
+        parameters(&mut text, "", info.params);
+    }
+    ended(text)
+}
+
+fn entry(text: &mut String, key: &str, label: &str, about: &str, source: &str) {
+    let _ = writeln!(text, "{} ({label})", key.replace('_', "-"));
+    let _ = writeln!(text, "    {about}");
+    let _ = writeln!(text, "    source: {source}");
+}
+
+fn parameters(text: &mut String, owner: &str, params: &[ParamInfo]) {
+    for param in params {
+        let _ = writeln!(
+            text,
+            "      --set {owner}{}={}  {}; {}",
+            param.name, param.default, param.about, param.values
+        );
+    }
+    text.push('\n');
+}
+
+fn ended(mut text: String) -> String {
     text.truncate(text.trim_end().len());
     text.push('\n');
     text

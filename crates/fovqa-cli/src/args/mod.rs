@@ -1,5 +1,6 @@
 //! The command line, as clap sees it.
 
+mod curves;
 mod guides;
 mod metrics;
 mod no_such;
@@ -9,6 +10,7 @@ mod signal;
 mod values;
 mod view;
 
+pub(crate) use curves::CurvesArgs;
 pub(crate) use run::{CheckArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
 
@@ -47,7 +49,10 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Print the JSON Schema of the experiment file, for editors.
     Schema,
-    /// List what there is: metrics with their parameters, or display presets.
+    /// Shading rate of foveation methods against acuity: one curve as CSV, or figures and tables.
+    #[command(after_help = curves::EXAMPLES)]
+    Curves(Box<CurvesArgs>),
+    /// List what there is: metrics, foveation methods and acuity models, or display presets.
     List {
         /// What to list.
         what: Listed,
@@ -64,6 +69,8 @@ pub(crate) enum Command {
 pub(crate) enum Listed {
     /// Metrics, their parameters, defaults, units and sources.
     Metrics,
+    /// Foveation methods and acuity models, their parameters, defaults, units and sources.
+    Methods,
     /// Display presets.
     Displays,
 }

@@ -18,9 +18,10 @@ pub(crate) enum EccentricityArg {
     Planar,
 }
 
+/// The ways to give a view.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "View")]
-pub(crate) struct ViewArgs {
+pub(crate) struct ViewSpecArgs {
     /// Vertical field of view, degrees. Alone: square pixels
     #[arg(long, value_name = "DEG", value_parser = finite, allow_negative_numbers = true)]
     fov_vertical: Option<f64>,
@@ -42,6 +43,13 @@ pub(crate) struct ViewArgs {
     /// Size of a pixel of a flat screen, millimetres; with --distance-m
     #[arg(long, value_name = "P", value_parser = finite, requires = "distance_m")]
     pixel_pitch_mm: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "View")]
+pub(crate) struct ViewArgs {
+    #[command(flatten)]
+    spec: ViewSpecArgs,
     /// Gaze in pixels from the top-left corner, or a CSV trace with columns frame,x_px,y_px (or
     /// time_s with --fps) [default: the principal point]
     #[arg(long, verbatim_doc_comment, value_name = "X,Y|FILE.csv", allow_hyphen_values = true, value_parser = gaze)]
@@ -94,7 +102,16 @@ fn display(name: &str) -> Result<fovqa_vision::Display, String> {
     })
 }
 
-impl ViewArgs {
+impl From<EccentricityArg> for EccentricityKind {
+    fn from(kind: EccentricityArg) -> Self {
+        match kind {
+            EccentricityArg::Angular => Self::Angular,
+            EccentricityArg::Planar => Self::Planar,
+        }
+    }
+}
+
+impl ViewSpecArgs {
     /// The view, if one is given; more than one is an error.
     pub(crate) fn spec(&self) -> Result<Option<ViewSpec>, String> {
         let fov = (self.fov_horizontal.is_some() || self.fov_vertical.is_some()).then_some(
@@ -115,6 +132,13 @@ impl ViewArgs {
         }
         Ok(first)
     }
+}
+
+impl ViewArgs {
+    /// The view, if one is given; more than one is an error.
+    pub(crate) fn spec(&self) -> Result<Option<ViewSpec>, String> {
+        self.spec.spec()
+    }
 
     pub(crate) fn gaze(&self) -> Gaze {
         match &self.gaze {
@@ -129,9 +153,6 @@ impl ViewArgs {
     }
 
     pub(crate) fn eccentricity(&self) -> EccentricityKind {
-        match self.eccentricity {
-            EccentricityArg::Angular => EccentricityKind::Angular,
-            EccentricityArg::Planar => EccentricityKind::Planar,
-        }
+        self.eccentricity.into()
     }
 }

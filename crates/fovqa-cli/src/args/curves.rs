@@ -1,0 +1,222 @@
+//! `fovqa curves`.
+
+use std::path::PathBuf;
+
+use clap::{ArgGroup, Args, ValueEnum};
+use fovqa_config::{
+    CurveBudget, CurveRange, CurveSetting, CurveSource, CurveSpec, resolution as parse_resolution,
+};
+use fovqa_methods::{BudgetOf, Method};
+use fovqa_params::ParamValue;
+use fovqa_vision::acuity::AcuityModel;
+use fovqa_vision::{Tangential, ViewSpec};
+
+use super::no_such::no_such;
+use super::values::{finite, literal, numbers};
+use super::view::{EccentricityArg, ViewSpecArgs};
+
+pub(crate) const EXAMPLES: &str = "\
+Examples:
+  fovqa curves --method kfr --set sigma=1.8 --resolution 2560x1440 --fov-vertical 110
+  fovqa curves --method rmfr --direction 90 --budget 0.15 --display vive-pro-eye
+  fovqa curves --acuity piecewise --set cap_cpd=9
+  fovqa curves configs/curves/acuity.toml        figures and tables, into reports/acuity
+
+A method or an acuity model alone is printed as CSV: eccentricity_deg,radial_cpd,tangential_cpd.
+A row whose rate is undefined (KFR, LaFR within a pixel of the gaze) is left out; rows of RMFR and
+DEAMP end with the frame. docs/curves.md shows every key of a file of curves, and
+`fovqa schema curves` prints its JSON Schema.
+
+Exit codes: 0 done; 2 the command line or the file is wrong; 3 the output cannot be written; 70 a
+bug in fovqa; 130 interrupted.";
+
+/// What a degree across the curve is.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum TangentialArg {
+    /// As along it, the papers' convention.
+    Paper,
+    /// A degree of visual angle.
+    Angle,
+}
+
+/// Which samples a budget counts.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum BudgetOfArg {
+    /// All that are shaded.
+    Buffer,
+    /// Those that fall into the frame.
+    OnScreen,
+}
+
+/// How curves are printed.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum CurvesFormat {
+    /// A row an eccentricity.
+    Csv,
+}
+
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("what").required(true).args(["curves", "method", "acuity"]))]
+pub(crate) struct CurvesArgs {
+    /// Files of curves: figures and tables of each, into a folder of its own
+    #[arg(value_name = "CURVES.toml", conflicts_with_all = ["set", "budget", "resolution", "gaze", "direction"])]
+    pub(crate) curves: Vec<PathBuf>,
+    /// A foveation method; `fovqa list methods` shows them
+    #[arg(long, value_name = "NAME", value_parser = method)]
+    method: Option<Method>,
+    /// An acuity model: piecewise, linear-mar, geisler-perry
+    #[arg(long, value_name = "NAME", value_parser = acuity)]
+    acuity: Option<AcuityModel>,
+    /// A parameter of the method or model, such as sigma=1.8
+    #[arg(long = "set", value_name = "PARAM=VALUE", value_parser = assignment)]
+    set: Vec<(String, ParamValue)>,
+    /// Solve the method's free parameter for this many samples over the frame's pixels
+    #[arg(long, value_name = "SHARE", value_parser = finite, requires = "method")]
+    budget: Option<f64>,
+    /// Which samples the budget counts
+    #[arg(long, value_name = "WHICH", default_value = "buffer", requires = "budget")]
+    budget_of: BudgetOfArg,
+    /// Size of the frame [default: that of --display]
+    #[arg(long, value_name = "WxH", value_parser = resolution)]
+    resolution: Option<[usize; 2]>,
+    #[command(flatten)]
+    view: ViewSpecArgs,
+    /// Gaze in pixels from the top-left corner [default: the principal point]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = "View", value_parser = |t: &str| numbers::<2>(t, "X,Y in pixels"))]
+    gaze: Option<[f64; 2]>,
+    /// Direction of the curve from the gaze, degrees from +x towards +y (0: right, 90: down)
+    #[arg(long, value_name = "DEG", default_value = "0", value_parser = finite, allow_negative_numbers = true)]
+    direction: f64,
+    /// What a degree across the curve is
+    #[arg(long, value_name = "KIND", default_value = "paper")]
+    tangential: TangentialArg,
+    /// How eccentricity is measured
+    #[arg(long, value_name = "KIND", default_value = "planar")]
+    eccentricity: EccentricityArg,
+    /// From one eccentricity to the next, degrees
+    #[arg(long, value_name = "DEG", default_value = "0.25", value_parser = step)]
+    step: f64,
+    /// The last eccentricity, degrees, for methods whose curves do not end with the frame
+    #[arg(long, value_name = "DEG", default_value = "60", value_parser = to)]
+    to: f64,
+    /// How a curve is printed
+    #[arg(long, value_name = "FORMAT", default_value = "csv")]
+    format: CurvesFormat,
+    /// Folder for the figures and tables of files: of one file itself, of several the folder above
+    /// [default: reports/NAME, NAME being the file's]
+    #[arg(long, verbatim_doc_comment, value_name = "DIR", requires = "curves")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+fn method(name: &str) -> Result<Method, String> {
+    Method::find(name).ok_or_else(|| {
+        no_such("method", name, &Method::all().map(|method| method.key().replace('_', "-")))
+    })
+}
+
+fn acuity(name: &str) -> Result<AcuityModel, String> {
+    AcuityModel::find(name).ok_or_else(|| {
+        let names = AcuityModel::all().map(|model| model.info().key.replace('_', "-"));
+        no_such("acuity model", name, &names)
+    })
+}
+
+fn assignment(text: &str) -> Result<(String, ParamValue), String> {
+    let (name, value) = text.split_once('=').ok_or_else(|| "write PARAM=VALUE".to_owned())?;
+    Ok((name.trim().to_owned(), literal(value.trim())?))
+}
+
+fn resolution(text: &str) -> Result<[usize; 2], String> {
+    parse_resolution(text)
+        .ok_or_else(|| "write WIDTHxHEIGHT in pixels, each from 1 to 100000: 2560x1440".to_owned())
+}
+
+fn step(text: &str) -> Result<f64, String> {
+    let least = CurveRange::LEAST_STEP_DEG;
+    finite(text)
+        .ok()
+        .filter(|step| (least..=60.0).contains(step))
+        .ok_or_else(|| format!("write degrees from {least} to 60"))
+}
+
+fn to(text: &str) -> Result<f64, String> {
+    let most = CurveRange::MOST_DEG;
+    finite(text)
+        .ok()
+        .filter(|to| *to > 0.0 && *to <= most)
+        .ok_or_else(|| format!("write degrees above 0, up to {most}"))
+}
+
+impl CurvesArgs {
+    /// The curve of the flags.
+    pub(crate) fn spec(&self) -> Result<CurveSpec, String> {
+        let parameters: Vec<String> =
+            self.set.iter().map(|(name, value)| format!("{name}={}", value.in_words())).collect();
+        let parameters = parameters.join(";");
+        if let Some(mut model) = self.acuity.clone() {
+            for (name, value) in &self.set {
+                model.set(name, value).map_err(|error| error.to_string())?;
+            }
+            model.curve().map_err(|error| error.to_string())?;
+            // Not used, but a slip in it is still a slip.
+            if let Some(view) = self.view.spec()? {
+                view.check().map_err(|error| error.to_string())?;
+            }
+            let name = model.info().label.to_owned();
+            return Ok(CurveSpec { name, source: CurveSource::Acuity(model), parameters });
+        }
+        let Some(mut method) = self.method.clone() else {
+            return Err("give a method or an acuity model".to_owned());
+        };
+        for (name, value) in &self.set {
+            method.set(name, value).map_err(|error| error.to_string())?;
+        }
+        let budget = self.budget.map(|share| CurveBudget {
+            share,
+            of: match self.budget_of {
+                BudgetOfArg::Buffer => BudgetOf::Buffer,
+                BudgetOfArg::OnScreen => BudgetOf::OnScreen,
+            },
+        });
+        let name = method.info().label.to_owned();
+        CurveSpec::of_method(name, method, parameters, self.setting()?, budget)
+    }
+
+    fn setting(&self) -> Result<CurveSetting, String> {
+        let no_view =
+            "a method is on a screen: give a view, such as --fov-vertical 110 or --display";
+        let spec = self.view.spec()?.ok_or(no_view)?;
+        let [width, height] = match (self.resolution, &spec) {
+            (Some(size), _) => size,
+            (None, ViewSpec::Display(display)) => display.resolution,
+            (None, _) => {
+                return Err(
+                    "a method is on a screen: give its size, --resolution 2560x1440".to_owned()
+                );
+            }
+        };
+        let view = spec.resolve(width, height).map_err(|error| error.to_string())?.view;
+        let gaze_px = self.gaze.unwrap_or(view.principal_px);
+        let [x, y] = gaze_px;
+        if !(0.0..=width as f64).contains(&x) || !(0.0..=height as f64).contains(&y) {
+            return Err(format!(
+                "the gaze {x},{y} is outside of the frame: it lies in 0 to {width}, 0 to {height}"
+            ));
+        }
+        Ok(CurveSetting {
+            view,
+            gaze_px,
+            direction_deg: self.direction,
+            tangential: match self.tangential {
+                TangentialArg::Paper => Tangential::Paper,
+                TangentialArg::Angle => Tangential::Angle,
+            },
+            eccentricity: self.eccentricity.into(),
+        })
+    }
+
+    /// The eccentricities of the flags.
+    pub(crate) fn range(&self) -> CurveRange {
+        CurveRange { step_deg: self.step, to_deg: self.to }
+    }
+}

@@ -1,0 +1,153 @@
+//! The field of view against acuity: how much of it is shaded too sparsely, and how many samples
+//! are more than acuity asks for.
+
+use fovqa_config::CurveSetting;
+use fovqa_methods::{Method, Place};
+use fovqa_vision::acuity::AcuityModel;
+use fovqa_vision::{Eccentricity, PixelScale};
+
+use crate::curve::CurveError;
+
+/// Cells along the longer side of the frame.
+const CELLS: f64 = 720.0;
+/// A rate that follows acuity is not below it by a rounding.
+const EQUAL: f64 = 1e-9;
+
+/// A frame's field against an acuity model. Shares are of the frame's pixels, taken at the centres
+/// of cells, at most 1/720 of the longer side wide: exact to about a thousandth.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Field {
+    /// Share of the field whose radial rate is below acuity.
+    pub below_radial: f64,
+    /// Share whose tangential rate is.
+    pub below_tangential: f64,
+    /// Share where either is.
+    pub below: f64,
+    /// Samples seen beyond what acuity asks for: the integral over the frame of
+    /// density (1 - min(1, f/radial) min(1, f/tangential)).
+    pub samples_above: f64,
+    /// These over all samples that are seen.
+    pub above: f64,
+}
+
+/// Holds a method against an acuity model, all over the frame.
+///
+/// # Errors
+/// When the method cannot be applied or the model is no curve.
+pub fn field(
+    method: &Method,
+    screen: &CurveSetting,
+    acuity: &AcuityModel,
+) -> Result<Field, CurveError> {
+    let foveation = method.over(&screen.setting()?)?;
+    let acuity = acuity.curve()?;
+    let CurveSetting { view, gaze_px, tangential, eccentricity, .. } = *screen;
+    let seen = Eccentricity::new(view, gaze_px, eccentricity);
+    let sides = [view.width, view.height].map(|side| side as f64);
+    let cell_px = (sides[0].max(sides[1]) / CELLS).max(1.0);
+    let cells = sides.map(|side| (side / cell_px).ceil());
+    let steps = [sides[0] / cells[0], sides[1] / cells[1]];
+    let (mut sums, mut samples) = (Field::default(), 0.0);
+    for j in 0..cells[1] as usize {
+        for i in 0..cells[0] as usize {
+            let at = [(i as f64 + 0.5) * steps[0], (j as f64 + 0.5) * steps[1]];
+            let place = Place::at([at[0] - gaze_px[0], at[1] - gaze_px[1]]);
+            let e = seen.at_deg(at[0], at[1]);
+            let scale =
+                PixelScale::at(&view, gaze_px, eccentricity, tangential, place.direction, e);
+            let rates = foveation.rates(place).zip(scale).map(|(rates, scale)| {
+                [rates.radial * scale.radial / 2.0, rates.tangential * scale.tangential / 2.0]
+            });
+            let needed = acuity.cutoff_cpd(e);
+            let [radial, tangential] = rates.unwrap_or_default();
+            let (less, across) =
+                (radial < needed * (1.0 - EQUAL), tangential < needed * (1.0 - EQUAL));
+            sums.below_radial += f64::from(less);
+            sums.below_tangential += f64::from(across);
+            sums.below += f64::from(less || across);
+            let density = foveation.density(place);
+            samples += density;
+            let useful = (needed / radial).min(1.0) * (needed / tangential).min(1.0);
+            // What follows acuity spends nothing above it, whatever the last bit says.
+            if 1.0 - useful > 2.0 * EQUAL {
+                sums.samples_above += density * (1.0 - useful);
+            }
+        }
+    }
+    let all = cells[0] * cells[1];
+    let cell_pixels = steps[0] * steps[1];
+    Ok(Field {
+        below_radial: sums.below_radial / all,
+        below_tangential: sums.below_tangential / all,
+        below: sums.below / all,
+        samples_above: sums.samples_above * cell_pixels,
+        above: if samples > 0.0 { sums.samples_above / samples } else { 0.0 },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use fovqa_vision::{EccentricityKind, Tangential, ViewSpec};
+
+    use super::*;
+
+    fn screen(width: usize, height: usize, tangential: Tangential) -> CurveSetting {
+        let spec = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(110.0) };
+        let view = spec.resolve(width, height).unwrap().view;
+        CurveSetting {
+            view,
+            gaze_px: view.principal_px,
+            direction_deg: 0.0,
+            tangential,
+            eccentricity: EccentricityKind::Planar,
+        }
+    }
+
+    fn found(name: &str, screen: &CurveSetting) -> Field {
+        field(&Method::find(name).unwrap(), screen, &AcuityModel::default()).unwrap()
+    }
+
+    #[test]
+    fn vafr_is_acuity_and_nothing_else() {
+        let paper = found("vafr", &screen(2560, 1440, Tangential::Paper));
+        assert_eq!(paper, Field::default());
+        // In visual angle its tangential rate is f cos e: below acuity everywhere.
+        let angle = found("vafr", &screen(2560, 1440, Tangential::Angle));
+        assert!((angle.below_tangential - 1.0).abs() < 1e-12 && angle.below_radial == 0.0);
+        assert!((angle.below - 1.0).abs() < 1e-12 && angle.above == 0.0);
+    }
+
+    /// The display's radial rate meets acuity on one circle, as it rises and acuity falls.
+    #[test]
+    fn a_display_is_below_acuity_inside_a_circle() {
+        let screen = screen(2560, 1440, Tangential::Paper);
+        let full = found("full", &screen);
+        let focal_px = screen.view.focal_px[0];
+        let acuity = AcuityModel::default().curve().unwrap();
+        let (mut low, mut high) = (0.0f64, 60.0f64);
+        for _ in 0..60 {
+            let e = low.midpoint(high);
+            let rate = focal_px * 1f64.to_radians() / (2.0 * e.to_radians().cos().powi(2));
+            if rate < acuity.cutoff_cpd(e) { low = e } else { high = e }
+        }
+        let radius = focal_px * low.to_radians().tan();
+        let share = std::f64::consts::PI * radius * radius / (2560.0 * 1440.0);
+        assert!((full.below - share).abs() < 2e-3, "{} for {share}", full.below);
+        assert!((full.below_tangential - full.below_radial).abs() < 1e-12);
+        assert!(full.above > 0.5 && full.samples_above < 2560.0 * 1440.0);
+    }
+
+    #[test]
+    fn what_is_spent_above_grows_with_the_display() {
+        let of = |w, h| found("full", &screen(w, h, Tangential::Paper));
+        let (small, large) = (of(1280, 720), of(7680, 4320));
+        assert!(large.below < small.below && large.above > small.above);
+        // A display so fine that it is nowhere below acuity needs as many samples as acuity has.
+        let fine = of(60_000, 33_750);
+        assert!(fine.below < 1e-3);
+        let screen = screen(60_000, 33_750, Tangential::Paper);
+        let vafr = Method::find("vafr").unwrap().over(&screen.setting().unwrap()).unwrap();
+        let needed = 60_000.0 * 33_750.0 - fine.samples_above;
+        assert!((needed / vafr.counts().samples_on_screen - 1.0).abs() < 0.01);
+    }
+}
