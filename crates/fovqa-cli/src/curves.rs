@@ -11,7 +11,7 @@ pub(crate) fn run(args: &CurvesArgs) -> Exit {
         args.spec().and_then(|spec| trace(&spec, args.range()).map_err(|error| error.to_string()));
     match traced {
         Ok(curve) => {
-            if let Some(note) = &curve.note {
+            for note in &curve.notes {
                 diagnostic::note(note);
             }
             output::write(|out| out.write_all(csv(&curve).as_bytes()))

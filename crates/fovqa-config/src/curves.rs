@@ -93,7 +93,7 @@ pub enum CurveSource {
 pub struct CurveSetting {
     /// The frame.
     pub view: View,
-    /// The gaze in pixels.
+    /// The gaze in pixels; one outside of the frame is taken at its border.
     pub gaze_px: [f64; 2],
     /// Direction of the curve from the gaze, degrees from +x towards +y.
     pub direction_deg: f64,

@@ -17,7 +17,7 @@ pub struct Curve {
     /// Samples of the method in a frame; `None` for an acuity model.
     pub counts: Option<Counts>,
     /// What has to be said wherever it is shown.
-    pub note: Option<String>,
+    pub notes: Vec<String>,
 }
 
 /// Rates at an eccentricity. cpd are cycles per degree, a cycle being two samples.
@@ -85,7 +85,7 @@ fn acuity(spec: &CurveSpec, model: &AcuityModel, range: CurveRange) -> Result<Cu
         }
     };
     let rows = eccentricities_deg(range).map(row).collect();
-    Ok(Curve { spec: spec.clone(), rows, counts: None, note: None })
+    Ok(Curve { spec: spec.clone(), rows, counts: None, notes: Vec::new() })
 }
 
 fn shading(
@@ -95,7 +95,12 @@ fn shading(
     range: CurveRange,
 ) -> Result<Curve, CurveError> {
     let setting = screen.setting()?;
+    let ([x, y], [at_x, at_y]) = (screen.gaze_px, setting.gaze_px());
+    let outside = ((x - at_x).abs() + (y - at_y).abs() > 0.0).then(|| {
+        format!("the gaze ({x}, {y}) is outside of the frame: it is taken at ({at_x}, {at_y})")
+    });
     let foveation = method.over(&setting)?;
+    let screen = &CurveSetting { gaze_px: setting.gaze_px(), ..*screen };
     let direction = Place::polar(0.0, screen.direction_deg).direction;
     let end_px = match foveation.reach() {
         Reach::Any => f64::INFINITY,
@@ -110,7 +115,8 @@ fn shading(
         })
         .filter_map(|(e, scale)| row(foveation.as_ref(), e, scale, direction))
         .collect();
-    Ok(Curve { spec: spec.clone(), rows, counts: Some(foveation.counts()), note: foveation.note() })
+    let notes = outside.into_iter().chain(foveation.note()).collect();
+    Ok(Curve { spec: spec.clone(), rows, counts: Some(foveation.counts()), notes })
 }
 
 fn scale_at(screen: &CurveSetting, direction: [f64; 2], e: f64) -> Option<PixelScale> {

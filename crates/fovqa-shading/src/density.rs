@@ -25,7 +25,9 @@ pub fn density_map(
     screen: &CurveSetting,
     cells: usize,
 ) -> Result<DensityMap, CurveError> {
-    let foveation = method.over(&screen.setting()?)?;
+    let setting = screen.setting()?;
+    let foveation = method.over(&setting)?;
+    let [gaze_x, gaze_y] = setting.gaze_px();
     let (width, height) = (screen.view.width, screen.view.height);
     let shrink = (width.max(height) as f64 / cells as f64).max(1.0);
     let [columns, rows] =
@@ -36,7 +38,7 @@ pub fn density_map(
         for column in 0..columns {
             let [x, y] =
                 [(column, steps[0]), (row, steps[1])].map(|(i, step)| (i as f64 + 0.5) * step);
-            let place = Place::at([x - screen.gaze_px[0], y - screen.gaze_px[1]]);
+            let place = Place::at([x - gaze_x, y - gaze_y]);
             values.push(foveation.density(place));
         }
     }

@@ -39,9 +39,11 @@ pub fn field(
     screen: &CurveSetting,
     acuity: &AcuityModel,
 ) -> Result<Field, CurveError> {
-    let foveation = method.over(&screen.setting()?)?;
+    let setting = screen.setting()?;
+    let foveation = method.over(&setting)?;
     let acuity = acuity.curve()?;
-    let CurveSetting { view, gaze_px, tangential, eccentricity, .. } = *screen;
+    let CurveSetting { view, tangential, eccentricity, .. } = *screen;
+    let gaze_px = setting.gaze_px();
     let seen = Eccentricity::new(view, gaze_px, eccentricity);
     let sides = [view.width, view.height].map(|side| side as f64);
     let cell_px = (sides[0].max(sides[1]) / CELLS).max(1.0);

@@ -197,12 +197,6 @@ impl CurvesArgs {
         };
         let view = spec.resolve(width, height).map_err(|error| error.to_string())?.view;
         let gaze_px = self.gaze.unwrap_or(view.principal_px);
-        let [x, y] = gaze_px;
-        if !(0.0..=width as f64).contains(&x) || !(0.0..=height as f64).contains(&y) {
-            return Err(format!(
-                "the gaze {x},{y} is outside of the frame: it lies in 0 to {width}, 0 to {height}"
-            ));
-        }
         Ok(CurveSetting {
             view,
             gaze_px,

@@ -52,8 +52,13 @@ pub(crate) fn literal(text: &str) -> Result<ParamValue, String> {
         Some(toml::Value::String(text)) => Ok(ParamValue::Text(text)),
         Some(toml::Value::Boolean(flag)) => Ok(ParamValue::Flag(flag)),
         Some(toml::Value::Array(list)) => {
-            let numbers: Option<Vec<f64>> = list.iter().map(number).collect();
-            numbers.map(ParamValue::List).ok_or_else(|| "a list holds numbers alone".to_owned())
+            let numbers =
+                |list: &[toml::Value]| list.iter().map(number).collect::<Option<Vec<_>>>();
+            let pair = |item: &toml::Value| <[f64; 2]>::try_from(numbers(item.as_array()?)?).ok();
+            let list_of = numbers(&list).map(ParamValue::List);
+            list_of
+                .or_else(|| list.iter().map(pair).collect::<Option<_>>().map(ParamValue::Pairs))
+                .ok_or_else(|| "a list holds numbers alone, or pairs of numbers alone".to_owned())
         }
         Some(value) => number(&value)
             .map(ParamValue::Number)
@@ -70,11 +75,17 @@ mod tests {
         assert_eq!(literal("1.5"), Ok(ParamValue::Number(1.5)));
         assert_eq!(literal("3"), Ok(ParamValue::Number(3.0)));
         assert_eq!(literal("[0, 1.5]"), Ok(ParamValue::List(vec![0.0, 1.5])));
+        assert_eq!(
+            literal("[[0, 1], [30, 0.5]]"),
+            Ok(ParamValue::Pairs(vec![[0.0, 1.0], [30.0, 0.5]]))
+        );
         assert_eq!(literal("acuity"), Ok(ParamValue::Text("acuity".into())));
         assert_eq!(literal("\"acuity\""), Ok(ParamValue::Text("acuity".into())));
         assert_eq!(literal("true"), Ok(ParamValue::Flag(true)));
         assert_eq!(literal("1\nother = 2"), Ok(ParamValue::Text("1\nother = 2".into())));
-        assert!(literal("[1, \"a\"]").is_err());
+        for bad in ["[1, \"a\"]", "[[1, 2], [3]]", "[1, [2, 3]]"] {
+            assert!(literal(bad).is_err(), "{bad}");
+        }
         assert!(literal("{ a = 1 }").is_err());
     }
 

@@ -255,16 +255,6 @@ impl<'a> Screens<'a> {
             };
             for gaze in &gazes {
                 let gaze_px = gaze.unwrap_or(view.principal_px);
-                let [x, y] = gaze_px;
-                if !(0.0..=width as f64).contains(&x) || !(0.0..=height as f64).contains(&y) {
-                    let message = format!("the gaze [{x}, {y}] is outside of {width}x{height}");
-                    let fault = Fault::new(
-                        self.having("gazes").map_or(span.clone(), |t| t.span("gazes")),
-                        message,
-                    );
-                    faults.push(fault.help("a gaze lies in the frame, its borders included"));
-                    continue;
-                }
                 settings.extend(directions.iter().map(|&direction_deg| CurveSetting {
                     view,
                     gaze_px,
