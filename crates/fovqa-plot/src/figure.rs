@@ -44,7 +44,8 @@ impl Figure {
 
     /// The data of the figure as CSV, a row for each value: `series,x,y`, `panel,series,x,y`, or
     /// `group,series,value`. A missing value is an empty field, an infinite one `inf` or `-inf`. A
-    /// span has two rows, one for each end, with an empty `y`, after the series of its chart.
+    /// span has two rows, one for each end, with an empty `y`, after the series of its chart. Areas
+    /// between curves have none: their edges are curves already.
     pub fn csv(&self) -> String {
         match self {
             Self::Line(chart) => tidy::line(chart),

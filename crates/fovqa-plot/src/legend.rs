@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::drawing::{Anchor, Drawing, Point, Rect, Stroke, Text};
+use crate::fill::FillKind;
 use crate::look::{Look, REFERENCE, SPAN, SPAN_EDGE};
 use crate::text::{CAPITAL, LINE_PITCH, TICK_PX};
 use crate::wrap::{widest_px, wrap};
@@ -29,7 +30,7 @@ pub(crate) const CURVE_PX: f64 = 1.6;
 /// Width of a curve of reference.
 pub(crate) const REFERENCE_PX: f64 = 1.4;
 
-/// How a series or span is drawn.
+/// How a series, area or span is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Key {
     /// A curve with markers.
@@ -42,6 +43,8 @@ pub(crate) enum Key {
     Box(Look),
     /// Markers alone.
     Marker(Look),
+    /// An area between two curves.
+    Fill(FillKind),
     /// A shaded span.
     Span,
 }
@@ -119,6 +122,7 @@ impl Key {
             Self::Marker(look) => {
                 marker::draw(drawing, middle, look, marker::RADIUS_PX, look.colour());
             }
+            Self::Fill(kind) => kind.draw_key(drawing, rect),
             Self::Span => {
                 drawing.rect(rect, SPAN, Stroke { colour: SPAN_EDGE, width_px: SPAN_EDGE_PX });
             }

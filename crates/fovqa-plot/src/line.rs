@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::axis::Axis;
+use crate::clip;
 use crate::drawing::{Drawing, Point, Rect, Stroke};
+use crate::fill::Fill;
 use crate::infinity;
 use crate::layout::{self, LEAST_PLOT_PX, MARGIN_PX, PLOT_HEIGHT_PX, Sides, WIDTH_PX};
 use crate::legend::{self, CURVE_PX, Key, REFERENCE_PX};
@@ -11,6 +13,7 @@ use crate::look::{Look, REFERENCE};
 use crate::marker;
 use crate::position_axis::PositionAxis;
 use crate::scale::{Place, Scale};
+use crate::smooth;
 use crate::span::{self, Span};
 use crate::value_axis::ValueAxis;
 use crate::value_label::Side;
@@ -41,8 +44,15 @@ pub struct LineChart {
     pub x_ticks: Option<Vec<f64>>,
     /// Whether the vertical axis includes 0, and begins there where no value lies below.
     pub y_from_zero: bool,
+    /// The ends of the vertical axis, whatever the data are, such as those of other figures. Curves
+    /// and areas end where they cross them, and points beyond have no marker. Ends that are not
+    /// finite or not in order are taken as none.
+    pub y_limits: Option<(f64, f64)>,
     /// Stretches of the horizontal axis to shade.
     pub spans: Vec<Span>,
+    /// Areas between two curves, behind the curves. They are no data of their own: neither an axis
+    /// nor the [CSV](crate::Figure::csv) has them, as their edges are curves of the chart.
+    pub fills: Vec<Fill>,
 }
 
 /// One curve.
@@ -54,6 +64,9 @@ pub struct LineSeries {
     pub look: Look,
     /// A curve that others are held against: gray, dashed and without markers.
     pub reference: bool,
+    /// A function sampled densely, whose points are no data of their own: some markers along the
+    /// curve say which it is. Where curves lie on each other their markers do not.
+    pub smooth: bool,
     /// Points in the order of the curve. `None` and NaN leave a gap; an infinite value stands at
     /// the border with an "∞" beyond it, unconnected. Points at no finite `x` are not drawn.
     pub points: Vec<(f64, Option<f64>)>,
@@ -102,7 +115,8 @@ impl LineChart {
             above: above.max(MARGIN_PX),
             below: below + x.below_px(),
         };
-        let keys: Vec<_> = self.series_keys().chain(legend::once(self.span_keys())).collect();
+        let areas = legend::once(self.fill_keys()).chain(legend::once(self.span_keys()));
+        let keys: Vec<_> = self.series_keys().chain(areas).collect();
         let (mut drawing, plot) =
             layout::begin(self.title.as_deref(), &keys, sides, x.plot_width_px());
         self.draw_in(&mut drawing, &Frame { x: &x, y: &y, plot, edge_px: 0.0, below_px: below });
@@ -120,6 +134,13 @@ impl LineChart {
         self.spans.iter().filter(seen).map(Span::key)
     }
 
+    /// Of each area that is seen.
+    pub(crate) fn fill_keys(&self) -> impl Iterator<Item = (&str, Key)> {
+        let scales = self.x_scale().zip(self.y_scale());
+        let seen = move |fill: &&Fill| scales.is_some_and(|(x, y)| !fill.areas(x, y).is_empty());
+        self.fills.iter().filter(seen).map(Fill::key)
+    }
+
     /// Heights of the strips of infinite values above and below the plot area.
     pub(crate) fn strips_px(&self) -> (f64, f64) {
         infinity::strips_px(self.drawn())
@@ -132,6 +153,7 @@ impl LineChart {
             span::draw(drawing, plot, (x.x(plot, from), x.x(plot, to)));
         }
         y.draw_grid(drawing, plot);
+        self.draw_fills(drawing, plot);
         y.draw(drawing, plot, frame.edge_px);
         x.draw(drawing, plot, frame.below_px);
         if self.drawn().next().is_none() {
@@ -139,13 +161,23 @@ impl LineChart {
         }
         let at = |px: f64, place: Option<Place>| {
             let value = place.and_then(Place::finite)?;
-            Some((x.x(plot, px), y.y(plot, value)))
+            Some((x.x(plot, px), y.share(value)))
         };
         for series in &self.series {
             let points: Vec<_> = series.places().map(|(x, place)| at(x, place)).collect();
-            draw_curve(drawing, series, &points);
+            draw_curve(drawing, series, &points, plot);
         }
         self.draw_infinite(drawing, plot, x);
+    }
+
+    fn draw_fills(&self, drawing: &mut Drawing, plot: Rect) {
+        let Some((x, y)) = self.x_scale().zip(self.y_scale()) else { return };
+        for fill in &self.fills {
+            for area in fill.areas(x, y) {
+                let at = |&(x, y): &Point| (plot.left + x * plot.width(), level_px(plot, y));
+                fill.kind.draw(drawing, &area.iter().map(at).collect::<Vec<_>>());
+            }
+        }
     }
 
     /// Where its values are drawn.
@@ -157,9 +189,12 @@ impl LineChart {
         self.spans.iter().filter_map(move |span| span.ends(scale))
     }
 
-    /// The range of the vertical axis; none without finite values. Air that would move 0 from an
-    /// end is left out.
+    /// The range of the vertical axis; none without limits and finite values. Air that would move 0
+    /// from an end is left out.
     pub(crate) fn y_scale(&self) -> Option<Scale> {
+        if let Some(limits) = self.y_limits.and_then(|(low, high)| Scale::between(low, high)) {
+            return Some(limits);
+        }
         let values = self.drawn().filter_map(Place::finite);
         if !self.y_from_zero {
             return Some(Scale::holding(values)?.with_air(AIR, AIR));
@@ -218,29 +253,48 @@ fn finite(x: f64) -> Option<f64> {
     Place::of(x).and_then(Place::finite)
 }
 
+/// Where a share of the vertical axis is in a plot area.
+fn level_px(plot: Rect, share: f64) -> f64 {
+    plot.bottom - share * plot.height()
+}
+
 /// The lines of a curve between its gaps, then its markers. A point between two gaps has a marker
-/// in any case, or it would not be seen.
-fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point>]) {
-    let stroke = series.stroke();
-    let dash =
-        if series.reference { series.look.reference_dash_px() } else { series.look.dash_px() };
+/// in any case, or it would not be seen. Points come as pixels along the plot area and shares of
+/// its height.
+fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point>], plot: Rect) {
     let runs: Vec<Vec<Point>> = points
         .split(Option::is_none)
         .map(|run| run.iter().copied().flatten().collect())
         .filter(|run: &Vec<Point>| !run.is_empty())
         .collect();
-    for run in runs.iter().filter(|run| run.len() > 1) {
-        drawing.dashed(run, stroke, &dash);
+    let px = |&(x, share): &Point| (x, level_px(plot, share));
+    let pieces: Vec<Vec<Point>> = runs
+        .iter()
+        .flat_map(|run| clip::level(run))
+        .map(|piece| piece.iter().map(px).collect())
+        .collect();
+    let stroke = series.stroke();
+    let dash =
+        if series.reference { series.look.reference_dash_px() } else { series.look.dash_px() };
+    for piece in &pieces {
+        drawing.dashed(piece, stroke, &dash);
     }
-    let mut last: Option<Point> = None;
+    let on_points = !series.reference && !series.smooth;
+    let mut markers: Vec<Point> = Vec::new();
     for run in &runs {
-        for &at in run {
-            let near = |(x, y): Point| (at.0 - x).hypot(at.1 - y) < MARKER_PITCH_PX;
+        for at in run.iter().filter(|(_, share)| (0.0..=1.0).contains(share)).map(px) {
+            let near = |(x, y): &Point| (at.0 - x).hypot(at.1 - y) < MARKER_PITCH_PX;
             let alone = run.len() == 1;
-            if alone || (!series.reference && !last.is_some_and(near)) {
-                marker::draw(drawing, at, series.look, marker::RADIUS_PX, stroke.colour);
-                last = Some(at);
+            if alone || (on_points && !markers.last().is_some_and(near)) {
+                markers.push(at);
             }
         }
+    }
+    if series.smooth && !series.reference {
+        let along = |piece: &Vec<Point>| smooth::markers(piece, plot.left, series.look);
+        markers.extend(pieces.iter().flat_map(along));
+    }
+    for at in markers {
+        marker::draw(drawing, at, series.look, marker::RADIUS_PX, stroke.colour);
     }
 }

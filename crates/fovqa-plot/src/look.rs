@@ -20,6 +20,14 @@ pub(crate) const GRID: Colour = Colour(224, 224, 224);
 pub(crate) const SPAN: Colour = Colour(232, 232, 232);
 /// The edge of their key in the legend, which is small.
 pub(crate) const SPAN_EDGE: Colour = Colour(180, 180, 180);
+/// Areas of more than is needed: light, so that curves and their colours stand out.
+pub(crate) const SURPLUS: Colour = Colour(209, 229, 244);
+/// The edge of their key in the legend.
+pub(crate) const SURPLUS_EDGE: Colour = Colour(120, 165, 200);
+/// Areas of less than is needed. Blue and orange are told apart by all but the fully colour-blind.
+pub(crate) const DEFICIT: Colour = Colour(253, 224, 196);
+/// Their hatch, which says the same in gray print.
+pub(crate) const DEFICIT_HATCH: Colour = Colour(205, 120, 60);
 /// Curves of reference.
 pub(crate) const REFERENCE: Colour = Colour(85, 85, 85);
 

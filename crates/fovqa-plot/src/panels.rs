@@ -27,8 +27,8 @@ const LEAST_PANEL_PX: f64 = 140.0;
 pub struct PanelChart {
     /// What stands above it all.
     pub title: Option<String>,
-    /// The charts, row by row, each with its title above it. Series and spans of one name are one
-    /// in the legend, with the look of the first. Where all charts of a row have the same vertical
+    /// The charts, row by row, each with its title above it. Series, areas and spans of one name
+    /// are one in the legend, with the look of the first. Where all charts of a row have the same vertical
     /// axis, its title stands beside the first alone.
     pub panels: Vec<LineChart>,
     /// The most charts of a row; 0 is taken as 1.
@@ -98,11 +98,12 @@ fn plot_width_px(charts: &[LineChart], y_axes: &[ValueAxis], columns: usize) -> 
     charts.iter().map(width_px).fold(f64::INFINITY, f64::min)
 }
 
-/// The series of all charts, then their spans.
+/// The series of all charts, then their areas and spans.
 fn keys(charts: &[LineChart]) -> Vec<(&str, Key)> {
     let series = charts.iter().flat_map(LineChart::series_keys);
+    let fills = charts.iter().flat_map(LineChart::fill_keys);
     let spans = charts.iter().flat_map(LineChart::span_keys);
-    legend::once(series).chain(legend::once(spans)).collect()
+    legend::once(series).chain(legend::once(fills)).chain(legend::once(spans)).collect()
 }
 
 impl<'a> Panel<'a> {

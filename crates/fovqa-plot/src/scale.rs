@@ -77,6 +77,14 @@ impl Scale {
         Some(Self { low, high: if low < high { high } else { 1.0 } })
     }
 
+    /// A range that is given; none where its ends are no finite numbers in order, or so close that
+    /// there are no round numbers to write between them.
+    pub(crate) fn between(low: f64, high: f64) -> Option<Self> {
+        let end = |value: f64| Place::of(value).and_then(Place::finite);
+        let (low, high) = (end(low)?, end(high)?);
+        (high - low > low.abs().max(high.abs()) * EQUAL).then_some(Self { low, high })
+    }
+
     /// Longer by shares of its length at the lower and upper end.
     pub(crate) fn with_air(self, below: f64, above: f64) -> Self {
         let length = self.high - self.low;

@@ -1,6 +1,7 @@
 //! The vertical axis: values, their ticks at the left and the grid.
 
 use crate::axis::{AXIS_STROKE, Axis, GRID_STROKE, LABEL_GAP_PX, TICK_LENGTH_PX, TITLE_GAP_PX};
+use crate::clip;
 use crate::drawing::{Anchor, Drawing, Rect, Text};
 use crate::layout::{MARGIN_PX, TITLE_LINES};
 use crate::scale::Scale;
@@ -47,6 +48,11 @@ impl ValueAxis {
     /// Where a value stands in a plot area.
     pub(crate) fn y(&self, plot: Rect, value: f64) -> f64 {
         plot.bottom - self.scale.share(value).clamp(0.0, 1.0) * plot.height()
+    }
+
+    /// How far up its axis a value stands: 0 at the lower end and 1 at the upper one.
+    pub(crate) fn share(&self, value: f64) -> f64 {
+        self.scale.share(value).clamp(-clip::FAR, clip::FAR)
     }
 
     /// Draws the level lines of the grid, which belong behind the data.

@@ -6,7 +6,9 @@ use proptest::prelude::*;
 use super::*;
 use crate::drawing::{Mark, Rect, Text};
 use crate::look::{AXIS, Colour, GRID, INK, REFERENCE, SPAN};
-use crate::{Axis, BarSeries, LineSeries, Look, Span, SpreadSeries, png};
+use crate::{Axis, BarSeries, Fill, FillKind, LineSeries, Look, Span, SpreadSeries, png};
+
+mod curves;
 
 /// Names that break careless layouts.
 const HOSTILE: [&str; 8] = [
@@ -48,6 +50,7 @@ fn line(series: Vec<Vec<(f64, Option<f64>)>>) -> Figure {
         look: Look::new(i),
         reference: i % 5 == 4,
         points,
+        ..LineSeries::default()
     });
     let (x, y) = (Axis::new("Eccentricity (°)"), Axis::new("PSNR (dB)"));
     Figure::Line(LineChart { x, y, series: series.collect(), ..LineChart::default() })
@@ -682,6 +685,12 @@ proptest! {
             let shift = |(x, y): &mut (f64, Option<f64>)| (*x, y.map(|y| y / 10f64.powi(i as i32)));
             panel.series.iter_mut().flat_map(|s| &mut s.points).for_each(|p| *p = shift(p));
             panel.x_ticks = (i % 2 == 1).then(|| ticks.clone());
+            let fill = |v: &[f64]| (v[0], v[v.len() / 2], v[v.len() - 1]);
+            let kind = if i % 3 == 0 { FillKind::Deficit } else { FillKind::Surplus };
+            let points = values.chunks(3).map(fill).collect();
+            panel.fills = vec![Fill { name: name(i), kind, points }];
+            panel.y_limits = values.get(i).zip(values.get(i + 1)).map(|(low, high)| (*low, *high));
+            panel.series[0].smooth = i % 2 == 1;
             panel.spans = values.chunks(2).map(|v| span(v[0], v[v.len() - 1])).collect();
         }
         check(&figure);
