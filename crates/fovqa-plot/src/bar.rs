@@ -138,7 +138,7 @@ impl BarChart {
         let high = if low < high { high } else { 1.0 };
         // An infinite bar downwards needs room to be seen.
         let low = if below && low >= 0.0 { -high / 2.0 } else { low };
-        (finite().next().is_some() || below).then_some(Scale { low, high })
+        (finite().next().is_some() || below).then(|| Scale::even(low, high))
     }
 
     /// The axis with room beyond the outermost values for their labels.

@@ -185,7 +185,7 @@ fn hatch_lines(corners: &[Point]) -> Vec<[Point; 2]> {
 mod tests {
     use super::*;
 
-    const UNIT: Scale = Scale { low: 0.0, high: 1.0 };
+    const UNIT: Scale = Scale { low: 0.0, high: 1.0, log: false };
 
     fn areas(points: &[(f64, f64, f64)]) -> Vec<Vec<Point>> {
         let fill = Fill { points: points.to_vec(), ..Fill::default() };
@@ -201,6 +201,8 @@ mod tests {
         assert_eq!(other[0][0], (0.25, 0.25), "from the crossing on");
         assert!((size(&other[0]) - (0.0625 + 0.1875)).abs() < 1e-12);
         assert!(areas(&[(0.0, 0.5, 0.5), (1.0, 0.5, 0.5)]).is_empty());
+        let later = &areas(&[(0.0, 0.5, 0.5), (0.5, 0.5, 0.5), (1.0, 0.5, 1.0)])[0];
+        assert!(later.iter().all(|(x, _)| *x >= 0.5), "not along equal curves");
     }
 
     #[test]

@@ -48,6 +48,9 @@ pub struct LineChart {
     /// and areas end where they cross them, and points beyond have no marker. Ends that are not
     /// finite or not in order are taken as none.
     pub y_limits: Option<(f64, f64)>,
+    /// Whether the vertical axis is logarithmic, and does not include 0 then. Values that are not
+    /// above 0 leave a gap; [limits](Self::y_limits) that are not are taken as none.
+    pub y_log: bool,
     /// Stretches of the horizontal axis to shade.
     pub spans: Vec<Span>,
     /// Areas between two curves, behind the curves. They are no data of their own: neither an axis
@@ -164,7 +167,7 @@ impl LineChart {
             Some((x.x(plot, px), y.share(value)))
         };
         for series in &self.series {
-            let points: Vec<_> = series.places().map(|(x, place)| at(x, place)).collect();
+            let points: Vec<_> = self.places(series).map(|(x, place)| at(x, place)).collect();
             draw_curve(drawing, series, &points, plot);
         }
         self.draw_infinite(drawing, plot, x);
@@ -182,7 +185,18 @@ impl LineChart {
 
     /// Where its values are drawn.
     fn drawn(&self) -> impl Iterator<Item = Place> {
-        self.series.iter().flat_map(LineSeries::places).filter_map(|(_, place)| place)
+        self.series.iter().flat_map(|series| self.places(series)).filter_map(|(_, place)| place)
+    }
+
+    /// Where the points of a series are drawn: on a logarithmic axis not all that are numbers.
+    fn places(&self, series: &LineSeries) -> impl Iterator<Item = (f64, Option<Place>)> {
+        let above_0 = |place: &Place| match place {
+            Place::At(value) => *value > 0.0,
+            Place::Above => true,
+            Place::Below => false,
+        };
+        let log = self.y_log;
+        series.places().map(move |(x, place)| (x, place.filter(|place| !log || above_0(place))))
     }
 
     fn span_ends(&self, scale: Scale) -> impl Iterator<Item = (f64, f64)> {
@@ -192,10 +206,13 @@ impl LineChart {
     /// The range of the vertical axis; none without limits and finite values. Air that would move 0
     /// from an end is left out.
     pub(crate) fn y_scale(&self) -> Option<Scale> {
-        if let Some(limits) = self.y_limits.and_then(|(low, high)| Scale::between(low, high)) {
+        if let Some(limits) = self.y_limits.and_then(|limits| Scale::between(limits, self.y_log)) {
             return Some(limits);
         }
         let values = self.drawn().filter_map(Place::finite);
+        if self.y_log {
+            return Some(Scale::holding_log(values)?.with_air(AIR, AIR));
+        }
         if !self.y_from_zero {
             return Some(Scale::holding(values)?.with_air(AIR, AIR));
         }
@@ -225,7 +242,7 @@ impl LineChart {
             // By position in tenths of a pixel, from left to right.
             let mut groups: BTreeMap<i64, Vec<&LineSeries>> = BTreeMap::new();
             for series in &self.series {
-                for (at, place) in series.places() {
+                for (at, place) in self.places(series) {
                     if place == Some(beyond) {
                         let tenths = (x.x(plot, at) * 10.0).round() as i64;
                         groups.entry(tenths).or_default().push(series);
@@ -291,7 +308,7 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
         }
     }
     if series.smooth && !series.reference {
-        let along = |piece: &Vec<Point>| smooth::markers(piece, plot.left, series.look);
+        let along = |piece: &Vec<Point>| smooth::markers(piece, plot, series.look);
         markers.extend(pieces.iter().flat_map(along));
     }
     for at in markers {

@@ -55,7 +55,7 @@ impl PositionAxis {
         given: Option<&[f64]>,
         width: impl Fn(&[Tick]) -> f64,
     ) -> Self {
-        let known = scale.unwrap_or(Scale { low: 0.0, high: 1.0 });
+        let known = scale.unwrap_or(Scale::even(0.0, 1.0));
         let ticks = match (scale, given) {
             (None, _) => Vec::new(),
             (Some(_), Some(places)) => {
@@ -157,7 +157,7 @@ mod tests {
         let mut single = 0;
         for (i, j) in (0..30).flat_map(|i| (0..30).map(move |j| (i, j))) {
             let low = 1e9 + 0.37 * f64::from(i);
-            let scale = Scale { low, high: low + 1.5 + 0.31 * f64::from(j) };
+            let scale = Scale::even(low, low + 1.5 + 0.31 * f64::from(j));
             let axis = PositionAxis::spanning(&Axis::default(), Some(scale), None, 140.0);
             let labelled: Vec<Tick> =
                 axis.ticks.into_iter().filter(|tick| !tick.label.is_empty()).collect();

@@ -1,7 +1,7 @@
 //! Where markers stand along a curve that is a function sampled densely: they name the curve, and
 //! its points are no data of their own.
 
-use crate::drawing::Point;
+use crate::drawing::{Point, Rect};
 use crate::look::Look;
 
 /// From a marker to the next.
@@ -12,44 +12,46 @@ const PHASES: [f64; 7] = [0.0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375];
 /// How much farther along those of every other turn stand.
 const TURN_PHASE: f64 = 0.0625;
 
-/// The places of markers along a part of a curve.
+/// The places of markers along a part of a curve in a plot area.
 ///
-/// They stand at level steps of the plot area, which begins at `left_px`, so that those of two
-/// curves on each other keep their distance, however the curves came there. Where a curve is so
-/// steep that they would be far apart, others stand between them.
-pub(crate) fn markers(piece: &[Point], left_px: f64, look: Look) -> Vec<Point> {
+/// They stand at steps across the plot area where the curve is rather level, and at steps down it
+/// where it is rather steep. That is the same for curves that lie on each other, however they came
+/// there, so that their markers keep their distance.
+pub(crate) fn markers(piece: &[Point], plot: Rect, look: Look) -> Vec<Point> {
     let phase = PHASES[look.index % PHASES.len()] + (look.turn() % 2) as f64 * TURN_PHASE;
-    let stops = steps(piece, left_px + phase * PITCH_PX);
-    let total = length(piece);
-    let mut all = stops.clone();
-    for (from, to) in [0.0].iter().chain(&stops).zip(stops.iter().chain([&total])) {
-        let room = ((to - from) / PITCH_PX).floor();
-        all.extend((1..room as usize).map(|i| from + (to - from) * i as f64 / room));
-    }
-    if all.is_empty() {
-        all.push(total / 2.0);
-    }
-    all.sort_by(f64::total_cmp);
-    all.into_iter().filter_map(|along| place(piece, along)).collect()
-}
-
-/// How far along a curve it crosses each step of the plot area.
-fn steps(piece: &[Point], origin_px: f64) -> Vec<f64> {
-    let mut found = Vec::new();
+    let origin = (plot.left + phase * PITCH_PX, plot.top + phase * PITCH_PX);
+    let mut stops: Vec<f64> = Vec::new();
     let mut done = 0.0;
     for ends in piece.windows(2) {
-        let (from, to) = ((ends[0].0 - origin_px) / PITCH_PX, (ends[1].0 - origin_px) / PITCH_PX);
         let length = length(ends);
-        let along = |step: i64| done + length * (step as f64 - from) / (to - from);
-        // The end of a piece is the beginning of the next.
-        if from < to {
-            found.extend((from.ceil() as i64..to.ceil() as i64).map(along));
-        } else {
-            found.extend((to.floor() as i64 + 1..=from.floor() as i64).rev().map(along));
+        for share in steps(ends[0], ends[1], origin) {
+            let stop = done + length * share;
+            // Where a curve turns from level to steep.
+            if stops.last().is_none_or(|last| stop - last > PITCH_PX / 2.0) {
+                stops.push(stop);
+            }
         }
         done += length;
     }
-    found
+    if stops.is_empty() {
+        stops.push(done / 2.0);
+    }
+    stops.into_iter().filter_map(|along| place(piece, along)).collect()
+}
+
+/// How far along a straight line, as shares of it, it crosses each step. Its end is the beginning
+/// of the next.
+fn steps(a: Point, b: Point, origin: Point) -> Vec<f64> {
+    let level = (b.0 - a.0).abs() >= (b.1 - a.1).abs();
+    let (from, to) =
+        if level { (a.0 - origin.0, b.0 - origin.0) } else { (a.1 - origin.1, b.1 - origin.1) };
+    let (from, to) = (from / PITCH_PX, to / PITCH_PX);
+    let share = |step: i64| (step as f64 - from) / (to - from);
+    if from < to {
+        (from.ceil() as i64..to.ceil() as i64).map(share).collect()
+    } else {
+        (to.floor() as i64 + 1..=from.floor() as i64).rev().map(share).collect()
+    }
 }
 
 fn length(line: &[Point]) -> f64 {
@@ -80,7 +82,8 @@ mod tests {
     }
 
     fn all(curve: &[Point], look: usize) -> Vec<Point> {
-        markers(curve, 50.0, Look::new(look))
+        let plot = Rect { left: 50.0, top: 0.0, right: 450.0, bottom: 300.0 };
+        markers(curve, plot, Look::new(look))
     }
 
     #[test]
@@ -93,7 +96,7 @@ mod tests {
                 assert!((5..=12).contains(&found.len()), "{}", found.len());
                 for pair in found.windows(2) {
                     let apart = (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1);
-                    assert!((50.0..=130.0).contains(&apart), "{apart}");
+                    assert!((32.0..=128.0).contains(&apart), "{apart}");
                 }
             }
         }
@@ -101,13 +104,17 @@ mod tests {
 
     #[test]
     fn of_curves_on_each_other_do_not_hide_each_other() {
-        // One comes from high above, one is level all along.
-        let level = sampled(|_| 100.0);
-        let falling = sampled(|x| 100.0 - (150.0 - x).max(0.0));
+        // One comes from high above, one from far below.
+        let pairs = [
+            (sampled(|_| 100.0), sampled(|x| 100.0 - (150.0 - x).max(0.0))),
+            (sampled(|x| x * 3.0), sampled(|x| x.max(30.0) * 3.0)),
+        ];
         for (a, b) in (0..7).flat_map(|a| (0..a).map(move |b| (a, b))) {
-            for (x, y) in all(&level, a) {
-                let near = |p: &Point| (p.0 - x).hypot(p.1 - y) < 7.9;
-                assert!(!all(&falling, b).iter().any(near), "{a} and {b}");
+            for (one, other) in &pairs {
+                for (x, y) in all(one, a) {
+                    let near = |p: &Point| (p.0 - x).hypot(p.1 - y) < 7.9;
+                    assert!(!all(other, b).iter().any(near), "{a} and {b}");
+                }
             }
         }
     }
@@ -115,7 +122,7 @@ mod tests {
     #[test]
     fn every_curve_has_one() {
         assert_eq!(all(&[(60.0, 5.0), (70.0, 5.0)], 0), [(65.0, 5.0)]);
-        assert_eq!(all(&[(60.0, 0.0), (60.0, 150.0)], 0), [(60.0, 75.0)]);
+        assert_eq!(all(&[(60.0, 200.0), (60.0, 150.0)], 0), [(60.0, 192.0)], "steep");
         assert_eq!(all(&[(400.0, 5.0), (100.0, 5.0)], 0).len(), 5, "backwards");
     }
 }

@@ -8,6 +8,12 @@ const STEPS: [(f64, i32); 4] = [(1.0, 0), (2.0, 0), (2.5, -1), (5.0, 0)];
 /// Digits beyond which given ticks are rounded.
 const MOST_DIGITS: i32 = 5;
 
+/// What logarithmic ticks are, times powers of ten.
+const LOG_MULTIPLES: [&[i32]; 2] = [&[1, 2, 5], &[1]];
+
+/// From a power with a tick to the next.
+const LOG_STEPS: [i32; 8] = [1, 2, 3, 5, 10, 20, 50, 100];
+
 /// One tick.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tick {
@@ -35,6 +41,32 @@ pub(crate) fn round_ticks(low: f64, high: f64, fits: impl Fn(&[Tick]) -> bool) -
         }
     }
     ends(last)
+}
+
+/// Ticks of a logarithmic axis from `low` to `high`, both above 0: at 1, 2 and 5 times powers of
+/// ten where `fits` accepts them, or else at powers alone, or at some of them. A range without two
+/// of those has round numbers.
+pub(crate) fn log_ticks(low: f64, high: f64, fits: impl Fn(&[Tick]) -> bool) -> Vec<Tick> {
+    let kinds = LOG_MULTIPLES.iter().flat_map(|multiples| {
+        let every: &[i32] = if multiples.len() > 1 { &[1] } else { &LOG_STEPS };
+        every.iter().map(move |every| (*multiples, *every))
+    });
+    let mut found = kinds.map(|(multiples, every)| at_powers(low, high, multiples, every));
+    let fitting = found.find(|ticks| ticks.len() < 2 || fits(ticks));
+    fitting.filter(|ticks| ticks.len() > 1).unwrap_or_else(|| round_ticks(low, high, fits))
+}
+
+fn at_powers(low: f64, high: f64, multiples: &[i32], every: i32) -> Vec<Tick> {
+    /// A tick this much beyond the end is at the end: rounding.
+    const SLACK: f64 = 1e-9;
+    let powers = (exponent(low)..=exponent(high)).filter(|power| power % every == 0);
+    // Read from digits, which gives the nearest number there is.
+    let value = |multiple: i32, power: i32| format!("{multiple}e{power}").parse::<f64>().ok();
+    powers
+        .flat_map(|power| multiples.iter().filter_map(move |multiple| value(*multiple, power)))
+        .filter(|value| *value >= low * (1.0 - SLACK) && *value <= high * (1.0 + SLACK))
+        .map(|value| Tick { value, label: Format::new(value, last_digit(value)).label(value) })
+        .collect()
 }
 
 fn ends(mut ticks: Vec<Tick>) -> Vec<Tick> {
@@ -96,6 +128,21 @@ mod tests {
             ["0.00000", "0.00002", "0.00004", "0.00006", "0.00008", "0.00010"]
         );
         assert_eq!(labels(0.0, 3e8, 4), ["0", "1×10⁸", "2×10⁸", "3×10⁸"]);
+    }
+
+    #[test]
+    fn logarithmic_ones_stand_at_1_2_5_or_at_powers() {
+        let labels = |low: f64, high: f64, most: usize| -> Vec<String> {
+            let ticks = log_ticks(low, high, |t| t.len() <= most).into_iter();
+            ticks.map(|t| t.label).collect()
+        };
+        assert_eq!(labels(0.4, 60.0, 9), ["0.5", "1", "2", "5", "10", "20", "50"]);
+        assert_eq!(labels(0.1, 10.0, 7), ["0.1", "0.2", "0.5", "1", "2", "5", "10"], "both ends");
+        assert_eq!(labels(0.04, 60.0, 9), ["0.1", "1", "10"]);
+        assert_eq!(labels(1e-6, 1e6, 5), ["1×10⁻⁶", "0.001", "1", "1000", "1×10⁶"]);
+        assert_eq!(labels(2.2, 4.4, 6), ["2.5", "3.0", "3.5", "4.0"], "none of them is in it");
+        assert!(labels(1e-300, 1e305, 9).len() > 4 && !labels(1e-300, 1e305, 2).is_empty());
+        assert_eq!(log_ticks(9e-6, 1.1e-5, |_| true)[0].value, 9e-6);
     }
 
     #[test]

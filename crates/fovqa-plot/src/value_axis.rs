@@ -6,11 +6,24 @@ use crate::drawing::{Anchor, Drawing, Rect, Text};
 use crate::layout::{MARGIN_PX, TITLE_LINES};
 use crate::scale::Scale;
 use crate::text::{CAPITAL, LINE_PITCH, TICK_PX, TITLE_PX, width_px};
-use crate::ticks::{Tick, round_ticks};
+use crate::ticks::Tick;
 use crate::wrap::wrap;
 
 /// The least distance from a tick to the next.
 const PITCH_PX: f64 = 30.0;
+/// That of logarithmic ticks, which stand closer here and farther apart there.
+const LOG_PITCH_PX: f64 = 18.0;
+
+/// The ticks of a range that stands upright in a height.
+pub(crate) fn ticks(scale: Scale, height_px: f64) -> Vec<Tick> {
+    let apart = |pair: &[Tick], least_px: f64| {
+        (scale.share(pair[1].value) - scale.share(pair[0].value)).abs() * height_px >= least_px
+    };
+    if scale.log {
+        return scale.ticks(|ticks| ticks.windows(2).all(|pair| apart(pair, LOG_PITCH_PX)));
+    }
+    scale.ticks(|ticks| apart(ticks, PITCH_PX))
+}
 
 /// A vertical axis with its range.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,13 +38,9 @@ impl ValueAxis {
     pub(crate) fn new(axis: &Axis, scale: Option<Scale>, plot_height_px: f64) -> Self {
         let title = wrap(&axis.title, TITLE_PX, plot_height_px, TITLE_LINES);
         let Some(scale) = scale else {
-            return Self { scale: Scale { low: 0.0, high: 1.0 }, ticks: Vec::new(), title };
+            return Self { scale: Scale::even(0.0, 1.0), ticks: Vec::new(), title };
         };
-        let apart = |ticks: &[Tick]| {
-            let step = scale.share(ticks[1].value) - scale.share(ticks[0].value);
-            step * plot_height_px >= PITCH_PX
-        };
-        Self { scale, ticks: round_ticks(scale.low, scale.high, apart), title }
+        Self { scale, ticks: ticks(scale, plot_height_px), title }
     }
 
     /// Space at the left of the plot area, with a margin.

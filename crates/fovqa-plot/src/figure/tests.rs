@@ -691,6 +691,7 @@ proptest! {
             panel.fills = vec![Fill { name: name(i), kind, points }];
             panel.y_limits = values.get(i).zip(values.get(i + 1)).map(|(low, high)| (*low, *high));
             panel.series[0].smooth = i % 2 == 1;
+            panel.y_log = i % 4 == 2;
             panel.spans = values.chunks(2).map(|v| span(v[0], v[v.len() - 1])).collect();
         }
         check(&figure);

@@ -214,3 +214,59 @@ fn a_function_has_few_markers_and_not_those_of_another() {
         assert!(both[..i].iter().all(|b| (a.0 - b.0).hypot(a.1 - b.1) > 3.0));
     }
 }
+
+/// A logarithmic chart of values at 0, 1, 2 and so on.
+fn log(values: &[f64]) -> LineChart {
+    let series = vec![LineSeries { points: points(values), ..LineSeries::default() }];
+    LineChart { series, y_log: true, ..LineChart::default() }
+}
+
+#[test]
+fn equal_ratios_are_equal_heights_on_a_logarithmic_axis() {
+    let chart = log(&[0.1, 1.0, 10.0, 100.0]);
+    check(&Figure::Line(chart.clone()));
+    let line = &curve(&chart.draw(), 0)[0];
+    let up: Vec<f64> = line.windows(2).map(|p| p[0].1 - p[1].1).collect();
+    assert!(up[0] > 30.0 && up.iter().all(|step| (step - up[0]).abs() < 1e-6), "{up:?}");
+    let labels = texts(&Figure::Line(chart.clone()));
+    for label in ["0.1", "1", "10", "100"] {
+        assert!(labels.iter().any(|text| text == label), "{label}");
+    }
+    let from_zero = LineChart { y_from_zero: true, ..chart.clone() };
+    assert_eq!(from_zero.y_scale(), chart.y_scale());
+}
+
+#[test]
+fn what_has_no_logarithm_is_a_gap() {
+    let (inf, nan) = (f64::INFINITY, f64::NAN);
+    let chart = log(&[1.0, 2.0, 0.0, 4.0, 5.0, -3.0, 6.0, 7.0, -inf, nan, 8.0, 9.0, inf]);
+    let figure = Figure::Line(chart.clone());
+    check(&figure);
+    assert_eq!(curve(&chart.draw(), 0).len(), 4);
+    assert_eq!((count(&figure, "∞"), count(&figure, "−∞")), (1, 0));
+    let none = Figure::Line(log(&[0.0, -1.0]));
+    check(&none);
+    assert_eq!(count(&none, "no data"), 1);
+}
+
+#[test]
+fn limits_and_areas_of_a_logarithmic_axis() {
+    let mut chart = log(&[1e-3, 1.0, 1e3]);
+    chart.y_limits = Some((0.01, 100.0));
+    chart.fills = vec![Fill { points: vec![(0.0, 0.0, 1.0), (2.0, -5.0, 1.0)], ..Fill::default() }];
+    check(&Figure::Line(chart.clone()));
+    let drawing = chart.draw();
+    let (plot, line) = (plots(&drawing)[0], &curve(&drawing, 0)[0]);
+    assert_eq!((line[0].1, line[line.len() - 1].1), (plot.bottom, plot.top));
+    // A third of the way from 0.001 to 1.
+    let unit = plot.width() / (2.0 * 1.04);
+    assert!((line[0].0 - (plot.left + (0.04 + 1.0 / 3.0) * unit)).abs() < 1e-6);
+    let area = bounds(&filled(&drawing, SURPLUS)[0]);
+    assert!((area.top - plot.centre().1).abs() < 1e-6 && (area.bottom - plot.bottom).abs() < 1e-6);
+    for limits in [(0.0, 100.0), (-1.0, 100.0)] {
+        let free = LineChart { y_limits: None, ..chart.clone() };
+        assert_eq!(LineChart { y_limits: Some(limits), ..chart.clone() }.y_scale(), free.y_scale());
+    }
+    let panels = vec![chart.clone(), log(&[3.0, 4.0]), log(&[1e-280, 1e300])];
+    check(&Figure::Panels(PanelChart { panels, columns: 3, title: None }));
+}
