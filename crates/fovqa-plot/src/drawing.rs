@@ -1,6 +1,7 @@
 //! A picture as a list of marks in pixels, before it is written as SVG: charts add to it, and
 //! tests see what lies where.
 
+use crate::bitmap::Bitmap;
 use crate::look::{Colour, INK};
 #[cfg(test)]
 use crate::text::{CAPITAL, DESCENT, width_px};
@@ -41,7 +42,6 @@ impl Rect {
     }
 
     /// Whether two rectangles share more than an edge.
-    #[cfg(test)]
     pub(crate) fn overlaps(self, other: Self) -> bool {
         self.left < other.right
             && other.left < self.right
@@ -117,6 +117,8 @@ pub(crate) enum Mark {
     Area(Vec<Point>, Colour),
     /// A filled disc of a radius.
     Disc(Point, f64, Colour),
+    /// A picture that fills a rectangle.
+    Picture(Rect, Bitmap),
     /// A line of text.
     Text(Text),
 }
@@ -153,6 +155,10 @@ impl Drawing {
         self.marks.push(Mark::Disc(centre, radius_px, colour));
     }
 
+    pub(crate) fn picture(&mut self, rect: Rect, bitmap: Bitmap) {
+        self.marks.push(Mark::Picture(rect, bitmap));
+    }
+
     pub(crate) fn text(&mut self, text: Text) {
         if !text.line.is_empty() {
             self.marks.push(Mark::Text(text));
@@ -161,8 +167,13 @@ impl Drawing {
 
     /// A filled rectangle with an edge.
     pub(crate) fn rect(&mut self, rect: Rect, fill: Colour, edge: Stroke) {
+        self.area(rect.corners().to_vec(), fill);
+        self.frame(rect, edge);
+    }
+
+    /// The edge of a rectangle.
+    pub(crate) fn frame(&mut self, rect: Rect, edge: Stroke) {
         let corners = rect.corners();
-        self.area(corners.to_vec(), fill);
         // One corner twice over, so that the last joint is as square as the others.
         self.line(&[&corners[..], &corners[..2]].concat(), edge);
     }

@@ -17,6 +17,24 @@ pub enum PlotError {
         /// The groups.
         expected: usize,
     },
+    /// The values of a picture are not one for each cell.
+    #[error("the picture \"{panel}\" has {found} values for {columns} x {rows} cells")]
+    Cells {
+        /// The title of the picture.
+        panel: String,
+        /// Its values.
+        found: usize,
+        /// Cells of a row.
+        columns: usize,
+        /// Rows.
+        rows: usize,
+    },
+    /// A picture has no part of the plane to lie over.
+    #[error("the picture \"{panel}\" needs ranges of finite numbers, from left to right")]
+    Extent {
+        /// The title of the picture.
+        panel: String,
+    },
     /// The drawing library refused.
     #[error("the SVG could not be written")]
     Draw(#[source] Box<dyn Error + Send + Sync>),

@@ -5,6 +5,7 @@ use crate::drawing::Drawing;
 use crate::error::PlotError;
 use crate::line::LineChart;
 use crate::panels::PanelChart;
+use crate::raster::RasterChart;
 use crate::spread::SpreadChart;
 use crate::{svg, tidy};
 
@@ -19,6 +20,8 @@ pub enum Figure {
     Spread(SpreadChart),
     /// Several charts of curves with one legend.
     Panels(PanelChart),
+    /// Pictures of a quantity over a plane.
+    Raster(RasterChart),
 }
 
 impl Figure {
@@ -28,7 +31,8 @@ impl Figure {
     /// has all of it.
     ///
     /// # Errors
-    /// When a series does not have one value for each group.
+    /// When a series does not have one value for each group, or a picture one for each cell of a
+    /// part of the plane.
     pub fn svg(&self) -> Result<String, PlotError> {
         svg::write(&self.draw()?)
     }
@@ -39,11 +43,12 @@ impl Figure {
             Self::Bar(chart) => chart.draw(),
             Self::Spread(chart) => chart.draw(),
             Self::Panels(chart) => Ok(chart.draw()),
+            Self::Raster(chart) => chart.draw(),
         }
     }
 
-    /// The data of the figure as CSV, a row for each value: `series,x,y`, `panel,series,x,y`, or
-    /// `group,series,value`. A missing value is an empty field, an infinite one `inf` or `-inf`. A
+    /// The data of the figure as CSV, a row for each value: `series,x,y`, `panel,series,x,y`,
+    /// `group,series,value`, or `panel,x,y,value` at the middle of a cell. A missing value is an empty field, an infinite one `inf` or `-inf`. A
     /// span has two rows, one for each end, with an empty `y`, after the series of its chart. Areas
     /// between curves have none: their edges are curves already.
     pub fn csv(&self) -> String {
@@ -52,6 +57,7 @@ impl Figure {
             Self::Bar(chart) => tidy::bar(chart),
             Self::Spread(chart) => tidy::spread(chart),
             Self::Panels(chart) => tidy::panels(chart),
+            Self::Raster(chart) => tidy::raster(chart),
         }
     }
 }

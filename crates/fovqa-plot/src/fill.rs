@@ -137,10 +137,8 @@ impl FillKind {
 
     /// Fills the key in the legend, with an edge: it is small.
     pub(crate) fn draw_key(self, drawing: &mut Drawing, rect: Rect) {
-        let corners = rect.corners();
-        self.draw(drawing, &corners);
-        let edge = Stroke { colour: self.colours().1, width_px: HATCH_PX };
-        drawing.line(&[&corners[..], &corners[..2]].concat(), edge);
+        self.draw(drawing, &rect.corners());
+        drawing.frame(rect, Stroke { colour: self.colours().1, width_px: HATCH_PX });
     }
 
     /// Of the area, and of lines in and around it.

@@ -13,6 +13,9 @@ use crate::wrap::wrap;
 pub(crate) const MARGIN_PX: f64 = 8.0;
 /// Width of a picture: printed 85 mm wide, half a page, a text of 12 px is one of 6 points.
 pub(crate) const WIDTH_PX: f64 = 480.0;
+/// Width of a figure of several columns: printed 170 mm wide, a whole page, a text of 12 px is one
+/// of 6 points.
+pub(crate) const PAGE_PX: f64 = 2.0 * WIDTH_PX;
 /// Height of the plot area: with its axes and a row of legend about two thirds of the width.
 pub(crate) const PLOT_HEIGHT_PX: f64 = 226.0;
 /// A plot area narrower than this would show nothing: wide labels widen the picture instead.

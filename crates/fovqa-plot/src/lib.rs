@@ -1,8 +1,8 @@
 //! Series to figures as SVG, and PNG from the SVG: curves, bars and distributions, made for half
-//! the width of a page of a paper, and panels of curves for the whole of it.
+//! the width of a page of a paper, panels of curves for the whole of it, and pictures for either.
 //!
-//! A figure is plain data ([`LineChart`], [`BarChart`], [`SpreadChart`], [`PanelChart`]); nothing
-//! here knows what was measured. The same figure gives the same bytes on every machine and thread: text is measured
+//! A figure is plain data ([`LineChart`], [`BarChart`], [`SpreadChart`], [`PanelChart`],
+//! [`RasterChart`]); nothing here knows what was measured. The same figure gives the same bytes on every machine and thread: text is measured
 //! and set in a bundled font, and no place depends on a function that differs between platforms.
 //!
 //! ```
@@ -28,8 +28,11 @@
 
 mod axis;
 mod bar;
+mod bitmap;
 mod box_summary;
 mod clip;
+mod colour_bar;
+mod colour_map;
 mod drawing;
 mod error;
 mod figure;
@@ -43,10 +46,13 @@ mod line;
 mod look;
 mod marker;
 mod number;
+mod overlay;
 mod panel_grid;
 mod panels;
+mod path;
 mod png;
 mod position_axis;
+mod raster;
 mod scale;
 mod smooth;
 mod span;
@@ -69,5 +75,6 @@ pub use line::{LineChart, LineSeries};
 pub use look::Look;
 pub use panels::PanelChart;
 pub use png::png;
+pub use raster::{RasterChart, RasterLine, RasterPanel};
 pub use span::Span;
 pub use spread::{SpreadChart, SpreadSeries};

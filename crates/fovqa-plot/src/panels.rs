@@ -2,7 +2,7 @@
 
 use crate::axis::Axis;
 use crate::drawing::{Anchor, Drawing, Text};
-use crate::layout::{self, LEAST_PLOT_PX, MARGIN_PX, TITLE_LINES, WIDTH_PX};
+use crate::layout::{self, LEAST_PLOT_PX, MARGIN_PX, PAGE_PX, TITLE_LINES, WIDTH_PX};
 use crate::legend::{self, Key};
 use crate::line::{Frame, LineChart};
 use crate::panel_grid::{Grid, Needs, Place};
@@ -11,9 +11,6 @@ use crate::text::{LINE_PITCH, TITLE_PX};
 use crate::value_axis::ValueAxis;
 use crate::wrap::wrap;
 
-/// Width of a figure of several columns: printed 170 mm wide, a whole page, a text of 12 px is one
-/// of 6 points.
-const PAGE_PX: f64 = 2.0 * WIDTH_PX;
 /// Height of a plot area: lower than that of a single chart, as it is narrower.
 const HEIGHT_PX: f64 = 170.0;
 /// A plot area beside others is no narrower than this: wide labels widen the picture instead.

@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use resvg::tiny_skia::{Color, Pixmap, Transform};
-use resvg::usvg::{ImageHrefResolver, Options, Tree, fontdb::Database};
+use resvg::usvg::{ImageHrefResolver, ImageKind, Options, Tree, fontdb::Database};
 
 use crate::error::PlotError;
 use crate::text::{FAMILY, FONT};
@@ -29,7 +29,7 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
     pixmap.encode_png().map_err(|error| PlotError::Encode(Box::new(error)))
 }
 
-/// The bundled font and nothing else: no fonts of the system, no files an SVG may name.
+/// The bundled font and pictures within the SVG: no fonts of the system, no files an SVG may name.
 fn options() -> Options<'static> {
     static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
     let fonts = FONTS.get_or_init(|| {
@@ -41,7 +41,9 @@ fn options() -> Options<'static> {
         font_family: FAMILY.to_owned(),
         fontdb: Arc::clone(fonts),
         image_href_resolver: ImageHrefResolver {
-            resolve_data: Box::new(|_, _, _| None),
+            resolve_data: Box::new(|mime, data, _| {
+                (mime == "image/png").then_some(ImageKind::PNG(data))
+            }),
             resolve_string: Box::new(|_, _| None),
         },
         ..Options::default()

@@ -3,6 +3,7 @@
 
 use crate::drawing::{Point, Rect};
 use crate::look::Look;
+use crate::path::{length, place};
 
 /// From a marker to the next.
 const PITCH_PX: f64 = 64.0;
@@ -52,25 +53,6 @@ fn steps(a: Point, b: Point, origin: Point) -> Vec<f64> {
     } else {
         (to.floor() as i64 + 1..=from.floor() as i64).rev().map(share).collect()
     }
-}
-
-fn length(line: &[Point]) -> f64 {
-    line.windows(2).map(|ends| (ends[1].0 - ends[0].0).hypot(ends[1].1 - ends[0].1)).sum()
-}
-
-/// The place so far along a line.
-fn place(line: &[Point], along: f64) -> Option<Point> {
-    let mut left = along;
-    for ends in line.windows(2) {
-        let length = length(ends);
-        if left <= length {
-            let share = if length > 0.0 { left / length } else { 0.0 };
-            let ((x0, y0), (x1, y1)) = (ends[0], ends[1]);
-            return Some((x0 + (x1 - x0) * share, y0 + (y1 - y0) * share));
-        }
-        left -= length;
-    }
-    line.last().copied()
 }
 
 #[cfg(test)]

@@ -18,29 +18,69 @@ const UNITS: f64 = 10.0;
 /// plotters divides the size of a font by this before it writes it.
 const FONT_FACTOR: f64 = 1.24;
 
+/// How a document ends.
+const END: &str = "</svg>";
+
 /// plotters sets a text so far below the place it is given, in sizes of the font.
 const TOP_TO_BASELINE: f64 = 0.76;
 
 /// The picture as a complete SVG document.
 pub(crate) fn write(drawing: &Drawing) -> Result<String, PlotError> {
-    let mut svg = String::new();
     let size = (units(drawing.width_px) as u32, units(drawing.height_px) as u32);
-    let mut backend = SVGBackend::with_string(&mut svg, size);
     let paper = (size.0 as i32, size.1 as i32);
-    backend.draw_rect((0, 0), paper, &filled(WHITE), true).map_err(refused)?;
-    drawing.marks.iter().try_for_each(|mark| draw(&mut backend, mark))?;
+    let mut body = elements(size, |backend| {
+        backend.draw_rect((0, 0), paper, &filled(WHITE), true).map_err(refused)
+    })?;
+    let is_picture = |mark: &Mark| matches!(mark, Mark::Picture(..));
+    for marks in drawing.marks.chunk_by(|a, b| is_picture(a) == is_picture(b)) {
+        if is_picture(&marks[0]) {
+            marks.iter().try_for_each(|mark| write_picture(&mut body, mark))?;
+        } else {
+            body +=
+                &elements(size, |backend| marks.iter().try_for_each(|mark| draw(backend, mark)))?;
+        }
+    }
+    Ok(with_header(&body, drawing, size))
+}
+
+/// What plotters writes for something drawn, without the element around it all.
+fn elements(
+    size: (u32, u32),
+    draw: impl FnOnce(&mut SVGBackend<'_>) -> Result<(), PlotError>,
+) -> Result<String, PlotError> {
+    let mut svg = String::new();
+    let mut backend = SVGBackend::with_string(&mut svg, size);
+    draw(&mut backend)?;
     backend.present().map_err(refused)?;
     drop(backend);
-    Ok(with_header(&svg, drawing, size))
+    let body = svg.split_once('\n').map_or("", |(_, body)| body);
+    Ok(body.trim_end().strip_suffix(END).unwrap_or(body).to_owned())
+}
+
+/// A picture, which plotters has no word for. Both ways to say that its pixels are not to be
+/// smeared are written, and the older way to refer: which a program knows differs.
+fn write_picture(body: &mut String, mark: &Mark) -> Result<(), PlotError> {
+    let Mark::Picture(rect, bitmap) = mark else { return Ok(()) };
+    let ((left, top), (right, bottom)) =
+        (place((rect.left, rect.top)), place((rect.right, rect.bottom)));
+    let (width, height) = (right - left, bottom - top);
+    let uri = bitmap.data_uri((rect.width(), rect.height()))?;
+    let element = format!(
+        "<image x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" \
+         preserveAspectRatio=\"none\" image-rendering=\"optimizeSpeed\" \
+         style=\"image-rendering:pixelated\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
+         xlink:href=\"{uri}\"/>\n"
+    );
+    body.push_str(&element);
+    Ok(())
 }
 
 /// The document with its size in pixels, its own units within, and round corners of lines: a
 /// sharp turn of a curve would grow a spike.
-fn with_header(svg: &str, drawing: &Drawing, (width, height): (u32, u32)) -> String {
-    let body = svg.split_once('\n').map_or("", |(_, body)| body);
+fn with_header(body: &str, drawing: &Drawing, (width, height): (u32, u32)) -> String {
     format!(
         "<svg width=\"{}\" height=\"{}\" viewBox=\"0 0 {width} {height}\" \
-         stroke-linejoin=\"round\" xmlns=\"http://www.w3.org/2000/svg\">\n{body}",
+         stroke-linejoin=\"round\" xmlns=\"http://www.w3.org/2000/svg\">\n{body}{END}\n",
         drawing.width_px, drawing.height_px
     )
 }
@@ -57,6 +97,7 @@ fn draw(backend: &mut SVGBackend<'_>, mark: &Mark) -> Result<(), PlotError> {
             backend.draw_circle(place(*centre), units(*radius_px) as u32, &filled(*colour), true)
         }
         Mark::Text(text) => return draw_text(backend, text),
+        Mark::Picture(..) => return Ok(()),
     };
     drawn.map_err(refused)
 }

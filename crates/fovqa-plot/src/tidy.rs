@@ -4,6 +4,7 @@
 use crate::bar::BarChart;
 use crate::line::LineChart;
 use crate::panels::PanelChart;
+use crate::raster::RasterChart;
 use crate::spread::SpreadChart;
 
 /// A number so that it reads back as the same, and as a float: "1.0".
@@ -67,6 +68,26 @@ pub(crate) fn bar(chart: &BarChart) -> String {
     for series in &chart.series {
         for (group, value) in chart.groups.iter().zip(&series.values) {
             row(&mut csv, &[name(group), name(&series.name), optional(*value)]);
+        }
+    }
+    csv
+}
+
+/// The values at the middle of their cells; without the lines, which are drawn for the eye.
+pub(crate) fn raster(chart: &RasterChart) -> String {
+    let mut csv = "panel,x,y,value\n".to_owned();
+    for panel in &chart.panels {
+        let title = name(panel.title.as_deref().unwrap_or_default());
+        let middle = |(from, to): (f64, f64), cell: usize, cells: usize| {
+            let share = (cell as f64 + 0.5) / cells as f64;
+            number(from * (1.0 - share) + to * share)
+        };
+        for (r, values) in panel.values.chunks(panel.columns.max(1)).enumerate() {
+            let y = middle(panel.y_range, r, panel.rows);
+            for (c, value) in values.iter().enumerate() {
+                let x = middle(panel.x_range, c, panel.columns);
+                row(&mut csv, &[title.clone(), x, y.clone(), optional(Some(*value))]);
+            }
         }
     }
     csv
