@@ -5,9 +5,11 @@ mod draw;
 mod figures;
 mod frame_values;
 mod page;
+mod sheet;
 mod terminal;
 mod text_table;
 
 pub use comparison::ComparisonTable;
-pub use draw::{Drawn, ReportError, clear, draw};
+pub use draw::{Drawn, draw};
+pub use sheet::{ReportError, clear};
 pub use terminal::score_table;

@@ -13,15 +13,7 @@ use fovqa_results::{BandStatistics, ComparisonSummary, RunRecord, SummaryRecord}
 
 use crate::comparison::{ComparisonTable, Ratios, mean, overall, statistic, value};
 use crate::frame_values::{FrameValues, Image};
-
-/// A figure with its name and what it says.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct NamedFigure {
-    /// File name without folder and ending.
-    pub(crate) name: String,
-    pub(crate) caption: String,
-    pub(crate) figure: Figure,
-}
+use crate::sheet::NamedFigure;
 
 /// More edges than this do not fit the axis as ticks.
 const MOST_EDGE_TICKS: usize = 13;

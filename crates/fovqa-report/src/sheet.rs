@@ -1,0 +1,219 @@
+//! What is drawn into a folder of results: tables, figures and a page, and the list of them, by
+//! which the next drawing takes away what it no longer draws.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use fovqa_plot::{Figure, PlotError, png};
+use fovqa_results::{FileError, REPORT_JSON, read_json_file, write_json_file, write_whole};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Folder of the figures.
+pub(crate) const PLOTS: &str = "plots";
+/// Name and version of the format of [`REPORT_JSON`].
+const SCHEMA: &str = "fovqa.report/1";
+/// Pixels of a PNG per pixel of the SVG: 288 dots an inch at half a page's width.
+const PNG_SCALE: f32 = 2.0;
+
+/// A figure with its name and what it says.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NamedFigure {
+    /// File name without folder and ending.
+    pub(crate) name: String,
+    pub(crate) caption: String,
+    pub(crate) figure: Figure,
+}
+
+/// A table's name, and its text for each ending.
+pub(crate) struct NamedTable {
+    pub(crate) name: String,
+    pub(crate) files: Vec<(&'static str, String)>,
+}
+
+/// What is drawn.
+pub(crate) struct Sheet {
+    pub(crate) tables: Vec<NamedTable>,
+    pub(crate) figures: Vec<NamedFigure>,
+    /// The page, `index.html`.
+    pub(crate) page: String,
+}
+
+/// Why nothing could be drawn.
+#[derive(Debug, Error)]
+pub enum ReportError {
+    /// A file that cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A figure that cannot be.
+    #[error("{name}: {error}")]
+    Plot {
+        /// The figure.
+        name: String,
+        /// The reason.
+        error: PlotError,
+    },
+}
+
+#[derive(Default, Serialize, Deserialize)]
+struct Manifest {
+    schema: String,
+    files: Vec<String>,
+}
+
+impl Sheet {
+    /// Writes all of it into a folder.
+    pub(crate) fn write(&self, folder: &Path) -> Result<(), ReportError> {
+        let table_files = self.tables.iter().flat_map(|table| {
+            table.files.iter().map(|(ending, _)| format!("{}.{ending}", table.name))
+        });
+        let figure_files = self.figures.iter().flat_map(|figure| {
+            ["svg", "png", "csv"].map(|ending| format!("{PLOTS}/{}.{ending}", figure.name))
+        });
+        let mut files: Vec<String> = table_files.chain(figure_files).collect();
+        files.push("index.html".to_owned());
+        // Said before it is done: whoever comes after a drawing that was broken off knows what is
+        // there.
+        let old = drawn_before(folder);
+        let either = old.iter().filter(|old| !files.contains(old)).chain(&files).cloned();
+        write_manifest(folder, either.collect())?;
+
+        for NamedTable { name, files } in &self.tables {
+            for (ending, text) in files {
+                write_whole(&folder.join(format!("{name}.{ending}")), text.as_bytes())?;
+            }
+        }
+        let plots = folder.join(PLOTS);
+        if !self.figures.is_empty() {
+            fs::create_dir_all(&plots)
+                .map_err(|error| FileError::Write { path: plots.clone(), error })?;
+        }
+        let written: Result<Vec<()>, ReportError> =
+            self.figures.par_iter().map(|figure| write_figure(&plots, figure)).collect();
+        written?;
+        write_whole(&folder.join("index.html"), self.page.as_bytes())?;
+        remove(folder, old.iter().filter(|old| !files.contains(old)));
+        write_manifest(folder, files)?;
+        Ok(())
+    }
+}
+
+fn write_manifest(folder: &Path, files: Vec<String>) -> Result<(), FileError> {
+    let manifest = Manifest { schema: SCHEMA.to_owned(), files };
+    write_json_file(&folder.join(REPORT_JSON), &manifest)
+}
+
+/// Takes away what was drawn of an earlier run.
+pub fn clear(folder: &Path) {
+    let old = drawn_before(folder);
+    if !old.is_empty() {
+        remove(folder, old.iter());
+        // Where it cannot be taken away, it tells nothing that is not so.
+        let _ = fs::remove_file(folder.join(REPORT_JSON));
+    }
+}
+
+fn write_figure(plots: &Path, figure: &NamedFigure) -> Result<(), ReportError> {
+    let NamedFigure { name, figure, .. } = figure;
+    let failed = |error| ReportError::Plot { name: name.clone(), error };
+    let svg = figure.svg().map_err(failed)?;
+    let pixels = png(&svg, PNG_SCALE).map_err(failed)?;
+    for (ending, bytes) in
+        [("svg", svg.as_bytes()), ("png", &pixels), ("csv", figure.csv().as_bytes())]
+    {
+        write_whole(&plots.join(format!("{name}.{ending}")), bytes)?;
+    }
+    Ok(())
+}
+
+/// The files of the last manifest. Only what a drawing could have written: a list can be anybody's.
+pub(crate) fn drawn_before(folder: &Path) -> Vec<String> {
+    let manifest = read_json_file(&folder.join(REPORT_JSON), SCHEMA, "a list of files");
+    let Manifest { mut files, .. } = manifest.unwrap_or_default();
+    files.retain(|file| is_drawn(file));
+    files
+}
+
+fn is_drawn(file: &str) -> bool {
+    let plain = |name: &str| !name.contains(['/', '\\', ':']) && !name.starts_with('.');
+    let ends = |name: &str, endings: &[&str]| {
+        name.rsplit_once('.').is_some_and(|(_, ending)| endings.contains(&ending))
+    };
+    match file.split_once('/') {
+        Some((PLOTS, name)) => plain(name) && ends(name, &["svg", "png", "csv"]),
+        Some(_) => false,
+        None => {
+            file == "index.html"
+                || (["table", "ratios"].iter().any(|name| file.starts_with(name))
+                    && plain(file)
+                    && ends(file, &["md", "csv", "tex"]))
+        }
+    }
+}
+
+fn remove<'a>(folder: &Path, files: impl Iterator<Item = &'a String>) {
+    for file in files {
+        // What somebody has taken away already is as good.
+        let _ = fs::remove_file(folder.join(file));
+    }
+}
+
+/// File names that are given out once each.
+#[derive(Default)]
+pub(crate) struct Names(BTreeSet<String>);
+
+impl Names {
+    /// The name, with a number behind it if it was given out before.
+    pub(crate) fn free(&mut self, name: &str) -> String {
+        let mut free = name.to_owned();
+        let mut count = 1;
+        while !self.0.insert(free.clone()) {
+            count += 1;
+            free = format!("{name}-{count}");
+        }
+        free
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_of_files_takes_away_nothing_but_drawings() {
+        for ours in [
+            "index.html",
+            "table.md",
+            "table-2.csv",
+            "table.tex",
+            "ratios-haar.md",
+            "plots/bars-psnr.png",
+        ] {
+            assert!(is_drawn(ours), "{ours}");
+        }
+        for other in [
+            "thesis.tex",
+            "results.csv",
+            "../table.md",
+            "plots/../x.svg",
+            "plots/a/b.svg",
+            "/x/table.md",
+            "plots/x.tex",
+            "table",
+            "plots/.svg",
+            "a/plots/x.svg",
+            "plots\\x.svg",
+            "",
+        ] {
+            assert!(!is_drawn(other), "{other}");
+        }
+    }
+
+    #[test]
+    fn names_are_given_out_once() {
+        let mut names = Names::default();
+        assert_eq!([names.free("a"), names.free("a"), names.free("a-2")], ["a", "a-2", "a-2-2"]);
+    }
+}
