@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fovqa_config::{Experiment, EyeView, Gaze, MetricChoice};
+use fovqa_config::{CurveSource, CurvesFile, Experiment, EyeView, Gaze, MetricChoice};
 use fovqa_engine::{Found, FoundFrame, FoundView};
 use fovqa_io::frame_size;
 
@@ -15,6 +15,9 @@ use crate::exit::Exit;
 use crate::{experiment, output};
 
 pub(crate) fn run(args: &CheckArgs) -> Exit {
+    if matches!(CurvesFile::is_one(&args.experiment), Ok(true)) {
+        return curves(args);
+    }
     let experiment = match experiment::read(&args.experiment) {
         Ok(experiment) => experiment,
         Err(exit) => return exit,
@@ -30,6 +33,36 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
     } else {
         Exit::Input
     }
+}
+
+/// The curves, tables and figures of a file.
+fn curves(args: &CheckArgs) -> Exit {
+    let file = match experiment::read_curves(&args.experiment) {
+        Ok(file) => file,
+        Err(exit) => return exit,
+    };
+    let mut text = format!("{}: {}\n", file.name, count(file.plan.curves.len(), "curve"));
+    for spec in &file.plan.curves {
+        let (model, screen) = match &spec.source {
+            CurveSource::Acuity(model) => (model.info().label, String::new()),
+            CurveSource::Method { method, setting } => {
+                let ([x, y], view) = (setting.gaze_px, setting.view);
+                let at = format!(
+                    ", {}x{}, gaze ({x}, {y}), direction {}°",
+                    view.width, view.height, setting.direction_deg
+                );
+                (method.info().label, at)
+            }
+        };
+        let set = if spec.parameters.is_empty() { "" } else { ", " };
+        let _ = writeln!(text, "  {}: {model}{set}{}{screen}", spec.name, spec.parameters);
+    }
+    let what = match (file.plan.plots.len(), file.plan.tables.len()) {
+        (0, 0) => "all figures and tables that fit".to_owned(),
+        (plots, tables) => format!("{}, {}", count(plots, "figure"), count(tables, "table")),
+    };
+    let _ = writeln!(text, "\n{what}, into reports/{}", file.name);
+    output::write(|out| out.write_all(text.as_bytes()))
 }
 
 /// Whether every mask is there and can be read.

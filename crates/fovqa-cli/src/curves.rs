@@ -1,12 +1,23 @@
 //! `fovqa curves`: one curve as CSV, or the figures and tables of files.
 
-use fovqa_shading::{Curve, trace};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use fovqa_config::CurvesFile;
+use fovqa_engine::ResultsFolder;
+use fovqa_shading::{Curve, trace, trace_all};
 
 use crate::args::CurvesArgs;
+use crate::dialect::Dialect;
 use crate::exit::Exit;
-use crate::{diagnostic, output};
+use crate::{diagnostic, experiment, output};
 
 pub(crate) fn run(args: &CurvesArgs) -> Exit {
+    if args.curves.is_empty() { one(args) } else { files(args) }
+}
+
+/// The curve of the flags.
+fn one(args: &CurvesArgs) -> Exit {
     let traced =
         args.spec().and_then(|spec| trace(&spec, args.range()).map_err(|error| error.to_string()));
     match traced {
@@ -24,7 +35,6 @@ pub(crate) fn run(args: &CurvesArgs) -> Exit {
 }
 
 fn csv(curve: &Curve) -> String {
-    use std::fmt::Write as _;
     let mut text = String::from("eccentricity_deg,radial_cpd,tangential_cpd\n");
     for row in &curve.rows {
         let _ = writeln!(
@@ -34,4 +44,79 @@ fn csv(curve: &Curve) -> String {
         );
     }
     text
+}
+
+/// Figures and tables of files, each into a folder of its own. Nothing is drawn while one of the
+/// files is wrong.
+fn files(args: &CurvesArgs) -> Exit {
+    let mut files: Vec<CurvesFile> = Vec::new();
+    let mut wrong = None;
+    for path in &args.curves {
+        match experiment::read_curves(path) {
+            Ok(file) => files.push(file),
+            Err(exit) => wrong = Some(exit),
+        }
+    }
+    if let Some(exit) = wrong {
+        return exit;
+    }
+    for (i, file) in files.iter().enumerate() {
+        if let Some(other) = files[..i].iter().find(|other| other.name == file.name) {
+            let (a, b) = (other.path.display(), file.path.display());
+            let message =
+                format!("{a} and {b} have one name, {:?}, and would share a folder", file.name);
+            diagnostic::error(&message, "give each a name of its own");
+            return Exit::Usage;
+        }
+    }
+    let alone = files.len() == 1;
+    let mut outcome = Exit::Done;
+    for file in &files {
+        let folder = match &args.output {
+            Some(folder) if alone => folder.clone(),
+            Some(folder) => folder.join(&file.name),
+            None => PathBuf::from("reports").join(&file.name),
+        };
+        // What is wrong with one folder is no reason to leave the others out.
+        if let Err(exit) = draw(file, &folder) {
+            outcome = exit;
+        }
+    }
+    outcome
+}
+
+fn draw(file: &CurvesFile, folder: &Path) -> Result<(), Exit> {
+    let failed = |message: &str, help: &str, exit: Exit| {
+        diagnostic::error(message, &Dialect::Options.spell(help));
+        exit
+    };
+    let curves = trace_all(&file.plan)
+        .map_err(|error| failed(&format!("{}: {error}", file.name), "", Exit::Usage))?;
+    let folder = ResultsFolder::open(folder)
+        .map_err(|error| failed(&error.to_string(), error.help(), Exit::Input))?;
+    folder.clear().map_err(|error| failed(&error.to_string(), error.help(), Exit::Input))?;
+    let drawn = fovqa_report::draw_curves(folder.path(), file, &curves).map_err(|error| {
+        failed(
+            &error.to_string(),
+            "free some space, or give another folder with {output}",
+            Exit::Input,
+        )
+    })?;
+    let mut notes: Vec<&String> = Vec::new();
+    for note in curves.iter().flat_map(|curve| &curve.notes) {
+        if !notes.contains(&note) {
+            notes.push(note);
+            diagnostic::note(note);
+        }
+    }
+    let tables = drawn.tables.iter().fold(String::new(), |mut text, table| {
+        let _ = writeln!(text, "{table}\n");
+        text
+    });
+    let printed = output::write(|out| out.write_all(tables.as_bytes()));
+    let figures =
+        if drawn.figures == 1 { "1 figure" } else { &format!("{} figures", drawn.figures) };
+    let shown = folder.path().display();
+    diagnostic::note(&format!("{shown}: curves.csv, {figures}; look at {shown}/index.html"));
+    if printed == Exit::Done { Ok(()) } else { Err(printed) }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fovqa_config::{Experiment, ExperimentError, Fault};
+use fovqa_config::{CurvesFile, Experiment, ExperimentError, Fault};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
 };
@@ -18,10 +18,24 @@ const LONGEST_LINE: usize = 400;
 
 /// The experiment; what is wrong with it has been said otherwise.
 pub(crate) fn read(path: &Path) -> Result<Experiment, Exit> {
-    Experiment::read(path).map_err(|error| {
+    if matches!(CurvesFile::is_one(path), Ok(true)) {
+        let message = format!("{}: this is a file of curves", path.display());
+        diagnostic::error(&message, "`fovqa curves` draws it, and `fovqa check` checks it");
+        return Err(Exit::Usage);
+    }
+    said(Experiment::read(path))
+}
+
+/// A file of curves; what is wrong with it has been said otherwise.
+pub(crate) fn read_curves(path: &Path) -> Result<CurvesFile, Exit> {
+    said(CurvesFile::read(path))
+}
+
+fn said<T>(read: Result<T, ExperimentError>) -> Result<T, Exit> {
+    read.map_err(|error| {
         match &error {
             ExperimentError::Unreadable { .. } => {
-                diagnostic::error(&error.to_string(), "an experiment is a TOML file, in UTF-8");
+                diagnostic::error(&error.to_string(), "give a TOML file, in UTF-8");
             }
             ExperimentError::Faults { path, text, faults } => {
                 say(&diagnostic::shown(&path.display().to_string()), text, faults);

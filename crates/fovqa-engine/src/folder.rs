@@ -4,7 +4,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use fovqa_results::{REPORT_JSON, RESULTS_CSV, RUN_JSON, SUMMARY_JSON};
+use fovqa_results::{CURVES_CSV, CURVES_JSON, REPORT_JSON, RESULTS_CSV, RUN_JSON, SUMMARY_JSON};
 use thiserror::Error;
 
 use crate::journal::JOURNAL;
@@ -13,12 +13,14 @@ use crate::journal::JOURNAL;
 const LOCK: &str = ".fovqa.lock";
 
 /// What a run writes, and what is drawn of it at its top.
-const OURS: [&str; 9] = [
+const OURS: [&str; 11] = [
     RESULTS_CSV,
     SUMMARY_JSON,
     RUN_JSON,
     JOURNAL,
     REPORT_JSON,
+    CURVES_CSV,
+    CURVES_JSON,
     "index.html",
     "table.csv",
     "table.md",
@@ -36,6 +38,7 @@ fn is_ours(path: &Path) -> bool {
     begins(RUN_JSON, "fovqa.run")
         || begins(JOURNAL, "fovqa.journal")
         || begins(REPORT_JSON, "fovqa.report")
+        || begins(CURVES_JSON, "fovqa.curves")
 }
 
 /// Whether there is something to lose. (A full disk leaves empty files.)
@@ -126,7 +129,7 @@ impl ResultsFolder {
     /// # Errors
     /// When the system refuses.
     pub fn clear(&self) -> Result<(), FolderError> {
-        for file in [RESULTS_CSV, SUMMARY_JSON, RUN_JSON] {
+        for file in [RESULTS_CSV, SUMMARY_JSON, RUN_JSON, CURVES_CSV, CURVES_JSON] {
             match fs::remove_file(self.path.join(file)) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {
                     return Err(FolderError::Io { path: self.path.clone(), error });

@@ -1,6 +1,7 @@
 //! Scores for people: tables for terminals and papers, figures, and the page of a run.
 
 mod comparison;
+mod curves;
 mod draw;
 mod figures;
 mod frame_values;
@@ -10,6 +11,7 @@ mod terminal;
 mod text_table;
 
 pub use comparison::ComparisonTable;
+pub use curves::{DrawnCurves, draw_curves};
 pub use draw::{Drawn, draw};
 pub use sheet::{ReportError, clear};
 pub use terminal::score_table;

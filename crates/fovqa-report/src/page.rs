@@ -37,12 +37,7 @@ pub(crate) fn page(
     tables: &[ComparisonTable],
     figures: &[PageFigure<'_>],
 ) -> String {
-    let name = escaped(&run.resolved.name);
-    let mut text = format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{name}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n"
-    );
+    let mut text = begin(&run.resolved.name);
     let scored: usize = summary
         .comparisons
         .iter()
@@ -78,27 +73,50 @@ pub(crate) fn page(
         );
     }
     if !figures.is_empty() {
-        text.push_str("<h2>Figures</h2>\n<div class=\"figures\">\n");
-        for PageFigure { path, caption } in figures {
-            let (path, caption) = (escaped(path), escaped(caption));
-            let _ = writeln!(
-                text,
-                "<figure><img src=\"{path}.svg\" alt=\"{caption}\">\n<figcaption>{caption} \
-                 (<a href=\"{path}.svg\">SVG</a>, <a href=\"{path}.png\">PNG</a>, <a href=\"{path}.csv\">CSV</a>)</figcaption></figure>"
-            );
-        }
-        text.push_str("</div>\n");
+        text.push_str("<h2>Figures</h2>\n");
     }
-    let _ = writeln!(
-        text,
-        "<footer><p>fovqa {}; experiment <code>{}</code>, SHA-256 <code>{}</code>; {}.</p></footer>\n\
-         </body>\n</html>",
+    self::figures(&mut text, figures);
+    let made = format!(
+        "fovqa {}; experiment <code>{}</code>, SHA-256 <code>{}</code>; {}",
         escaped(&run.version),
         escaped(&run.experiment.file),
         escaped(&run.experiment.sha256),
         count(run.inputs.len(), "input file"),
     );
+    end(&mut text, &made);
     text
+}
+
+/// The page up to its heading.
+pub(crate) fn begin(name: &str) -> String {
+    let name = escaped(name);
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n<title>{name}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n"
+    )
+}
+
+/// What made it, and the end.
+pub(crate) fn end(text: &mut String, made: &str) {
+    let _ = writeln!(text, "<footer><p>{made}.</p></footer>\n</body>\n</html>");
+}
+
+/// Figures with their captions, side by side where there is room.
+pub(crate) fn figures(text: &mut String, figures: &[PageFigure<'_>]) {
+    if figures.is_empty() {
+        return;
+    }
+    text.push_str("<div class=\"figures\">\n");
+    for PageFigure { path, caption } in figures {
+        let (path, caption) = (escaped(path), escaped(caption));
+        let _ = writeln!(
+            text,
+            "<figure><img src=\"{path}.svg\" alt=\"{caption}\">\n<figcaption>{caption} \
+             (<a href=\"{path}.svg\">SVG</a>, <a href=\"{path}.png\">PNG</a>, <a href=\"{path}.csv\">CSV</a>)</figcaption></figure>"
+        );
+    }
+    text.push_str("</div>\n");
 }
 
 fn count(n: usize, what: &str) -> String {

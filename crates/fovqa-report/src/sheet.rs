@@ -7,6 +7,7 @@ use std::path::Path;
 
 use fovqa_plot::{Figure, PlotError, png};
 use fovqa_results::{FileError, REPORT_JSON, read_json_file, write_json_file, write_whole};
+use fovqa_shading::CurveError;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -47,6 +48,14 @@ pub enum ReportError {
     /// A file that cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A curve that cannot be.
+    #[error("{name}: {error}")]
+    Curve {
+        /// The curve.
+        name: String,
+        /// The reason.
+        error: CurveError,
+    },
     /// A figure that cannot be.
     #[error("{name}: {error}")]
     Plot {

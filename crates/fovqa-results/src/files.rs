@@ -17,6 +17,12 @@ pub const SUMMARY_JSON: &str = "summary.json";
 pub const RUN_JSON: &str = "run.json";
 /// Which files were drawn, so that another drawing takes away what it does not draw again.
 pub const REPORT_JSON: &str = "report.json";
+/// Every value of a file of curves.
+pub const CURVES_CSV: &str = "curves.csv";
+/// The record of a file of curves.
+pub const CURVES_JSON: &str = "curves.json";
+/// Name and version of its format.
+pub const CURVES_SCHEMA: &str = "fovqa.curves/1";
 
 /// A file of a run that cannot be written, or read again.
 #[derive(Debug, Error)]

@@ -3,6 +3,7 @@
 mod both_eyes;
 mod compared;
 mod csv_table;
+mod curves;
 mod files;
 mod json;
 mod report;
@@ -11,9 +12,10 @@ mod summary;
 pub use both_eyes::both_eyes;
 pub use compared::{Compared, HaarStatistic, Measure, Sides};
 pub use csv_table::{COLUMNS, ERROR, write_csv, write_results_csv};
+pub use curves::{CurveRecord, CurvesRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
-    FileError, REPORT_JSON, RESULTS_CSV, RUN_JSON, SUMMARY_JSON, read_json_file, write_json_file,
-    write_whole, write_whole_with,
+    CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RUN_JSON,
+    SUMMARY_JSON, read_json_file, write_json_file, write_whole, write_whole_with,
 };
 pub use json::{
     BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,

@@ -7,6 +7,8 @@ use fovqa_vision::acuity::{AcuityModel, PiecewiseMarError};
 use rayon::prelude::*;
 use thiserror::Error;
 
+use crate::field::{Field, field};
+
 /// A curve with what its method costs.
 #[derive(Debug, Clone)]
 pub struct Curve {
@@ -16,6 +18,9 @@ pub struct Curve {
     pub rows: Vec<Row>,
     /// Samples of the method in a frame; `None` for an acuity model.
     pub counts: Option<Counts>,
+    /// The frame's field against the plan's acuity; `None` for an acuity model, and of a curve by
+    /// itself.
+    pub field: Option<Field>,
     /// What has to be said wherever it is shown.
     pub notes: Vec<String>,
 }
@@ -51,7 +56,14 @@ pub enum CurveError {
 /// # Errors
 /// When a method cannot be applied or an acuity model is no curve.
 pub fn trace_all(plan: &CurvePlan) -> Result<Vec<Curve>, CurveError> {
-    plan.curves.par_iter().map(|spec| trace(spec, plan.range)).collect()
+    let traced = |spec: &CurveSpec| {
+        let field = match &spec.source {
+            CurveSource::Acuity(_) => None,
+            CurveSource::Method { method, setting } => Some(field(method, setting, &plan.acuity)?),
+        };
+        Ok(Curve { field, ..trace(spec, plan.range)? })
+    };
+    plan.curves.par_iter().map(traced).collect()
 }
 
 /// A curve.
@@ -85,7 +97,7 @@ fn acuity(spec: &CurveSpec, model: &AcuityModel, range: CurveRange) -> Result<Cu
         }
     };
     let rows = eccentricities_deg(range).map(row).collect();
-    Ok(Curve { spec: spec.clone(), rows, counts: None, notes: Vec::new() })
+    Ok(Curve { spec: spec.clone(), rows, counts: None, field: None, notes: Vec::new() })
 }
 
 fn shading(
@@ -116,7 +128,7 @@ fn shading(
         .filter_map(|(e, scale)| row(foveation.as_ref(), e, scale, direction))
         .collect();
     let notes = outside.into_iter().chain(foveation.note()).collect();
-    Ok(Curve { spec: spec.clone(), rows, counts: Some(foveation.counts()), notes })
+    Ok(Curve { spec: spec.clone(), rows, counts: Some(foveation.counts()), field: None, notes })
 }
 
 fn scale_at(screen: &CurveSetting, direction: [f64; 2], e: f64) -> Option<PixelScale> {

@@ -5,6 +5,7 @@ use fovqa_config::CurveSetting;
 use fovqa_methods::{Method, Place};
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::{Eccentricity, PixelScale};
+use serde::{Deserialize, Serialize};
 
 use crate::curve::CurveError;
 
@@ -15,7 +16,7 @@ const EQUAL: f64 = 1e-9;
 
 /// A frame's field against an acuity model. Shares are of the frame's pixels, taken at the centres
 /// of cells, at most 1/720 of the longer side wide: exact to about a thousandth.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Field {
     /// Share of the field whose radial rate is below acuity.
     pub below_radial: f64,

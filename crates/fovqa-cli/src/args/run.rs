@@ -42,7 +42,7 @@ pub(crate) struct RunArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// The experiment file
+    /// The experiment file, or a file of curves
     pub(crate) experiment: PathBuf,
 }
 

@@ -1,0 +1,82 @@
+//! What curves are called where several stand together: by what differs between them.
+
+use fovqa_config::{CurveSetting, CurveSource, PanelOf};
+use fovqa_shading::Curve;
+
+/// What tells the curves of a figure or table apart.
+pub(super) struct Labels {
+    /// What is not the same for all.
+    differ: Vec<PanelOf>,
+}
+
+/// The screen of a curve of a method.
+pub(super) fn screen(curve: &Curve) -> Option<&CurveSetting> {
+    match &curve.spec.source {
+        CurveSource::Acuity(_) => None,
+        CurveSource::Method { setting, .. } => Some(setting),
+    }
+}
+
+/// "2560 × 1440".
+pub(super) fn resolution(screen: &CurveSetting) -> String {
+    format!("{} × {}", screen.view.width, screen.view.height)
+}
+
+pub(super) fn gaze(screen: &CurveSetting) -> String {
+    let [x, y] = screen.gaze_px;
+    let off = [0, 1].map(|i| (screen.gaze_px[i] - screen.view.principal_px[i]).abs());
+    if off[0] + off[1] < 1e-9 { "gaze at centre".to_owned() } else { format!("gaze ({x}, {y})") }
+}
+
+pub(super) fn direction(screen: &CurveSetting) -> String {
+    format!("direction {}°", screen.direction_deg)
+}
+
+impl Labels {
+    pub(super) fn of(curves: &[&Curve]) -> Self {
+        let differ = |of: &dyn Fn(&Curve) -> Option<String>| {
+            let mut found = curves.iter().filter_map(|curve| of(curve));
+            found.next().is_some_and(|first| found.any(|other| other != first))
+        };
+        let found = [
+            (PanelOf::Curve, differ(&|curve| Some(curve.spec.name.clone()))),
+            (PanelOf::Resolution, differ(&|curve| screen(curve).map(resolution))),
+            // In the centre of two frames it is one gaze.
+            (PanelOf::Gaze, differ(&|curve| screen(curve).map(gaze))),
+            (PanelOf::Direction, differ(&|curve| screen(curve).map(direction))),
+        ];
+        Self { differ: found.into_iter().filter(|(_, differ)| *differ).map(|(of, _)| of).collect() }
+    }
+
+    /// The label of a curve, without what its panel's title says.
+    pub(super) fn label(&self, curve: &Curve, panels: PanelOf) -> String {
+        let parts = self.parts(curve, |of| of != panels);
+        if parts.is_empty() { curve.spec.name.clone() } else { parts.join(", ") }
+    }
+
+    /// The title of a curve's panel; empty where it has none of its own.
+    pub(super) fn title(&self, curve: &Curve, panels: PanelOf) -> String {
+        match panels {
+            PanelOf::One => String::new(),
+            PanelOf::Curve => {
+                let mut parts = self.parts(curve, |_| true);
+                if !self.differ.contains(&PanelOf::Curve) {
+                    parts.insert(0, curve.spec.name.clone());
+                }
+                parts.join(", ")
+            }
+            panels => self.parts(curve, |of| of == panels).join(", "),
+        }
+    }
+
+    fn parts(&self, curve: &Curve, wanted: impl Fn(PanelOf) -> bool) -> Vec<String> {
+        let text = |of: PanelOf| match of {
+            PanelOf::Curve => Some(curve.spec.name.clone()),
+            PanelOf::Resolution => screen(curve).map(resolution),
+            PanelOf::Gaze => screen(curve).map(gaze),
+            PanelOf::Direction => screen(curve).map(direction),
+            PanelOf::One => None,
+        };
+        self.differ.iter().copied().filter(|of| wanted(*of)).filter_map(text).collect()
+    }
+}

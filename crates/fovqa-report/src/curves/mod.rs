@@ -1,0 +1,99 @@
+//! Figures, tables and the page of a file of curves.
+
+mod labels;
+mod models;
+mod page;
+mod picture;
+mod plain_table;
+mod rates;
+mod tables;
+
+use std::path::Path;
+
+use fovqa_config::{CurvePlot, CurvePlotKind, CurveSource, CurveTable, CurveTableKind, CurvesFile};
+use fovqa_results::{
+    CURVES_CSV, CURVES_JSON, CurvesRecord, curves_csv, write_json_file, write_whole,
+};
+use fovqa_shading::Curve;
+
+use crate::sheet::{NamedFigure, NamedTable, Names, ReportError, Sheet};
+use plain_table::PlainTable;
+
+/// What was drawn of a file of curves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnCurves {
+    /// The tables, for a terminal.
+    pub tables: Vec<String>,
+    /// How many figures.
+    pub figures: usize,
+}
+
+/// What figures and tables are made from.
+struct Source<'a> {
+    file: &'a CurvesFile,
+    curves: &'a [Curve],
+}
+
+impl<'a> Source<'a> {
+    /// The curves of some names, or all.
+    fn chosen(&self, names: Option<&[String]>) -> Vec<&'a Curve> {
+        let chosen = |curve: &&Curve| names.is_none_or(|names| names.contains(&curve.spec.name));
+        self.curves.iter().filter(chosen).collect()
+    }
+}
+
+/// Writes curves, figures, tables and page into a folder.
+///
+/// # Errors
+/// When the folder cannot be written to, or a figure cannot be.
+pub fn draw_curves(
+    folder: &Path,
+    file: &CurvesFile,
+    curves: &[Curve],
+) -> Result<DrawnCurves, ReportError> {
+    let source = Source { file, curves };
+    let (plots, tables) = asked(file);
+    let mut names = Names::default();
+    let mut figures: Vec<NamedFigure> = Vec::new();
+    for plot in &plots {
+        let drawn = match plot.kind {
+            CurvePlotKind::Rates => rates::figure(&source, plot),
+            CurvePlotKind::Density => picture::figure(&source, plot)?,
+            CurvePlotKind::Accumulated => models::accumulated(&source, plot),
+            CurvePlotKind::HalfAxis => models::half_axis(plot),
+        };
+        figures.push(NamedFigure { name: names.free(&drawn.name), ..drawn });
+    }
+    let mut made: Vec<(String, PlainTable)> = Vec::new();
+    for table in &tables {
+        let (name, table) = tables::table(&source, table);
+        made.push((names.free(name), table));
+    }
+    let page = page::page(&source, &made, &figures);
+    let files = made.iter().map(|(name, table)| NamedTable {
+        name: name.clone(),
+        files: vec![("md", table.markdown()), ("csv", table.csv())],
+    });
+    let sheet = Sheet { tables: files.collect(), figures, page };
+    write_whole(&folder.join(CURVES_CSV), curves_csv(&file.plan, curves).as_bytes())?;
+    write_json_file(&folder.join(CURVES_JSON), &CurvesRecord::new(file, curves))?;
+    sheet.write(folder)?;
+    let tables = made.iter().map(|(_, table)| table.terminal()).collect();
+    Ok(DrawnCurves { tables, figures: sheet.figures.len() })
+}
+
+/// The plots and tables of a file; of one that names none, all that fit.
+fn asked(file: &CurvesFile) -> (Vec<CurvePlot>, Vec<CurveTable>) {
+    let plan = &file.plan;
+    if !plan.plots.is_empty() || !plan.tables.is_empty() {
+        return (plan.plots.clone(), plan.tables.clone());
+    }
+    let mut plots = vec![CurvePlot::default()];
+    let mut tables = Vec::new();
+    if plan.curves.iter().any(|spec| matches!(spec.source, CurveSource::Method { .. })) {
+        plots.push(CurvePlot { kind: CurvePlotKind::Density, ..CurvePlot::default() });
+        let all = [CurveTableKind::Samples, CurveTableKind::SpeedUp, CurveTableKind::Acuity];
+        tables.extend(all.map(|kind| CurveTable { kind, curves: None }));
+    }
+    (plots, tables)
+}

@@ -1,0 +1,91 @@
+//! Figures of one method's own: DEAMP's shaded pixels within an angle (Fig. 5b), RMFR's mapping of a
+//! half axis (Fig. 3).
+
+use fovqa_config::{CurvePlot, CurveSource, PanelOf};
+use fovqa_methods::Method;
+use fovqa_methods::deamp::Deamp;
+use fovqa_methods::rmfr::half_axis as mapped;
+use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look};
+
+use super::Source;
+use super::labels::Labels;
+use crate::sheet::NamedFigure;
+
+/// Points of a curve.
+const POINTS: u32 = 180;
+
+pub(super) fn accumulated(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
+    let curves = source.chosen(plot.curves.as_deref());
+    let labels = Labels::of(&curves);
+    let mut series = Vec::new();
+    for curve in curves {
+        let CurveSource::Method { method: Method::Deamp(params), setting } = &curve.spec.source
+        else {
+            continue;
+        };
+        // It could be applied when the file was read.
+        let Some(deamp) = setting.setting().ok().and_then(|over| Deamp::new(params, &over).ok())
+        else {
+            continue;
+        };
+        let points = (0..=POINTS).map(|i| {
+            let half_deg = deamp.whole_deg() * f64::from(i) / f64::from(POINTS);
+            (2.0 * half_deg, Some(100.0 * deamp.share_within(half_deg)))
+        });
+        series.push(LineSeries {
+            name: labels.label(curve, PanelOf::One),
+            look: Look::new(series.len()),
+            points: points.collect(),
+            smooth: true,
+            ..LineSeries::default()
+        });
+    }
+    let figure = Figure::Line(LineChart {
+        title: plot.title.clone(),
+        x: Axis::new("Full angle of the layer (°)"),
+        y: Axis::new("Rendered pixels within (% of the frame's)"),
+        y_from_zero: true,
+        series,
+        ..LineChart::default()
+    });
+    named(plot, "accumulated", "Rendered pixels within a layer's angle", figure)
+}
+
+pub(super) fn half_axis(plot: &CurvePlot) -> NamedFigure {
+    let line = |f: Option<f64>| {
+        let points = (0..=POINTS).map(|i| {
+            let d = f64::from(i) / f64::from(POINTS) * 2.0 - 1.0;
+            (d, Some(f.map_or(d, |f| mapped(f, d) / mapped(f, 1.0))))
+        });
+        points.collect()
+    };
+    let mut series = vec![LineSeries {
+        name: "Full".to_owned(),
+        reference: true,
+        points: line(None),
+        ..LineSeries::default()
+    }];
+    series.extend(plot.f.iter().enumerate().map(|(i, &f)| LineSeries {
+        name: format!("f = {f}"),
+        look: Look::new(i),
+        points: line(Some(f)),
+        smooth: true,
+        ..LineSeries::default()
+    }));
+    let figure = Figure::Line(LineChart {
+        title: plot.title.clone(),
+        x: Axis::new("Distance from the gaze in the buffer, d_o"),
+        y: Axis::new("Distance on the screen, d_i / d_i(1)"),
+        series,
+        ..LineChart::default()
+    });
+    named(plot, "half-axis", "Where RMFR's mapping takes a half axis", figure)
+}
+
+fn named(plot: &CurvePlot, name: &str, caption: &str, figure: Figure) -> NamedFigure {
+    NamedFigure {
+        name: plot.name.clone().unwrap_or_else(|| name.to_owned()),
+        caption: plot.title.clone().unwrap_or_else(|| caption.to_owned()),
+        figure,
+    }
+}

@@ -1,0 +1,55 @@
+//! The page of a file of curves.
+
+use std::fmt::Write;
+
+use super::Source;
+use super::plain_table::PlainTable;
+use crate::page::{PageFigure, begin, end, escaped, figures as figures_html};
+use crate::sheet::{NamedFigure, PLOTS};
+
+pub(super) fn page(
+    source: &Source<'_>,
+    tables: &[(String, PlainTable)],
+    figures: &[NamedFigure],
+) -> String {
+    let file = source.file;
+    let mut text = begin(&file.name);
+    if !file.about.is_empty() {
+        let _ = writeln!(text, "<p>{}</p>", escaped(&file.about));
+    }
+    text.push_str(
+        "<p class=\"note\">All values: <a href=\"curves.csv\">curves.csv</a>, \
+         <a href=\"curves.json\">curves.json</a>.</p>\n",
+    );
+    let paths: Vec<String> = figures.iter().map(|f| format!("{PLOTS}/{}", f.name)).collect();
+    let on_page: Vec<PageFigure<'_>> = paths
+        .iter()
+        .zip(figures)
+        .map(|(path, figure)| PageFigure { path, caption: &figure.caption })
+        .collect();
+    figures_html(&mut text, &on_page);
+    for (name, table) in tables {
+        let _ = write!(
+            text,
+            "<h2>{}</h2>\n<div class=\"wide\">\n{}</div>\n<p class=\"note\">{} (<a href=\"{name}.md\">Markdown</a>, \
+             <a href=\"{name}.csv\">CSV</a>)</p>\n",
+            escaped(&table.caption),
+            table.html(),
+            escaped(&table.notes.join(" ")),
+            name = escaped(name),
+        );
+    }
+    let mut notes: Vec<&String> = Vec::new();
+    if tables.is_empty() {
+        for note in source.curves.iter().flat_map(|curve| &curve.notes) {
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
+        }
+    }
+    for note in notes {
+        let _ = writeln!(text, "<p class=\"note\">{}.</p>", escaped(note));
+    }
+    end(&mut text, &format!("fovqa {}", env!("CARGO_PKG_VERSION")));
+    text
+}

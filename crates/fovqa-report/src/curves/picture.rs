@@ -1,0 +1,87 @@
+//! Samples per pixel over the field of view, as a picture with rings of equal eccentricity.
+
+use fovqa_config::{CurvePlot, CurveSetting, CurveSource, PanelOf};
+use fovqa_methods::Place;
+use fovqa_plot::{Axis, Figure, RasterChart, RasterLine, RasterPanel};
+use fovqa_shading::density_map;
+use fovqa_vision::{PixelScale, Tangential};
+
+use super::Source;
+use super::labels::Labels;
+use crate::sheet::{NamedFigure, ReportError};
+
+/// Cells along the longer side of the frame: about two for each pixel of a panel.
+const CELLS: usize = 480;
+/// From one point of a ring to the next, degrees.
+const RING_STEP_DEG: u32 = 2;
+const RINGS_DEG: [f64; 4] = [10.0, 20.0, 40.0, 60.0];
+
+pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigure, ReportError> {
+    let name = plot.name.clone().unwrap_or_else(|| "density".to_owned());
+    let mut curves = source.chosen(plot.curves.as_deref());
+    curves.retain(|curve| curve.counts.is_some());
+    let labels = Labels::of(&curves);
+    let mut panels: Vec<RasterPanel> = Vec::new();
+    for curve in curves {
+        let CurveSource::Method { method, setting } = &curve.spec.source else { continue };
+        let title = labels.title(curve, PanelOf::Curve);
+        // A curve in another direction is of the same picture.
+        let first = |known: &RasterPanel| known.title.as_deref() == Some(title.as_str());
+        if panels.iter().any(first) {
+            continue;
+        }
+        let map = density_map(method, setting, CELLS)
+            .map_err(|error| ReportError::Curve { name: title.clone(), error })?;
+        let rings = if plot.rings_deg.is_empty() {
+            RINGS_DEG.as_slice()
+        } else {
+            plot.rings_deg.as_slice()
+        };
+        let [gaze_x, gaze_y] = setting.gaze_px;
+        let (width, height) = (setting.view.width as f64, setting.view.height as f64);
+        panels.push(RasterPanel {
+            title: Some(title),
+            x: Axis::new("x (px)"),
+            y: Axis::new("y (px)"),
+            x_range: (0.0, width),
+            y_range: (0.0, height),
+            columns: map.columns,
+            rows: map.rows,
+            values: map.values,
+            lines: rings.iter().map(|e| ring(setting, *e)).collect(),
+            cross: Some((gaze_x.clamp(0.0, width), gaze_y.clamp(0.0, height))),
+        });
+    }
+    let columns = if panels.len() <= 4 { 2 } else { 3 };
+    let figure = Figure::Raster(RasterChart {
+        title: plot.title.clone(),
+        panels,
+        columns,
+        colour: Axis::new("Samples per pixel"),
+        log: plot.log,
+        range: None,
+    });
+    let caption =
+        plot.title.clone().unwrap_or_else(|| "Sampling density over the field".to_owned());
+    Ok(NamedFigure { name, caption: format!("{caption}; rings of equal eccentricity"), figure })
+}
+
+/// The ring of an eccentricity around the gaze.
+fn ring(setting: &CurveSetting, e: f64) -> RasterLine {
+    let [gaze_x, gaze_y] = setting.gaze_px;
+    // Begun at the upper right, where its label is free of the axes.
+    let points = (0..=360 / RING_STEP_DEG).map(|i| {
+        let direction = Place::polar(0.0, f64::from(i * RING_STEP_DEG) - 45.0).direction;
+        let at = PixelScale::at(
+            &setting.view,
+            setting.gaze_px,
+            setting.eccentricity,
+            Tangential::Paper,
+            direction,
+            e,
+        );
+        let r = at.map_or(f64::NAN, |at| at.radius_px);
+        (gaze_x + r * direction[0], gaze_y + r * direction[1])
+    });
+    RasterLine { name: format!("{e}°"), points: points.collect() }
+}

@@ -1,0 +1,144 @@
+//! A table of names and numbers, for Markdown, CSV, a page and a terminal.
+
+use std::fmt::Write;
+
+use crate::page::escaped;
+use crate::text_table::{aligned, plain_table, printable};
+
+/// A table; the first cells of rows are names.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct PlainTable {
+    /// What it is of.
+    pub(super) caption: String,
+    /// Heads of the columns, each with its name in CSV.
+    pub(super) columns: Vec<Column>,
+    pub(super) rows: Vec<Vec<Cell>>,
+    pub(super) notes: Vec<String>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Column {
+    pub(super) head: String,
+    pub(super) key: String,
+}
+
+impl Column {
+    pub(super) fn new(head: impl Into<String>, key: impl Into<String>) -> Self {
+        Self { head: head.into(), key: key.into() }
+    }
+}
+
+/// What is read, and the value behind it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Cell {
+    pub(super) shown: String,
+    pub(super) value: String,
+}
+
+impl Cell {
+    pub(super) fn text(text: impl Into<String>) -> Self {
+        let text = text.into();
+        Self { shown: text.clone(), value: text }
+    }
+
+    pub(super) fn number(shown: String, value: f64) -> Self {
+        Self { shown, value: format!("{value:?}") }
+    }
+
+    /// Of a share, in percent.
+    pub(super) fn percent(share: f64) -> Self {
+        Self::number(format!("{:.1} %", 100.0 * share), share)
+    }
+
+    /// A count, in thousands where it is large.
+    pub(super) fn count(count: f64) -> Self {
+        Self::number(grouped(count), count)
+    }
+}
+
+/// A rounded number with a thin space between thousands.
+pub(super) fn grouped(count: f64) -> String {
+    let digits = format!("{count:.0}");
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+impl PlainTable {
+    pub(super) fn markdown(&self) -> String {
+        let plain = |text: &str| text.replace('|', "\\|");
+        let mut text = String::from("|");
+        for column in &self.columns {
+            let _ = write!(text, " {} |", plain(&column.head));
+        }
+        text.push_str("\n| :-- |");
+        text.push_str(&" --: |".repeat(self.columns.len().saturating_sub(1)));
+        for row in &self.rows {
+            text.push_str("\n|");
+            for cell in row {
+                let _ = write!(text, " {} |", plain(&cell.shown));
+            }
+        }
+        text.push('\n');
+        for note in &self.notes {
+            let _ = writeln!(text, "\n{note}");
+        }
+        text
+    }
+
+    /// CSV with full precision.
+    pub(super) fn csv(&self) -> String {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        // Writing to memory does not fail, and the rows are of one length.
+        let _ = writer.write_record(self.columns.iter().map(|column| &column.key));
+        for row in &self.rows {
+            let _ = writer.write_record(row.iter().map(|cell| &cell.value));
+        }
+        String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+    }
+
+    pub(super) fn html(&self) -> String {
+        let mut text = String::from("<table>\n<thead>\n<tr>");
+        for column in &self.columns {
+            let _ = write!(text, "<th>{}</th>", escaped(&column.head));
+        }
+        text.push_str("</tr>\n</thead>\n<tbody>\n");
+        for row in &self.rows {
+            text.push_str("<tr>");
+            for (i, cell) in row.iter().enumerate() {
+                let tag = if i == 0 { "th" } else { "td" };
+                let _ = write!(text, "<{tag}>{}</{tag}>", escaped(&cell.shown));
+            }
+            text.push_str("</tr>\n");
+        }
+        text.push_str("</tbody>\n</table>\n");
+        text
+    }
+
+    pub(super) fn terminal(&self) -> String {
+        let heads: Vec<&str> = self.columns.iter().map(|column| column.head.as_str()).collect();
+        let mut table = plain_table(&heads);
+        for row in &self.rows {
+            table.add_row(row.iter().map(|cell| printable(&cell.shown)));
+        }
+        aligned(table)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_grouped() {
+        let plain = |count| grouped(count).replace('\u{202f}', " ");
+        assert_eq!(plain(12.4), "12");
+        assert_eq!(plain(1_061_733.7), "1 061 734");
+        assert_eq!(plain(123_456.0), "123 456");
+    }
+}

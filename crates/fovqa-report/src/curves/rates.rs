@@ -1,0 +1,261 @@
+//! Rates and acuity against eccentricity, with what is over- and under-sampled.
+
+use fovqa_config::{CurvePlot, PanelOf, RateKind, RateUnit};
+use fovqa_plot::{Axis, Figure, Fill, FillKind, LineChart, LineSeries, Look, PanelChart};
+use fovqa_shading::{Curve, Row};
+
+use super::Source;
+use super::labels::{Labels, resolution, screen};
+use crate::sheet::NamedFigure;
+
+/// Room above the highest acuity or display rate, where a rate grows without bound.
+const ROOM: f64 = 1.15;
+
+/// One of the two rates.
+#[derive(Clone, Copy, PartialEq)]
+enum Along {
+    Radial,
+    Tangential,
+}
+
+impl Along {
+    fn of(self, row: &Row) -> f64 {
+        match self {
+            Along::Radial => row.radial_cpd,
+            Along::Tangential => row.tangential_cpd,
+        }
+    }
+
+    fn display(self, row: &Row) -> Option<f64> {
+        row.display_cpd.map(|cpd| cpd[usize::from(self == Along::Tangential)])
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Along::Radial => "radial",
+            Along::Tangential => "tangential",
+        }
+    }
+}
+
+struct Rates<'a> {
+    source: &'a Source<'a>,
+    plot: &'a CurvePlot,
+    labels: Labels,
+    /// Labels in the order of the plan: the same curve looks the same in every panel.
+    looks: Vec<String>,
+}
+
+pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
+    let mut curves = source.chosen(plot.curves.as_deref());
+    if plot.unit == RateUnit::PerPixel {
+        curves.retain(|curve| curve.counts.is_some());
+    }
+    let labels = Labels::of(&curves);
+    let mut looks: Vec<String> = Vec::new();
+    for curve in &curves {
+        let label = labels.label(curve, plot.panels);
+        if !looks.contains(&label) {
+            looks.push(label);
+        }
+    }
+    let rates = Rates { source, plot, labels, looks };
+    let groups = rates.groups(&curves);
+    let along: &[Along] = match plot.rate {
+        RateKind::Radial => &[Along::Radial],
+        RateKind::Tangential => &[Along::Tangential],
+        RateKind::Both => &[Along::Radial, Along::Tangential],
+    };
+    let mut charts: Vec<LineChart> = Vec::new();
+    for (title, group) in &groups {
+        for &along in along {
+            let which = if plot.rate == RateKind::Both { along.name() } else { "" };
+            let title = match (title.as_str(), which) {
+                ("", "") => String::new(),
+                ("", which) => capitalised(which),
+                (title, "") => title.to_owned(),
+                (title, which) => format!("{title}, {which}"),
+            };
+            charts.push(rates.chart(title, group, along));
+        }
+    }
+    let cut = charts.iter().any(|chart| chart.y_limits.is_some()) && plot.y_limits.is_none();
+    let figure = if charts.len() == 1 {
+        let only = charts.swap_remove(0);
+        Figure::Line(LineChart { title: plot.title.clone().or(only.title.clone()), ..only })
+    } else {
+        let columns = match charts.len() {
+            n if n <= 4 => 2,
+            _ => 3,
+        };
+        Figure::Panels(PanelChart { title: plot.title.clone(), panels: charts, columns })
+    };
+    let what = match plot.rate {
+        RateKind::Radial => "Radial shading rate",
+        RateKind::Tangential => "Tangential shading rate",
+        RateKind::Both => "Radial and tangential shading rate",
+    };
+    let cut =
+        if cut { "; the axis ends above acuity and display, and faster rates are cut" } else { "" };
+    let caption = plot.title.clone().unwrap_or_else(|| format!("{what} against eccentricity"));
+    let name = plot.name.clone().unwrap_or_else(|| "rates".to_owned());
+    NamedFigure { name, caption: format!("{caption}{cut}"), figure }
+}
+
+fn capitalised(word: &str) -> String {
+    let mut chars = word.chars();
+    chars.next().map(|c| c.to_uppercase().chain(chars).collect()).unwrap_or_default()
+}
+
+impl<'a> Rates<'a> {
+    /// The curves of each panel, with its title. What is of no screen is in all panels of screens.
+    fn groups(&self, curves: &[&'a Curve]) -> Vec<(String, Vec<&'a Curve>)> {
+        let mut groups: Vec<(String, Vec<&Curve>)> = Vec::new();
+        let everywhere = |curve: &Curve| {
+            screen(curve).is_none() && !matches!(self.plot.panels, PanelOf::One | PanelOf::Curve)
+        };
+        for curve in curves.iter().filter(|curve| !everywhere(curve)) {
+            let title = self.labels.title(curve, self.plot.panels);
+            match groups.iter_mut().find(|(known, _)| *known == title) {
+                Some((_, group)) => group.push(curve),
+                None => groups.push((title, vec![curve])),
+            }
+        }
+        for curve in curves.iter().filter(|curve| everywhere(curve)) {
+            for (_, group) in &mut groups {
+                group.push(curve);
+            }
+        }
+        groups
+    }
+
+    fn chart(&self, title: String, group: &[&Curve], along: Along) -> LineChart {
+        let plot = self.plot;
+        let mut series: Vec<LineSeries> = Vec::new();
+        if let Some(acuity) = self.acuity(group, along) {
+            series.push(acuity);
+        }
+        if plot.display {
+            series.extend(self.displays(group, along));
+        }
+        for curve in group {
+            let label = self.labels.label(curve, plot.panels);
+            let look = self.looks.iter().position(|known| *known == label).unwrap_or_default();
+            series.push(LineSeries {
+                name: label,
+                look: Look::new(look),
+                points: self.points(curve, |row| Some(along.of(row)), along),
+                smooth: true,
+                ..LineSeries::default()
+            });
+        }
+        let y = match plot.unit {
+            RateUnit::Cpd => "Rate (cycles per degree)",
+            RateUnit::PerPixel => "Rate (samples per pixel)",
+        };
+        LineChart {
+            title: Some(title).filter(|title| !title.is_empty()),
+            x: Axis::new("Eccentricity (°)"),
+            y: Axis::new(y),
+            y_from_zero: !plot.log,
+            y_log: plot.log,
+            y_limits: plot.y_limits.map(|[low, high]| (low, high)).or_else(|| self.limits(&series)),
+            fills: self.fills(group, along),
+            series,
+            ..LineChart::default()
+        }
+    }
+
+    /// Ends of the axis where a rate is so high that nothing else would be seen.
+    fn limits(&self, series: &[LineSeries]) -> Option<(f64, f64)> {
+        let most = |reference: bool| {
+            let of = series.iter().filter(|series| series.reference == reference);
+            of.flat_map(|series| &series.points).filter_map(|(_, y)| *y).fold(0.0, f64::max)
+        };
+        let (references, rates) = (most(true), most(false));
+        let hidden = !self.plot.log && references > 0.0 && rates > 2.0 * references;
+        hidden.then_some((0.0, references * ROOM))
+    }
+
+    fn points(
+        &self,
+        curve: &Curve,
+        of: impl Fn(&Row) -> Option<f64>,
+        along: Along,
+    ) -> Vec<(f64, Option<f64>)> {
+        let value = |row: &Row| match self.plot.unit {
+            RateUnit::Cpd => of(row),
+            RateUnit::PerPixel => Some(of(row)? / along.display(row)?),
+        };
+        curve.rows.iter().map(|row| (row.eccentricity_deg, value(row))).collect()
+    }
+
+    /// What the plan holds rates against, over the eccentricities of a panel; none among models of
+    /// acuity alone, and in pixels where the panel's screens differ.
+    fn acuity(&self, group: &[&Curve], along: Along) -> Option<LineSeries> {
+        let model = &self.source.file.plan.acuity;
+        let acuity = model.curve().ok()?;
+        let shaded: Vec<&&Curve> = group.iter().filter(|c| screen(c).is_some()).collect();
+        if self.plot.unit == RateUnit::PerPixel && !same_displays(group) {
+            return None;
+        }
+        let longest = shaded.iter().max_by_key(|curve| curve.rows.len())?;
+        let cut_off = |row: &Row| Some(acuity.cutoff_cpd(row.eccentricity_deg));
+        Some(LineSeries {
+            name: format!("Acuity ({})", model.info().label),
+            reference: true,
+            points: self.points(longest, cut_off, along),
+            ..LineSeries::default()
+        })
+    }
+
+    /// The displays' own rates, each once.
+    fn displays(&self, group: &[&Curve], along: Along) -> Vec<LineSeries> {
+        let mut series: Vec<LineSeries> = Vec::new();
+        for curve in group {
+            let Some(screen) = screen(curve) else { continue };
+            let name = format!("Display {}", resolution(screen));
+            if series.iter().any(|known| known.name == name) {
+                continue;
+            }
+            series.push(LineSeries {
+                name,
+                look: Look::new(1 + series.len()),
+                reference: true,
+                points: self.points(curve, |row| along.display(row), along),
+                ..LineSeries::default()
+            });
+        }
+        series
+    }
+
+    /// Where the rate of a panel's only curve is below and above acuity.
+    fn fills(&self, group: &[&Curve], along: Along) -> Vec<Fill> {
+        let shaded: Vec<&&Curve> = group.iter().filter(|c| screen(c).is_some()).collect();
+        let wanted = self.plot.areas.unwrap_or(shaded.len() == 1);
+        let (true, Ok(acuity)) = (wanted, self.source.file.plan.acuity.curve()) else {
+            return Vec::new();
+        };
+        let mut fills = Vec::new();
+        for curve in shaded {
+            let rates = self.points(curve, |row| Some(along.of(row)), along);
+            let cut_off = |row: &Row| Some(acuity.cutoff_cpd(row.eccentricity_deg));
+            let needed = self.points(curve, cut_off, along);
+            let value = |y: Option<f64>| y.unwrap_or(f64::NAN);
+            let both = rates.iter().zip(&needed);
+            let below: Vec<(f64, f64, f64)> =
+                both.map(|((e, rate), (_, needed))| (*e, value(*rate), value(*needed))).collect();
+            let above = below.iter().map(|&(e, rate, needed)| (e, needed, rate)).collect();
+            let fill = |name: &str, kind, points| Fill { name: name.to_owned(), kind, points };
+            fills.push(fill("Under-sampled", FillKind::Deficit, below));
+            fills.push(fill("Over-sampled", FillKind::Surplus, above));
+        }
+        fills
+    }
+}
+
+/// Whether a degree has as many pixels in all curves of a panel.
+fn same_displays(group: &[&Curve]) -> bool {
+    let mut views = group.iter().filter_map(|curve| screen(curve)).map(|screen| screen.view);
+    views.next().is_none_or(|first| views.all(|other| other == first))
+}

@@ -1,0 +1,196 @@
+//! Tables: samples and load, speed-up, the field against acuity.
+
+use fovqa_config::{CurveTable, CurveTableKind, PanelOf};
+use fovqa_methods::Counts;
+use fovqa_shading::Curve;
+
+use super::Source;
+use super::labels::{Labels, resolution, screen};
+use super::plain_table::{Cell, Column, PlainTable};
+
+/// A table with the name of its files.
+pub(super) fn table(source: &Source<'_>, table: &CurveTable) -> (&'static str, PlainTable) {
+    let mut curves = source.chosen(table.curves.as_deref());
+    curves.retain(|curve| curve.counts.is_some());
+    match table.kind {
+        CurveTableKind::Samples => ("table-samples", samples(&alike(curves))),
+        CurveTableKind::SpeedUp => ("table-speed-up", speed_up(&alike(curves))),
+        CurveTableKind::Acuity => ("table-acuity", acuity(source, &alike(curves))),
+    }
+}
+
+/// Each method on each screen once: counts have no direction.
+fn alike(curves: Vec<&Curve>) -> Vec<&Curve> {
+    let mut once: Vec<&Curve> = Vec::new();
+    for curve in curves {
+        let same = |known: &&Curve| {
+            let at = |curve: &Curve| screen(curve).map(|s| (s.view, s.gaze_px));
+            known.spec.name == curve.spec.name && at(known) == at(curve)
+        };
+        if !once.iter().any(same) {
+            once.push(curve);
+        }
+    }
+    once
+}
+
+fn pixels(curve: &Curve) -> f64 {
+    screen(curve).map_or(0.0, |s| s.view.width as f64 * s.view.height as f64)
+}
+
+fn notes<'a>(curves: impl Iterator<Item = &'a &'a Curve>) -> Vec<String> {
+    let mut notes: Vec<String> = Vec::new();
+    for note in curves.flat_map(|curve| &curve.notes) {
+        let sentence = format!("{note}.");
+        if !notes.contains(&sentence) {
+            notes.push(sentence);
+        }
+    }
+    notes
+}
+
+/// A row a method, two columns a resolution: as VaFR's Table 1, in thousands.
+fn samples(curves: &[&Curve]) -> PlainTable {
+    let mut sizes: Vec<String> = Vec::new();
+    let mut rows: Vec<(String, Vec<&Curve>)> = Vec::new();
+    let labels = Labels::of(curves);
+    for curve in curves {
+        let size = screen(curve).map(resolution).unwrap_or_default();
+        if !sizes.contains(&size) {
+            sizes.push(size);
+        }
+        let name = labels.label(curve, PanelOf::Resolution);
+        match rows.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, row)) => row.push(curve),
+            None => rows.push((name, vec![curve])),
+        }
+    }
+    let mut columns = vec![Column::new("Method", "method")];
+    for size in &sizes {
+        let plain = size.replace(" × ", "x");
+        columns.push(Column::new(size.clone(), format!("samples {plain}")));
+        columns.push(Column::new("load", format!("load {plain}")));
+    }
+    let cells = |row: &[&Curve], size: &String| {
+        let of_size = |curve: &&&Curve| screen(curve).map(resolution).as_ref() == Some(size);
+        let found =
+            row.iter().find(of_size).and_then(|curve| Some((curve, curve.counts.as_ref()?)));
+        found.map_or_else(Default::default, |(curve, Counts { samples, .. })| {
+            let thousands = format!("{:.1}", samples / 1000.0);
+            [Cell::number(thousands, *samples), Cell::percent(samples / pixels(curve))]
+        })
+    };
+    let rows = rows.iter().map(|(name, row)| {
+        let head = std::iter::once(Cell::text(name));
+        head.chain(sizes.iter().flat_map(|size| cells(row, size))).collect()
+    });
+    let mut said = vec![
+        "Samples per frame and eye in thousands, and their share of the display's pixels."
+            .to_owned(),
+    ];
+    said.extend(notes(curves.iter()));
+    PlainTable {
+        caption: "Samples and load".to_owned(),
+        columns,
+        rows: rows.collect(),
+        notes: said,
+    }
+}
+
+fn speed_up(curves: &[&Curve]) -> PlainTable {
+    let labels = Labels::of(curves);
+    let beyond = curves.iter().any(|c| c.counts.as_ref().is_some_and(|c| c.samples_beyond > 0.0));
+    let mut columns = vec![
+        Column::new("Method", "method"),
+        Column::new("Parameters", "parameters"),
+        Column::new("Resolution", "resolution"),
+        Column::new("Buffers (px)", "buffers_px"),
+        Column::new("Samples", "samples"),
+        Column::new("Share", "share"),
+        Column::new("Speed-up", "speed_up"),
+        Column::new("On screen", "samples_on_screen"),
+    ];
+    if beyond {
+        columns.push(Column::new("Beyond", "samples_beyond"));
+    }
+    let rows = curves.iter().filter_map(|curve| {
+        let counts = curve.counts.as_ref()?;
+        let buffers = counts.buffers.iter().map(|[w, h]| format!("{w:.1} × {h:.1}"));
+        let plain = counts.buffers.iter().map(|[w, h]| format!("{w:?}x{h:?}"));
+        let speed_up = pixels(curve) / counts.samples;
+        let mut row = vec![
+            Cell::text(labels.label(curve, PanelOf::Resolution)),
+            Cell::text(curve.spec.parameters.replace(';', "; ")),
+            Cell::text(screen(curve).map(resolution).unwrap_or_default()),
+            Cell {
+                shown: buffers.collect::<Vec<_>>().join(", "),
+                value: plain.collect::<Vec<_>>().join(";"),
+            },
+            Cell::count(counts.samples),
+            Cell::percent(counts.samples / pixels(curve)),
+            Cell::number(format!("{speed_up:.2}"), speed_up),
+            Cell::count(counts.samples_on_screen),
+        ];
+        if beyond {
+            row.push(Cell::count(counts.samples_beyond));
+        }
+        Some(row)
+    });
+    let mut said = vec![
+        "Ideal counts: a real buffer has whole sides. Speed-up: the display's pixels over the \
+         samples, what shading alone could gain."
+            .to_owned(),
+    ];
+    if beyond {
+        said.push(
+            "Beyond: what a frame wider than 60° needs on top of VaFR's own count.".to_owned(),
+        );
+    }
+    said.extend(notes(curves.iter()));
+    let rows = rows.collect();
+    PlainTable {
+        caption: "Samples and theoretical speed-up".to_owned(),
+        columns,
+        rows,
+        notes: said,
+    }
+}
+
+fn acuity(source: &Source<'_>, curves: &[&Curve]) -> PlainTable {
+    let labels = Labels::of(curves);
+    let columns = vec![
+        Column::new("Method", "method"),
+        Column::new("Resolution", "resolution"),
+        Column::new("Field below, radial", "below_radial"),
+        Column::new("tangential", "below_tangential"),
+        Column::new("either", "below"),
+        Column::new("Samples above", "samples_above"),
+        Column::new("of those seen", "above"),
+    ];
+    let rows = curves.iter().filter_map(|curve| {
+        let field = curve.field?;
+        Some(vec![
+            Cell::text(labels.label(curve, PanelOf::Resolution)),
+            Cell::text(screen(curve).map(resolution).unwrap_or_default()),
+            Cell::percent(field.below_radial),
+            Cell::percent(field.below_tangential),
+            Cell::percent(field.below),
+            Cell::count(field.samples_above),
+            Cell::percent(field.above),
+        ])
+    });
+    let model = source.file.plan.acuity.info();
+    let mut said = vec![format!(
+        "Against {} acuity ({}): the share of the frame's pixels where the rate is below it, and the \
+         samples seen that are more than it asks for. Taken at the centres of cells, exact to about \
+         a thousandth.",
+        model.label, model.source
+    )];
+    said.extend(notes(curves.iter()));
+    PlainTable {
+        caption: "The field against acuity".to_owned(),
+        columns,
+        rows: rows.collect(),
+        notes: said,
+    }
+}

@@ -1,0 +1,8 @@
+//! What `fovqa curves` leaves of a file: every value as one tidy table, and a record of curves,
+//! settings and counts.
+
+mod record;
+mod tidy;
+
+pub use record::{CurveRecord, CurvesRecord, ScreenRecord, ShadingRecord};
+pub use tidy::curves_csv;

@@ -1,0 +1,83 @@
+//! All values of all curves as one long, tidy table.
+
+use fovqa_config::{CurvePlan, CurveSource};
+use fovqa_shading::Curve;
+use fovqa_vision::{EccentricityKind, Tangential};
+
+const HEADER: [&str; 16] = [
+    "curve",
+    "model",
+    "parameters",
+    "width_px",
+    "height_px",
+    "gaze_x_px",
+    "gaze_y_px",
+    "direction_deg",
+    "tangential",
+    "eccentricity",
+    "eccentricity_deg",
+    "radial_cpd",
+    "tangential_cpd",
+    "display_radial_cpd",
+    "display_tangential_cpd",
+    "samples_per_pixel",
+];
+
+/// A row an eccentricity of each curve, in the order of the plan, with the plan's acuity in the
+/// last column, `acuity_cpd`. Cells are empty where a column does not apply.
+pub fn curves_csv(plan: &CurvePlan, curves: &[Curve]) -> String {
+    let acuity = plan.acuity.curve().ok();
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    // Writing to memory does not fail, and the rows are of one length.
+    let _ = writer.write_record(HEADER.into_iter().chain(["acuity_cpd"]));
+    for curve in curves {
+        let spec = &curve.spec;
+        let (model, screen) = match &spec.source {
+            CurveSource::Acuity(model) => (model.info().key, None),
+            CurveSource::Method { method, setting } => (method.key(), Some(setting)),
+        };
+        let mut head = vec![spec.name.clone(), model.to_owned(), spec.parameters.clone()];
+        head.extend(match screen {
+            None => std::array::from_fn(|_| String::new()),
+            Some(screen) => [
+                screen.view.width.to_string(),
+                screen.view.height.to_string(),
+                format!("{:?}", screen.gaze_px[0]),
+                format!("{:?}", screen.gaze_px[1]),
+                format!("{:?}", screen.direction_deg),
+                tangential(screen.tangential).to_owned(),
+                eccentricity(screen.eccentricity).to_owned(),
+            ],
+        });
+        for row in &curve.rows {
+            let [radial, across] = row.display_cpd.map_or([None; 2], |cpd| cpd.map(Some));
+            let acuity = acuity.as_ref().map(|acuity| acuity.cutoff_cpd(row.eccentricity_deg));
+            let values = [
+                Some(row.eccentricity_deg),
+                Some(row.radial_cpd),
+                Some(row.tangential_cpd),
+                radial,
+                across,
+                row.samples_per_pixel,
+                acuity,
+            ];
+            let cells = values.map(|value| value.map(|v| format!("{v:?}")).unwrap_or_default());
+            let _ = writer.write_record(head.iter().chain(&cells));
+        }
+    }
+    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+}
+
+pub(super) fn tangential(kind: Tangential) -> &'static str {
+    match kind {
+        Tangential::Paper => "paper",
+        Tangential::Angle => "angle",
+    }
+}
+
+pub(super) fn eccentricity(kind: EccentricityKind) -> &'static str {
+    match kind {
+        EccentricityKind::Angular => "angular",
+        EccentricityKind::Planar => "planar",
+    }
+}
