@@ -22,10 +22,10 @@ pub enum BudgetOf {
 pub struct Budgeted {
     /// The method with its free parameter solved.
     pub method: Method,
-    /// The free parameter.
+    /// The parameter that was solved.
     pub parameter: &'static str,
-    /// Its value.
-    pub value: f64,
+    /// Its value as TOML.
+    pub value: String,
 }
 
 /// A budget that cannot be had.
@@ -121,7 +121,13 @@ impl Method {
                 dense = middle;
             }
         }
-        Ok(Budgeted { method: with(dense), parameter: free.name, value: dense })
+        let method = with(dense);
+        let (parameter, value) = match &method {
+            Self::Deamp(params) => ("sigmas", format!("{:?}", params.sigmas)),
+            Self::Guenter(params) => ("scales", format!("{:?}", params.scales)),
+            _ => (free.name, dense.to_string()),
+        };
+        Ok(Budgeted { method, parameter, value })
     }
 
     fn free(&self) -> Option<Free> {

@@ -178,11 +178,12 @@ impl CurveSpec {
         if let Some(CurveBudget { share, of }) = budget {
             let found = method.at_budget(&over, share, of).map_err(|error| error.to_string())?;
             method = found.method;
-            let solved = format!("{}={}", found.parameter.replace(' ', "_"), found.value);
-            parameters = match parameters.as_str() {
-                "" => solved,
-                given => format!("{given};{solved}"),
-            };
+            // What is solved stands for what was given.
+            let given = parameters.split(';').filter(|given| {
+                !given.is_empty() && given.split('=').next() != Some(found.parameter)
+            });
+            let solved = format!("{}={}", found.parameter, found.value);
+            parameters = given.chain([solved.as_str()]).collect::<Vec<_>>().join(";");
         }
         method.over(&over).map_err(|error| error.to_string())?;
         Ok(Self { name, source: CurveSource::Method { method, setting }, parameters })

@@ -48,8 +48,11 @@ impl Labels {
         Self { differ: found.into_iter().filter(|(_, differ)| *differ).map(|(of, _)| of).collect() }
     }
 
-    /// The label of a curve, without what its panel's title says.
+    /// The label of a curve, without what its panel's title says; in a panel of its own its name.
     pub(super) fn label(&self, curve: &Curve, panels: PanelOf) -> String {
+        if panels == PanelOf::Curve {
+            return curve.spec.name.clone();
+        }
         let parts = self.parts(curve, |of| of != panels);
         if parts.is_empty() { curve.spec.name.clone() } else { parts.join(", ") }
     }

@@ -43,7 +43,7 @@ pub(super) fn accumulated(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure 
     let figure = Figure::Line(LineChart {
         title: plot.title.clone(),
         x: Axis::new("Full angle of the layer (°)"),
-        y: Axis::new("Rendered pixels within (% of the frame's)"),
+        y: Axis::new("Rendered pixels (% of the frame)"),
         y_from_zero: true,
         series,
         ..LineChart::default()
@@ -74,8 +74,8 @@ pub(super) fn half_axis(plot: &CurvePlot) -> NamedFigure {
     }));
     let figure = Figure::Line(LineChart {
         title: plot.title.clone(),
-        x: Axis::new("Distance from the gaze in the buffer, d_o"),
-        y: Axis::new("Distance on the screen, d_i / d_i(1)"),
+        x: Axis::new("In the buffer, distance from the gaze dₒ"),
+        y: Axis::new("On the screen, dᵢ (normalised)"),
         series,
         ..LineChart::default()
     });

@@ -132,12 +132,6 @@ impl<'a> Rates<'a> {
     fn chart(&self, title: String, group: &[&Curve], along: Along) -> LineChart {
         let plot = self.plot;
         let mut series: Vec<LineSeries> = Vec::new();
-        if let Some(acuity) = self.acuity(group, along) {
-            series.push(acuity);
-        }
-        if plot.display {
-            series.extend(self.displays(group, along));
-        }
         for curve in group {
             let label = self.labels.label(curve, plot.panels);
             let look = self.looks.iter().position(|known| *known == label).unwrap_or_default();
@@ -149,7 +143,15 @@ impl<'a> Rates<'a> {
                 ..LineSeries::default()
             });
         }
+        if plot.display {
+            series.extend(self.displays(group, along));
+        }
+        // Over the curves: one that follows acuity would hide it.
+        series.extend(self.acuity(group, along));
         let y = match plot.unit {
+            RateUnit::Cpd if group.iter().all(|curve| screen(curve).is_none()) => {
+                "Acuity (cycles per degree)"
+            }
             RateUnit::Cpd => "Rate (cycles per degree)",
             RateUnit::PerPixel => "Rate (samples per pixel)",
         };

@@ -38,6 +38,24 @@ fn pixels(curve: &Curve) -> f64 {
     screen(curve).map_or(0.0, |s| s.view.width as f64 * s.view.height as f64)
 }
 
+/// Text with its long numbers rounded, as solved parameters have them.
+fn rounded(text: &str) -> String {
+    const LONG: usize = 8;
+    let mut shown = String::new();
+    let mut rest = text;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let number = &rest[start..];
+        let end = number.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(number.len());
+        shown.push_str(&rest[..start]);
+        match number[..end].parse::<f64>() {
+            Ok(value) if end > LONG => shown += &format!("{value:.4}"),
+            _ => shown += &number[..end],
+        }
+        rest = &number[end..];
+    }
+    shown + rest
+}
+
 fn notes<'a>(curves: impl Iterator<Item = &'a &'a Curve>) -> Vec<String> {
     let mut notes: Vec<String> = Vec::new();
     for note in curves.flat_map(|curve| &curve.notes) {
@@ -120,7 +138,10 @@ fn speed_up(curves: &[&Curve]) -> PlainTable {
         let speed_up = pixels(curve) / counts.samples;
         let mut row = vec![
             Cell::text(labels.label(curve, PanelOf::Resolution)),
-            Cell::text(curve.spec.parameters.replace(';', "; ")),
+            Cell {
+                shown: rounded(&curve.spec.parameters.replace(';', "; ")),
+                value: curve.spec.parameters.clone(),
+            },
             Cell::text(screen(curve).map(resolution).unwrap_or_default()),
             Cell {
                 shown: buffers.collect::<Vec<_>>().join(", "),
@@ -192,5 +213,16 @@ fn acuity(source: &Source<'_>, curves: &[&Curve]) -> PlainTable {
         columns,
         rows: rows.collect(),
         notes: said,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_numbers_are_rounded() {
+        let text = "sigmas=[1.6570480818262846, 2.5]; fit=\"fixed\"";
+        assert_eq!(rounded(text), "sigmas=[1.6570, 2.5]; fit=\"fixed\"");
     }
 }
