@@ -48,9 +48,10 @@ pub(crate) fn draw(drawing: &mut Drawing, plot: Rect, panel: &RasterPanel) {
     }
 }
 
-/// Covers what stands out over the border: half the width of a line that runs along it.
+/// Covers what stands out over the border: half the width of a line that runs along it, and the
+/// pixel that it ends in.
 fn cover_border(drawing: &mut Drawing, plot: Rect) {
-    let out = EDGE.width_px / 2.0;
+    let out = EDGE.width_px / 2.0 + 1.0;
     let around = Rect {
         left: plot.left - out,
         top: plot.top - out,
