@@ -47,10 +47,11 @@ fn rounded(text: &str) -> String {
         let number = &rest[start..];
         let end = number.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(number.len());
         shown.push_str(&rest[..start]);
-        match number[..end].parse::<f64>() {
-            Ok(value) if end > LONG => shown += &format!("{value:.4}"),
-            _ => shown += &number[..end],
-        }
+        let short = match number[..end].parse::<f64>() {
+            Ok(value) if end > LONG => format!("{value:.4}"),
+            _ => number[..end].to_owned(),
+        };
+        shown.push_str(&short);
         rest = &number[end..];
     }
     shown + rest
