@@ -18,6 +18,8 @@ use crate::resolve;
 pub struct Experiment {
     /// Its name.
     pub name: String,
+    /// What it shows.
+    pub about: Option<String>,
     /// Its file.
     pub path: PathBuf,
     /// The file's text.

@@ -20,6 +20,9 @@ use crate::plots::Plot;
 pub struct Resolved {
     /// Its name.
     pub name: String,
+    /// What it shows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about: Option<String>,
     /// The scenes, in order.
     pub scenes: Vec<ResolvedScene>,
     /// The methods, in order.
@@ -84,6 +87,7 @@ impl Experiment {
         };
         Resolved {
             name: self.name.clone(),
+            about: self.about.clone(),
             scenes: scenes.collect(),
             methods: plan.methods.clone(),
             metrics: plan.metrics.metrics().iter().map(params).collect(),

@@ -25,7 +25,7 @@ thead tr:last-child th{font-weight:400;border-bottom:1px solid #888;text-align:r
 thead tr:first-child th:first-child{border-bottom:1px solid #888;text-align:left;vertical-align:bottom}
 td.first{padding-left:1.8em}tr.average>*{border-top:1px solid #ccc}
 .figures{display:flex;flex-wrap:wrap;gap:1.5em}
-figure{margin:0}figure img{max-width:100%}
+img.small{max-width:380px;max-height:320px}figure{margin:0}figure img{max-width:100%}
 .errors li{color:#a00}
 code{background:#f3f3f3;padding:0 .2em}
 ";
@@ -38,6 +38,9 @@ pub(crate) fn page(
     figures: &[PageFigure<'_>],
 ) -> String {
     let mut text = begin(&run.resolved.name);
+    if let Some(about) = &run.resolved.about {
+        let _ = writeln!(text, "<p>{}</p>", escaped(about));
+    }
     let scored: usize = summary
         .comparisons
         .iter()

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fovqa_plot::{Figure, PlotError, png};
 use fovqa_results::{FileError, REPORT_JSON, read_json_file, write_json_file, write_whole};
@@ -48,6 +48,12 @@ pub enum ReportError {
     /// A file that cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A page that is none of ours to replace.
+    #[error("{}: it is not of fovqa", path.display())]
+    Foreign {
+        /// The page.
+        path: PathBuf,
+    },
     /// A curve that cannot be.
     #[error("{name}: {error}")]
     Curve {

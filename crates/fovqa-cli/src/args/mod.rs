@@ -43,7 +43,7 @@ pub(crate) enum Command {
     /// Run an experiment: scenes, methods and metrics of a TOML file, with tables and figures.
     #[command(after_help = run::EXAMPLES)]
     Run(RunArgs),
-    /// Draw the tables, figures and page of a run again, without scoring.
+    /// Draw the tables, figures and page of a run again, without scoring; or a page over several.
     Report(ReportArgs),
     /// Check an experiment file, and print its plan and the frames found; reads no pixels.
     Check(CheckArgs),

@@ -48,6 +48,6 @@ pub(crate) struct CheckArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ReportArgs {
-    /// Folder with the results of a run
+    /// Folder with the results of a run, or with several such folders: a page over all of them
     pub(crate) results: PathBuf,
 }

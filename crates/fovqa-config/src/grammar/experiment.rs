@@ -258,9 +258,10 @@ static PLOT_TABLE: [Key; 6] = [
     ),
 ];
 
-static EXPERIMENT_TABLE: [Key; 8] = [
+static EXPERIMENT_TABLE: [Key; 9] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
     required("name", Kind::Name, "name of the experiment, and of its folder below reports/"),
+    key("about", Kind::Text, "what it shows, for its page"),
     key("view", Kind::Table(&VIEW_TABLE), "how frames are seen"),
     key("signal", Kind::Table(&SIGNAL_TABLE), "how frames are read"),
     required("scene", Kind::Tables(&SCENE_TABLE), "the scenes"),

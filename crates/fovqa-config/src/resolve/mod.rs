@@ -31,6 +31,7 @@ pub(crate) fn experiment(root: Node<'_>, path: &Path, faults: &mut Vec<Fault>) -
     let plots = plots::plots(root, &known, faults);
     Experiment {
         name: root.text("name").unwrap_or_default().to_owned(),
+        about: root.text("about").map(str::to_owned),
         path: path.to_owned(),
         text: String::new(),
         plots,

@@ -1,0 +1,172 @@
+//! A page over several folders of results, such as all figures of the papers.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fovqa_results::{
+    CURVES_JSON, CURVES_SCHEMA, CurvesRecord, FileError, RUN_JSON, RUN_SCHEMA, RunRecord,
+    read_json_file, write_whole,
+};
+
+use crate::page::{begin, end, escaped};
+use crate::sheet::{PLOTS, ReportError, drawn_before};
+
+/// Says that a page is one of ours, and may be replaced.
+const MARK: &str = "<meta name=\"generator\" content=\"fovqa report\">";
+
+/// A folder of results.
+struct Entry {
+    /// Its name below the folder of all.
+    folder: String,
+    name: String,
+    about: String,
+    /// Paths of its figures from the page, without their ending.
+    figures: Vec<String>,
+    /// Paths of its tables in Markdown.
+    tables: Vec<String>,
+}
+
+/// Writes `index.html` over the folders of results within a folder; `None` where there are none.
+///
+/// # Errors
+/// When a record cannot be read, or the page is somebody else's or cannot be written.
+pub fn draw_index(folder: &Path) -> Result<Option<usize>, ReportError> {
+    let unreadable = |error| FileError::Read { path: folder.to_owned(), error };
+    let mut paths: Vec<PathBuf> = Vec::new();
+    for item in fs::read_dir(folder).map_err(unreadable)? {
+        let path = item.map_err(unreadable)?.path();
+        if path.join(RUN_JSON).is_file() || path.join(CURVES_JSON).is_file() {
+            paths.push(path);
+        }
+    }
+    if paths.is_empty() {
+        return Ok(None);
+    }
+    paths.sort_by_key(|path| sorting(&path.file_name().unwrap_or_default().to_string_lossy()));
+    let page = folder.join("index.html");
+    if let Ok(text) = fs::read_to_string(&page)
+        && !text.contains(MARK)
+    {
+        return Err(ReportError::Foreign { path: page });
+    }
+    let entries: Result<Vec<Entry>, FileError> =
+        paths.iter().map(|path| Entry::read(path)).collect();
+    let entries = entries?;
+    let name = folder.canonicalize().ok();
+    let name = name.as_deref().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
+    write_whole(&page, html(&name, &entries).as_bytes())?;
+    Ok(Some(entries.len()))
+}
+
+/// Numbers in names as numbers: fig-8 before fig-10.
+fn sorting(name: &str) -> Vec<(String, u64)> {
+    let mut parts: Vec<(String, u64)> = Vec::new();
+    let mut rest = name;
+    while !rest.is_empty() {
+        let start = rest.find(|c: char| c.is_ascii_digit()).unwrap_or(rest.len());
+        let digits = &rest[start..];
+        let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+        parts.push((rest[..start].to_owned(), digits[..end].parse().unwrap_or(u64::MAX)));
+        rest = &digits[end..];
+    }
+    parts
+}
+
+impl Entry {
+    fn read(path: &Path) -> Result<Self, FileError> {
+        let (name, about) = if path.join(CURVES_JSON).is_file() {
+            let record: CurvesRecord =
+                read_json_file(&path.join(CURVES_JSON), CURVES_SCHEMA, "a record of curves")?;
+            (record.name, record.about)
+        } else {
+            let record: RunRecord =
+                read_json_file(&path.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
+            (record.resolved.name, record.resolved.about.unwrap_or_default())
+        };
+        let folder = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let drawn = drawn_before(path);
+        let figures = drawn.iter().filter(|file| file.starts_with(PLOTS));
+        let figures =
+            figures.filter_map(|file| Some(format!("{folder}/{}", file.strip_suffix(".svg")?)));
+        let tables = drawn.iter().filter(|file| file.strip_suffix(".md").is_some());
+        let tables = tables.map(|file| format!("{folder}/{file}"));
+        Ok(Self { name, about, figures: figures.collect(), tables: tables.collect(), folder })
+    }
+}
+
+fn html(name: &str, entries: &[Entry]) -> String {
+    let mut text = begin(name).replace("<title>", &format!("{MARK}\n<title>"));
+    text.push_str("<ul>\n");
+    for Entry { folder, name, .. } in entries {
+        let _ = writeln!(text, "<li><a href=\"#{0}\">{1}</a></li>", escaped(folder), escaped(name));
+    }
+    text.push_str("</ul>\n");
+    for entry in entries {
+        let folder = escaped(&entry.folder);
+        let _ = write!(
+            text,
+            "<h2 id=\"{folder}\"><a href=\"{folder}/index.html\">{}</a></h2>\n<p>{}</p>\n",
+            escaped(&entry.name),
+            escaped(&entry.about)
+        );
+        if !entry.figures.is_empty() {
+            text.push_str("<div class=\"figures\">\n");
+            for figure in &entry.figures {
+                let figure = escaped(figure);
+                let _ = writeln!(
+                    text,
+                    "<a href=\"{folder}/index.html\"><img class=\"small\" src=\"{figure}.svg\" alt=\"{figure}\" loading=\"lazy\"></a>"
+                );
+            }
+            text.push_str("</div>\n");
+        }
+        if !entry.tables.is_empty() {
+            let links = entry.tables.iter().map(|table| {
+                let table = escaped(table);
+                format!("<a href=\"{table}\">{table}</a>")
+            });
+            let _ = writeln!(
+                text,
+                "<p class=\"note\">Tables: {}</p>",
+                links.collect::<Vec<_>>().join(", ")
+            );
+        }
+    }
+    end(&mut text, &format!("fovqa {}", env!("CARGO_PKG_VERSION")));
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_are_in_their_order() {
+        let mut names = ["vafr-fig-10", "vafr-fig-8", "rmfr-fig-11", "vafr-fig-5", "vafr-table-1"];
+        names.sort_by_key(|name| sorting(name));
+        assert_eq!(
+            names,
+            ["rmfr-fig-11", "vafr-fig-5", "vafr-fig-8", "vafr-fig-10", "vafr-table-1"]
+        );
+    }
+
+    #[test]
+    fn pages_of_others_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        assert_eq!(draw_index(folder.path()).unwrap(), None);
+        let inner = folder.path().join("a");
+        fs::create_dir(&inner).unwrap();
+        let record = "{\"schema\": \"fovqa.curves/1\", \"version\": \"0\", \"name\": \"a<b\", \
+                      \"about\": \"\", \"acuity\": \"\", \"curves\": []}";
+        fs::write(inner.join(CURVES_JSON), record).unwrap();
+        let page = folder.path().join("index.html");
+        fs::write(&page, "mine").unwrap();
+        assert!(matches!(draw_index(folder.path()), Err(ReportError::Foreign { .. })));
+        fs::remove_file(&page).unwrap();
+        for _ in 0..2 {
+            assert_eq!(draw_index(folder.path()).unwrap(), Some(1));
+            assert!(fs::read_to_string(&page).unwrap().contains("a&lt;b"));
+        }
+    }
+}
