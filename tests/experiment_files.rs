@@ -669,8 +669,12 @@ fn the_committed_experiments_are_right() {
         if path.extension().is_none_or(|e| e != "toml") || name == "displays.toml" {
             continue;
         }
-        seen += 1;
         let text = fs::read_to_string(&path).unwrap();
+        if !text.contains("[[scene]]") {
+            // Curves have a test of their own.
+            continue;
+        }
+        seen += 1;
         assert!(schema_allows(&text), "{name}");
         let run = Run::from(command(&["check", path.to_str().unwrap()]).output().unwrap());
         let there = data.is_some() || !text.contains("../shared");

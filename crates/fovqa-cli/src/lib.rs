@@ -44,7 +44,7 @@ fn dispatch(cli: Cli) -> Exit {
         Command::Report(args) => report::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Curves(args) => curves::run(&args),
-        Command::Schema => schema::run(),
+        Command::Schema { what } => schema::run(what),
         Command::List { what } => list::run(what),
         Command::Completions { shell } => output::write(|out| {
             let mut script = Vec::new();

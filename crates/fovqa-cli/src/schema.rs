@@ -1,11 +1,16 @@
-//! `fovqa schema`: the JSON Schema of the experiment file.
+//! `fovqa schema`: the JSON Schema of a file.
 
+use crate::args::SchemaOf;
 use crate::exit::Exit;
 use crate::output;
 
-pub(crate) fn run() -> Exit {
+pub(crate) fn run(what: SchemaOf) -> Exit {
+    let schema = match what {
+        SchemaOf::Experiment => fovqa_config::schema(),
+        SchemaOf::Curves => fovqa_config::curves_schema(),
+    };
     output::write(|out| {
-        serde_json::to_writer_pretty(&mut *out, &fovqa_config::schema())?;
+        serde_json::to_writer_pretty(&mut *out, &schema)?;
         out.write_all(b"\n")
     })
 }

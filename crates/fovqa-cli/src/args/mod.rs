@@ -47,8 +47,12 @@ pub(crate) enum Command {
     Report(ReportArgs),
     /// Check an experiment file, and print its plan and the frames found; reads no pixels.
     Check(CheckArgs),
-    /// Print the JSON Schema of the experiment file, for editors.
-    Schema,
+    /// Print the JSON Schema of a file, for editors.
+    Schema {
+        /// Which file.
+        #[arg(default_value = "experiment")]
+        what: SchemaOf,
+    },
     /// Shading rate of foveation methods against acuity: one curve as CSV, or figures and tables.
     #[command(after_help = curves::EXAMPLES)]
     Curves(Box<CurvesArgs>),
@@ -62,6 +66,15 @@ pub(crate) enum Command {
         /// The shell.
         shell: clap_complete::Shell,
     },
+}
+
+/// What a schema is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SchemaOf {
+    /// The experiment file of `fovqa run`.
+    Experiment,
+    /// The file of curves of `fovqa curves`.
+    Curves,
 }
 
 /// What can be listed.
