@@ -14,6 +14,7 @@ mod motion_and_depth;
 mod moving_frames;
 mod output;
 mod profiles;
+mod published_numbers;
 mod results_folder;
 mod sequences;
 mod signal;

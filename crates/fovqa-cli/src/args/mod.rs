@@ -4,6 +4,7 @@ mod curves;
 mod guides;
 mod metrics;
 mod no_such;
+mod published_numbers;
 mod run;
 mod score;
 mod signal;
@@ -11,6 +12,7 @@ mod values;
 mod view;
 
 pub(crate) use curves::CurvesArgs;
+pub(crate) use published_numbers::PublishedNumbersArgs;
 pub(crate) use run::{CheckArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
 
@@ -61,6 +63,9 @@ pub(crate) enum Command {
         /// What to list.
         what: Listed,
     },
+    /// Print the numbers that papers print beside those computed here, with verdicts, as Markdown.
+    #[command(after_help = published_numbers::EXAMPLES)]
+    PublishedNumbers(PublishedNumbersArgs),
     /// Print a completion script for a shell.
     Completions {
         /// The shell.

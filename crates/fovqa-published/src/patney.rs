@@ -1,0 +1,60 @@
+//! Patney et al. 2016: the desktop display, and the share of pixel quads that is not shaded.
+
+use fovqa_vision::find_display;
+
+use crate::printed::Printed;
+use crate::row::{Cell, Paper, Row};
+
+/// Table 1, in per cent of the frame's quads: Guenter's, and the paper's.
+const GUENTER_QUADS: [f64; 3] = [48.4, 49.9, 50.7];
+const QUADS: [f64; 3] = [26.6, 31.8, 38.1];
+const DESKTOP: &str = "desktop-27-qhd";
+
+/// The rows of Patney et al.: section 3's display, Table 1.
+pub fn patney() -> Vec<Row> {
+    [vec![desktop_pixel()], quads()].concat()
+}
+
+fn one(place: &'static str, quantity: impl Into<String>, cell: Cell) -> Row {
+    Row::one(Paper::Patney, place, quantity, cell)
+}
+
+fn desktop_pixel() -> Row {
+    let display = find_display(DESKTOP);
+    let ppd = display.map_or(f64::NAN, fovqa_vision::Display::central_pixels_per_degree);
+    one("text", "desktop pixel at 81 cm", Cell::new("", Printed::new("1 arcmin"), 60.0 / ppd, 3))
+        .because(format!("{ppd:.1} pixels per degree"))
+}
+
+fn quads() -> Vec<Row> {
+    let saved_of_all = QUADS.map(|quads| 100.0 - quads);
+    let least = saved_of_all.into_iter().fold(f64::INFINITY, f64::min);
+    let most = saved_of_all.into_iter().fold(0.0, f64::max);
+    let saved = |of: f64, quads: f64| 100.0 * (1.0 - quads / of);
+    let of_guenter = GUENTER_QUADS.iter().zip(QUADS).map(|(of, quads)| saved(*of, quads));
+    let most_of_guenter = of_guenter.fold(0.0, f64::max);
+    let taking = "Taking Table 1's shares as shares of the frame's quads";
+    vec![
+        one("text", "quads saved", Cell::new("", Printed::new("3/4"), most / 100.0, 3))
+            .because("in quarters, as printed")
+            .more(format!(
+                "{taking}: {least:.1} to {most:.1} % are saved; the most is 3/4 to the nearest quarter.",
+            )),
+        one(
+            "text",
+            "quads saved, \"up to\", of Guenter's",
+            Cell::new("", Printed::new("50 %"), most_of_guenter, 1),
+        )
+        .because("less in its Table 1")
+        .more(format!(
+            "{taking}, the most saved of those that Guenter's method shades is {most_of_guenter:.1} %; \
+             to the nearest ten it would be 50 %.",
+        )),
+        one("text", "quads saved, \"up to\", of all", Cell::new("", Printed::new("70 %"), most, 1))
+            .because("more in its Table 1")
+            .more(format!(
+                "{taking}, {least:.1} to {most:.1} % are saved: the printed limit is passed; to the \
+                 nearest ten it would be 70 %.",
+            )),
+    ]
+}
