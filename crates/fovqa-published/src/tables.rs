@@ -249,6 +249,8 @@ impl Table {
 
 #[cfg(test)]
 mod tests {
+    use std::fmt::Write;
+
     use super::*;
 
     fn parse(format: &Format, text: &str) -> Result<Table, String> {
@@ -284,7 +286,7 @@ mod tests {
     fn columns_may_stand_in_any_order() {
         let mut text = "\u{feff}note,rmfr,kfr, linear,hyperbolic,scene,metric\n".to_owned();
         for metric in ["FPSNR", "PSNR", "SSIM", "FovVideoVDP"] {
-            text.push_str(&format!("x,4.0,3.00,2,1,Average,{metric}\n"));
+            let _ = writeln!(text, "x,4.0,3.00,2,1,Average,{metric}");
         }
         let table = parse(&RMFR_TABLE, &text).unwrap();
         let rows = table.rows_where(&|keys| keys[0] == "SSIM");

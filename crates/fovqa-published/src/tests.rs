@@ -103,7 +103,7 @@ fn tables(first: &str) -> Tables {
              {metric},B,2.00,1.01,1.01,7\n"
         );
         let more = if metric == "SSIM" { "7.66" } else { "8" };
-        let _ = write!(rmfr, "{metric},C,1.50,1.005,1.005,{more}\n");
+        let _ = writeln!(rmfr, "{metric},C,1.50,1.005,1.005,{more}");
     }
     let columns = DEAMP_TABLE.numbers.join(",");
     let pairs = ["50.00", "50.00", "50.00", "45.00", "", "45.00", "", "45.00", "", "45.00", ""];
