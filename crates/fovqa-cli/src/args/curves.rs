@@ -55,11 +55,32 @@ pub(crate) enum CurvesFormat {
     Csv,
 }
 
+/// What a file of curves says itself.
+const IN_FILE: [&str; 17] = [
+    "set",
+    "budget",
+    "budget_of",
+    "resolution",
+    "fov_vertical",
+    "fov_horizontal",
+    "fov_diagonal",
+    "frustum",
+    "display",
+    "distance_m",
+    "pixel_pitch_mm",
+    "gaze",
+    "direction",
+    "tangential",
+    "eccentricity",
+    "step",
+    "to",
+];
+
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("what").required(true).args(["curves", "method", "acuity"]))]
 pub(crate) struct CurvesArgs {
     /// Files of curves: figures and tables of each, into a folder of its own
-    #[arg(value_name = "CURVES.toml", conflicts_with_all = ["set", "budget", "resolution", "gaze", "direction"])]
+    #[arg(value_name = "CURVES.toml", conflicts_with_all = IN_FILE)]
     pub(crate) curves: Vec<PathBuf>,
     /// A foveation method; `fovqa list methods` shows them
     #[arg(long, value_name = "NAME", value_parser = method)]
@@ -104,7 +125,7 @@ pub(crate) struct CurvesArgs {
     format: CurvesFormat,
     /// Folder for the figures and tables of files: of one file itself, of several the folder above
     /// [default: reports/NAME, NAME being the file's]
-    #[arg(long, verbatim_doc_comment, value_name = "DIR", requires = "curves")]
+    #[arg(long, verbatim_doc_comment, value_name = "DIR", conflicts_with_all = ["method", "acuity"])]
     pub(crate) output: Option<PathBuf>,
 }
 
@@ -154,6 +175,11 @@ impl CurvesArgs {
             self.set.iter().map(|(name, value)| format!("{name}={}", value.in_words())).collect();
         let parameters = parameters.join(";");
         if let Some(mut model) = self.acuity.clone() {
+            if self.budget.is_some() {
+                return Err(
+                    "--budget is of a --method, and an acuity model shades nothing".to_owned()
+                );
+            }
             for (name, value) in &self.set {
                 model.set(name, value).map_err(|error| error.to_string())?;
             }

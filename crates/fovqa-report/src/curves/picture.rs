@@ -10,8 +10,9 @@ use super::Source;
 use super::labels::Labels;
 use crate::sheet::{NamedFigure, ReportError};
 
-/// Cells along the longer side of the frame: about two for each pixel of a panel.
-const CELLS: usize = 480;
+/// Cells along the longer side of the frame: as fine as a panel in print, and their data a file that
+/// opens.
+const CELLS: usize = 240;
 /// From one point of a ring to the next, degrees.
 const RING_STEP_DEG: u32 = 2;
 const RINGS_DEG: [f64; 4] = [10.0, 20.0, 40.0, 60.0];
@@ -47,7 +48,7 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
             y_range: (0.0, height),
             columns: map.columns,
             rows: map.rows,
-            values: map.values,
+            values: map.values.into_iter().map(short).collect(),
             lines: rings.iter().map(|e| ring(setting, *e)).collect(),
             cross: Some((gaze_x.clamp(0.0, width), gaze_y.clamp(0.0, height))),
         });
@@ -64,6 +65,11 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
     let caption =
         plot.title.clone().unwrap_or_else(|| "Sampling density over the field".to_owned());
     Ok(NamedFigure { name, caption: format!("{caption}; rings of equal eccentricity"), figure })
+}
+
+/// A value with six digits: more than colours show, and a third of the bytes in the figure's data.
+fn short(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// The ring of an eccentricity around the gaze.
