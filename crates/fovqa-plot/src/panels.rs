@@ -95,9 +95,11 @@ fn plot_width_px(charts: &[LineChart], y_axes: &[ValueAxis], columns: usize) -> 
     charts.iter().map(width_px).fold(f64::INFINITY, f64::min)
 }
 
-/// The series of all charts, then their areas and spans.
+/// The series of all charts, those of reference last, then their areas and spans.
 fn keys(charts: &[LineChart]) -> Vec<(&str, Key)> {
-    let series = charts.iter().flat_map(LineChart::series_keys);
+    let all = || charts.iter().flat_map(LineChart::series_keys);
+    let reference = |(_, key): &(&str, Key)| matches!(key, Key::Reference(_));
+    let series = all().filter(|key| !reference(key)).chain(all().filter(reference));
     let fills = charts.iter().flat_map(LineChart::fill_keys);
     let spans = charts.iter().flat_map(LineChart::span_keys);
     legend::once(series).chain(legend::once(fills)).chain(legend::once(spans)).collect()

@@ -591,6 +591,12 @@ fn panels_share_a_legend() {
     let names = ["KFR", "RMFR", "VaFR", "Hyper3", "saccade"];
     assert_eq!(texts(&figure)[..5], names);
     assert!(names.iter().all(|name| count(&figure, name) == 1));
+
+    // What others are held against stands behind them, wherever it first comes.
+    let Figure::Panels(chart) = &mut figure else { unreachable!() };
+    chart.panels[0].series[1].reference = true;
+    chart.panels[1].series[0].reference = true;
+    assert_eq!(texts(&figure)[..4], ["KFR", "VaFR", "Hyper3", "RMFR"]);
 }
 
 #[test]
