@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod bad_input;
+mod curve_files;
 mod curves;
 mod decoding;
 mod experiment_files;

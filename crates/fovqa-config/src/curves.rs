@@ -74,6 +74,35 @@ pub struct CurveSpec {
     pub parameters: String,
 }
 
+impl CurveSpec {
+    /// A curve of a method, its budget solved.
+    ///
+    /// # Errors
+    /// When the method cannot be applied there, or does not reach the budget; in words.
+    pub fn of_method(
+        name: String,
+        method: Method,
+        parameters: String,
+        setting: CurveSetting,
+        budget: Option<CurveBudget>,
+    ) -> Result<Self, String> {
+        let over = setting.setting().map_err(|error| error.to_string())?;
+        let (mut method, mut parameters) = (method, parameters);
+        if let Some(CurveBudget { share, of }) = budget {
+            let found = method.at_budget(&over, share, of).map_err(|error| error.to_string())?;
+            method = found.method;
+            // What is solved stands for what was given.
+            let given = parameters.split(';').filter(|given| {
+                !given.is_empty() && given.split('=').next() != Some(found.parameter)
+            });
+            let solved = format!("{}={}", found.parameter, found.value);
+            parameters = given.chain([solved.as_str()]).collect::<Vec<_>>().join(";");
+        }
+        method.over(&over).map_err(|error| error.to_string())?;
+        Ok(Self { name, source: CurveSource::Method { method, setting }, parameters })
+    }
+}
+
 /// What a curve is of.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CurveSource {

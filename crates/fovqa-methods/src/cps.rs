@@ -149,12 +149,6 @@ impl Foveation for Cps {
             let rate = self.rate(r);
             rate * rate
         });
-        Counts {
-            buffers: Vec::new(),
-            samples,
-            samples_on_screen: samples,
-            samples_beyond: 0.0,
-            samples_seen: samples,
-        }
+        Counts::of_pixels(samples)
     }
 }

@@ -43,6 +43,17 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// Counts of a method that has no buffer, but chooses among the frame's own pixels.
+    pub(crate) fn of_pixels(samples: f64) -> Self {
+        Self {
+            buffers: Vec::new(),
+            samples,
+            samples_on_screen: samples,
+            samples_beyond: 0.0,
+            samples_seen: samples,
+        }
+    }
+
     /// Counts of a method whose every sample is shaded once.
     pub(crate) fn of(buffer: [f64; 2], samples_on_screen: f64) -> Self {
         Self {

@@ -111,12 +111,6 @@ impl Foveation for Linear {
         let bounds = [self.params.inner_deg, self.params.outer_deg];
         let [inner, outer] = bounds.map(|e| self.setting.radius_px(e));
         let samples = self.setting.integrate(&[0.0, inner, outer], |r| self.probability(r));
-        Counts {
-            buffers: Vec::new(),
-            samples,
-            samples_on_screen: samples,
-            samples_beyond: 0.0,
-            samples_seen: samples,
-        }
+        Counts::of_pixels(samples)
     }
 }

@@ -1,0 +1,160 @@
+//! A file of curves: every curve with each of its settings, methods applied once to see that they
+//! can be.
+
+mod plots;
+mod screens;
+
+use std::ops::Range;
+
+use fovqa_methods::{BudgetOf, Method};
+use fovqa_params::{ParamError, ParamValue};
+use fovqa_vision::acuity::AcuityModel;
+
+use super::metrics::param_value;
+use super::scenes::unique;
+use crate::curves::{
+    CurveBudget, CurvePlan, CurvePlot, CurvePlotKind, CurveRange, CurveSource, CurveSpec,
+};
+use crate::fault::Fault;
+use crate::node::Node;
+use plots::{plot, table};
+use screens::Screens;
+
+/// More are no longer told apart.
+const MOST_CURVES: usize = 1000;
+
+/// Name, about and plan; mistakes go to `faults`.
+pub(crate) fn curves(root: Node<'_>, faults: &mut Vec<Fault>) -> (String, String, CurvePlan) {
+    let text = |key| root.text(key).unwrap_or_default().to_owned();
+    let default = CurveRange::default();
+    let range = CurveRange {
+        step_deg: root.number("step_deg").unwrap_or(default.step_deg),
+        to_deg: root.number("to_deg").unwrap_or(default.to_deg),
+    };
+    let acuity = acuity_model(root, faults).unwrap_or_default();
+    let tables = root.tables("curve");
+    unique(&tables, "curve", faults);
+    let mut curves = Vec::new();
+    for (table, span) in &tables {
+        curves.extend(curve(root, *table, span.clone(), faults));
+    }
+    if curves.len() > MOST_CURVES {
+        let message = format!("these are {} curves, and {MOST_CURVES} at most", curves.len());
+        faults.push(Fault::new(root.span("curve"), message));
+    }
+    let names: Vec<&str> = tables.iter().filter_map(|(table, _)| table.text("name")).collect();
+    let mut plan = CurvePlan { curves, acuity, range, ..CurvePlan::default() };
+    plan.plots = root.tables("plot").iter().map(|(t, _)| plot(*t, &names, &plan, faults)).collect();
+    plan.tables =
+        root.tables("table").iter().map(|(t, _)| table(*t, &names, &plan, faults)).collect();
+    let drawn_without = |plot: &CurvePlot| plot.kind == CurvePlotKind::HalfAxis;
+    if tables.is_empty() && !plan.plots.iter().any(drawn_without) {
+        let fault = Fault::new(0..0, "the file has no curve");
+        faults.push(fault.help("add [[curve]] with a name and method = { model = \"rmfr\" }"));
+    }
+    (text("name"), text("about"), plan)
+}
+
+/// The acuity model of a table's `acuity`.
+fn acuity_model(table: Node<'_>, faults: &mut Vec<Fault>) -> Option<AcuityModel> {
+    let node = table.table("acuity")?;
+    let mut model = AcuityModel::find(node.text("model")?)?;
+    for (name, value, span) in params(node) {
+        said(model.set(name, &value), span, faults);
+    }
+    if let Err(error) = model.curve() {
+        faults.push(Fault::new(table.span("acuity"), error.to_string()));
+    }
+    Some(model)
+}
+
+/// Parameters of a model's table, with their places.
+fn params(node: Node<'_>) -> impl Iterator<Item = (&str, ParamValue, Range<usize>)> {
+    node.entries()
+        .filter(|(name, ..)| *name != "model")
+        .filter_map(|(name, span, value)| Some((name, param_value(value)?, span)))
+}
+
+fn said(set: Result<(), ParamError>, span: Range<usize>, faults: &mut Vec<Fault>) {
+    if let Err(error) = set {
+        faults.push(Fault::new(span, error.to_string()));
+    }
+}
+
+/// Parameters as they are written, in one line.
+fn written(node: Node<'_>) -> String {
+    let written = params(node).map(|(name, value, _)| format!("{name}={}", value.in_words()));
+    written.collect::<Vec<_>>().join(";")
+}
+
+/// A curve with each of its settings.
+fn curve(
+    root: Node<'_>,
+    table: Node<'_>,
+    span: Range<usize>,
+    faults: &mut Vec<Fault>,
+) -> Vec<CurveSpec> {
+    let name = table.text("name").unwrap_or_default().to_owned();
+    let one_of = "give it either method = { model = … } or acuity = { model = … }";
+    match (table.table("method"), table.table("acuity")) {
+        (None, None) => {
+            let message = format!("curve \"{name}\" is of no method and no acuity model");
+            faults.push(Fault::new(span, message).help(one_of));
+            Vec::new()
+        }
+        (Some(_), Some(_)) => {
+            let message = format!("curve \"{name}\" is of both a method and an acuity model");
+            faults.push(Fault::new(table.span("acuity"), message).help(one_of));
+            Vec::new()
+        }
+        (None, Some(node)) => {
+            for key in ["budget", "budget_of"].into_iter().filter(|key| table.has(key)) {
+                let message = format!("{key} is of a method, and curve \"{name}\" is of none");
+                faults.push(Fault::new(table.span(key), message));
+            }
+            let model = acuity_model(table, faults);
+            let source = model.map(CurveSource::Acuity);
+            source
+                .map(|source| CurveSpec { name, source, parameters: written(node) })
+                .into_iter()
+                .collect()
+        }
+        (Some(node), None) => {
+            let Some(mut method) = node.text("model").and_then(Method::find) else {
+                return Vec::new();
+            };
+            for (name, value, span) in params(node) {
+                said(method.set(name, &value), span, faults);
+            }
+            let settings =
+                Screens { tables: [root.table("view"), Some(table)] }.settings(&span, faults);
+            let budget = table.number("budget").map(|share| CurveBudget {
+                share,
+                of: if table.text("budget_of") == Some("on_screen") {
+                    BudgetOf::OnScreen
+                } else {
+                    BudgetOf::Buffer
+                },
+            });
+            if table.has("budget_of") && budget.is_none() {
+                let message = "budget_of says of what a budget is, and there is none";
+                faults.push(Fault::new(table.span("budget_of"), message));
+            }
+            let at = if budget.is_some() { table.span("budget") } else { table.span("method") };
+            let written = written(node);
+            let spec = |setting| {
+                CurveSpec::of_method(name.clone(), method.clone(), written.clone(), setting, budget)
+            };
+            let specs = settings.into_iter().map(spec);
+            specs
+                .filter_map(|spec| match spec {
+                    Ok(spec) => Some(spec),
+                    Err(message) => {
+                        faults.push(Fault::new(at.clone(), message));
+                        None
+                    }
+                })
+                .collect()
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! `[[plot]]` and `[[table]]` of a file of curves.
+
+use fovqa_methods::Method;
+
+use crate::curves::{
+    CurvePlan, CurvePlot, CurvePlotKind, CurveSource, CurveSpec, CurveTable, CurveTableKind,
+    PanelOf, RateKind, RateUnit,
+};
+use crate::fault::Fault;
+use crate::node::Node;
+use crate::resolve::plots::subset;
+
+/// The curves a plot or table shows.
+fn shown<'a>(
+    plan: &'a CurvePlan,
+    wanted: Option<&'a [String]>,
+) -> impl Iterator<Item = &'a CurveSpec> {
+    let wanted = move |spec: &&CurveSpec| wanted.is_none_or(|wanted| wanted.contains(&spec.name));
+    plan.curves.iter().filter(wanted)
+}
+
+/// A figure.
+pub(super) fn plot(
+    table: Node<'_>,
+    names: &[&str],
+    plan: &CurvePlan,
+    faults: &mut Vec<Fault>,
+) -> CurvePlot {
+    let word = |key| table.text(key).unwrap_or_default();
+    let flag = |key| table.flag(key).unwrap_or(false);
+    let plot = CurvePlot {
+        kind: match word("kind") {
+            "density" => CurvePlotKind::Density,
+            "accumulated" => CurvePlotKind::Accumulated,
+            "half_axis" => CurvePlotKind::HalfAxis,
+            _ => CurvePlotKind::Rates,
+        },
+        name: table.text("name").map(str::to_owned),
+        title: table.text("title").map(str::to_owned),
+        curves: subset(table, "curves", names, faults),
+        rate: match word("rate") {
+            "tangential" => RateKind::Tangential,
+            "both" => RateKind::Both,
+            _ => RateKind::Radial,
+        },
+        unit: if word("unit") == "per_pixel" { RateUnit::PerPixel } else { RateUnit::Cpd },
+        panels: match word("panels") {
+            "one" => PanelOf::One,
+            "resolution" => PanelOf::Resolution,
+            "gaze" => PanelOf::Gaze,
+            "direction" => PanelOf::Direction,
+            _ => PanelOf::Curve,
+        },
+        areas: table.flag("areas"),
+        display: flag("display"),
+        y_limits: table.array("y_limits"),
+        log: flag("log"),
+        rings_deg: table.numbers("rings_deg").unwrap_or_default(),
+        f: table.numbers("f").unwrap_or_default(),
+    };
+    fits(table, &plot, faults);
+    let nothing = |spec: &CurveSpec| match (plot.kind, &spec.source) {
+        (CurvePlotKind::Rates, CurveSource::Acuity(_)) => plot.unit == RateUnit::PerPixel,
+        (CurvePlotKind::Rates | CurvePlotKind::Density, CurveSource::Method { .. })
+        | (CurvePlotKind::HalfAxis, _) => false,
+        (CurvePlotKind::Accumulated, CurveSource::Method { method, .. }) => {
+            !matches!(method, Method::Deamp(_))
+        }
+        (_, CurveSource::Acuity(_)) => true,
+    };
+    if faults.is_empty()
+        && plot.kind != CurvePlotKind::HalfAxis
+        && shown(plan, plot.curves.as_deref()).all(nothing)
+    {
+        let message = match plot.kind {
+            CurvePlotKind::Accumulated => "the plot is of deamp, and none of its curves is",
+            _ => "the plot has nothing to show: none of its curves is of a method",
+        };
+        faults.push(Fault::new(table.span("kind"), message));
+    }
+    plot
+}
+
+/// Whether a plot's keys are of its kind.
+fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Vec<Fault>) {
+    let (kind, keys): (&str, &[&str]) = match plot.kind {
+        CurvePlotKind::Rates => ("rates", &["rings_deg", "f"]),
+        CurvePlotKind::Density => {
+            ("density", &["rate", "unit", "panels", "areas", "display", "y_limits", "f"])
+        }
+        CurvePlotKind::Accumulated => (
+            "accumulated",
+            &["rate", "unit", "panels", "areas", "display", "y_limits", "log", "rings_deg", "f"],
+        ),
+        CurvePlotKind::HalfAxis => (
+            "half_axis",
+            &[
+                "curves",
+                "rate",
+                "unit",
+                "panels",
+                "areas",
+                "display",
+                "y_limits",
+                "log",
+                "rings_deg",
+            ],
+        ),
+    };
+    for key in keys.iter().filter(|key| table.has(key)) {
+        let message = format!("{key} says nothing about a plot of kind \"{kind}\"");
+        faults.push(Fault::new(table.span(key), message).help("take it out"));
+    }
+    if plot.kind == CurvePlotKind::HalfAxis && plot.f.is_empty() {
+        let fault = Fault::new(table.span("kind"), "a plot of a half axis has no f");
+        faults.push(fault.help("write f = [1.1, 2, 5], values above 1"));
+    }
+    if let Some([low, high]) = plot.y_limits
+        && low >= high
+    {
+        let fault = Fault::new(table.span("y_limits"), "the vertical axis ends before it begins");
+        faults.push(fault.label("write [low, high]"));
+    }
+    if plot.log && plot.y_limits.is_some_and(|[low, _]| low <= 0.0) {
+        let fault = Fault::new(table.span("y_limits"), "a logarithmic axis has no 0");
+        faults.push(fault.label("begin above 0"));
+    }
+}
+
+/// A table.
+pub(super) fn table(
+    table: Node<'_>,
+    names: &[&str],
+    plan: &CurvePlan,
+    faults: &mut Vec<Fault>,
+) -> CurveTable {
+    let kind = match table.text("kind") {
+        Some("samples") => CurveTableKind::Samples,
+        Some("acuity") => CurveTableKind::Acuity,
+        _ => CurveTableKind::SpeedUp,
+    };
+    let curves = subset(table, "curves", names, faults);
+    let of_method = |spec: &CurveSpec| matches!(spec.source, CurveSource::Method { .. });
+    if faults.is_empty() && !shown(plan, curves.as_deref()).any(of_method) {
+        let message = "the table has nothing to show: none of its curves is of a method";
+        faults.push(Fault::new(table.span("kind"), message));
+    }
+    CurveTable { kind, curves }
+}

@@ -1,0 +1,96 @@
+//! On which screens a curve is: every resolution with every gaze and direction.
+
+use std::ops::Range;
+
+use fovqa_vision::{EccentricityKind, Tangential, View, ViewSpec};
+use serde_spanned::Spanned;
+use toml::de::DeValue;
+
+use crate::curves::CurveSetting;
+use crate::fault::Fault;
+use crate::grammar::resolution;
+use crate::node::{Node, numbers, text};
+use crate::resolve::view::{gives_view, view};
+
+/// Tables that say on which screens a curve is, the more special one last.
+pub(super) struct Screens<'a> {
+    pub(super) tables: [Option<Node<'a>>; 2],
+}
+
+impl<'a> Screens<'a> {
+    fn having(&self, key: &str) -> Option<Node<'a>> {
+        self.tables.iter().rev().flatten().find(|table| table.has(key)).copied()
+    }
+
+    fn values(&self, key: &str) -> Vec<&'a Spanned<DeValue<'a>>> {
+        let value = self.having(key).and_then(|table| table.value(key)).map(Spanned::get_ref);
+        match value {
+            Some(DeValue::Array(items)) => items.iter().collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Every resolution with every gaze and direction.
+    pub(super) fn settings(
+        &self,
+        span: &Range<usize>,
+        faults: &mut Vec<Fault>,
+    ) -> Vec<CurveSetting> {
+        let gives = |table: &&Node<'a>| gives_view(**table);
+        let Some(seen) = self.tables.iter().rev().flatten().find(gives) else {
+            let message = "the curve is on a screen, and no view is given";
+            let help =
+                "give one in [view], such as fov_vertical_deg = 110 or display = \"vive-pro-eye\"";
+            faults.push(Fault::new(span.clone(), message).help(help));
+            return Vec::new();
+        };
+        let Some(spec) = view(*seen, faults) else { return Vec::new() };
+        let mut sizes: Vec<[usize; 2]> =
+            self.values("resolutions").into_iter().filter_map(|v| resolution(text(v)?)).collect();
+        if sizes.is_empty() {
+            if let ViewSpec::Display(display) = &spec {
+                sizes.push(display.resolution);
+            } else {
+                let message = "the curve is on a screen, and no resolution is given";
+                let help = "give some, such as resolutions = [\"2560x1440\"] in [view]";
+                faults.push(Fault::new(span.clone(), message).help(help));
+            }
+        }
+        let gazes: Vec<Option<[f64; 2]>> = self
+            .values("gazes")
+            .into_iter()
+            .map(|gaze| numbers(gaze).and_then(|xy| <[f64; 2]>::try_from(xy).ok()))
+            .collect();
+        let gazes = if gazes.is_empty() { vec![None] } else { gazes };
+        let directions = self.having("directions_deg").and_then(|t| t.numbers("directions_deg"));
+        let directions = directions.unwrap_or_else(|| vec![0.0]);
+        let word = |key: &str| self.having(key).and_then(|table| table.text(key));
+        let tangential =
+            if word("tangential") == Some("angle") { Tangential::Angle } else { Tangential::Paper };
+        let eccentricity = match word("eccentricity") {
+            Some("angular") => EccentricityKind::Angular,
+            _ => EccentricityKind::Planar,
+        };
+        let mut settings = Vec::new();
+        for [width, height] in sizes {
+            let view: View = match spec.resolve(width, height) {
+                Ok(resolved) => resolved.view,
+                Err(error) => {
+                    faults.push(Fault::new(span.clone(), error.to_string()));
+                    continue;
+                }
+            };
+            for gaze in &gazes {
+                let gaze_px = gaze.unwrap_or(view.principal_px);
+                settings.extend(directions.iter().map(|&direction_deg| CurveSetting {
+                    view,
+                    gaze_px,
+                    direction_deg,
+                    tangential,
+                    eccentricity,
+                }));
+            }
+        }
+        settings
+    }
+}

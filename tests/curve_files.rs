@@ -1,0 +1,504 @@
+//! Files of curves: figures, tables, pages, and what is wrong with a file.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::fovqa::{Folder, Run, command, root};
+
+/// Everything the format has, in one file.
+const RICH: &str = r#"
+schema = 1
+name = "rich"
+about = "A headset, ahead & aside."
+step_deg = 0.5
+to_deg = 70
+acuity = { model = "piecewise", cap_cpd = 18 }
+
+[view]
+fov_vertical_deg = 110
+resolutions = ["1440x1600", "2880 x 3200"]
+gazes = ["center", [1000, 800]]
+directions_deg = [0, 90]
+tangential = "angle"
+eccentricity = "angular"
+
+[[curve]]
+name = "RMFR"
+method = { model = "rmfr", fx = 0.3 }
+
+[[curve]]
+name = "Polar"
+method = { model = "visual-polar" }
+resolutions = ["1440x1600"]
+gazes = ["center"]
+directions_deg = [0]
+budget = 0.2
+budget_of = "on_screen"
+
+[[curve]]
+name = "Nested"
+method = { model = "deamp", sigmas = [2.51, 4.8], bounds_deg = [22.5, 45], projection = "linear" }
+display = "huawei-vr-glass"
+resolutions = ["1600x1600"]
+gazes = ["center"]
+
+[[curve]]
+name = "VaFR"
+method = { model = "vafr", ratio = [[0, 1], [30, 0.5]], cap_cpd = "none" }
+directions_deg = [0]
+
+[[curve]]
+name = "Linear MAR"
+acuity = { model = "linear_mar", m = 0.022 }
+
+[[plot]]
+kind = "rates"
+title = "By resolution"
+panels = "resolution"
+curves = ["RMFR", "VaFR"]
+rate = "both"
+display = true
+y_limits = [0.5, 60]
+log = true
+
+[[plot]]
+kind = "rates"
+name = "one"
+panels = "one"
+unit = "per_pixel"
+areas = false
+
+[[plot]]
+kind = "density"
+curves = ["Polar", "Nested"]
+rings_deg = [5, 20]
+
+[[plot]]
+kind = "accumulated"
+
+[[plot]]
+kind = "half_axis"
+f = [1.5, 3]
+
+[[table]]
+kind = "samples"
+[[table]]
+kind = "speed_up"
+curves = ["RMFR"]
+[[table]]
+kind = "acuity"
+"#;
+
+pub(crate) fn json(folder: &Folder, name: &str) -> Value {
+    serde_json::from_str(&fs::read_to_string(folder.path(name)).unwrap()).unwrap()
+}
+
+/// Every file below a folder with its bytes, but those whose names begin with a dot.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if path.is_dir() {
+            found.extend(
+                files(&path).into_iter().map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)),
+            );
+        } else if !name.starts_with('.') {
+            found.insert(name, fs::read(&path).unwrap());
+        }
+    }
+    found
+}
+
+#[test]
+fn the_whole_format_is_drawn_and_again_the_same() {
+    let folder = Folder::new();
+    folder.write("rich.toml", RICH);
+    let plan = folder.run(&["check", "rich.toml"]).ok().stdout;
+    for words in
+        ["rich: 16 curves", "2880x3200, gaze (1000, 800), direction 90°", "5 figures, 3 tables"]
+    {
+        assert!(plan.contains(words), "{words}:\n{plan}");
+    }
+    folder
+        .run(&["curves", "rich.toml"])
+        .ok()
+        .says(&["Visual-Polar is a reconstruction", "rich/index.html"]);
+    let first = files(&folder.path("reports/rich"));
+    let names: Vec<&str> = first.keys().map(String::as_str).collect();
+    for name in [
+        "curves.csv",
+        "curves.json",
+        "index.html",
+        "plots/rates.svg",
+        "plots/one.png",
+        "plots/density.csv",
+        "plots/accumulated.svg",
+        "plots/half-axis.svg",
+        "table-samples.md",
+        "table-speed-up.csv",
+        "table-acuity.md",
+    ] {
+        assert!(names.contains(&name), "{name}: {names:?}");
+    }
+    let page = String::from_utf8(first["index.html"].clone()).unwrap();
+    assert!(page.contains("ahead &amp; aside") && page.contains("table-acuity.csv"));
+    assert!(page.contains("reconstruction from the paper"));
+
+    let record = json(&folder, "reports/rich/curves.json");
+    assert_eq!(record["schema"], "fovqa.curves/1");
+    assert_eq!(record["curves"].as_array().unwrap().len(), 16);
+    assert_eq!(record["curves"][7]["screen"]["gaze_px"], serde_json::json!([1000.0, 800.0]));
+    let polar = &record["curves"][8];
+    let on_screen = polar["shading"]["samples_on_screen"].as_f64().unwrap();
+    assert!((on_screen / (1440.0 * 1600.0) - 0.2).abs() < 1e-9);
+    assert_eq!(polar["model"], "visual_polar");
+
+    let mut csv = csv::Reader::from_reader(first["curves.csv"].as_slice());
+    let head = csv.headers().unwrap().clone();
+    let column = |name: &str| head.iter().position(|h| h == name).unwrap();
+    let (mut rows, mut models) = (0, 0);
+    for row in csv.records().map(Result::unwrap) {
+        let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
+        assert!(number("acuity_cpd") <= 18.0);
+        rows += 1;
+        if &row[column("model")] == "linear_mar" {
+            let e = number("eccentricity_deg");
+            assert!((number("radial_cpd") - 1.0 / (0.022 * e + 1.0 / 48.0)).abs() < 1e-9);
+            assert_eq!(&row[column("width_px")], "");
+            models += 1;
+        }
+    }
+    assert!(rows > 1500 && models == 141, "{rows} {models}");
+
+    for threads in ["1", "3"] {
+        let mut again = command(&["curves", "rich.toml"]);
+        let again = again.current_dir(folder.path("")).env("RAYON_NUM_THREADS", threads).output();
+        Run::from(again.unwrap()).ok();
+        assert_eq!(files(&folder.path("reports/rich")), first);
+    }
+}
+
+#[test]
+fn tables_hold_what_the_papers_print() {
+    let folder = Folder::new();
+    let table = root().join("configs/papers/vafr-table-1.toml");
+    folder.run(&["curves", table.to_str().unwrap(), "--output", "out"]).ok();
+    let text = fs::read_to_string(folder.path("out/table-samples.md")).unwrap();
+    let row = |name: &str| text.lines().find(|line| line.contains(name)).unwrap().to_owned();
+    for (name, cells) in [
+        ("GT", ["3686.4", "8294.4", "18662.4", "33177.6", "74649.6"]),
+        ("LaFR, δ = 2.2", ["761.7", "1713.7", "3855.9", "6854.9", "15423.5"]),
+        ("LaFR, δ = 1.8", ["1137.8", "2560.0", "5760.0", "10240.0", "23040.0"]),
+        ("VaFR_Dup", ["1061.7", "1061.7", "1061.7", "1061.7", "1061.7"]),
+    ] {
+        let row = row(name);
+        let found: Vec<&str> = row.split('|').map(str::trim).skip(2).step_by(2).take(5).collect();
+        assert_eq!(found, cells, "{name}");
+    }
+    assert!(text.contains("no independent check"), "VaFR_Rep says where its shares come from");
+    let csv = fs::read_to_string(folder.path("out/table-samples.csv")).unwrap();
+    assert!(csv.contains("samples 2560x1440") && csv.contains("VaFR_Dup,1061733.65"), "{csv}");
+}
+
+/// A mistake: the line it replaces, the line itself, the words of the message, whether a schema can
+/// tell.
+type Mistake = (&'static str, &'static str, &'static [&'static str], bool);
+
+const GOOD: &str = r#"
+name = "good"
+[view]
+fov_vertical_deg = 110
+resolutions = ["1440x1600"]
+[[curve]]
+name = "A"
+method = { model = "rmfr" }
+[[curve]]
+name = "B"
+acuity = { model = "piecewise" }
+[[plot]]
+kind = "rates"
+"#;
+
+const MISTAKES: &[Mistake] = &[
+    ("name = \"good\"", "nam = \"good\"", &["did you mean name?"], true),
+    (
+        "name = \"good\"",
+        "name = \"good\"\nstep_deg = 0",
+        &["step_deg cannot be 0", "from 0.001 to 60"],
+        true,
+    ),
+    ("name = \"good\"", "name = \"good\"\nacuity = {}", &["acuity has no model"], true),
+    ("fov_vertical_deg = 110", "fov_vertical_deg = 180", &["cannot be 180"], true),
+    ("fov_vertical_deg = 110", "", &["no view is given", "fov_vertical_deg = 110"], false),
+    ("resolutions = [\"1440x1600\"]", "", &["no resolution is given"], false),
+    (
+        "resolutions = [\"1440x1600\"]",
+        "resolutions = [\"0x1600\"]",
+        &["cannot be \"0x1600\"", "1 to 100000"],
+        true,
+    ),
+    (
+        "resolutions = [\"1440x1600\"]",
+        "resolutions = [\"1440x1600\"]\ngazes = [[1]]",
+        &["a list of 1"],
+        true,
+    ),
+    (
+        "resolutions = [\"1440x1600\"]",
+        "resolutions = [\"1440x1600\"]\ntangential = \"round\"",
+        &["cannot be \"round\""],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmf\" }",
+        &["no method \"rmf\"", "did you mean \"rmfr\"?"],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { sigma = 2 }",
+        &["has no model", "\"deamp\""],
+        true,
+    ),
+    ("method = { model = \"rmfr\" }", "method = { model = 3 }", &["text in quotes"], true),
+    ("method = { model = \"rmfr\" }", "method = \"rmfr\"", &["a table such as"], true),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmfr\", sigma = 0 }",
+        &["sigma cannot be 0", "0.1 to 1000"],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmfr\", sgma = 2 }",
+        &["no parameter `sgma`", "did you mean sigma?"],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"vafr\", ratio = [1, 2] }",
+        &["ratio"],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"vafr\", knots_deg = [0, 9, 5, 30, 60] }",
+        &["do not start at 0° and rise"],
+        false,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"deamp\", sigmas = [2] }",
+        &["one for each layer"],
+        false,
+    ),
+    ("method = { model = \"rmfr\" }", "", &["of no method and no acuity model"], false),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmfr\" }\nacuity = { model = \"piecewise\" }",
+        &["both a method and an acuity model"],
+        false,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmfr\" }\nbudget = 0",
+        &["budget cannot be 0"],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"guenter\" }\nbudget = 0.9",
+        &["reaches from"],
+        false,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmfr\" }\nbudget_of = \"buffer\"",
+        &["there is none"],
+        false,
+    ),
+    (
+        "acuity = { model = \"piecewise\" }",
+        "acuity = { model = \"piecewise\", knots_cpd = [40, 5] }",
+        &["5 eccentricities and 2 frequencies"],
+        false,
+    ),
+    (
+        "acuity = { model = \"piecewise\" }",
+        "acuity = { model = \"piecewise\", cap_cpd = \"high\" }",
+        &["cap_cpd"],
+        true,
+    ),
+    (
+        "acuity = { model = \"piecewise\" }",
+        "acuity = { model = \"piecewise\" }\nbudget = 0.1",
+        &["budget is of a method"],
+        false,
+    ),
+    ("name = \"B\"", "name = \"A\"", &["\"A\""], false),
+    ("kind = \"rates\"", "kind = \"rate\"", &["did you mean \"rates\"?"], true),
+    ("kind = \"rates\"", "kind = \"rates\"\ncurves = [\"C\"]", &["there is no curve \"C\""], false),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\nf = [2]",
+        &["f says nothing about a plot of kind \"rates\""],
+        false,
+    ),
+    ("kind = \"rates\"", "kind = \"half_axis\"", &["has no f"], false),
+    ("kind = \"rates\"", "kind = \"half_axis\"\nf = [0.5]", &["cannot be 0.5"], true),
+    ("kind = \"rates\"", "kind = \"accumulated\"", &["none of its curves is"], false),
+    ("kind = \"rates\"", "kind = \"density\"\ncurves = [\"B\"]", &["nothing to show"], false),
+    ("kind = \"rates\"", "kind = \"rates\"\ny_limits = [5, 5]", &["ends before it begins"], false),
+    ("kind = \"rates\"", "kind = \"rates\"\ny_limits = [0, 5]\nlog = true", &["has no 0"], false),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\n[[table]]\nkind = \"samples\"\ncurves = [\"B\"]",
+        &["nothing to show"],
+        false,
+    ),
+    ("kind = \"rates\"", "kind = \"rates\"\n[[scene]]\nname = \"x\"", &["no key `scene`"], true),
+];
+
+fn schema_allows(text: &str) -> bool {
+    let schema: Value = Run::from(command(&["schema", "curves"]).output().unwrap()).ok().json();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let file: Value = toml::from_str(text).unwrap();
+    validator.is_valid(&file)
+}
+
+#[test]
+fn every_mistake_is_shown_in_its_place_and_the_schema_agrees() {
+    let folder = Folder::new();
+    folder.write("e.toml", GOOD);
+    folder.run(&["check", "e.toml"]).ok();
+    assert!(schema_allows(GOOD) && schema_allows(RICH));
+    for (line, instead, words, structural) in MISTAKES {
+        assert_eq!(GOOD.matches(line).count(), 1, "{line}");
+        let text = GOOD.replace(line, instead);
+        folder.write("e.toml", &text);
+        let run = folder.run(&["curves", "e.toml"]).fails(2, words);
+        assert!(run.stderr.contains("e.toml"), "{}", run.stderr);
+        assert_eq!(schema_allows(&text), !structural, "{instead}");
+    }
+    assert!(!folder.path("reports/good/curves.csv").exists());
+}
+
+#[test]
+fn the_committed_schema_is_the_one_printed_and_its_keys_are_documented() {
+    let printed = Run::from(command(&["schema", "curves"]).output().unwrap()).ok().stdout;
+    let committed = fs::read_to_string(root().join("docs/curves.schema.json")).unwrap();
+    assert_eq!(committed, printed, "run: fovqa schema curves > docs/curves.schema.json");
+    let docs = ["curves.md", "experiments.md"]
+        .map(|name| fs::read_to_string(root().join("docs").join(name)).unwrap());
+    let docs = docs.join("\n");
+    let words: Vec<&str> = docs.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect();
+    let schema: Value = serde_json::from_str(&printed).unwrap();
+    let curve = &schema["properties"]["curve"]["items"]["properties"];
+    let tables = [
+        &schema["properties"],
+        &schema["properties"]["view"]["properties"],
+        curve,
+        &schema["properties"]["plot"]["items"]["properties"],
+        &schema["properties"]["table"]["items"]["properties"],
+    ];
+    let mut seen = 0;
+    for key in tables.iter().flat_map(|table| table.as_object().unwrap().keys()) {
+        assert!(words.contains(&key.as_str()), "{key}");
+        seen += 1;
+    }
+    assert!(seen > 50, "{seen}");
+}
+
+#[test]
+fn files_and_experiments_are_told_apart() {
+    let folder = Folder::new();
+    folder.write("e.toml", GOOD);
+    folder.run(&["run", "e.toml"]).fails(2, &["this is a file of curves", "fovqa curves"]);
+    folder.run(&["curves", "e.toml"]).ok();
+    let report = folder.run(&["report", "reports/good"]);
+    report.fails(3, &["these are curves", "fovqa curves"]);
+    // One page over all.
+    folder.write("f.toml", GOOD.replace("\"good\"", "\"fine\""));
+    folder.run(&["curves", "e.toml", "f.toml", "--output", "all"]).ok();
+    folder.run(&["report", "all"]).ok().says(&["2 folders of results"]);
+    let page = fs::read_to_string(folder.path("all/index.html")).unwrap();
+    assert!(page.contains("good/plots/rates.svg") && page.contains("fine/index.html"));
+    folder.run(&["curves", "e.toml", "e.toml"]).fails(2, &["have one name", "\"good\""]);
+    // One wrong file, and nothing is drawn.
+    folder.write("g.toml", GOOD.replace("\"good\"", "\"g\"").replace("rmfr", "x"));
+    folder.run(&["curves", "f.toml", "g.toml", "--output", "none"]).fails(2, &["no method \"x\""]);
+    assert!(!folder.path("none/fine").exists());
+    // A folder of somebody else's stays as it is.
+    folder.write("mine/curves.csv", "mine");
+    folder.run(&["curves", "e.toml", "--output", "mine"]).fails(3, &["of no run"]);
+    assert_eq!(fs::read_to_string(folder.path("mine/curves.csv")).unwrap(), "mine");
+    // What is drawn no longer is taken away.
+    let other = GOOD.replace("kind = \"rates\"", "kind = \"density\"");
+    folder.write("e.toml", other);
+    folder.run(&["curves", "e.toml"]).ok();
+    assert!(!folder.path("reports/good/plots/rates.svg").exists());
+    assert!(folder.path("reports/good/plots/density.svg").exists());
+    // Without plots and tables all that fit.
+    folder.write("e.toml", GOOD.replace("[[plot]]\nkind = \"rates\"", ""));
+    folder.run(&["curves", "e.toml"]).ok();
+    for name in ["plots/rates.svg", "plots/density.svg", "table-samples.md", "table-acuity.csv"] {
+        assert!(folder.path(&format!("reports/good/{name}")).exists(), "{name}");
+    }
+}
+
+/// Every file of curves that belongs to the repository.
+#[test]
+fn the_committed_curves_are_drawn() {
+    let folder = Folder::new();
+    let configs = root().join("configs");
+    let mut paths: Vec<String> = Vec::new();
+    for inner in ["papers", "curves"] {
+        for entry in fs::read_dir(configs.join(inner)).unwrap() {
+            let path = entry.unwrap().path();
+            let text = fs::read_to_string(&path).unwrap();
+            let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+            if text.contains("[[scene]]") {
+                continue;
+            }
+            assert!(schema_allows(&text), "{name}");
+            assert!(text.contains(&format!("name = \"{name}\"")), "{name} is named after its file");
+            paths.push(path.to_str().unwrap().to_owned());
+        }
+    }
+    assert!(paths.len() >= 16, "{paths:?}");
+    let paths: Vec<&str> = paths.iter().map(String::as_str).collect();
+    folder.run(&[&["curves"], paths.as_slice(), &["--output", "out"]].concat()).ok();
+    for path in &paths {
+        let name = Path::new(path).file_stem().unwrap().to_str().unwrap();
+        let drawn = files(&folder.path(&format!("out/{name}")));
+        let drawn_at_all = |file: &String| file.starts_with("plots/") || file.starts_with("table-");
+        assert!(drawn.keys().any(drawn_at_all), "{name}");
+    }
+    folder.run(&["report", "out"]).ok();
+    let page = fs::read_to_string(folder.path("out/index.html")).unwrap();
+    for path in &paths {
+        let name = Path::new(path).file_stem().unwrap().to_str().unwrap();
+        assert!(page.contains(&format!("{name}/index.html")), "{name}");
+    }
+}
+
+/// The README's pictures come out again.
+#[test]
+fn the_committed_pictures_come_out_again() {
+    let folder = Folder::new();
+    let headset = root().join("configs/curves/headset.toml");
+    folder.run(&["curves", headset.to_str().unwrap(), "--output", "out"]).ok();
+    for name in ["rates.png", "density.png"] {
+        let committed = fs::read(root().join("docs/headset").join(name)).unwrap();
+        let drawn = fs::read(folder.path("out/plots").join(name)).unwrap();
+        assert!(
+            drawn == committed,
+            "{name}: fovqa curves configs/curves/headset.toml, and copy it"
+        );
+    }
+}
