@@ -72,6 +72,12 @@ unit = "per_pixel"
 areas = false
 
 [[plot]]
+kind = "rates"
+name = "marked"
+curves = ["Linear MAR"]
+marks = [{ name = "Thibos 1996", at = [30, 5] }]
+
+[[plot]]
 kind = "density"
 curves = ["Polar", "Nested"]
 rings_deg = [5, 20]
@@ -119,7 +125,7 @@ fn the_whole_format_is_drawn_and_again_the_same() {
     folder.write("rich.toml", RICH);
     let plan = folder.run(&["check", "rich.toml"]).ok().stdout;
     for words in
-        ["rich: 16 curves", "2880x3200, gaze (1000, 800), direction 90°", "5 figures, 3 tables"]
+        ["rich: 16 curves", "2880x3200, gaze (1000, 800), direction 90°", "6 figures, 3 tables"]
     {
         assert!(plan.contains(words), "{words}:\n{plan}");
     }
@@ -147,6 +153,9 @@ fn the_whole_format_is_drawn_and_again_the_same() {
     let page = String::from_utf8(first["index.html"].clone()).unwrap();
     assert!(page.contains("ahead &amp; aside") && page.contains("table-acuity.csv"));
     assert!(page.contains("reconstruction from the paper"));
+
+    let marked = String::from_utf8(first["plots/marked.csv"].clone()).unwrap();
+    assert!(marked.contains("Thibos 1996,30.0,5.0"), "{marked}");
 
     let record = json(&folder, "reports/rich/curves.json");
     assert_eq!(record["schema"], "fovqa.curves/1");
@@ -349,6 +358,13 @@ const MISTAKES: &[Mistake] = &[
         &["f says nothing about a plot of kind \"rates\""],
         false,
     ),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\nunit = \"per_pixel\"\nmarks = [{ name = \"a\", at = [1, 2] }]",
+        &["marks are cycles per degree"],
+        false,
+    ),
+    ("kind = \"rates\"", "kind = \"rates\"\nmarks = [{ at = [1, 2] }]", &["has no name"], true),
     ("kind = \"rates\"", "kind = \"half_axis\"", &["has no f"], false),
     ("kind = \"rates\"", "kind = \"half_axis\"\nf = [0.5]", &["cannot be 0.5"], true),
     ("kind = \"rates\"", "kind = \"accumulated\"", &["none of its curves is"], false),

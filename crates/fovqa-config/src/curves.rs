@@ -174,6 +174,8 @@ pub struct CurvePlot {
     pub display: bool,
     /// Ends of the vertical axis.
     pub y_limits: Option<[f64; 2]>,
+    /// Measured values: a name, an eccentricity in degrees and cycles per degree.
+    pub marks: Vec<(String, [f64; 2])>,
     /// Whether values stand on a logarithmic axis.
     pub log: bool,
     /// Eccentricities whose rings are drawn over a picture, degrees.

@@ -54,7 +54,17 @@ static CURVE_TABLE: [Key; 5 + VIEW.len() + SCREENS.len()] = joined(&[
     SCREENS,
 ]);
 
-static PLOT_TABLE: [Key; 13] = [
+/// A measured value among curves.
+static MARK: [Key; 2] = [
+    required("name", Kind::Name, "its name in the legend"),
+    required(
+        "at",
+        Kind::List(&Kind::Number(0.0, 1e6), 2, 2),
+        "[eccentricity in degrees, cycles per degree]",
+    ),
+];
+
+static PLOT_TABLE: [Key; 14] = [
     required(
         "kind",
         Kind::Word(&["rates", "density", "accumulated", "half_axis"]),
@@ -89,6 +99,7 @@ static PLOT_TABLE: [Key; 13] = [
         Kind::List(&Kind::Number(0.0, 1e6), 2, 2),
         "ends of the vertical axis; curves are cut there",
     ),
+    key("marks", Kind::Tables(&MARK), "measured values: [{ name = \"…\", at = [30, 5] }]"),
     key("log", Kind::Bool, "a logarithmic axis (of a picture: of its colours)"),
     key(
         "rings_deg",

@@ -143,6 +143,12 @@ impl<'a> Rates<'a> {
                 ..LineSeries::default()
             });
         }
+        series.extend(plot.marks.iter().enumerate().map(|(i, (name, [e, cpd]))| LineSeries {
+            name: name.clone(),
+            look: Look::new(self.looks.len() + i),
+            points: vec![(*e, Some(*cpd))],
+            ..LineSeries::default()
+        }));
         if plot.display {
             series.extend(self.displays(group, along));
         }

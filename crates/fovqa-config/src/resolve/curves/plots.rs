@@ -54,6 +54,7 @@ pub(super) fn plot(
         areas: table.flag("areas"),
         display: flag("display"),
         y_limits: table.array("y_limits"),
+        marks: table.tables("marks").iter().filter_map(|(mark, _)| named_mark(*mark)).collect(),
         log: flag("log"),
         rings_deg: table.numbers("rings_deg").unwrap_or_default(),
         f: table.numbers("f").unwrap_or_default(),
@@ -81,16 +82,31 @@ pub(super) fn plot(
     plot
 }
 
+fn named_mark(mark: Node<'_>) -> Option<(String, [f64; 2])> {
+    Some((mark.text("name")?.to_owned(), mark.array("at")?))
+}
+
 /// Whether a plot's keys are of its kind.
 fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Vec<Fault>) {
     let (kind, keys): (&str, &[&str]) = match plot.kind {
         CurvePlotKind::Rates => ("rates", &["rings_deg", "f"]),
         CurvePlotKind::Density => {
-            ("density", &["rate", "unit", "panels", "areas", "display", "y_limits", "f"])
+            ("density", &["rate", "unit", "panels", "areas", "display", "y_limits", "marks", "f"])
         }
         CurvePlotKind::Accumulated => (
             "accumulated",
-            &["rate", "unit", "panels", "areas", "display", "y_limits", "log", "rings_deg", "f"],
+            &[
+                "rate",
+                "unit",
+                "panels",
+                "areas",
+                "display",
+                "y_limits",
+                "marks",
+                "log",
+                "rings_deg",
+                "f",
+            ],
         ),
         CurvePlotKind::HalfAxis => (
             "half_axis",
@@ -102,6 +118,7 @@ fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Vec<Fault>) {
                 "areas",
                 "display",
                 "y_limits",
+                "marks",
                 "log",
                 "rings_deg",
             ],
@@ -110,6 +127,11 @@ fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Vec<Fault>) {
     for key in keys.iter().filter(|key| table.has(key)) {
         let message = format!("{key} says nothing about a plot of kind \"{kind}\"");
         faults.push(Fault::new(table.span(key), message).help("take it out"));
+    }
+    if plot.unit == RateUnit::PerPixel && !plot.marks.is_empty() {
+        let fault =
+            Fault::new(table.span("marks"), "marks are cycles per degree, and the plot is not");
+        faults.push(fault.help("take them out, or unit = \"per_pixel\""));
     }
     if plot.kind == CurvePlotKind::HalfAxis && plot.f.is_empty() {
         let fault = Fault::new(table.span("kind"), "a plot of a half axis has no f");
