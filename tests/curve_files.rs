@@ -66,7 +66,7 @@ log = true
 
 [[plot]]
 kind = "rates"
-name = "one"
+name = "One #1"
 panels = "one"
 unit = "per_pixel"
 areas = false
@@ -140,7 +140,7 @@ fn the_whole_format_is_drawn_and_again_the_same() {
         "curves.json",
         "index.html",
         "plots/rates.svg",
-        "plots/one.png",
+        "plots/one-1.png",
         "plots/density.csv",
         "plots/accumulated.svg",
         "plots/half-axis.svg",

@@ -9,7 +9,7 @@ use fovqa_results::{
     read_json_file, write_whole,
 };
 
-use crate::page::{begin, end, escaped};
+use crate::page::{address, begin, end, escaped};
 use crate::sheet::{PLOTS, ReportError, drawn_before};
 
 /// Says that a page is one of ours, and may be replaced.
@@ -99,33 +99,35 @@ fn html(name: &str, entries: &[Entry]) -> String {
     let mut text = begin(name).replace("<title>", &format!("{MARK}\n<title>"));
     text.push_str("<ul>\n");
     for Entry { folder, name, .. } in entries {
-        let _ = writeln!(text, "<li><a href=\"#{0}\">{1}</a></li>", escaped(folder), escaped(name));
+        let _ = writeln!(text, "<li><a href=\"#{}\">{}</a></li>", address(folder), escaped(name));
     }
     text.push_str("</ul>\n");
     for entry in entries {
-        let folder = escaped(&entry.folder);
+        let folder = address(&entry.folder);
         let _ = write!(
             text,
-            "<h2 id=\"{folder}\"><a href=\"{folder}/index.html\">{}</a></h2>\n<p>{}</p>\n",
+            "<h2 id=\"{id}\"><a href=\"{folder}/index.html\">{}</a></h2>\n<p>{}</p>\n",
             escaped(&entry.name),
-            escaped(&entry.about)
+            escaped(&entry.about),
+            id = escaped(&entry.folder),
         );
         if !entry.figures.is_empty() {
             text.push_str("<div class=\"figures\">\n");
             for figure in &entry.figures {
-                let figure = escaped(figure);
                 let _ = writeln!(
                     text,
-                    "<a href=\"{folder}/index.html\"><img class=\"small\" src=\"{figure}.svg\" alt=\"{figure}\" loading=\"lazy\"></a>"
+                    "<a href=\"{folder}/index.html\"><img class=\"small\" src=\"{}.svg\" alt=\"{}\" loading=\"lazy\"></a>",
+                    address(figure),
+                    escaped(figure)
                 );
             }
             text.push_str("</div>\n");
         }
         if !entry.tables.is_empty() {
-            let links = entry.tables.iter().map(|table| {
-                let table = escaped(table);
-                format!("<a href=\"{table}\">{table}</a>")
-            });
+            let links = entry
+                .tables
+                .iter()
+                .map(|table| format!("<a href=\"{}\">{}</a>", address(table), escaped(table)));
             let _ = writeln!(
                 text,
                 "<p class=\"note\">Tables: {}</p>",
@@ -155,7 +157,7 @@ mod tests {
     fn pages_of_others_stay() {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(draw_index(folder.path()).unwrap(), None);
-        let inner = folder.path().join("a");
+        let inner = folder.path().join("a #1");
         fs::create_dir(&inner).unwrap();
         let record = "{\"schema\": \"fovqa.curves/1\", \"version\": \"0\", \"name\": \"a<b\", \
                       \"about\": \"\", \"acuity\": \"\", \"curves\": []}";
@@ -166,7 +168,9 @@ mod tests {
         fs::remove_file(&page).unwrap();
         for _ in 0..2 {
             assert_eq!(draw_index(folder.path()).unwrap(), Some(1));
-            assert!(fs::read_to_string(&page).unwrap().contains("a&lt;b"));
+            assert!(
+                fs::read_to_string(&page).unwrap().contains("href=\"a%20%231/index.html\">a&lt;b")
+            );
         }
     }
 }

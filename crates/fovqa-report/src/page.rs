@@ -126,6 +126,22 @@ fn count(n: usize, what: &str) -> String {
     if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
 }
 
+/// A path as an address: what has a meaning there, or is no plain character, as bytes.
+pub(crate) fn address(path: &str) -> String {
+    let mut plain = String::new();
+    for byte in path.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' | b'~' | b'/' => {
+                plain.push(char::from(byte));
+            }
+            byte => {
+                let _ = write!(plain, "%{byte:02X}");
+            }
+        }
+    }
+    plain
+}
+
 /// Text that HTML takes as it is, between tags and in attributes.
 pub(crate) fn escaped(text: &str) -> String {
     let mut plain = String::new();

@@ -16,6 +16,7 @@ use fovqa_results::{
 };
 use fovqa_shading::Curve;
 
+use crate::figures::slug;
 use crate::sheet::{NamedFigure, NamedTable, Names, ReportError, Sheet};
 use plain_table::PlainTable;
 
@@ -62,7 +63,12 @@ pub fn draw_curves(
             CurvePlotKind::Accumulated => models::accumulated(&source, plot),
             CurvePlotKind::HalfAxis => models::half_axis(plot),
         };
-        figures.push(NamedFigure { name: names.free(&drawn.name), ..drawn });
+        // A name is anything; a file's name is part of an address on the page.
+        let name = match slug(&drawn.name) {
+            name if name.is_empty() => "figure".to_owned(),
+            name => name,
+        };
+        figures.push(NamedFigure { name: names.free(&name), ..drawn });
     }
     let mut made: Vec<(String, PlainTable)> = Vec::new();
     for table in &tables {
