@@ -202,7 +202,7 @@ fn tables_hold_what_the_papers_print() {
         ("GT", ["3686.4", "8294.4", "18662.4", "33177.6", "74649.6"]),
         ("LaFR, δ = 2.2", ["761.7", "1713.7", "3855.9", "6854.9", "15423.5"]),
         ("LaFR, δ = 1.8", ["1137.8", "2560.0", "5760.0", "10240.0", "23040.0"]),
-        ("VaFR_Dup", ["1061.7", "1061.7", "1061.7", "1061.7", "1061.7"]),
+        ("Dup", ["1061.7", "1061.7", "1061.7", "1061.7", "1061.7"]),
     ] {
         let row = row(name);
         let found: Vec<&str> = row.split('|').map(str::trim).skip(2).step_by(2).take(5).collect();
@@ -465,6 +465,96 @@ fn files_and_experiments_are_told_apart() {
     for name in ["plots/rates.svg", "plots/density.svg", "table-samples.md", "table-acuity.csv"] {
         assert!(folder.path(&format!("reports/good/{name}")).exists(), "{name}");
     }
+}
+
+/// Neither takes away what the other has left.
+#[test]
+fn runs_and_curves_keep_each_others_folders() {
+    let folder = Folder::with_pair();
+    let run = "name = \"good\"\n[[scene]]\nname = \"s\"\nreference = \"a.png\"\n[[method]]\nname = \"m\"\ntest = \"b.png\"\n[metrics]\npsnr = {}\n";
+    folder.write("run.toml", run);
+    folder.write("curves.toml", GOOD);
+    folder.run(&["run", "run.toml"]).ok();
+    let before = files(&folder.path("reports/good"));
+    let refused = folder.run(&["curves", "curves.toml"]);
+    refused.fails(3, &["it has the results of `fovqa run`", "--output"]);
+    assert_eq!(files(&folder.path("reports/good")), before);
+    folder.run(&["curves", "curves.toml", "--output", "c"]).ok();
+    let before = files(&folder.path("c"));
+    let refused = folder.run(&["run", "run.toml", "--output", "c"]);
+    refused.fails(3, &["it has the results of `fovqa curves`"]);
+    assert_eq!(files(&folder.path("c")), before);
+}
+
+#[test]
+fn what_differs_decides_what_is_drawn_and_how_often() {
+    let folder = Folder::new();
+    let many = |gazes: usize| {
+        let gazes: Vec<String> = (0..gazes).map(|i| format!("[{i}, 0]")).collect();
+        GOOD.replace(
+            "[[curve]]\nname = \"A\"",
+            &format!("gazes = [{}]\n[[curve]]\nname = \"A\"", gazes.join(", ")),
+        )
+    };
+    folder.write("e.toml", many(49));
+    folder
+        .run(&["check", "e.toml"])
+        .fails(2, &["the figure has 49 panels, and 48 at most", "panels = \"one\""]);
+    folder.write(
+        "e.toml",
+        many(49).replace("kind = \"rates\"", "kind = \"rates\"\npanels = \"one\""),
+    );
+    folder.run(&["check", "e.toml"]).ok();
+    folder.write("e.toml", many(49).replace("[[plot]]\nkind = \"rates\"", ""));
+    folder.run(&["check", "e.toml"]).fails(2, &["panels, and 48 at most"]);
+    folder.write("e.toml", many(101));
+    folder.run(&["check", "e.toml"]).fails(2, &["a list of 1 to 100"]);
+
+    // A direction is no other picture, and what is written twice no other curve.
+    let twice = GOOD
+        .replace(
+            "resolutions = [\"1440x1600\"]",
+            "resolutions = [\"1440x1600\", \"1440x1600\"]\ndirections_deg = [0, 90, 90]",
+        )
+        .replace("kind = \"rates\"", "kind = \"density\"\n[[table]]\nkind = \"acuity\"")
+        .replace(
+            "name = \"good\"",
+            "name = \"good\"\nacuity = { model = \"piecewise\", cap_cpd = 18 }",
+        )
+        .replace(
+            "name = \"A\"\nmethod = { model = \"rmfr\" }",
+            "name = \"<b>VP\"\nmethod = { model = \"visual-polar\" }",
+        );
+    folder.write("e.toml", twice);
+    folder.run(&["curves", "e.toml"]).ok();
+    let record = json(&folder, "reports/good/curves.json");
+    assert_eq!(record["curves"].as_array().unwrap().len(), 3);
+    assert_eq!(record["acuity_parameters"], "cap_cpd=18");
+    assert!(record["text"].as_str().unwrap().contains("[[curve]]"));
+    let density = fs::read_to_string(folder.path("reports/good/plots/density.csv")).unwrap();
+    assert_eq!(density.lines().count(), 1 + 240 * 216);
+    let table = fs::read_to_string(folder.path("reports/good/table-acuity.md")).unwrap();
+    assert!(table.contains("cap_cpd=18") || table.contains("cap\\_cpd=18"), "{table}");
+    let row = table.lines().find(|line| line.contains("VP")).unwrap();
+    assert!(row.contains("\\<b\\>VP (reconstruction)"), "{row}");
+}
+
+/// A budget is of all that a frame costs, and so are share and speed-up.
+#[test]
+fn a_wide_frame_costs_what_lies_beyond_too() {
+    let folder = Folder::new();
+    let text = "name = \"w\"\n[view]\nfov_vertical_deg = 110\nresolutions = [\"2560x1440\"]\n[[curve]]\nname = \"VaFR\"\nmethod = { model = \"vafr\" }\nbudget = 0.15\n[[table]]\nkind = \"speed_up\"\n";
+    folder.write("w.toml", text);
+    folder.run(&["curves", "w.toml"]).ok();
+    let shading = &json(&folder, "reports/w/curves.json")["curves"][0]["shading"];
+    let of = |key: &str| shading[key].as_f64().unwrap();
+    assert!(of("samples_beyond") > 1e4);
+    let pixels = 2560.0 * 1440.0;
+    assert!(((of("samples") + of("samples_beyond")) / pixels - 0.15).abs() < 1e-9);
+    assert!((of("share") - 0.15).abs() < 1e-9 && (of("speed_up") - 1.0 / 0.15).abs() < 1e-6);
+    assert!(of("samples_on_screen") < of("samples") + of("samples_beyond"));
+    let table = fs::read_to_string(folder.path("reports/w/table-speed-up.md")).unwrap();
+    assert!(table.contains("| 15.0 % | 6.67 |") && table.contains("Beyond"), "{table}");
 }
 
 /// Every file of curves that belongs to the repository.

@@ -143,6 +143,7 @@ const WRONG: &[(&[&str], &[&str])] = &[
     (&["--acuity", "piecewise", "--output", "out"], &["cannot be used with"]),
     (&["nothing.toml", "--step", "0.5"], &["cannot be used with"]),
     (&["nothing.toml", "--display", "vive-pro-eye"], &["cannot be used with"]),
+    (&["--acuity", "piecewise", "--gaze", "1e7,0"], &["within a million pixels"]),
     (&["nothing.toml"], &["there is no such file"]),
     (&["nothing.toml", "--method", "kfr"], &["cannot be used with"]),
 ];
@@ -168,9 +169,16 @@ fn what_has_to_be_said_is_a_note() {
     of(&["--method", "visual-polar"]).says(&["note: Visual-Polar is a reconstruction"]);
     of(&["--method", "deamp"])
         .says(&["note: the angles of DEAMP's layers scale", "45° is 52.12° x 55.00°"]);
+    of(&["--method", "kfr", "--budget", "0.1"]).says(&["for this budget sigma=3.16227"]);
+    // KFR has no rate within a pixel, and so a curve that ends there has none at all.
+    of(&["--method", "kfr", "--to", "0.09", "--step", "0.05"]).says(&["no rate is defined"]);
     of(&["--method", "rmfr", "--gaze", "5000,-3", "--direction", "135"])
         .says(&["the gaze (5000, -3) is outside of the frame: it is taken at (1440, 0)"]);
     assert_eq!(of(&["--method", "rmfr"]).stderr, "");
+    let stretched = ["--method", "full", "--display", "vive-pro-eye", "--resolution", "720x1600"];
+    curves(&stretched).ok().says(&["pixels of 720x1600 are not square", "geometric mean"]);
+    let angular = rows(&curves(&[&stretched[..], &["--eccentricity", "angular"]].concat()).ok());
+    assert!((angular[0][1] - 3.288).abs() < 1e-3, "half as many pixels along x: {:?}", angular[0]);
 }
 
 #[test]

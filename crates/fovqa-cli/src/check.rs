@@ -57,11 +57,9 @@ fn curves(args: &CheckArgs) -> Exit {
         let set = if spec.parameters.is_empty() { "" } else { ", " };
         let _ = writeln!(text, "  {}: {model}{set}{}{screen}", spec.name, spec.parameters);
     }
-    let what = match (file.plan.plots.len(), file.plan.tables.len()) {
-        (0, 0) => "all figures and tables that fit".to_owned(),
-        (plots, tables) => format!("{}, {}", count(plots, "figure"), count(tables, "table")),
-    };
-    let _ = writeln!(text, "\n{what}, into reports/{}", file.name);
+    let plots = count(file.plan.plots.len(), "figure");
+    let tables = count(file.plan.tables.len(), "table");
+    let _ = writeln!(text, "\n{plots}, {tables}, into reports/{}", file.name);
     output::write(|out| out.write_all(text.as_bytes()))
 }
 

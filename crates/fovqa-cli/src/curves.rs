@@ -22,6 +22,9 @@ fn one(args: &CurvesArgs) -> Exit {
         args.spec().and_then(|spec| trace(&spec, args.range()).map_err(|error| error.to_string()));
     match traced {
         Ok(curve) => {
+            if args.has_budget() {
+                diagnostic::note(&format!("for this budget {}", curve.spec.parameters));
+            }
             for note in &curve.notes {
                 diagnostic::note(note);
             }
@@ -58,6 +61,9 @@ fn files(args: &CurvesArgs) -> Exit {
         }
     }
     if let Some(exit) = wrong {
+        if !files.is_empty() {
+            diagnostic::note("nothing is drawn while one of the files is wrong");
+        }
         return exit;
     }
     for (i, file) in files.iter().enumerate() {
@@ -92,7 +98,7 @@ fn draw(file: &CurvesFile, folder: &Path) -> Result<(), Exit> {
     };
     let curves = trace_all(&file.plan)
         .map_err(|error| failed(&format!("{}: {error}", file.name), "", Exit::Usage))?;
-    let folder = ResultsFolder::open(folder)
+    let folder = ResultsFolder::open_for_curves(folder)
         .map_err(|error| failed(&error.to_string(), error.help(), Exit::Input))?;
     folder.clear().map_err(|error| failed(&error.to_string(), error.help(), Exit::Input))?;
     let drawn = fovqa_report::draw_curves(folder.path(), file, &curves).map_err(|error| {

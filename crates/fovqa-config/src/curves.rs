@@ -33,11 +33,13 @@ pub struct CurvePlan {
     pub curves: Vec<CurveSpec>,
     /// What rates are held against.
     pub acuity: AcuityModel,
+    /// Its parameters that are not at their defaults, as those of a curve.
+    pub acuity_parameters: String,
     /// The eccentricities.
     pub range: CurveRange,
-    /// Figures; none: all that fit.
+    /// Figures; all that fit, where a file names none and no table.
     pub plots: Vec<CurvePlot>,
-    /// Tables; none: all that fit, where no figures are named either.
+    /// Tables; likewise.
     pub tables: Vec<CurveTable>,
 }
 

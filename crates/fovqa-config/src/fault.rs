@@ -36,7 +36,7 @@ impl Fault {
 #[derive(Debug, Error)]
 pub enum ExperimentError {
     /// A file that cannot be read.
-    #[error("{}: the experiment cannot be read: {reason}", path.display())]
+    #[error("{}: the file cannot be read: {reason}", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -44,7 +44,7 @@ pub enum ExperimentError {
         reason: String,
     },
     /// A file with mistakes in it.
-    #[error("{}: {} {} in the experiment", path.display(), faults.len(), if faults.len() == 1 { "mistake" } else { "mistakes" })]
+    #[error("{}: {} {}", path.display(), faults.len(), if faults.len() == 1 { "mistake" } else { "mistakes" })]
     Faults {
         /// The file.
         path: PathBuf,

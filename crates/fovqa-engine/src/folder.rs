@@ -29,16 +29,18 @@ const OURS: [&str; 11] = [
 
 /// Whether a folder has the results of a run, or what one that was killed, or had no room, has left.
 fn is_ours(path: &Path) -> bool {
-    let begins = |file: &str, schema: &str| {
-        let mut head = [0; 256];
-        let read = File::open(path.join(file)).and_then(|mut file| file.read(&mut head));
-        let head = String::from_utf8_lossy(&head[..read.unwrap_or(0)]).into_owned();
-        head.contains(&format!("\"{schema}/"))
-    };
-    begins(RUN_JSON, "fovqa.run")
-        || begins(JOURNAL, "fovqa.journal")
-        || begins(REPORT_JSON, "fovqa.report")
-        || begins(CURVES_JSON, "fovqa.curves")
+    begins(path, RUN_JSON, "fovqa.run")
+        || begins(path, JOURNAL, "fovqa.journal")
+        || begins(path, REPORT_JSON, "fovqa.report")
+        || begins(path, CURVES_JSON, "fovqa.curves")
+}
+
+/// Whether a file in a folder begins as one of a schema does.
+fn begins(path: &Path, file: &str, schema: &str) -> bool {
+    let mut head = [0; 256];
+    let read = File::open(path.join(file)).and_then(|mut file| file.read(&mut head));
+    let head = String::from_utf8_lossy(&head[..read.unwrap_or(0)]).into_owned();
+    head.contains(&format!("\"{schema}/"))
 }
 
 /// Whether there is something to lose. (A full disk leaves empty files.)
@@ -68,6 +70,14 @@ pub enum FolderError {
     /// Another process writes to it.
     #[error("{}: another run is writing there", .0.display())]
     Busy(PathBuf),
+    /// It has results of the other kind: of a run, or of curves.
+    #[error("{}: it has the results of {of}", path.display())]
+    Other {
+        /// The folder.
+        path: PathBuf,
+        /// Whose they are.
+        of: &'static str,
+    },
     /// It has files that a run would replace, and that are of no run.
     #[error("{}: it has a {file} that is of no run", path.display())]
     Foreign {
@@ -84,18 +94,39 @@ impl FolderError {
         match self {
             Self::Io { .. } => "give a folder that can be written to with {output}",
             Self::Busy(_) => "wait until it is done, or give another folder with {output}",
-            Self::Foreign { .. } => "move it away, or give another folder with {output}",
+            Self::Other { .. } | Self::Foreign { .. } => {
+                "move it away, or give another folder with {output}"
+            }
         }
     }
 }
 
 impl ResultsFolder {
-    /// Makes the folder, and locks it.
+    /// Makes the folder of a run, and locks it.
     ///
     /// # Errors
-    /// When it cannot be made or written to, another process has it, or its files are not ours to
-    /// replace.
+    /// When it cannot be made or written to, another process has it, or its files are not those of a
+    /// run.
     pub fn open(path: &Path) -> Result<Self, FolderError> {
+        if begins(path, CURVES_JSON, "fovqa.curves") {
+            return Err(FolderError::Other { path: path.to_owned(), of: "`fovqa curves`" });
+        }
+        Self::of_any(path)
+    }
+
+    /// The same of curves.
+    ///
+    /// # Errors
+    /// When it cannot be made or written to, another process has it, or its files are not those of
+    /// curves.
+    pub fn open_for_curves(path: &Path) -> Result<Self, FolderError> {
+        if begins(path, RUN_JSON, "fovqa.run") || begins(path, JOURNAL, "fovqa.journal") {
+            return Err(FolderError::Other { path: path.to_owned(), of: "`fovqa run`" });
+        }
+        Self::of_any(path)
+    }
+
+    fn of_any(path: &Path) -> Result<Self, FolderError> {
         let failed = |error| FolderError::Io { path: path.to_owned(), error };
         fs::create_dir_all(path).map_err(failed)?;
         if !is_ours(path)

@@ -40,7 +40,7 @@ pub enum BudgetError {
     /// Out of reach.
     #[error(
         "{method} cannot shade {wanted} of the frame's pixels: with {parameter} it reaches from \
-         {least:.6} to {most:.6}"
+         {} to {}", written(*least), written(*most)
     )]
     OutOfReach {
         /// The method.
@@ -57,6 +57,11 @@ pub enum BudgetError {
     /// A method that cannot be applied at all.
     #[error(transparent)]
     Method(#[from] MethodError),
+}
+
+/// A share with four digits.
+fn written(share: f64) -> String {
+    if (1e-3..1e4).contains(&share) { format!("{share:.4}") } else { format!("{share:.3e}") }
 }
 
 /// A free parameter: from the sparsest to the densest.
@@ -96,7 +101,7 @@ impl Method {
         let share_of = |value: f64| -> Result<f64, BudgetError> {
             let counts = with(value).over(setting)?.counts();
             let samples = match of {
-                BudgetOf::Buffer => counts.samples + counts.samples_beyond,
+                BudgetOf::Buffer => counts.whole(),
                 BudgetOf::OnScreen => counts.samples_on_screen,
             };
             Ok(samples / setting.pixels())

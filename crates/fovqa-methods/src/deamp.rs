@@ -87,7 +87,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "sigmas",
             default: "[2.51, 3.6, 4.8]",
             values: ParamValues::Numbers,
-            about: "σ of each layer from the gaze outwards, 0.1 to 1000 (the dominant eye's)",
+            about: "σ of each layer from the gaze outwards, 0.1 to 1000 (the dominant eye's; the paper does not print the middle one)",
         },
         ParamInfo {
             name: "bounds_deg",
@@ -320,9 +320,10 @@ impl Foveation for Deamp {
                 .zip(&self.bounds_deg)
                 .map(|([x, y], said)| format!("{said}° is {x:.2}° x {y:.2}°"))
                 .collect();
+            let [width, height] = self.setting.size_px();
             format!(
-                "the angles of DEAMP's layers scale with the frame; here {} (half angles, gaze in \
-                 the centre)",
+                "the angles of DEAMP's layers scale with the frame; in {width}x{height} {} (half \
+                 angles, gaze in the centre)",
                 layers.join(", ")
             )
         })

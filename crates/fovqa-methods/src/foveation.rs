@@ -43,6 +43,11 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// All that a frame costs: the papers' count, and what lies beyond the method's own field.
+    pub fn whole(&self) -> f64 {
+        self.samples + self.samples_beyond
+    }
+
     /// Counts of a method that has no buffer, but chooses among the frame's own pixels.
     pub(crate) fn of_pixels(samples: f64) -> Self {
         Self {

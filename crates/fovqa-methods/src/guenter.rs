@@ -106,7 +106,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "fit",
             default: "\"fixed\"",
             values: ParamValues::Word(&["fixed", "optimised"]),
-            about: "bounds and scales as given, or those of the fewest samples",
+            about: "bounds and scales as given, or those of the fewest samples (scales at least 1: ours)",
         },
         ParamInfo {
             name: "m",
@@ -118,7 +118,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "omega0_deg",
             default: "0.020833333333333332",
             values: ParamValues::Number(1e-3, 10.0),
-            about: "for optimised: minimum angle of resolution at the gaze, ° (1/48)",
+            about: "for optimised: angle of one cycle at the gaze, ° (1/48)",
         },
     ],
 };
@@ -286,7 +286,11 @@ impl Foveation for Guenter {
     fn note(&self) -> Option<String> {
         self.optimised.then(|| {
             let ([e1, e2], [_, s2, s3]) = (self.bounds_deg, self.scales);
-            format!("Guenter's layers, optimised: {e1}° and {e2}°, scales 1, {s2:.4}, {s3:.4}")
+            let [width, height] = self.setting.size_px();
+            format!(
+                "Guenter's layers, optimised for {width}x{height}: {e1}° and {e2}°, scales 1, \
+                 {s2:.4}, {s3:.4}"
+            )
         })
     }
 }

@@ -68,7 +68,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "a",
             default: "0.25",
             values: ParamValues::Number(0.01, 0.99),
-            about: "exponent of the inner kernel",
+            about: "exponent of the inner kernel (an inference from LMFR's alpha of 4)",
         },
         ParamInfo {
             name: "alpha",
@@ -80,7 +80,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "beta",
             default: "0.7",
             values: ParamValues::Number(0.01, 100.0),
-            about: "exponent of the outer kernel, times 0.7",
+            about: "the outer kernel's exponent is beta / 0.7",
         },
         ParamInfo {
             name: "foveal_deg",

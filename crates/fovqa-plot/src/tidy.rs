@@ -80,7 +80,9 @@ pub(crate) fn raster(chart: &RasterChart) -> String {
         let title = name(panel.title.as_deref().unwrap_or_default());
         let middle = |(from, to): (f64, f64), cell: usize, cells: usize| {
             let share = (cell as f64 + 0.5) / cells as f64;
-            number(from * (1.0 - share) + to * share)
+            let at = from * (1.0 - share) + to * share;
+            // Of a place that is a third of something seven digits are enough.
+            number(format!("{at:.6e}").parse().unwrap_or(at))
         };
         for (r, values) in panel.values.chunks(panel.columns.max(1)).enumerate() {
             let y = middle(panel.y_range, r, panel.rows);

@@ -8,7 +8,7 @@ use crate::row::{Paper, Row};
 /// All rows as a page of Markdown.
 pub fn page(rows: &[Row]) -> String {
     let mut text =
-        "<!-- Made by `fovqa published-numbers --tables PAPERS`; do not edit. -->\n\n".to_owned();
+        "<!-- Made by `fovqa published-numbers`, with `--tables` where there are any; do not edit. -->\n\n".to_owned();
     text.push_str("# The papers' numbers\n\n");
     let close = 100.0 * CLOSE;
     let _ = write!(

@@ -2,8 +2,8 @@
 
 use fovqa_config::{CurvePlan, CurveRange, CurveSetting, CurveSource, CurveSpec};
 use fovqa_methods::{Counts, Foveation, Method, MethodError, Place, Reach};
-use fovqa_vision::PixelScale;
 use fovqa_vision::acuity::{AcuityModel, PiecewiseMarError};
+use fovqa_vision::{EccentricityKind, PixelScale};
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -119,7 +119,7 @@ fn shading(
         Reach::Border => setting.edge_px(direction),
         Reach::Corner => setting.corner_px(),
     };
-    let rows = eccentricities_deg(range)
+    let rows: Vec<Row> = eccentricities_deg(range)
         .map_while(|e| {
             let scale = scale_at(screen, direction, e)?;
             // The end itself belongs to the curve, however its radius is rounded.
@@ -127,8 +127,40 @@ fn shading(
         })
         .filter_map(|(e, scale)| row(foveation.as_ref(), e, scale, direction))
         .collect();
-    let notes = outside.into_iter().chain(foveation.note()).collect();
+    let notes = outside
+        .into_iter()
+        .chain(stretched(screen))
+        .chain(foveation.note())
+        .chain(without_rows(&rows, range))
+        .collect();
     Ok(Curve { spec: spec.clone(), rows, counts: Some(foveation.counts()), field: None, notes })
+}
+
+/// What planar eccentricity makes of pixels that are not square.
+fn stretched(screen: &CurveSetting) -> Option<String> {
+    let [fx, fy] = screen.view.focal_px;
+    let CurveSetting { view, eccentricity, .. } = screen;
+    ((fx - fy).abs() > 1e-6 * fx).then(|| {
+        let what = match eccentricity {
+            EccentricityKind::Planar => {
+                "planar eccentricity and methods take their geometric mean, `angular` takes both"
+            }
+            EccentricityKind::Angular => "methods take their geometric mean",
+        };
+        format!(
+            "pixels of {}x{} are not square, the focal lengths are {fx:.2} and {fy:.2} px: {what}",
+            view.width, view.height
+        )
+    })
+}
+
+fn without_rows(rows: &[Row], range: CurveRange) -> Option<String> {
+    rows.is_empty().then(|| {
+        format!(
+            "no rate is defined at any step from 0° to {}°: take a finer step or go further",
+            range.to_deg
+        )
+    })
 }
 
 fn scale_at(screen: &CurveSetting, direction: [f64; 2], e: f64) -> Option<PixelScale> {

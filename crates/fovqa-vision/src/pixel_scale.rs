@@ -62,7 +62,8 @@ impl PixelScale {
                 let turned = norm(cross(gaze, along));
                 let (sin, cos) = (libm::sin(e), libm::cos(e));
                 let room = turned * cos - dot(gaze, along) * sin;
-                if room <= 0.0 {
+                // So near the horizon a radius is nothing but rounding.
+                if room <= 1e-9 * turned {
                     return None;
                 }
                 let radius_px = dot(gaze, gaze) * sin / room;

@@ -13,7 +13,7 @@ use fovqa_vision::{Tangential, ViewSpec};
 
 use super::no_such::no_such;
 use super::values::{finite, literal, numbers};
-use super::view::{EccentricityArg, ViewSpecArgs};
+use super::view::{EccentricityArg, FAR, ViewSpecArgs, near};
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -103,7 +103,7 @@ pub(crate) struct CurvesArgs {
     #[command(flatten)]
     view: ViewSpecArgs,
     /// Gaze in pixels from the top-left corner [default: the principal point]
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = "View", value_parser = |t: &str| numbers::<2>(t, "X,Y in pixels"))]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = "View", value_parser = gaze)]
     gaze: Option<[f64; 2]>,
     /// Direction of the curve from the gaze, degrees from +x towards +y (0: right, 90: down)
     #[arg(long, value_name = "DEG", default_value = "0", value_parser = finite, allow_negative_numbers = true)]
@@ -127,6 +127,11 @@ pub(crate) struct CurvesArgs {
     /// [default: reports/NAME, NAME being the file's]
     #[arg(long, verbatim_doc_comment, value_name = "DIR", conflicts_with_all = ["method", "acuity"])]
     pub(crate) output: Option<PathBuf>,
+}
+
+fn gaze(text: &str) -> Result<[f64; 2], String> {
+    let point = numbers::<2>(text, "X,Y in pixels")?;
+    near(point).then_some(point).ok_or_else(|| FAR.to_owned())
 }
 
 fn method(name: &str) -> Result<Method, String> {
@@ -233,6 +238,11 @@ impl CurvesArgs {
             },
             eccentricity: self.eccentricity.into(),
         })
+    }
+
+    /// Whether a parameter is solved.
+    pub(crate) fn has_budget(&self) -> bool {
+        self.budget.is_some()
     }
 
     /// The eccentricities of the flags.

@@ -72,14 +72,18 @@ enum GazeArg {
     File(PathBuf),
 }
 
-fn gaze(text: &str) -> Result<GazeArg, String> {
-    /// A long way outside any frame.
+/// What to say of a gaze that is not near.
+pub(super) const FAR: &str = "a gaze lies within a million pixels of the frame";
+
+/// Whether a gaze is not a long way outside any frame.
+pub(super) fn near(point: [f64; 2]) -> bool {
     const FARTHEST_PX: f64 = 1e6;
+    point.iter().all(|v| v.abs() <= FARTHEST_PX)
+}
+
+fn gaze(text: &str) -> Result<GazeArg, String> {
     if let Ok(point) = numbers::<2>(text, "") {
-        if point.iter().any(|v| v.abs() > FARTHEST_PX) {
-            return Err("a gaze lies within a million pixels of the frame".to_owned());
-        }
-        return Ok(GazeArg::Point(point));
+        return if near(point) { Ok(GazeArg::Point(point)) } else { Err(FAR.to_owned()) };
     }
     // Numbers that are no point are a slip, not a file name.
     if text.split(',').all(|part| part.trim().parse::<f64>().is_ok()) {

@@ -98,7 +98,7 @@ impl Kind {
             Kind::List(kind, min, max) => {
                 let count = match (min, max) {
                     (min, max) if min == max => format!("a list of {min}: each "),
-                    (min, _) => format!("a list of {min} or more: each "),
+                    (min, max) => format!("a list of {min} to {max}: each "),
                 };
                 count + &kind.in_words()
             }

@@ -17,12 +17,12 @@ impl ComparisonTable {
         text.push_str("\n| |");
         for _ in &self.groups {
             for method in &self.methods {
-                let _ = write!(text, " *{}* |", escaped(method));
+                let _ = write!(text, " *{}* |", escaped_markdown(method));
             }
         }
         text.push('\n');
         for row in &self.rows {
-            let _ = write!(text, "| {} |", escaped(&row.label));
+            let _ = write!(text, "| {} |", escaped_markdown(&row.label));
             for (group, cells) in self.groups.iter().zip(&row.cells) {
                 for cell in cells {
                     let number = group.shown(cell.value);
@@ -33,14 +33,14 @@ impl ComparisonTable {
             text.push('\n');
         }
         for note in self.notes() {
-            let _ = writeln!(text, "\n{}", escaped(note));
+            let _ = writeln!(text, "\n{}", escaped_markdown(note));
         }
         text
     }
 }
 
 /// Text that Markdown takes as it is.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped_markdown(text: &str) -> String {
     let mut plain = String::new();
     for c in text.chars() {
         if matches!(c, '|' | '*' | '_' | '`' | '\\' | '<' | '>' | '[' | ']' | '#') {

@@ -15,6 +15,7 @@ use fovqa_metrics::{Better, Metric};
 use fovqa_results::{ComparisonSummary, GuideSource, RunRecord, SummaryRecord};
 
 use group::Group;
+pub(crate) use markdown::escaped_markdown;
 pub(crate) use ratios::{Ratios, statistic, statistic_in_words};
 
 /// A table of values over the frames.

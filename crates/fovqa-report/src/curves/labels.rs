@@ -1,6 +1,7 @@
 //! What curves are called where several stand together: by what differs between them.
 
 use fovqa_config::{CurveSetting, CurveSource, PanelOf};
+use fovqa_methods::Method;
 use fovqa_shading::Curve;
 
 /// What tells the curves of a figure or table apart.
@@ -14,6 +15,19 @@ pub(super) fn screen(curve: &Curve) -> Option<&CurveSetting> {
     match &curve.spec.source {
         CurveSource::Acuity(_) => None,
         CurveSource::Method { setting, .. } => Some(setting),
+    }
+}
+
+/// The name of a curve; one that its paper does not define says so.
+pub(super) fn name(curve: &Curve) -> String {
+    let name = &curve.spec.name;
+    match &curve.spec.source {
+        CurveSource::Method { method: Method::VisualPolar(_), .. }
+            if !name.to_lowercase().contains("reconstruct") =>
+        {
+            format!("{name} (reconstruction)")
+        }
+        _ => name.clone(),
     }
 }
 
@@ -51,10 +65,16 @@ impl Labels {
     /// The label of a curve, without what its panel's title says; in a panel of its own its name.
     pub(super) fn label(&self, curve: &Curve, panels: PanelOf) -> String {
         if panels == PanelOf::Curve {
-            return curve.spec.name.clone();
+            return name(curve);
         }
         let parts = self.parts(curve, |of| of != panels);
-        if parts.is_empty() { curve.spec.name.clone() } else { parts.join(", ") }
+        if parts.is_empty() { name(curve) } else { parts.join(", ") }
+    }
+
+    /// The name of a curve's row in a table that has a column of resolutions.
+    pub(super) fn row(&self, curve: &Curve) -> String {
+        let others = self.parts(curve, |of| !matches!(of, PanelOf::Curve | PanelOf::Resolution));
+        std::iter::once(name(curve)).chain(others).collect::<Vec<_>>().join(", ")
     }
 
     /// The title of a curve's panel; empty where it has none of its own.
@@ -64,7 +84,7 @@ impl Labels {
             PanelOf::Curve => {
                 let mut parts = self.parts(curve, |_| true);
                 if !self.differ.contains(&PanelOf::Curve) {
-                    parts.insert(0, curve.spec.name.clone());
+                    parts.insert(0, name(curve));
                 }
                 parts.join(", ")
             }
@@ -74,7 +94,7 @@ impl Labels {
 
     fn parts(&self, curve: &Curve, wanted: impl Fn(PanelOf) -> bool) -> Vec<String> {
         let text = |of: PanelOf| match of {
-            PanelOf::Curve => Some(curve.spec.name.clone()),
+            PanelOf::Curve => Some(name(curve)),
             PanelOf::Resolution => screen(curve).map(resolution),
             PanelOf::Gaze => screen(curve).map(gaze),
             PanelOf::Direction => screen(curve).map(direction),

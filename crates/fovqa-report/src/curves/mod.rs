@@ -10,7 +10,7 @@ mod tables;
 
 use std::path::Path;
 
-use fovqa_config::{CurvePlot, CurvePlotKind, CurveSource, CurveTable, CurveTableKind, CurvesFile};
+use fovqa_config::{CurvePlotKind, CurvesFile};
 use fovqa_results::{
     CURVES_CSV, CURVES_JSON, CurvesRecord, curves_csv, write_json_file, write_whole,
 };
@@ -53,10 +53,9 @@ pub fn draw_curves(
     curves: &[Curve],
 ) -> Result<DrawnCurves, ReportError> {
     let source = Source { file, curves };
-    let (plots, tables) = asked(file);
     let mut names = Names::default();
     let mut figures: Vec<NamedFigure> = Vec::new();
-    for plot in &plots {
+    for plot in &file.plan.plots {
         let drawn = match plot.kind {
             CurvePlotKind::Rates => rates::figure(&source, plot),
             CurvePlotKind::Density => picture::figure(&source, plot)?,
@@ -71,7 +70,7 @@ pub fn draw_curves(
         figures.push(NamedFigure { name: names.free(&name), ..drawn });
     }
     let mut made: Vec<(String, PlainTable)> = Vec::new();
-    for table in &tables {
+    for table in &file.plan.tables {
         let (name, table) = tables::table(&source, table);
         made.push((names.free(name), table));
     }
@@ -86,20 +85,4 @@ pub fn draw_curves(
     sheet.write(folder)?;
     let tables = made.iter().map(|(_, table)| table.terminal()).collect();
     Ok(DrawnCurves { tables, figures: sheet.figures.len() })
-}
-
-/// The plots and tables of a file; of one that names none, all that fit.
-fn asked(file: &CurvesFile) -> (Vec<CurvePlot>, Vec<CurveTable>) {
-    let plan = &file.plan;
-    if !plan.plots.is_empty() || !plan.tables.is_empty() {
-        return (plan.plots.clone(), plan.tables.clone());
-    }
-    let mut plots = vec![CurvePlot::default()];
-    let mut tables = Vec::new();
-    if plan.curves.iter().any(|spec| matches!(spec.source, CurveSource::Method { .. })) {
-        plots.push(CurvePlot { kind: CurvePlotKind::Density, ..CurvePlot::default() });
-        let all = [CurveTableKind::Samples, CurveTableKind::SpeedUp, CurveTableKind::Acuity];
-        tables.extend(all.map(|kind| CurveTable { kind, curves: None }));
-    }
-    (plots, tables)
 }

@@ -42,7 +42,7 @@ pub(super) fn accumulated(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure 
     }
     let figure = Figure::Line(LineChart {
         title: plot.title.clone(),
-        x: Axis::new("Full angle of the layer (°)"),
+        x: Axis::new("Full angle of the layer, in the paper's 90° frame (°)"),
         y: Axis::new("Rendered pixels (% of the frame)"),
         y_from_zero: true,
         series,

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::Source;
 use super::plain_table::PlainTable;
+use super::tables::sentence;
 use crate::page::{PageFigure, begin, end, escaped, figures as figures_html};
 use crate::sheet::{NamedFigure, PLOTS};
 
@@ -48,7 +49,7 @@ pub(super) fn page(
         }
     }
     for note in notes {
-        let _ = writeln!(text, "<p class=\"note\">{}.</p>", escaped(note));
+        let _ = writeln!(text, "<p class=\"note\">{}</p>", escaped(&sentence(note)));
     }
     end(&mut text, &format!("fovqa {}", env!("CARGO_PKG_VERSION")));
     text

@@ -8,11 +8,14 @@ use fovqa_vision::{PixelScale, Tangential};
 
 use super::Source;
 use super::labels::Labels;
+use super::tables::alike;
 use crate::sheet::{NamedFigure, ReportError};
 
 /// Cells along the longer side of the frame: as fine as a panel in print, and their data a file that
 /// opens.
 const CELLS: usize = 240;
+/// So many pictures are large enough for that; of more each is small.
+const FEW: usize = 6;
 /// From one point of a ring to the next, degrees.
 const RING_STEP_DEG: u32 = 2;
 const RINGS_DEG: [f64; 4] = [10.0, 20.0, 40.0, 60.0];
@@ -21,17 +24,15 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
     let name = plot.name.clone().unwrap_or_else(|| "density".to_owned());
     let mut curves = source.chosen(plot.curves.as_deref());
     curves.retain(|curve| curve.counts.is_some());
+    // A curve in another direction is of the same picture.
+    let curves = alike(curves);
     let labels = Labels::of(&curves);
+    let cells = if curves.len() <= FEW { CELLS } else { CELLS / 2 };
     let mut panels: Vec<RasterPanel> = Vec::new();
     for curve in curves {
         let CurveSource::Method { method, setting } = &curve.spec.source else { continue };
         let title = labels.title(curve, PanelOf::Curve);
-        // A curve in another direction is of the same picture.
-        let first = |known: &RasterPanel| known.title.as_deref() == Some(title.as_str());
-        if panels.iter().any(first) {
-            continue;
-        }
-        let map = density_map(method, setting, CELLS)
+        let map = density_map(method, setting, cells)
             .map_err(|error| ReportError::Curve { name: title.clone(), error })?;
         let rings = if plot.rings_deg.is_empty() {
             RINGS_DEG.as_slice()

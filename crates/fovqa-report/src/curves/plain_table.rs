@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::comparison::escaped_markdown;
 use crate::page::escaped;
 use crate::text_table::{aligned, plain_table, printable};
 
@@ -71,7 +72,7 @@ pub(super) fn grouped(count: f64) -> String {
 
 impl PlainTable {
     pub(super) fn markdown(&self) -> String {
-        let plain = |text: &str| text.replace('|', "\\|");
+        let plain = |text: &str| escaped_markdown(text);
         let mut text = String::from("|");
         for column in &self.columns {
             let _ = write!(text, " {} |", plain(&column.head));

@@ -44,6 +44,8 @@ struct Rates<'a> {
     labels: Labels,
     /// Labels in the order of the plan: the same curve looks the same in every panel.
     looks: Vec<String>,
+    /// Names of displays in the same order.
+    displays: Vec<String>,
 }
 
 pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
@@ -59,7 +61,14 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
             looks.push(label);
         }
     }
-    let rates = Rates { source, plot, labels, looks };
+    let mut displays: Vec<String> = Vec::new();
+    for screen in curves.iter().filter_map(|curve| screen(curve)) {
+        let name = format!("Display {}", resolution(screen));
+        if !displays.contains(&name) {
+            displays.push(name);
+        }
+    }
+    let rates = Rates { source, plot, labels, looks, displays };
     let groups = rates.groups(&curves);
     let along: &[Along] = match plot.rate {
         RateKind::Radial => &[Along::Radial],
@@ -154,12 +163,17 @@ impl<'a> Rates<'a> {
         }
         // Over the curves: one that follows acuity would hide it.
         series.extend(self.acuity(group, along));
+        let rate = match plot.rate {
+            // Side by side the panels' titles say which.
+            RateKind::Both => "Rate".to_owned(),
+            _ => format!("{} rate", capitalised(along.name())),
+        };
         let y = match plot.unit {
             RateUnit::Cpd if group.iter().all(|curve| screen(curve).is_none()) => {
-                "Acuity (cycles per degree)"
+                "Acuity (cycles per degree)".to_owned()
             }
-            RateUnit::Cpd => "Rate (cycles per degree)",
-            RateUnit::PerPixel => "Rate (samples per pixel)",
+            RateUnit::Cpd => format!("{rate} (cycles per degree)"),
+            RateUnit::PerPixel => format!("{rate} over the display's own"),
         };
         LineChart {
             title: Some(title).filter(|title| !title.is_empty()),
@@ -210,31 +224,40 @@ impl<'a> Rates<'a> {
         let longest = shaded.iter().max_by_key(|curve| curve.rows.len())?;
         let cut_off = |row: &Row| Some(acuity.cutoff_cpd(row.eccentricity_deg));
         Some(LineSeries {
-            name: format!("Acuity ({})", model.info().label),
+            name: match self.source.file.plan.acuity_parameters.as_str() {
+                "" => format!("Acuity ({})", model.info().label),
+                set => format!("Acuity ({}, {})", model.info().label, set.replace(';', ", ")),
+            },
             reference: true,
             points: self.points(longest, cut_off, along),
             ..LineSeries::default()
         })
     }
 
-    /// The displays' own rates, each once.
+    /// The displays' own rates, each once, as far as any curve on it goes.
     fn displays(&self, group: &[&Curve], along: Along) -> Vec<LineSeries> {
-        let mut series: Vec<LineSeries> = Vec::new();
-        for curve in group {
+        let mut found: Vec<(String, &Curve)> = Vec::new();
+        for &curve in group {
             let Some(screen) = screen(curve) else { continue };
             let name = format!("Display {}", resolution(screen));
-            if series.iter().any(|known| known.name == name) {
-                continue;
+            match found.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, longest)) if longest.rows.len() < curve.rows.len() => *longest = curve,
+                Some(_) => {}
+                None => found.push((name, curve)),
             }
-            series.push(LineSeries {
+        }
+        let line = |(name, curve): (String, &Curve)| {
+            let look = self.displays.iter().position(|known| *known == name).unwrap_or_default();
+            LineSeries {
                 name,
-                look: Look::new(1 + series.len()),
+                // Acuity has the first look of a reference.
+                look: Look::new(1 + look),
                 reference: true,
                 points: self.points(curve, |row| along.display(row), along),
                 ..LineSeries::default()
-            });
-        }
-        series
+            }
+        };
+        found.into_iter().map(line).collect()
     }
 
     /// Where the rate of a panel's only curve is below and above acuity.

@@ -1,6 +1,6 @@
 //! Tables: samples and load, speed-up, the field against acuity.
 
-use fovqa_config::{CurveTable, CurveTableKind, PanelOf};
+use fovqa_config::{CurveTable, CurveTableKind};
 use fovqa_methods::Counts;
 use fovqa_shading::Curve;
 
@@ -20,7 +20,7 @@ pub(super) fn table(source: &Source<'_>, table: &CurveTable) -> (&'static str, P
 }
 
 /// Each method on each screen once: counts have no direction.
-fn alike(curves: Vec<&Curve>) -> Vec<&Curve> {
+pub(super) fn alike(curves: Vec<&Curve>) -> Vec<&Curve> {
     let mut once: Vec<&Curve> = Vec::new();
     for curve in curves {
         let same = |known: &&Curve| {
@@ -57,10 +57,17 @@ fn rounded(text: &str) -> String {
     shown + rest
 }
 
+/// A note as a sentence.
+pub(super) fn sentence(note: &str) -> String {
+    let mut chars = note.chars();
+    let first: String = chars.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
+    format!("{first}{}.", chars.as_str())
+}
+
 fn notes<'a>(curves: impl Iterator<Item = &'a &'a Curve>) -> Vec<String> {
     let mut notes: Vec<String> = Vec::new();
     for note in curves.flat_map(|curve| &curve.notes) {
-        let sentence = format!("{note}.");
+        let sentence = sentence(note);
         if !notes.contains(&sentence) {
             notes.push(sentence);
         }
@@ -78,7 +85,7 @@ fn samples(curves: &[&Curve]) -> PlainTable {
         if !sizes.contains(&size) {
             sizes.push(size);
         }
-        let name = labels.label(curve, PanelOf::Resolution);
+        let name = labels.row(curve);
         match rows.iter_mut().find(|(known, _)| *known == name) {
             Some((_, row)) => row.push(curve),
             None => rows.push((name, vec![curve])),
@@ -107,6 +114,12 @@ fn samples(curves: &[&Curve]) -> PlainTable {
         "Samples per frame and eye in thousands, and their share of the display's pixels."
             .to_owned(),
     ];
+    if has_beyond(curves) {
+        said.push(
+            "VaFR's are its own count, up to 60°, without what a wider frame needs beyond."
+                .to_owned(),
+        );
+    }
     said.extend(notes(curves.iter()));
     PlainTable {
         caption: "Samples and load".to_owned(),
@@ -116,9 +129,13 @@ fn samples(curves: &[&Curve]) -> PlainTable {
     }
 }
 
+fn has_beyond(curves: &[&Curve]) -> bool {
+    curves.iter().any(|c| c.counts.as_ref().is_some_and(|counts| counts.samples_beyond > 0.0))
+}
+
 fn speed_up(curves: &[&Curve]) -> PlainTable {
     let labels = Labels::of(curves);
-    let beyond = curves.iter().any(|c| c.counts.as_ref().is_some_and(|c| c.samples_beyond > 0.0));
+    let beyond = has_beyond(curves);
     let mut columns = vec![
         Column::new("Method", "method"),
         Column::new("Parameters", "parameters"),
@@ -136,9 +153,9 @@ fn speed_up(curves: &[&Curve]) -> PlainTable {
         let counts = curve.counts.as_ref()?;
         let buffers = counts.buffers.iter().map(|[w, h]| format!("{w:.1} × {h:.1}"));
         let plain = counts.buffers.iter().map(|[w, h]| format!("{w:?}x{h:?}"));
-        let speed_up = pixels(curve) / counts.samples;
+        let speed_up = pixels(curve) / counts.whole();
         let mut row = vec![
-            Cell::text(labels.label(curve, PanelOf::Resolution)),
+            Cell::text(labels.row(curve)),
             Cell {
                 shown: rounded(&curve.spec.parameters.replace(';', "; ")),
                 value: curve.spec.parameters.clone(),
@@ -149,7 +166,7 @@ fn speed_up(curves: &[&Curve]) -> PlainTable {
                 value: plain.collect::<Vec<_>>().join(";"),
             },
             Cell::count(counts.samples),
-            Cell::percent(counts.samples / pixels(curve)),
+            Cell::percent(counts.whole() / pixels(curve)),
             Cell::number(format!("{speed_up:.2}"), speed_up),
             Cell::count(counts.samples_on_screen),
         ];
@@ -165,7 +182,9 @@ fn speed_up(curves: &[&Curve]) -> PlainTable {
     ];
     if beyond {
         said.push(
-            "Beyond: what a frame wider than 60° needs on top of VaFR's own count.".to_owned(),
+            "Beyond: what a frame wider than 60° needs on top of VaFR's own count; share, speed-up \
+             and what is on screen are with it."
+                .to_owned(),
         );
     }
     said.extend(notes(curves.iter()));
@@ -192,7 +211,7 @@ fn acuity(source: &Source<'_>, curves: &[&Curve]) -> PlainTable {
     let rows = curves.iter().filter_map(|curve| {
         let field = curve.field?;
         Some(vec![
-            Cell::text(labels.label(curve, PanelOf::Resolution)),
+            Cell::text(labels.row(curve)),
             Cell::text(screen(curve).map(resolution).unwrap_or_default()),
             Cell::percent(field.below_radial),
             Cell::percent(field.below_tangential),
@@ -201,11 +220,16 @@ fn acuity(source: &Source<'_>, curves: &[&Curve]) -> PlainTable {
             Cell::percent(field.above),
         ])
     });
-    let model = source.file.plan.acuity.info();
+    let plan = &source.file.plan;
+    let model = plan.acuity.info();
+    let set = match plan.acuity_parameters.as_str() {
+        "" => String::new(),
+        set => format!(" with {}", set.replace(';', ", ")),
+    };
     let mut said = vec![format!(
-        "Against {} acuity ({}): the share of the frame's pixels where the rate is below it, and the \
-         samples seen that are more than it asks for. Taken at the centres of cells, exact to about \
-         a thousandth.",
+        "Against {} acuity{set} ({}): the share of the frame's pixels where the rate is below it, and \
+         the samples seen that are more than it asks for. Taken at the centres of cells: shares are \
+         exact to about a thousandth, samples to about a hundredth.",
         model.label, model.source
     )];
     said.extend(notes(curves.iter()));

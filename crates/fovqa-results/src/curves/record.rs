@@ -20,6 +20,12 @@ pub struct CurvesRecord {
     pub about: String,
     /// What rates were held against.
     pub acuity: String,
+    /// Its parameters that are not at their defaults.
+    #[serde(default)]
+    pub acuity_parameters: String,
+    /// The file's text: everything that was asked for.
+    #[serde(default)]
+    pub text: String,
     /// The curves.
     pub curves: Vec<CurveRecord>,
 }
@@ -70,11 +76,11 @@ pub struct ScreenRecord {
 pub struct ShadingRecord {
     /// Width and height of each buffer, ideal.
     pub buffers: Vec<[f64; 2]>,
-    /// All samples.
+    /// Samples as the papers count them.
     pub samples: f64,
-    /// Over the frame's pixels.
+    /// These and those beyond over the frame's pixels.
     pub share: f64,
-    /// The frame's pixels over all samples.
+    /// The frame's pixels over these and those beyond.
     pub speed_up: f64,
     /// Samples that fall into the frame.
     pub samples_on_screen: f64,
@@ -93,6 +99,8 @@ impl CurvesRecord {
             name: file.name.clone(),
             about: file.about.clone(),
             acuity: file.plan.acuity.info().key.to_owned(),
+            acuity_parameters: file.plan.acuity_parameters.clone(),
+            text: file.text.clone(),
             curves: curves.iter().map(CurveRecord::new).collect(),
         }
     }
@@ -121,8 +129,8 @@ impl CurveRecord {
             shading: curve.counts.as_ref().map(|counts| ShadingRecord {
                 buffers: counts.buffers.clone(),
                 samples: counts.samples,
-                share: counts.samples / pixels,
-                speed_up: pixels / counts.samples,
+                share: counts.whole() / pixels,
+                speed_up: pixels / counts.whole(),
                 samples_on_screen: counts.samples_on_screen,
                 samples_beyond: counts.samples_beyond,
                 samples_seen: counts.samples_seen,

@@ -65,7 +65,8 @@ impl PiecewiseParams {
 pub enum PiecewiseMarError {
     /// Fewer than two knots, or not one frequency an eccentricity.
     #[error(
-        "{eccentricities} eccentricities and {frequencies} frequencies are not two or more knots"
+        "{eccentricities} eccentricities and {frequencies} frequencies are no knots: give two or \
+         more, as many of one as of the other"
     )]
     Count {
         /// Eccentricities given.

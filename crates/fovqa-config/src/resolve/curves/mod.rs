@@ -17,11 +17,11 @@ use crate::curves::{
 };
 use crate::fault::Fault;
 use crate::node::Node;
-use plots::{plot, table};
+use plots::{all_that_fit, few_panels, plot, table};
 use screens::Screens;
 
 /// More are no longer told apart.
-const MOST_CURVES: usize = 1000;
+const MOST_CURVES: usize = 200;
 
 /// Name, about and plan; mistakes go to `faults`.
 pub(crate) fn curves(root: Node<'_>, faults: &mut Vec<Fault>) -> (String, String, CurvePlan) {
@@ -43,10 +43,21 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Vec<Fault>) -> (String, String
         faults.push(Fault::new(root.span("curve"), message));
     }
     let names: Vec<&str> = tables.iter().filter_map(|(table, _)| table.text("name")).collect();
-    let mut plan = CurvePlan { curves, acuity, range, ..CurvePlan::default() };
+    let acuity_parameters = root.table("acuity").map(written).unwrap_or_default();
+    let mut plan = CurvePlan { curves, acuity, acuity_parameters, range, ..CurvePlan::default() };
     plan.plots = root.tables("plot").iter().map(|(t, _)| plot(*t, &names, &plan, faults)).collect();
     plan.tables =
         root.tables("table").iter().map(|(t, _)| table(*t, &names, &plan, faults)).collect();
+    if plan.plots.is_empty() && plan.tables.is_empty() {
+        (plan.plots, plan.tables) = all_that_fit(&plan);
+    }
+    if faults.is_empty() {
+        for (i, plot) in plan.plots.iter().enumerate() {
+            let table = root.tables("plot").into_iter().nth(i);
+            let span = table.map_or_else(|| root.span("curve"), |(table, _)| table.span("kind"));
+            few_panels(plot, &plan, span, faults);
+        }
+    }
     let drawn_without = |plot: &CurvePlot| plot.kind == CurvePlotKind::HalfAxis;
     if tables.is_empty() && !plan.plots.iter().any(drawn_without) {
         let fault = Fault::new(0..0, "the file has no curve");

@@ -1,5 +1,7 @@
 //! `[[plot]]` and `[[table]]` of a file of curves.
 
+use std::ops::Range;
+
 use fovqa_methods::Method;
 
 use crate::curves::{
@@ -17,6 +19,54 @@ fn shown<'a>(
 ) -> impl Iterator<Item = &'a CurveSpec> {
     let wanted = move |spec: &&CurveSpec| wanted.is_none_or(|wanted| wanted.contains(&spec.name));
     plan.curves.iter().filter(wanted)
+}
+
+/// The plots and tables of a file that names none.
+pub(super) fn all_that_fit(plan: &CurvePlan) -> (Vec<CurvePlot>, Vec<CurveTable>) {
+    let mut plots = vec![CurvePlot::default()];
+    if !plan.curves.iter().any(|spec| matches!(spec.source, CurveSource::Method { .. })) {
+        plots[0].panels = PanelOf::One;
+        return (plots, Vec::new());
+    }
+    // Log-polar methods are so dense at the gaze that nothing else would be seen.
+    plots.push(CurvePlot { kind: CurvePlotKind::Density, log: true, ..CurvePlot::default() });
+    let all = [CurveTableKind::Samples, CurveTableKind::SpeedUp, CurveTableKind::Acuity];
+    (plots, all.map(|kind| CurveTable { kind, curves: None }).to_vec())
+}
+
+/// Whether a figure has no more panels than a page can show.
+pub(super) fn few_panels(
+    plot: &CurvePlot,
+    plan: &CurvePlan,
+    span: Range<usize>,
+    faults: &mut Vec<Fault>,
+) {
+    const MOST: usize = 48;
+    let mut different: Vec<String> = Vec::new();
+    for spec in shown(plan, plot.curves.as_deref()) {
+        let CurveSource::Method { setting, .. } = &spec.source else { continue };
+        let size = [setting.view.width, setting.view.height];
+        let panel = match (plot.kind, plot.panels) {
+            (CurvePlotKind::Density, _) => format!("{} {size:?} {:?}", spec.name, setting.gaze_px),
+            (CurvePlotKind::Rates, PanelOf::Curve) => {
+                format!("{} {size:?} {:?} {}", spec.name, setting.gaze_px, setting.direction_deg)
+            }
+            (CurvePlotKind::Rates, PanelOf::Resolution) => format!("{size:?}"),
+            (CurvePlotKind::Rates, PanelOf::Gaze) => format!("{:?}", setting.gaze_px),
+            (CurvePlotKind::Rates, PanelOf::Direction) => setting.direction_deg.to_string(),
+            _ => String::new(),
+        };
+        if !different.contains(&panel) {
+            different.push(panel);
+        }
+    }
+    let sides = if plot.rate == RateKind::Both { 2 } else { 1 };
+    let panels = different.len() * sides;
+    if panels > MOST {
+        let message = format!("the figure has {panels} panels, and {MOST} at most");
+        let help = "name some of the curves with curves = […], or give panels = \"one\"";
+        faults.push(Fault::new(span, message).help(help));
+    }
 }
 
 /// A figure.
@@ -86,6 +136,9 @@ fn named_mark(mark: Node<'_>) -> Option<(String, [f64; 2])> {
     Some((mark.text("name")?.to_owned(), mark.array("at")?))
 }
 
+/// Ends of an axis nearer than this leave a drawing no digits.
+const NEAREST: f64 = 1e-6;
+
 /// Whether a plot's keys are of its kind.
 fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Vec<Fault>) {
     let (kind, keys): (&str, &[&str]) = match plot.kind {
@@ -138,7 +191,7 @@ fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Vec<Fault>) {
         faults.push(fault.help("write f = [1.1, 2, 5], values above 1"));
     }
     if let Some([low, high]) = plot.y_limits
-        && low >= high
+        && high - low < NEAREST
     {
         let fault = Fault::new(table.span("y_limits"), "the vertical axis ends before it begins");
         faults.push(fault.label("write [low, high]"));

@@ -91,6 +91,13 @@ impl<'a> Screens<'a> {
                 }));
             }
         }
-        settings
+        // What is written twice is one curve.
+        let mut once: Vec<CurveSetting> = Vec::new();
+        for setting in settings {
+            if !once.contains(&setting) {
+                once.push(setting);
+            }
+        }
+        once
     }
 }
