@@ -5,6 +5,7 @@
 mod bad_input;
 mod curve_files;
 mod curves;
+mod curves_golden;
 mod decoding;
 mod experiment_files;
 mod experiment_folder;
