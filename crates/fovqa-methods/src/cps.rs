@@ -10,7 +10,7 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::foveation::{Counts, Foveation, Rates};
 use crate::registry::MethodInfo;
-use crate::setting::{Place, Setting};
+use crate::setting::{Place, Setting, up_to};
 
 /// How a requested rate becomes one the hardware has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -123,8 +123,8 @@ impl Cps {
             (false, false) => LEAST,
         };
         match self.params.quantise {
-            Quantise::Ceil => stepped(request > 0.5, request > LEAST),
-            Quantise::Nearest => stepped(request >= 0.75, request >= 0.375),
+            Quantise::Ceil => stepped(!up_to(request, 0.5), !up_to(request, LEAST)),
+            Quantise::Nearest => stepped(up_to(0.75, request), up_to(0.375, request)),
             Quantise::Continuous => request,
         }
     }

@@ -18,7 +18,7 @@ use crate::error::MethodError;
 use crate::foveation::{Counts, Foveation, Mapping, Rates, Reach};
 use crate::registry::MethodInfo;
 use crate::rmfr::Squeeze;
-use crate::setting::{Place, Setting};
+use crate::setting::{Place, Setting, up_to};
 
 /// How the angles of layers become sizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -254,7 +254,7 @@ impl Mapping for Deamp {
 
     fn layer_at(&self, place: Place) -> usize {
         let [x, y] = place.offset_px().map(f64::abs);
-        let inside = |layer: &Layer| x <= layer.half_px[0] && y <= layer.half_px[1];
+        let inside = |layer: &Layer| up_to(x, layer.half_px[0]) && up_to(y, layer.half_px[1]);
         self.layers.iter().position(inside).unwrap_or(self.layers.len() - 1)
     }
 

@@ -15,7 +15,7 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 use crate::error::MethodError;
 use crate::foveation::{Counts, Foveation, Mapping, Rates};
 use crate::registry::MethodInfo;
-use crate::setting::{Place, Setting};
+use crate::setting::{Place, Setting, up_to};
 
 /// How bounds and scales are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -241,7 +241,7 @@ impl Mapping for Guenter {
     }
 
     fn layer_at(&self, place: Place) -> usize {
-        self.radii_px.iter().position(|r| place.radius_px <= *r).unwrap_or(2)
+        self.radii_px.iter().position(|r| up_to(place.radius_px, *r)).unwrap_or(2)
     }
 
     fn buffer(&self, layer: usize) -> [f64; 2] {

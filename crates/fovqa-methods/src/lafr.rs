@@ -15,7 +15,7 @@ use crate::error::MethodError;
 use crate::foveation::{Counts, Foveation, Mapping, Rates, Reach};
 use crate::log_polar::LogPolar;
 use crate::registry::MethodInfo;
-use crate::setting::{Place, Setting};
+use crate::setting::{Place, Setting, up_to};
 
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -168,7 +168,7 @@ impl Lafr {
 
     /// dU/dz.
     fn slope(&self, z: f64) -> f64 {
-        if z <= self.foveal_z {
+        if up_to(z, self.foveal_z) {
             return self.kernel(z) / (self.f * z);
         }
         let q = self.q(z);

@@ -7,6 +7,15 @@ use fovqa_vision::View;
 use crate::error::MethodError;
 use crate::quadrature;
 
+/// A place within so much of a bound, relatively, is at the bound: its distance was computed from the
+/// very eccentricity, and has been rounded.
+const ROUNDING: f64 = 1e-10;
+
+/// Whether a value is not above a bound.
+pub(crate) fn up_to(value: f64, bound: f64) -> bool {
+    value <= bound * (1.0 + ROUNDING)
+}
+
 /// A place on the screen, seen from the gaze.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {

@@ -1,5 +1,7 @@
 //! Properties that every method has, and the papers' counts.
 
+mod bounds;
+
 use fovqa_params::ParamValue;
 use fovqa_vision::{View, ViewSpec};
 use proptest::prelude::*;

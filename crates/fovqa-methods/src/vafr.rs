@@ -20,7 +20,7 @@ use crate::error::MethodError;
 use crate::foveation::{Counts, Foveation, Mapping, Rates};
 use crate::quadrature;
 use crate::registry::MethodInfo;
-use crate::setting::{Place, Setting};
+use crate::setting::{Place, Setting, up_to};
 
 /// Where the paper's field ends, in degrees.
 pub const FIELD_DEG: f64 = 60.0;
@@ -356,7 +356,7 @@ impl Mapping for Vafr {
 impl Foveation for Vafr {
     fn rates(&self, place: Place) -> Option<Rates> {
         let e = self.eccentricity_deg(place);
-        if e > self.end_deg {
+        if !up_to(e, self.end_deg) {
             return None;
         }
         let angle = e * (PI / 180.0);
