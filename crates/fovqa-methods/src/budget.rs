@@ -164,11 +164,12 @@ impl Method {
             Self::Deamp(params) => {
                 let most = params.sigmas.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
                 let least = params.sigmas.iter().copied().fold(f64::INFINITY, f64::min);
-                let ends = [1000.0 / most, 0.1 / least];
+                let ends = [WIDE[0] / most, WIDE[1] / least];
                 free("a factor on sigmas", ends, |method, value| {
                     if let Self::Deamp(params) = method {
                         for sigma in &mut params.sigmas {
-                            *sigma *= value;
+                            // The ends of the factor, multiplied back, may be rounded over them.
+                            *sigma = (*sigma * value).clamp(WIDE[1], WIDE[0]);
                         }
                     }
                 })

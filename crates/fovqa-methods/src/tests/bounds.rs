@@ -3,8 +3,8 @@
 use fovqa_params::ParamValue;
 use fovqa_vision::{EccentricityKind, PixelScale, Tangential};
 
-use super::{method, number, view};
-use crate::{Method, Place, Rates, Setting};
+use super::{method, number, setting, view};
+use crate::{BudgetOf, Method, Place, Rates, Setting};
 
 /// Frames of many focal lengths: the rounding of a tangent and back differs from one to the next.
 fn frames() -> impl Iterator<Item = (usize, f64)> {
@@ -98,5 +98,27 @@ fn vafr_and_lafr_have_a_rate_where_a_piece_ends() {
                 "{before} {at} {behind}"
             );
         }
+    }
+}
+
+/// A factor's ends times a σ may be rounded over what a σ may be.
+#[test]
+fn any_sigmas_reach_a_budget() {
+    let setting = setting(400, 400, 90.0, [200.0, 200.0]);
+    for i in 10..500 {
+        let sigma = f64::from(i) / 100.0;
+        let deamp = method(
+            "deamp",
+            &[
+                ("sigmas", ParamValue::List(vec![sigma])),
+                ("bounds_deg", ParamValue::List(vec![45.0])),
+            ],
+        );
+        let Method::Deamp(found) =
+            deamp.at_budget(&setting, 0.25, BudgetOf::Buffer).unwrap().method
+        else {
+            panic!()
+        };
+        assert!((found.sigmas[0] - 2.0).abs() < 1e-9, "{sigma}: {:?}", found.sigmas);
     }
 }
