@@ -1,6 +1,9 @@
 //! Properties that every method has, and the papers' counts.
 
 mod bounds;
+mod counting;
+mod formulas;
+mod geometry;
 
 use fovqa_params::ParamValue;
 use fovqa_vision::{View, ViewSpec};
