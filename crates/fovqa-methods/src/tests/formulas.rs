@@ -1,6 +1,8 @@
 //! Rates and mappings against the formulas as they are printed (repaired where misprinted), written
 //! out once more.
 
+#![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
+
 use std::f64::consts::PI;
 
 use fovqa_params::ParamValue;
@@ -116,6 +118,9 @@ fn lafr_ends_at_the_corner() {
         let corner = Place { radius_px: setting.corner_px(), direction: [1.0, 0.0] };
         let mapping = lafr.mapping().unwrap();
         near(mapping.to_buffer(0, corner)[0], width as f64 / 1.8, 1e-6);
+        // Nor does a distance that is rounded over the corner's leave the buffer.
+        let over = Place { radius_px: corner.radius_px * (1.0 + 1e-9), ..corner };
+        near(mapping.to_buffer(0, over)[0], width as f64 / 1.8, 1e-6);
         assert!(lafr.rates(corner).is_none_or(|rates| rates.radial.is_finite()), "{width}");
     }
 }
@@ -165,7 +170,8 @@ fn rmfr_is_its_density_per_axis() {
         near(rates.tangential, (jx * dy).hypot(jy * dx), 1e-12);
         let want = [300.0, 1000.0];
         let buffer = rmfr.mapping().unwrap().to_buffer(0, place);
-        let at = |gaze: f64, t: f64, f: f64, a: f64| (gaze + t * (f + a) / (t.abs() + f)) / 2.0;
+        let at =
+            |gaze: f64, t: f64, f: f64, a: f64| f64::midpoint(gaze, t * (f + a) / (t.abs() + f));
         near(buffer[0], at(want[0], x, fx, ax), 1e-12);
         near(buffer[1], at(want[1], y, fy, ay), 1e-12);
     }
@@ -223,9 +229,14 @@ fn guenter_layers_are_discs_with_their_scales() {
 fn the_linear_fall_off_is_a_probability() {
     let setting = centred(1440, 1600, 110.0);
     let linear = Method::find("linear").unwrap().over(&setting).unwrap();
-    for (e, p) in
-        [(0.0, 1.0), (9.0, 1.0), (12.5, 0.76175), (15.0, 0.5235), (20.0, 0.047), (50.0, 0.047)]
-    {
+    for (e, p) in [
+        (0.0, 1.0),
+        (9.0, 1.0),
+        (12.5, 0.76175),
+        (15.0, 1.0 - 0.953 / 2.0),
+        (20.0, 0.047),
+        (50.0, 0.047),
+    ] {
         let place = Place::polar(setting.radius_px(e), 30.0);
         near(linear.density(place), p, 1e-12);
         let rates = linear.rates(place).unwrap();
@@ -342,6 +353,14 @@ fn vafr_beyond_its_field() {
     let [counted, _] = extended.counts().buffers[0];
     assert!(columns > counted + 50.0, "{columns} {counted}");
     near(counted, 900.1, 1e-4);
+    // Where columns grow to the very corner, the longest stands there.
+    let flat = ParamValue::List(vec![40.0, 10.0, 6.0, 5.0, 5.0]);
+    let params = [("columns", word("angle")), ("knots_cpd", flat)];
+    let growing = method("vafr", &params).over(&wide).unwrap();
+    let sin = |e: f64| e.to_radians().sin();
+    let corner = wide.eccentricity_deg(wide.corner_px());
+    near(growing.mapping().unwrap().buffer(0)[1], 720.0 * sin(corner) * 5.0, 1e-9);
+    near(growing.counts().buffers[0][1], 720.0 * sin(60.0) * 5.0, 1e-9);
     // A frame inside of the field has the paper's buffer all the same, and nothing beyond.
     let narrow = vafr.over(&centred(640, 480, 40.0)).unwrap();
     assert_eq!(narrow.mapping().unwrap().buffer(0), narrow.counts().buffers[0]);

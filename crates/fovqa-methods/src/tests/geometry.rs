@@ -1,5 +1,7 @@
 //! Places, distances to the frame, and integrals over it.
 
+#![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
+
 use std::f64::consts::PI;
 
 use super::{setting, view};
@@ -99,4 +101,23 @@ fn integrals_over_decades() {
         let by_angle = setting.integrate_within(&[1.0], |r| 2.0 * PI * r.max(1.0).ln());
         assert!((by_distance / by_angle - 1.0).abs() < 2e-7, "{gaze:?}: {by_distance} {by_angle}");
     }
+}
+
+/// A disc around any gaze, cut by several sides: both integrals find the same area.
+#[test]
+fn both_integrals_agree() {
+    for x in [0.0, 3.0, 150.0, 430.0, 850.0, 999.0] {
+        for y in [0.0, 10.0, 210.0, 555.0, 790.0] {
+            let setting = setting(1000, 800, 90.0, [x, y]);
+            for r in [30.0, 200.0, 620.0] {
+                let disc = setting.integrate(&[0.0, r], |at| f64::from(at <= r));
+                let within = setting.integrate_within(&[r], |edge| PI * edge.min(r).powi(2));
+                assert!((disc / within - 1.0).abs() < 3e-6, "{x} {y} {r}: {disc} {within}");
+            }
+        }
+    }
+    let setting = setting(16_000, 16_000, 90.0, [8000.0, 8000.0]);
+    let by_distance = setting.integrate(&[1.0], |r| 1.0 / (r * r * r));
+    let by_angle = setting.integrate_within(&[1.0], |r| 2.0 * PI * (1.0 - 1.0 / r));
+    assert!((by_distance / by_angle - 1.0).abs() < 1e-12, "{by_distance} {by_angle}");
 }
