@@ -185,3 +185,176 @@ fn row(
     };
     (row.radial_cpd.is_finite() && row.tangential_cpd.is_finite()).then_some(row)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use fovqa_params::ParamValue;
+    use fovqa_vision::{EccentricityKind, Tangential, ViewSpec};
+
+    use super::*;
+
+    /// 1440x1600, 110° in height: the border is 52.12° away to the side and 55° above.
+    fn screen(gaze_px: [f64; 2], direction_deg: f64, tangential: Tangential) -> CurveSetting {
+        let spec = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(110.0) };
+        let view = spec.resolve(1440, 1600).unwrap().view;
+        let eccentricity = EccentricityKind::Planar;
+        CurveSetting { view, gaze_px, direction_deg, tangential, eccentricity }
+    }
+
+    fn spec(method: Method, setting: CurveSetting) -> CurveSpec {
+        let source = CurveSource::Method { method, setting };
+        CurveSpec { name: String::new(), source, parameters: String::new() }
+    }
+
+    fn find(name: &str, params: &[(&str, f64)]) -> Method {
+        let mut method = Method::find(name).unwrap();
+        for (param, value) in params {
+            method.set(param, &ParamValue::Number(*value)).unwrap();
+        }
+        method
+    }
+
+    const RANGE: CurveRange = CurveRange { step_deg: 0.25, to_deg: 60.0 };
+    const CENTRE: [f64; 2] = [720.0, 800.0];
+
+    fn curve(method: Method, setting: CurveSetting) -> Curve {
+        trace(&spec(method, setting), RANGE).unwrap()
+    }
+
+    /// Its first and last eccentricity, and how many there are.
+    fn ends(curve: &Curve) -> (f64, f64, usize) {
+        let rows = &curve.rows;
+        (rows[0].eccentricity_deg, rows[rows.len() - 1].eccentricity_deg, rows.len())
+    }
+
+    #[test]
+    fn curves_end_where_their_methods_do() {
+        let at = |name: &str, gaze, direction| {
+            ends(&curve(find(name, &[]), screen(gaze, direction, Tangential::Paper)))
+        };
+        // To the border in the direction: 52.12°, 55° to the last bit, 60° beyond the diagonal.
+        for name in ["rmfr", "deamp"] {
+            assert_eq!(at(name, CENTRE, 0.0), (0.0, 52.0, 209), "{name}");
+            assert_eq!(at(name, CENTRE, 90.0), (0.0, 55.0, 221), "{name}");
+            assert_eq!(at(name, [1440.0, 800.0], 0.0), (0.0, 0.0, 1), "{name}");
+            assert_eq!(at(name, [1440.0, 800.0], 180.0), (0.0, 60.0, 241), "{name}");
+        }
+        // To the farthest corner, 62.5°, in any direction; with no rate at the gaze.
+        for name in ["kfr", "lafr"] {
+            assert_eq!(at(name, CENTRE, 0.0), (0.25, 60.0, 240), "{name}");
+            let far = CurveRange { to_deg: 89.0, ..RANGE };
+            let setting = screen(CENTRE, 0.0, Tangential::Paper);
+            let found = trace(&spec(find(name, &[]), setting), far).unwrap();
+            assert_eq!(ends(&found), (0.25, 62.5, 250), "{name}");
+        }
+        // On and on, over the plane.
+        let far = CurveRange { step_deg: 1.0, to_deg: 179.0 };
+        for name in ["full", "guenter", "linear", "cps", "visual_polar"] {
+            let setting = screen(CENTRE, 0.0, Tangential::Paper);
+            let found = trace(&spec(find(name, &[]), setting), far).unwrap();
+            assert_eq!(ends(&found), (0.0, 89.0, 90), "{name}");
+        }
+    }
+
+    #[test]
+    fn steps_are_free_of_rounding() {
+        for (step_deg, to_deg, last) in [(0.1, 60.0, 60.0), (0.7, 4.9, 4.9), (0.7, 5.0, 4.9)] {
+            let rows: Vec<f64> = eccentricities_deg(CurveRange { step_deg, to_deg }).collect();
+            assert_eq!(rows[rows.len() - 1].to_bits(), f64::to_bits(last), "{rows:?}");
+            for (i, e) in rows.iter().enumerate() {
+                let text = format!("{:.1}", i as f64 * step_deg);
+                assert_eq!(e.to_bits(), text.parse::<f64>().unwrap().to_bits(), "{e} is {text}");
+            }
+        }
+        let fine = CurveRange { step_deg: 0.001, to_deg: 0.01 };
+        assert_eq!(eccentricities_deg(fine).count(), 11);
+    }
+
+    /// A cycle is two samples; across the line a degree is that of the convention.
+    #[test]
+    fn rows_are_cycles_per_degree() {
+        let focal_px = 800.0 / 55f64.to_radians().tan();
+        for tangential in [Tangential::Paper, Tangential::Angle] {
+            let found = curve(find("rmfr", &[("fx", 0.2)]), screen(CENTRE, 90.0, tangential));
+            for row in &found.rows {
+                let cos = row.eccentricity_deg.to_radians().cos();
+                let t = focal_px * row.eccentricity_deg.to_radians().tan();
+                let along = PI / 180.0 * focal_px / (cos * cos) / 2.0;
+                let across = if tangential == Tangential::Paper { along } else { along * cos };
+                // Downwards: y along the line, x across it.
+                let y = 608.0 * 1408.0 / (2.6 * (t + 608.0).powi(2));
+                let x = (288.0 + 720.0) / (2.6 * 288.0);
+                let [display_along, display_across] = row.display_cpd.unwrap();
+                for (found, want) in [
+                    (row.radial_cpd, y * along),
+                    (row.tangential_cpd, x * across),
+                    (display_along, along),
+                    (display_across, across),
+                    (row.samples_per_pixel.unwrap(), x * y),
+                ] {
+                    assert!((found / want - 1.0).abs() < 1e-9, "{row:?}: {found} for {want}");
+                }
+            }
+            assert!((found.counts.unwrap().samples * 2.6 * 2.6 - 2_304_000.0).abs() < 1e-6);
+        }
+        // No row without a number: at the corner itself LaFR's rate is infinite.
+        let kfr = curve(find("lafr", &[]), screen(CENTRE, 0.0, Tangential::Paper));
+        assert!(kfr.rows.iter().all(|row| row.radial_cpd.is_finite()));
+    }
+
+    #[test]
+    fn a_gaze_outside_is_taken_at_the_border_and_said() {
+        let of = |gaze| curve(find("deamp", &[]), screen(gaze, 180.0, Tangential::Paper));
+        let (outside, border) = (of([1500.0, 800.0]), of([1440.0, 800.0]));
+        assert_eq!(outside.rows, border.rows);
+        assert_eq!(border.notes.len(), 1, "{:?}", border.notes);
+        assert!(border.notes[0].contains("DEAMP"));
+        assert_eq!(outside.notes.len(), 2);
+        let said = "the gaze (1500, 800) is outside of the frame: it is taken at (1440, 800)";
+        assert_eq!(outside.notes[0], said);
+        assert!(!of([720.0, -1.0]).notes.is_empty());
+        assert!(curve(find("rmfr", &[]), screen(CENTRE, 0.0, Tangential::Paper)).notes.is_empty());
+        // In true angle, too, the curve is that of the clamped gaze.
+        let angular = |gaze| {
+            let screen = screen(gaze, 180.0, Tangential::Angle);
+            curve(
+                find("full", &[]),
+                CurveSetting { eccentricity: EccentricityKind::Angular, ..screen },
+            )
+        };
+        assert_eq!(angular([1500.0, 800.0]).rows, angular([1440.0, 800.0]).rows);
+    }
+
+    #[test]
+    fn all_curves_of_a_plan_with_their_fields() {
+        let acuity = AcuityModel::find("linear_mar").unwrap();
+        let setting = screen(CENTRE, 0.0, Tangential::Paper);
+        let kfr = find("kfr", &[]);
+        let of_acuity = CurveSource::Acuity(acuity.clone());
+        let (name, parameters) = (String::new(), String::new());
+        let plan = CurvePlan {
+            curves: vec![
+                CurveSpec { name, source: of_acuity, parameters },
+                spec(kfr.clone(), setting),
+            ],
+            acuity: acuity.clone(),
+            range: RANGE,
+            plots: Vec::new(),
+            tables: Vec::new(),
+        };
+        let curves = trace_all(&plan).unwrap();
+        assert_eq!(curves.len(), 2);
+        assert!(curves[0].field.is_none() && curves[0].counts.is_none());
+        assert_eq!(ends(&curves[0]), (0.0, 60.0, 241));
+        for row in &curves[0].rows {
+            let want = 1.0 / (0.0275 * row.eccentricity_deg + 1.0 / 48.0);
+            assert!((row.radial_cpd / want - 1.0).abs() < 1e-12);
+            assert!(row.tangential_cpd.to_bits() == row.radial_cpd.to_bits());
+            assert!(row.display_cpd.is_none() && row.samples_per_pixel.is_none());
+        }
+        assert_eq!(curves[1].field, Some(field(&kfr, &setting, &acuity).unwrap()));
+        assert_eq!(curves[1].rows, curve(kfr, setting).rows);
+    }
+}

@@ -44,3 +44,56 @@ pub fn density_map(
     }
     Ok(DensityMap { columns, rows, values })
 }
+
+#[cfg(test)]
+mod tests {
+    use fovqa_vision::{EccentricityKind, Tangential, ViewSpec};
+
+    use super::*;
+
+    fn map(
+        name: &str,
+        (width, height): (usize, usize),
+        gaze_px: [f64; 2],
+        cells: usize,
+    ) -> DensityMap {
+        let spec = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(100.0) };
+        let view = spec.resolve(width, height).unwrap().view;
+        let screen = CurveSetting {
+            view,
+            gaze_px,
+            direction_deg: 0.0,
+            tangential: Tangential::Paper,
+            eccentricity: EccentricityKind::Planar,
+        };
+        density_map(&Method::find(name).unwrap(), &screen, cells).unwrap()
+    }
+
+    /// The density at the centre of each cell, row by row.
+    #[test]
+    fn cells_stand_at_their_centres() {
+        let found = map("rmfr", (800, 1000), [200.0, 900.0], 50);
+        assert_eq!((found.columns, found.rows, found.values.len()), (40, 50, 2000));
+        let axis = |side: f64, gaze: f64, at: f64| {
+            let (f, t) = (0.38 * side, at - gaze);
+            let a = if t < 0.0 { gaze } else { side - gaze };
+            f * (f + a) / ((t.abs() + f).powi(2) * 2.6)
+        };
+        for row in 0..50 {
+            for column in 0..40 {
+                let [x, y] = [column, row].map(|i| 20.0 * (i as f64 + 0.5));
+                let want = axis(800.0, 200.0, x) * axis(1000.0, 900.0, y);
+                let value = found.values[row * 40 + column];
+                assert!((value / want - 1.0).abs() < 1e-12, "{column} {row}");
+            }
+        }
+    }
+
+    #[test]
+    fn cells_are_no_smaller_than_pixels_and_never_none() {
+        let small = map("full", (30, 20), [15.0, 10.0], 100);
+        assert_eq!((small.columns, small.rows), (30, 20));
+        let flat = map("full", (1000, 4), [500.0, 2.0], 50);
+        assert_eq!((flat.columns, flat.rows, flat.values), (50, 1, vec![1.0; 50]));
+    }
+}

@@ -153,4 +153,91 @@ mod tests {
         let needed = 60_000.0 * 33_750.0 - fine.samples_above;
         assert!((needed / vafr.counts().samples_on_screen - 1.0).abs() < 0.01);
     }
+
+    #[test]
+    fn shares_and_samples_are_those_of_cells() {
+        let at = |(width, height): (usize, usize), gaze_px, cpd: f64| {
+            let screen = CurveSetting { gaze_px, ..screen(width, height, Tangential::Paper) };
+            let acuity = AcuityModel::Piecewise(fovqa_vision::acuity::PiecewiseParams {
+                knots_deg: vec![0.0, 10.0],
+                knots_cpd: vec![cpd; 2],
+                cap_cpd: None,
+            });
+            (screen, acuity)
+        };
+        // Acuity of one frequency, a frame with the gaze on its border, sides of unlike length: the
+        // display meets 9 cpd from one circle on, and what it has above is 1 - (9/f)².
+        for (width, height, gaze) in [(300, 1500, [0.0, 750.0]), (1500, 300, [750.0, 300.0])] {
+            let probe = at((width, height), gaze, 9.0).0;
+            let focal_px = probe.view.focal_px[0];
+            // cos² e = (π/180) f / 2 / cpd: where the rate is that of acuity.
+            let cpd = focal_px * 1f64.to_radians() / 2.0 * 1.1;
+            let (screen, acuity) = at((width, height), gaze, cpd);
+            let full = Method::find("full").unwrap();
+            let found = field(&full, &screen, &acuity).unwrap();
+            let (mut below, mut above) = (0.0, 0.0);
+            for y in 0..height {
+                for x in 0..width {
+                    let r = (x as f64 + 0.5 - gaze[0]).hypot(y as f64 + 0.5 - gaze[1]);
+                    // 1 / cos² e is 1 + (r / f)².
+                    let rate = (1.0 + (r / focal_px).powi(2)) / 1.1;
+                    below += f64::from(rate < 1.0);
+                    above += 1.0 - (1.0 / rate).min(1.0).powi(2);
+                }
+            }
+            let pixels = (width * height) as f64;
+            assert!((found.below - below / pixels).abs() < 2e-3, "{found:?} {}", below / pixels);
+            assert!((found.samples_above / above - 1.0).abs() < 2e-3, "{found:?} {above}");
+            assert!((found.above / (above / pixels) - 1.0).abs() < 2e-3, "{found:?}");
+        }
+    }
+
+    /// Along an axis RMFR is sparser than across it: above acuity one way is no less of it the other.
+    #[test]
+    fn one_direction_does_not_make_up_for_the_other() {
+        let screen = screen(1440, 1600, Tangential::Paper);
+        let rmfr = Method::find("rmfr").unwrap();
+        let found = field(&rmfr, &screen, &AcuityModel::default()).unwrap();
+        let acuity = AcuityModel::default().curve().unwrap();
+        let focal_px = screen.view.focal_px[0];
+        let (mut above, mut samples) = (0.0, 0.0);
+        let axis =
+            |side: f64, t: f64| 0.38 * 0.88 * side * side / ((t + 0.38 * side).powi(2) * 2.6);
+        for y in 0..400 {
+            for x in 0..360 {
+                let (x, y) = (2.0 * f64::from(x) + 1.0, 2.0 * f64::from(y) + 1.0);
+                let (jx, jy, r) = (axis(1440.0, x), axis(1600.0, y), x.hypot(y));
+                let scale = (1.0 + (r / focal_px).powi(2)) * focal_px * 1f64.to_radians() / 2.0;
+                let needed = acuity.cutoff_cpd((r / focal_px).atan().to_degrees());
+                let along = (jx * x).hypot(jy * y) / r * scale;
+                let across = (jx * y).hypot(jy * x) / r * scale;
+                let useful = (needed / along).min(1.0) * (needed / across).min(1.0);
+                above += jx * jy * (1.0 - useful) * 16.0;
+                samples += jx * jy * 16.0;
+            }
+        }
+        assert!((found.samples_above / above - 1.0).abs() < 2e-3, "{found:?} {above}");
+        assert!((found.above / (above / samples) - 1.0).abs() < 2e-3, "{found:?}");
+    }
+
+    /// Where a method has no rate, nothing of acuity is met, and nothing is spent.
+    #[test]
+    fn where_there_is_no_rate_there_is_too_little() {
+        let screen = screen(2560, 1440, Tangential::Paper);
+        let mut clamped = Method::find("vafr").unwrap();
+        clamped.set("beyond", &fovqa_params::ParamValue::Text("clamp".into())).unwrap();
+        let found = field(&clamped, &screen, &AcuityModel::default()).unwrap();
+        // Beyond 60° lie 40 % of the pixels.
+        let radius = screen.view.focal_px[0] * 60f64.to_radians().tan();
+        let (mut beyond, half) = (0usize, radius * radius);
+        for y in 0..720 {
+            for x in 0..1280 {
+                let (x, y) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
+                beyond += usize::from(x * x + y * y > half);
+            }
+        }
+        let share = beyond as f64 / (1280.0 * 720.0);
+        assert!((share - 0.40).abs() < 0.01 && (found.below - share).abs() < 2e-3, "{found:?}");
+        assert!(found.below_radial.to_bits() == found.below.to_bits() && found.above == 0.0);
+    }
 }

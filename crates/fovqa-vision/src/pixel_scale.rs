@@ -165,4 +165,42 @@ mod tests {
         assert!(at(EccentricityKind::Planar, 30.0).is_some());
         assert!(at(EccentricityKind::Planar, 90.0).is_none());
     }
+
+    /// (π/180) f / cos² e along the line; across it the same by the paper, times cos e in angle.
+    #[test]
+    fn the_two_conventions_across_the_line() {
+        // Pixels that are not square: planar eccentricity has their geometric mean.
+        let oblong = View { focal_px: [400.0, 900.0], ..view(90.0) };
+        for e in [0.0, 10.0, 45.0, 60.0] {
+            let at = |tangential| {
+                let gaze = oblong.principal_px;
+                PixelScale::at(&oblong, gaze, EccentricityKind::Planar, tangential, [0.0, 1.0], e)
+                    .unwrap()
+            };
+            let cos = e.to_radians().cos();
+            let degree = 600.0 * PI / 180.0 / (cos * cos);
+            let (paper, angle) = (at(Tangential::Paper), at(Tangential::Angle));
+            for (found, want) in [
+                (paper.radius_px, 600.0 * e.to_radians().tan()),
+                (paper.radial, degree),
+                (paper.tangential, degree),
+                (angle.radial, degree),
+                (angle.tangential, degree * cos),
+            ] {
+                assert!((found - want).abs() <= 1e-12 * want, "{e}: {found} for {want}");
+            }
+        }
+        // The true angle has each axis' own: 45° along y is 900 px, along x 400 px.
+        for (direction, want) in [([1.0, 0.0], 400.0), ([0.0, 1.0], 900.0)] {
+            let gaze = oblong.principal_px;
+            let kind = EccentricityKind::Angular;
+            let at =
+                PixelScale::at(&oblong, gaze, kind, Tangential::Angle, direction, 45.0).unwrap();
+            assert!((at.radius_px / want - 1.0).abs() < 1e-12);
+            // Along the line dr/de = f / cos² e = 2 f; across it 1 / cos e of the other axis.
+            assert!((at.radial / (2.0 * want * PI / 180.0) - 1.0).abs() < 1e-12);
+            let other = 360_000.0 / want;
+            assert!((at.tangential / (2f64.sqrt() * other * PI / 180.0) - 1.0).abs() < 1e-12);
+        }
+    }
 }

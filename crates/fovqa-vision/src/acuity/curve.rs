@@ -155,4 +155,23 @@ mod tests {
             }
         }
     }
+
+    /// At a knot, and at so many samples as there are before it, the next segment holds; the first
+    /// begins at the gaze.
+    #[test]
+    fn knots_are_where_the_slope_changes() {
+        let curve = piecewise([40.0, 10.0, 6.0, 5.0, 4.0], None);
+        assert_eq!(curve.knots_deg().collect::<Vec<_>>(), [10.0, 20.0, 30.0, 60.0]);
+        // 2 ∫ de / (1/40 + 3/400 e) = 800/3 ln(1 + 3 e / 10) up to 10°, and so on.
+        let first = |e: f64| 800.0 / 3.0 * (1.0 + 0.3 * e).ln();
+        let second = |e: f64| first(10.0) + 300.0 * (1.0 + (e - 10.0) / 15.0).ln();
+        for (e, want) in [(9.9, first(9.9)), (10.0, first(10.0)), (10.1, second(10.1))] {
+            assert!((curve.samples_to(e) / want - 1.0).abs() < 1e-12, "{e}");
+            assert!((curve.eccentricity_deg(want) - e).abs() < 1e-9, "{e}");
+        }
+        // Beyond the last knot on at the last slope, 1/600 a degree: 1200 ln(1 + (e - 60) / 150).
+        let beyond = curve.samples_to(75.0) - curve.samples_to(60.0);
+        assert!((beyond / (1200.0 * 1.1f64.ln()) - 1.0).abs() < 1e-12, "{beyond}");
+        assert!((curve.eccentricity_deg(curve.samples_to(9.9995)) - 9.9995).abs() < 1e-10);
+    }
 }

@@ -203,4 +203,54 @@ mod tests {
             }
         }
     }
+
+    /// Parameters by name, and the printed formulas with them.
+    #[test]
+    fn parameters_make_the_curve() {
+        let with = |name: &str, params: &[(&str, f64)]| {
+            let mut model = AcuityModel::find(name).unwrap();
+            for (param, value) in params {
+                model.set(param, &ParamValue::Number(*value)).unwrap();
+            }
+            model
+        };
+        for e in [0.0, 0.3, 7.0, 33.0, 80.0] {
+            let linear = with("linear-mar", &[("m", 0.022), ("omega0_deg", 0.03)]);
+            let cut_off = with("Geisler_Perry", &[("alpha", 0.12), ("e2_deg", 3.1), ("ct0", 0.02)]);
+            let capped = with("piecewise", &[("cap_cpd", 9.0)]);
+            for (model, want) in [
+                (&linear, 1.0 / (0.022 * e + 0.03)),
+                (&cut_off, 3.1 * 50f64.ln() / (0.12 * (e + 3.1))),
+                (&capped, super::super::PiecewiseMar::default().cutoff_cpd(e).min(9.0)),
+            ] {
+                let found = model.curve().unwrap().cutoff_cpd(e);
+                assert!((found / want - 1.0).abs() < 1e-12, "{e}: {found} for {want}");
+                let own = match model {
+                    AcuityModel::LinearMar(model) => model.cutoff_cpd(e),
+                    AcuityModel::GeislerPerry(model) => model.cutoff_cpd(e),
+                    AcuityModel::Piecewise(_) => want,
+                };
+                assert!((own / want - 1.0).abs() < 1e-12, "{e}: {own} for {want}");
+            }
+        }
+        assert_eq!(AcuityModel::find("linear"), None);
+    }
+
+    #[test]
+    fn frequencies_are_those_of_eyes_and_devices() {
+        let knots = |cpd: [f64; 2]| PiecewiseParams {
+            knots_deg: vec![0.0, 60.0],
+            knots_cpd: cpd.to_vec(),
+            cap_cpd: None,
+        };
+        assert!(knots([1000.0, 0.01]).curve().is_ok());
+        for cpd in [[1001.0, 4.0], [40.0, 0.0099]] {
+            let error = knots(cpd).curve().unwrap_err();
+            assert!(matches!(error, PiecewiseMarError::Frequency { .. }), "{error}");
+        }
+        let mut model = AcuityModel::default();
+        for cap in [0.0099, 1001.0] {
+            assert!(model.set("cap_cpd", &ParamValue::Number(cap)).is_err(), "{cap}");
+        }
+    }
 }

@@ -159,4 +159,25 @@ mod tests {
         assert!(PiecewiseMar::new(&[0.0], &[3.0]).is_err());
         assert!(PiecewiseMar::new(&[0.0, 5.0], &[3.0, 0.0]).is_err());
     }
+
+    #[test]
+    fn refuses_lists_that_do_not_match_and_angles_that_are_none() {
+        for (degs, cpds) in
+            [(&[0.0, 5.0, 9.0][..], &[3.0, 2.0][..]), (&[0.0, 5.0], &[3.0, 2.0, 1.0])]
+        {
+            let error = PiecewiseMar::new(degs, cpds).unwrap_err();
+            assert!(matches!(error, PiecewiseMarError::Count { .. }), "{error}");
+        }
+        assert_eq!(PiecewiseMar::new(&[0.0, 181.0], &[3.0, 2.0]), Err(PiecewiseMarError::Order));
+        assert!(PiecewiseMar::new(&[0.0, 180.0], &[3.0, 3.0]).is_ok(), "flat at the end");
+        for cpd in [f64::NAN, f64::INFINITY] {
+            assert!(PiecewiseMar::new(&[0.0, 5.0], &[cpd, 1.0]).is_err());
+        }
+        // Two knots, and six.
+        let two = PiecewiseMar::new(&[0.0, 10.0], &[10.0, 5.0]).unwrap();
+        assert!((two.cutoff_cpd(30.0) - 2.5).abs() < 1e-12);
+        let six =
+            PiecewiseMar::new(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0], &[9.0, 8.0, 7.0, 6.0, 5.0, 4.0]);
+        assert!((six.unwrap().cutoff_cpd(5.0) - 4.0).abs() < 1e-12);
+    }
 }
