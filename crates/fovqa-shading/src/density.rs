@@ -93,6 +93,11 @@ mod tests {
     fn cells_are_no_smaller_than_pixels_and_never_none() {
         let small = map("full", (30, 20), [15.0, 10.0], 100);
         assert_eq!((small.columns, small.rows), (30, 20));
+        // Cells of 30/7 x 20/5 pixels.
+        let oblong = map("rmfr", (30, 20), [15.0, 0.0], 7);
+        assert_eq!((oblong.columns, oblong.rows), (7, 5));
+        let y = |row: f64| 7.6 * 27.6 / ((4.0 * (row + 0.5) + 7.6).powi(2));
+        assert!((oblong.values[7 * 3] / oblong.values[7] / (y(3.0) / y(1.0)) - 1.0).abs() < 1e-12);
         let flat = map("full", (1000, 4), [500.0, 2.0], 50);
         assert_eq!((flat.columns, flat.rows, flat.values), (50, 1, vec![1.0; 50]));
     }

@@ -240,4 +240,26 @@ mod tests {
         assert!((share - 0.40).abs() < 0.01 && (found.below - share).abs() < 2e-3, "{found:?}");
         assert!(found.below_radial.to_bits() == found.below.to_bits() && found.above == 0.0);
     }
+
+    #[test]
+    fn cells_of_small_frames_are_pixels_and_fill_any_frame() {
+        let full = Method::find("full").unwrap();
+        let flat = |cpd: f64| {
+            AcuityModel::Piecewise(fovqa_vision::acuity::PiecewiseParams {
+                knots_deg: vec![0.0, 10.0],
+                knots_cpd: vec![cpd; 2],
+                cap_cpd: None,
+            })
+        };
+        // The display has 0.09 cpd at the gaze, and three times that at the border above.
+        let found = field(&full, &screen(30, 30, Tangential::Paper), &flat(0.2)).unwrap();
+        let pixels = found.below * 900.0;
+        assert!(pixels > 100.0 && (pixels - pixels.round()).abs() < 1e-9, "{pixels}");
+        // Cells of 721/720 x 1 pixels: acuity asks for next to nothing, and all is above.
+        let wide = screen(721, 2, Tangential::Paper);
+        let wide =
+            CurveSetting { view: fovqa_vision::View { focal_px: [900.0; 2], ..wide.view }, ..wide };
+        let found = field(&full, &wide, &flat(0.01)).unwrap();
+        assert!((found.samples_above / 1442.0 - 1.0).abs() < 1e-4, "{found:?}");
+    }
 }

@@ -176,6 +176,8 @@ fn guenter_finds_the_least_of_all_pairs() {
         (5760, 3240, 110.0, [2880.0, 1620.0], 0.022, 1.0 / 48.0),
         (11520, 6480, 110.0, [2000.0, 3240.0], 0.01, 1.0 / 48.0),
         (640, 360, 50.0, [320.0, 180.0], 0.0275, 1.0 / 48.0),
+        // Nothing is gained by scales here: the two smallest layers, not one twice.
+        (1440, 1600, 110.0, [720.0, 800.0], 0.0, 1.0 / 48.0),
     ] {
         let setting = setting(width, height, fov, gaze);
         let (w, h) = (width as f64, height as f64);
