@@ -341,8 +341,7 @@ mod tests {
             ],
             acuity: acuity.clone(),
             range: RANGE,
-            plots: Vec::new(),
-            tables: Vec::new(),
+            ..CurvePlan::default()
         };
         let curves = trace_all(&plan).unwrap();
         assert_eq!(curves.len(), 2);

@@ -314,7 +314,7 @@ fn budgets_reach_as_far_as_their_parameters() {
     near(least, 1e-4, 1e-9);
     near(most, 16.0, 1e-9);
     let error = polar.at_budget(&setting, f64::INFINITY, BudgetOf::OnScreen).unwrap_err();
-    assert!(error.to_string().contains("from 0.000100 to 16.000000"), "{error}");
+    assert!(error.to_string().contains("from 1.000e-4 to 16.0000"), "{error}");
 }
 
 #[test]
