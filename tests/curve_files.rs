@@ -431,6 +431,16 @@ fn the_committed_schema_is_the_one_printed_and_its_keys_are_documented() {
 }
 
 #[test]
+fn the_example_of_the_docs_is_right() {
+    let folder = Folder::new();
+    let docs = fs::read_to_string(root().join("docs/curves.md")).unwrap();
+    let (_, example) = docs.split_once("```toml\n").unwrap();
+    folder.write("e.toml", example.split_once("```").unwrap().0);
+    let plan = folder.run(&["check", "e.toml"]).ok().stdout;
+    assert!(plan.contains("13 curves") && plan.contains("2 figures, 1 table"), "{plan}");
+}
+
+#[test]
 fn files_and_experiments_are_told_apart() {
     let folder = Folder::new();
     folder.write("e.toml", GOOD);

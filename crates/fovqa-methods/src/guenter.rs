@@ -124,6 +124,9 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
 };
 
 const GRID_DEG: f64 = 0.25;
+/// The last angle of the grid inside 90°.
+const LAST_STEP: f64 = 359.0;
+const MOST_SCALE: f64 = 1000.0;
 
 /// Three nested layers over a frame.
 #[derive(Debug, Clone, Copy)]
@@ -156,7 +159,7 @@ impl Guenter {
                 "bounds_deg {bounds_deg:?} do not rise between 0° and 90°, both excluded"
             ));
         }
-        if let Some(scale) = scales.iter().find(|s| !(0.1..=1000.0).contains(*s)) {
+        if let Some(scale) = scales.iter().find(|s| !(0.1..=MOST_SCALE).contains(*s)) {
             return refused(format!("a scale of {scale} is not between 0.1 and 1000"));
         }
         Ok(Self::with(setting, bounds_deg, scales, false))
@@ -169,8 +172,10 @@ impl Guenter {
 
     fn optimised(params: &Params, setting: &Setting) -> Self {
         let shown_deg = libm::atan(2.0 / setting.focal_px()) * (180.0 / PI);
-        let scale = |e: f64| ((params.m * e + params.omega0_deg) / shown_deg).max(1.0);
-        let last = (setting.eccentricity_deg(setting.corner_px()) / GRID_DEG).ceil().max(2.0);
+        let scale =
+            |e: f64| ((params.m * e + params.omega0_deg) / shown_deg).clamp(1.0, MOST_SCALE);
+        let last =
+            (setting.eccentricity_deg(setting.corner_px()) / GRID_DEG).ceil().clamp(2.0, LAST_STEP);
         let steps = 1..=(last as u32);
         let at = |step: u32| f64::from(step) * GRID_DEG;
         // What a layer costs depends on its own bound and the one inside it alone.

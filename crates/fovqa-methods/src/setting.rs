@@ -53,8 +53,11 @@ impl Place {
         self.direction.map(|d| d * self.radius_px)
     }
 
-    /// θ = atan2(y, x) in [0°, 360°).
+    /// θ = atan2(y, x) in [0°, 360°); 0 at the gaze itself.
     pub fn angle_deg(&self) -> f64 {
+        if self.radius_px == 0.0 {
+            return 0.0;
+        }
         let deg = libm::atan2(self.direction[1], self.direction[0]) * (180.0 / PI);
         let positive = if deg < 0.0 { deg + 360.0 } else { deg };
         // A tiny negative angle rounds up to 360.

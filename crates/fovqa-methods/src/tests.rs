@@ -387,6 +387,32 @@ fn a_budget_is_met_or_its_range_is_said() {
     assert!(method("rmfr", &[]).at_budget(&setting, f64::NAN, BudgetOf::Buffer).is_err());
 }
 
+/// θ is 0 at the gaze, whatever direction a curve has there.
+#[test]
+fn the_gaze_itself_has_no_angle() {
+    let kfr = Method::find("kfr").unwrap().over(&centred(1440, 1600, 110.0)).unwrap();
+    let [u, v] = kfr.mapping().unwrap().to_buffer(0, Place::polar(0.0, 90.0));
+    assert!(u.abs() < 1e-12 && v.abs() < 1e-12, "{u} {v}");
+}
+
+/// Also where the corner is nearly at 90°, or acuity so poor that scales would have no end.
+#[test]
+fn what_guenter_optimises_can_be_taken_as_it_is() {
+    for (setting, m) in [(centred(2000, 2000, 179.9), 0.0275), (centred(11520, 6480, 110.0), 1.0)] {
+        let params = guenter::Params { fit: guenter::Fit::Optimised, m, ..Default::default() };
+        let best = Guenter::new(&params, &setting).unwrap();
+        assert!(best.bounds_deg()[1] < 90.0 && best.scales()[2] <= 1000.0);
+        let fixed = guenter::Params {
+            fit: guenter::Fit::Fixed,
+            bounds_deg: best.bounds_deg().to_vec(),
+            scales: best.scales().to_vec(),
+            ..params
+        };
+        let same = Guenter::new(&fixed, &setting).unwrap();
+        assert!((same.counts().samples - best.counts().samples).abs() < 1e-6);
+    }
+}
+
 #[test]
 fn refuses_what_does_not_go_together() {
     let list = |l: &[f64]| ParamValue::List(l.to_vec());

@@ -89,6 +89,12 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
         }
     }
     let cut = charts.iter().any(|chart| chart.y_limits.is_some()) && plot.y_limits.is_none();
+    if charts.len() > 1 {
+        // The axis of a panel has no room for more.
+        for chart in &mut charts {
+            chart.y.title = chart.y.title.replace("cycles per degree", "cpd");
+        }
+    }
     let figure = if charts.len() == 1 {
         let only = charts.swap_remove(0);
         Figure::Line(LineChart { title: plot.title.clone().or(only.title.clone()), ..only })
