@@ -430,6 +430,115 @@ fn the_committed_schema_is_the_one_printed_and_its_keys_are_documented() {
     assert!(seen > 50, "{seen}");
 }
 
+/// What stands in the figures, from their data.
+#[test]
+fn figures_show_what_they_say() {
+    let text = r#"
+name = "f"
+[view]
+resolutions = ["1600x1600"]
+fov_vertical_deg = 90
+[[curve]]
+name = "Full"
+method = { model = "full" }
+[[curve]]
+name = "Sparse"
+method = { model = "guenter" }
+[[curve]]
+name = "Dense"
+method = { model = "vafr", factor = 2 }
+[[curve]]
+name = "2L"
+method = { model = "deamp", sigmas = [2.6], bounds_deg = [45] }
+gazes = [[400, 1200]]
+directions_deg = [90]
+[[plot]]
+kind = "rates"
+name = "pixels"
+unit = "per_pixel"
+panels = "one"
+display = true
+[[plot]]
+kind = "rates"
+name = "across"
+rate = "tangential"
+panels = "one"
+curves = ["Full", "2L"]
+[[plot]]
+kind = "rates"
+name = "sparse"
+curves = ["Sparse"]
+[[plot]]
+kind = "rates"
+name = "dense"
+curves = ["Dense"]
+[[plot]]
+kind = "density"
+curves = ["2L"]
+[[plot]]
+kind = "accumulated"
+[[plot]]
+kind = "half_axis"
+f = [2]
+"#;
+    let folder = Folder::new();
+    folder.write("f.toml", text);
+    folder.run(&["curves", "f.toml"]).ok();
+    let plot = |name: &str| fs::read_to_string(folder.path("reports/f/plots").join(name)).unwrap();
+    // Rows of a series: where, and what.
+    let series = |name: &str, wanted: &str| -> Vec<(f64, f64)> {
+        let text = plot(&format!("{name}.csv"));
+        let mut csv = csv::Reader::from_reader(text.as_bytes());
+        let rows = csv.records().map(Result::unwrap).filter(|row| &row[0] == wanted);
+        let number = |text: &str| text.parse::<f64>().unwrap_or(f64::NAN);
+        rows.map(|row| (number(&row[1]), number(&row[2]))).collect()
+    };
+    let near = |found: f64, want: f64| assert!((found / want - 1.0).abs() < 1e-9, "{found} {want}");
+    let at =
+        |rows: &[(f64, f64)], x: f64| rows.iter().find(|row| (row.0 - x).abs() < 1e-9).unwrap().1;
+
+    // Over the display's own rate: 1, and 1/2 between 10° and 20°.
+    let full = series("pixels", "Full, gaze at centre, direction 0°");
+    assert!(full.len() > 200 && full.iter().all(|row| (row.1 - 1.0).abs() < 1e-12));
+    near(at(&series("pixels", "Sparse, gaze at centre, direction 0°"), 15.0), 0.5);
+    assert!(plot("pixels.svg").contains("Radial rate over the display"));
+
+    // Across, 15° below the gaze: along x, where t = 0, f (f + A) / (f² σ), A the 1200 px to the
+    // right, f = 608; a degree of the paper's convention has (π/180) 800 / cos² 15° pixels.
+    let across = series("across", "2L, gaze (400, 1200), direction 90°");
+    let pixels = 800.0 * 1f64.to_radians() / 15f64.to_radians().cos().powi(2);
+    near(at(&across, 15.0), (608.0 + 1200.0) / (608.0 * 2.6) * pixels / 2.0);
+    assert!(plot("across.svg").contains("Tangential rate"));
+
+    // Areas are named after the side they lie on.
+    let areas =
+        |name: &str| ["Under-sampled", "Over-sampled"].map(|area| plot(name).contains(area));
+    assert_eq!((areas("sparse.svg"), areas("dense.svg")), ([true, false], [false, true]));
+    assert_eq!(areas("pixels.svg"), [false, false], "of several curves none");
+
+    // The picture is the right way up: densest at the gaze, and there f (f + A) / (f² σ) each way.
+    let text = plot("density.csv");
+    let mut csv = csv::Reader::from_reader(text.as_bytes());
+    let cells: Vec<[f64; 3]> = csv
+        .records()
+        .map(|row| [1, 2, 3].map(|i| row.as_ref().unwrap()[i].parse().unwrap()))
+        .collect();
+    let densest = cells.iter().max_by(|a, b| a[2].total_cmp(&b[2])).unwrap();
+    assert!((densest[0] - 400.0).abs() < 7.0 && (densest[1] - 1200.0).abs() < 7.0, "{densest:?}");
+    let [x, y, density] = densest;
+    let axis = |t: f64, side: f64| 608.0 * (608.0 + side) / ((t.abs() + 608.0).powi(2) * 2.6);
+    let sides = [if *x < 400.0 { 400.0 } else { 1200.0 }, if *y < 1200.0 { 1200.0 } else { 400.0 }];
+    let want = axis(x - 400.0, sides[0]) * axis(y - 1200.0, sides[1]);
+    assert!((density / want - 1.0).abs() < 1e-4, "{density} {want}");
+
+    // To the full angle of the whole frame.
+    let accumulated = series("accumulated", "2L");
+    assert!((accumulated[accumulated.len() - 1].0 - 90.0).abs() < 1e-9);
+    // d / (2 - d), normalised.
+    near(at(&series("half-axis", "f = 2"), 0.5), 1.0 / 3.0);
+    near(at(&series("half-axis", "f = 2"), 1.0), 1.0);
+}
+
 #[test]
 fn the_example_of_the_docs_is_right() {
     let folder = Folder::new();

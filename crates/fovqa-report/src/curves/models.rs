@@ -15,7 +15,10 @@ use crate::sheet::NamedFigure;
 const POINTS: u32 = 180;
 
 pub(super) fn accumulated(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
-    let curves = source.chosen(plot.curves.as_deref());
+    let mut curves = source.chosen(plot.curves.as_deref());
+    curves.retain(|curve| {
+        matches!(curve.spec.source, CurveSource::Method { method: Method::Deamp(_), .. })
+    });
     let labels = Labels::of(&curves);
     let mut series = Vec::new();
     for curve in curves {
