@@ -160,6 +160,11 @@ fn the_whole_format_is_drawn_and_again_the_same() {
     let record = json(&folder, "reports/rich/curves.json");
     assert_eq!(record["schema"], "fovqa.curves/1");
     assert_eq!(record["curves"].as_array().unwrap().len(), 16);
+    let screen = &record["curves"][0]["screen"];
+    assert_eq!(
+        (&screen["tangential"], &screen["eccentricity"]),
+        (&"angle".into(), &"angular".into())
+    );
     assert_eq!(record["curves"][7]["screen"]["gaze_px"], serde_json::json!([1000.0, 800.0]));
     let polar = &record["curves"][8];
     let on_screen = polar["shading"]["samples_on_screen"].as_f64().unwrap();
@@ -452,6 +457,16 @@ name = "2L"
 method = { model = "deamp", sigmas = [2.6], bounds_deg = [45] }
 gazes = [[400, 1200]]
 directions_deg = [90]
+[[curve]]
+name = "Angle"
+method = { model = "full" }
+tangential = "angle"
+[[plot]]
+kind = "rates"
+name = "angle"
+rate = "tangential"
+unit = "per_pixel"
+curves = ["Angle"]
 [[plot]]
 kind = "rates"
 name = "pixels"
@@ -502,6 +517,10 @@ f = [2]
     assert!(full.len() > 200 && full.iter().all(|row| (row.1 - 1.0).abs() < 1e-12));
     near(at(&series("pixels", "Sparse, gaze at centre, direction 0°"), 15.0), 0.5);
     assert!(plot("pixels.svg").contains("Radial rate over the display"));
+
+    // Across the line a degree of angle has other pixels, and the display's own rate is 1 again.
+    let angle = series("angle", "Angle");
+    assert!(angle.len() > 200 && angle.iter().all(|row| (row.1 - 1.0).abs() < 1e-12));
 
     // Across, 15° below the gaze: along x, where t = 0, f (f + A) / (f² σ), A the 1200 px to the
     // right, f = 608; a degree of the paper's convention has (π/180) 800 / cos² 15° pixels.
