@@ -435,10 +435,7 @@ fn the_committed_schema_is_the_one_printed_and_its_keys_are_documented() {
     assert!(seen > 50, "{seen}");
 }
 
-/// What stands in the figures, from their data.
-#[test]
-fn figures_show_what_they_say() {
-    let text = r#"
+const FIGURES: &str = r#"
 name = "f"
 [view]
 resolutions = ["1600x1600"]
@@ -496,8 +493,12 @@ kind = "accumulated"
 kind = "half_axis"
 f = [2]
 "#;
+
+/// What stands in the figures, from their data.
+#[test]
+fn figures_show_what_they_say() {
     let folder = Folder::new();
-    folder.write("f.toml", text);
+    folder.write("f.toml", FIGURES);
     folder.run(&["curves", "f.toml"]).ok();
     let plot = |name: &str| fs::read_to_string(folder.path("reports/f/plots").join(name)).unwrap();
     // Rows of a series: where, and what.
