@@ -559,6 +559,21 @@ fn figures_show_what_they_say() {
     near(at(&series("half-axis", "f = 2"), 1.0), 1.0);
 }
 
+/// Rings and cross stand where the method takes the gaze.
+#[test]
+fn a_gaze_outside_is_drawn_at_the_border() {
+    let folder = Folder::new();
+    let picture = |gaze: &str| {
+        let text = GOOD
+            .replace("kind = \"rates\"", "kind = \"density\"")
+            .replace("[view]", &format!("[view]\ngazes = [{gaze}]"));
+        folder.write("e.toml", text);
+        folder.run(&["curves", "e.toml"]).ok();
+        fs::read_to_string(folder.path("reports/good/plots/density.svg")).unwrap()
+    };
+    assert!(picture("[3000, 400]") == picture("[1440, 400]"));
+}
+
 #[test]
 fn the_example_of_the_docs_is_right() {
     let folder = Folder::new();

@@ -31,9 +31,9 @@ impl Rates {
 pub struct Counts {
     /// Width and height of each reduced buffer in samples, the innermost first.
     pub buffers: Vec<[f64; 2]>,
-    /// All that is shaded: what the papers count.
+    /// What the papers count.
     pub samples: f64,
-    /// Those of them that fall into the frame.
+    /// Those of these and of the ones beyond that fall into the frame.
     pub samples_on_screen: f64,
     /// What a frame wider than the method's own field needs beyond `samples` (VaFR beyond 60°).
     pub samples_beyond: f64,
@@ -134,8 +134,8 @@ pub trait Mapping {
     /// The place of a buffer's coordinates.
     fn to_screen(&self, layer: usize, buffer: [f64; 2]) -> Place;
 
-    /// How many buffer samples there are to a pixel along the line from the gaze and across it, for
-    /// a step of the buffer's coordinates. Of a polar buffer, whose columns have different numbers
-    /// of rows, only the column counts along the line: fetches work at equal angle.
+    /// Whether the buffer's columns are distances and its rows angles. Columns may have different
+    /// numbers of rows, so that a row's number changes along a line from the gaze too: work at equal
+    /// angle there, not at equal row.
     fn is_polar(&self) -> bool;
 }

@@ -39,8 +39,11 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
         } else {
             plot.rings_deg.as_slice()
         };
-        let [gaze_x, gaze_y] = setting.gaze_px;
         let (width, height) = (setting.view.width as f64, setting.view.height as f64);
+        // Where the method takes a gaze that is outside of the frame.
+        let [gaze_x, gaze_y] = setting.gaze_px;
+        let gaze_px = [gaze_x.clamp(0.0, width), gaze_y.clamp(0.0, height)];
+        let seen = CurveSetting { gaze_px, ..*setting };
         panels.push(RasterPanel {
             title: Some(title),
             x: Axis::new("x (px)"),
@@ -50,8 +53,8 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
             columns: map.columns,
             rows: map.rows,
             values: map.values.into_iter().map(short).collect(),
-            lines: rings.iter().map(|e| ring(setting, *e)).collect(),
-            cross: Some((gaze_x.clamp(0.0, width), gaze_y.clamp(0.0, height))),
+            lines: rings.iter().map(|e| ring(&seen, *e)).collect(),
+            cross: Some((gaze_px[0], gaze_px[1])),
         });
     }
     let columns = if panels.len() <= 4 { 2 } else { 3 };
