@@ -13,7 +13,7 @@ pub(crate) enum Dialect {
 }
 
 /// Setting, option, key.
-const SETTINGS: [(&str, &str, &str); 17] = [
+const SETTINGS: [(&str, &str, &str); 19] = [
     ("allow_missing", "--allow-missing", "allow_missing = true"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),
     ("alpha=over-black", "--alpha over-black", "alpha = \"over-black\""),
@@ -28,6 +28,12 @@ const SETTINGS: [(&str, &str, &str); 17] = [
         "motion = { channels = [\"…\", \"…\"] } or depth = { channel = \"…\" }",
     ),
     ("layer", "--layer", "layer = \"…\""),
+    (
+        "luminance",
+        "the display's photometry with --luminance",
+        "the display's photometry with luminance in [view]",
+    ),
+    ("maps", "--maps", "--maps"),
     ("max_megapixels", "--max-megapixels", "max_megapixels"),
     ("metrics", "--metrics", "[metrics]"),
     ("nonfinite=mask", "--nonfinite mask", "nonfinite = \"mask\""),

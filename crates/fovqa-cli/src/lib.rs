@@ -7,6 +7,7 @@ mod diagnostic;
 mod dialect;
 mod exit;
 mod experiment;
+mod heat_maps;
 mod list;
 mod output;
 mod progress;

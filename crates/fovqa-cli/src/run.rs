@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use fovqa_config::{Experiment, Eye};
 use fovqa_engine::{Found, Journal, ResultsFolder};
 use fovqa_io::FileId;
+use fovqa_metrics::Metric;
 use fovqa_report::Drawn;
 use fovqa_results::{
     ExperimentRecord, FileError, RESULTS_CSV, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
@@ -15,6 +16,7 @@ use crate::args::RunArgs;
 use crate::diagnostic;
 use crate::dialect::Dialect;
 use crate::exit::Exit;
+use crate::heat_maps::HeatMaps;
 use crate::progress::Terminal;
 use crate::{experiment, output, threads};
 
@@ -28,6 +30,13 @@ pub(crate) fn run(args: &RunArgs) -> Exit {
         Err(exit) => return exit,
     };
     experiment.plan.frames = args.frames;
+    experiment.plan.maps = args.maps.is_some();
+    if args.maps.is_some() && !experiment.plan.metrics.metrics().contains(&Metric::Fvvdp) {
+        let message = "--maps are of FovVideoVDP, and the experiment does not score it";
+        diagnostic::error(message, "add fvvdp = {} to [metrics]");
+        return Exit::Usage;
+    }
+    let maps = args.maps.clone().map(|folder| HeatMaps::new(folder, true));
     let folder = args.output.clone().unwrap_or_else(|| default_folder(&experiment));
     // Before anything is read or scored: a folder that cannot be written to is found now.
     let folder = match ResultsFolder::open(&folder) {
@@ -39,7 +48,7 @@ pub(crate) fn run(args: &RunArgs) -> Exit {
         say_problems(&experiment, &found);
         return Exit::Usage;
     }
-    match score(&experiment, &found, &folder) {
+    match score(&experiment, &found, &folder, maps.as_ref()) {
         Ok(results) => finish(&experiment, &results, &folder),
         Err(exit) => exit,
     }
@@ -66,13 +75,17 @@ fn score(
     experiment: &Experiment,
     found: &Found,
     folder: &ResultsFolder,
+    maps: Option<&HeatMaps>,
 ) -> Result<RunResults, Exit> {
     folder.clear().map_err(|error| failed(&error, error.help()))?;
     fovqa_report::clear(folder.path());
     let hash = file_hash(&experiment.text);
     let terminal = Terminal::speaking(Dialect::Experiment);
     let scored = Journal::create(folder.path(), &hash).and_then(|mut journal| {
-        fovqa_engine::run(&experiment.plan, found, &terminal, &mut |frame| journal.write(&frame))
+        fovqa_engine::run(&experiment.plan, found, &terminal, &mut |frame| {
+            maps.map_or(Ok(()), |maps| maps.write(&frame))?;
+            journal.write(&frame)
+        })
     });
     terminal.finish();
     scored.map_err(|error| {

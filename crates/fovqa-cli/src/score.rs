@@ -8,6 +8,7 @@ use crate::args::{Format, ScoreArgs};
 use crate::diagnostic;
 use crate::dialect::Dialect;
 use crate::exit::Exit;
+use crate::heat_maps::HeatMaps;
 use crate::output;
 use crate::progress::Terminal;
 use crate::threads;
@@ -17,6 +18,7 @@ const FAILURES_SHOWN: usize = 20;
 
 pub(crate) fn run(args: ScoreArgs) -> Exit {
     let format = args.format;
+    let maps = args.maps.clone().map(|folder| HeatMaps::new(folder, false));
     if let Err(message) = threads::start(args.threads) {
         diagnostic::error(&message, "ask for fewer");
         return Exit::Usage;
@@ -28,7 +30,7 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
             return Exit::Usage;
         }
     };
-    let report = match score(&plan) {
+    let report = match score(&plan, maps.as_ref()) {
         Ok(report) => report,
         Err(error) => {
             diagnostic::error(&error.to_string(), &Dialect::Options.spell(&error.help()));
@@ -65,14 +67,16 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
 }
 
 /// One reference against one test: whatever is wrong with the whole of it ends the run.
-fn score(plan: &Plan) -> Result<ScoreReport, EngineError> {
+fn score(plan: &Plan, maps: Option<&HeatMaps>) -> Result<ScoreReport, EngineError> {
     fovqa_engine::check(plan)?;
     let mut found = fovqa_engine::find(plan);
     if let Some(problem) = found.problems.pop() {
         return Err(problem.error);
     }
     let terminal = Terminal::default();
-    let results = fovqa_engine::run(plan, &found, &terminal, &mut |_| Ok(()));
+    let results = fovqa_engine::run(plan, &found, &terminal, &mut |frame| {
+        maps.map_or(Ok(()), |maps| maps.write(&frame))
+    });
     terminal.finish();
     Ok(results?.comparisons.pop().map(|comparison| comparison.report).unwrap_or_default())
 }

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use fovqa_frame::{Crop, SignalParams};
+use fovqa_frame::{Crop, SignalParams, Transfer};
 use fovqa_io::sequence::FrameRange;
 use fovqa_io::{GuideOptions, ReadOptions};
 use fovqa_metrics::{Metric, Params};
-use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec};
+use fovqa_vision::{BandEdges, EccentricityKind, Eotf, Luminance, ViewSpec};
 use serde::{Deserialize, Serialize};
 
 /// Where the eye looks.
@@ -94,6 +94,8 @@ pub struct Settings {
     pub nonfinite: Nonfinite,
     /// The view.
     pub view: Option<ViewSpec>,
+    /// The photometry of the display, where it is not that of the view's preset.
+    pub luminance: Option<Luminance>,
     /// The gaze.
     pub gaze: Gaze,
     /// How eccentricity is measured.
@@ -118,6 +120,32 @@ impl Settings {
             Gaze::Point(_) | Gaze::Trace { .. } => Some("a gaze"),
             Gaze::Centre => None,
         }
+    }
+
+    /// The photometry of the display: its own, or that of the view's preset, where it has one.
+    pub fn photometry(&self) -> Option<Luminance> {
+        self.luminance.or(match &self.view {
+            Some(ViewSpec::Display(display)) => display.luminance,
+            _ => None,
+        })
+    }
+
+    /// Why a display cannot show the files as they are said to be encoded; `None` where it can.
+    pub fn shown_wrongly(&self) -> Option<String> {
+        let eotf = self.photometry()?.eotf;
+        let files = match self.signal.transfer? {
+            Transfer::Pq if eotf != Eotf::Pq => "PQ",
+            Transfer::Srgb if !eotf.is_relative() => "sRGB",
+            Transfer::Gamma22 if !eotf.is_relative() => "a power of 2.2",
+            _ => return None,
+        };
+        let display = match eotf {
+            Eotf::Srgb => "sRGB",
+            Eotf::Gamma => "a power of its own",
+            Eotf::Pq => "PQ",
+            Eotf::Linear | Eotf::Absolute => "light",
+        };
+        Some(format!("the files are encoded as {files}, and the display takes {display}"))
     }
 }
 
@@ -166,6 +194,8 @@ pub struct Plan {
     pub frames: Option<FrameRange>,
     /// Whether size and hash of every input are taken.
     pub hash_inputs: bool,
+    /// Whether heat maps are made of the metrics that have some.
+    pub maps: bool,
 }
 
 impl Plan {

@@ -7,7 +7,7 @@ use fovqa_frame::{SignalChannels, ToneMap, Transfer};
 use fovqa_io::{AlphaPolicy, DepthChannels, MotionChannels, MotionUnit, NamedMotion};
 use fovqa_metrics::Metric;
 use fovqa_params::ParamValue;
-use fovqa_vision::{EccentricityKind, ViewSpec};
+use fovqa_vision::{EccentricityKind, Eotf, Luminance, ViewSpec};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -119,6 +119,9 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
         None => json!({}),
         Some(spec) => view_keys(spec),
     };
+    if let Some(luminance) = settings.photometry() {
+        view["luminance"] = luminance_keys(&luminance);
+    }
     view["gaze"] = match &settings.gaze {
         Gaze::Centre => json!("center"),
         Gaze::Point(point) => json!(point),
@@ -223,6 +226,26 @@ fn with_files(keys: &mut Value, plan: &Plan, files: Option<&Path>) {
         };
     }
     keys["files"] = json!(plan.shown(files));
+}
+
+fn luminance_keys(luminance: &Luminance) -> Value {
+    let Luminance { peak_cd_m2, contrast, min_cd_m2, ambient_lux, reflectivity, eotf, gamma } =
+        *luminance;
+    let mut keys = json!({
+        "peak_cd_m2": peak_cd_m2,
+        "ambient_lux": ambient_lux,
+        "reflectivity": reflectivity,
+        "eotf": eotf.name(),
+    });
+    // Black in the dark goes before contrast.
+    match min_cd_m2 {
+        Some(min) => keys["min_cd_m2"] = json!(min),
+        None => keys["contrast"] = json!(contrast.unwrap_or(Luminance::CONTRAST)),
+    }
+    if eotf == Eotf::Gamma {
+        keys["gamma"] = json!(gamma);
+    }
+    keys
 }
 
 fn view_keys(spec: &ViewSpec) -> Value {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use fovqa_io::ReadError;
 use fovqa_io::sequence::{ListingError, PairingError};
 use fovqa_metrics::Metric;
+use fovqa_metrics::fvvdp::TimeError;
 use fovqa_params::ParamError;
 use fovqa_vision::{GazeTraceError, ViewError};
 use thiserror::Error;
@@ -34,6 +35,33 @@ pub enum EngineError {
     NoView {
         /// What needs it.
         what: String,
+    },
+    /// Something that needs the display's photometry, without it.
+    #[error("{what} needs the display's photometry, and {}", unlit(display.as_ref()))]
+    NoLuminance {
+        /// What needs it.
+        what: String,
+        /// The display, where one is given.
+        display: Option<String>,
+    },
+    /// A display that cannot show the files as they are encoded.
+    #[error("{what}: {why}")]
+    ShownWrongly {
+        /// What is of its light.
+        what: String,
+        /// Why it cannot.
+        why: String,
+    },
+    /// A sequence that cannot be filtered over time.
+    #[error(transparent)]
+    Time(#[from] TimeError),
+    /// A heat map that cannot be written.
+    #[error("{}: the heat map cannot be written: {error}", path.display())]
+    Map {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: std::io::Error,
     },
     /// A parameter that cannot be.
     #[error(transparent)]
@@ -85,13 +113,19 @@ impl EngineError {
     /// Whether the command line is wrong, rather than an input.
     pub fn is_usage(&self) -> bool {
         match self {
-            Self::View(_) | Self::NoView { .. } | Self::Param(_) => true,
+            Self::View(_)
+            | Self::NoView { .. }
+            | Self::NoLuminance { .. }
+            | Self::ShownWrongly { .. }
+            | Self::Time(_)
+            | Self::Param(_) => true,
             Self::GazeTrace { error, .. } => matches!(error, GazeTraceError::NoFps),
             Self::Listing(error) => matches!(error, ListingError::Pattern { .. }),
             Self::Pairing(_)
             | Self::NoFrames { .. }
             | Self::GazeFile { .. }
             | Self::Mask(_)
+            | Self::Map { .. }
             | Self::Journal { .. } => false,
         }
     }
@@ -108,6 +142,18 @@ impl EngineError {
                 "angles lie between 0° and 180°, lengths and tangents above 0".to_owned()
             }
             Self::NoView { .. } => "give {view}".to_owned(),
+            Self::NoLuminance { .. } => {
+                "give {luminance}, or a display that has it (`fovqa list displays`)".to_owned()
+            }
+            Self::ShownWrongly { .. } => {
+                "give {transfer} of the files as it is, and {luminance} of a display with that eotf"
+                    .to_owned()
+            }
+            Self::Time(TimeError::NoFps) => "give {fps}; one frame alone is a still".to_owned(),
+            Self::Time(TimeError::Fps { .. }) => {
+                "check {fps}; frames that are passed over make it slower".to_owned()
+            }
+            Self::Map { .. } => "give another folder with {maps}, or free some space".to_owned(),
             Self::Param(_) => {
                 "`fovqa list metrics` shows every parameter with its range".to_owned()
             }
@@ -118,6 +164,13 @@ impl EngineError {
                 "free some space: frames in the journal are not lost".to_owned()
             }
         }
+    }
+}
+
+fn unlit(display: Option<&String>) -> String {
+    match display {
+        None => "none is given".to_owned(),
+        Some(name) => format!("that of {} is not known", name.replace('_', "-")),
     }
 }
 

@@ -11,6 +11,7 @@ use fovqa_metrics::Metric;
 use fovqa_vision::{GazeAt, GazeTrace};
 
 use crate::error::EngineError;
+use crate::timing::timings;
 
 /// The frames of a plan, and what is wrong with its inputs.
 #[derive(Debug)]
@@ -121,15 +122,13 @@ pub fn find(plan: &Plan) -> Found {
             match select(plan, scene, frames).and_then(|mut frames| {
                 find_guides(plan, view, &reference, &mut frames)?;
                 let trace = gaze_trace(view, scene, &frames, first)?;
-                Ok((frames, trace))
+                let view = FoundView { scene: scene_index, eye, frames, trace, passed_over };
+                if plan.metrics.metrics().contains(&Metric::Fvvdp) {
+                    timings(&view, scene.fps, &plan.params.fvvdp)?;
+                }
+                Ok(view)
             }) {
-                Ok((frames, trace)) => found.views.push(FoundView {
-                    scene: scene_index,
-                    eye,
-                    frames,
-                    trace,
-                    passed_over,
-                }),
+                Ok(view) => found.views.push(view),
                 Err(error) => found.problems.push(problem(None, error)),
             }
         }

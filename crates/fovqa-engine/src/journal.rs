@@ -7,6 +7,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use fovqa_metrics::fvvdp::{FvvdpBand, FvvdpFrame};
 use fovqa_metrics::temporal::{AtdBand, AtdFrame};
 use fovqa_metrics::{HaarBand, Profile};
 use fovqa_results::{Failure, FrameResult, Input, Sides};
@@ -107,6 +108,9 @@ fn scored(line: &mut Value, result: &FrameResult) {
     if let Some(atd) = &result.atd {
         line["atd"] = sides(atd, difference);
     }
+    if let Some(fvvdp) = &result.fvvdp {
+        line["fvvdp"] = visible_difference(fvvdp);
+    }
 }
 
 fn sides<T>(sides: &Sides<T>, of: impl Fn(&T) -> Value) -> Value {
@@ -125,6 +129,17 @@ fn profile(profile: &Profile) -> Value {
     let level = |level: &Vec<HaarBand>| level.iter().map(band).collect::<Value>();
     let haar = profile.haar.as_ref().map(|levels| levels.iter().map(level).collect::<Value>());
     json!({ "rms_contrast": profile.rms_contrast, "haar": haar })
+}
+
+/// Bands of spatial frequency as lists: frequency, sustained and transient Q.
+fn visible_difference(fvvdp: &FvvdpFrame) -> Value {
+    let band = |band: &FvvdpBand| json!([band.cpd, band.sustained, band.transient]);
+    json!({
+        "q": fvvdp.q,
+        "frame_jod": fvvdp.frame_jod,
+        "bands": fvvdp.bands.iter().map(band).collect::<Value>(),
+        "shares": fvvdp.shares,
+    })
 }
 
 /// Pixels that count, then the mean and the valid pixels of the whole frame, and of each band.

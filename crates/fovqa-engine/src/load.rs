@@ -10,7 +10,7 @@ use fovqa_io::{
 };
 use thiserror::Error;
 
-use crate::find::GuideFiles;
+use crate::find::{FoundFrame, GuideFiles};
 
 /// Why a pair cannot be compared.
 #[derive(Debug, Error)]
@@ -168,6 +168,18 @@ impl Loader<'_> {
             || self.side(step.test, &self.beside_colour()),
         );
         Loaded { reference, test }
+    }
+
+    /// The frames of a pair by themselves: for what looks ahead in a sequence.
+    pub(crate) fn pair(&self, frame: &FoundFrame, method: usize) -> Result<[Frame; 2], Fault> {
+        let test = frame.tests.iter().find(|(m, _)| *m == method).map(|(_, test)| test);
+        let Some(test) = test else { unreachable!("the frame is of the method's sequence") };
+        let nothing = GuideOptions::default();
+        let (reference, test) =
+            rayon::join(|| self.side(&frame.reference, &nothing), || self.side(test, &nothing));
+        let (reference, test) = (reference?, test?);
+        comparable(&reference, &test, Nonfinite::Error)?;
+        Ok([reference.frame, test.frame])
     }
 
     /// What is looked for beside the colour: not the names a user has given channels of files of their

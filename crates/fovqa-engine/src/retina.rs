@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use fovqa_frame::Mask;
+use fovqa_metrics::fvvdp::{Fvvdp, FvvdpRegions};
 use fovqa_metrics::{BlockRegions, Params, Regions, WeightField};
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, View};
 
@@ -25,6 +26,8 @@ pub(crate) struct Retina {
     /// Bands of the blocks of each level of the wavelet.
     pub(crate) blocks: Vec<BandMap>,
     pub(crate) weight: Option<WeightField>,
+    /// Bands of the levels of FovVideoVDP.
+    pub(crate) fvvdp: Option<FvvdpRegions>,
     /// What the mask leaves of the bands.
     masked: Option<(Regions<'static>, BlockRegions<'static>)>,
     /// Memory it takes, without what the mask leaves, which is of the same size.
@@ -71,6 +74,7 @@ pub(crate) struct RetinaMaker<'a> {
     pub(crate) params: &'a Params,
     pub(crate) foveal: bool,
     pub(crate) haar_levels: Option<usize>,
+    pub(crate) fvvdp: Option<Fvvdp>,
     pub(crate) mask: Option<Mask>,
     /// Radius of the windows whose every pixel has to count.
     pub(crate) window_radius: usize,
@@ -95,9 +99,15 @@ impl RetinaMaker<'_> {
             let regions = Regions::masked(&bands, mask, self.window_radius);
             (regions, BlockRegions::masked(&blocks, mask))
         });
+        let fvvdp = self.sight.as_ref().zip(self.fvvdp.as_ref()).map(|(sight, fvvdp)| {
+            let eccentricity = Eccentricity::new(sight.view, gaze_px, sight.kind);
+            fvvdp.regions(&eccentricity, &sight.edges)
+        });
         let maps = blocks.iter().chain([&bands]).map(BandMap::bytes).sum::<usize>();
-        let bytes = maps + weight.as_ref().map_or(0, WeightField::bytes);
-        Retina { bands, blocks, weight, masked, bytes }
+        let bytes = maps
+            + weight.as_ref().map_or(0, WeightField::bytes)
+            + fvvdp.as_ref().map_or(0, FvvdpRegions::bytes);
+        Retina { bands, blocks, weight, fvvdp, masked, bytes }
     }
 
     fn seen(
@@ -182,6 +192,7 @@ mod tests {
             params,
             foveal: true,
             haar_levels: Some(3),
+            fvvdp: None,
             mask: None,
             window_radius: 5,
             uses: BTreeMap::from([(key([1.0, 1.0]), USES_OF_A_FIELD), (key([2.0, 2.0]), 1)]),

@@ -9,6 +9,7 @@ use crate::error::EngineError;
 use crate::events::{Events, Progress, Warnings};
 use crate::find::{Found, FoundView, Problem};
 use crate::inputs::Inputs;
+use crate::light::FvvdpMaps;
 use crate::scoring::{Scoring, TakenDown, scene_bands};
 
 /// A frame of a comparison, scored or not, as soon as it is finished.
@@ -24,6 +25,8 @@ pub struct Finished<'a> {
     pub inputs: Vec<Input>,
     /// Its result.
     pub result: Result<&'a FrameResult, &'a Failure>,
+    /// Its heat maps, where they are asked for.
+    pub maps: Option<&'a FvvdpMaps>,
 }
 
 /// Takes down what is finished; an error ends the run.

@@ -66,8 +66,9 @@ impl Scoring<'_> {
         }
         let mut beside = self.inputs_beside(down.inputs);
         let guides = metrics.contains(&Metric::Atd);
-        let mut run = ViewRun::new(plan, eye, self.view, mask, metrics, self.bands);
         let loader = Loader { plan, settings: &eye.settings, guides };
+        let sequence = (self.bands, self.scene.fps);
+        let mut run = ViewRun::new(plan, eye, self.view, mask, metrics, sequence, &loader);
         let mut written = Ok(());
         read_ahead(
             &steps,
@@ -88,11 +89,12 @@ impl Scoring<'_> {
                     method: &plan.methods[step.method],
                     eye: eye.eye,
                     inputs,
-                    result: result.as_ref(),
+                    result: result.as_ref().map(|(frame, _)| frame),
+                    maps: result.as_ref().ok().and_then(|(_, maps)| maps.as_ref()),
                 });
                 let report = self.report(step.method, down);
                 match result {
-                    Ok(frame) => report.frames.push(frame),
+                    Ok((frame, _)) => report.frames.push(frame),
                     Err(failure) => report.failures.push(failure),
                 }
                 down.progress.step(1);
@@ -107,6 +109,15 @@ impl Scoring<'_> {
                 report.view = view;
                 report.metrics = metrics;
                 report.atd_guides = run.atd_guides(method);
+                report.fvvdp = run.fvvdp(method);
+                // A frame that could not be scored has said so; one that was never there has not.
+                let missing = report.fvvdp.as_ref().and_then(|fvvdp| fvvdp.missing.clone());
+                if let Some(why) = missing.filter(|_| report.failures.is_empty()) {
+                    let message = format!("FovVideoVDP has no value for the sequence: {why}");
+                    let help =
+                        "render the frames that are missing, or leave fvvdp out of {metrics}";
+                    report.failures.push(whole(message, help.to_owned()));
+                }
             }
         }
         Ok(())

@@ -2,6 +2,7 @@
 
 use fovqa_config::{MetricChoice, Plan, Settings};
 use fovqa_metrics::Metric;
+use fovqa_vision::ViewSpec;
 
 use crate::error::{EngineError, no_view};
 
@@ -26,6 +27,7 @@ pub(crate) fn metrics(
             if !foveal.is_empty() {
                 return Err(no_view(&foveal));
             }
+            check_light(named, settings)?;
             let mut metrics = named.clone();
             metrics.sort_unstable();
             metrics.dedup();
@@ -35,5 +37,26 @@ pub(crate) fn metrics(
             let (left_out, metrics) = Metric::DEFAULT.into_iter().partition(lacking);
             Ok((metrics, left_out))
         }
+    }
+}
+
+/// Whether what is of light has a display that can show the files.
+fn check_light(metrics: &[Metric], settings: &Settings) -> Result<(), EngineError> {
+    let of_light = metrics.iter().filter(|metric| metric.info().needs_luminance);
+    let names: Vec<&str> = of_light.map(|metric| metric.info().label).collect();
+    if names.is_empty() {
+        return Ok(());
+    }
+    let what = names.join(" and ");
+    match (settings.photometry(), settings.shown_wrongly()) {
+        (None, _) => {
+            let display = match &settings.view {
+                Some(ViewSpec::Display(display)) => Some(display.name.clone()),
+                _ => None,
+            };
+            Err(EngineError::NoLuminance { what, display })
+        }
+        (Some(_), Some(why)) => Err(EngineError::ShownWrongly { what, why }),
+        (Some(_), None) => Ok(()),
     }
 }

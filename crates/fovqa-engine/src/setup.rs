@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use fovqa_config::{Gaze, MetricChoice, Plan, Settings};
 use fovqa_frame::Mask;
+use fovqa_metrics::fvvdp::{Fvvdp, Geometry, SMALLEST_SIDE};
 use fovqa_metrics::{Metric, Profiler, Scorer, WeightField};
 use fovqa_results::ViewResult;
 use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind, GazeAt, View, ViewSpec};
@@ -59,6 +60,7 @@ impl<'a> Setup<'a> {
                 metrics.retain(|m| *m != metric);
             }
         }
+        let wants_fvvdp = metrics.contains(&Metric::Fvvdp);
         let foveal = metrics.iter().any(|m| WEIGHTED.contains(m));
         let profiler = Profiler::new(&metrics, &plan.params);
         let mut scorer = Scorer::new(metrics, plan.params.clone());
@@ -67,6 +69,13 @@ impl<'a> Setup<'a> {
         }
         let seen = inputs.settings.view.as_ref().map(|spec| look(inputs, spec, size, warnings));
         let (sight, view) = seen.transpose()?.unzip();
+        let fvvdp = sight.as_ref().filter(|_| wants_fvvdp && fits_fvvdp(size)).map(|sight| {
+            let display = match &inputs.settings.view {
+                Some(ViewSpec::Display(display)) => Some(display.central_pixels_per_degree()),
+                _ => None,
+            };
+            Fvvdp::new(Geometry::new(sight.view, display), &plan.params.fvvdp)
+        });
         let gaze_px = view.as_ref().map_or([0.0; 2], |view: &ViewResult| view.gaze_px);
         let mut retinas = Retinas::new(RetinaMaker {
             sight,
@@ -74,6 +83,7 @@ impl<'a> Setup<'a> {
             params: &plan.params,
             foveal,
             haar_levels: profiler.haar_levels(),
+            fvvdp,
             mask,
             window_radius: scorer.window_radius(),
             uses: uses(inputs, gaze_px),
@@ -104,6 +114,11 @@ impl<'a> Setup<'a> {
         Arc::clone(&self.retina)
     }
 
+    /// FovVideoVDP for these frames, where it is asked for.
+    pub(crate) fn fvvdp(&self) -> Option<&Fvvdp> {
+        self.retinas.maker.fvvdp.as_ref()
+    }
+
     /// The lens mask.
     pub(crate) fn mask(&self) -> Option<&Mask> {
         self.retinas.maker.mask.as_ref()
@@ -124,6 +139,11 @@ impl<'a> Setup<'a> {
         let from = Eccentricity::new(sight.view, from_px, EccentricityKind::Angular);
         Some(from.at_deg(to_px[0], to_px[1]))
     }
+}
+
+/// Whether FovVideoVDP is defined for frames of a size; where it is not, the scorer says so.
+fn fits_fvvdp((width, height): (usize, usize)) -> bool {
+    width.min(height) >= SMALLEST_SIDE
 }
 
 /// Metrics under the foveal weight.

@@ -3,13 +3,16 @@
 use fovqa_config::{EyeView, Plan};
 use fovqa_frame::{Mask, PairSignal, SignalTables};
 use fovqa_metrics::temporal::KeptPlane;
-use fovqa_metrics::{BlockRegions, Metric, MetricKind, Profile, Profiler, Regions, ScoreError};
-use fovqa_results::{AtdGuides, Failure, FrameResult, GuideSource, Sides, ViewResult};
+use fovqa_metrics::{
+    BlockRegions, Metric, MetricKind, PairScores, Profile, Profiler, Regions, ScoreError,
+};
+use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, Sides, ViewResult};
 use fovqa_vision::BandEdges;
 
 use crate::events::Warnings;
 use crate::find::FoundView;
-use crate::load::{Fault, Loaded, Side, Step, comparable};
+use crate::light::{FvvdpMaps, Light, Lit};
+use crate::load::{Fault, Loaded, Loader, Side, Step, comparable};
 use crate::setup::{Inputs, Setup};
 use crate::temporal::{Counted, Present, Temporal};
 
@@ -27,6 +30,8 @@ pub(crate) struct ViewRun<'a> {
     reference: Option<Result<Side, Fault>>,
     profile: Option<Profile>,
     temporal: Option<Temporal>,
+    light: Option<Light>,
+    loader: &'a Loader<'a>,
     /// Position of the reference's frame.
     position: usize,
 }
@@ -38,7 +43,8 @@ impl<'a> ViewRun<'a> {
         view: &'a FoundView,
         mask: Option<Mask>,
         metrics: Vec<Metric>,
-        bands: Option<&'a BandEdges>,
+        (bands, fps): (Option<&'a BandEdges>, Option<f64>),
+        loader: &'a Loader<'a>,
     ) -> Self {
         let tables = SignalTables::new(eye.settings.signal);
         let temporal = metrics.contains(&Metric::Atd).then(|| Temporal::new(plan.params.atd));
@@ -47,13 +53,15 @@ impl<'a> ViewRun<'a> {
             eye,
             view,
             mask,
-            metrics,
             bands,
             tables,
             setup: None,
             reference: None,
             profile: None,
             temporal,
+            light: Light::new(plan, &eye.settings, &metrics, view, fps),
+            metrics,
+            loader,
             position: 0,
         }
     }
@@ -61,6 +69,13 @@ impl<'a> ViewRun<'a> {
     /// What the differences over time of a method were taken along.
     pub(crate) fn atd_guides(&self, method: usize) -> AtdGuides {
         self.temporal.as_ref().map(|temporal| temporal.guides(method)).unwrap_or_default()
+    }
+
+    /// How FovVideoVDP saw the sequence of a method, where it is asked for and a pair could be compared.
+    pub(crate) fn fvvdp(&self, method: usize) -> Option<FvvdpSight> {
+        let geometry = self.setup.as_ref()?.fvvdp()?.geometry();
+        let number = |index: usize| self.view.frames[index].number.to_string();
+        self.light.as_ref()?.sight(method, geometry.pixels_per_degree, number)
     }
 
     /// The view and the metrics that fit it, once a pair could be compared.
@@ -75,7 +90,7 @@ impl<'a> ViewRun<'a> {
         step: &Step<'_>,
         loaded: Loaded,
         warnings: &mut Warnings<'_>,
-    ) -> Result<FrameResult, Failure> {
+    ) -> Result<(FrameResult, Option<FvvdpMaps>), Failure> {
         if let Some(reference) = loaded.reference {
             if let (Some(Ok(old)), Some(temporal)) = (&self.reference, &mut self.temporal) {
                 temporal.leave(old, self.position);
@@ -143,7 +158,7 @@ impl<'a> ViewRun<'a> {
         reference: &Side,
         test: &Side,
         warnings: &mut Warnings<'_>,
-    ) -> Result<FrameResult, Fault> {
+    ) -> Result<(FrameResult, Option<FvvdpMaps>), Fault> {
         let finite = comparable(reference, test, self.eye.settings.nonfinite)?;
         for side in [reference, test] {
             for note in &side.notes {
@@ -175,10 +190,30 @@ impl<'a> ViewRun<'a> {
         };
         let signal = PairSignal::new(&reference.frame, &test.frame, &self.tables);
         let scores = setup.scorer.score(&signal, &regions, retina.weight.as_ref());
-        let scores = scores.map_err(|error| Fault {
+        let mut scores = scores.map_err(|error| Fault {
             message: format!("{}: {error}", test.file),
             help: format!("leave it out of {{metrics}}, or {}", score_help(&error)),
         })?;
+        let lit = Lit {
+            frame: step.frame,
+            method: step.method,
+            reference: &reference.frame,
+            test: &test.frame,
+            gaze_px: gaze_px.or(setup.view.as_ref().map(|v| v.gaze_px)).unwrap_or_default(),
+            regions: &regions,
+            fvvdp: setup.fvvdp().zip(retina.fvvdp.as_ref()),
+            tests: view.frames[step.frame].tests.len(),
+        };
+        let of_light = self.light.as_mut().map(|light| {
+            if light.is_dim(step.frame, &reference.frame) {
+                warnings.once_a_view("candela", CANDELA);
+            }
+            light.measure(&lit, &|frame, method| self.loader.pair(&view.frames[frame], method))
+        });
+        let of_light = of_light.unwrap_or_default();
+        if let Some(pu_psnr) = of_light.pu_psnr_db {
+            scores.scores.insert(Metric::PuPsnr, pu_psnr);
+        }
         let measured = Measuring {
             profiler: &setup.profiler,
             tables: &self.tables,
@@ -204,17 +239,8 @@ impl<'a> ViewRun<'a> {
                 setup.gaze_step_deg(trace[step.frame - 1].px, trace[step.frame].px)
             });
         let number = view.frames[step.frame].number;
-        let left_out = |metric: &&Metric| {
-            metric.is(MetricKind::Fidelity) && !scores.scores.contains_key(metric)
-        };
-        for metric in setup.scorer.metrics().iter().filter(left_out) {
-            let label = metric.info().label;
-            let message = format!(
-                "{label} is left out of frame {number}: the mask leaves no whole window for it"
-            );
-            warnings.once_a_view(&format!("{label} without windows"), &message);
-        }
-        Ok(FrameResult {
+        warn_of_left_out(setup.scorer.metrics(), &scores, number, warnings);
+        let result = FrameResult {
             frame: number,
             reference: reference.file.clone(),
             test: test.file.clone(),
@@ -223,13 +249,19 @@ impl<'a> ViewRun<'a> {
             scores,
             profiles,
             atd,
-        })
+            fvvdp: of_light.fvvdp,
+        };
+        Ok((result, of_light.maps))
     }
 }
 
 /// Said where differences over time are taken without motion vectors.
 const NO_MOTION: &str =
     "ATD is taken without motion vectors: whatever moves counts as a difference";
+
+/// Said where linear files are shown in cd/m² and none of their values is above 1.
+const CANDELA: &str = "no pixel of the reference is brighter than 1 cd/m², as linear values are taken for cd/m² on this display: \
+     where 1 stands for white or for another amount of light, say how much with fvvdp.cd_m2_per_unit";
 
 /// How the pictures of a pair are measured one by one.
 struct Measuring<'a> {
@@ -265,6 +297,26 @@ impl Measuring<'_> {
             return Profile::default();
         }
         self.profiler.measure(&side.frame, self.tables, self.regions, self.blocks, plane)
+    }
+}
+
+/// Says which metrics a mask leaves no window for.
+fn warn_of_left_out(
+    metrics: &[Metric],
+    scores: &PairScores,
+    frame: u64,
+    warnings: &mut Warnings<'_>,
+) {
+    let left_out = |metric: &&Metric| {
+        metric.is(MetricKind::Fidelity)
+            && **metric != Metric::Fvvdp
+            && !scores.scores.contains_key(metric)
+    };
+    for metric in metrics.iter().filter(left_out) {
+        let label = metric.info().label;
+        let message =
+            format!("{label} is left out of frame {frame}: the mask leaves no whole window for it");
+        warnings.once_a_view(&format!("{label} without windows"), &message);
     }
 }
 

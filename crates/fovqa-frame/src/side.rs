@@ -47,18 +47,20 @@ impl Side<'_> {
                 }
             }
             Source::Linear(s, to_signal) => {
-                for c in channels {
-                    for (out, &v) in planes[c].iter_mut().zip(&s[planar(c)]) {
-                        *out = to_signal.map(v);
-                    }
-                }
+                channels.for_each(|c| each(&s[planar(c)], planes[c], |v| to_signal.map(v)));
             }
             Source::Encoded(s) => {
-                for c in channels {
-                    for (out, &v) in planes[c].iter_mut().zip(&s[planar(c)]) {
-                        *out = encoded(v);
-                    }
-                }
+                channels.for_each(|c| each(&s[planar(c)], planes[c], within_unit));
+            }
+            Source::Curve(s, curve) => {
+                channels.for_each(|c| each(&s[planar(c)], planes[c], |v| curve.at(v)));
+            }
+            Source::ToneMapped(s, to_signal, curve) => {
+                let light = |v| curve.at(to_signal.map(v));
+                channels.for_each(|c| each(&s[planar(c)], planes[c], light));
+            }
+            Source::Absolute(s, light) => {
+                channels.for_each(|c| each(&s[planar(c)], planes[c], |v| light.shown(v)));
             }
         }
         if !colour && let [gray, others @ ..] = planes {
@@ -79,9 +81,17 @@ fn codes16(codes: &[u16], planes: &mut [&mut [f32]], scale: f32) {
     take_apart(codes, planes, |c| f32::from(c) * scale);
 }
 
+#[inline(always)]
+fn each(values: &[f32], out: &mut [f32], of: impl Fn(f32) -> f32) {
+    for (out, &value) in out.iter_mut().zip(values) {
+        *out = of(value);
+    }
+}
+
 /// An encoded float, kept in range.
+#[inline]
 #[allow(clippy::manual_clamp, reason = "clamp would let NaN through; here it becomes 0")]
-fn encoded(value: f32) -> f32 {
+pub(crate) fn within_unit(value: f32) -> f32 {
     value.max(0.0).min(1.0)
 }
 

@@ -10,6 +10,7 @@ use std::sync::OnceLock;
 use half::f16;
 
 use crate::frame::{Frame, Samples};
+use crate::light::{Curve, ShownLight};
 use crate::tonemap::ToneMap;
 use crate::transfer::srgb;
 
@@ -79,13 +80,13 @@ pub struct SignalTables {
 }
 
 /// How many values 8 bits have. A table of this length needs no check of an 8-bit index.
-const CODES_8: usize = 1 << 8;
+pub(crate) const CODES_8: usize = 1 << 8;
 /// How many values 16 bits have.
-const CODES_16: usize = 1 << 16;
+pub(crate) const CODES_16: usize = 1 << 16;
 
 /// The values of all codes from 0 on.
 #[allow(clippy::unnecessary_box_returns, reason = "a quarter of a megabyte is no stack frame")]
-fn table<const N: usize>(value: impl Fn(usize) -> f32) -> Box<[f32; N]> {
+pub(crate) fn table<const N: usize>(value: impl Fn(usize) -> f32) -> Box<[f32; N]> {
     let values: Box<[f32]> = (0..N).map(value).collect();
     values.try_into().unwrap_or_else(|_| unreachable!("N values make a table of N"))
 }
@@ -101,6 +102,10 @@ pub(crate) enum Source<'a> {
     Half(&'a [f16], &'a [f32; CODES_16]),
     Linear(&'a [f32], FloatToSignal),
     Encoded(&'a [f32]),
+    /// To light: encoded values, those of a scene, and absolute light.
+    Curve(&'a [f32], Curve<'a>),
+    ToneMapped(&'a [f32], FloatToSignal, Curve<'a>),
+    Absolute(&'a [f32], ShownLight),
 }
 
 /// Exposure, tone map, encoding.
@@ -112,6 +117,14 @@ pub(crate) struct FloatToSignal {
 }
 
 impl FloatToSignal {
+    pub(crate) fn new(params: &SignalParams) -> Self {
+        Self {
+            gain: libm::exp2(params.exposure_stops) as f32,
+            tonemap: params.tonemap,
+            encoder: srgb::Encoder::new(),
+        }
+    }
+
     #[inline]
     pub(crate) fn map(self, linear: f32) -> f32 {
         // `NaN.max(0.0)` in the tone map is 0.
@@ -174,10 +187,7 @@ impl SignalTables {
                 };
                 Source::Half(s, self.half.get_or_init(|| table(value)))
             }
-            Samples::F32(s) if linear => Source::Linear(
-                s,
-                FloatToSignal { gain: gain as f32, tonemap, encoder: srgb::Encoder::new() },
-            ),
+            Samples::F32(s) if linear => Source::Linear(s, FloatToSignal::new(&self.params)),
             Samples::F32(s) => Source::Encoded(s),
         }
     }

@@ -1,4 +1,4 @@
-//! Files to frames: PNG, JPEG and OpenEXR, with motion and depth where OpenEXR has them, sequences
+//! Files to frames, and pictures to files: PNG, JPEG and OpenEXR, with motion and depth where OpenEXR has them, sequences
 //! of them, and limits on what is read.
 //!
 //! Every decoder's mistake (an error, a panic, a declared size beyond reason) ends as a
@@ -13,6 +13,7 @@ mod file_id;
 mod guides;
 mod raster;
 pub mod sequence;
+mod write;
 
 pub use alpha::AlphaPolicy;
 pub use contain::is_contained;
@@ -25,3 +26,4 @@ pub use guides::{
     DecodedGuides, DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels,
     MotionUnit, NamedMotion, Sought, read_guides, read_guides_and_hash,
 };
+pub use write::{exr_gray, png_rgb8};

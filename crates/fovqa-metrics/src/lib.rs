@@ -14,8 +14,10 @@ mod sums;
 pub mod temporal;
 
 pub use fidelity::fpsnr::{self, WeightField};
+pub use fidelity::fvvdp;
+pub use fidelity::pu_psnr;
 pub use fidelity::ssim;
-pub use fidelity::{BandScores, PairScores, ScoreError, Scorer, psnr_db};
+pub use fidelity::{BandScores, PairScores, ScoreError, Scorer, mse_of_db, psnr_db};
 pub use params::Params;
 pub use profile::{HaarBand, HaarStatistics, Profile, Profiler};
 pub use regions::{BlockRegions, Regions};

@@ -2,7 +2,7 @@
 
 use fovqa_params::{ParamError, ParamValue, find};
 
-use crate::fidelity::{fpsnr, ssim};
+use crate::fidelity::{fpsnr, fvvdp, ssim};
 use crate::profile::{haar, rms_contrast};
 use crate::registry::Metric;
 use crate::temporal::atd;
@@ -14,6 +14,8 @@ pub struct Params {
     pub ssim: ssim::Params,
     /// The foveal weight of FPSNR and FSSIM.
     pub fpsnr: fpsnr::Params,
+    /// FovVideoVDP; PU-PSNR sees light as it does.
+    pub fvvdp: fvvdp::Params,
     /// RMS contrast.
     pub rms_contrast: rms_contrast::Params,
     /// The Haar wavelet.
@@ -38,10 +40,11 @@ impl Params {
         let set = match metric {
             Metric::Ssim => self.ssim.set(known.name, &value),
             Metric::Fpsnr => self.fpsnr.set(known.name, &value),
+            Metric::Fvvdp => self.fvvdp.set(known.name, &value),
             Metric::RmsContrast => self.rms_contrast.set(known.name, &value),
             Metric::Haar => self.haar.set(known.name, &value),
             Metric::Atd => self.atd.set(known.name, &value),
-            Metric::Mse | Metric::Psnr | Metric::MsSsim | Metric::Fssim => None,
+            Metric::Mse | Metric::Psnr | Metric::MsSsim | Metric::Fssim | Metric::PuPsnr => None,
         };
         set.ok_or_else(|| known.refuses(info.key, &value))
     }

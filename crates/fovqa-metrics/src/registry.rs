@@ -2,6 +2,7 @@
 
 use fovqa_params::{ParamInfo, ParamValues};
 
+use crate::fidelity::fvvdp::ColorSpace;
 use crate::fidelity::ssim;
 use crate::profile::haar;
 
@@ -20,6 +21,10 @@ pub enum Metric {
     Fpsnr,
     /// Structural similarity under the foveal weight.
     Fssim,
+    /// FovVideoVDP.
+    Fvvdp,
+    /// Peak signal-to-noise ratio of perceptually uniform luminance.
+    PuPsnr,
     /// RMS contrast by eccentricity.
     RmsContrast,
     /// Haar wavelet coefficients by level and eccentricity.
@@ -67,6 +72,8 @@ pub struct MetricInfo {
     pub per_band: bool,
     /// Whether it needs a view even without bands.
     pub needs_view: bool,
+    /// Whether it is of light, and needs the display's photometry.
+    pub needs_luminance: bool,
     /// One line on what it is.
     pub about: &'static str,
     /// Where it comes from.
@@ -77,13 +84,15 @@ pub struct MetricInfo {
 
 impl Metric {
     /// All metrics, in the order of tables.
-    pub const ALL: [Metric; 9] = [
+    pub const ALL: [Metric; 11] = [
         Metric::Mse,
         Metric::Psnr,
         Metric::Ssim,
         Metric::MsSsim,
         Metric::Fpsnr,
         Metric::Fssim,
+        Metric::Fvvdp,
+        Metric::PuPsnr,
         Metric::RmsContrast,
         Metric::Haar,
         Metric::Atd,
@@ -115,6 +124,8 @@ impl Metric {
             Metric::MsSsim => &MS_SSIM,
             Metric::Fpsnr => &FPSNR,
             Metric::Fssim => &FSSIM,
+            Metric::Fvvdp => &FVVDP,
+            Metric::PuPsnr => &PU_PSNR,
             Metric::RmsContrast => &RMS_CONTRAST,
             Metric::Haar => &HAAR,
             Metric::Atd => &ATD,
@@ -145,6 +156,7 @@ const MSE: MetricInfo = MetricInfo {
     better: Better::Lower,
     per_band: true,
     needs_view: false,
+    needs_luminance: false,
     about: "mean squared error of the encoded signal, peak 1",
     source: "the squared error of all channels, pooled",
     params: &[],
@@ -158,6 +170,7 @@ const PSNR: MetricInfo = MetricInfo {
     better: Better::Higher,
     per_band: true,
     needs_view: false,
+    needs_luminance: false,
     about: "peak signal-to-noise ratio, -10 log10 MSE",
     source: "as scikit-image's peak_signal_noise_ratio",
     params: &[],
@@ -171,6 +184,7 @@ const SSIM: MetricInfo = MetricInfo {
     better: Better::Higher,
     per_band: true,
     needs_view: false,
+    needs_luminance: false,
     about: "structural similarity, the mean of its map where the window fits",
     source: "Wang, Bovik, Sheikh, Simoncelli 2004",
     params: &[
@@ -209,6 +223,7 @@ const MS_SSIM: MetricInfo = MetricInfo {
     better: Better::Higher,
     per_band: false,
     needs_view: false,
+    needs_luminance: false,
     about: "structural similarity over five scales; sides of 176 px or more",
     source: "Wang, Simoncelli, Bovik 2003; window and constants are ssim's",
     params: &[],
@@ -222,6 +237,7 @@ const FPSNR: MetricInfo = MetricInfo {
     better: Better::Higher,
     per_band: false,
     needs_view: true,
+    needs_luminance: false,
     about: "PSNR under the square of the visible cut-off frequency; compare methods, not papers",
     source: "Lee, Pattichis, Bovik 2002; weights after Geisler and Perry 1998",
     params: &[
@@ -290,8 +306,74 @@ const FSSIM: MetricInfo = MetricInfo {
     better: Better::Higher,
     per_band: false,
     needs_view: true,
+    needs_luminance: false,
     about: "the SSIM map under FPSNR's weight",
     source: "ours: the map of ssim under the weight of fpsnr",
+    params: &[],
+};
+
+const FVVDP: MetricInfo = MetricInfo {
+    key: "fvvdp",
+    label: "FovVideoVDP",
+    unit: "JOD",
+    kind: MetricKind::Fidelity,
+    better: Better::Higher,
+    per_band: true,
+    needs_view: true,
+    needs_luminance: true,
+    about: "visible difference by eccentricity, over space and time: 10 for none, 1 less where 75 % prefer the reference; of bands, their share of the difference Q",
+    source: "Mantiuk et al. 2021, version 1.2",
+    params: &[
+        ParamInfo {
+            name: "foveated",
+            default: "true",
+            values: ParamValues::Flag,
+            about: "sensitivity falls off from the gaze; else every pixel is looked at directly",
+        },
+        ParamInfo {
+            name: "temp_padding",
+            default: "\"replicate\"",
+            values: ParamValues::Word(&["replicate", "circular", "pingpong"]),
+            about: "what stands before the first frame of a sequence",
+        },
+        ParamInfo {
+            name: "cd_m2_per_unit",
+            default: "\"auto\"",
+            values: ParamValues::NumberOr(1e-9, 1e9, "auto"),
+            about: "cd/m² of a linear sample of 1 (PU-PSNR too); auto is 1 on linear and PQ displays, and the tone-mapped signal on others",
+        },
+        ParamInfo {
+            name: "color_space",
+            default: "\"srgb\"",
+            values: ParamValues::Word(&ColorSpace::NAMES),
+            about: "primaries of the files (PU-PSNR too)",
+        },
+        ParamInfo {
+            name: "exact_edges",
+            default: "false",
+            values: ParamValues::Flag,
+            about: "weigh the right edge of coarser levels by their columns; FovVideoVDP does it by their rows",
+        },
+        ParamInfo {
+            name: "map_context",
+            default: "\"test\"",
+            values: ParamValues::Word(&["test", "reference"]),
+            about: "the picture below coloured heat maps",
+        },
+    ],
+};
+
+const PU_PSNR: MetricInfo = MetricInfo {
+    key: "pu_psnr",
+    label: "PU-PSNR",
+    unit: "dB",
+    kind: MetricKind::Fidelity,
+    better: Better::Higher,
+    per_band: false,
+    needs_view: false,
+    needs_luminance: true,
+    about: "PSNR of the display's luminance in perceptually uniform units (PU21)",
+    source: "Mantiuk, Azimi 2021, banding and glare; as in FovVideoVDP 1.2",
     params: &[],
 };
 
@@ -303,6 +385,7 @@ const RMS_CONTRAST: MetricInfo = MetricInfo {
     better: Better::Neither,
     per_band: true,
     needs_view: true,
+    needs_luminance: false,
     about: "standard deviation of luma in each band, of reference and test, and their ratio",
     source: "Peli 1990; Patney et al. 2016, Fig. 4",
     params: &[
@@ -329,6 +412,7 @@ const HAAR: MetricInfo = MetricInfo {
     better: Better::Neither,
     per_band: true,
     needs_view: true,
+    needs_luminance: false,
     about: "wavelet coefficients of luma by level and band (mean_abs, max_abs, energy), of reference and test, and their ratios",
     source: "Patney et al. 2016, 4.4.2, Fig. 10",
     params: &[
@@ -355,6 +439,7 @@ const ATD: MetricInfo = MetricInfo {
     better: Better::Lower,
     per_band: true,
     needs_view: false,
+    needs_luminance: false,
     about: "average temporal difference of luma along the motion, of reference and test, and their ratio",
     source: "Patney et al. 2016, 4.4.3",
     params: &[ParamInfo {

@@ -4,9 +4,12 @@
 use std::collections::BTreeMap;
 
 use fovqa_metrics::temporal::{AtdBand, AtdFrame};
-use fovqa_metrics::{BandScores, HaarBand, HaarStatistics, Metric, PairScores, Profile, psnr_db};
+use fovqa_metrics::{
+    BandScores, HaarBand, HaarStatistics, Metric, PairScores, Profile, mse_of_db, psnr_db,
+};
 
 use crate::compared::Sides;
+use crate::fvvdp;
 use crate::report::{AtdGuides, FrameResult, GuideSource, ScoreReport};
 
 /// The report of both eyes: the frames both have, by their numbers.
@@ -20,11 +23,15 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
         let mut scores = pooled(&l.scores, &r.scores);
         let mut profiles =
             l.profiles.as_ref().zip(r.profiles.as_ref()).map(|(l, r)| both(l, r, profile));
+        let mut fvvdp = l.fvvdp.as_ref().zip(r.fvvdp.as_ref()).map(|(l, r)| fvvdp::of_both(l, r));
         let mut atd = l.atd.as_ref().zip(r.atd.as_ref()).map(|(l, r)| both(l, r, difference));
         // Bands of other edges have nothing in common.
         if !alike {
             scores.bands.clear();
             profiles = None;
+            if let Some(fvvdp) = &mut fvvdp {
+                fvvdp.shares = None;
+            }
             for side in atd.iter_mut().flat_map(|atd| [&mut atd.reference, &mut atd.test]) {
                 side.bands.clear();
             }
@@ -38,6 +45,7 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
             scores,
             profiles,
             atd,
+            fvvdp,
         })
     });
     ScoreReport {
@@ -50,6 +58,7 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
             motion: common(left.atd_guides.motion, right.atd_guides.motion),
             depth: common(left.atd_guides.depth, right.atd_guides.depth),
         },
+        fvvdp: fvvdp::sight_of_both(left, right),
     }
 }
 
@@ -133,7 +142,15 @@ fn pooled(left: &PairScores, right: &PairScores) -> PairScores {
     let scores = left.scores.iter().filter_map(|(&metric, &l)| {
         let r = *right.scores.get(&metric)?;
         let fmse = weighted_squared_error.map(|(squared, weight)| squared / weight);
-        Some((metric, pooled_score(metric, mse, fmse, l, r)))
+        let errors = match metric {
+            // Its squared error, in other units, is what its decibels say.
+            Metric::PuPsnr => {
+                let error = |score: f64, of: &PairScores| (Some(mse_of_db(score)), of.pixels);
+                pooled_mse(error(l, left), error(r, right))
+            }
+            _ => mse,
+        };
+        Some((metric, pooled_score(metric, errors, fmse, l, r)))
     });
     let bands = left.bands.iter().zip(&right.bands).map(|(l, r)| pooled_band(l, r));
     PairScores {
@@ -170,11 +187,12 @@ fn pooled_mse(left: (Option<f64>, u64), right: (Option<f64>, u64)) -> Option<f64
 fn pooled_score(metric: Metric, mse: Option<f64>, fmse: Option<f64>, l: f64, r: f64) -> f64 {
     match metric {
         Metric::Mse => mse.unwrap_or_else(|| f64::midpoint(l, r)),
-        Metric::Psnr => mse.map_or_else(|| f64::midpoint(l, r), psnr_db),
+        Metric::Psnr | Metric::PuPsnr => mse.map_or_else(|| f64::midpoint(l, r), psnr_db),
         Metric::Fpsnr => fmse.map_or_else(|| f64::midpoint(l, r), psnr_db),
         Metric::Ssim
         | Metric::MsSsim
         | Metric::Fssim
+        | Metric::Fvvdp
         | Metric::RmsContrast
         | Metric::Haar
         | Metric::Atd => f64::midpoint(l, r),
@@ -256,6 +274,7 @@ mod tests {
             scores: scores(0.5, 0.5, 1),
             profiles: None,
             atd: None,
+            fvvdp: None,
         };
         let report = |frames: &[u64]| ScoreReport {
             metrics: vec![Metric::Mse],

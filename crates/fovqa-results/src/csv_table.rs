@@ -8,6 +8,7 @@ use std::io::{self, Write};
 use fovqa_metrics::Metric;
 
 use crate::compared::{Compared, HaarStatistic};
+use crate::fvvdp::{FvvdpSummary, SpatialBand};
 use crate::report::{Comparison, FrameResult, RunResults, ScoreReport};
 use crate::summary::{Statistics, Summary};
 
@@ -29,6 +30,8 @@ pub const COLUMNS: [&str; 12] = [
 
 /// The metric of a row that stands for something that could not be scored.
 pub const ERROR: &str = "error";
+
+const FVVDP: &str = "fvvdp";
 
 /// What a value is of.
 #[derive(Default, Clone, Copy, PartialEq, Eq)]
@@ -98,7 +101,7 @@ pub fn write_csv(report: &ScoreReport, out: impl Write) -> io::Result<()> {
 
 /// Writes the values of a run as results.csv: each frame's values, comparison by comparison; behind
 /// those of a comparison, a row [`ERROR`] with the value `nan` for each frame that could not be scored,
-/// or one without a frame where the whole could not be.
+/// or one without a frame where the whole could not be. Without a frame stands FovVideoVDP of a sequence.
 ///
 /// # Errors
 /// When the writer refuses.
@@ -107,6 +110,9 @@ pub fn write_results_csv(results: &RunResults, out: impl Write) -> io::Result<()
     for Comparison { scene, method, eye, report } in &results.comparisons {
         let row = Row { scene, method, eye, ..Row::default() };
         table.frames(&row, report)?;
+        if let Some(summary) = FvvdpSummary::of(report) {
+            table.fvvdp_sequence(&row, &summary)?;
+        }
         for failure in &report.failures {
             let value = Some(Value::Measured(f64::NAN));
             table.write(&Row { frame: failure.frame, metric: ERROR, value, ..row })?;
@@ -133,6 +139,7 @@ impl<W: Write> Table<W> {
                 let value = Some(Value::Measured(*value));
                 self.write(&Row { metric: metric.key(), value, ..row })?;
             }
+            self.fvvdp(&row, frame)?;
             self.whole_frame_compared(&row, frame)?;
             let outside = if edges.is_empty() { 0 } else { frame.scores.outside_bands };
             for (metric, pixels) in
@@ -152,6 +159,10 @@ impl<W: Write> Table<W> {
                         value: value.map(Value::Measured),
                         ..row
                     })?;
+                }
+                if let Some(fvvdp) = &frame.fvvdp {
+                    let value = fvvdp.share(index).map(Value::Measured);
+                    self.write(&Row { metric: FVVDP, statistic: "share", value, ..row })?;
                 }
                 self.compared(&row, &frame.compared_in(index))?;
             }
@@ -179,6 +190,38 @@ impl<W: Write> Table<W> {
             }
         }
         Ok(())
+    }
+
+    /// FovVideoVDP of a frame, and Q by spatial frequency, the finest first.
+    fn fvvdp(&mut self, row: &Row<'_>, frame: &FrameResult) -> io::Result<()> {
+        let Some(fvvdp) = &frame.fvvdp else { return Ok(()) };
+        let row = Row { metric: FVVDP, ..*row };
+        for (statistic, value) in [("frame_jod", fvvdp.frame_jod), ("q", fvvdp.q)] {
+            self.write(&Row { statistic, value: Some(Value::Measured(value)), ..row })?;
+        }
+        for (index, band) in fvvdp.bands.iter().enumerate() {
+            self.spatial_band(&row, index, &SpatialBand::from(band))?;
+        }
+        Ok(())
+    }
+
+    fn spatial_band(&mut self, row: &Row<'_>, index: usize, band: &SpatialBand) -> io::Result<()> {
+        let row = Row { level: Some(index + 1), ..*row };
+        let values =
+            [("q_sustained", Some(band.sustained)), ("q_transient", band.transient)].into_iter();
+        for (statistic, value) in values {
+            if value.is_some() {
+                self.write(&Row { statistic, value: value.map(Value::Measured), ..row })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// FovVideoVDP of a sequence.
+    fn fvvdp_sequence(&mut self, row: &Row<'_>, summary: &FvvdpSummary) -> io::Result<()> {
+        let row = Row { metric: FVVDP, ..*row };
+        let value = summary.jod.map(Value::Measured);
+        self.write(&Row { statistic: "jod", value, ..row })
     }
 
     /// What is compared of whole frames, with the share of pixels that could not be.
@@ -224,7 +267,26 @@ impl<W: Write> Table<W> {
                 }
             }
         }
+        if let Some(fvvdp) = &summary.fvvdp {
+            self.fvvdp_statistics(fvvdp)?;
+        }
         self.compared_statistics(&summary)
+    }
+
+    fn fvvdp_statistics(&mut self, summary: &FvvdpSummary) -> io::Result<()> {
+        let row = Row { metric: FVVDP, ..Row::default() };
+        self.fvvdp_sequence(&row, summary)?;
+        let value = summary.q.map(Value::Measured);
+        self.write(&Row { statistic: "q", value, ..row })?;
+        for (index, band) in summary.spatial_bands.iter().enumerate() {
+            self.spatial_band(&row, index, band)?;
+        }
+        for share in &summary.shares {
+            let (band, value) = (Some((share.from_deg, share.to_deg)), share.share);
+            let value = value.map(Value::Measured);
+            self.write(&Row { statistic: "share", band, value, ..row })?;
+        }
+        Ok(())
     }
 
     fn compared_statistics(&mut self, summary: &Summary) -> io::Result<()> {

@@ -5,6 +5,7 @@ mod compared;
 mod csv_table;
 mod curves;
 mod files;
+mod fvvdp;
 mod json;
 mod report;
 mod summary;
@@ -17,13 +18,14 @@ pub use files::{
     CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RUN_JSON,
     SUMMARY_JSON, read_json_file, write_json_file, write_whole, write_whole_with,
 };
+pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use json::{
     BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,
     HaarValues, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, SummaryRecord,
     ViewRecord, write_json,
 };
 pub use report::{
-    AtdGuides, Comparison, Failure, FrameResult, GuideSource, Input, RunResults, ScoreReport,
-    ViewResult,
+    AtdGuides, Comparison, Failure, FrameResult, FvvdpSight, GuideSource, Input, RunResults,
+    ScoreReport, ViewResult,
 };
 pub use summary::{AtdSummary, BandSummary, SideStatistics, Spread, Statistics, Summary};

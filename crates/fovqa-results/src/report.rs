@@ -1,5 +1,6 @@
 //! What a run of `score` found.
 
+use fovqa_metrics::fvvdp::FvvdpFrame;
 use fovqa_metrics::temporal::AtdFrame;
 use fovqa_metrics::{Metric, PairScores, Profile};
 use serde::{Deserialize, Serialize};
@@ -40,6 +41,8 @@ pub struct FrameResult {
     pub profiles: Option<Sides<Profile>>,
     /// Differences to the frame before, where there is one.
     pub atd: Option<Sides<AtdFrame>>,
+    /// FovVideoVDP, where it is asked for.
+    pub fvvdp: Option<FvvdpFrame>,
 }
 
 /// Whose motion or depth a sequence was compared along.
@@ -62,6 +65,25 @@ pub struct AtdGuides {
     pub motion: GuideSource,
     /// Depth.
     pub depth: GuideSource,
+}
+
+/// How FovVideoVDP sees a sequence, and what came of it as a whole.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FvvdpSight {
+    /// Pixels of the display in a degree at its centre.
+    pub pixels_per_degree: f64,
+    /// White, cd/m².
+    pub peak_cd_m2: f64,
+    /// Black, cd/m².
+    pub black_cd_m2: f64,
+    /// Whether sensitivity falls off with eccentricity.
+    pub foveated: bool,
+    /// Frames a second; `None` for a still.
+    pub fps: Option<f64>,
+    /// Why the sequence has no value.
+    pub missing: Option<String>,
+    /// JOD of the left and of the right eye, where this is of both.
+    pub eyes_jod: Option<[f64; 2]>,
 }
 
 /// A frame that could not be scored, or a whole comparison.
@@ -94,6 +116,8 @@ pub struct ScoreReport {
     pub gaze_held: Option<usize>,
     /// What differences over time were taken along.
     pub atd_guides: AtdGuides,
+    /// How FovVideoVDP sees it, where it is asked for.
+    pub fvvdp: Option<FvvdpSight>,
 }
 
 /// A comparison of a run: one method in one scene, for one eye or both.

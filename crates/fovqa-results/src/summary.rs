@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use fovqa_metrics::temporal::AtdFrame;
-use fovqa_metrics::{Metric, MetricKind, PairScores, psnr_db};
+use fovqa_metrics::{Metric, MetricKind, PairScores, mse_of_db, psnr_db};
 
 use crate::compared::{HaarStatistic, Measure, Sides};
+use crate::fvvdp::FvvdpSummary;
 use crate::report::{FrameResult, GuideSource, ScoreReport};
 
 /// One measure over the frames.
@@ -97,6 +98,8 @@ pub struct Summary {
     pub coefficients: BTreeMap<(usize, usize), u64>,
     /// Differences over time, where they are asked for.
     pub atd: Option<AtdSummary>,
+    /// FovVideoVDP, where it is asked for.
+    pub fvvdp: Option<FvvdpSummary>,
 }
 
 impl Summary {
@@ -117,11 +120,15 @@ impl Summary {
             .map(|(index, &(from_deg, to_deg))| {
                 let scores = |f: &FrameResult| f.scores.bands[index].clone();
                 let bands: Vec<_> = frames.iter().map(scores).collect();
-                let fidelity = |m: &&Metric| m.info().per_band && m.is(MetricKind::Fidelity);
-                let per_band = report.metrics.iter().filter(fidelity);
+                // FovVideoVDP's shares of a whole are no scores.
+                let scored = |m: &&Metric| {
+                    m.info().per_band && m.is(MetricKind::Fidelity) && **m != Metric::Fvvdp
+                };
+                let per_band = report.metrics.iter().filter(scored);
                 let statistics = per_band.map(|&metric| {
                     let values = bands.iter().filter_map(|b| b.scores.get(&metric).copied()?);
-                    let pooled = pooled_psnr(metric, bands.iter().map(|b| (b.mse, b.pixels)));
+                    let errors = bands.iter().map(|b| (b.mse, b.pixels));
+                    let pooled = pooled_psnr(errors).filter(|_| metric == Metric::Psnr);
                     (metric, Statistics::of(metric, values).map(|s| Statistics { pooled, ..s }))
                 });
                 BandSummary {
@@ -143,7 +150,8 @@ impl Summary {
             }
         }
         let atd = report.metrics.contains(&Metric::Atd).then(|| AtdSummary::of(report));
-        Self { statistics, bands, compared: compared(frames), coefficients, atd }
+        let fvvdp = FvvdpSummary::of(report);
+        Self { statistics, bands, compared: compared(frames), coefficients, atd, fvvdp }
     }
 }
 
@@ -240,7 +248,11 @@ impl AtdSummary {
 
 fn pooled(metric: Metric, frames: &[FrameResult]) -> Option<f64> {
     match metric {
-        Metric::Psnr => pooled_psnr(metric, frames.iter().map(|f| (f.scores.mse, f.scores.pixels))),
+        Metric::Psnr => pooled_psnr(frames.iter().map(|f| (f.scores.mse, f.scores.pixels))),
+        Metric::PuPsnr => pooled_psnr(frames.iter().map(|f| {
+            let error = f.scores.scores.get(&metric).map(|db| mse_of_db(*db));
+            (error, f.scores.pixels)
+        })),
         Metric::Fpsnr => {
             let sums = |f: &FrameResult| -> Option<(f64, f64)> {
                 let scores: &PairScores = &f.scores;
@@ -257,10 +269,7 @@ fn pooled(metric: Metric, frames: &[FrameResult]) -> Option<f64> {
 }
 
 /// PSNR of the error pooled over frames of `(mse, pixels)`.
-fn pooled_psnr(metric: Metric, frames: impl Iterator<Item = (Option<f64>, u64)>) -> Option<f64> {
-    if metric != Metric::Psnr {
-        return None;
-    }
+fn pooled_psnr(frames: impl Iterator<Item = (Option<f64>, u64)>) -> Option<f64> {
     let (squared, pixels) = frames
         .filter_map(|(mse, pixels)| Some((mse? * pixels as f64, pixels)))
         .fold((0.0, 0u64), |(a, b), (squared, pixels)| (a + squared, b + pixels));
@@ -300,7 +309,7 @@ mod tests {
     #[test]
     fn pooled_is_of_the_error_not_of_the_decibels() {
         let frames = [(Some(0.01), 100), (Some(0.0), 300), (None, 7)].into_iter();
-        let pooled = pooled_psnr(Metric::Psnr, frames).unwrap();
+        let pooled = pooled_psnr(frames).unwrap();
         assert!((pooled - psnr_db(0.0025)).abs() < 1e-12);
     }
 }

@@ -1,19 +1,46 @@
 //! Display presets, from the data file `configs/displays.toml`.
 
+use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 use serde::Deserialize;
+use thiserror::Error;
 
-/// How a display turns encoded values into light.
+/// How a display turns the values it is given into light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Eotf {
     /// IEC 61966-2-1.
     Srgb,
-    /// SMPTE ST 2084.
+    /// A power, [`Luminance::gamma`].
+    Gamma,
+    /// SMPTE ST 2084: values are luminance, encoded.
     Pq,
-    /// Values are light already.
+    /// Values are light already, in cd/m².
     Linear,
+    /// The same, with nothing added to it: light that was measured, not shown.
+    Absolute,
+}
+
+impl Eotf {
+    /// All of them.
+    pub const ALL: [Eotf; 5] = [Self::Srgb, Self::Gamma, Self::Pq, Self::Linear, Self::Absolute];
+
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Srgb => "srgb",
+            Self::Gamma => "gamma",
+            Self::Pq => "pq",
+            Self::Linear => "linear",
+            Self::Absolute => "absolute",
+        }
+    }
+
+    /// Whether a value stands for a share of the display's white, rather than for an amount of light.
+    pub fn is_relative(self) -> bool {
+        matches!(self, Self::Srgb | Self::Gamma)
+    }
 }
 
 /// What a display shows, in light.
@@ -22,15 +49,108 @@ pub enum Eotf {
 pub struct Luminance {
     /// White, in cd/m².
     pub peak_cd_m2: f64,
-    /// Peak over black, in the dark. One of this and `min_cd_m2`.
+    /// Peak over black, in the dark; 500 where neither this nor `min_cd_m2` is given.
     pub contrast: Option<f64>,
-    /// Black in the dark, in cd/m².
+    /// Black in the dark, in cd/m². It goes before `contrast`.
     pub min_cd_m2: Option<f64>,
     /// Light falling on the screen, in lux.
     #[serde(default)]
     pub ambient_lux: f64,
+    /// Share of that light which the screen reflects.
+    #[serde(default = "usual_reflectivity")]
+    pub reflectivity: f64,
     /// Encoding of its input.
     pub eotf: Eotf,
+    /// The power of [`Eotf::Gamma`].
+    #[serde(default = "usual_gamma")]
+    pub gamma: f64,
+}
+
+fn usual_reflectivity() -> f64 {
+    Luminance::REFLECTIVITY
+}
+
+fn usual_gamma() -> f64 {
+    Luminance::GAMMA
+}
+
+/// Photometry that cannot be.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("the display's {what} of {found} is not {expected}")]
+pub struct LuminanceError {
+    /// Which number.
+    pub what: &'static str,
+    /// What was given.
+    pub found: f64,
+    /// What it may be.
+    pub expected: &'static str,
+}
+
+impl Luminance {
+    /// Reflectivity where none is given (FovVideoVDP 1.2).
+    pub const REFLECTIVITY: f64 = 0.005;
+    /// Gamma where none is given.
+    pub const GAMMA: f64 = 2.2;
+    /// Contrast where neither it nor black is given (FovVideoVDP 1.2).
+    pub const CONTRAST: f64 = 500.0;
+
+    /// A display of a peak, in the dark, with everything else as it is by default.
+    pub fn of_peak(peak_cd_m2: f64) -> Self {
+        Self {
+            peak_cd_m2,
+            contrast: None,
+            min_cd_m2: None,
+            ambient_lux: 0.0,
+            reflectivity: Self::REFLECTIVITY,
+            eotf: Eotf::Srgb,
+            gamma: Self::GAMMA,
+        }
+    }
+
+    /// Black, cd/m²: what the panel leaks, and the light that the screen reflects,
+    /// `ambient_lux / π · reflectivity` (FovVideoVDP 1.2). What was measured has nothing added to it.
+    pub fn black_cd_m2(&self) -> f64 {
+        if self.eotf == Eotf::Absolute {
+            return 0.0;
+        }
+        let contrast = self.contrast.unwrap_or(Self::CONTRAST);
+        let leak = self.min_cd_m2.unwrap_or(self.peak_cd_m2 / contrast);
+        self.ambient_lux / PI * self.reflectivity + leak
+    }
+
+    /// Checks that such a display can be.
+    ///
+    /// # Errors
+    /// The first number that is out of its range, or a black that is as bright as white.
+    pub fn check(&self) -> Result<(), LuminanceError> {
+        let error = |what, found, expected| Err(LuminanceError { what, found, expected });
+        let within = |value: f64, from: f64, to: f64| (from..=to).contains(&value);
+        let light = "between 0.01 and 1,000,000 cd/m²";
+        if !within(self.peak_cd_m2, 0.01, 1e6) {
+            return error("peak_cd_m2", self.peak_cd_m2, light);
+        }
+        if let Some(contrast) = self.contrast.filter(|c| !within(*c, 1.0, 1e12)) {
+            return error("contrast", contrast, "between 1 and 1e12");
+        }
+        if let Some(min) = self.min_cd_m2.filter(|min| !within(*min, 0.0, 1e6)) {
+            return error("min_cd_m2", min, "between 0 and 1,000,000 cd/m²");
+        }
+        if !within(self.ambient_lux, 0.0, 1e6) {
+            return error("ambient_lux", self.ambient_lux, "between 0 and 1,000,000 lux");
+        }
+        if !within(self.reflectivity, 0.0, 1.0) {
+            return error("reflectivity", self.reflectivity, "between 0 and 1");
+        }
+        if !within(self.gamma, 0.1, 10.0) {
+            return error("gamma", self.gamma, "between 0.1 and 10");
+        }
+        let darkest = self.min_cd_m2.filter(|_| self.eotf == Eotf::Absolute);
+        let black = darkest.unwrap_or_else(|| self.black_cd_m2());
+        if black >= self.peak_cd_m2 {
+            return error("black", black, "below its peak, in cd/m²");
+        }
+        Ok(())
+    }
 }
 
 /// A display preset.
@@ -154,6 +274,54 @@ mod tests {
         }
     }
 
+    /// FovVideoVDP's own figures again.
+    #[test]
+    fn black_is_leaked_and_reflected_light() {
+        for (name, black) in [
+            ("standard_4k", 0.597_887_358),
+            ("standard_hdr_pq", 0.017_415_494_3),
+            ("standard_hdr_linear", 0.017_415_494_3),
+            ("standard_fhd", 0.597_887_358),
+            ("standard_hmd", 0.1),
+            ("standard_phone", 0.447_887_358),
+            ("sdr_4k_30", 0.497_887_358),
+            ("sdr_fhd_24", 0.497_887_358),
+            ("htc_vive_pro", 0.1),
+            ("iphone_12_pro", 0.398_287_358),
+            ("ipad_pro_12_9", 0.767_887_358),
+            ("macbook_pro_16", 0.767_887_358),
+            ("lg_oled_2017_sdr", 0.173_154_943),
+            ("lg_oled_2017_hdr", 0.197_154_943),
+        ] {
+            let found = find_display(name).unwrap().luminance.unwrap().black_cd_m2();
+            assert!((found / black - 1.0).abs() < 1e-8, "{name}: {found}");
+        }
+        let plain = Luminance::of_peak(100.0);
+        assert!((plain.black_cd_m2() - 0.2).abs() < 1e-12);
+        let both = Luminance { min_cd_m2: Some(0.05), contrast: Some(10.0), ..plain };
+        assert!((both.black_cd_m2() - 0.05).abs() < 1e-12, "min goes before contrast");
+        assert!(Luminance { eotf: Eotf::Absolute, ..plain }.black_cd_m2().abs() < 1e-12);
+    }
+
+    #[test]
+    fn photometry_that_cannot_be_is_refused() {
+        let plain = Luminance::of_peak(100.0);
+        plain.check().unwrap();
+        for (what, wrong) in [
+            ("peak_cd_m2", Luminance::of_peak(0.0)),
+            ("peak_cd_m2", Luminance::of_peak(f64::NAN)),
+            ("contrast", Luminance { contrast: Some(0.5), ..plain }),
+            ("min_cd_m2", Luminance { min_cd_m2: Some(-1.0), ..plain }),
+            ("ambient_lux", Luminance { ambient_lux: -1.0, ..plain }),
+            ("reflectivity", Luminance { reflectivity: 1.5, ..plain }),
+            ("gamma", Luminance { gamma: 0.0, ..plain }),
+            ("black", Luminance { min_cd_m2: Some(100.0), ..plain }),
+            ("black", Luminance { ambient_lux: 1e6, ..plain }),
+        ] {
+            assert_eq!(wrong.check().unwrap_err().what, what);
+        }
+    }
+
     #[test]
     fn every_preset_is_whole() {
         for display in displays() {
@@ -162,6 +330,7 @@ mod tests {
             assert!(!display.name.contains('-'));
             if let Some(light) = display.luminance {
                 assert!(light.contrast.is_some() != light.min_cd_m2.is_some(), "{}", display.name);
+                light.check().unwrap();
             }
             assert_eq!(find_display(&display.name.replace('_', "-")), Some(display));
         }

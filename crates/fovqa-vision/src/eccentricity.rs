@@ -32,6 +32,16 @@ impl Eccentricity {
         Self { view, gaze_px, kind }
     }
 
+    /// The same over a picture of another size in place of the frame, scaled along x and y.
+    #[must_use]
+    pub fn scaled(&self, (width, height): (usize, usize), scale: [f64; 2]) -> Self {
+        let by_scale = |[x, y]: [f64; 2]| [x * scale[0], y * scale[1]];
+        let View { focal_px, principal_px, .. } = self.view;
+        let (focal_px, principal_px) = (by_scale(focal_px), by_scale(principal_px));
+        let view = View { width, height, focal_px, principal_px };
+        Self { view, gaze_px: by_scale(self.gaze_px), kind: self.kind }
+    }
+
     /// The view.
     pub fn view(&self) -> &View {
         &self.view

@@ -18,7 +18,7 @@ mod pixel_scale;
 mod view;
 
 pub use bands::{BandEdges, BandEdgesError, BandMap, DEFAULT_BAND_DEG, Run};
-pub use displays::{Display, Eotf, Luminance, displays, find_display};
+pub use displays::{Display, Eotf, Luminance, LuminanceError, displays, find_display};
 pub use eccentricity::{Eccentricity, EccentricityKind};
 pub use gaze_trace::{GazeAt, GazeTrace, GazeTraceError};
 pub use pixel_scale::{PixelScale, Tangential};

@@ -35,6 +35,10 @@ pub(crate) struct RunArgs {
     /// Only these of each scene's frames, from A up to, but without, B
     #[arg(long, value_name = "A..B:STEP")]
     pub(crate) frames: Option<FrameRange>,
+    /// Write a heat map of FovVideoVDP for each frame into a folder, SCENE/METHOD in it: raw (OpenEXR, in
+    /// units like JOD), and coloured for differences at the threshold and above it (PNG)
+    #[arg(long, value_name = "DIR")]
+    pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,

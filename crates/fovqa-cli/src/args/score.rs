@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use fovqa_config::{EyeView, Plan, Scene, Settings};
 use fovqa_io::sequence::FrameRange;
+use fovqa_metrics::Metric;
 
 use super::guides::GuideArgs;
 use super::metrics::MetricArgs;
@@ -19,6 +20,7 @@ name, then by the last number in the name.
 Examples:
   fovqa score gt.png rmfr.png --fov-vertical 100
   fovqa score gt/ rmfr/ --display vive-pro-eye --gaze gaze.csv --fps 72 --format csv
+  fovqa score gt/ rmfr/ --metrics fvvdp --display htc-vive-pro --fps 90 --maps maps
   fovqa score gt.%04d.exr rmfr.%04d.exr --tonemap reinhard --exposure 0.5 --metrics psnr,ssim
 
 Exit codes: 0 done; 2 the command line is wrong; 3 an input is missing, unreadable or does not fit,
@@ -56,12 +58,16 @@ pub(crate) struct ScoreArgs {
     /// Frames by their numbers, from A up to, but without, B
     #[arg(long, value_name = "A..B:STEP", help_heading = "Sequence")]
     frames: Option<FrameRange>,
-    /// Frames a second; names the frames of a gaze trace in seconds
+    /// Frames a second: FovVideoVDP of a sequence, and gaze traces in seconds, need it
     #[arg(long, value_name = "N", value_parser = positive, help_heading = "Sequence")]
     fps: Option<f64>,
     /// Pass over frames without a partner
     #[arg(long, help_heading = "Sequence")]
     allow_missing: bool,
+    /// Write a heat map of FovVideoVDP for each frame into a folder: raw (OpenEXR, in units like JOD), and
+    /// coloured for differences at the threshold and above it (PNG)
+    #[arg(long, value_name = "DIR")]
+    pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
@@ -70,12 +76,16 @@ pub(crate) struct ScoreArgs {
 impl ScoreArgs {
     /// The plan; the error is a wrong command line.
     pub(crate) fn plan(self) -> Result<Plan, String> {
+        if self.maps.is_some() && !self.metrics.choice().metrics().contains(&Metric::Fvvdp) {
+            return Err("--maps are of FovVideoVDP: name it with --metrics fvvdp".to_owned());
+        }
         let (motion_files, depth_files) = self.guides.files();
         let settings = Settings {
             guides: self.guides.options(),
             motion_files,
             depth_files,
             view: self.view.spec()?,
+            luminance: self.view.luminance(),
             gaze: self.view.gaze(),
             eccentricity: self.view.eccentricity(),
             bands: self.view.bands(),
@@ -103,6 +113,7 @@ impl ScoreArgs {
             params: self.metrics.params()?,
             frames: None,
             hash_inputs: false,
+            maps: self.maps.is_some(),
         })
     }
 }

@@ -1,10 +1,12 @@
-//! `--fov-…`, `--frustum`, `--display`, `--gaze`, `--eccentricity`, `--bands`.
+//! `--fov-…`, `--frustum`, `--display`, `--luminance`, `--gaze`, `--eccentricity`, `--bands`.
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use fovqa_config::Gaze;
-use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec, displays, find_display};
+use fovqa_vision::{
+    BandEdges, EccentricityKind, Eotf, Luminance, ViewSpec, displays, find_display,
+};
 
 use super::no_such::no_such;
 use super::values::{finite, numbers};
@@ -50,6 +52,11 @@ pub(crate) struct ViewSpecArgs {
 pub(crate) struct ViewArgs {
     #[command(flatten)]
     spec: ViewSpecArgs,
+    /// Photometry of the display, for FovVideoVDP and PU-PSNR: that of a preset (htc-vive-pro), or
+    /// peak_cd_m2=100,contrast=1000 with any of min_cd_m2, ambient_lux, reflectivity, eotf, gamma
+    /// [default: that of --display]
+    #[arg(long, verbatim_doc_comment, value_name = "NAME|KEY=N,…", value_parser = luminance)]
+    luminance: Option<Luminance>,
     /// Gaze in pixels from the top-left corner, or a CSV trace with columns frame,x_px,y_px (or
     /// time_s with --fps) [default: the principal point]
     #[arg(long, verbatim_doc_comment, value_name = "X,Y|FILE.csv", allow_hyphen_values = true, value_parser = gaze)]
@@ -98,6 +105,45 @@ fn bands(text: &str) -> Result<BandEdges, String> {
         edges.map_err(|_| "write degrees with commas between them: 0,5,10,20".to_owned())?;
     BandEdges::new(edges).map_err(|error| error.to_string())
 }
+
+/// The photometry of a preset, or keys as in an experiment.
+fn luminance(text: &str) -> Result<Luminance, String> {
+    if !text.contains('=') {
+        let display = display(text)?;
+        let unknown = || format!("the photometry of {text} is not known");
+        return display.luminance.ok_or_else(unknown);
+    }
+    let mut peak = None;
+    let mut given = Luminance::of_peak(f64::NAN);
+    for part in text.split(',') {
+        let (key, value) = part.split_once('=').ok_or("write KEY=VALUE with commas between")?;
+        let (key, value) = (key.trim().replace('-', "_"), value.trim());
+        if key == "eotf" {
+            let names = Eotf::ALL.map(|eotf| eotf.name().to_owned());
+            let found = Eotf::ALL.into_iter().find(|eotf| eotf.name() == value.to_lowercase());
+            given.eotf = found.ok_or_else(|| no_such("eotf", value, &names))?;
+            continue;
+        }
+        let number = finite(value).map_err(|_| format!("{key}: write a number"))?;
+        match key.as_str() {
+            "peak_cd_m2" => peak = Some(number),
+            "contrast" => given.contrast = Some(number),
+            "min_cd_m2" => given.min_cd_m2 = Some(number),
+            "ambient_lux" => given.ambient_lux = number,
+            "reflectivity" => given.reflectivity = number,
+            "gamma" => given.gamma = number,
+            _ => return Err(no_such("key", &key, &KEYS.map(str::to_owned))),
+        }
+    }
+    let peak_cd_m2 = peak.ok_or("peak_cd_m2 is missing: the display's white")?;
+    let luminance = Luminance { peak_cd_m2, ..given };
+    luminance.check().map_err(|error| error.to_string())?;
+    Ok(luminance)
+}
+
+/// Of [`luminance`].
+const KEYS: [&str; 7] =
+    ["peak_cd_m2", "contrast", "min_cd_m2", "ambient_lux", "reflectivity", "eotf", "gamma"];
 
 fn display(name: &str) -> Result<fovqa_vision::Display, String> {
     find_display(name).cloned().ok_or_else(|| {
@@ -150,6 +196,10 @@ impl ViewArgs {
             Some(GazeArg::Point(px)) => Gaze::Point(*px),
             Some(GazeArg::File(path)) => Gaze::Trace { path: path.clone(), hold: self.gaze_hold },
         }
+    }
+
+    pub(crate) fn luminance(&self) -> Option<Luminance> {
+        self.luminance
     }
 
     pub(crate) fn bands(&self) -> Option<BandEdges> {

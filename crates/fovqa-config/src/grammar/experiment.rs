@@ -152,8 +152,27 @@ const DEPTH: &[Key] = &[
     key("files", Kind::Text, "OpenEXR files of their own, which pair with the reference frames"),
 ];
 
+/// The photometry of a display.
+const LUMINANCE: &[Key] = &[
+    required("peak_cd_m2", Kind::Number(0.01, 1e6), "white, cd/m²"),
+    key("contrast", Kind::Number(1.0, 1e12), "peak over black in the dark; 500 without min_cd_m2"),
+    key("min_cd_m2", Kind::Number(0.0, 1e6), "black in the dark, cd/m², instead of contrast"),
+    key("ambient_lux", Kind::Number(0.0, 1e6), "light falling on the screen, lux (0)"),
+    key("reflectivity", Kind::Number(0.0, 1.0), "share of that which the screen reflects (0.005)"),
+    key("eotf", Kind::Word(&EOTFS), "what the display is given; linear and absolute: cd/m² (srgb)"),
+    key("gamma", Kind::Number(0.1, 10.0), "the power of eotf = \"gamma\" (2.2)"),
+];
+
+/// Names of [`fovqa_vision::Eotf`].
+static EOTFS: [&str; 5] = ["srgb", "gamma", "pq", "linear", "absolute"];
+
 /// What both eyes share.
 const SHARED: &[Key] = &[
+    key(
+        "luminance",
+        Kind::Either(&[Kind::Display, Kind::Table(LUMINANCE)]),
+        "photometry of the display, for FovVideoVDP and PU-PSNR: that of a preset, or { peak_cd_m2 = 100, contrast = 1000, … }; if it is not given, that of display",
+    ),
     key("eccentricity", Kind::Word(&["angular", "planar"]), "how eccentricity is measured"),
     key(
         "bands_deg",

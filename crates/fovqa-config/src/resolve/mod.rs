@@ -43,6 +43,7 @@ pub(crate) fn experiment(root: Node<'_>, path: &Path, faults: &mut Vec<Fault>) -
             params,
             frames: None,
             hash_inputs: true,
+            maps: false,
         },
         params: set,
     }

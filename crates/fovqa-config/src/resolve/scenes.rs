@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::Placeholders;
 use super::settings::{Layers, path};
-use super::view::VIEW_HELP;
+use super::view::{LUMINANCE_HELP, VIEW_HELP};
 use crate::fault::Fault;
 use crate::node::Node;
 use crate::plan::{Eye, EyeView, MetricChoice, Scene};
@@ -63,6 +63,7 @@ pub(super) fn scenes(
             });
             let eyes: Vec<EyeView> = eyes.collect();
             foveal_without_view(root, &eyes, name, metrics, faults);
+            unlit(root, &eyes, name, metrics, faults);
             if let [left, right] = eyes.as_slice()
                 && left.settings.view.is_some() != right.settings.view.is_some()
             {
@@ -126,6 +127,34 @@ fn foveal_without_view(
         if named.iter().any(|metric| metric.key() == key && metric.info().needs_view) {
             let message = format!("{key} needs a view, and scene \"{scene}\" has none");
             faults.push(Fault::new(span, message).help(VIEW_HELP));
+        }
+    }
+}
+
+/// Metrics of light where the display has no photometry, or shows the files otherwise than they are
+/// encoded.
+fn unlit(
+    root: Node<'_>,
+    eyes: &[EyeView],
+    scene: &str,
+    metrics: &MetricChoice,
+    faults: &mut Vec<Fault>,
+) {
+    let MetricChoice::Named(named) = metrics else { return };
+    let Some(table) = root.table("metrics") else { return };
+    for (key, span, _) in table.entries() {
+        if !named.iter().any(|metric| metric.key() == key && metric.info().needs_luminance) {
+            continue;
+        }
+        if eyes.iter().any(|eye| eye.settings.photometry().is_none()) {
+            let message =
+                format!("{key} needs the display's photometry, and scene \"{scene}\" has none");
+            faults.push(Fault::new(span, message).help(LUMINANCE_HELP));
+        } else if let Some(why) = eyes.iter().find_map(|eye| eye.settings.shown_wrongly()) {
+            let message = format!("{key} of scene \"{scene}\": {why}");
+            faults.push(Fault::new(span, message).help(
+                "give the transfer of the files as it is, and the luminance of a display with that eotf",
+            ));
         }
     }
 }

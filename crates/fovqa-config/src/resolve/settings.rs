@@ -11,7 +11,7 @@ use toml::de::DeValue;
 
 use super::Placeholders;
 use super::guides::guides;
-use super::view::{VIEW_HELP, gives_view, view};
+use super::view::{VIEW_HELP, gives_view, luminance, view};
 use crate::fault::Fault;
 use crate::node::{Node, numbers, table};
 use crate::plan::{Eye, Gaze, Nonfinite, Settings};
@@ -82,6 +82,7 @@ impl<'a> Layers<'a> {
                 _ => Nonfinite::Error,
             },
             view: self.view(faults),
+            luminance: self.having("luminance").and_then(|table| luminance(table, faults)),
             gaze: self.gaze(base, placeholders, faults),
             eccentricity: match self.text("eccentricity") {
                 Some("planar") => EccentricityKind::Planar,

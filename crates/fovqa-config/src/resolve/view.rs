@@ -1,6 +1,6 @@
 //! The ways to give a view.
 
-use fovqa_vision::{ViewSpec, find_display};
+use fovqa_vision::{Eotf, Luminance, ViewSpec, find_display};
 
 use crate::fault::Fault;
 use crate::node::Node;
@@ -72,4 +72,36 @@ pub(super) fn view(table: Node<'_>, faults: &mut Vec<Fault>) -> Option<ViewSpec>
         faults.push(Fault::new(table.span(given[0]), error.to_string()));
     }
     spec
+}
+
+/// What photometry may be given as.
+pub(super) const LUMINANCE_HELP: &str = "give luminance = { peak_cd_m2 = …, … } or luminance = \"htc-vive-pro\" in [view], or a display that has it (`fovqa list displays`)";
+
+/// The photometry that a table gives.
+pub(super) fn luminance(table: Node<'_>, faults: &mut Vec<Fault>) -> Option<Luminance> {
+    const KEY: &str = "luminance";
+    if let Some(name) = table.text(KEY) {
+        let luminance = find_display(name)?.luminance;
+        if luminance.is_none() {
+            let message = format!("the display {name} has no photometry");
+            faults.push(Fault::new(table.span(KEY), message).help(LUMINANCE_HELP));
+        }
+        return luminance;
+    }
+    let given = table.table(KEY)?;
+    let number = |key| given.number(key);
+    let eotf = given.text("eotf").and_then(|name| Eotf::ALL.into_iter().find(|e| e.name() == name));
+    let luminance = Luminance {
+        contrast: number("contrast"),
+        min_cd_m2: number("min_cd_m2"),
+        ambient_lux: number("ambient_lux").unwrap_or(0.0),
+        reflectivity: number("reflectivity").unwrap_or(Luminance::REFLECTIVITY),
+        eotf: eotf.unwrap_or(Eotf::Srgb),
+        gamma: number("gamma").unwrap_or(Luminance::GAMMA),
+        ..Luminance::of_peak(number("peak_cd_m2")?)
+    };
+    if let Err(error) = luminance.check() {
+        faults.push(Fault::new(table.span(KEY), error.to_string()));
+    }
+    Some(luminance)
 }

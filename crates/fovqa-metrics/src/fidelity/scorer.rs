@@ -7,6 +7,7 @@ use fovqa_vision::BandMap;
 use thiserror::Error;
 
 use super::fpsnr::WeightField;
+use super::fvvdp;
 use super::ms_ssim::{COARSEST, EXPONENTS, PairRows, combine};
 use super::pass::{Scales, Sums, Wanted, run};
 use super::squared_error::psnr_db;
@@ -122,7 +123,13 @@ impl Scorer {
     pub fn unfit(&self, width: usize, height: usize) -> Vec<(Metric, ScoreError)> {
         let side = self.params.ssim.window_side();
         let needed = |metric: Metric| match metric {
-            Metric::Mse | Metric::Psnr | Metric::Fpsnr | Metric::RmsContrast | Metric::Atd => 1,
+            Metric::Mse
+            | Metric::Psnr
+            | Metric::Fpsnr
+            | Metric::PuPsnr
+            | Metric::RmsContrast
+            | Metric::Atd => 1,
+            Metric::Fvvdp => fvvdp::SMALLEST_SIDE,
             Metric::Ssim | Metric::Fssim => side,
             Metric::MsSsim => side * COARSEST,
             Metric::Haar => self.params.haar.block_side(),
@@ -154,8 +161,9 @@ impl Scorer {
             return Err(error);
         }
         assert_eq!(regions.rows(), pair.height(), "regions of these frames");
-        if regions.is_masked() && self.wants(Metric::MsSsim) {
-            return Err(ScoreError::Masked { metric: Metric::MsSsim });
+        let whole = [Metric::MsSsim, Metric::Fvvdp].into_iter().find(|m| self.wants(*m));
+        if let Some(metric) = whole.filter(|_| regions.is_masked()) {
+            return Err(ScoreError::Masked { metric });
         }
         let foveal = [Metric::Fpsnr, Metric::Fssim].into_iter().find(|m| self.wants(*m));
         if let (Some(metric), None) = (foveal, weight) {
@@ -215,7 +223,12 @@ impl Scorer {
                 Metric::Ssim => ssim(sums.ssim.iter().sum(), windows),
                 Metric::MsSsim => ms_ssim.ok_or(no_window)?,
                 Metric::Fssim => sums.weighted_ssim.mean().ok_or(no_window)? / planes,
-                Metric::RmsContrast | Metric::Haar | Metric::Atd => continue,
+                // Of light, of one picture, or of two frames: measured elsewhere.
+                Metric::Fvvdp
+                | Metric::PuPsnr
+                | Metric::RmsContrast
+                | Metric::Haar
+                | Metric::Atd => continue,
             };
             scores.insert(metric, value);
         }
@@ -232,6 +245,8 @@ impl Scorer {
                     Metric::MsSsim
                     | Metric::Fpsnr
                     | Metric::Fssim
+                    | Metric::Fvvdp
+                    | Metric::PuPsnr
                     | Metric::RmsContrast
                     | Metric::Haar
                     | Metric::Atd => None,

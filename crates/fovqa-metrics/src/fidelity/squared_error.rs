@@ -12,6 +12,11 @@ pub fn psnr_db(mse: f64) -> f64 {
     if mse == 0.0 { f64::INFINITY } else { 0.0 - 10.0 * libm::log10(mse) }
 }
 
+/// The mean squared error, with peak 1, that has a PSNR.
+pub fn mse_of_db(psnr_db: f64) -> f64 {
+    libm::pow(10.0, -psnr_db / 10.0)
+}
+
 /// The squared error of one row, summed over its planes. Exact for 8-bit codes.
 pub(crate) fn squared_row(differences: &[&[f32]], out: &mut [f32]) {
     match differences {

@@ -8,6 +8,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use super::compared::{HaarRecord, SideValues, haar, in_band, summary_haar};
 use super::summary::{BandStatistics, ViewRecord, stats};
 use super::values::{MetricMap, Number, Stats};
+use crate::fvvdp::{FvvdpSummary, SpatialBand};
 use crate::report::{FrameResult, ScoreReport, ViewResult};
 use crate::summary::{AtdSummary, Spread, Summary};
 
@@ -25,7 +26,7 @@ pub fn write_json(report: &ScoreReport, mut out: impl Write) -> io::Result<()> {
         version: env!("CARGO_PKG_VERSION"),
         view: report.view.as_ref().map(ViewRecord::of),
         frames: report.frames.iter().map(|f| Frame::of(f, report.view.as_ref())).collect(),
-        sequence: Sequence { atd: summary.atd.clone() },
+        sequence: Sequence { atd: summary.atd.clone(), fvvdp: summary.fvvdp.clone() },
         summary: stats(&summary.statistics),
         summary_haar: summary_haar(&summary),
         summary_bands: BandStatistics::all(&summary),
@@ -67,6 +68,17 @@ struct Document<'a> {
 struct Sequence {
     #[serde(skip_serializing_if = "Option::is_none")]
     atd: Option<AtdSummary>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fvvdp: Option<FvvdpSummary>,
+}
+
+/// FovVideoVDP of a frame.
+#[derive(serde::Serialize)]
+struct Fvvdp {
+    q: f64,
+    /// Of this frame alone: it does not average to the sequence's.
+    frame_jod: f64,
+    spatial_bands: Vec<SpatialBand>,
 }
 
 /// Differences of a frame to the one before it.
@@ -94,6 +106,8 @@ struct Frame<'a> {
     haar: Vec<HaarRecord<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     atd: Option<Atd>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fvvdp: Option<Fvvdp>,
     #[serde(skip_serializing_if = "is_zero")]
     pixels_outside_bands: u64,
     #[serde(skip_serializing_if = "is_zero")]
@@ -126,12 +140,18 @@ impl<'a> Frame<'a> {
                     pixels: band.pixels,
                     scores: band.scores.iter().map(|(m, v)| (*m, v.map(Number))).collect(),
                     compared: in_band(frame, index),
+                    fvvdp_share: frame.fvvdp.iter().map(|fvvdp| fvvdp.share(index)).collect(),
                 })
                 .collect(),
             haar: haar(frame, view),
             atd: frame.atd.as_ref().zip(frame.compared()).map(|(atd, (_, sides))| {
                 let share = atd.map(|side| side.left_out() as f64 / (side.pixels as f64).max(1.0));
                 Atd { sides: sides.into(), left_out: share.reference, left_out_test: share.test }
+            }),
+            fvvdp: frame.fvvdp.as_ref().map(|fvvdp| Fvvdp {
+                q: fvvdp.q,
+                frame_jod: fvvdp.frame_jod,
+                spatial_bands: fvvdp.bands.iter().map(SpatialBand::from).collect(),
             }),
             // Without a view there are no bands to be outside of.
             pixels_outside_bands: if view.is_some() { scores.outside_bands } else { 0 },
@@ -146,6 +166,8 @@ struct Band {
     pixels: u64,
     scores: Vec<(Metric, Option<Number>)>,
     compared: Vec<(Metric, SideValues<f64>)>,
+    /// What of FovVideoVDP's Q lies in the band: one value where that is asked for, else none.
+    fvvdp_share: Vec<Option<f64>>,
 }
 
 impl Serialize for Band {
@@ -159,6 +181,9 @@ impl Serialize for Band {
         }
         for (metric, sides) in &self.compared {
             map.serialize_entry(metric.key(), sides)?;
+        }
+        for share in &self.fvvdp_share {
+            map.serialize_entry("fvvdp_share", share)?;
         }
         map.end()
     }

@@ -8,6 +8,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::compared::{HaarRecord, SideValues, in_summary_band, summary_haar};
 use super::values::{AnyStats, MetricMap, Number, Stats};
+use crate::fvvdp::FvvdpSummary;
 use crate::report::{Comparison, RunResults, ViewResult};
 use crate::summary::{AtdSummary, BandSummary, Spread, Statistics, Summary};
 
@@ -57,6 +58,9 @@ pub struct ComparisonSummary {
     /// Differences over time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub atd: Option<AtdSummary>,
+    /// FovVideoVDP.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fvvdp: Option<FvvdpSummary>,
 }
 
 /// A view, as `score` prints it.
@@ -143,6 +147,7 @@ impl ComparisonSummary {
             bands: BandStatistics::all(&summary),
             haar: summary_haar(&summary),
             atd: summary.atd,
+            fvvdp: summary.fvvdp,
             metrics: summary.statistics,
         }
     }
@@ -250,7 +255,26 @@ impl<'de> Deserialize<'de> for BandStatistics {
 mod tests {
     use super::super::compared::{HaarSides, HaarValues};
     use super::*;
+    use crate::fvvdp::{EccentricityShare, SpatialBand};
     use crate::report::GuideSource;
+
+    fn fvvdp(spread: Spread) -> FvvdpSummary {
+        FvvdpSummary {
+            jod: Some(0.1 + 0.2),
+            q: Some(123.4),
+            frames: 2,
+            frame_jod: Some(spread),
+            spatial_bands: vec![SpatialBand { cpd: 6.5, sustained: 1.5, transient: None }],
+            shares: vec![EccentricityShare { from_deg: 0.0, to_deg: 5.0, share: None }],
+            share_outside_bands: Some(0.25),
+            pixels_per_degree: 13.0,
+            peak_cd_m2: 100.0,
+            black_cd_m2: 0.1,
+            foveated: true,
+            fps: Some(23.976),
+            reason: None,
+        }
+    }
 
     #[test]
     fn what_is_written_is_read_again() {
@@ -334,6 +358,7 @@ mod tests {
                     depth: GuideSource::None,
                     reason: None,
                 }),
+                fvvdp: Some(fvvdp(spread)),
             }],
             errors: vec![ErrorRecord {
                 scene: "s".to_owned(),

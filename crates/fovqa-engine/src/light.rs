@@ -1,0 +1,318 @@
+//! What is measured of the light that the display shows: FovVideoVDP and PU-PSNR.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use fovqa_config::{Plan, Settings};
+use fovqa_frame::{Frame, LightTables};
+use fovqa_metrics::fvvdp::{
+    DifferenceMap, Fvvdp, FvvdpFrame, FvvdpReference, FvvdpRegions, Grid, MapColors, MapContext,
+    Params, Photometry, Stream, colored,
+};
+use fovqa_metrics::pu_psnr::pu_psnr_db;
+use fovqa_metrics::{Metric, Regions};
+use fovqa_results::FvvdpSight;
+
+use crate::find::FoundView;
+use crate::load::Fault;
+use crate::timing::{Timing, timings};
+
+/// A frame's heat maps.
+#[derive(Debug)]
+pub struct FvvdpMaps {
+    /// In units like JOD, 0 and above.
+    pub raw: Grid,
+    /// Coloured: interleaved 8-bit codes of red, green and blue.
+    pub colored: Vec<(MapColors, Vec<u8>)>,
+}
+
+/// The light of a view's frames, as long as it is needed.
+pub(crate) struct Light {
+    params: Params,
+    photometry: Photometry,
+    tables: LightTables,
+    pu_psnr: bool,
+    maps: bool,
+    /// Of the present frame, by its index.
+    reference: Option<(usize, Arc<Grid>)>,
+    /// Sequences of FovVideoVDP by the index of their method; none where it is not asked for.
+    sequences: BTreeMap<usize, Sequence>,
+    /// The reference as it was seen last, for the other tests of a frame.
+    prepared: Option<(Seen, FvvdpReference)>,
+}
+
+/// A method's sequence.
+struct Sequence {
+    timing: Timing,
+    state: State,
+}
+
+enum State {
+    /// Before its first frame.
+    New,
+    /// So many frames are through.
+    Going { reference: Stream, test: Stream, done: usize },
+    /// It cannot go on.
+    Broken(Missing),
+}
+
+/// What a sequence lacks.
+#[derive(Debug, Clone)]
+enum Missing {
+    /// A frame that could not be scored, by its index in the view.
+    Frame(usize),
+    /// Something else, in words.
+    Said(String),
+}
+
+/// The frames a reference is made from, and the gaze.
+#[derive(Debug, PartialEq)]
+struct Seen(Vec<usize>, [u64; 2]);
+
+/// A pair to be measured.
+pub(crate) struct Lit<'a> {
+    /// Index of the frame in the view.
+    pub(crate) frame: usize,
+    /// Index of the method.
+    pub(crate) method: usize,
+    pub(crate) reference: &'a Frame,
+    pub(crate) test: &'a Frame,
+    pub(crate) gaze_px: [f64; 2],
+    pub(crate) regions: &'a Regions<'a>,
+    /// The metric for these frames, and their bands of eccentricity.
+    pub(crate) fvvdp: Option<(&'a Fvvdp, &'a FvvdpRegions)>,
+    /// How many tests the frame has.
+    pub(crate) tests: usize,
+}
+
+/// What was measured of it.
+#[derive(Default)]
+pub(crate) struct Measured {
+    pub(crate) pu_psnr_db: Option<f64>,
+    pub(crate) fvvdp: Option<FvvdpFrame>,
+    pub(crate) maps: Option<FvvdpMaps>,
+}
+
+/// Loads the reference and the test of a method for another frame of the view, by its index.
+pub(crate) type LoadPair<'a> = dyn Fn(usize, usize) -> Result<[Frame; 2], Fault> + 'a;
+
+impl Light {
+    /// `None` where no metric is of light.
+    pub(crate) fn new(
+        plan: &Plan,
+        settings: &Settings,
+        metrics: &[Metric],
+        view: &FoundView,
+        fps: Option<f64>,
+    ) -> Option<Self> {
+        if !metrics.iter().any(|metric| metric.info().needs_luminance) {
+            return None;
+        }
+        let params = plan.params.fvvdp;
+        let photometry = Photometry::new(settings.photometry()?);
+        // That sequences can be timed was found out with their frames.
+        let timings = timings(view, fps, &params).unwrap_or_default().into_iter();
+        let sequences = timings.map(|(method, timing)| {
+            let state = match &timing.time {
+                Ok(_) => State::New,
+                Err(gap) => State::Broken(Missing::Said(gap.to_string())),
+            };
+            (method, Sequence { timing, state })
+        });
+        let wants_fvvdp = metrics.contains(&Metric::Fvvdp);
+        Some(Self {
+            params,
+            photometry,
+            tables: photometry.tables(settings.signal, &params),
+            pu_psnr: metrics.contains(&Metric::PuPsnr),
+            maps: plan.maps,
+            reference: None,
+            sequences: sequences.filter(|_| wants_fvvdp).collect(),
+            prepared: None,
+        })
+    }
+
+    /// Whether a frame's values are taken for cd/m² without anybody having said so, and none is brighter
+    /// than 1: a scene's light in other units, most likely.
+    pub(crate) fn is_dim(&mut self, frame: usize, reference: &Frame) -> bool {
+        let unsaid = self.params.cd_m2_per_unit.is_none() && self.tables.is_absolute(reference);
+        unsaid && {
+            let brightest = self.luminance_of_reference(frame, reference).max();
+            f64::from(brightest) - self.photometry.black_cd_m2() <= 1.0 + 1e-6
+        }
+    }
+
+    fn luminance_of_reference(&mut self, index: usize, frame: &Frame) -> Arc<Grid> {
+        match &self.reference {
+            Some((known, luminance)) if *known == index => Arc::clone(luminance),
+            _ => {
+                let luminance = self.luminance(frame);
+                self.reference = Some((index, Arc::clone(&luminance)));
+                luminance
+            }
+        }
+    }
+
+    fn luminance(&self, frame: &Frame) -> Arc<Grid> {
+        Arc::new(Grid::luminance(frame, &self.tables))
+    }
+
+    /// Measures a pair. Frames of a sequence come in order; one that is left out ends it.
+    pub(crate) fn measure(&mut self, pair: &Lit<'_>, load: &LoadPair<'_>) -> Measured {
+        let reference = self.luminance_of_reference(pair.frame, pair.reference);
+        let test = self.luminance(pair.test);
+        let pu_psnr = self.pu_psnr.then(|| pu_psnr_db(&reference, &test, pair.regions));
+        let mut measured = Measured { pu_psnr_db: pu_psnr.flatten(), ..Measured::default() };
+        if let Some((metric, regions)) = pair.fvvdp
+            && self.step(pair, &reference, &test, load)
+        {
+            let (frame, maps) = self.score(pair, metric, regions);
+            measured.fvvdp = Some(frame);
+            measured.maps = maps;
+        }
+        measured
+    }
+
+    /// Takes a frame into its sequence; whether that still goes on.
+    fn step(
+        &mut self,
+        pair: &Lit<'_>,
+        reference: &Arc<Grid>,
+        test: &Arc<Grid>,
+        load: &LoadPair<'_>,
+    ) -> bool {
+        let Some(mut sequence) = self.sequences.remove(&pair.method) else { return false };
+        let place = sequence.timing.frames.binary_search(&pair.frame).unwrap_or(usize::MAX);
+        match &mut sequence.state {
+            State::New if place == 0 => {
+                sequence.state = self.begin(&sequence.timing, pair.method, reference, test, load);
+            }
+            State::Going { reference: before, test: test_before, done } if *done == place => {
+                before.push(place, Arc::clone(reference));
+                test_before.push(place, Arc::clone(test));
+                *done += 1;
+            }
+            State::New | State::Going { .. } => {
+                let next = sequence.timing.frames[sequence.done()];
+                sequence.state = State::Broken(Missing::Frame(next));
+            }
+            State::Broken(_) => {}
+        }
+        let goes_on = matches!(sequence.state, State::Going { .. });
+        self.sequences.insert(pair.method, sequence);
+        goes_on
+    }
+
+    fn begin(
+        &self,
+        timing: &Timing,
+        method: usize,
+        reference: &Arc<Grid>,
+        test: &Arc<Grid>,
+        load: &LoadPair<'_>,
+    ) -> State {
+        let time = match &timing.time {
+            Ok(time) => time,
+            Err(gap) => return State::Broken(Missing::Said(gap.to_string())),
+        };
+        let mut before = [BTreeMap::new(), BTreeMap::new()];
+        for frame in time.before_first() {
+            let pair = match load(timing.frames[frame], method) {
+                Ok(pair) => pair,
+                Err(fault) => return State::Broken(Missing::Said(fault.message)),
+            };
+            for (before, picture) in before.iter_mut().zip(&pair) {
+                if (picture.width(), picture.height()) != (reference.width(), reference.height()) {
+                    let sizes = "its frames have different sizes".to_owned();
+                    return State::Broken(Missing::Said(sizes));
+                }
+                before.insert(frame, self.luminance(picture));
+            }
+        }
+        State::Going {
+            reference: Stream::begin(time, reference, &before[0]),
+            test: Stream::begin(time, test, &before[1]),
+            done: 1,
+        }
+    }
+
+    fn score(
+        &mut self,
+        pair: &Lit<'_>,
+        metric: &Fvvdp,
+        regions: &FvvdpRegions,
+    ) -> (FvvdpFrame, Option<FvvdpMaps>) {
+        let Some(Sequence { timing, state: State::Going { reference, test, .. } }) =
+            self.sequences.get(&pair.method)
+        else {
+            unreachable!("the sequence goes on")
+        };
+        let Ok(time) = &timing.time else { unreachable!("the sequence can be filtered") };
+        let frames = reference.frames().into_iter().map(|place| timing.frames[place]);
+        let seen = Seen(frames.collect(), pair.gaze_px.map(f64::to_bits));
+        if self.prepared.as_ref().is_none_or(|(before, _)| *before != seen) {
+            // Not both at a time.
+            self.prepared = None;
+            let channels = reference.channels(time);
+            let prepared = metric.reference(channels, pair.gaze_px, pair.tests > 1);
+            self.prepared = Some((seen, prepared));
+        }
+        let Some((_, prepared)) = &self.prepared else { unreachable!("it has been prepared") };
+        let channels = test.channels(time);
+        let mut differences = self.maps.then(DifferenceMap::default);
+        let frame = metric.score(prepared, &channels, regions, differences.as_mut());
+        let maps = differences.map(|differences| {
+            let raw = differences.raw();
+            let context = match self.params.map_context {
+                MapContext::Test => &channels[0],
+                MapContext::Reference => prepared.sustained(),
+            };
+            let color = |colors| (colors, colored(&raw, context, colors));
+            let colored = MapColors::ALL.map(color).into();
+            FvvdpMaps { raw, colored }
+        });
+        if pair.tests == 1 {
+            self.prepared = None;
+        }
+        (frame, maps)
+    }
+
+    /// How a method's sequence was seen, and whether it has a value; `number` names its frames.
+    pub(crate) fn sight(
+        &self,
+        method: usize,
+        pixels_per_degree: f64,
+        number: impl Fn(usize) -> String,
+    ) -> Option<FvvdpSight> {
+        let sequence = self.sequences.get(&method)?;
+        Some(FvvdpSight {
+            pixels_per_degree,
+            peak_cd_m2: self.photometry.peak_cd_m2(),
+            black_cd_m2: self.photometry.black_cd_m2(),
+            foveated: self.params.foveated,
+            fps: sequence.timing.fps,
+            missing: sequence.missing(number),
+            eyes_jod: None,
+        })
+    }
+}
+
+impl Sequence {
+    /// How many frames are through.
+    fn done(&self) -> usize {
+        match &self.state {
+            State::Going { done, .. } => *done,
+            State::New | State::Broken(_) => 0,
+        }
+    }
+
+    /// Why it has no value; `None` where all its frames are through.
+    fn missing(&self, number: impl Fn(usize) -> String) -> Option<String> {
+        let frame = match &self.state {
+            State::Broken(Missing::Said(why)) => return Some(why.clone()),
+            State::Broken(Missing::Frame(frame)) => frame,
+            State::New | State::Going { .. } => self.timing.frames.get(self.done())?,
+        };
+        Some(format!("frame {} could not be scored", number(*frame)))
+    }
+}

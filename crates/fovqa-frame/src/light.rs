@@ -1,0 +1,324 @@
+//! From samples to the light a display shows, and its luminance.
+//!
+//! Encoded samples go through the display's curve. Linear ones are either a scene's light, which is
+//! exposed, tone-mapped and encoded before the display shows it, or absolute light, which the display
+//! shows as far as it can. NaN becomes the darkest light there is.
+
+use std::ops::Range;
+use std::sync::OnceLock;
+
+use half::f16;
+use multiversion::multiversion;
+
+use crate::frame::{Channels, Frame, Samples};
+use crate::side::{Side, within_unit};
+use crate::signal::{CODES_8, CODES_16, FloatToSignal, SignalParams, Source, Transfer, table};
+
+/// What a display makes of linear samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LinearLight {
+    /// Exposure, tone map and sRGB encoding, then the display's curve.
+    ToneMapped,
+    /// Absolute light, clipped to what the display can show.
+    Absolute(ShownLight),
+}
+
+/// Absolute light as a display shows it: `clip(value cd_m2_per_unit, floor, peak) + black`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShownLight {
+    /// cd/m² of a sample of 1.
+    pub cd_m2_per_unit: f64,
+    /// Darkest light, before black is added, cd/m².
+    pub floor_cd_m2: f64,
+    /// Brightest light, before black is added, cd/m².
+    pub peak_cd_m2: f64,
+    /// What the display adds to everything, cd/m².
+    pub black_cd_m2: f64,
+}
+
+impl ShownLight {
+    /// The light of a sample, cd/m².
+    #[inline]
+    pub(crate) fn shown(self, value: f32) -> f32 {
+        // `max` first: of NaN and a number it is the number.
+        let light = (value * self.cd_m2_per_unit as f32).max(self.floor_cd_m2 as f32);
+        light.min(self.peak_cd_m2 as f32) + self.black_cd_m2 as f32
+    }
+}
+
+/// A display's curve over encoded values, tabulated where 16-bit codes lie; straight between them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Curve<'a>(&'a [f32; CODES_16]);
+
+impl Curve<'_> {
+    #[inline]
+    pub(crate) fn at(self, encoded: f32) -> f32 {
+        const LAST: usize = CODES_16 - 2;
+        let at = within_unit(encoded) * (CODES_16 - 1) as f32;
+        let below = (at as usize).min(LAST);
+        let (from, to) = (self.0[below], self.0[below + 1]);
+        from + (to - from) * (at - below as f32)
+    }
+}
+
+/// An encoded value in `[0, 1]` to cd/m².
+type Emitted = Box<dyn Fn(f64) -> f64 + Send + Sync>;
+
+/// The way from samples to light, tabulated once where samples have few values.
+pub struct LightTables {
+    signal: SignalParams,
+    emitted: Emitted,
+    linear: LinearLight,
+    /// Of red, green and blue.
+    weights: [f32; 3],
+    curve: OnceLock<Box<[f32; CODES_16]>>,
+    codes8: OnceLock<Box<[f32; CODES_8]>>,
+    codes16: OnceLock<Box<[f32; CODES_16]>>,
+    half: OnceLock<Box<[f32; CODES_16]>>,
+}
+
+impl std::fmt::Debug for LightTables {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { signal, linear, weights, .. } = self;
+        let mut shown = f.debug_struct("LightTables");
+        shown.field("signal", signal).field("linear", linear).field("weights", weights);
+        shown.finish_non_exhaustive()
+    }
+}
+
+impl LightTables {
+    /// For a display that emits `emitted(v)` cd/m² for an encoded value v in `[0, 1]`. Luminance is
+    /// the sum of red, green and blue light by `weights`; a gray picture's light is luminance already.
+    pub fn new(
+        signal: SignalParams,
+        emitted: impl Fn(f64) -> f64 + Send + Sync + 'static,
+        linear: LinearLight,
+        weights: [f64; 3],
+    ) -> Self {
+        Self {
+            signal,
+            emitted: Box::new(emitted),
+            linear,
+            weights: weights.map(|weight| weight as f32),
+            curve: OnceLock::new(),
+            codes8: OnceLock::new(),
+            codes16: OnceLock::new(),
+            half: OnceLock::new(),
+        }
+    }
+
+    /// A frame, ready to be read as luminance.
+    pub fn luminance<'a>(&'a self, frame: &'a Frame) -> LuminanceSignal<'a> {
+        LuminanceSignal { frame, side: Side::new(frame, self.source(frame)), weights: self.weights }
+    }
+
+    /// Whether a frame's samples are absolute light here.
+    pub fn is_absolute(&self, frame: &Frame) -> bool {
+        self.signal.transfer_of(frame) == Transfer::Linear && self.linear != LinearLight::ToneMapped
+    }
+
+    fn curve(&self) -> Curve<'_> {
+        let value = |code: usize| (self.emitted)(code as f64 / (CODES_16 - 1) as f64) as f32;
+        Curve(self.curve.get_or_init(|| table(value)))
+    }
+
+    /// Exposure, tone map and encoding.
+    fn to_signal(&self) -> FloatToSignal {
+        FloatToSignal::new(&self.signal)
+    }
+
+    /// The light of a value of a linear frame.
+    fn of_linear(&self, value: f32) -> f32 {
+        match self.linear {
+            LinearLight::Absolute(shown) => shown.shown(value),
+            LinearLight::ToneMapped => self.curve().at(self.to_signal().map(value)),
+        }
+    }
+
+    fn source<'a>(&'a self, frame: &'a Frame) -> Source<'a> {
+        let linear = self.signal.transfer_of(frame) == Transfer::Linear;
+        let of_code = |code: usize, codes: usize| {
+            let value = code as f64 / (codes - 1) as f64;
+            if linear { self.of_linear(value as f32) } else { (self.emitted)(value) as f32 }
+        };
+        match frame.samples() {
+            Samples::U8(s) => {
+                let light = self.codes8.get_or_init(|| table(|code| of_code(code, CODES_8)));
+                Source::Table8(s, light)
+            }
+            Samples::U16(s) => {
+                let light = self.codes16.get_or_init(|| table(|code| of_code(code, CODES_16)));
+                Source::Table16(s, light)
+            }
+            Samples::F16(s) => {
+                let value = |bits: usize| {
+                    let value = f16::from_bits(bits as u16).to_f32();
+                    if linear { self.of_linear(value) } else { self.curve().at(value) }
+                };
+                Source::Half(s, self.half.get_or_init(|| table(value)))
+            }
+            Samples::F32(s) => match self.linear {
+                _ if !linear => Source::Curve(s, self.curve()),
+                LinearLight::ToneMapped => Source::ToneMapped(s, self.to_signal(), self.curve()),
+                LinearLight::Absolute(shown) => Source::Absolute(s, shown),
+            },
+        }
+    }
+}
+
+/// Room for the channels of a row.
+#[derive(Debug, Clone)]
+pub struct LuminanceScratch([Vec<f32>; 3]);
+
+impl LuminanceScratch {
+    /// Room for up to `columns` pixels.
+    pub fn new(columns: usize) -> Self {
+        Self(std::array::from_fn(|_| vec![0.0; columns]))
+    }
+}
+
+/// A frame, read row by row as luminance in cd/m².
+#[derive(Debug)]
+pub struct LuminanceSignal<'a> {
+    frame: &'a Frame,
+    side: Side<'a>,
+    weights: [f32; 3],
+}
+
+impl LuminanceSignal<'_> {
+    /// Width in pixels.
+    pub fn width(&self) -> usize {
+        self.frame.width()
+    }
+
+    /// Height in pixels.
+    pub fn height(&self) -> usize {
+        self.frame.height()
+    }
+
+    /// Reads the columns `xs` of row `y`.
+    pub fn fill(
+        &self,
+        y: usize,
+        xs: Range<usize>,
+        scratch: &mut LuminanceScratch,
+        out: &mut [f32],
+    ) {
+        let n = xs.len();
+        if self.frame.channels() == Channels::Gray {
+            self.side.fill(y, xs, &mut [&mut out[..n]]);
+            return;
+        }
+        let [r, g, b] = scratch.0.each_mut().map(|plane| &mut plane[..n]);
+        self.side.fill(y, xs, &mut [&mut *r, &mut *g, &mut *b]);
+        weigh([r, g, b], self.weights, &mut out[..n]);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn weigh([r, g, b]: [&mut [f32]; 3], [wr, wg, wb]: [f32; 3], out: &mut [f32]) {
+    for (((out, r), g), b) in out.iter_mut().zip(r).zip(g).zip(b) {
+        *out = *r * wr + *g * wg + *b * wb;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tonemap::ToneMap;
+
+    const WEIGHTS: [f64; 3] = [0.25, 0.5, 0.25];
+    const SHOWN: ShownLight = ShownLight {
+        cd_m2_per_unit: 10.0,
+        floor_cd_m2: 0.005,
+        peak_cd_m2: 100.0,
+        black_cd_m2: 0.5,
+    };
+
+    fn read(tables: &LightTables, frame: &Frame) -> Vec<f32> {
+        let signal = tables.luminance(frame);
+        let mut row = vec![0.0; signal.width()];
+        signal.fill(0, 0..signal.width(), &mut LuminanceScratch::new(signal.width()), &mut row);
+        row
+    }
+
+    fn frame(channels: Channels, width: usize, samples: Samples) -> Frame {
+        Frame::new(width, 1, channels, samples).unwrap()
+    }
+
+    fn tables(signal: SignalParams, linear: LinearLight) -> LightTables {
+        LightTables::new(signal, |v| 100.0 * v * v + 1.0, linear, WEIGHTS)
+    }
+
+    fn near(found: &[f32], wanted: &[f64]) {
+        assert_eq!(found.len(), wanted.len());
+        for (found, wanted) in found.iter().zip(wanted) {
+            let error = (f64::from(*found) - wanted).abs();
+            assert!(error <= 1e-6 * wanted.abs(), "{found} for {wanted}");
+        }
+    }
+
+    #[test]
+    fn codes_go_through_the_curve_and_gray_is_not_weighed() {
+        let tables = tables(SignalParams::default(), LinearLight::ToneMapped);
+        let light = |v: f64| 100.0 * v * v + 1.0;
+        let colour = frame(Channels::Rgb, 1, Samples::U8(vec![255, 51, 0]));
+        near(&read(&tables, &colour), &[0.25 * 101.0 + 0.5 * light(0.2) + 0.25]);
+        let gray = frame(Channels::Gray, 2, Samples::U16(vec![13107, 65535]));
+        near(&read(&tables, &gray), &[light(0.2), 101.0]);
+    }
+
+    #[test]
+    fn encoded_floats_are_kept_in_range() {
+        let signal = SignalParams { transfer: Some(Transfer::Srgb), ..SignalParams::default() };
+        let tables = tables(signal, LinearLight::Absolute(SHOWN));
+        let values = vec![-1.0, 0.0, 0.123_456, 1.0, 7.0, f32::NAN];
+        let wanted = [1.0, 1.0, 100.0 * 0.123_456 * 0.123_456 + 1.0, 101.0, 101.0, 1.0];
+        let floats = frame(Channels::Gray, 6, Samples::F32(values.clone()));
+        near(&read(&tables, &floats), &wanted);
+        assert!(!tables.is_absolute(&floats));
+        let halves = values.iter().map(|v| f16::from_f32(*v)).collect();
+        let found = read(&tables, &frame(Channels::Gray, 6, Samples::F16(halves)));
+        near(&[found[0], found[3], found[4], found[5]], &[1.0, 101.0, 101.0, 1.0]);
+    }
+
+    #[test]
+    fn absolute_light_is_clipped_before_black_is_added() {
+        let tables = tables(SignalParams::default(), LinearLight::Absolute(SHOWN));
+        let values = vec![0.0, 0.001, 2.0, 50.0, f32::NAN, -3.0];
+        let wanted = [0.505, 0.51, 20.5, 100.5, 0.505, 0.505];
+        let floats = frame(Channels::Gray, 6, Samples::F32(values.clone()));
+        assert!(tables.is_absolute(&floats));
+        near(&read(&tables, &floats), &wanted);
+        let halves = values.iter().map(|v| f16::from_f32(*v)).collect();
+        let found = read(&tables, &frame(Channels::Gray, 6, Samples::F16(halves)));
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!((f64::from(*found) - wanted).abs() < 1e-5, "{found} for {wanted}");
+        }
+        let signal = SignalParams { transfer: Some(Transfer::Linear), ..SignalParams::default() };
+        let tables = super::tests::tables(signal, LinearLight::Absolute(SHOWN));
+        near(&read(&tables, &frame(Channels::Gray, 1, Samples::U8(vec![51]))), &[2.5]);
+    }
+
+    #[test]
+    fn a_scene_is_tone_mapped_before_it_is_shown() {
+        let signal = SignalParams {
+            exposure_stops: 1.0,
+            tonemap: ToneMap::Reinhard,
+            ..SignalParams::default()
+        };
+        let tables = LightTables::new(
+            signal,
+            |v| 50.0 * crate::transfer::srgb::decode(v),
+            LinearLight::ToneMapped,
+            WEIGHTS,
+        );
+        let values = vec![0.5, 0.02, 1.5];
+        let wanted = values.iter().map(|v: &f32| {
+            let exposed = 2.0 * f64::from(*v);
+            50.0 * exposed / (1.0 + exposed)
+        });
+        let wanted: Vec<f64> = wanted.collect();
+        near(&read(&tables, &frame(Channels::Gray, 3, Samples::F32(values))), &wanted);
+    }
+}

@@ -1,0 +1,110 @@
+//! PU21 (Mantiuk, Azimi 2021, "PU21: A novel perceptually uniform encoding for adapting existing quality
+//! metrics for HDR", banding and glare): from luminance to units in which equal steps are about equally
+//! visible.
+
+use std::sync::LazyLock;
+
+/// Where the encoding begins, cd/m². Darker luminance is taken for this.
+pub const FLOOR_CD_M2: f64 = 0.005;
+/// Where it ends, cd/m². Brighter luminance is taken for this.
+pub const PEAK_CD_M2: f64 = 10_000.0;
+
+/// p0 to p6 of "banding_glare".
+const P: [f64; 7] = [
+    234.023_561_8,
+    216.933_928_6,
+    0.000_109_186_423_7,
+    0.893_206_924,
+    0.067_339_841_21,
+    1.444_718_567,
+    567.631_506_5,
+];
+
+/// Luminance in cd/m² to PU21 units, 0 to 567.
+pub fn encode(luminance_cd_m2: f64) -> f64 {
+    let power = libm::pow(luminance_cd_m2.clamp(FLOOR_CD_M2, PEAK_CD_M2), P[3]);
+    P[6] * (libm::pow((P[0] + P[1] * power) / (1.0 + P[2] * power), P[4]) - P[5])
+}
+
+/// Segments of one octave. The error of a chord, (2^-9)² / 8 of the curvature, is 3e-5 units at
+/// most: the step of an `f32` there.
+const SEGMENT_BITS: u32 = 9;
+/// 2^-8, the power of two below the floor.
+const TABLE_FROM: f32 = 1.0 / 256.0;
+/// To 2^14, the one above the peak.
+const OCTAVES: usize = 22;
+
+static CHORDS: LazyLock<Vec<f32>> = LazyLock::new(|| {
+    let first = TABLE_FROM.to_bits() >> (23 - SEGMENT_BITS);
+    (0..=(OCTAVES << SEGMENT_BITS) as u32)
+        .map(|i| encode(f64::from(f32::from_bits((first + i) << (23 - SEGMENT_BITS)))) as f32)
+        .collect()
+});
+
+/// [`encode`] for many `f32` values: chords between exact points, picked by the bits of the value.
+#[derive(Debug, Clone, Copy)]
+pub struct Encoder {
+    chords: &'static [f32],
+}
+
+impl Encoder {
+    /// The encoder; its table is computed once a process.
+    pub fn new() -> Self {
+        Self { chords: &CHORDS }
+    }
+
+    /// Encodes one value, within 2e-4 units of [`encode`].
+    #[inline]
+    pub fn encode(self, luminance_cd_m2: f32) -> f32 {
+        const FRACTION_BITS: u32 = 23 - SEGMENT_BITS;
+        const FRACTION: u32 = (1 << FRACTION_BITS) - 1;
+        // `max` first: of NaN and a number it is the number.
+        let value = luminance_cd_m2.max(FLOOR_CD_M2 as f32).min(PEAK_CD_M2 as f32);
+        let offset = value.to_bits() - TABLE_FROM.to_bits();
+        let index = (offset >> FRACTION_BITS) as usize;
+        let t = (offset & FRACTION) as f32 * (1.0 / (1u32 << FRACTION_BITS) as f32);
+        let (from, to) = (self.chords[index], self.chords[index + 1]);
+        from + (to - from) * t
+    }
+}
+
+impl Default for Encoder {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_values() {
+        // 100 cd/m² is 256 or so by design, and the floor is 0.
+        for (luminance, units) in [
+            (0.005, 0.0),
+            (0.1, 5.756_805_64),
+            (1.0, 36.560_429_38),
+            (100.0, 256.417_341_13),
+            (1000.0, 411.383_002_14),
+            (10_000.0, 566.633_957_93),
+        ] {
+            assert!((encode(luminance) - units).abs() < 1e-6, "{luminance}: {}", encode(luminance));
+        }
+        assert_eq!(encode(-1.0).to_bits(), encode(FLOOR_CD_M2).to_bits());
+        assert_eq!(encode(1e9).to_bits(), encode(PEAK_CD_M2).to_bits());
+    }
+
+    #[test]
+    fn chords_follow_the_curve() {
+        let encoder = Encoder::new();
+        let mut worst = 0.0f64;
+        for i in 0..200_000 {
+            let luminance = libm::exp2(-8.0 + 22.0 * f64::from(i) / 199_999.0) as f32;
+            let error = f64::from(encoder.encode(luminance)) - encode(f64::from(luminance));
+            worst = worst.max(error.abs());
+        }
+        assert!(worst < 2e-4, "{worst:e}");
+        assert!((f64::from(encoder.encode(f32::NAN)) - encode(FLOOR_CD_M2)).abs() < 2e-4);
+    }
+}

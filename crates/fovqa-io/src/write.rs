@@ -1,0 +1,76 @@
+//! Pictures to files, in memory: whoever writes them to disk does so whole.
+
+use std::io::{self, Cursor};
+
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, WritableImage,
+};
+use half::f16;
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+
+/// An 8-bit RGB PNG of interleaved codes.
+///
+/// # Errors
+/// When the codes are not `3 * width * height`.
+pub fn png_rgb8(width: usize, height: usize, codes: &[u8]) -> io::Result<Vec<u8>> {
+    let mut file = Vec::new();
+    if codes.len() != 3 * width * height {
+        return Err(io::Error::other("not three codes a pixel"));
+    }
+    PngEncoder::new(&mut file)
+        .write_image(codes, width as u32, height as u32, ExtendedColorType::Rgb8)
+        .map_err(io::Error::other)?;
+    Ok(file)
+}
+
+/// An OpenEXR file of one channel `Y`, row by row, rounded to half floats.
+///
+/// # Errors
+/// When the values are not `width * height`.
+pub fn exr_gray(
+    width: usize,
+    height: usize,
+    values: impl Iterator<Item = f32>,
+) -> io::Result<Vec<u8>> {
+    let values: Vec<f16> = values.map(f16::from_f32).collect();
+    if values.len() != width * height {
+        return Err(io::Error::other("not one value a pixel"));
+    }
+    let channel = AnyChannel::new("Y", FlatSamples::F16(values));
+    let channels = AnyChannels::sort(std::iter::once(channel).collect());
+    let encoding = Encoding::SMALL_FAST_LOSSLESS;
+    let layer = Layer::new((width, height), LayerAttributes::default(), encoding, channels);
+    let mut file = Cursor::new(Vec::new());
+    Image::from_layer(layer)
+        .write()
+        .non_parallel()
+        .to_buffered(&mut file)
+        .map_err(io::Error::other)?;
+    Ok(file.into_inner())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ReadOptions, read_frame};
+    use fovqa_frame::{Channels, Samples};
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let read = |name: &str, bytes: Vec<u8>| {
+            let path = folder.path().join(name);
+            std::fs::write(&path, bytes).unwrap();
+            read_frame(&path, &ReadOptions::default()).unwrap().frame
+        };
+        let codes: Vec<u8> = (0..5 * 3 * 3).map(|code| code * 5).collect();
+        let frame = read("a.png", png_rgb8(5, 3, &codes).unwrap());
+        assert_eq!(frame.samples(), &Samples::U8(codes));
+        let values = (0..15).map(|v| v as f32 / 7.0);
+        let frame = read("a.exr", exr_gray(5, 3, values.clone()).unwrap());
+        let values = values.map(f16::from_f32).collect();
+        assert_eq!((frame.channels(), frame.samples()), (Channels::Gray, &Samples::F16(values)));
+        assert!(png_rgb8(5, 3, &[0; 4]).is_err() && exr_gray(2, 2, std::iter::empty()).is_err());
+    }
+}

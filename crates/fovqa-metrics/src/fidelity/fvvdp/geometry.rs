@@ -1,0 +1,118 @@
+//! Where a pixel of a band lies on the display, as FovVideoVDP sees it.
+//!
+//! The direction of a point is the pair of angles atan((x - c_x) / f_x), atan((c_y - y) / f_y), in
+//! degrees; every band is stretched over the whole frame. Eccentricity is the plain distance of two such
+//! pairs, not the angle between the rays. The resolution magnification, of the direction from the centre,
+//! m = (tan(A + δ) - tan A) / tan δ = cos δ / (cos A cos(A + δ)), δ = 0.5 / ppd degrees, is how many
+//! more pixels a degree has there.
+
+use fovqa_vision::View;
+use multiversion::multiversion;
+
+use super::bands::Band;
+use super::calibration::FARTHEST_DEG;
+use super::csf::{Coordinates, ECC_STEPS, RHO_FROM, RHO_STEPS_PER_OCTAVE};
+use super::log_exp::{log2, sine};
+
+/// The display under a frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Geometry {
+    /// How the frame is seen.
+    pub view: View,
+    /// Pixels of the display in a degree at its centre.
+    pub pixels_per_degree: f64,
+}
+
+impl Geometry {
+    /// The geometry of a view on a display of so many pixels a degree at the centre, as
+    /// [`fovqa_vision::Display::central_pixels_per_degree`] counts them; `None`: the frame has the display's own
+    /// pixels.
+    pub fn new(view: View, display_pixels_per_degree: Option<f64>) -> Self {
+        let own = 0.5 / libm::atan(0.5 / view.focal_px[0]).to_degrees();
+        Self { view, pixels_per_degree: display_pixels_per_degree.unwrap_or(own) }
+    }
+
+    /// The direction of a point in pixels of the frame: degrees to the right and up.
+    pub fn direction_deg(&self, [x_px, y_px]: [f64; 2]) -> [f64; 2] {
+        let View { focal_px: [fx, fy], principal_px: [cx, cy], .. } = self.view;
+        [libm::atan((x_px - cx) / fx).to_degrees(), libm::atan((cy - y_px) / fy).to_degrees()]
+    }
+
+    /// How many times more pixels a degree has this far from the centre of the display.
+    pub fn magnification(&self, from_centre_deg: f64) -> f64 {
+        let angle = from_centre_deg.min(FARTHEST_DEG).to_radians();
+        let delta = (0.5 / self.pixels_per_degree).to_radians();
+        libm::cos(delta) / (libm::cos(angle) * libm::cos(angle + delta))
+    }
+
+    /// The directions of the columns and of the rows of a band.
+    pub(super) fn directions(&self, (width, height): (usize, usize)) -> [Vec<f64>; 2] {
+        let centre =
+            |i: usize, count: usize, side: usize| (i as f64 + 0.5) * side as f64 / count as f64;
+        let column = |i| self.direction_deg([centre(i, width, self.view.width), 0.0])[0];
+        let row = |i| self.direction_deg([0.0, centre(i, height, self.view.height)])[1];
+        [(0..width).map(column).collect(), (0..height).map(row).collect()]
+    }
+}
+
+/// The directions of a band's pixels for one gaze, as coordinates of the sensitivity table.
+#[derive(Debug, Clone)]
+pub(super) struct BandDirections {
+    /// Squares of the angles from the display's centre and from the gaze, along the columns.
+    columns: [Vec<f32>; 2],
+    rows: [Vec<f32>; 2],
+    /// log2 of the band's frequency at the centre of the display, and of cos δ, as a coordinate.
+    rho: f32,
+    delta_rad: f32,
+}
+
+impl BandDirections {
+    pub(super) fn new(geometry: &Geometry, band: &Band, gaze_px: [f64; 2]) -> Self {
+        let gaze = geometry.direction_deg(gaze_px);
+        let delta = (0.5 / geometry.pixels_per_degree).to_radians();
+        let squares = |directions: &[f64], from: f64| {
+            directions.iter().map(|deg| ((deg - from) * (deg - from)) as f32).collect()
+        };
+        let both =
+            |directions: &[f64], gaze: f64| [squares(directions, 0.0), squares(directions, gaze)];
+        let octaves = libm::log2(band.cpd) + libm::log2(libm::cos(delta));
+        Self {
+            columns: both(&band.directions[0], gaze[0]),
+            rows: both(&band.directions[1], gaze[1]),
+            rho: ((octaves - RHO_FROM) * RHO_STEPS_PER_OCTAVE) as f32,
+            delta_rad: delta as f32,
+        }
+    }
+
+    /// The coordinates of row `y`.
+    pub(super) fn row(&self, y: usize, out: &mut Coordinates) {
+        let Coordinates { rho, ecc } = out;
+        let [centre, gaze] = &self.columns;
+        let n = centre.len();
+        let row = [self.rows[0][y], self.rows[1][y]];
+        let band = [self.rho, self.delta_rad];
+        coordinates([centre, gaze], row, band, [&mut rho[..n], &mut ecc[..n]]);
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn coordinates(
+    [centre, gaze]: [&[f32]; 2],
+    [row_centre, row_gaze]: [f32; 2],
+    [rho_of_band, delta_rad]: [f32; 2],
+    [rho, ecc]: [&mut [f32]; 2],
+) {
+    const RADIANS: f32 = (std::f64::consts::PI / 180.0) as f32;
+    /// What is left of the sky beyond the farthest direction and half a pixel: little, but something.
+    const LEAST_RAD: f32 = 1e-4;
+    let n = rho.len();
+    let (centre, gaze, ecc) = (&centre[..n], &gaze[..n], &mut ecc[..n]);
+    for x in 0..n {
+        let from_centre_deg = (centre[x] + row_centre).sqrt().min(FARTHEST_DEG as f32);
+        // Cosines as sines of what is left to 90°: exact in relation where they are small.
+        let left = std::f32::consts::FRAC_PI_2 - from_centre_deg * RADIANS;
+        let cosines = sine(left) * sine((left - delta_rad).max(LEAST_RAD));
+        rho[x] = rho_of_band - log2(cosines) * RHO_STEPS_PER_OCTAVE as f32;
+        ecc[x] = (gaze[x] + row_gaze).sqrt().sqrt() * ECC_STEPS as f32;
+    }
+}

@@ -1,0 +1,175 @@
+//! Where a frame differs visibly: the differences of all bands, expanded and added up.
+//!
+//! Of the levels H_0 = D_0, H_l = D_l / 2 (D of the sustained channel and 0.25 times that of the
+//! transient), img = expand(img) + H_l from the coarsest on, and the raw map a img^b: in units of JOD, but
+//! without an upper end. Coloured, it is laid over a gray picture of the frame.
+
+use multiversion::multiversion;
+
+use super::calibration::{CHANNEL_WEIGHTS, JOD_A};
+use super::grid::Grid;
+use super::level::DifferenceRows;
+use super::log_exp::{exp2, log2};
+use super::masking::powers;
+use super::pooling::jod_exponent;
+use super::pyramid::expand;
+
+/// The differences of a frame, level by level.
+#[derive(Debug, Clone, Default)]
+pub struct DifferenceMap {
+    levels: Vec<Grid>,
+}
+
+impl DifferenceMap {
+    /// Takes the differences of a level; levels come in order.
+    pub(super) fn add_level<'a>(
+        &mut self,
+        index: usize,
+        (width, height): (usize, usize),
+        rows: impl Fn() -> DifferenceRows<'a> + Sync + Send,
+    ) {
+        let halved = if index == 0 { 1.0 } else { 0.5 };
+        let mut level = Grid::new(width, height);
+        level.fill_blocks(|first, out| {
+            let mut rows = rows();
+            let mut power = vec![0.0; width];
+            for (index, out) in out.enumerate() {
+                for (log2_differences, weight) in
+                    rows.row(first + index).iter().zip(CHANNEL_WEIGHTS)
+                {
+                    powers(log2_differences, 1.0, &mut power);
+                    let weight = (weight * halved) as f32;
+                    for (out, power) in out.iter_mut().zip(&power) {
+                        *out += weight * power;
+                    }
+                }
+            }
+        });
+        self.levels.truncate(index);
+        self.levels.push(level);
+    }
+
+    /// The raw map: JOD-like units, 0 and above, row by row.
+    pub fn raw(mut self) -> Grid {
+        let Some(mut image) = self.levels.pop() else { return Grid::new(1, 1) };
+        while let Some(level) = self.levels.pop() {
+            let mut finer = expand(&image, level.size());
+            finer.fill_blocks(|first, rows| {
+                for (index, row) in rows.enumerate() {
+                    for (sum, value) in row.iter_mut().zip(level.padded_row(first + index)) {
+                        *sum += value;
+                    }
+                }
+            });
+            image = finer;
+        }
+        let exponent = jod_exponent() as f32;
+        image.fill_blocks(|_, rows| rows.for_each(|row| to_jod(row, exponent)));
+        image
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn to_jod(row: &mut [f32], exponent: f32) {
+    for value in row {
+        *value = JOD_A as f32 * exp2(exponent * log2(*value));
+    }
+}
+
+/// How a map is coloured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MapColors {
+    /// Blue, cyan, green, yellow, red from 0 to 1: what is visible at all.
+    Threshold,
+    /// Cyan, white, yellow from 0 to 1.
+    SupraThreshold,
+}
+
+type Rgb = [f64; 3];
+
+impl MapColors {
+    /// Both.
+    pub const ALL: [MapColors; 2] = [Self::Threshold, Self::SupraThreshold];
+
+    /// Its name in file names.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Threshold => "threshold",
+            Self::SupraThreshold => "supra-threshold",
+        }
+    }
+
+    /// Colours at equal steps from 0 to 1.
+    fn nodes(self) -> &'static [Rgb] {
+        match self {
+            Self::Threshold => &[
+                [0.2, 0.2, 1.0],
+                [0.2, 1.0, 1.0],
+                [0.2, 1.0, 0.2],
+                [1.0, 1.0, 0.2],
+                [1.0, 0.2, 0.2],
+            ],
+            Self::SupraThreshold => &[[0.2, 1.0, 1.0], [1.0, 1.0, 1.0], [1.0, 1.0, 0.2]],
+        }
+    }
+
+    /// The colour of a value, of about equal luma for all values, so that the gray below decides that.
+    fn at(self, value: f64) -> Rgb {
+        let even = |[r, g, b]: Rgb| {
+            let luma = 0.212_656 * r + 0.715_158 * g + 0.072_186 * b + 0.0001;
+            [r / luma, g / luma, b / luma]
+        };
+        let nodes = self.nodes();
+        let at = value.clamp(0.0, 1.0) * (nodes.len() - 1) as f64;
+        let below = (at as usize).min(nodes.len() - 2);
+        let (from, to) = (even(nodes[below]), even(nodes[below + 1]));
+        let share = at - below as f64;
+        std::array::from_fn(|c| from[c] + (to[c] - from[c]) * share)
+    }
+}
+
+/// A raw map in colours over a picture's luminance: interleaved 8-bit sRGB codes.
+pub fn colored(raw: &Grid, luminance: &Grid, colors: MapColors) -> Vec<u8> {
+    let context = context(luminance);
+    let values = (0..raw.height()).flat_map(|y| raw.row(y));
+    let pixels = values.zip(context).flat_map(|(value, gray)| {
+        colors.at(f64::from(*value)).map(|c| (255.0 * (c * gray).clamp(0.0, 1.0)) as u8)
+    });
+    pixels.collect()
+}
+
+/// A gray picture of a luminance, 0 to 1: its logarithm, the histogram evened out in part.
+fn context(luminance: &Grid) -> Vec<f64> {
+    /// Range of the grays, in the middle of 0 to 1.
+    const RANGE: f64 = 0.6;
+    const BINS: usize = 1024;
+    let values = || (0..luminance.height()).flat_map(|y| luminance.row(y)).map(|v| f64::from(*v));
+    let smallest = values().filter(|value| *value > 0.0).fold(f64::INFINITY, f64::min);
+    if smallest.is_infinite() {
+        return values().map(|_| 0.5).collect();
+    }
+    let logs: Vec<f64> = values().map(|value| libm::log(value.max(smallest))).collect();
+    let min = logs.iter().copied().fold(f64::INFINITY, f64::min);
+    let max = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let placed = |share: f64| share * RANGE + (1.0 - RANGE) / 2.0;
+    if max - min < RANGE {
+        return logs.iter().map(|log| placed((log - min) / (max - min + 1e-3))).collect();
+    }
+    let mut histogram = vec![0.0; BINS];
+    for log in &logs {
+        let bin = (BINS as f64 * (log - min) / (max - min)) as usize;
+        histogram[bin.min(BINS - 1)] += 1.0;
+    }
+    let mut sum = 0.0;
+    for count in &mut histogram {
+        sum += libm::cbrt(*count);
+        *count = sum;
+    }
+    let look_up = |log: &f64| {
+        let at = (log - min) / (max - min) * (BINS - 1) as f64;
+        let below = (at as usize).min(BINS - 2);
+        let (from, to) = (histogram[below], histogram[below + 1]);
+        placed((from + (to - from) * (at - below as f64)) / sum)
+    };
+    logs.iter().map(look_up).collect()
+}

@@ -1,0 +1,85 @@
+//! Display photometry: from values to light, each colour channel by itself.
+//!
+//! Black is what the panel leaks plus the light it reflects, E / π · k; white is the peak: reflected light
+//! is part of it, not added on top. In cd/m².
+
+use fovqa_frame::transfer::{pq, srgb};
+use fovqa_frame::{LightTables, LinearLight, ShownLight, SignalParams};
+use fovqa_vision::{Eotf, Luminance};
+
+use super::calibration::LOWEST_LIGHT_CD_M2;
+use super::params::Params;
+
+/// A display's way from values to light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Photometry {
+    luminance: Luminance,
+    black_cd_m2: f64,
+}
+
+impl Photometry {
+    /// The photometry of a display.
+    pub fn new(luminance: Luminance) -> Self {
+        Self { luminance, black_cd_m2: luminance.black_cd_m2() }
+    }
+
+    /// White, cd/m².
+    pub fn peak_cd_m2(&self) -> f64 {
+        self.luminance.peak_cd_m2
+    }
+
+    /// Black, cd/m².
+    pub fn black_cd_m2(&self) -> f64 {
+        self.black_cd_m2
+    }
+
+    /// How the display encodes light.
+    pub fn eotf(&self) -> Eotf {
+        self.luminance.eotf
+    }
+
+    /// The light of a value, cd/m²: of an encoded one in [0, 1] (kept in it), or of light.
+    pub fn emitted_cd_m2(&self, value: f64) -> f64 {
+        let code = value.clamp(0.0, 1.0);
+        let relative =
+            |share: f64| (self.peak_cd_m2() - self.black_cd_m2) * share + self.black_cd_m2;
+        let shown = self.shown(1.0);
+        let light =
+            |light: f64| light.clamp(shown.floor_cd_m2, shown.peak_cd_m2) + shown.black_cd_m2;
+        match self.luminance.eotf {
+            Eotf::Srgb => relative(srgb::decode(code)),
+            Eotf::Gamma => relative(libm::pow(code, self.luminance.gamma)),
+            Eotf::Pq => light(pq::decode(code)),
+            Eotf::Linear | Eotf::Absolute => light(value),
+        }
+    }
+
+    /// How absolute light is shown.
+    fn shown(&self, cd_m2_per_unit: f64) -> ShownLight {
+        let floor_cd_m2 = match self.luminance.eotf {
+            Eotf::Absolute => self.luminance.min_cd_m2.unwrap_or(LOWEST_LIGHT_CD_M2),
+            _ => LOWEST_LIGHT_CD_M2,
+        };
+        ShownLight {
+            cd_m2_per_unit,
+            floor_cd_m2,
+            peak_cd_m2: self.peak_cd_m2(),
+            black_cd_m2: self.black_cd_m2,
+        }
+    }
+
+    /// The way from the samples of frames to luminance on this display. Linear samples are absolute
+    /// light on a display that takes light, or where `params` say how much a unit is; else they are
+    /// tone-mapped and encoded as `signal` says.
+    pub fn tables(&self, signal: SignalParams, params: &Params) -> LightTables {
+        let absolute = |unit: f64| LinearLight::Absolute(self.shown(unit));
+        let linear = match params.cd_m2_per_unit {
+            Some(unit) => absolute(unit),
+            None if self.eotf().is_relative() => LinearLight::ToneMapped,
+            None => absolute(1.0),
+        };
+        let this = *self;
+        let emitted = move |value| this.emitted_cd_m2(value);
+        LightTables::new(signal, emitted, linear, params.color_space.luminance_weights())
+    }
+}

@@ -1,0 +1,276 @@
+//! A frame of a test against its reference: the pyramids are built and measured level by level.
+
+use std::borrow::Borrow;
+use std::sync::Arc;
+
+use fovqa_frame::map_row_blocks;
+use fovqa_vision::{BandEdges, BandMap, Eccentricity, View};
+
+use super::bands::{Band, bands};
+use super::calibration::BETA;
+use super::geometry::{BandDirections, Geometry};
+use super::grid::Grid;
+use super::heat_map::DifferenceMap;
+use super::level::{DifferenceRows, KeptRows, Levels, Reference, ReferenceRows, Sight};
+use super::masking::powers;
+use super::params::Params;
+use super::pooling::{jod, over_bands, over_channels, over_pixels, shares_of_channels};
+use super::pyramid::{RightEdge, reduce};
+use crate::sums::add_by_band;
+
+/// Smallest side of a frame, pixels.
+pub const SMALLEST_SIDE: usize = 4;
+
+/// Q of a band of spatial frequencies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FvvdpBand {
+    /// Its frequency at the centre of the display, cycles per degree.
+    pub cpd: f64,
+    /// Q of its sustained channel.
+    pub sustained: f64,
+    /// Q of its transient channel, before that is weighed; `None` in a still.
+    pub transient: Option<f64>,
+}
+
+/// One frame of a test against its reference.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FvvdpFrame {
+    /// The pooled difference Q, 0 and above.
+    pub q: f64,
+    /// 10 - a Q^b of this frame alone. The mean over frames is not the JOD of the sequence.
+    pub frame_jod: f64,
+    /// Q by spatial frequency, the finest first.
+    pub bands: Vec<FvvdpBand>,
+    /// What each band of eccentricity, and last what lies outside all of them, has in Q: shares of 1;
+    /// `None` where there is no difference at all.
+    pub shares: Option<Vec<f64>>,
+}
+
+impl FvvdpFrame {
+    /// What a band of eccentricity has in Q; `None` where there is no difference at all.
+    pub fn share(&self, band: usize) -> Option<f64> {
+        self.shares.as_ref()?.get(band).copied()
+    }
+}
+
+/// Bands of eccentricity of every level of the pyramid.
+#[derive(Debug, Clone)]
+pub struct FvvdpRegions(Vec<BandMap>);
+
+impl FvvdpRegions {
+    /// Bytes of memory they take.
+    pub fn bytes(&self) -> usize {
+        self.0.iter().map(BandMap::bytes).sum()
+    }
+}
+
+/// A reference, ready to be held against tests.
+#[derive(Debug)]
+pub struct FvvdpReference {
+    channels: Vec<Arc<Grid>>,
+    /// `None`: every pixel is looked at directly.
+    directions: Option<Vec<BandDirections>>,
+    /// Level by level, where it is for several tests.
+    kept: Option<Vec<KeptRows>>,
+}
+
+impl FvvdpReference {
+    /// Its sustained channel, or the still itself: luminance in cd/m².
+    pub fn sustained(&self) -> &Grid {
+        &self.channels[0]
+    }
+}
+
+/// The metric for frames of one size on one display.
+#[derive(Debug)]
+pub struct Fvvdp {
+    geometry: Geometry,
+    bands: Vec<Band>,
+    foveated: bool,
+    right_edge: RightEdge,
+}
+
+impl Fvvdp {
+    /// For frames seen in a geometry. Their sides are at least [`SMALLEST_SIDE`].
+    pub fn new(geometry: Geometry, params: &Params) -> Self {
+        Self {
+            bands: bands(&geometry),
+            geometry,
+            foveated: params.foveated,
+            right_edge: if params.exact_edges { RightEdge::ByColumns } else { RightEdge::ByRows },
+        }
+    }
+
+    /// Where its frames are seen.
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// Frequencies of its bands at the centre of the display, cycles per degree, the finest first.
+    pub fn frequencies_cpd(&self) -> impl Iterator<Item = f64> + '_ {
+        self.bands.iter().map(|band| band.cpd)
+    }
+
+    /// The bands of eccentricity of each of its levels, which are all stretched over the whole frame.
+    pub fn regions(&self, eccentricity: &Eccentricity, edges: &BandEdges) -> FvvdpRegions {
+        let View { width, height, .. } = *eccentricity.view();
+        let maps = self.bands.iter().map(|band| {
+            let scale = [band.size.0 as f64 / width as f64, band.size.1 as f64 / height as f64];
+            BandMap::new(&eccentricity.scaled(band.size, scale), edges)
+        });
+        FvvdpRegions(maps.collect())
+    }
+
+    /// Prepares a reference: its filtered planes, seen with a gaze in pixels of the frame. For several
+    /// tests, `keep` what of it alone decides.
+    pub fn reference(
+        &self,
+        channels: Vec<Arc<Grid>>,
+        gaze_px: [f64; 2],
+        keep: bool,
+    ) -> FvvdpReference {
+        let directions = self.foveated.then(|| {
+            let of = |band: &Band| BandDirections::new(&self.geometry, band, gaze_px);
+            self.bands.iter().map(of).collect::<Vec<_>>()
+        });
+        let mut reference = FvvdpReference { channels, directions, kept: None };
+        if keep {
+            let mut kept = Vec::with_capacity(self.bands.len());
+            self.descend(&reference.channels, |index, levels| {
+                kept.push(KeptRows::new(self.sight(&reference, index), levels));
+            });
+            reference.kept = Some(kept);
+        }
+        reference
+    }
+
+    fn sight<'a>(&'a self, reference: &'a FvvdpReference, index: usize) -> Sight<'a> {
+        let directions = reference.directions.as_ref().map(|directions| &directions[index]);
+        Sight { band: &self.bands[index], directions }
+    }
+
+    /// Calls `visit` with each level of a pyramid and the next.
+    fn descend(&self, channels: &[Arc<Grid>], mut visit: impl FnMut(usize, Levels<'_>)) {
+        let mut coarse = self.reduced(channels);
+        visit(0, Levels::new(channels, &coarse));
+        for index in 1..self.bands.len() {
+            let fine = std::mem::take(&mut coarse);
+            coarse = self.reduced(&fine);
+            visit(index, Levels::new(&fine, &coarse));
+        }
+    }
+
+    fn reduced<T: Borrow<Grid>>(&self, fine: &[T]) -> Vec<Grid> {
+        fine.iter().map(|grid| reduce(grid.borrow(), self.right_edge)).collect()
+    }
+
+    /// Scores a frame of a test, its filtered planes, against its reference; where a map is wanted,
+    /// with the differences of every level.
+    pub fn score(
+        &self,
+        reference: &FvvdpReference,
+        test: &[Arc<Grid>],
+        regions: &FvvdpRegions,
+        map: Option<&mut DifferenceMap>,
+    ) -> FvvdpFrame {
+        let mut sums = Vec::with_capacity(self.bands.len());
+        let mut map = map;
+        if let Some(kept) = &reference.kept {
+            self.descend(test, |index, test| {
+                let rows = || Reference::Kept(&kept[index]);
+                sums.push(self.level(index, test, rows, regions, map.as_deref_mut()));
+            });
+            return self.pooled(&sums);
+        }
+        let mut coarse = self.reduced(&reference.channels);
+        let mut fine: Vec<Grid> = Vec::new();
+        self.descend(test, |index, test| {
+            if index > 0 {
+                fine = std::mem::take(&mut coarse);
+                coarse = self.reduced(&fine);
+            }
+            let levels = match index {
+                0 => Levels::new(&reference.channels, &coarse),
+                _ => Levels::new(&fine, &coarse),
+            };
+            let sight = self.sight(reference, index);
+            let rows = || Reference::Computed(Box::new(ReferenceRows::new(sight, levels)));
+            sums.push(self.level(index, test, rows, regions, map.as_deref_mut()));
+        });
+        self.pooled(&sums)
+    }
+
+    /// Σ D^β of a level: channel by channel, within it band by band of eccentricity, and then outside all
+    /// of them.
+    fn level<'a>(
+        &'a self,
+        index: usize,
+        test: Levels<'a>,
+        reference: impl Fn() -> Reference<'a> + Sync + Send,
+        regions: &FvvdpRegions,
+        map: Option<&mut DifferenceMap>,
+    ) -> Vec<Vec<f64>> {
+        let (band, region) = (&self.bands[index], &regions.0[index]);
+        let rows = || DifferenceRows::new(band, reference(), test);
+        let blocks = map_row_blocks(band.size.1, |block| {
+            let mut rows = rows();
+            let mut power = vec![0.0; band.size.0];
+            let mut sums = vec![vec![0.0; region.bands() + 1]; test.channels()];
+            for y in block {
+                for (log2_differences, sums) in rows.row(y).iter().zip(&mut sums) {
+                    powers(log2_differences, BETA as f32, &mut power);
+                    add_by_band(&power, 0, region.row(y), sums);
+                }
+            }
+            sums
+        });
+        if let Some(map) = map {
+            map.add_level(index, band.size, rows);
+        }
+        let mut all = vec![vec![0.0; region.bands() + 1]; test.channels()];
+        for block in &blocks {
+            for (mine, theirs) in all.iter_mut().flatten().zip(block.iter().flatten()) {
+                *mine += theirs;
+            }
+        }
+        all
+    }
+
+    /// The frame from the sums of its levels.
+    fn pooled(&self, sums: &[Vec<Vec<f64>>]) -> FvvdpFrame {
+        let channels = sums[0].len();
+        let q = |level: usize, channel: usize| {
+            let (width, height) = self.bands[level].size;
+            over_pixels(sums[level][channel].iter().sum(), width * height)
+        };
+        let levels = 0..sums.len();
+        let of_channel =
+            |channel| over_bands(channel, levels.clone().map(|level| q(level, channel)));
+        let q_of_channels: Vec<f64> = (0..channels).map(of_channel).collect();
+        let q_of_frame = over_channels(&q_of_channels);
+        let bands = self.bands.iter().enumerate().map(|(level, band)| FvvdpBand {
+            cpd: band.cpd,
+            sustained: q(level, 0),
+            transient: (channels > 1).then(|| q(level, 1)),
+        });
+        let shares = (q_of_frame > 0.0).then(|| {
+            let of_channels = shares_of_channels(&q_of_channels);
+            let mut shares = vec![0.0; sums[0][0].len()];
+            for (channel, of_channel) in of_channels.iter().enumerate() {
+                let all: f64 = levels.clone().map(|level| q(level, channel)).sum();
+                for level in levels.clone() {
+                    let powers = &sums[level][channel];
+                    let sum: f64 = powers.iter().sum();
+                    if sum > 0.0 {
+                        let weight = of_channel * q(level, channel) / all / sum;
+                        for (share, power) in shares.iter_mut().zip(powers) {
+                            *share += weight * power;
+                        }
+                    }
+                }
+            }
+            shares
+        });
+        FvvdpFrame { q: q_of_frame, frame_jod: jod(q_of_frame), bands: bands.collect(), shares }
+    }
+}

@@ -1,0 +1,105 @@
+//! A sequence over time: how the frames of a picture become its temporal channels, and what a sequence
+//! has to have for that. A sequence of one frame is a still: one channel, unfiltered.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use thiserror::Error;
+
+use super::grid::Grid;
+use super::params::Padding;
+use super::temporal_filters::{FASTEST_FPS, TOO_SLOW_FPS, TemporalFilters};
+use super::window::{Window, at_first_frame};
+
+/// A sequence that cannot be filtered.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum TimeError {
+    /// No frame rate.
+    #[error("FovVideoVDP of a sequence needs its frames a second, and none are given")]
+    NoFps,
+    /// A frame rate beyond what filters can be made for.
+    #[error(
+        "FovVideoVDP needs more than {TOO_SLOW_FPS} and at most {FASTEST_FPS} frames a second; the sequence has {fps}"
+    )]
+    Fps {
+        /// What was given, or what is left of it where frames are passed over.
+        fps: f64,
+    },
+}
+
+/// The time that the frames of a sequence take.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Time {
+    /// `None`: a still.
+    filters: Option<TemporalFilters>,
+    padding: Padding,
+    frames: usize,
+}
+
+impl Time {
+    /// Of so many frames, at least one, so many a second.
+    ///
+    /// # Errors
+    /// When a sequence has no frame rate, or one that is too low or too high.
+    pub fn new(frames: usize, fps: Option<f64>, padding: Padding) -> Result<Self, TimeError> {
+        let filters = if frames > 1 {
+            let fps = fps.ok_or(TimeError::NoFps)?;
+            if !(fps > TOO_SLOW_FPS && fps <= FASTEST_FPS) {
+                return Err(TimeError::Fps { fps });
+            }
+            Some(TemporalFilters::new(fps))
+        } else {
+            None
+        };
+        Ok(Self { filters, padding, frames })
+    }
+
+    /// The frames, besides the first, that have to be there before it.
+    pub fn before_first(&self) -> BTreeSet<usize> {
+        let frames = self.at_first().into_iter();
+        frames.filter(|frame| *frame > 0).collect()
+    }
+
+    fn at_first(&self) -> Vec<usize> {
+        match &self.filters {
+            None => vec![0],
+            Some(filters) => at_first_frame(self.padding, self.frames, filters.len()),
+        }
+    }
+}
+
+/// One picture of a sequence over time: the luminance of its frames as far as the filters reach back.
+#[derive(Debug, Clone, Default)]
+pub struct Stream(Window);
+
+impl Stream {
+    /// Begins with the first frame, and those of [`Time::before_first`] by their numbers.
+    ///
+    /// # Panics
+    /// When one of those is missing.
+    pub fn begin(time: &Time, first: &Arc<Grid>, before: &BTreeMap<usize, Arc<Grid>>) -> Self {
+        let frames = time.at_first().into_iter().map(|frame| {
+            let luminance = if frame == 0 { first } else { &before[&frame] };
+            (frame, Arc::clone(luminance))
+        });
+        Self(Window::new(frames.collect()))
+    }
+
+    /// Goes on to the next frame, by its number.
+    pub fn push(&mut self, frame: usize, luminance: Arc<Grid>) {
+        self.0.push(frame, luminance);
+    }
+
+    /// The frames in reach, the oldest first.
+    pub fn frames(&self) -> Vec<usize> {
+        self.0.frames().collect()
+    }
+
+    /// The temporal channels of the present frame: sustained and transient, or the still itself.
+    pub fn channels(&self, time: &Time) -> Vec<Arc<Grid>> {
+        match &time.filters {
+            None => vec![self.0.newest()],
+            Some(filters) => self.0.filtered(filters).into_iter().map(Arc::new).collect(),
+        }
+    }
+}
