@@ -35,8 +35,15 @@ const FIDELITY: [&str; 6] =
 const PROFILES: [&str; 6] =
     ["--fov-vertical", "60", "--metrics", "rms-contrast,haar", "--format", "json"];
 
+/// FovVideoVDP, on a display.
+const VISIBLE: [&str; 4] = ["--metrics", "fvvdp", "--format", "json"];
+
 /// Frames of the sequence.
 const FRAMES: usize = 8;
+
+/// Size and length of the sequence of FovVideoVDP.
+const VGA: (usize, usize) = (640, 480);
+const VGA_FRAMES: usize = 16;
 
 /// What a run took.
 #[derive(Clone, Copy)]
@@ -207,6 +214,70 @@ fn sequence(folder: &Path) {
     }
 }
 
+/// Writes a sequence whose frames differ by what moves over them.
+fn make_video(folder: &Path, (width, height): (usize, usize)) {
+    let [gt, test] = ["gt.png", "rmfr.png"].map(|name| enlarged(name, width + VGA_FRAMES, height));
+    for (side, codes) in [("gt", gt), ("test", test)] {
+        let folder = folder.join("video").join(side);
+        std::fs::create_dir_all(&folder).unwrap();
+        for frame in 0..VGA_FRAMES {
+            let rows = codes.chunks_exact(3 * (width + VGA_FRAMES));
+            let moved: Vec<u8> =
+                rows.flat_map(|row| &row[3 * frame..3 * (frame + width)]).copied().collect();
+            write8(&folder.join(format!("{frame:04}.png")), width, height, &moved);
+        }
+    }
+}
+
+/// FovVideoVDP of stills and sequences, beyond decoding, and its memory.
+fn visible_difference(folder: &Path) {
+    let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
+    let this = std::env::current_exe().unwrap().display().to_string();
+    let score = |a: &str, b: &str, more: &[&str]| {
+        measure(fovqa, &[&["score", a, b][..], &VISIBLE, more].concat())
+    };
+    let beyond = |score: Option<Cost>, decode: Option<Cost>| {
+        let (score, decode) = (score?, decode?);
+        let wall_s = score.wall_s - decode.wall_s;
+        Some(Cost { cpu_s: score.cpu_s - decode.cpu_s, wall_s, ..score })
+    };
+    for (name, size, display, aim) in [
+        ("1080p PNG", FULL_HD, "standard-fhd", Some("0.10 CPU s")),
+        ("4K PNG", FOUR_K, "standard-4k", Some("600 MiB")),
+    ] {
+        let pair = Pair::new(folder, "png", size.0, size.1);
+        let [a, b] = pair.names();
+        let decode = measure(&this, &[DECODE, a, b]);
+        let cost = beyond(score(a, b, &["--display", display]), decode);
+        row(&format!("{name}: FovVideoVDP beyond decoding"), Some(pair.megapixels), cost, aim);
+    }
+    let [a, b] = ["gt", "test"].map(|side| folder.join("video").join(side).display().to_string());
+    let decode = measure(&this, &[DECODE_COLOUR, &a, &b]);
+    let video = score(&a, &b, &["--display", "standard-fhd", "--fps", "30"]);
+    let megapixels = (VGA.0 * VGA.1 * VGA_FRAMES) as f64 / 1e6;
+    let name = "640x480 PNG, 16 frames: FovVideoVDP";
+    row(name, Some(megapixels), video, Some("0.30 CPU s"));
+    row(&format!("{name} beyond"), Some(megapixels), beyond(video, decode), None);
+    let small = |side: &str| folder.join("small").join(side).display().to_string();
+    let (a, b) = (small("gt"), small("a"));
+    for (frames, aim) in [("0..30", None), ("0..1000", Some("as 30 frames, MiB"))] {
+        let more = ["--display", "standard-fhd", "--fps", "90", "--frames", frames];
+        let count = frames.trim_start_matches("0..");
+        row(&format!("64x64 PNG, {count} frames: FovVideoVDP"), None, score(&a, &b, &more), aim);
+    }
+}
+
+/// The reference program, where it is installed: a still of the same size.
+fn reference_program(pair: &Pair) {
+    let [a, b] = pair.names();
+    let script = "import sys, pyfvvdp\n\
+        from pyfvvdp.utils import load_image_as_array as load\n\
+        fv = pyfvvdp.fvvdp(display_name='standard_fhd', heatmap=None, foveated=True)\n\
+        fv.predict(load(sys.argv[2]), load(sys.argv[1]), dim_order='HWC')";
+    let cost = measure("python3", &["-c", script, a, b]);
+    row("1080p PNG: pyfvvdp", Some(pair.megapixels), cost, None);
+}
+
 fn compare(name: &str, pair: &Pair, aim: Option<&str>, aim_beyond: Option<&str>) {
     let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
     let this = std::env::current_exe().unwrap().display().to_string();
@@ -317,6 +388,7 @@ fn main() {
             }
             make_experiments(Path::new(folder));
             make_sequence(Path::new(folder), FOUR_K.0, FOUR_K.1);
+            make_video(Path::new(folder), VGA);
         }
         _ => report(),
     }
@@ -337,8 +409,10 @@ fn report() {
     compare("1080p PNG", &pair("png", FULL_HD), Some("0.18 CPU s"), None);
     compare("4K EXR, half, ZIP", &pair("exr", FOUR_K), None, None);
     sequence(folder.path());
+    visible_difference(folder.path());
     let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
     row("fovqa --version", None, measure(fovqa, &["--version"]), Some("0.010 wall s"));
     experiments(folder.path());
     peers(&four_k);
+    reference_program(&pair("png", FULL_HD));
 }

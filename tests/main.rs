@@ -22,3 +22,5 @@ mod results_folder;
 mod sequences;
 mod signal;
 mod temporal;
+mod visible_difference;
+mod visible_difference_errors;

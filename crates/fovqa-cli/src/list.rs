@@ -45,7 +45,8 @@ fn metrics() -> String {
         let view = if info.needs_view { ", needs a view" } else { "" };
         let _ = writeln!(text, "{} ({}{unit})", info.key, info.label);
         let _ = writeln!(text, "    {}", info.about);
-        let _ = writeln!(text, "    {better}{bands}{view}{default}");
+        let light = if info.needs_luminance { ", needs the display's photometry" } else { "" };
+        let _ = writeln!(text, "    {better}{bands}{view}{light}{default}");
         let _ = writeln!(text, "    source: {}", info.source);
         parameters(&mut text, &format!("{}.", info.key), info.params);
     }

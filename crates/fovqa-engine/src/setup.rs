@@ -171,8 +171,13 @@ fn look(
         help: "give a view that fits frames of this size".to_owned(),
     })?;
     if let Some([dw, dh]) = resolved.stretched_from {
+        let fvvdp = if inputs.metrics.contains(&Metric::Fvvdp) {
+            "; FovVideoVDP takes each of their pixels for one of the display's"
+        } else {
+            ""
+        };
         let message = format!(
-            "frames of {w}x{h} are stretched over the display's {dw}x{dh}: they fill its whole field"
+            "frames of {w}x{h} are stretched over the display's {dw}x{dh}: they fill its whole field{fvvdp}"
         );
         warnings.once_a_view("stretched", &message);
     }

@@ -60,7 +60,12 @@ impl FrameValues {
         while reader.read_record(&mut record).map_err(|e| broken(e.to_string()))? {
             let cell = |column: usize| record.get(column).unwrap_or_default();
             let whole = !cell(frame).is_empty() && cell(from).is_empty();
-            if !whole || !cell(statistic).is_empty() || cell(value).is_empty() {
+            // Of what has several statistics a frame, this one stands for it.
+            let plain = match cell(metric) {
+                "fvvdp" => cell(statistic) == "frame_jod",
+                _ => cell(statistic).is_empty(),
+            };
+            if !whole || !plain || cell(value).is_empty() {
                 continue;
             }
             let image = match cell(image) {

@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use fovqa_metrics::{Metric, MetricKind, PairScores};
-use fovqa_results::{AtdSummary, GuideSource, Measure, ScoreReport, Statistics, Summary};
+use fovqa_results::{
+    AtdSummary, FvvdpSummary, GuideSource, Measure, ScoreReport, Statistics, Summary,
+};
 
 use crate::text_table::{aligned, plain_table, printable};
 
@@ -36,6 +38,9 @@ pub fn score_table(report: &ScoreReport) -> String {
         let _ = writeln!(text, "{identical} of {frames} frames are identical{means}");
     }
 
+    if let Some(fvvdp) = &summary.fvvdp {
+        let _ = writeln!(text, "\n{}", fvvdp_in_words(fvvdp));
+    }
     if let Some(atd) = &summary.atd {
         let _ = writeln!(text, "\n{}", atd_in_words(atd));
     }
@@ -65,7 +70,11 @@ fn band_table(report: &ScoreReport, summary: &Summary) -> String {
     if summary.bands.is_empty() || (fidelity.is_empty() && compared.is_empty()) {
         return String::new();
     }
-    let labels: Vec<String> = fidelity.iter().chain(&compared).map(|m| label(*m)).collect();
+    let of_band = |metric: &Metric| match metric {
+        Metric::Fvvdp => format!("{} share", metric.info().label),
+        metric => label(*metric),
+    };
+    let labels: Vec<String> = fidelity.iter().chain(&compared).map(of_band).collect();
     let header = ["eccentricity", "pixels"].into_iter().chain(labels.iter().map(String::as_str));
     let mut table = plain_table(&header.collect::<Vec<_>>());
     for (index, band) in summary.bands.iter().enumerate() {
@@ -74,6 +83,10 @@ fn band_table(report: &ScoreReport, summary: &Summary) -> String {
             format!("{:.0}", band.pixels as f64 / report.frames.len().max(1) as f64),
         ];
         let cell = |metric: &Metric| {
+            if *metric == Metric::Fvvdp {
+                let share = summary.fvvdp.as_ref()?.shares.get(index)?.share;
+                return share.map(|_| percent(share));
+            }
             let statistics: Option<&Statistics> = band.statistics.get(metric)?.as_ref();
             statistics.map(|s| number(*metric, s.mean))
         };
@@ -128,6 +141,24 @@ fn haar_table(summary: &Summary) -> String {
 
 fn percent(ratio: Option<f64>) -> String {
     ratio.map_or_else(|| "–".to_owned(), |ratio| format!("{:.1} %", ratio * 100.0))
+}
+
+fn fvvdp_in_words(fvvdp: &FvvdpSummary) -> String {
+    let FvvdpSummary { pixels_per_degree, peak_cd_m2, black_cd_m2, .. } = *fvvdp;
+    let looked_at = if fvvdp.foveated { "" } else { ", not foveated" };
+    let rate = fvvdp.fps.map(|fps| format!(", {fps} frames/s")).unwrap_or_default();
+    let display = format!(
+        "display of {peak_cd_m2} cd/m², black {black_cd_m2:.3} cd/m², {pixels_per_degree:.2} px/°{rate}{looked_at}"
+    );
+    let Some(jod) = fvvdp.jod else {
+        let reason = fvvdp.reason.as_deref().unwrap_or("no frame could be scored");
+        return format!("FovVideoVDP: no value: {reason}\n{display}");
+    };
+    let frames = match fvvdp.frame_jod.filter(|_| fvvdp.frames > 1) {
+        Some(spread) => format!("; frames by themselves {:.3} to {:.3}", spread.min, spread.max),
+        None => String::new(),
+    };
+    format!("FovVideoVDP: {jod:.3} JOD (10: no visible difference){frames}\n{display}")
 }
 
 fn atd_in_words(atd: &AtdSummary) -> String {

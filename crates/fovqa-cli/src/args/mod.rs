@@ -2,6 +2,7 @@
 
 mod curves;
 mod guides;
+mod luminance;
 mod metrics;
 mod no_such;
 mod published_numbers;

@@ -20,6 +20,7 @@ pub(crate) struct Group {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Digits {
     Decibels,
+    Thousandths,
     Scientific,
     Share,
     Percent,
@@ -31,6 +32,7 @@ impl Group {
         let info = metric.info();
         let digits = match metric {
             Metric::Mse => Digits::Scientific,
+            Metric::Fvvdp => Digits::Thousandths,
             metric if metric.is_decibel() => Digits::Decibels,
             _ => Digits::Share,
         };
@@ -65,6 +67,7 @@ impl Group {
             (None, _) => "–".to_owned(),
             (Some(value), _) if value.is_infinite() => "inf".to_owned(),
             (Some(value), Digits::Decibels) => format!("{value:.2}"),
+            (Some(value), Digits::Thousandths) => format!("{value:.3}"),
             (Some(value), Digits::Scientific) if value != 0.0 => format!("{value:.2e}"),
             (Some(value), Digits::Percent) if value != 0.0 && value.abs() < 0.1 => {
                 format!("{value:.1e}")

@@ -37,6 +37,9 @@ const SCENE: &str = "scene";
 const FOVEAL_NOTE: &str = "FPSNR and FSSIM: the papers print no constants for the foveal weight, \
                            so compare methods, not papers.";
 
+const FVVDP_NOTE: &str = "FovVideoVDP: JOD of the sequence, 10 for no visible difference; 1 less where 75 % of observers \
+                          prefer the reference. It has no lower end.";
+
 const ATD_NOTE: &str =
     "ATD: average temporal difference of the test in percent of the reference's.";
 
@@ -75,6 +78,7 @@ impl ComparisonTable {
         let scored = |metric: &Metric| {
             let has = |c: &ComparisonSummary| match metric {
                 Metric::Atd => c.atd.as_ref().is_some_and(|atd| atd.ratio.is_some()),
+                Metric::Fvvdp => c.fvvdp.as_ref().is_some_and(|fvvdp| fvvdp.jod.is_some()),
                 metric => c.metrics.contains_key(metric),
             };
             summary.comparisons.iter().any(has)
@@ -102,6 +106,9 @@ impl ComparisonTable {
         let mut notes = vec!["Means over frames; the best of each row is marked.".to_owned()];
         if metrics.contains(&Metric::Fpsnr) || metrics.contains(&Metric::Fssim) {
             notes.push(FOVEAL_NOTE.to_owned());
+        }
+        if metrics.contains(&Metric::Fvvdp) {
+            notes.push(FVVDP_NOTE.to_owned());
         }
         if metrics.contains(&Metric::Atd) {
             notes.push(ATD_NOTE.to_owned());
@@ -152,6 +159,7 @@ fn group(metric: Metric) -> Group {
 pub(crate) fn value(comparison: &ComparisonSummary, metric: Metric) -> Option<f64> {
     match metric {
         Metric::Atd => Some(comparison.atd.as_ref()?.ratio? * 100.0),
+        Metric::Fvvdp => comparison.fvvdp.as_ref()?.jod,
         metric => Some(comparison.metrics.get(&metric)?.mean),
     }
 }

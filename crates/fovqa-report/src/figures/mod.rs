@@ -9,7 +9,9 @@ use fovqa_metrics::{Better, Metric, MetricKind};
 use fovqa_plot::{
     Axis, BarChart, BarSeries, Figure, LineChart, LineSeries, Look, SpreadChart, SpreadSeries,
 };
-use fovqa_results::{BandStatistics, ComparisonSummary, RunRecord, SummaryRecord};
+use fovqa_results::{
+    BandStatistics, ComparisonSummary, EccentricityShare, RunRecord, SummaryRecord,
+};
 
 use crate::comparison::{ComparisonTable, Ratios, mean, overall, statistic, value};
 use crate::frame_values::{FrameValues, Image};
@@ -116,6 +118,7 @@ pub(crate) fn metrics(source: &Source<'_>, plot: &Plot) -> Vec<Metric> {
 
 fn is_scored(comparison: &ComparisonSummary, metric: Metric) -> bool {
     match metric.info().kind {
+        _ if metric == Metric::Fvvdp => comparison.fvvdp.as_ref().is_some_and(|f| f.jod.is_some()),
         MetricKind::Fidelity => comparison.metrics.contains_key(&metric),
         MetricKind::Temporal => comparison.atd.as_ref().is_some_and(|atd| atd.frames > 0),
         MetricKind::Profile if metric == Metric::Haar => !comparison.haar.is_empty(),
@@ -153,7 +156,10 @@ impl<'a> Selection<'a> {
             return scenes.filter_map(|scene| self.compared(metric, scene, plot)).collect();
         }
         let name = format!("profile-{}", slug(metric.key()));
-        let label = metric.info().label;
+        let label = match metric {
+            Metric::Fvvdp => "Share of FovVideoVDP's visible difference",
+            metric => metric.info().label,
+        };
         let mut figures: Vec<NamedFigure> = Vec::new();
         let common = self.common_scenes(metric);
         if common.len() > 1 {
@@ -208,7 +214,11 @@ impl<'a> Selection<'a> {
         let figure = Figure::Line(LineChart {
             title: title.map(str::to_owned),
             x: Axis::new("Eccentricity (°)"),
-            y: Axis::new(axis(metric)),
+            y: Axis::new(match metric {
+                Metric::Fvvdp => "Share of FovVideoVDP's Q".to_owned(),
+                metric => axis(metric),
+            }),
+            y_from_zero: metric == Metric::Fvvdp,
             series,
             x_ticks: Some(edges).filter(|edges| edges.len() <= MOST_EDGE_TICKS),
             ..LineChart::default()
@@ -217,7 +227,18 @@ impl<'a> Selection<'a> {
     }
 
     fn bands(&self, metric: Metric, scene: &str, method: &str) -> Vec<Band> {
-        let bands = overall(self.source.summary, scene, method).map(|c| c.bands.as_slice());
+        let comparison = overall(self.source.summary, scene, method);
+        if metric == Metric::Fvvdp {
+            let fvvdp = comparison.and_then(|c| c.fvvdp.as_ref());
+            let shares = fvvdp.map(|fvvdp| fvvdp.shares.as_slice()).unwrap_or_default().iter();
+            let band = |share: &EccentricityShare| Band {
+                from_deg: share.from_deg,
+                to_deg: share.to_deg,
+                value: share.share,
+            };
+            return shares.map(band).collect();
+        }
+        let bands = comparison.map(|c| c.bands.as_slice());
         let bands = bands.unwrap_or_default().iter();
         bands
             .map(|band: &BandStatistics| Band {
@@ -273,7 +294,8 @@ impl<'a> Selection<'a> {
             metric => Axis::new(axis(metric)),
         };
         let figure = Figure::Bar(BarChart { y, groups, series, ..BarChart::default() });
-        let caption = format!("{} per scene and method, mean over frames", metric.info().label);
+        let over = if metric == Metric::Fvvdp { "of whole sequences" } else { "mean over frames" };
+        let caption = format!("{} per scene and method, {over}", metric.info().label);
         NamedFigure { name: format!("bars-{}", slug(metric.key())), caption, figure }
     }
 
@@ -292,7 +314,7 @@ impl<'a> Selection<'a> {
         });
         let series = series.collect();
         let groups = self.scenes.iter().map(|&scene| scene.to_owned()).collect();
-        let y = Axis::new(axis(metric));
+        let y = Axis::new(frame_axis(metric));
         let figure = Figure::Spread(SpreadChart { title: None, y, groups, series });
         let caption = format!("{} over the frames of each scene", metric.info().label);
         NamedFigure { name: format!("frames-{}", slug(metric.key())), caption, figure }
@@ -326,6 +348,14 @@ fn axis(metric: Metric) -> String {
         format!("{}{better}", info.label)
     } else {
         format!("{} in {}{better}", info.label, info.unit)
+    }
+}
+
+/// The same of values of single frames.
+fn frame_axis(metric: Metric) -> String {
+    match metric {
+        Metric::Fvvdp => "FovVideoVDP of each frame in JOD (higher is better)".to_owned(),
+        metric => axis(metric),
     }
 }
 

@@ -4,7 +4,7 @@
 use fovqa_metrics::{Metric, MetricKind};
 use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Span};
 
-use super::{NamedFigure, Selection, axis, slug};
+use super::{NamedFigure, Selection, frame_axis, slug};
 use crate::frame_values::{FrameValue, Image};
 
 /// A gaze that moves farther in a frame is in a saccade: at 72 frames a second 144° a second, which no
@@ -50,7 +50,7 @@ impl Selection<'_> {
         let figure = Figure::Line(LineChart {
             title: self.title(scene),
             x: Axis::new("Frame"),
-            y: Axis::new(axis(metric)),
+            y: Axis::new(frame_axis(metric)),
             series,
             y_from_zero: !alike,
             spans,

@@ -1,0 +1,46 @@
+//! `--luminance`.
+
+use fovqa_vision::{Eotf, Luminance};
+
+use super::no_such::no_such;
+use super::values::finite;
+use super::view::display;
+
+/// The photometry of a preset, or keys as in an experiment.
+pub(super) fn luminance(text: &str) -> Result<Luminance, String> {
+    if !text.contains('=') {
+        let display = display(text)?;
+        let unknown = || format!("the photometry of {text} is not known");
+        return display.luminance.ok_or_else(unknown);
+    }
+    let mut peak = None;
+    let mut given = Luminance::of_peak(f64::NAN);
+    for part in text.split(',') {
+        let (key, value) = part.split_once('=').ok_or("write KEY=VALUE with commas between")?;
+        let (key, value) = (key.trim().replace('-', "_"), value.trim());
+        if key == "eotf" {
+            let names = Eotf::ALL.map(|eotf| eotf.name().to_owned());
+            let found = Eotf::ALL.into_iter().find(|eotf| eotf.name() == value.to_lowercase());
+            given.eotf = found.ok_or_else(|| no_such("eotf", value, &names))?;
+            continue;
+        }
+        let number = finite(value).map_err(|_| format!("{key}: write a number"))?;
+        match key.as_str() {
+            "peak_cd_m2" => peak = Some(number),
+            "contrast" => given.contrast = Some(number),
+            "min_cd_m2" => given.min_cd_m2 = Some(number),
+            "ambient_lux" => given.ambient_lux = number,
+            "reflectivity" => given.reflectivity = number,
+            "gamma" => given.gamma = number,
+            _ => return Err(no_such("key", &key, &KEYS.map(str::to_owned))),
+        }
+    }
+    let peak_cd_m2 = peak.ok_or("peak_cd_m2 is missing: the display's white")?;
+    let luminance = Luminance { peak_cd_m2, ..given };
+    luminance.check().map_err(|error| error.to_string())?;
+    Ok(luminance)
+}
+
+/// Of [`luminance`].
+const KEYS: [&str; 7] =
+    ["peak_cd_m2", "contrast", "min_cd_m2", "ambient_lux", "reflectivity", "eotf", "gamma"];
