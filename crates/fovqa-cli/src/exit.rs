@@ -10,6 +10,8 @@ use crate::diagnostic;
 pub(crate) enum Exit {
     /// Done.
     Done,
+    /// A gate fails.
+    Gate,
     /// The command line is wrong.
     Usage,
     /// An input is missing, unreadable or does not fit, or the output cannot be written.
@@ -24,6 +26,7 @@ impl Exit {
     fn code(self) -> u8 {
         match self {
             Exit::Done => 0,
+            Exit::Gate => 1,
             Exit::Usage => 2,
             Exit::Input => 3,
             Exit::Bug => 70,

@@ -1,12 +1,15 @@
 //! The command: arguments, progress, exit codes. Everything else is in the crates below.
 
 mod args;
+mod baseline;
 mod check;
 mod curves;
 mod diagnostic;
 mod dialect;
 mod exit;
 mod experiment;
+mod finished_run;
+mod gate;
 mod heat_maps;
 mod list;
 mod output;
@@ -43,6 +46,8 @@ fn dispatch(cli: Cli) -> Exit {
     match cli.command {
         Command::Score(args) => score::run(*args),
         Command::Run(args) => run::run(&args),
+        Command::Gate(args) => gate::run(&args),
+        Command::Baseline(command) => baseline::run(&command),
         Command::Report(args) => report::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Curves(args) => curves::run(&args),

@@ -21,37 +21,51 @@ use crate::progress::Terminal;
 use crate::{experiment, output, threads};
 
 pub(crate) fn run(args: &RunArgs) -> Exit {
+    scored(args, Shown::Table).1
+}
+
+/// What of a run goes to stdout.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shown {
+    /// The comparison.
+    Table,
+    /// Nothing: something else will.
+    Nothing,
+}
+
+/// Scores an experiment; the folder with its results, where they could be written, and how that ended.
+pub(crate) fn scored(args: &RunArgs, shown: Shown) -> (Option<PathBuf>, Exit) {
+    match into_folder(args, shown) {
+        Ok((folder, exit)) => (Some(folder), exit),
+        Err(exit) => (None, exit),
+    }
+}
+
+fn into_folder(args: &RunArgs, shown: Shown) -> Result<(PathBuf, Exit), Exit> {
     if let Err(message) = threads::start(args.threads) {
         diagnostic::error(&message, "ask for fewer");
-        return Exit::Usage;
+        return Err(Exit::Usage);
     }
-    let mut experiment = match experiment::read(&args.experiment) {
-        Ok(experiment) => experiment,
-        Err(exit) => return exit,
-    };
+    let mut experiment = experiment::read(&args.experiment)?;
     experiment.plan.frames = args.frames;
     experiment.plan.maps = args.maps.is_some();
     if args.maps.is_some() && !experiment.plan.metrics.metrics().contains(&Metric::Fvvdp) {
         let message = "--maps are of FovVideoVDP, and the experiment does not score it";
         diagnostic::error(message, "add fvvdp = {} to [metrics]");
-        return Exit::Usage;
+        return Err(Exit::Usage);
     }
     let maps = args.maps.clone().map(|folder| HeatMaps::new(folder, true));
     let folder = args.output.clone().unwrap_or_else(|| default_folder(&experiment));
     // Before anything is read or scored: a folder that cannot be written to is found now.
-    let folder = match ResultsFolder::open(&folder) {
-        Ok(folder) => folder,
-        Err(error) => return failed(&error, error.help()),
-    };
+    let folder = ResultsFolder::open(&folder).map_err(|error| failed(&error, error.help()))?;
     let found = fovqa_engine::find(&experiment.plan);
     if found.problems.iter().any(|problem| problem.error.is_usage()) {
         say_problems(&experiment, &found);
-        return Exit::Usage;
+        return Err(Exit::Usage);
     }
-    match score(&experiment, &found, &folder, maps.as_ref()) {
-        Ok(results) => finish(&experiment, &results, &folder),
-        Err(exit) => exit,
-    }
+    let results = score(&experiment, &found, &folder, maps.as_ref())?;
+    let exit = finish(&experiment, &results, &folder, shown)?;
+    Ok((folder.path().to_owned(), exit))
 }
 
 fn default_folder(experiment: &Experiment) -> PathBuf {
@@ -95,21 +109,27 @@ fn score(
 }
 
 /// Writes the results, draws them, and says where they are.
-fn finish(experiment: &Experiment, results: &RunResults, folder: &ResultsFolder) -> Exit {
+fn finish(
+    experiment: &Experiment,
+    results: &RunResults,
+    folder: &ResultsFolder,
+    shown: Shown,
+) -> Result<Exit, Exit> {
     let summary = SummaryRecord::of(&experiment.name, results);
     say_failures(results);
     if let Err(error) = write(experiment, results, &summary, folder.path()) {
-        return failed(&error, "free some space, or give another folder with --output");
+        return Err(failed(&error, "free some space, or give another folder with --output"));
     }
-    let drawn = match fovqa_report::draw(folder.path()) {
-        Ok(drawn) => drawn,
-        Err(error) => return failed(&error, DRAW_AGAIN),
+    let drawn = fovqa_report::draw(folder.path()).map_err(|error| failed(&error, DRAW_AGAIN))?;
+    let drawn = match shown {
+        Shown::Table => drawn,
+        Shown::Nothing => Drawn { table: None, ..drawn },
     };
     let printed = say(&drawn, folder.path());
     let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
     let scored: usize = own.map(|comparison| comparison.report.frames.len()).sum();
     if summary.errors.is_empty() {
-        return printed;
+        return Ok(printed);
     }
     let errors = summary.errors.len();
     let lines = if errors == 1 { "1 error" } else { &format!("{errors} errors") };
@@ -118,7 +138,7 @@ fn finish(experiment: &Experiment, results: &RunResults, folder: &ResultsFolder)
         scored => format!("{scored} frames scored all the same"),
     };
     diagnostic::error(&format!("{lines}, {rest}"), "");
-    Exit::Input
+    Ok(Exit::Input)
 }
 
 /// What is left to do when only the drawing failed.
@@ -147,7 +167,7 @@ fn say_failures(results: &RunResults) {
     }
 }
 
-fn file_hash(text: &str) -> String {
+pub(crate) fn file_hash(text: &str) -> String {
     // Reading from memory does not fail.
     FileId::of(text.as_bytes()).map(|id| id.sha256).unwrap_or_default()
 }

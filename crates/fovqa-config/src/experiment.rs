@@ -8,6 +8,7 @@ use fovqa_params::ParamValue;
 
 use crate::fault::ExperimentError;
 use crate::file;
+use crate::gates::GateRule;
 use crate::grammar::EXPERIMENT;
 use crate::plan::Plan;
 use crate::plots::Plot;
@@ -28,6 +29,8 @@ pub struct Experiment {
     pub plan: Plan,
     /// Tables and figures; none: all that fit.
     pub plots: Vec<Plot>,
+    /// The rules of its gate.
+    pub gates: Vec<GateRule>,
     /// Parameters it sets; all others have their defaults.
     pub params: BTreeMap<(Metric, &'static str), ParamValue>,
 }
@@ -48,7 +51,7 @@ impl Experiment {
     /// When it has mistakes in it.
     pub fn parse(path: &Path, text: String) -> Result<Self, ExperimentError> {
         let resolved = file::parse(path, &text, EXPERIMENT, |root, faults| {
-            resolve::experiment(root, path, faults)
+            resolve::experiment(root, path, &text, faults)
         });
         Ok(Self { text, ..resolved? })
     }

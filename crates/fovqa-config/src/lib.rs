@@ -8,6 +8,7 @@ mod curves;
 mod experiment;
 mod fault;
 mod file;
+mod gates;
 mod grammar;
 mod nearest;
 mod node;
@@ -22,6 +23,7 @@ pub use curves::{
 };
 pub use experiment::Experiment;
 pub use fault::{ExperimentError, Fault};
+pub use gates::{Aggregate, Allowance, GateRule, Quantity};
 pub use grammar::{curves_schema, resolution, schema};
 pub use nearest::nearest;
 pub use plan::{Eye, EyeView, Gaze, MetricChoice, Nonfinite, Plan, Scene, Settings};

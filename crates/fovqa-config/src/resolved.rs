@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::experiment::Experiment;
+use crate::gates::GateRule;
 use crate::plan::{Eye, EyeView, Gaze, MetricChoice, Nonfinite, Plan, Settings};
 use crate::plots::Plot;
 
@@ -35,6 +36,9 @@ pub struct Resolved {
     pub frames: Option<String>,
     /// Tables and figures; none: all that fit.
     pub plots: Vec<Plot>,
+    /// The rules of the gate.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub gates: Vec<GateRule>,
 }
 
 /// A scene.
@@ -94,6 +98,7 @@ impl Experiment {
             default_metrics: plan.metrics == MetricChoice::Default,
             frames: plan.frames.map(|range| range.to_string()),
             plots: self.plots.clone(),
+            gates: self.gates.clone(),
         }
     }
 }

@@ -62,6 +62,8 @@ pub struct MetricInfo {
     pub key: &'static str,
     /// Its name in tables.
     pub label: &'static str,
+    /// Version of its values: another one for whatever changes them.
+    pub version: u32,
     /// Its unit; empty for a plain number.
     pub unit: &'static str,
     /// What it is of.
@@ -151,6 +153,7 @@ impl Metric {
 const MSE: MetricInfo = MetricInfo {
     key: "mse",
     label: "MSE",
+    version: 1,
     unit: "",
     kind: MetricKind::Fidelity,
     better: Better::Lower,
@@ -165,6 +168,7 @@ const MSE: MetricInfo = MetricInfo {
 const PSNR: MetricInfo = MetricInfo {
     key: "psnr",
     label: "PSNR",
+    version: 1,
     unit: "dB",
     kind: MetricKind::Fidelity,
     better: Better::Higher,
@@ -179,6 +183,7 @@ const PSNR: MetricInfo = MetricInfo {
 const SSIM: MetricInfo = MetricInfo {
     key: "ssim",
     label: "SSIM",
+    version: 1,
     unit: "",
     kind: MetricKind::Fidelity,
     better: Better::Higher,
@@ -218,6 +223,7 @@ const SSIM: MetricInfo = MetricInfo {
 const MS_SSIM: MetricInfo = MetricInfo {
     key: "ms_ssim",
     label: "MS-SSIM",
+    version: 1,
     unit: "",
     kind: MetricKind::Fidelity,
     better: Better::Higher,
@@ -232,6 +238,7 @@ const MS_SSIM: MetricInfo = MetricInfo {
 const FPSNR: MetricInfo = MetricInfo {
     key: "fpsnr",
     label: "FPSNR",
+    version: 1,
     unit: "dB",
     kind: MetricKind::Fidelity,
     better: Better::Higher,
@@ -301,6 +308,7 @@ const FPSNR: MetricInfo = MetricInfo {
 const FSSIM: MetricInfo = MetricInfo {
     key: "fssim",
     label: "FSSIM",
+    version: 1,
     unit: "",
     kind: MetricKind::Fidelity,
     better: Better::Higher,
@@ -315,6 +323,7 @@ const FSSIM: MetricInfo = MetricInfo {
 const FVVDP: MetricInfo = MetricInfo {
     key: "fvvdp",
     label: "FovVideoVDP",
+    version: 1,
     unit: "JOD",
     kind: MetricKind::Fidelity,
     better: Better::Higher,
@@ -366,6 +375,7 @@ const FVVDP: MetricInfo = MetricInfo {
 const PU_PSNR: MetricInfo = MetricInfo {
     key: "pu_psnr",
     label: "PU-PSNR",
+    version: 1,
     unit: "dB",
     kind: MetricKind::Fidelity,
     better: Better::Higher,
@@ -380,6 +390,7 @@ const PU_PSNR: MetricInfo = MetricInfo {
 const RMS_CONTRAST: MetricInfo = MetricInfo {
     key: "rms_contrast",
     label: "RMS contrast",
+    version: 1,
     unit: "",
     kind: MetricKind::Profile,
     better: Better::Neither,
@@ -407,6 +418,7 @@ const RMS_CONTRAST: MetricInfo = MetricInfo {
 const HAAR: MetricInfo = MetricInfo {
     key: "haar",
     label: "Haar wavelet",
+    version: 1,
     unit: "",
     kind: MetricKind::Profile,
     better: Better::Neither,
@@ -434,6 +446,7 @@ const HAAR: MetricInfo = MetricInfo {
 const ATD: MetricInfo = MetricInfo {
     key: "atd",
     label: "ATD",
+    version: 1,
     unit: "",
     kind: MetricKind::Temporal,
     better: Better::Lower,

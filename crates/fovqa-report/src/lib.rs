@@ -10,6 +10,7 @@ mod page;
 mod sheet;
 mod terminal;
 mod text_table;
+mod verdict;
 
 pub use comparison::ComparisonTable;
 pub use curves::{DrawnCurves, draw_curves};
@@ -17,3 +18,7 @@ pub use draw::{Drawn, draw};
 pub use index::draw_index;
 pub use sheet::{ReportError, clear};
 pub use terminal::score_table;
+pub use verdict::{
+    baseline_table, difference_table, github_annotations, gitlab_report, junit, markdown,
+    verdict_table,
+};

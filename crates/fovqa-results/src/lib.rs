@@ -1,15 +1,20 @@
 //! Scores as data: what a run found, its summary, JSON and tidy CSV.
 
+mod baseline;
 mod both_eyes;
 mod compared;
 mod csv_table;
 mod curves;
 mod files;
 mod fvvdp;
+mod gate;
 mod json;
 mod report;
 mod summary;
 
+pub use baseline::{
+    BASELINE_SCHEMA, Baseline, BaselineComparison, Difference, InputGroup, MetricRecord,
+};
 pub use both_eyes::both_eyes;
 pub use compared::{Compared, HaarStatistic, Measure, Sides};
 pub use csv_table::{COLUMNS, ERROR, write_csv, write_results_csv};
@@ -19,6 +24,10 @@ pub use files::{
     SUMMARY_JSON, read_json_file, write_json_file, write_whole, write_whole_with,
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
+pub use gate::{
+    Calibration, Check, Found, GATE_SCHEMA, Lacking, Limit, Outcome, Place, Proposal, RuleVerdict,
+    RunValues, State, Verdict, calibrate, write_verdict_json,
+};
 pub use json::{
     BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,
     HaarValues, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, SummaryRecord,

@@ -1,6 +1,8 @@
 //! The command line, as clap sees it.
 
+mod baseline;
 mod curves;
+mod gate;
 mod guides;
 mod luminance;
 mod metrics;
@@ -12,7 +14,9 @@ mod signal;
 mod values;
 mod view;
 
+pub(crate) use baseline::BaselineCommand;
 pub(crate) use curves::CurvesArgs;
+pub(crate) use gate::{Annotations, GateArgs, GateFormat};
 pub(crate) use published_numbers::PublishedNumbersArgs;
 pub(crate) use run::{CheckArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
@@ -30,8 +34,9 @@ use clap::{Parser, Subcommand, ValueEnum};
     arg_required_else_help = true
 )]
 #[command(
-    after_help = "Exit codes: 0 done; 2 the command line or the experiment file is wrong; 3 an input is missing,\n\
-unreadable or does not fit, or the output cannot be written; 70 a bug in fovqa; 130 interrupted."
+    after_help = "Exit codes: 0 done, and every gate holds; 1 a gate fails; 2 the command line or the experiment file\n\
+is wrong; 3 an input is missing, unreadable or does not fit, or the output cannot be written; 70 a bug\n\
+in fovqa; 130 interrupted."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
@@ -46,6 +51,12 @@ pub(crate) enum Command {
     /// Run an experiment: scenes, methods and metrics of a TOML file, with tables and figures.
     #[command(after_help = run::EXAMPLES)]
     Run(RunArgs),
+    /// Hold an experiment's gate, its [[gate]] rules, against its results: a verdict, and exit code 0 or 1.
+    #[command(after_help = gate::EXAMPLES)]
+    Gate(Box<GateArgs>),
+    /// Save, show and renew the baseline that a gate compares with.
+    #[command(subcommand, after_help = baseline::EXAMPLES)]
+    Baseline(BaselineCommand),
     /// Draw the tables, figures and page of a run again, without scoring; or a page over several.
     Report(ReportArgs),
     /// Check an experiment file, and print its plan and the frames found; reads no pixels.

@@ -277,7 +277,44 @@ static PLOT_TABLE: [Key; 6] = [
     ),
 ];
 
-static EXPERIMENT_TABLE: [Key; 9] = [
+/// How far a value may be from a baseline's.
+const ALLOWANCE: Kind = Kind::Either(&[Kind::Number(0.0, 1e12), Kind::Text]);
+const LIMIT: Kind = Kind::Number(-1e12, 1e12);
+
+static GATE_TABLE: [Key; 14] = [
+    required("metric", Kind::Metric, "the metric"),
+    key("name", Kind::Name, "what the rule is called in verdicts"),
+    key(
+        "statistic",
+        Kind::Text,
+        "of haar: mean_abs, max_abs, energy; of fvvdp: jod (of the sequence, the default), frame_jod, q, share, q_sustained, q_transient; of psnr, fpsnr, pu_psnr: pooled (of the sequence)",
+    ),
+    key("image", Kind::Word(&["pair", "test", "reference", "ratio"]), "of which picture"),
+    key("level", Kind::Whole(1, 32), "level of the wavelet, or spatial band of fvvdp"),
+    key(
+        "aggregate",
+        Kind::Text,
+        "how frames become one value: mean (the default), min, max, p01 to p99",
+    ),
+    key("scene", Kind::Name, "only this scene; if it is not given, each of them"),
+    key("method", Kind::Name, "only this method; if it is not given, each of them"),
+    key(
+        "eye",
+        Kind::Word(&["left", "right", "both"]),
+        "in scenes with two eyes; both if it is not given",
+    ),
+    key(
+        "band_deg",
+        Kind::List(&BAND_EDGE, 2, 2),
+        "[from, to], edges of scored eccentricity bands, °; if it is not given, the whole frame",
+    ),
+    key("at_least", LIMIT, "smallest value"),
+    key("at_most", LIMIT, "largest value"),
+    key("max_drop", ALLOWANCE, "how far it may fall below the baseline's: a number, or \"2%\""),
+    key("max_rise", ALLOWANCE, "how far it may rise above the baseline's: a number, or \"2%\""),
+];
+
+static EXPERIMENT_TABLE: [Key; 10] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
     required("name", Kind::Name, "name of the experiment, and of its folder below reports/"),
     key("about", Kind::Text, "what it shows, for its page"),
@@ -291,6 +328,7 @@ static EXPERIMENT_TABLE: [Key; 9] = [
         "the metrics with their parameters; if it is not given, the default ones",
     ),
     key("plot", Kind::Tables(&PLOT_TABLE), "tables and figures; if none is given, all that fit"),
+    key("gate", Kind::Tables(&GATE_TABLE), "the rules of `fovqa gate`"),
 ];
 
 /// The whole file.

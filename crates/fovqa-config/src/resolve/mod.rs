@@ -1,6 +1,7 @@
 //! From checked tables to the plan: overrides, placeholders, names that refer to each other.
 
 mod curves;
+mod gates;
 mod guides;
 mod methods;
 mod metrics;
@@ -21,7 +22,12 @@ use crate::node::Node;
 use crate::plan::Plan;
 
 /// The experiment; mistakes go to `faults`.
-pub(crate) fn experiment(root: Node<'_>, path: &Path, faults: &mut Vec<Fault>) -> Experiment {
+pub(crate) fn experiment(
+    root: Node<'_>,
+    path: &Path,
+    text: &str,
+    faults: &mut Vec<Fault>,
+) -> Experiment {
     let base = path.parent().map(Path::to_owned).unwrap_or_default();
     let (choice, params, set) = metrics::metrics(root, faults);
     let mut scenes = scenes::scenes(root, &base, &choice, faults);
@@ -29,12 +35,14 @@ pub(crate) fn experiment(root: Node<'_>, path: &Path, faults: &mut Vec<Fault>) -
     let known =
         plots::Known { scenes: &scenes, methods: &methods, metrics: &choice, params: &params };
     let plots = plots::plots(root, &known, faults);
+    let gates = gates::gates(root, text, &known, faults);
     Experiment {
         name: root.text("name").unwrap_or_default().to_owned(),
         about: root.text("about").map(str::to_owned),
         path: path.to_owned(),
         text: String::new(),
         plots,
+        gates,
         plan: Plan {
             base,
             scenes: scenes.into_iter().map(|scene| scene.scene).collect(),

@@ -1,0 +1,80 @@
+//! `fovqa gate`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use fovqa_io::sequence::FrameRange;
+
+pub(crate) const EXAMPLES: &str = "\
+Rules stand in the experiment file; docs/experiments.md shows every key:
+
+  [[gate]]
+  metric = \"fpsnr\"
+  method = \"RMFR\"
+  aggregate = \"min\"
+  at_least = 28.0
+  [[gate]]
+  metric = \"ssim\"
+  band_deg = [0, 10]
+  max_drop = \"2%\"                 # against --baseline
+
+Examples:
+  fovqa gate nightly.toml --junit gate.xml --markdown gate.md
+  fovqa gate nightly.toml --baseline nightly.baseline.json --annotations github
+  fovqa gate reports/nightly --format json
+  fovqa gate nightly.toml --calibrate runs/1 runs/2 runs/3 > limits.toml
+
+Exit codes: 0 every rule holds; 1 one does not; 2 the command line, the experiment file or a rule is
+wrong; 3 something could not be scored or read, which is never a pass; 70 a bug in fovqa; 130
+interrupted.";
+
+/// How the verdict is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum GateFormat {
+    /// For people.
+    Table,
+    /// Everything, nested.
+    Json,
+}
+
+/// For which CI system what does not hold is shown beside its rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Annotations {
+    /// Workflow commands, behind the verdict on stdout.
+    Github,
+    /// A Code Quality report, on stdout in place of the verdict, which goes to stderr.
+    Gitlab,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct GateArgs {
+    /// The experiment file, which is scored, or the folder of a finished run
+    pub(crate) target: PathBuf,
+    /// Baseline that max_drop and max_rise are held against
+    #[arg(long, value_name = "FILE")]
+    pub(crate) baseline: Option<PathBuf>,
+    /// Write the verdict as JUnit XML, a test case a rule
+    #[arg(long, value_name = "FILE")]
+    pub(crate) junit: Option<PathBuf>,
+    /// Write the verdict as Markdown
+    #[arg(long, value_name = "FILE")]
+    pub(crate) markdown: Option<PathBuf>,
+    /// Print annotations for a CI system
+    #[arg(long, value_name = "SYSTEM", conflicts_with = "format")]
+    pub(crate) annotations: Option<Annotations>,
+    /// How the verdict is printed
+    #[arg(long, value_name = "FORMAT", default_value = "table")]
+    pub(crate) format: GateFormat,
+    /// Print limits for the rules, from the spread of these repeated runs of one build, as TOML
+    #[arg(long, value_name = "RESULTS_DIR", num_args = 1.., conflicts_with_all = ["baseline", "junit", "markdown", "annotations", "format"])]
+    pub(crate) calibrate: Vec<PathBuf>,
+    /// Folder for the results of an experiment [default: reports/NAME, NAME being the experiment's]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+    /// Only these of each scene's frames, from A up to, but without, B
+    #[arg(long, value_name = "A..B:STEP")]
+    pub(crate) frames: Option<FrameRange>,
+    /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(crate) threads: Option<u16>,
+}

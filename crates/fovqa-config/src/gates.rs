@@ -1,0 +1,269 @@
+//! The rules of a gate: what has to hold of a run's values.
+
+use std::fmt;
+
+use fovqa_metrics::{Better, Metric};
+use serde::{Deserialize, Serialize};
+
+/// One rule. It holds where it holds in every comparison it is of.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GateRule {
+    /// Its line in the experiment file, from 1.
+    pub line: usize,
+    /// What it is called; `None`: by what it says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// What is measured.
+    pub quantity: Quantity,
+    /// Its scene; `None`: every one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<String>,
+    /// Its method; `None`: every one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub method: Option<String>,
+    /// Its eye, in scenes with two; `None`: both together.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub eye: Option<String>,
+    /// Smallest value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_least: Option<f64>,
+    /// Largest value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<f64>,
+    /// How far it may fall below the baseline's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_drop: Option<Allowance>,
+    /// How far it may rise above the baseline's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_rise: Option<Allowance>,
+}
+
+impl GateRule {
+    /// Whether it is held against a baseline.
+    pub fn needs_baseline(&self) -> bool {
+        self.max_drop.is_some() || self.max_rise.is_some()
+    }
+
+    /// What it asks, in words.
+    pub fn limits(&self) -> String {
+        let limits = [
+            self.at_least.map(|limit| format!("at least {limit}")),
+            self.at_most.map(|limit| format!("at most {limit}")),
+            self.max_drop.map(|drop| format!("at most {drop} below the baseline")),
+            self.max_rise.map(|rise| format!("at most {rise} above the baseline")),
+        ];
+        limits.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// A value of a comparison: of a metric, over its frames.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Quantity {
+    /// Key of the metric.
+    pub metric: String,
+    /// Which of its statistics; empty where it has one alone.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub statistic: String,
+    /// Of which picture: `pair`, `reference`, `test` or `ratio`.
+    pub image: String,
+    /// Level of the wavelet, or spatial band of FovVideoVDP, from 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub level: Option<usize>,
+    /// From and to, degrees; `None`: the whole frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub band_deg: Option<[f64; 2]>,
+    /// How frames become one value; `None`: it is of the whole sequence.
+    pub aggregate: Option<Aggregate>,
+}
+
+impl Quantity {
+    /// A metric's own value over the frames.
+    pub fn of(metric: Metric, aggregate: Aggregate) -> Self {
+        Self {
+            metric: metric.key().to_owned(),
+            statistic: String::new(),
+            image: "pair".to_owned(),
+            level: None,
+            band_deg: None,
+            aggregate: Some(aggregate),
+        }
+    }
+
+    /// FovVideoVDP of the sequence.
+    pub fn jod() -> Self {
+        let metric = Metric::Fvvdp;
+        Self { statistic: "jod".to_owned(), aggregate: None, ..Self::of(metric, Aggregate::Mean) }
+    }
+
+    /// Which way is better.
+    pub fn better(&self) -> Better {
+        better(Metric::find(&self.metric), &self.statistic, &self.image)
+    }
+}
+
+/// Which way a statistic of a metric is better.
+pub(crate) fn better(metric: Option<Metric>, statistic: &str, image: &str) -> Better {
+    match (metric, statistic, image) {
+        (Some(Metric::Fvvdp), "q" | "q_sustained" | "q_transient", _) => Better::Lower,
+        (Some(Metric::Fvvdp), "share", _) => Better::Neither,
+        (_, _, "reference") => Better::Neither,
+        (Some(metric), ..) => metric.info().better,
+        (None, ..) => Better::Neither,
+    }
+}
+
+impl fmt::Display for Quantity {
+    /// The same for the same quantity, and for no other: `psnr min`, `haar energy ratio mean, level 2, 0° to
+    /// 10°`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.metric)?;
+        if !self.statistic.is_empty() {
+            write!(f, " {}", self.statistic)?;
+        }
+        if self.image != "pair" {
+            write!(f, " {}", self.image)?;
+        }
+        if let Some(aggregate) = self.aggregate {
+            write!(f, " {aggregate}")?;
+        }
+        if let Some(level) = self.level {
+            write!(f, ", level {level}")?;
+        }
+        if let Some([from, to]) = self.band_deg {
+            write!(f, ", {from}° to {to}°")?;
+        }
+        Ok(())
+    }
+}
+
+/// How the values of frames become one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum Aggregate {
+    /// Their mean; of decibels, over the frames that differ from the reference.
+    Mean,
+    /// The smallest.
+    Min,
+    /// The largest.
+    Max,
+    /// A percentile, 1 to 99, straight between the frames next to it.
+    Percentile(u8),
+}
+
+impl Aggregate {
+    /// The aggregate of a word: `mean`, `min`, `max`, `p01` to `p99`.
+    pub fn find(word: &str) -> Option<Self> {
+        match word {
+            "mean" => Some(Self::Mean),
+            "min" => Some(Self::Min),
+            "max" => Some(Self::Max),
+            word => {
+                let digits = word.strip_prefix('p').filter(|digits| digits.len() == 2)?;
+                let percent: u8 = digits.parse().ok()?;
+                (1..=99).contains(&percent).then_some(Self::Percentile(percent))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Aggregate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Mean => f.write_str("mean"),
+            Self::Min => f.write_str("min"),
+            Self::Max => f.write_str("max"),
+            Self::Percentile(percent) => write!(f, "p{percent:02}"),
+        }
+    }
+}
+
+impl TryFrom<String> for Aggregate {
+    type Error = String;
+    fn try_from(word: String) -> Result<Self, String> {
+        Self::find(&word).ok_or_else(|| format!("{word:?} is no aggregate"))
+    }
+}
+
+impl From<Aggregate> for String {
+    fn from(aggregate: Aggregate) -> Self {
+        aggregate.to_string()
+    }
+}
+
+/// How far a value may be from the baseline's.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Allowance {
+    /// In the metric's unit.
+    Units(f64),
+    /// In percent of the baseline's value.
+    Percent(f64),
+}
+
+impl Allowance {
+    /// A percentage as it is written, `2%` or `0.5 %`.
+    pub fn percent(text: &str) -> Option<Self> {
+        let number: f64 = text.trim().strip_suffix('%')?.trim().parse().ok()?;
+        (0.0..=1000.0).contains(&number).then_some(Self::Percent(number))
+    }
+
+    /// What that is of a baseline's value.
+    pub fn of(self, baseline: f64) -> f64 {
+        match self {
+            Self::Units(units) => units,
+            Self::Percent(percent) => baseline.abs() * percent / 100.0,
+        }
+    }
+}
+
+impl fmt::Display for Allowance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Units(units) => write!(f, "{units}"),
+            Self::Percent(percent) => write!(f, "{percent} %"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn aggregates_are_words() {
+        for word in ["mean", "min", "max", "p01", "p50", "p99"] {
+            assert_eq!(Aggregate::find(word).unwrap().to_string(), word);
+        }
+        for word in ["p00", "p1", "p100", "median", "P50", "p-1", "p+5", ""] {
+            assert_eq!(Aggregate::find(word), None, "{word}");
+        }
+    }
+
+    #[test]
+    fn percent_is_of_the_baseline() {
+        assert_eq!(Allowance::percent("2%"), Some(Allowance::Percent(2.0)));
+        assert_eq!(Allowance::percent(" 0.5 % "), Some(Allowance::Percent(0.5)));
+        for text in ["2", "%", "-1%", "nan%", "x%", "inf%"] {
+            assert_eq!(Allowance::percent(text), None, "{text}");
+        }
+        assert!((Allowance::Percent(2.0).of(-30.0) - 0.6).abs() < 1e-12);
+        assert!((Allowance::Units(0.5).of(30.0) - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn quantities_have_names_of_their_own() {
+        let psnr = Quantity::of(Metric::Psnr, Aggregate::Min);
+        assert_eq!(psnr.to_string(), "psnr min");
+        let banded = Quantity { band_deg: Some([0.0, 7.5]), ..psnr };
+        assert_eq!(banded.to_string(), "psnr min, 0° to 7.5°");
+        let haar = Quantity {
+            statistic: "energy".to_owned(),
+            image: "ratio".to_owned(),
+            level: Some(2),
+            ..Quantity::of(Metric::Haar, Aggregate::Percentile(5))
+        };
+        assert_eq!(haar.to_string(), "haar energy ratio p05, level 2");
+        assert_eq!(Quantity::jod().to_string(), "fvvdp jod");
+        assert_eq!((haar.better(), Quantity::jod().better()), (Better::Neither, Better::Higher));
+    }
+}

@@ -1,0 +1,327 @@
+//! `[[gate]]`.
+
+use std::ops::Range;
+
+use fovqa_metrics::{Better, Metric, MetricKind};
+
+use super::plots::Known;
+use super::scenes::Resolved;
+use crate::fault::Fault;
+use crate::gates::{Aggregate, Allowance, GateRule, Quantity, better};
+use crate::grammar::quoted;
+use crate::nearest::nearest;
+use crate::node::Node;
+
+/// Statistics of single frames, by metric; those of others are empty.
+const FVVDP_STATISTICS: [&str; 6] =
+    ["jod", "frame_jod", "q", "share", "q_sustained", "q_transient"];
+const HAAR_STATISTICS: [&str; 3] = ["mean_abs", "max_abs", "energy"];
+const ORIENTATIONS: [&str; 3] = ["lh", "hl", "hh"];
+
+/// The rules; mistakes go to `faults`.
+pub(super) fn gates(
+    root: Node<'_>,
+    text: &str,
+    known: &Known<'_>,
+    faults: &mut Vec<Fault>,
+) -> Vec<GateRule> {
+    let tables = root.tables("gate").into_iter();
+    tables.filter_map(|(table, span)| rule(table, span, text, known, faults)).collect()
+}
+
+fn rule(
+    table: Node<'_>,
+    span: Range<usize>,
+    text: &str,
+    known: &Known<'_>,
+    faults: &mut Vec<Fault>,
+) -> Option<GateRule> {
+    let before = faults.len();
+    let metric = metric(table, known, faults)?;
+    let quantity = quantity(table, metric, known, faults);
+    let scenes = known.scenes.iter().map(|scene| scene.scene.name.as_str()).collect::<Vec<_>>();
+    let methods = known.methods.iter().map(String::as_str).collect::<Vec<_>>();
+    let scene = one_of(table, "scene", &scenes, faults);
+    let method = one_of(table, "method", &methods, faults);
+    let eye = table.text("eye").map(str::to_owned);
+    let of = |resolved: &&Resolved| scene.as_ref().is_none_or(|name| *name == resolved.scene.name);
+    let two_eyes = known.scenes.iter().filter(of).any(|scene| scene.scene.eyes.len() > 1);
+    if eye.is_some() && !two_eyes {
+        let message = "the rule is of an eye, and none of its scenes has two";
+        faults.push(Fault::new(table.span("eye"), message));
+    }
+    bands(table, metric, &known.scenes.iter().filter(of).collect::<Vec<_>>(), faults);
+    let rule = GateRule {
+        line: text.get(..span.start).unwrap_or_default().matches('\n').count() + 1,
+        name: table.text("name").map(str::to_owned),
+        quantity,
+        scene,
+        method,
+        eye,
+        at_least: table.number("at_least"),
+        at_most: table.number("at_most"),
+        max_drop: allowance(table, "max_drop", faults),
+        max_rise: allowance(table, "max_rise", faults),
+    };
+    if faults.len() == before {
+        direction(table, span, &rule, faults);
+    }
+    Some(rule)
+}
+
+/// The metric, where it is scored.
+fn metric(table: Node<'_>, known: &Known<'_>, faults: &mut Vec<Fault>) -> Option<Metric> {
+    let key = table.text("metric")?;
+    let scored = known.metrics.metrics();
+    let found = scored.iter().copied().find(|metric| metric.key() == key);
+    if found.is_none() {
+        let message = format!("the gate's metric {key} is not scored");
+        let keys = scored.iter().map(|metric| metric.key());
+        let help = format!("name it in [metrics]; these are: {}", quoted(keys));
+        faults.push(Fault::new(table.span("metric"), message).help(help));
+    }
+    found
+}
+
+fn quantity(
+    table: Node<'_>,
+    metric: Metric,
+    known: &Known<'_>,
+    faults: &mut Vec<Fault>,
+) -> Quantity {
+    let statistic = statistic(table, metric, known, faults);
+    let image = image(table, metric, faults);
+    let whole = matches!((metric, statistic.as_str()), (Metric::Fvvdp, "jod") | (_, "pooled"));
+    let aggregate = match table.text("aggregate") {
+        Some(word) if whole => {
+            let message =
+                format!("{statistic} is of the whole sequence, which no {word} can be of");
+            let help = if metric == Metric::Fvvdp {
+                "leave aggregate out, or take statistic = \"frame_jod\""
+            } else {
+                "leave aggregate out, or statistic"
+            };
+            faults.push(Fault::new(table.span("aggregate"), message).help(help));
+            None
+        }
+        Some(word) => {
+            let aggregate = Aggregate::find(word);
+            if aggregate.is_none() {
+                let fault =
+                    Fault::new(table.span("aggregate"), format!("aggregate cannot be \"{word}\""));
+                faults.push(fault.help("it is \"mean\", \"min\", \"max\", or \"p01\" to \"p99\""));
+            }
+            aggregate
+        }
+        None if whole => None,
+        None => Some(Aggregate::Mean),
+    };
+    let level = level(table, metric, &statistic, known, faults);
+    let band_deg = table.array("band_deg");
+    Quantity { metric: metric.key().to_owned(), statistic, image, level, band_deg, aggregate }
+}
+
+fn statistic(
+    table: Node<'_>,
+    metric: Metric,
+    known: &Known<'_>,
+    faults: &mut Vec<Fault>,
+) -> String {
+    let allowed: Vec<String> = match metric {
+        Metric::Fvvdp => FVVDP_STATISTICS.map(str::to_owned).into(),
+        Metric::Haar => {
+            let plain = HAAR_STATISTICS.map(str::to_owned).into_iter();
+            let of = |orientation: &&str| {
+                HAAR_STATISTICS.map(|statistic| format!("{statistic}_{orientation}"))
+            };
+            let split = if known.params.haar.orientations { &ORIENTATIONS[..] } else { &[] };
+            plain.chain(split.iter().flat_map(|o| of(&o))).collect()
+        }
+        Metric::Psnr | Metric::Fpsnr | Metric::PuPsnr => vec!["pooled".to_owned()],
+        _ => Vec::new(),
+    };
+    let Some(word) = table.text("statistic") else {
+        if metric == Metric::Haar {
+            let fault = Fault::new(table.span("metric"), "a gate on haar names its statistic");
+            faults.push(fault.help(format!("it is one of {}", quoted(HAAR_STATISTICS))));
+        }
+        return if metric == Metric::Fvvdp { "jod".to_owned() } else { String::new() };
+    };
+    if !allowed.iter().any(|known| known == word) {
+        let message = format!("{} has no statistic \"{word}\"", metric.key());
+        let help = if allowed.is_empty() {
+            "leave statistic out: aggregate says how frames become one value".to_owned()
+        } else {
+            format!("it is one of {}", quoted(allowed.iter().map(String::as_str)))
+        };
+        faults.push(Fault::new(table.span("statistic"), message).help(help));
+    }
+    word.to_owned()
+}
+
+fn image(table: Node<'_>, metric: Metric, faults: &mut Vec<Fault>) -> String {
+    let (usual, needed) = match metric.info().kind {
+        MetricKind::Fidelity => ("pair", false),
+        MetricKind::Temporal => ("test", false),
+        MetricKind::Profile => ("ratio", true),
+    };
+    match table.text("image") {
+        Some(word) if metric.is(MetricKind::Fidelity) && word != "pair" => {
+            let message = format!("{} is of the pair: it has no {word}", metric.key());
+            faults.push(Fault::new(table.span("image"), message).help("leave image out"));
+        }
+        Some("pair") if !metric.is(MetricKind::Fidelity) => {
+            let message = format!("{} is of each picture, not of the pair", metric.key());
+            let fault = Fault::new(table.span("image"), message);
+            faults.push(fault.help("it is \"test\", \"reference\" or \"ratio\""));
+        }
+        Some(word) => return word.to_owned(),
+        None if needed => {
+            let message = format!("a gate on {} names its image", metric.key());
+            let fault = Fault::new(table.span("metric"), message);
+            faults.push(fault.help("add image = \"ratio\", \"test\" or \"reference\""));
+        }
+        None => {}
+    }
+    usual.to_owned()
+}
+
+fn level(
+    table: Node<'_>,
+    metric: Metric,
+    statistic: &str,
+    known: &Known<'_>,
+    faults: &mut Vec<Fault>,
+) -> Option<usize> {
+    let given = table.number("level").map(|level| level as usize);
+    let spatial = statistic.starts_with("q_");
+    let levels = known.params.haar.levels as usize;
+    let mut fault = |key: &str, message: String| {
+        let fault = Fault::new(table.span(key), message);
+        faults.push(fault.help("level counts from 1, the finest"));
+    };
+    match given {
+        None if metric == Metric::Haar || spatial => {
+            fault("metric", format!("a gate on {} {statistic} names its level", metric.key()));
+        }
+        Some(level) if metric == Metric::Haar && level > levels => {
+            fault("level", format!("haar has {levels} levels, and no level {level}"));
+        }
+        Some(_) if metric != Metric::Haar && !spatial => {
+            fault("level", format!("{} has no levels", metric.key()));
+        }
+        _ => {}
+    }
+    given
+}
+
+/// Whether a rule's band is one, or several, of those that are scored, as far as that can be told before
+/// frames are read.
+fn bands(table: Node<'_>, metric: Metric, scenes: &[&Resolved], faults: &mut Vec<Fault>) {
+    let span = table.span("band_deg");
+    let Some([from, to]) = table.array::<2>("band_deg") else {
+        let of_bands = metric.is(MetricKind::Profile)
+            || (metric == Metric::Fvvdp && table.text("statistic") == Some("share"));
+        if of_bands {
+            let message = format!("a gate on {} names its band", metric.key());
+            let fault = Fault::new(table.span("metric"), message);
+            faults.push(fault.help("add band_deg = [from, to], in degrees"));
+        }
+        return;
+    };
+    if from >= to {
+        let fault = Fault::new(span, format!("the band from {from}° to {to}° has nothing in it"));
+        faults.push(fault.help("write band_deg = [from, to], from below to"));
+        return;
+    }
+    let of_bands = metric != Metric::Fvvdp || table.text("statistic") == Some("share");
+    if !metric.info().per_band || !of_bands {
+        let message = format!("{} has no value per band", metric.key());
+        faults.push(Fault::new(span, message).help("leave band_deg out"));
+        return;
+    }
+    for settings in scenes.iter().flat_map(|scene| &scene.scene.eyes).map(|eye| &eye.settings) {
+        let Some(edges) = &settings.bands else {
+            // Default bands are multiples of five degrees; how many is seen with the frames.
+            if [from, to].iter().any(|edge| edge % fovqa_vision::DEFAULT_BAND_DEG != 0.0) {
+                let message = "the band does not begin and end with bands that are scored";
+                let fault = Fault::new(span, message);
+                faults.push(
+                    fault.help("the default bands are 0, 5, 10, …; give others with bands_deg"),
+                );
+                return;
+            }
+            continue;
+        };
+        let begins = edges.iter().any(|(edge, _)| edge.to_bits() == from.to_bits());
+        let ends = edges.iter().any(|(_, edge)| edge.to_bits() == to.to_bits());
+        if !begins || !ends {
+            let all: Vec<String> =
+                edges.iter().map(|(from, to)| format!("{from} to {to}")).collect();
+            let message = "the band does not begin and end with bands that are scored";
+            let fault = Fault::new(span, message);
+            faults.push(fault.help(format!("they are, in degrees: {}", all.join(", "))));
+            return;
+        }
+    }
+}
+
+/// The name a key gives, where it is one of those there are.
+fn one_of(table: Node<'_>, key: &str, known: &[&str], faults: &mut Vec<Fault>) -> Option<String> {
+    let name = table.text(key)?;
+    if !known.contains(&name) {
+        let fault = Fault::new(table.span(key), format!("there is no {key} \"{name}\""));
+        let label =
+            nearest(name, known.iter().copied()).map(|near| format!("did you mean \"{near}\"?"));
+        let help = format!("the {key}s are {}", quoted(known.iter().copied()));
+        faults.push(fault.label(label.unwrap_or_default()).help(help));
+    }
+    Some(name.to_owned())
+}
+
+fn allowance(table: Node<'_>, key: &str, faults: &mut Vec<Fault>) -> Option<Allowance> {
+    if let Some(units) = table.number(key) {
+        return Some(Allowance::Units(units));
+    }
+    let text = table.text(key)?;
+    let percent = Allowance::percent(text);
+    if percent.is_none() {
+        let fault = Fault::new(table.span(key), format!("{key} cannot be \"{text}\""));
+        faults.push(
+            fault.help("write a number in the metric's unit, or a percentage such as \"2%\""),
+        );
+    }
+    percent
+}
+
+/// Whether a rule has limits, and they point the way that its metric does.
+fn direction(table: Node<'_>, span: Range<usize>, rule: &GateRule, faults: &mut Vec<Fault>) {
+    let Quantity { metric, statistic, image, .. } = &rule.quantity;
+    let what = if statistic.is_empty() { metric.clone() } else { format!("{metric} {statistic}") };
+    let keys = ["at_least", "at_most", "max_drop", "max_rise"];
+    if !keys.iter().any(|key| table.has(key)) {
+        let fault = Fault::new(span, format!("the gate on {what} has no limit"));
+        faults.push(fault.help("add at_least, at_most, max_drop or max_rise"));
+        return;
+    }
+    let (wrong, why): (&[&str], &str) = match better(Metric::find(metric), statistic, image) {
+        Better::Higher => (&["at_most", "max_rise"], "higher is better"),
+        Better::Lower => (&["at_least", "max_drop"], "lower is better"),
+        Better::Neither => (&["max_drop", "max_rise"], "neither high nor low is better"),
+    };
+    for key in wrong.iter().filter(|key| table.has(key)) {
+        let message = format!("{key} points the wrong way: of {what}, {why}");
+        let help = match why {
+            "higher is better" => "use at_least or max_drop",
+            "lower is better" => "use at_most or max_rise",
+            _ => "use at_least and at_most",
+        };
+        faults.push(Fault::new(table.span(key), message).help(help));
+    }
+    if let (Some(least), Some(most)) = (rule.at_least, rule.at_most)
+        && least > most
+    {
+        let message = format!("no value is at least {least} and at most {most}");
+        faults.push(Fault::new(table.span("at_most"), message));
+    }
+}

@@ -1,0 +1,65 @@
+//! A baseline, and how a new one differs, on a terminal.
+
+use std::fmt::Write as _;
+
+use fovqa_results::{Baseline, Difference};
+
+use super::number;
+use crate::text_table::{aligned, plain_table, printable};
+
+/// What is in a baseline.
+pub fn baseline_table(baseline: &Baseline) -> String {
+    let mut text = format!(
+        "{}, by fovqa {}: {} comparisons\n\n",
+        printable(&baseline.experiment),
+        printable(&baseline.version),
+        baseline.comparisons.len()
+    );
+    let mut table = plain_table(&["of", "value", ""]);
+    for comparison in &baseline.comparisons {
+        for (quantity, value) in comparison.values() {
+            table.add_row([printable(&comparison.named()), printable(quantity), number(value)]);
+        }
+    }
+    let _ = writeln!(text, "{}\n", aligned(table));
+    let metrics = baseline.metrics.iter().map(|(key, metric)| format!("{key} {}", metric.version));
+    let metrics: Vec<String> = metrics.collect();
+    let _ = writeln!(text, "versions of metrics: {}", printable(&metrics.join(", ")));
+    for (folder, group) in &baseline.inputs {
+        let digest = group.sha256.get(..16).unwrap_or(&group.sha256);
+        let folder = if folder.is_empty() { "." } else { folder };
+        let files = if group.files == 1 { "file" } else { "files" };
+        let _ = writeln!(
+            text,
+            "{}: {} {files}, SHA-256 {}…",
+            printable(folder),
+            group.files,
+            printable(digest)
+        );
+    }
+    text
+}
+
+/// Every value that differs; empty where none does.
+pub fn difference_table(differences: &[Difference]) -> String {
+    if differences.is_empty() {
+        return String::new();
+    }
+    let mut table = plain_table(&["of", "value", "baseline", "run", "change"]);
+    for Difference { place, quantity, before, after } in differences {
+        let shown = |value: &Option<f64>| value.map_or_else(|| "–".to_owned(), number);
+        let change = before.zip(*after).map(|(before, after)| after - before);
+        let change = change.filter(|change| change.is_finite()).map(|change| {
+            let sign = if change >= 0.0 { "+" } else { "" };
+            format!("{sign}{}", number(change))
+        });
+        table.add_row([
+            printable(place),
+            printable(quantity),
+            shown(before),
+            shown(after),
+            change.unwrap_or_default(),
+        ]);
+    }
+    format!("{}\n", aligned(table))
+}

@@ -1,0 +1,82 @@
+//! The verdict of a gate for people and for CI systems: a table, Markdown, JUnit XML, annotations.
+
+mod annotations;
+mod baseline;
+mod junit;
+mod markdown;
+mod terminal;
+
+pub use annotations::{github_annotations, gitlab_report};
+pub use baseline::{baseline_table, difference_table};
+pub use junit::junit;
+pub use markdown::markdown;
+pub use terminal::verdict_table;
+
+use fovqa_results::{Check, Limit, Place, State, Verdict};
+
+/// A value as verdicts show it: short, but never rounded across a limit.
+fn number(value: f64) -> String {
+    if value.is_infinite() {
+        return if value > 0.0 { "inf" } else { "-inf" }.to_owned();
+    }
+    let short = if value != 0.0 && value.abs() < 0.01 {
+        format!("{value:.3e}")
+    } else {
+        format!("{value:.4}")
+    };
+    if short.parse::<f64>().is_ok_and(|back| back.to_bits() == value.to_bits()) {
+        return value.to_string();
+    }
+    short
+}
+
+fn limit(limit: &Limit) -> String {
+    format!("{} {}", if limit.at_least { "≥" } else { "≤" }, number(limit.value))
+}
+
+/// A margin with its sign; one that is too small to be seen at four digits is shown as it is.
+fn margin(limit: &Limit) -> String {
+    let sign = if limit.margin >= 0.0 { "+" } else { "" };
+    format!("{sign}{}", number(limit.margin))
+}
+
+fn place((scene, method, eye): &Place) -> String {
+    let parts = [scene, method, eye].into_iter().filter(|part| !part.is_empty());
+    parts.map(String::as_str).collect::<Vec<_>>().join(", ")
+}
+
+fn worst(check: &Check) -> String {
+    check.worst.map(|(frame, value)| format!("{frame} ({})", number(value))).unwrap_or_default()
+}
+
+/// What a check is, in one sentence.
+fn sentence(check: &Check) -> String {
+    let mut text = place(&check.place);
+    if let Some(reason) = check.outcome.reason() {
+        text.push_str(": ");
+        text.push_str(reason);
+    } else if let (Some(value), Some(bound)) = (check.value, &check.limit) {
+        text.push_str(&format!(": {} {}, margin {}", number(value), limit(bound), margin(bound)));
+    }
+    if let Some((frame, value)) = check.worst {
+        text.push_str(&format!("; worst frame {frame} with {}", number(value)));
+    }
+    text
+}
+
+/// The whole in one sentence.
+fn outcome(verdict: &Verdict) -> String {
+    let rules = verdict.rules.len();
+    let broken = verdict.rules.iter().filter(|rule| rule.state() == State::Failed).count();
+    let of = |count: usize| if count == 1 { "1 rule".to_owned() } else { format!("{count} rules") };
+    match verdict.state() {
+        State::Passed => format!("{}: the gate holds ({})", verdict.experiment, of(rules)),
+        State::Failed => {
+            format!("{}: the gate fails: {} of {}", verdict.experiment, broken.max(1), of(rules))
+        }
+        State::NotScored => {
+            format!("{}: no verdict: not everything could be scored", verdict.experiment)
+        }
+        State::Wrong => format!("{}: no verdict: a rule is wrong", verdict.experiment),
+    }
+}

@@ -1,0 +1,49 @@
+//! The verdict on a terminal.
+
+use std::fmt::Write as _;
+
+use fovqa_results::Verdict;
+
+use super::{limit, margin, number, outcome, place, worst};
+use crate::text_table::{aligned, plain_table, printable};
+
+/// A row a rule and comparison, and the outcome.
+pub fn verdict_table(verdict: &Verdict) -> String {
+    let mut table =
+        plain_table(&["rule", "of", "value", "limit", "margin", "worst frame", "verdict"]);
+    for rule in &verdict.rules {
+        let title = printable(&rule.title());
+        for check in &rule.checks {
+            let bound = check.limit.as_ref();
+            table.add_row([
+                title.clone(),
+                printable(&place(&check.place)),
+                check.value.map(number).unwrap_or_else(|| "–".to_owned()),
+                bound.map(limit).unwrap_or_default(),
+                bound.map(margin).unwrap_or_default(),
+                worst(check),
+                check.outcome.state().name().to_owned(),
+            ]);
+        }
+        if let Some(why) = &rule.failure {
+            let dash = || "–".to_owned();
+            let state = rule.state().name().to_owned();
+            table.add_row([title, printable(why), dash(), dash(), dash(), dash(), state]);
+        }
+    }
+    let mut text = format!("{}\n\n", aligned(table));
+    for rule in &verdict.rules {
+        for check in rule.checks.iter().filter(|check| check.outcome.reason().is_some()) {
+            let why = check.outcome.reason().unwrap_or_default();
+            let _ = writeln!(text, "{}: {}", printable(&place(&check.place)), printable(why));
+        }
+    }
+    for error in &verdict.errors {
+        let _ = writeln!(text, "not scored: {}", printable(error));
+    }
+    for note in &verdict.notes {
+        let _ = writeln!(text, "note: {}", printable(note));
+    }
+    let _ = writeln!(text, "{}", printable(&outcome(verdict)));
+    text
+}

@@ -1,0 +1,331 @@
+//! A baseline: the values of a run that later ones are held against, as a small text file fit for git.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use fovqa_config::{Aggregate, GateRule, Quantity, Resolved};
+use fovqa_metrics::{Better, Metric, MetricKind};
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::files::{FileError, read_json_file};
+use crate::gate::{Place, RunValues};
+use crate::json::{Number, RunRecord};
+use crate::report::Input;
+
+/// Name and version of the format.
+pub const BASELINE_SCHEMA: &str = "fovqa.baseline/1";
+
+/// The whole file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Baseline {
+    /// Name and version of the format.
+    pub schema: String,
+    /// Version of fovqa.
+    pub version: String,
+    /// Name of the experiment.
+    pub experiment: String,
+    /// The metrics by their keys.
+    pub metrics: BTreeMap<String, MetricRecord>,
+    /// The inputs, folder by folder.
+    pub inputs: BTreeMap<String, InputGroup>,
+    /// One entry a scene, method and eye.
+    pub comparisons: Vec<BaselineComparison>,
+    /// The experiment with all its defaults.
+    pub resolved: Resolved,
+}
+
+/// How a metric was taken.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MetricRecord {
+    /// Its version: another one may have other values.
+    pub version: u32,
+    /// Its parameters.
+    pub parameters: BTreeMap<String, Value>,
+}
+
+/// The inputs of one folder.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct InputGroup {
+    /// How many there are.
+    pub files: usize,
+    /// SHA-256 of their names and hashes.
+    pub sha256: String,
+}
+
+/// The values of a comparison.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BaselineComparison {
+    /// The scene.
+    pub scene: String,
+    /// The method.
+    pub method: String,
+    /// `left`, `right` or `both`; empty in a scene with one picture a frame.
+    pub eye: String,
+    /// Frames that were scored.
+    pub frames: usize,
+    /// By their names.
+    pub(crate) values: BTreeMap<String, Number>,
+}
+
+impl BaselineComparison {
+    /// Scene, method and eye.
+    pub fn place(&self) -> Place {
+        (self.scene.clone(), self.method.clone(), self.eye.clone())
+    }
+
+    /// The same in words.
+    pub fn named(&self) -> String {
+        let eye = if self.eye.is_empty() { String::new() } else { format!(", {}", self.eye) };
+        format!("{}, {}{eye}", self.scene, self.method)
+    }
+
+    /// Its values, by their names.
+    pub fn values(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.values.iter().map(|(name, value)| (name.as_str(), value.0))
+    }
+}
+
+/// A value of a baseline beside a new one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// Scene, method and eye.
+    pub place: String,
+    /// Name of the value.
+    pub quantity: String,
+    /// In the baseline; `None`: it is new.
+    pub before: Option<f64>,
+    /// In the run; `None`: it is gone.
+    pub after: Option<f64>,
+}
+
+impl Baseline {
+    /// The baseline of a run: the values its rules look at, and of each metric that points somewhere its
+    /// mean and its worst frame. `hash` is that of a text.
+    pub fn of(
+        run: &RunRecord,
+        values: &RunValues,
+        rules: &[GateRule],
+        hash: &dyn Fn(&str) -> String,
+    ) -> Self {
+        let metrics = run.resolved.metrics.iter().filter_map(|(key, parameters)| {
+            let version = Metric::find(key)?.info().version;
+            Some((key.clone(), MetricRecord { version, parameters: parameters.clone() }))
+        });
+        let mut quantities: Vec<Quantity> = run
+            .resolved
+            .metrics
+            .keys()
+            .filter_map(|key| Metric::find(key))
+            .flat_map(usual)
+            .collect();
+        quantities.extend(rules.iter().map(|rule| rule.quantity.clone()));
+        let comparisons = values.places().map(|place| {
+            let found = quantities.iter().filter_map(|quantity| {
+                let found = values.of(place, quantity).ok()?;
+                Some((quantity.to_string(), Number(found.value)))
+            });
+            let (scene, method, eye) = place.clone();
+            let frames = values.frames_of(place);
+            BaselineComparison { scene, method, eye, frames, values: found.collect() }
+        });
+        Self {
+            schema: BASELINE_SCHEMA.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            experiment: run.resolved.name.clone(),
+            metrics: metrics.collect(),
+            inputs: grouped(&run.inputs, hash),
+            comparisons: comparisons.collect(),
+            resolved: run.resolved.clone(),
+        }
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// When it cannot be read, or is no baseline.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        read_json_file(path, BASELINE_SCHEMA, "a baseline")
+    }
+
+    /// The value of a comparison.
+    pub(crate) fn value(&self, place: &Place, quantity: &Quantity) -> Result<f64, String> {
+        let found = self.comparisons.iter().find(|c| c.place() == *place);
+        let Some(comparison) = found else {
+            let (scene, method, eye) = place;
+            if !self.comparisons.iter().any(|c| c.scene == *scene) {
+                return Err(format!("the baseline has no scene {scene}"));
+            }
+            let eye = if eye.is_empty() { String::new() } else { format!(", {eye}") };
+            return Err(format!("the baseline has no {method}{eye} in scene {scene}"));
+        };
+        let value = comparison.values.get(&quantity.to_string());
+        value
+            .map(|number| number.0)
+            .ok_or_else(|| format!("the baseline has no {quantity} of {}", comparison.named()))
+    }
+
+    /// Why a run cannot be held against this: metrics of another version, or taken otherwise. `None`: it
+    /// can.
+    pub fn refuses(&self, run: &Resolved) -> Option<String> {
+        for (key, parameters) in &run.metrics {
+            let (Some(before), Some(metric)) = (self.metrics.get(key), Metric::find(key)) else {
+                continue;
+            };
+            let version = metric.info().version;
+            if before.version != version {
+                return Some(format!(
+                    "it has version {} of {key}, and this fovqa has version {version}",
+                    before.version
+                ));
+            }
+            let other = parameters.iter().find(|(name, value)| {
+                before.parameters.get(*name).is_none_or(|before| !alike(before, value))
+            });
+            if let Some((name, value)) = other {
+                let before = before.parameters.get(name).unwrap_or(&Value::Null);
+                return Some(format!("it has {key}.{name} = {before}, and the run has {value}"));
+            }
+        }
+        self.resolved.scenes.iter().find_map(|before| {
+            let now = run.scenes.iter().find(|scene| scene.name == before.name)?;
+            let settings = [
+                ("frames", json!(before.frames), json!(now.frames)),
+                ("fps", json!(before.fps), json!(now.fps)),
+            ];
+            let eyes = before.eyes.iter().zip(&now.eyes).flat_map(|(before, now)| {
+                [("view", &before.view, &now.view), ("signal", &before.signal, &now.signal)]
+            });
+            let changed = eyes.flat_map(|(table, before, now)| changed(table, before, now));
+            let whole = settings.iter().filter(|(_, before, now)| !alike(before, now));
+            let whole =
+                whole.map(|(key, before, now)| ((*key).to_owned(), before.clone(), now.clone()));
+            let (key, was, is) = whole.chain(changed).next()?;
+            Some(format!("it has {key} = {was} in scene {}, and the run has {is}", before.name))
+        })
+    }
+
+    /// The folders whose inputs are others than in the baseline.
+    pub fn other_inputs(&self, run: &RunRecord, hash: &dyn Fn(&str) -> String) -> Vec<String> {
+        let now = grouped(&run.inputs, hash);
+        let other = |(folder, before): (&String, &InputGroup)| {
+            now.get(folder).filter(|now| *now != before).map(|_| folder.clone())
+        };
+        self.inputs.iter().filter_map(other).collect()
+    }
+
+    /// Every value beside its new one, where the two differ.
+    pub fn differences(&self, new: &Self, scenes: &[String]) -> Vec<Difference> {
+        let wanted = |c: &&BaselineComparison| scenes.is_empty() || scenes.contains(&c.scene);
+        let mut differences = Vec::new();
+        let mut add = |place: &str, quantity: &str, before: Option<f64>, after: Option<f64>| {
+            if before.map(f64::to_bits) != after.map(f64::to_bits) {
+                let (place, quantity) = (place.to_owned(), quantity.to_owned());
+                differences.push(Difference { place, quantity, before, after });
+            }
+        };
+        for comparison in new.comparisons.iter().filter(wanted) {
+            let before = self.comparisons.iter().find(|c| c.place() == comparison.place());
+            for (quantity, after) in comparison.values() {
+                let before = before.and_then(|before| before.values.get(quantity)).map(|n| n.0);
+                add(&comparison.named(), quantity, before, Some(after));
+            }
+        }
+        for comparison in self.comparisons.iter().filter(wanted) {
+            let after = new.comparisons.iter().find(|c| c.place() == comparison.place());
+            for (quantity, before) in comparison.values() {
+                if after.is_none_or(|after| !after.values.contains_key(quantity)) {
+                    add(&comparison.named(), quantity, Some(before), None);
+                }
+            }
+        }
+        differences
+    }
+
+    /// The baseline with the values of a run: all of it or, of some scenes, theirs alone.
+    ///
+    /// # Errors
+    /// When a scene is not in the run, or what stays was taken otherwise.
+    pub fn accepting(&self, new: &Self, scenes: &[String]) -> Result<Self, String> {
+        if scenes.is_empty() {
+            return Ok(new.clone());
+        }
+        if let Some(scene) = scenes.iter().find(|s| !new.comparisons.iter().any(|c| c.scene == **s))
+        {
+            return Err(format!("the run has no scene {scene}"));
+        }
+        if let Some(why) = self.refuses(&new.resolved) {
+            return Err(format!(
+                "values of some scenes cannot be put beside those of others that were taken otherwise: {why}"
+            ));
+        }
+        let of = |comparisons: &[BaselineComparison], taken: bool| {
+            let chosen = comparisons.iter().filter(|c| scenes.contains(&c.scene) == taken);
+            chosen.cloned().collect::<Vec<_>>()
+        };
+        let mut comparisons = of(&self.comparisons, false);
+        comparisons.extend(of(&new.comparisons, true));
+        comparisons.sort_by_key(BaselineComparison::place);
+        let mut inputs = self.inputs.clone();
+        inputs.extend(new.inputs.clone());
+        Ok(Self { comparisons, inputs, ..new.clone() })
+    }
+}
+
+/// The values of a metric that are kept whatever the rules are.
+fn usual(metric: Metric) -> Vec<Quantity> {
+    let of = |aggregate| Quantity::of(metric, aggregate);
+    match (metric, metric.info().kind, metric.info().better) {
+        (Metric::Fvvdp, ..) => vec![Quantity::jod()],
+        (_, MetricKind::Fidelity, Better::Higher) => vec![of(Aggregate::Mean), of(Aggregate::Min)],
+        (_, MetricKind::Fidelity, _) => vec![of(Aggregate::Mean), of(Aggregate::Max)],
+        (_, MetricKind::Temporal, _) => ["test", "ratio"]
+            .map(|image| Quantity { image: image.to_owned(), ..of(Aggregate::Mean) })
+            .into(),
+        (_, MetricKind::Profile, _) => Vec::new(),
+    }
+}
+
+/// Keys of a table of settings whose values differ.
+fn changed(table: &str, before: &Value, now: &Value) -> Vec<(String, Value, Value)> {
+    let (Value::Object(before), Value::Object(now)) = (before, now) else { return Vec::new() };
+    let keys = before.keys().chain(now.keys().filter(|key| !before.contains_key(*key)));
+    let value = |map: &serde_json::Map<String, Value>, key: &String| {
+        map.get(key).cloned().unwrap_or(Value::Null)
+    };
+    keys.map(|key| (format!("{table}.{key}"), value(before, key), value(now, key)))
+        .filter(|(_, before, now)| !alike(before, now))
+        .collect()
+}
+
+/// Whether two values are the same: `1` and `1.0` are.
+fn alike(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Number(a), Value::Number(b)) => {
+            a.as_f64().map(f64::to_bits) == b.as_f64().map(f64::to_bits)
+        }
+        (Value::Array(a), Value::Array(b)) => {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| alike(a, b))
+        }
+        (Value::Object(a), Value::Object(b)) => {
+            a.len() == b.len() && a.iter().all(|(key, a)| b.get(key).is_some_and(|b| alike(a, b)))
+        }
+        (a, b) => a == b,
+    }
+}
+
+/// Inputs, folder by folder.
+fn grouped(inputs: &[Input], hash: &dyn Fn(&str) -> String) -> BTreeMap<String, InputGroup> {
+    let mut folders: BTreeMap<String, Vec<&Input>> = BTreeMap::new();
+    for input in inputs {
+        let folder = input.path.rsplit_once('/').map_or("", |(folder, _)| folder);
+        folders.entry(folder.to_owned()).or_default().push(input);
+    }
+    let group = |inputs: Vec<&Input>| {
+        let mut lines: Vec<String> =
+            inputs.iter().map(|input| format!("{} {}\n", input.sha256, input.path)).collect();
+        lines.sort_unstable();
+        InputGroup { files: inputs.len(), sha256: hash(&lines.concat()) }
+    };
+    folders.into_iter().map(|(folder, inputs)| (folder, group(inputs))).collect()
+}

@@ -1,0 +1,214 @@
+//! Limits out of repeated renders of one build: how far a value goes up and down by itself says how far a
+//! limit has to be from it.
+
+use std::fmt::Write as _;
+
+use fovqa_config::{GateRule, Quantity};
+use fovqa_metrics::Better;
+
+use super::values::{Place, RunValues};
+
+/// Limits for a gate, from repeated runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Calibration {
+    /// How many runs they come from.
+    pub runs: usize,
+    /// One a rule and comparison.
+    pub proposals: Vec<Proposal>,
+}
+
+/// A limit for a value of a comparison.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proposal {
+    /// Scene, method and eye.
+    pub place: Place,
+    /// The value.
+    pub quantity: Quantity,
+    /// Whether the rule is held against a baseline.
+    pub relative: bool,
+    /// Smallest value of any run.
+    pub min: f64,
+    /// Largest value of any run.
+    pub max: f64,
+    /// Standard deviation over the runs (n - 1).
+    pub deviation: f64,
+}
+
+/// Proposes limits for rules from the values of repeated runs.
+///
+/// # Errors
+/// When a run lacks a value.
+pub fn calibrate(rules: &[GateRule], runs: &[RunValues]) -> Result<Calibration, String> {
+    let mut proposals = Vec::new();
+    let Some(first) = runs.first() else { return Ok(Calibration { runs: 0, proposals }) };
+    for rule in rules {
+        let wanted =
+            |wanted: &Option<String>, name: &String| wanted.as_ref().is_none_or(|w| w == name);
+        let eye = |name: &String| match &rule.eye {
+            Some(eye) => eye == name,
+            None => name.is_empty() || name == "both",
+        };
+        let places = first.places().filter(|(scene, method, of)| {
+            wanted(&rule.scene, scene) && wanted(&rule.method, method) && eye(of)
+        });
+        for place in places {
+            let values = runs.iter().enumerate().map(|(index, run)| {
+                let found = run.of(place, &rule.quantity);
+                let lacks =
+                    |_| format!("run {} has no {} of {}", index + 1, rule.quantity, named(place));
+                found.map(|found| found.value).map_err(lacks)
+            });
+            let values: Vec<f64> = values.collect::<Result<_, _>>()?;
+            proposals.push(Proposal::new(rule, place, &values));
+        }
+    }
+    Ok(Calibration { runs: runs.len(), proposals })
+}
+
+fn named((scene, method, eye): &Place) -> String {
+    let eye = if eye.is_empty() { String::new() } else { format!(", {eye}") };
+    format!("{scene}, {method}{eye}")
+}
+
+impl Proposal {
+    fn new(rule: &GateRule, place: &Place, values: &[f64]) -> Self {
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let squared: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+        Self {
+            place: place.clone(),
+            quantity: rule.quantity.clone(),
+            relative: rule.needs_baseline(),
+            min: values.iter().copied().fold(f64::INFINITY, f64::min),
+            max: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            deviation: if values.len() > 1 { (squared / (count - 1.0)).sqrt() } else { 0.0 },
+        }
+    }
+
+    /// The distance between the smallest and the largest value.
+    pub fn spread(&self) -> f64 {
+        if self.min.to_bits() == self.max.to_bits() { 0.0 } else { self.max - self.min }
+    }
+
+    /// The smallest value to allow: as far below the smallest seen as all that were seen lie apart.
+    fn at_least(&self) -> f64 {
+        rounded(self.min - self.spread(), self.spread(), f64::floor)
+    }
+
+    fn at_most(&self) -> f64 {
+        rounded(self.max + self.spread(), self.spread(), f64::ceil)
+    }
+
+    /// How far two renders may lie apart: twice as far as those that were seen.
+    fn allowance(&self) -> f64 {
+        rounded(2.0 * self.spread(), self.spread(), f64::ceil)
+    }
+
+    fn limits(&self) -> Vec<String> {
+        let number = |key: &str, value: f64| format!("{key} = {value:?}");
+        match (self.quantity.better(), self.relative) {
+            (Better::Higher, false) => vec![number("at_least", self.at_least())],
+            (Better::Lower, false) => vec![number("at_most", self.at_most())],
+            (Better::Higher, true) => vec![number("max_drop", self.allowance())],
+            (Better::Lower, true) => vec![number("max_rise", self.allowance())],
+            (Better::Neither, _) => {
+                vec![number("at_least", self.at_least()), number("at_most", self.at_most())]
+            }
+        }
+    }
+}
+
+/// A value rounded to the second digit of what it varies by; as it is where it does not vary.
+fn rounded(value: f64, spread: f64, round: impl Fn(f64) -> f64) -> f64 {
+    if spread == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let digits = 1 - libm::floor(libm::log10(spread)) as i32;
+    // By a power of ten above one: its quotients print short.
+    let power = libm::pow(10.0, f64::from(digits.abs()));
+    if digits >= 0 { round(value * power) / power } else { round(value / power) * power }
+}
+
+impl Calibration {
+    /// The limits as tables of an experiment file, each with where it comes from.
+    pub fn toml(&self) -> String {
+        let runs = self.runs;
+        let mut text = format!(
+            "# Limits from {runs} repeated runs: as far beyond the worst value as all of them lie apart.\n"
+        );
+        for proposal in &self.proposals {
+            let Proposal { place, quantity, min, max, deviation, .. } = proposal;
+            let _ = write!(
+                text,
+                "\n# {}: {quantity} {min} to {max} in {runs} runs (spread {}, standard deviation {deviation:.2e})\n",
+                comment(&named(place)),
+                proposal.spread(),
+            );
+            let (scene, method, eye) = place;
+            let _ = writeln!(text, "[[gate]]\nmetric = {}", quoted(&quantity.metric));
+            let mut key = |key: &str, value: &str| {
+                let _ = writeln!(text, "{key} = {value}");
+            };
+            key("scene", &quoted(scene));
+            key("method", &quoted(method));
+            if !eye.is_empty() {
+                key("eye", &quoted(eye));
+            }
+            if !quantity.statistic.is_empty() {
+                key("statistic", &quoted(&quantity.statistic));
+            }
+            if quantity.image != "pair" {
+                key("image", &quoted(&quantity.image));
+            }
+            if let Some(level) = quantity.level {
+                key("level", &level.to_string());
+            }
+            if let Some([from, to]) = quantity.band_deg {
+                key("band_deg", &format!("[{from}, {to}]"));
+            }
+            if let Some(aggregate) = quantity.aggregate {
+                key("aggregate", &quoted(&aggregate.to_string()));
+            }
+            for limit in proposal.limits() {
+                let _ = writeln!(text, "{limit}");
+            }
+        }
+        text
+    }
+}
+
+/// Text between quotes of TOML.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}
+
+/// A name within a comment: one line.
+fn comment(text: &str) -> String {
+    text.replace(char::is_control, " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_keep_as_far_as_values_spread() {
+        let proposal = Proposal {
+            place: ("s".to_owned(), "m".to_owned(), String::new()),
+            quantity: Quantity::of(fovqa_metrics::Metric::Psnr, fovqa_config::Aggregate::Min),
+            relative: false,
+            min: 28.613,
+            max: 28.702,
+            deviation: 0.03,
+        };
+        assert!((proposal.at_least() - 28.524).abs() < 1e-9, "{}", proposal.at_least());
+        assert!((proposal.at_most() - 28.791).abs() < 1e-9);
+        assert!((proposal.allowance() - 0.178).abs() < 1e-9);
+        assert_eq!(proposal.limits(), ["at_least = 28.524"]);
+        let relative = Proposal { relative: true, ..proposal.clone() };
+        assert_eq!(relative.limits(), ["max_drop = 0.178"]);
+        let same = Proposal { max: 28.613, ..proposal };
+        assert_eq!(same.limits(), ["at_least = 28.613"]);
+        assert!((rounded(123_456.0, 5000.0, f64::floor) - 123_000.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,12 @@
+//! The gate: rules against the values of a finished run, and limits out of repeated ones.
+
+mod aggregate;
+mod calibrate;
+mod json;
+mod values;
+mod verdict;
+
+pub use calibrate::{Calibration, Proposal, calibrate};
+pub use json::{GATE_SCHEMA, write_verdict_json};
+pub use values::{Found, Lacking, Place, RunValues};
+pub use verdict::{Check, Limit, Outcome, RuleVerdict, State, Verdict};

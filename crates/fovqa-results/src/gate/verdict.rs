@@ -1,0 +1,294 @@
+//! The rules of a gate against the values of a run.
+
+use std::collections::BTreeSet;
+
+use fovqa_config::{Allowance, GateRule};
+use fovqa_metrics::Better;
+
+use super::values::{Found, Lacking, Place, RunValues};
+use crate::baseline::Baseline;
+
+/// What came of a gate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verdict {
+    /// Name of the experiment.
+    pub experiment: String,
+    /// Its file, as it was named.
+    pub file: String,
+    /// Rule by rule.
+    pub rules: Vec<RuleVerdict>,
+    /// What could not be scored.
+    pub errors: Vec<String>,
+    /// What has to be said beside it.
+    pub notes: Vec<String>,
+}
+
+/// What came of a rule.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RuleVerdict {
+    /// The rule.
+    pub rule: GateRule,
+    /// Comparison by comparison.
+    pub checks: Vec<Check>,
+    /// Why there is nothing to check.
+    pub failure: Option<String>,
+}
+
+/// A rule in one comparison.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Check {
+    /// Scene, method and eye.
+    pub place: Place,
+    /// The value, where there is one.
+    pub value: Option<f64>,
+    /// The limit it comes nearest to, or that it breaks most.
+    pub limit: Option<Limit>,
+    /// The frame that is worst, with its value.
+    pub worst: Option<(u64, f64)>,
+    /// The baseline's value, where one is looked at.
+    pub baseline: Option<f64>,
+    /// What came of it.
+    pub outcome: Outcome,
+}
+
+/// A limit, and how far a value keeps from it: below 0 where it is broken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// Whether values have to be at least this, rather than at most.
+    pub at_least: bool,
+    /// The limit.
+    pub value: f64,
+    /// How far the value is on the right side of it.
+    pub margin: f64,
+}
+
+/// What came of a check.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// It holds.
+    Passed,
+    /// It does not.
+    Failed(String),
+    /// There is no value to tell: never a pass.
+    NotScored(String),
+    /// The rule cannot be of this run: the experiment is wrong.
+    Wrong(String),
+}
+
+/// The state of a gate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum State {
+    /// Every rule holds.
+    Passed,
+    /// A rule does not.
+    Failed,
+    /// Something was not scored.
+    NotScored,
+    /// A rule is wrong.
+    Wrong,
+}
+
+impl State {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Passed => "passed",
+            Self::Failed => "failed",
+            Self::NotScored => "not scored",
+            Self::Wrong => "wrong",
+        }
+    }
+}
+
+impl Outcome {
+    /// The state it stands for.
+    pub fn state(&self) -> State {
+        match self {
+            Self::Passed => State::Passed,
+            Self::Failed(_) => State::Failed,
+            Self::NotScored(_) => State::NotScored,
+            Self::Wrong(_) => State::Wrong,
+        }
+    }
+
+    /// Why it did not pass.
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Self::Passed => None,
+            Self::Failed(why) | Self::NotScored(why) | Self::Wrong(why) => Some(why),
+        }
+    }
+}
+
+impl RuleVerdict {
+    /// The worst of its checks.
+    pub fn state(&self) -> State {
+        let checks = self.checks.iter().map(|check| check.outcome.state());
+        let failed = self.failure.is_some().then_some(State::Failed);
+        checks.chain(failed).max().unwrap_or(State::Failed)
+    }
+
+    /// What it is called.
+    pub fn title(&self) -> String {
+        let GateRule { quantity, scene, method, eye, .. } = &self.rule;
+        if let Some(name) = &self.rule.name {
+            return name.clone();
+        }
+        let of = [scene.as_deref(), method.as_deref(), eye.as_deref()];
+        let of: Vec<&str> = of.into_iter().flatten().collect();
+        if of.is_empty() {
+            quantity.to_string()
+        } else {
+            format!("{quantity} of {}", of.join(", "))
+        }
+    }
+}
+
+impl Verdict {
+    /// Holds the values of a run against rules and, where they ask for it, a baseline.
+    pub fn of(
+        (experiment, file): (&str, &str),
+        rules: &[GateRule],
+        run: &RunValues,
+        baseline: Option<&Baseline>,
+    ) -> Self {
+        let rules = rules.iter().map(|rule| judged(rule, run, baseline)).collect();
+        let notes = baseline.map(|baseline| strangers(run, baseline)).unwrap_or_default();
+        let (experiment, file) = (experiment.to_owned(), file.to_owned());
+        Self { experiment, file, rules, errors: run.errors.clone(), notes }
+    }
+
+    /// The state of the whole.
+    pub fn state(&self) -> State {
+        let errors = (!self.errors.is_empty()).then_some(State::NotScored);
+        let rules = self.rules.iter().map(RuleVerdict::state);
+        // No rule holds nothing: that is no pass.
+        rules.chain(errors).max().unwrap_or(State::Failed)
+    }
+}
+
+/// Comparisons that only the baseline has: what is gone cannot get worse.
+fn strangers(run: &RunValues, baseline: &Baseline) -> Vec<String> {
+    let here: BTreeSet<&Place> = run.places().collect();
+    let gone = baseline.comparisons.iter().filter(|c| !here.contains(&c.place()));
+    gone.map(|c| format!("the baseline has {}, and the run has not", c.named())).collect()
+}
+
+fn judged(rule: &GateRule, run: &RunValues, baseline: Option<&Baseline>) -> RuleVerdict {
+    let wanted = |wanted: &Option<String>, name: &String| wanted.as_ref().is_none_or(|w| w == name);
+    let eye = |name: &str| match (&rule.eye, name) {
+        (Some(eye), name) => eye == name,
+        (None, name) => name.is_empty() || name == "both",
+    };
+    let places = run.places().filter(|(scene, method, of)| {
+        wanted(&rule.scene, scene) && wanted(&rule.method, method) && eye(of)
+    });
+    let checks: Vec<Check> = places.map(|place| check(rule, run, place, baseline)).collect();
+    let nothing = checks.is_empty().then(|| "nothing was compared that this rule is of".to_owned());
+    // A comparison that the rule is of, and that is no longer there, is no pass either.
+    let lost = baseline.filter(|_| rule.needs_baseline()).and_then(|baseline| {
+        let gone = baseline.comparisons.iter().find(|c| {
+            let place = c.place();
+            wanted(&rule.scene, &place.0)
+                && wanted(&rule.method, &place.1)
+                && eye(&place.2)
+                && !run.places().any(|here| *here == place)
+        });
+        gone.map(|c| format!("the baseline has {}, and the run has not", c.named()))
+    });
+    RuleVerdict { rule: rule.clone(), checks, failure: nothing.or(lost) }
+}
+
+fn check(rule: &GateRule, run: &RunValues, place: &Place, baseline: Option<&Baseline>) -> Check {
+    let mut check = Check {
+        place: place.clone(),
+        value: None,
+        limit: None,
+        worst: None,
+        baseline: None,
+        outcome: Outcome::Passed,
+    };
+    let found = match run.of(place, &rule.quantity) {
+        Ok(found) => found,
+        Err(lacking) => {
+            check.outcome = match lacking {
+                Lacking::Band(why) => Outcome::Wrong(why),
+                Lacking::NotScored(why) => Outcome::NotScored(why),
+                Lacking::Nothing(why) => Outcome::Failed(why),
+            };
+            return check;
+        }
+    };
+    check.value = Some(found.value);
+    let before = rule.needs_baseline().then(|| match baseline {
+        None => Err("there is no baseline".to_owned()),
+        Some(baseline) => baseline.value(place, &rule.quantity),
+    });
+    let before = match before.transpose() {
+        Ok(before) => before,
+        Err(why) => {
+            check.outcome = Outcome::Failed(why);
+            return check;
+        }
+    };
+    check.baseline = before;
+    let limits = limits(rule, found.value, before);
+    let tightest = limits.into_iter().reduce(|a, b| if b.margin < a.margin { b } else { a });
+    check.worst = worst(&found, rule, tightest);
+    check.limit = tightest;
+    check.outcome = match tightest {
+        // Not below: a value that is no number passes nothing.
+        Some(limit) if limit.margin >= 0.0 => Outcome::Passed,
+        Some(limit) => Outcome::Failed(broken(rule, limit, found.value, before)),
+        None => Outcome::Failed("the rule has no limit".to_owned()),
+    };
+    if run.errors_of(place) > 0 && check.outcome == Outcome::Passed {
+        let errors = run.errors_of(place);
+        let why = format!("{errors} of its frames could not be scored");
+        check.outcome = Outcome::NotScored(why);
+    }
+    check
+}
+
+fn broken(rule: &GateRule, limit: Limit, value: f64, before: Option<f64>) -> String {
+    let side = if limit.at_least { "below" } else { "above" };
+    let baseline = before.map(|before| format!(" (baseline {before})")).unwrap_or_default();
+    format!("{} is {value}, {side} {}{baseline}", rule.quantity, limit.value)
+}
+
+/// The limits of a rule, with a baseline's value.
+fn limits(rule: &GateRule, value: f64, before: Option<f64>) -> Vec<Limit> {
+    // Both infinite: neither is better.
+    let apart = |a: f64, b: f64| if a.to_bits() == b.to_bits() { 0.0 } else { a - b };
+    let least = |limit: f64| Limit { at_least: true, value: limit, margin: apart(value, limit) };
+    let most = |limit: f64| Limit { at_least: false, value: limit, margin: apart(limit, value) };
+    let moved = |allowance: Option<Allowance>, sign: f64| {
+        let (allowance, before) = allowance.zip(before)?;
+        let limit = before + sign * allowance.of(before);
+        // A share of infinity is none.
+        Some(if limit.is_nan() { before } else { limit })
+    };
+    [
+        rule.at_least.map(least),
+        rule.at_most.map(most),
+        moved(rule.max_drop, -1.0).map(least),
+        moved(rule.max_rise, 1.0).map(most),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// The frame that is worst by the rule's direction, or nearest to its limit where it has none.
+fn worst(found: &Found, rule: &GateRule, limit: Option<Limit>) -> Option<(u64, f64)> {
+    let low = match rule.quantity.better() {
+        Better::Higher => true,
+        Better::Lower => false,
+        Better::Neither => limit.is_none_or(|limit| limit.at_least),
+    };
+    let worse = |a: (u64, f64), b: (u64, f64)| {
+        let is_worse = if low { b.1 < a.1 } else { b.1 > a.1 };
+        if is_worse { b } else { a }
+    };
+    found.frames.iter().copied().reduce(worse)
+}
