@@ -60,7 +60,7 @@ fn frame_before(padding: Padding, frames: usize, taps: usize, now: usize, back: 
 
 #[test]
 fn channels_are_the_sums_of_their_formula() {
-    for (frames, fps) in [(3, 30.0), (2, 30.0), (4, 60.0), (12, 30.0), (5, 8.0)] {
+    for (frames, fps) in [(3, 30.0), (2, 30.0), (4, 60.0), (12, 30.0), (5, 8.0), (5, 240.0)] {
         for padding in [Padding::Replicate, Padding::Circular, Padding::Pingpong] {
             let time = Time::new(frames, Some(fps), padding).unwrap();
             let filters = TemporalFilters::new(fps);
