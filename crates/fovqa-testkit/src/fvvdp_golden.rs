@@ -115,6 +115,14 @@ impl Golden {
         Array::read(&self.file(name))
     }
 
+    /// Interleaved 8-bit codes of an RGB picture of theirs.
+    ///
+    /// # Panics
+    /// When it is not there.
+    pub fn codes(&self, name: &str) -> Vec<u8> {
+        image::open(self.file(name)).expect("a picture").into_rgb8().into_raw()
+    }
+
     /// The frames of a case: reference and test.
     ///
     /// # Panics

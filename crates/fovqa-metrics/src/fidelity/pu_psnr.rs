@@ -39,3 +39,80 @@ pub fn pu_psnr_db(reference: &Grid, test: &Grid, regions: &Regions<'_>) -> Optio
     let peak = pu21::encode(pu21::PEAK_CD_M2);
     Some(psnr_db(mean / (peak * peak)))
 }
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
+mod tests {
+    use fovqa_frame::{Channels, Frame, LightTables, LinearLight, Mask, Samples, SignalParams};
+    use fovqa_vision::BandMap;
+
+    use super::*;
+
+    const W: usize = 70;
+    const H: usize = 130;
+
+    /// Luminance by pixel, in cd/m².
+    fn luminance(value: impl Fn(usize, usize) -> f32) -> Grid {
+        let shown = fovqa_frame::ShownLight {
+            cd_m2_per_unit: 1.0,
+            floor_cd_m2: 0.0,
+            peak_cd_m2: 1e5,
+            black_cd_m2: 0.0,
+        };
+        let light = LinearLight::Absolute(shown);
+        let tables = LightTables::new(SignalParams::default(), |v| v, light, [0.2, 0.7, 0.1]);
+        let values = (0..W * H).map(|i| value(i % W, i / W)).collect();
+        let frame = Frame::new(W, H, Channels::Gray, Samples::F32(values)).unwrap();
+        Grid::luminance(&frame, &tables)
+    }
+
+    /// V of 1, 100 and 10,000 cd/m² (PU21, banding and glare).
+    const V: [f64; 3] = [36.560_429_38, 256.417_341_13, 566.633_957_93];
+
+    #[test]
+    fn flat_pictures_are_as_far_apart_as_their_units() {
+        let bands = BandMap::without_bands(W, H);
+        let regions = Regions::unmasked(&bands);
+        let (one, hundred) = (luminance(|_, _| 1.0), luminance(|_, _| 100.0));
+        // The encoder's chords are 2e-4 units off at most: of 220, 1e-5 dB.
+        let wanted = 20.0 * (V[2] / (V[1] - V[0])).log10();
+        let found = pu_psnr_db(&one, &hundred, &regions).unwrap();
+        assert!((found - wanted).abs() < 2e-5, "{found} for {wanted}");
+        assert_eq!(pu_psnr_db(&hundred, &one, &regions), Some(found));
+        // A quarter of the pixels: 6 dB better.
+        let part = luminance(|x, y| if x % 2 == 0 && y % 2 == 0 { 100.0 } else { 1.0 });
+        let found = pu_psnr_db(&one, &part, &regions).unwrap();
+        assert!((found - wanted - 20.0 * 2f64.log10()).abs() < 2e-5, "{found}");
+    }
+
+    #[test]
+    fn identical_pictures_are_infinitely_near() {
+        let bands = BandMap::without_bands(W, H);
+        let picture = luminance(|x, y| (1 + x * y % 97) as f32);
+        let found = pu_psnr_db(&picture, &picture, &Regions::unmasked(&bands));
+        assert_eq!(found, Some(f64::INFINITY));
+        // Beyond the ends of the encoding everything is alike.
+        let (bright, brighter) = (luminance(|_, _| 1e4), luminance(|_, _| 5e4));
+        let found = pu_psnr_db(&bright, &brighter, &Regions::unmasked(&bands));
+        assert_eq!(found, Some(f64::INFINITY));
+    }
+
+    #[test]
+    fn masked_pixels_are_left_out() {
+        let bands = BandMap::without_bands(W, H);
+        let inside = |x: usize, y: usize| (10..60).contains(&x) && (20..100).contains(&y);
+        let valid = (0..W * H).map(|i| inside(i % W, i / W)).collect();
+        let regions = Regions::masked(&bands, &Mask::new(W, H, valid).unwrap(), 0);
+        let (one, hundred) = (luminance(|_, _| 1.0), luminance(|_, _| 100.0));
+        let outside = luminance(|x, y| if inside(x, y) { 1.0 } else { 100.0 });
+        assert_eq!(pu_psnr_db(&one, &outside, &regions), Some(f64::INFINITY));
+        let wanted = 20.0 * (V[2] / (V[1] - V[0])).log10();
+        let within = luminance(|x, y| if inside(x, y) { 100.0 } else { 7.0 });
+        for test in [&within, &hundred] {
+            let found = pu_psnr_db(&one, test, &regions).unwrap();
+            assert!((found - wanted).abs() < 2e-5, "{found} for {wanted}");
+        }
+        let nothing = Mask::new(W, H, vec![false; W * H]).unwrap();
+        assert_eq!(pu_psnr_db(&one, &hundred, &Regions::masked(&bands, &nothing, 0)), None);
+    }
+}

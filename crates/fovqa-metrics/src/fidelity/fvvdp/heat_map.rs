@@ -72,7 +72,9 @@ impl DifferenceMap {
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn to_jod(row: &mut [f32], exponent: f32) {
     for value in row {
-        *value = JOD_A as f32 * exp2(exponent * log2(*value));
+        let jod = JOD_A as f32 * exp2(exponent * log2(*value));
+        // The logarithm of nothing is no more than -126 or so.
+        *value = if *value > 0.0 { jod } else { 0.0 };
     }
 }
 

@@ -34,7 +34,7 @@ pub(super) fn log2(value: f32) -> f32 {
     exponent as f32 + f * p
 }
 
-/// 2 to a power up to 127, within 2e-7 relative; 0 below -126.
+/// 2 to a power up to 127, within 2e-7 relative; 0 from -126 on down.
 #[inline(always)]
 pub(super) fn exp2(power: f32) -> f32 {
     const LOWEST: f32 = -126.0;
@@ -49,7 +49,7 @@ pub(super) fn exp2(power: f32) -> f32 {
     if power > LOWEST { scaled } else { 0.0 }
 }
 
-/// The sine of an angle from 0 to π/2, within 1e-6 relative.
+/// The sine of an angle from 0 to π/2, within 1.3e-6 relative.
 #[inline(always)]
 pub(super) fn sine(radians: f32) -> f32 {
     // Minimax of sin(x) / x over x².
@@ -82,12 +82,13 @@ mod tests {
     #[test]
     fn powers_are_near_and_end_at_nothing() {
         let mut worst = 0.0f64;
-        for i in 0..1_000_000 {
+        for i in 1..=1_000_000 {
             let power = -126.0 + i as f32 * 2.53e-4;
             let wanted = libm::exp2(f64::from(power));
             worst = worst.max((f64::from(exp2(power)) / wanted - 1.0).abs());
         }
         assert!(worst < 3e-7, "{worst:e}");
+        assert_eq!(exp2(-126.0), 0.0);
         assert_eq!(exp2(-126.5), 0.0);
         assert_eq!(exp2(-1e30), 0.0);
         assert_eq!(exp2(f32::NEG_INFINITY), 0.0);
@@ -95,11 +96,13 @@ mod tests {
 
     #[test]
     fn sines_are_near_in_relation() {
-        for i in 1..=10_000 {
-            let angle = i as f32 * (std::f32::consts::FRAC_PI_2 / 10_000.0);
+        let mut worst = 0.0f64;
+        for i in 1..=100_000 {
+            let angle = i as f32 * (std::f32::consts::FRAC_PI_2 / 100_000.0);
             let wanted = libm::sin(f64::from(angle));
-            assert!((f64::from(sine(angle)) / wanted - 1.0).abs() < 1.2e-6, "{angle}");
+            worst = worst.max((f64::from(sine(angle)) / wanted - 1.0).abs());
         }
+        assert!(worst < 1.4e-6, "{worst:e}");
     }
 
     #[test]

@@ -31,7 +31,7 @@ pub(crate) fn band_frequencies_cpd(
         band => FIRST_BAND * nyquist / f64::from(1u32 << (band - 1)),
     };
     let fit = (width.min(height).max(1).ilog2() as usize).saturating_sub(1).max(1);
-    let last = (1..MOST_BANDS).find(|band| cpd(*band) <= LOWEST_CPD).unwrap_or(fit);
+    let last = (0..MOST_BANDS).find(|band| cpd(*band) <= LOWEST_CPD).unwrap_or(fit);
     (0..(last + 1).min(fit)).map(cpd).collect()
 }
 
