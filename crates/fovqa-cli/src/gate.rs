@@ -187,5 +187,10 @@ fn propose(args: &GateArgs) -> Result<Exit, Exit> {
         diagnostic::error("the runs have nothing that the rules are of", "check the rules");
         return Err(Exit::Input);
     }
+    if calibration.proposals.iter().all(|proposal| proposal.spread() == 0.0) {
+        diagnostic::warning(
+            "the runs are the same to the last digit, and say nothing of how values vary: calibrate with renders of other seeds",
+        );
+    }
     Ok(output::write(|out| out.write_all(calibration.toml().as_bytes())))
 }

@@ -103,12 +103,11 @@ impl Quantity {
 
 /// Which way a statistic of a metric is better.
 pub(crate) fn better(metric: Option<Metric>, statistic: &str, image: &str) -> Better {
-    match (metric, statistic, image) {
-        (Some(Metric::Fvvdp), "q" | "q_sustained" | "q_transient", _) => Better::Lower,
-        (Some(Metric::Fvvdp), "share", _) => Better::Neither,
-        (_, _, "reference") => Better::Neither,
-        (Some(metric), ..) => metric.info().better,
-        (None, ..) => Better::Neither,
+    let Some(metric) = metric.filter(|_| image != "reference") else { return Better::Neither };
+    match (metric, statistic) {
+        (Metric::Fvvdp, "q" | "q_sustained" | "q_transient") => Better::Lower,
+        (Metric::Fvvdp, "share") => Better::Neither,
+        (metric, _) => metric.info().better,
     }
 }
 

@@ -268,7 +268,7 @@ impl Baseline {
         comparisons.sort_by_key(BaselineComparison::place);
         let mut inputs = self.inputs.clone();
         inputs.extend(new.inputs.clone());
-        Ok(Self { comparisons, inputs, ..new.clone() })
+        Ok(Self { inputs, comparisons, ..new.clone() })
     }
 }
 

@@ -135,7 +135,7 @@ fn statistic(
                 HAAR_STATISTICS.map(|statistic| format!("{statistic}_{orientation}"))
             };
             let split = if known.params.haar.orientations { &ORIENTATIONS[..] } else { &[] };
-            plain.chain(split.iter().flat_map(|o| of(&o))).collect()
+            plain.chain(split.iter().flat_map(of)).collect()
         }
         Metric::Psnr | Metric::Fpsnr | Metric::PuPsnr => vec!["pooled".to_owned()],
         _ => Vec::new(),
@@ -240,30 +240,38 @@ fn bands(table: Node<'_>, metric: Metric, scenes: &[&Resolved], faults: &mut Vec
         faults.push(Fault::new(span, message).help("leave band_deg out"));
         return;
     }
+    let mut inside = 0;
     for settings in scenes.iter().flat_map(|scene| &scene.scene.eyes).map(|eye| &eye.settings) {
-        let Some(edges) = &settings.bands else {
-            // Default bands are multiples of five degrees; how many is seen with the frames.
-            if [from, to].iter().any(|edge| edge % fovqa_vision::DEFAULT_BAND_DEG != 0.0) {
-                let message = "the band does not begin and end with bands that are scored";
-                let fault = Fault::new(span, message);
-                faults.push(
-                    fault.help("the default bands are 0, 5, 10, …; give others with bands_deg"),
-                );
-                return;
-            }
-            continue;
+        let known = match &settings.bands {
+            Some(edges) => edges.iter().collect(),
+            // How many of them there are is seen with the frames.
+            None => default_bands(),
         };
-        let begins = edges.iter().any(|(edge, _)| edge.to_bits() == from.to_bits());
-        let ends = edges.iter().any(|(_, edge)| edge.to_bits() == to.to_bits());
+        let within = |edges: &&(f64, f64)| from <= edges.0 && edges.1 <= to;
+        inside = inside.max(known.iter().filter(within).count());
+        let begins = known.iter().any(|(edge, _)| edge.to_bits() == from.to_bits());
+        let ends = known.iter().any(|(_, edge)| edge.to_bits() == to.to_bits());
         if !begins || !ends {
-            let all: Vec<String> =
-                edges.iter().map(|(from, to)| format!("{from} to {to}")).collect();
             let message = "the band does not begin and end with bands that are scored";
-            let fault = Fault::new(span, message);
-            faults.push(fault.help(format!("they are, in degrees: {}", all.join(", "))));
+            let help = if settings.bands.is_some() {
+                let all = known.iter().map(|(from, to)| format!("{from} to {to}"));
+                format!("they are, in degrees: {}", all.collect::<Vec<_>>().join(", "))
+            } else {
+                "the default bands are 0, 5, 10, …; give others with bands_deg".to_owned()
+            };
+            faults.push(Fault::new(span, message).help(help));
             return;
         }
     }
+    if inside > 1 && matches!(metric, Metric::RmsContrast | Metric::Atd) {
+        let message = format!("{} of several bands cannot be put together", metric.key());
+        faults.push(Fault::new(span, message).help("name one band"));
+    }
+}
+
+/// The default bands as far as any eye sees.
+fn default_bands() -> Vec<(f64, f64)> {
+    fovqa_vision::BandEdges::default_up_to(179.0).iter().collect()
 }
 
 /// The name a key gives, where it is one of those there are.

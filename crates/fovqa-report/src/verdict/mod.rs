@@ -12,6 +12,8 @@ pub use junit::junit;
 pub use markdown::markdown;
 pub use terminal::verdict_table;
 
+use std::fmt::Write as _;
+
 use fovqa_results::{Check, Limit, Place, State, Verdict};
 
 /// A value as verdicts show it: short, but never rounded across a limit.
@@ -56,10 +58,11 @@ fn sentence(check: &Check) -> String {
         text.push_str(": ");
         text.push_str(reason);
     } else if let (Some(value), Some(bound)) = (check.value, &check.limit) {
-        text.push_str(&format!(": {} {}, margin {}", number(value), limit(bound), margin(bound)));
+        let (value, margin) = (number(value), margin(bound));
+        let _ = write!(text, ": {value} {}, margin {margin}", limit(bound));
     }
     if let Some((frame, value)) = check.worst {
-        text.push_str(&format!("; worst frame {frame} with {}", number(value)));
+        let _ = write!(text, "; worst frame {frame} with {}", number(value));
     }
     text
 }

@@ -18,7 +18,7 @@ pub fn verdict_table(verdict: &Verdict) -> String {
             table.add_row([
                 title.clone(),
                 printable(&place(&check.place)),
-                check.value.map(number).unwrap_or_else(|| "–".to_owned()),
+                check.value.map_or_else(|| "–".to_owned(), number),
                 bound.map(limit).unwrap_or_default(),
                 bound.map(margin).unwrap_or_default(),
                 worst(check),

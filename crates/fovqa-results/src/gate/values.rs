@@ -193,7 +193,7 @@ impl Values {
         let psnr = Quantity { band_deg: Some(band), ..Quantity::of(Metric::Psnr, Aggregate::Mean) };
         let parts = self.parts(&psnr).ok()?;
         let (mut squared, mut pixels) = (0.0, 0.0);
-        for part in parts.into_iter().flat_map(|(_, parts)| parts) {
+        for part in parts.into_values().flatten() {
             squared += mse_of_db(part.value?) * part.weight;
             pixels += part.weight;
         }
@@ -264,7 +264,8 @@ impl Values {
         }
         let is_edge =
             |at: f64, side: usize| edges.iter().any(|band| band[side].to_bits() == at.to_bits());
-        if !rows.is_empty() && !(is_edge(from, 0) && is_edge(to, 1)) {
+        let known = rows.is_empty() || (is_edge(from, 0) && is_edge(to, 1));
+        if !known {
             return Err(Lacking::Band(known_bands(quantity, &edges)));
         }
         Ok(frames)
