@@ -661,7 +661,7 @@ fn the_committed_experiments_are_right() {
     let results = Folder::new();
     let data = shared("data");
     let configs = root().join("configs");
-    let folders = [configs.join("papers"), configs];
+    let folders = [configs.join("papers"), configs.join("ci"), configs];
     let mut seen = 0;
     for entry in folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap()) {
         let path = entry.unwrap().path();
