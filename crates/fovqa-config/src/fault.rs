@@ -39,10 +39,12 @@ pub(crate) struct Faults(Vec<Fault>);
 impl Faults {
     /// Beyond these nothing is added: a mistake may name everything there is, and a file may have a
     /// million of them.
-    const MOST: usize = 1000;
+    const MOST: usize = 10_000;
+    /// With these nothing is looked for that takes a look at everything else.
+    const MANY: usize = 1000;
 
     pub(crate) fn push(&mut self, fault: Fault) {
-        if !self.are_many() {
+        if self.0.len() < Self::MOST {
             self.0.push(fault);
         }
     }
@@ -51,9 +53,9 @@ impl Faults {
         self.0.is_empty()
     }
 
-    /// Whether there is no use in looking for more.
+    /// Whether there is no use in looking far for more.
     pub(crate) fn are_many(&self) -> bool {
-        self.0.len() >= Self::MOST
+        self.0.len() >= Self::MANY
     }
 
     /// In the order of the file.
