@@ -1,6 +1,6 @@
-# Each line is plain cargo, for those without make. Everything but `lint` shares the release profile.
+# Each line is plain cargo, for those without make. Everything but `lint` and `fuzz` shares the release profile.
 
-.PHONY: demo figures test bench lint
+.PHONY: demo figures test bench lint fuzz
 
 demo:
 	cargo run --release --locked --bin fovqa -- run configs/demo.toml
@@ -21,3 +21,11 @@ bench:
 lint:
 	cargo fmt --all --check
 	cargo clippy --release --locked --workspace --all-targets -- -D warnings
+
+# Of each target. What counts as a finding: tests/fuzz/README.md.
+seconds = 200
+fuzz:
+	cd tests/fuzz && for target in $$(cargo fuzz list --fuzz-dir .); do \
+	  mkdir -p corpus/$$target seeds/$$target && RUSTC_BOOTSTRAP=1 cargo fuzz run -O --fuzz-dir . $$target corpus/$$target seeds/$$target -- \
+	    -max_total_time=$(seconds) -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=256 -print_final_stats=1 || exit; \
+	done

@@ -32,6 +32,45 @@ impl Fault {
     }
 }
 
+/// The mistakes of a file, as far as anybody will read them.
+#[derive(Debug, Default)]
+pub(crate) struct Faults(Vec<Fault>);
+
+impl Faults {
+    /// Beyond these nothing is added: a mistake may name everything there is, and a file may have a
+    /// million of them.
+    const MOST: usize = 10_000;
+    /// With these nothing is looked for that takes a look at everything else.
+    const MANY: usize = 1000;
+
+    pub(crate) fn push(&mut self, fault: Fault) {
+        if self.0.len() < Self::MOST {
+            self.0.push(fault);
+        }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there is no use in looking far for more.
+    pub(crate) fn are_many(&self) -> bool {
+        self.0.len() >= Self::MANY
+    }
+
+    /// In the order of the file.
+    pub(crate) fn in_order(mut self) -> Vec<Fault> {
+        self.0.sort_by_key(|fault| (fault.span.start, fault.span.end));
+        // What is general is read once for each scene and eye.
+        self.0.dedup();
+        self.0
+    }
+}
+
 /// An experiment file that is none.
 #[derive(Debug, Error)]
 pub enum ExperimentError {

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use toml::de::DeTable;
 
-use crate::fault::{ExperimentError, Fault};
+use crate::fault::{ExperimentError, Fault, Faults};
 use crate::grammar::{Key, check};
 use crate::node::Node;
 
@@ -42,12 +42,10 @@ pub(crate) fn parse<T>(
     path: &Path,
     text: &str,
     keys: &[Key],
-    resolve: impl FnOnce(Node<'_>, &mut Vec<Fault>) -> T,
+    resolve: impl FnOnce(Node<'_>, &mut Faults) -> T,
 ) -> Result<T, ExperimentError> {
-    parsed(text, keys, resolve).map_err(|mut faults| {
-        faults.sort_by_key(|fault| (fault.span.start, fault.span.end));
-        // What is general is read once for each scene and eye.
-        faults.dedup();
+    parsed(text, keys, resolve).map_err(|faults| {
+        let faults = faults.in_order();
         ExperimentError::Faults { path: path.to_owned(), text: text.to_owned(), faults }
     })
 }
@@ -55,10 +53,16 @@ pub(crate) fn parse<T>(
 fn parsed<T>(
     text: &str,
     keys: &[Key],
-    resolve: impl FnOnce(Node<'_>, &mut Vec<Fault>) -> T,
-) -> Result<T, Vec<Fault>> {
-    let document = document(text)?;
-    let mut faults = Vec::new();
+    resolve: impl FnOnce(Node<'_>, &mut Faults) -> T,
+) -> Result<T, Faults> {
+    let mut faults = Faults::default();
+    let document = match document(text) {
+        Ok(document) => document,
+        Err(fault) => {
+            faults.push(fault);
+            return Err(faults);
+        }
+    };
     check(keys, document.get_ref(), "the experiment", 0..0, &mut faults);
     // What refers to something is looked at only in a file that is written right: a table whose name
     // is misspelled would be missed in a dozen other places.
@@ -69,12 +73,12 @@ fn parsed<T>(
     if faults.is_empty() { Ok(resolved) } else { Err(faults) }
 }
 
-fn document(text: &str) -> Result<serde_spanned::Spanned<DeTable<'_>>, Vec<Fault>> {
+fn document(text: &str) -> Result<serde_spanned::Spanned<DeTable<'_>>, Fault> {
     DeTable::parse(text).map_err(|error| {
         // A mistake at the very end has no character of its own to point to.
         let span = error.span().unwrap_or_default();
         let span = span.start.min(text.len())..span.end.min(text.len());
-        vec![Fault::new(span, format!("this is not TOML: {}", error.message()))]
+        Fault::new(span, format!("this is not TOML: {}", error.message()))
     })
 }
 

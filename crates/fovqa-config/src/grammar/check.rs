@@ -10,8 +10,8 @@ use fovqa_vision::displays;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{Key, Kind, parameter, quoted, resolution};
-use crate::fault::Fault;
+use super::{Key, Kind, LONGEST_TEXT, parameter, quoted, resolution};
+use crate::fault::{Fault, Faults};
 use crate::nearest::nearest;
 
 /// Checks a table; `place` is how messages name it, `span` where it stands.
@@ -20,7 +20,7 @@ pub(crate) fn check(
     table: &DeTable<'_>,
     place: &str,
     span: Range<usize>,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) {
     for (name, value) in table {
         let text = name.get_ref().as_ref();
@@ -57,7 +57,7 @@ fn unknown<'a>(
 }
 
 /// A table of metrics: each key a metric, each value a table of its parameters.
-fn check_metrics(value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fault>) {
+fn check_metrics(value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Faults) {
     let DeValue::Table(table) = value.get_ref() else {
         return wrong_type(&Kind::Metrics, value, place, faults);
     };
@@ -93,7 +93,7 @@ fn check_param(
     name: &Spanned<Cow<'_, str>>,
     value: &Spanned<DeValue<'_>>,
     (place, owner): (&str, &str),
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) {
     let param = name.get_ref().as_ref();
     if let Some(known) = known.iter().find(|known| known.name == param) {
@@ -107,7 +107,7 @@ fn check_param(
 }
 
 /// A table that names a model, with its parameters.
-fn check_model(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fault>) {
+fn check_model(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Faults) {
     let (Some((what, models)), DeValue::Table(table)) = (kind.models(), value.get_ref()) else {
         return wrong_type(kind, value, place, faults);
     };
@@ -131,7 +131,7 @@ fn check_model(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
     }
 }
 
-fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fault>) {
+fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Faults) {
     let span = value.span();
     let mut out_of_range = |found: &str| {
         faults.push(
@@ -144,6 +144,8 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
         (Kind::Text, DeValue::String(text)) => {
             if text.is_empty() || text.chars().any(char::is_control) {
                 out_of_range("empty, or have control characters");
+            } else if text.chars().count() > LONGEST_TEXT {
+                out_of_range(&format!("longer than {LONGEST_TEXT} characters"));
             }
         }
         (Kind::Name, DeValue::String(text)) => {
@@ -207,14 +209,17 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
             }
         }
         (Kind::Table(keys), DeValue::Table(table)) => check(keys, table, place, span, faults),
-        (Kind::Tables(keys), DeValue::Array(items)) if items.iter().all(is_table) => {
+        (Kind::Tables(_, most), DeValue::Array(items)) if items.len() > *most => {
+            out_of_range(&format!("an array of {}", items.len()));
+        }
+        (Kind::Tables(keys, _), DeValue::Array(items)) if items.iter().all(is_table) => {
             for item in items {
                 if let DeValue::Table(table) = item.get_ref() {
                     check(keys, table, &named(place, table), item.span(), faults);
                 }
             }
         }
-        (Kind::Tables(_), DeValue::Array(items)) => {
+        (Kind::Tables(..), DeValue::Array(items)) => {
             for item in items.iter().filter(|item| !is_table(item)) {
                 wrong_type(kind, item, &format!("an entry of {place}"), faults);
             }
@@ -229,16 +234,17 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
     }
 }
 
-fn one_of(words: &[&str], text: &str, place: &str, span: Range<usize>, faults: &mut Vec<Fault>) {
+fn one_of(words: &[&str], text: &str, place: &str, span: Range<usize>, faults: &mut Faults) {
     if !words.contains(&text) {
         faults.push(no_such(place, text, span, words.iter().copied()));
     }
 }
 
-/// An entry of an array of tables with its name, where it has one.
+/// An entry of an array of tables with its name, where it has one that each of its mistakes can
+/// repeat.
 fn named(place: &str, table: &DeTable<'_>) -> String {
     match table.get("name").map(Spanned::get_ref) {
-        Some(DeValue::String(name)) => format!("{place} \"{name}\""),
+        Some(DeValue::String(name)) if name_fits(name).is_ok() => format!("{place} \"{name}\""),
         _ => place.to_owned(),
     }
 }
@@ -273,7 +279,7 @@ fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
                     | Kind::WholeOr(..)
             )
         }
-        DeValue::Array(_) => matches!(kind, Kind::List(..) | Kind::Tables(_)),
+        DeValue::Array(_) => matches!(kind, Kind::List(..) | Kind::Tables(..)),
         DeValue::Table(_) => {
             matches!(kind, Kind::Table(_) | Kind::Metrics | Kind::Method | Kind::Acuity)
         }
@@ -281,10 +287,10 @@ fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
     }
 }
 
-fn wrong_type(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Vec<Fault>) {
+fn wrong_type(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Faults) {
     let fault = Fault::new(value.span(), format!("{place} cannot be {}", type_of(value)));
     faults.push(match kind {
-        Kind::Tables(_) => {
+        Kind::Tables(..) => {
             let name = place.trim_start_matches("an entry of ");
             fault.help(format!("write [[{name}]] above the keys of each"))
         }

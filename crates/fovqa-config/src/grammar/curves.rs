@@ -3,6 +3,9 @@
 use super::experiment::{POSITION_PAIR, VIEW, joined, key, required};
 use super::{Key, Kind};
 
+/// More are no longer told apart.
+pub(crate) const MOST_CURVES: usize = 200;
+
 /// A gaze that is the same for all: a point, or the centre.
 const GAZE: Kind = Kind::Either(&[Kind::Word(&["center"]), POSITION_PAIR]);
 const NAMES: Kind = Kind::List(&Kind::Name, 1, 1000);
@@ -99,7 +102,7 @@ static PLOT_TABLE: [Key; 14] = [
         Kind::List(&Kind::Number(0.0, 1e6), 2, 2),
         "ends of the vertical axis; curves are cut there",
     ),
-    key("marks", Kind::Tables(&MARK), "measured values: [{ name = \"…\", at = [30, 5] }]"),
+    key("marks", Kind::Tables(&MARK, 1000), "measured values: [{ name = \"…\", at = [30, 5] }]"),
     key("log", Kind::Bool, "a logarithmic axis (of a picture: of its colours)"),
     key(
         "rings_deg",
@@ -130,9 +133,13 @@ static CURVES_TABLE: [Key; 10] = [
     key("step_deg", Kind::Number(0.001, 60.0), "from one eccentricity to the next, °; 0.25"),
     key("to_deg", Kind::Above(0.0, 179.0), "the last eccentricity, °; 60"),
     key("acuity", Kind::Acuity, "what rates are held against; { model = \"piecewise\" }"),
-    key("curve", Kind::Tables(&CURVE_TABLE), "the curves"),
-    key("plot", Kind::Tables(&PLOT_TABLE), "figures; if none and no table is given, all that fit"),
-    key("table", Kind::Tables(&TABLE_TABLE), "tables; likewise"),
+    key("curve", Kind::Tables(&CURVE_TABLE, MOST_CURVES), "the curves"),
+    key(
+        "plot",
+        Kind::Tables(&PLOT_TABLE, 200),
+        "figures; if none and no table is given, all that fit",
+    ),
+    key("table", Kind::Tables(&TABLE_TABLE, 200), "tables; likewise"),
 ];
 
 /// The whole file.

@@ -320,15 +320,19 @@ static EXPERIMENT_TABLE: [Key; 10] = [
     key("about", Kind::Text, "what it shows, for its page"),
     key("view", Kind::Table(&VIEW_TABLE), "how frames are seen"),
     key("signal", Kind::Table(&SIGNAL_TABLE), "how frames are read"),
-    required("scene", Kind::Tables(&SCENE_TABLE), "the scenes"),
-    required("method", Kind::Tables(&METHOD_TABLE), "the methods"),
+    required("scene", Kind::Tables(&SCENE_TABLE, 10_000), "the scenes"),
+    required("method", Kind::Tables(&METHOD_TABLE, 1000), "the methods"),
     key(
         "metrics",
         Kind::Metrics,
         "the metrics with their parameters; if it is not given, the default ones",
     ),
-    key("plot", Kind::Tables(&PLOT_TABLE), "tables and figures; if none is given, all that fit"),
-    key("gate", Kind::Tables(&GATE_TABLE), "the rules of `fovqa gate`"),
+    key(
+        "plot",
+        Kind::Tables(&PLOT_TABLE, 1000),
+        "tables and figures; if none is given, all that fit",
+    ),
+    key("gate", Kind::Tables(&GATE_TABLE, 1000), "the rules of `fovqa gate`"),
 ];
 
 /// The whole file.

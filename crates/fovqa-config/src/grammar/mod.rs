@@ -7,7 +7,7 @@ mod experiment;
 mod schema;
 
 pub(crate) use check::{check, number};
-pub(crate) use curves::CURVES;
+pub(crate) use curves::{CURVES, MOST_CURVES};
 pub(crate) use experiment::EXPERIMENT;
 pub use schema::{curves_schema, schema};
 
@@ -29,7 +29,7 @@ pub(crate) struct Key {
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Kind {
     Bool,
-    /// Text that is not empty and has no control characters.
+    /// Text that is not empty, of at most [`LONGEST_TEXT`] characters, none of them for control.
     Text,
     /// A name: text that fits a file name and the heading of a table.
     Name,
@@ -61,8 +61,8 @@ pub(crate) enum Kind {
     List(&'static Kind, usize, usize),
     /// A table.
     Table(&'static [Key]),
-    /// An array of tables.
-    Tables(&'static [Key]),
+    /// An array of at most so many tables.
+    Tables(&'static [Key], usize),
     /// A table with metrics for keys, and tables of their parameters.
     Metrics,
     /// One of several, of different types.
@@ -106,7 +106,7 @@ impl Kind {
                 let names = keys.iter().map(|key| format!("{} = …", key.name));
                 format!("a table {{ {} }}", names.collect::<Vec<_>>().join(", "))
             }
-            Kind::Tables(_) => "an array of tables".to_owned(),
+            Kind::Tables(_, most) => format!("an array of at most {most} tables"),
             Kind::Metrics => "a table of metrics".to_owned(),
             Kind::Either(kinds) => {
                 kinds.iter().map(Kind::in_words).collect::<Vec<_>>().join("; or ")
@@ -114,6 +114,9 @@ impl Kind {
         }
     }
 }
+
+/// Characters of a text: a paragraph, or a path that systems still open.
+pub(crate) const LONGEST_TEXT: usize = 4096;
 
 /// A model that a table may name: its name and its parameters.
 pub(crate) type Model = (&'static str, &'static [ParamInfo]);
@@ -149,6 +152,17 @@ pub fn resolution(text: &str) -> Option<[usize; 2]> {
 /// Words in quotes, with commas between them.
 pub(crate) fn quoted<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     words.into_iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ")
+}
+
+/// The same of names that a file gives: as many as anybody looks through.
+pub(crate) fn first_quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    const SHOWN: usize = 50;
+    let mut names = names.into_iter();
+    let shown = quoted(names.by_ref().take(SHOWN));
+    match names.count() {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
 }
 
 /// The kind of a metric's parameter.

@@ -5,7 +5,7 @@ use fovqa_params::ParamInfo;
 use fovqa_vision::displays;
 use serde_json::{Map, Value, json};
 
-use super::{CURVES, EXPERIMENT, Key, Kind, Model, parameter};
+use super::{CURVES, EXPERIMENT, Key, Kind, LONGEST_TEXT, Model, parameter};
 
 /// The JSON Schema of an experiment file.
 pub fn schema() -> Value {
@@ -55,7 +55,7 @@ fn kind(kind: &Kind) -> Value {
     const TEXT: &str = r"^[^\u0000-\u001f\u007f-\u009f]+$";
     match kind {
         Kind::Bool => json!({ "type": "boolean" }),
-        Kind::Text => json!({ "type": "string", "pattern": TEXT }),
+        Kind::Text => json!({ "type": "string", "pattern": TEXT, "maxLength": LONGEST_TEXT }),
         Kind::Name => json!({ "type": "string", "pattern": NAME, "maxLength": 80 }),
         Kind::Number(min, max) => {
             let mut schema = json!({ "type": "number" });
@@ -98,7 +98,9 @@ fn kind(kind: &Kind) -> Value {
             json!({ "type": "array", "items": self::kind(of), "minItems": min, "maxItems": max })
         }
         Kind::Table(keys) => table(keys),
-        Kind::Tables(keys) => json!({ "type": "array", "items": table(keys), "minItems": 1 }),
+        Kind::Tables(keys, most) => {
+            json!({ "type": "array", "items": table(keys), "minItems": 1, "maxItems": most })
+        }
         Kind::Metrics => {
             let mut schema = table(&[]);
             schema["minProperties"] = 1.into();

@@ -6,7 +6,7 @@ use fovqa_metrics::{Better, Metric, MetricKind};
 
 use super::plots::Known;
 use super::scenes::Resolved;
-use crate::fault::Fault;
+use crate::fault::{Fault, Faults};
 use crate::gates::{Aggregate, Allowance, GateRule, Quantity, better};
 use crate::grammar::quoted;
 use crate::nearest::nearest;
@@ -23,7 +23,7 @@ pub(super) fn gates(
     root: Node<'_>,
     text: &str,
     known: &Known<'_>,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> Vec<GateRule> {
     let tables = root.tables("gate").into_iter();
     tables.filter_map(|(table, span)| rule(table, span, text, known, faults)).collect()
@@ -34,9 +34,9 @@ fn rule(
     span: Range<usize>,
     text: &str,
     known: &Known<'_>,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> Option<GateRule> {
-    let before = faults.len();
+    let before = faults.count();
     let metric = metric(table, known, faults)?;
     let quantity = quantity(table, metric, known, faults);
     let scenes = known.scenes.iter().map(|scene| scene.scene.name.as_str()).collect::<Vec<_>>();
@@ -63,14 +63,14 @@ fn rule(
         max_drop: allowance(table, "max_drop", faults),
         max_rise: allowance(table, "max_rise", faults),
     };
-    if faults.len() == before {
+    if faults.count() == before {
         direction(table, span, &rule, faults);
     }
     Some(rule)
 }
 
 /// The metric, where it is scored.
-fn metric(table: Node<'_>, known: &Known<'_>, faults: &mut Vec<Fault>) -> Option<Metric> {
+fn metric(table: Node<'_>, known: &Known<'_>, faults: &mut Faults) -> Option<Metric> {
     let key = table.text("metric")?;
     let scored = known.metrics.metrics();
     let found = scored.iter().copied().find(|metric| metric.key() == key);
@@ -83,12 +83,7 @@ fn metric(table: Node<'_>, known: &Known<'_>, faults: &mut Vec<Fault>) -> Option
     found
 }
 
-fn quantity(
-    table: Node<'_>,
-    metric: Metric,
-    known: &Known<'_>,
-    faults: &mut Vec<Fault>,
-) -> Quantity {
+fn quantity(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Faults) -> Quantity {
     let statistic = statistic(table, metric, known, faults);
     let image = image(table, metric, faults);
     let whole = matches!((metric, statistic.as_str()), (Metric::Fvvdp, "jod") | (_, "pooled"));
@@ -121,12 +116,7 @@ fn quantity(
     Quantity { metric: metric.key().to_owned(), statistic, image, level, band_deg, aggregate }
 }
 
-fn statistic(
-    table: Node<'_>,
-    metric: Metric,
-    known: &Known<'_>,
-    faults: &mut Vec<Fault>,
-) -> String {
+fn statistic(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Faults) -> String {
     let allowed: Vec<String> = match metric {
         Metric::Fvvdp => FVVDP_STATISTICS.map(str::to_owned).into(),
         Metric::Haar => {
@@ -159,7 +149,7 @@ fn statistic(
     word.to_owned()
 }
 
-fn image(table: Node<'_>, metric: Metric, faults: &mut Vec<Fault>) -> String {
+fn image(table: Node<'_>, metric: Metric, faults: &mut Faults) -> String {
     let (usual, needed) = match metric.info().kind {
         MetricKind::Fidelity => ("pair", false),
         MetricKind::Temporal => ("test", false),
@@ -191,7 +181,7 @@ fn level(
     metric: Metric,
     statistic: &str,
     known: &Known<'_>,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> Option<usize> {
     let given = table.number("level").map(|level| level as usize);
     let spatial = statistic.starts_with("q_");
@@ -217,7 +207,7 @@ fn level(
 
 /// Whether a rule's band is one, or several, of those that are scored, as far as that can be told before
 /// frames are read.
-fn bands(table: Node<'_>, metric: Metric, scenes: &[&Resolved], faults: &mut Vec<Fault>) {
+fn bands(table: Node<'_>, metric: Metric, scenes: &[&Resolved], faults: &mut Faults) {
     let span = table.span("band_deg");
     let Some([from, to]) = table.array::<2>("band_deg") else {
         let of_bands = metric.is(MetricKind::Profile)
@@ -275,7 +265,7 @@ fn default_bands() -> Vec<(f64, f64)> {
 }
 
 /// The name a key gives, where it is one of those there are.
-fn one_of(table: Node<'_>, key: &str, known: &[&str], faults: &mut Vec<Fault>) -> Option<String> {
+fn one_of(table: Node<'_>, key: &str, known: &[&str], faults: &mut Faults) -> Option<String> {
     let name = table.text(key)?;
     if !known.contains(&name) {
         let fault = Fault::new(table.span(key), format!("there is no {key} \"{name}\""));
@@ -287,7 +277,7 @@ fn one_of(table: Node<'_>, key: &str, known: &[&str], faults: &mut Vec<Fault>) -
     Some(name.to_owned())
 }
 
-fn allowance(table: Node<'_>, key: &str, faults: &mut Vec<Fault>) -> Option<Allowance> {
+fn allowance(table: Node<'_>, key: &str, faults: &mut Faults) -> Option<Allowance> {
     if let Some(units) = table.number(key) {
         return Some(Allowance::Units(units));
     }
@@ -303,7 +293,7 @@ fn allowance(table: Node<'_>, key: &str, faults: &mut Vec<Fault>) -> Option<Allo
 }
 
 /// Whether a rule has limits, and they point the way that its metric does.
-fn direction(table: Node<'_>, span: Range<usize>, rule: &GateRule, faults: &mut Vec<Fault>) {
+fn direction(table: Node<'_>, span: Range<usize>, rule: &GateRule, faults: &mut Faults) {
     let Quantity { metric, statistic, image, .. } = &rule.quantity;
     let what = if statistic.is_empty() { metric.clone() } else { format!("{metric} {statistic}") };
     let keys = ["at_least", "at_most", "max_drop", "max_rise"];

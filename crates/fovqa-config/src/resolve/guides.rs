@@ -6,7 +6,7 @@ use fovqa_io::{DepthChannels, GuideOptions, GuidePreset, MotionChannels, MotionU
 
 use super::Placeholders;
 use super::settings::path;
-use crate::fault::Fault;
+use crate::fault::{Fault, Faults};
 use crate::node::Node;
 
 /// Motion and depth, and the files that hold nothing else.
@@ -23,9 +23,9 @@ pub(super) fn guides(
     depth: Option<Node<'_>>,
     base: &Path,
     placeholders: Placeholders<'_>,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> Guides {
-    let files = |table: Option<Node<'_>>, faults: &mut Vec<Fault>| {
+    let files = |table: Option<Node<'_>>, faults: &mut Faults| {
         let table = table?;
         path(placeholders, base, table.text("files")?, table.span("files"), faults)
     };
@@ -59,7 +59,7 @@ fn preset(word: &str) -> Option<GuidePreset> {
     GuidePreset::ALL.into_iter().find(|preset| preset.name() == word)
 }
 
-fn named_motion(table: Node<'_>, faults: &mut Vec<Fault>) -> MotionChannels {
+fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
     either(table, "channels", faults);
     let Some(names) = table.names("channels") else {
         for key in ["sign", "scale", "unit"].into_iter().filter(|key| table.has(key)) {
@@ -93,7 +93,7 @@ fn named_motion(table: Node<'_>, faults: &mut Vec<Fault>) -> MotionChannels {
     })
 }
 
-fn named_depth(table: Node<'_>, faults: &mut Vec<Fault>) -> DepthChannels {
+fn named_depth(table: Node<'_>, faults: &mut Faults) -> DepthChannels {
     either(table, "channel", faults);
     match (table.text("channel"), table.text("preset").and_then(preset)) {
         (Some(name), _) => DepthChannels::Named(name.to_owned()),
@@ -103,7 +103,7 @@ fn named_depth(table: Node<'_>, faults: &mut Vec<Fault>) -> DepthChannels {
 }
 
 /// Channels or a preset, not both; and something.
-fn either(table: Node<'_>, channels: &str, faults: &mut Vec<Fault>) {
+fn either(table: Node<'_>, channels: &str, faults: &mut Faults) {
     if table.has(channels) && table.has("preset") {
         let message = format!("both {channels} and a preset are given");
         let fault = Fault::new(table.span("preset"), message);

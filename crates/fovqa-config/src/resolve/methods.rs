@@ -5,32 +5,47 @@ use std::path::Path;
 use super::Placeholders;
 use super::scenes::{Resolved, unique};
 use super::settings::path;
-use crate::fault::Fault;
-use crate::grammar::quoted;
+use crate::fault::{Fault, Faults};
+use crate::grammar::first_quoted;
 use crate::nearest::nearest;
 use crate::node::Node;
 use crate::plan::Eye;
+
+/// Far more than fit a table. Each has a path of its own, and what is wrong with it.
+const MOST_COMPARISONS: usize = 100_000;
 
 /// The names of the methods; their tests go to the scenes.
 pub(super) fn methods(
     root: Node<'_>,
     base: &Path,
     scenes: &mut [Resolved],
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> Vec<String> {
     let tables = root.tables("method");
     if tables.is_empty() {
         faults.push(Fault::new(root.span("method"), "the experiment has no method"));
     }
     unique(&tables, "method", faults);
+    if tables.len() * scenes.len() > MOST_COMPARISONS {
+        let (methods, scenes) = (tables.len(), scenes.len());
+        let message = format!(
+            "these are {methods} methods in {scenes} scenes, and {MOST_COMPARISONS} comparisons at most"
+        );
+        faults
+            .push(Fault::new(root.span("method"), message).help("make several experiments of it"));
+        return Vec::new();
+    }
     for (index, (table, _)) in tables.iter().enumerate() {
         let wanted = table.names("scenes");
         for (name, span) in wanted.iter().flatten() {
+            if faults.are_many() {
+                break;
+            }
             let known = || scenes.iter().map(|scene| scene.scene.name.as_str());
             if !known().any(|scene| scene == *name) {
                 let fault = Fault::new(span.clone(), format!("there is no scene \"{name}\""));
                 let label = nearest(name, known()).map(|near| format!("did you mean \"{near}\"?"));
-                let help = format!("the scenes are {}", quoted(known()));
+                let help = format!("the scenes are {}", first_quoted(known()));
                 faults.push(fault.label(label.unwrap_or_default()).help(help));
             }
         }
@@ -52,13 +67,7 @@ pub(super) fn methods(
 }
 
 /// Adds a method's tests to a scene.
-fn tests(
-    table: Node<'_>,
-    index: usize,
-    base: &Path,
-    scene: &mut Resolved,
-    faults: &mut Vec<Fault>,
-) {
+fn tests(table: Node<'_>, index: usize, base: &Path, scene: &mut Resolved, faults: &mut Faults) {
     let method = table.text("name").unwrap_or_default();
     let name = scene.scene.name.clone();
     let sides = table.table("test");

@@ -7,7 +7,7 @@ use fovqa_params::ParamValue;
 use serde_spanned::Spanned;
 use toml::de::DeValue;
 
-use crate::fault::Fault;
+use crate::fault::{Fault, Faults};
 use crate::grammar::number;
 use crate::node::{Node, flag, numbers, pairs, table, text};
 use crate::plan::MetricChoice;
@@ -15,7 +15,7 @@ use crate::plan::MetricChoice;
 /// Parameters an experiment sets.
 pub(super) type Set = BTreeMap<(Metric, &'static str), ParamValue>;
 
-pub(super) fn metrics(root: Node<'_>, faults: &mut Vec<Fault>) -> (MetricChoice, Params, Set) {
+pub(super) fn metrics(root: Node<'_>, faults: &mut Faults) -> (MetricChoice, Params, Set) {
     let (mut params, mut set) = (Params::default(), BTreeMap::new());
     let Some(metrics) = root.table("metrics") else {
         return (MetricChoice::Default, params, set);

@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use fovqa_io::sequence::{is_glob, literal};
 
 use crate::experiment::Experiment;
-use crate::fault::Fault;
+use crate::fault::Faults;
 use crate::node::Node;
 use crate::plan::Plan;
 
@@ -26,7 +26,7 @@ pub(crate) fn experiment(
     root: Node<'_>,
     path: &Path,
     text: &str,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> Experiment {
     let base = path.parent().map(Path::to_owned).unwrap_or_default();
     let (choice, params, set) = metrics::metrics(root, faults);
@@ -57,6 +57,9 @@ pub(crate) fn experiment(
     }
 }
 
+/// What Linux opens. A text of nothing but placeholders would fill the memory.
+const LONGEST_PATH: usize = 4096;
+
 /// What braces in a path stand for.
 #[derive(Debug, Clone, Copy, Default)]
 struct Placeholders<'a> {
@@ -78,10 +81,17 @@ impl Placeholders<'_> {
                 name.to_owned()
             }
         };
+        let too_long = || {
+            let message = format!("the path becomes longer than {LONGEST_PATH} bytes");
+            (message, "name fewer placeholders, or shorter ones".to_owned())
+        };
         let mut path = String::new();
         let mut rest = text;
         while let Some((before, behind)) = rest.split_once('{') {
             path.push_str(before);
+            if path.len() > LONGEST_PATH {
+                return Err(too_long());
+            }
             let Some((name, after)) = behind.split_once('}') else {
                 return Err((
                     format!("\"{text}\" opens a brace and does not close it"),
@@ -103,6 +113,9 @@ impl Placeholders<'_> {
             rest = after;
         }
         path.push_str(rest);
+        if path.len() > LONGEST_PATH {
+            return Err(too_long());
+        }
         Ok(base.join(path))
     }
 

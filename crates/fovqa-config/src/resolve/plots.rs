@@ -4,8 +4,8 @@ use fovqa_metrics::{Metric, MetricKind, Params};
 
 use super::scenes::Resolved;
 use super::view::VIEW_HELP;
-use crate::fault::Fault;
-use crate::grammar::quoted;
+use crate::fault::{Fault, Faults};
+use crate::grammar::{first_quoted, quoted};
 use crate::nearest::nearest;
 use crate::node::Node;
 use crate::plan::MetricChoice;
@@ -19,7 +19,7 @@ pub(super) struct Known<'a> {
     pub(super) params: &'a Params,
 }
 
-pub(super) fn plots(root: Node<'_>, known: &Known<'_>, faults: &mut Vec<Fault>) -> Vec<Plot> {
+pub(super) fn plots(root: Node<'_>, known: &Known<'_>, faults: &mut Faults) -> Vec<Plot> {
     let tables = root.tables("plot").into_iter();
     let plots = tables.map(|(table, _)| {
         let kind = match table.text("kind") {
@@ -54,7 +54,7 @@ pub(super) fn plots(root: Node<'_>, known: &Known<'_>, faults: &mut Vec<Fault>) 
 }
 
 /// Whether any of a plot's methods is in any of its scenes and, for a profile, has bands there.
-fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut Vec<Fault>) {
+fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut Faults) {
     let wanted = |names: &Option<Vec<String>>, name: &str| {
         names.as_ref().is_none_or(|names| names.iter().any(|n| n == name))
     };
@@ -77,7 +77,7 @@ fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut
 }
 
 /// Whether a plot's metric is scored, and fits its kind.
-fn scored(table: Node<'_>, key: &str, kind: PlotKind, known: &Known<'_>, faults: &mut Vec<Fault>) {
+fn scored(table: Node<'_>, key: &str, kind: PlotKind, known: &Known<'_>, faults: &mut Faults) {
     let scored = known.metrics.metrics();
     let keys = || scored.iter().map(|metric| metric.key());
     let Some(metric) = scored.iter().find(|metric| metric.key() == key) else {
@@ -121,7 +121,7 @@ fn wavelet(
     metric: Option<&str>,
     kind: PlotKind,
     known: &Known<'_>,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) {
     let fits = matches!(kind, PlotKind::Profile | PlotKind::Ratios);
     if !fits || metric != Some(Metric::Haar.key()) {
@@ -147,16 +147,19 @@ pub(super) fn subset(
     table: Node<'_>,
     key: &str,
     known: &[&str],
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> Option<Vec<String>> {
     let wanted = table.names(key)?;
     for (name, span) in &wanted {
+        if faults.are_many() {
+            break;
+        }
         if !known.contains(name) {
             let what = key.trim_end_matches('s');
             let names = || known.iter().copied();
             let near = nearest(name, names()).map(|near| format!("did you mean \"{near}\"?"));
             let fault = Fault::new(span.clone(), format!("there is no {what} \"{name}\""));
-            let help = format!("the {key} are {}", quoted(names()));
+            let help = format!("the {key} are {}", first_quoted(names()));
             faults.push(fault.label(near.unwrap_or_default()).help(help));
         }
     }

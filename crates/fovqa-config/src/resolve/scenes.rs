@@ -7,7 +7,7 @@ use std::path::Path;
 use super::Placeholders;
 use super::settings::{Layers, path};
 use super::view::{LUMINANCE_HELP, VIEW_HELP};
-use crate::fault::Fault;
+use crate::fault::{Fault, Faults};
 use crate::node::Node;
 use crate::plan::{Eye, EyeView, MetricChoice, Scene};
 
@@ -23,7 +23,7 @@ pub(super) fn scenes(
     root: Node<'_>,
     base: &Path,
     metrics: &MetricChoice,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> Vec<Resolved> {
     let tables = root.tables("scene");
     if tables.is_empty() {
@@ -94,7 +94,7 @@ pub(super) fn scenes(
 }
 
 /// General tables for one eye, where no scene has two.
-fn eyes_of_nobody(root: Node<'_>, scenes: &[(Node<'_>, Range<usize>)], faults: &mut Vec<Fault>) {
+fn eyes_of_nobody(root: Node<'_>, scenes: &[(Node<'_>, Range<usize>)], faults: &mut Faults) {
     if scenes.iter().any(|(scene, _)| scene.table("reference").is_some()) {
         return;
     }
@@ -116,7 +116,7 @@ fn foveal_without_view(
     eyes: &[EyeView],
     scene: &str,
     metrics: &MetricChoice,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) {
     let MetricChoice::Named(named) = metrics else { return };
     if eyes.iter().all(|eye| eye.settings.view.is_some()) {
@@ -138,7 +138,7 @@ fn unlit(
     eyes: &[EyeView],
     scene: &str,
     metrics: &MetricChoice,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) {
     let MetricChoice::Named(named) = metrics else { return };
     let Some(table) = root.table("metrics") else { return };
@@ -164,7 +164,7 @@ const RESERVED: [&str; 10] =
     ["average", "best", "error", "#na", "<na>", "na", "nan", "none", "null", "inf"];
 
 /// Says which names are there twice, or cannot be.
-pub(super) fn unique(tables: &[(Node<'_>, Range<usize>)], what: &str, faults: &mut Vec<Fault>) {
+pub(super) fn unique(tables: &[(Node<'_>, Range<usize>)], what: &str, faults: &mut Faults) {
     let mut seen = BTreeSet::new();
     for (table, _) in tables {
         let name = table.text("name").unwrap_or_default();

@@ -12,7 +12,7 @@ use toml::de::DeValue;
 use super::Placeholders;
 use super::guides::guides;
 use super::view::{VIEW_HELP, gives_view, luminance, view};
-use crate::fault::Fault;
+use crate::fault::{Fault, Faults};
 use crate::node::{Node, numbers, table};
 use crate::plan::{Eye, Gaze, Nonfinite, Settings};
 
@@ -53,7 +53,7 @@ impl<'a> Layers<'a> {
         &self,
         base: &Path,
         placeholders: Placeholders<'_>,
-        faults: &mut Vec<Fault>,
+        faults: &mut Faults,
     ) -> Settings {
         let crop = self.having("crop").and_then(|table| table.array::<4>("crop"));
         let crop = crop.map(|[x, y, width, height]| {
@@ -142,11 +142,11 @@ impl<'a> Layers<'a> {
     }
 
     /// The view of the most special table that gives one: what a scene says replaces it whole.
-    fn view(&self, faults: &mut Vec<Fault>) -> Option<ViewSpec> {
+    fn view(&self, faults: &mut Faults) -> Option<ViewSpec> {
         view(*self.tables.iter().rev().find(|table| gives_view(**table))?, faults)
     }
 
-    fn gaze(&self, base: &Path, placeholders: Placeholders<'_>, faults: &mut Vec<Fault>) -> Gaze {
+    fn gaze(&self, base: &Path, placeholders: Placeholders<'_>, faults: &mut Faults) -> Gaze {
         let Some(value) = self.having("gaze").and_then(|table| table.value("gaze")) else {
             return Gaze::Centre;
         };
@@ -175,7 +175,7 @@ impl<'a> Layers<'a> {
         gaze_of(value, base, placeholders, faults)
     }
 
-    fn bands(&self, faults: &mut Vec<Fault>) -> Option<BandEdges> {
+    fn bands(&self, faults: &mut Faults) -> Option<BandEdges> {
         let edges = self.having("bands_deg")?.numbers("bands_deg")?;
         match BandEdges::new(edges) {
             Ok(edges) => Some(edges),
@@ -192,7 +192,7 @@ fn gaze_of(
     value: &Spanned<DeValue<'_>>,
     base: &Path,
     placeholders: Placeholders<'_>,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> Gaze {
     if let Some(Ok(point)) = numbers(value).map(<[f64; 2]>::try_from) {
         return Gaze::Point(point);
@@ -218,7 +218,7 @@ pub(super) fn path(
     base: &Path,
     text: &str,
     span: Range<usize>,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> Option<std::path::PathBuf> {
     match placeholders.path(base, text) {
         Ok(path) => Some(path),

@@ -2,7 +2,7 @@
 
 use fovqa_vision::{Eotf, Luminance, ViewSpec, find_display};
 
-use crate::fault::Fault;
+use crate::fault::{Fault, Faults};
 use crate::node::Node;
 
 /// Keys that, one or two together, say what the view is.
@@ -27,7 +27,7 @@ pub(super) fn gives_view(table: Node<'_>) -> bool {
 }
 
 /// The view of a table that gives one.
-pub(super) fn view(table: Node<'_>, faults: &mut Vec<Fault>) -> Option<ViewSpec> {
+pub(super) fn view(table: Node<'_>, faults: &mut Faults) -> Option<ViewSpec> {
     let given: Vec<&str> = VIEW_WAYS.into_iter().filter(|key| table.has(key)).collect();
     let number = |key| table.number(key);
     let spec = match given.as_slice() {
@@ -78,7 +78,7 @@ pub(super) fn view(table: Node<'_>, faults: &mut Vec<Fault>) -> Option<ViewSpec>
 pub(super) const LUMINANCE_HELP: &str = "give luminance = { peak_cd_m2 = …, … } or luminance = \"htc-vive-pro\" in [view], or a display that has it (`fovqa list displays`)";
 
 /// The photometry that a table gives.
-pub(super) fn luminance(table: Node<'_>, faults: &mut Vec<Fault>) -> Option<Luminance> {
+pub(super) fn luminance(table: Node<'_>, faults: &mut Faults) -> Option<Luminance> {
     const KEY: &str = "luminance";
     if let Some(name) = table.text(KEY) {
         let luminance = find_display(name)?.luminance;

@@ -15,16 +15,14 @@ use super::scenes::unique;
 use crate::curves::{
     CurveBudget, CurvePlan, CurvePlot, CurvePlotKind, CurveRange, CurveSource, CurveSpec,
 };
-use crate::fault::Fault;
+use crate::fault::{Fault, Faults};
+use crate::grammar::MOST_CURVES;
 use crate::node::Node;
 use plots::{all_that_fit, few_panels, plot, table};
 use screens::Screens;
 
-/// More are no longer told apart.
-const MOST_CURVES: usize = 200;
-
 /// Name, about and plan; mistakes go to `faults`.
-pub(crate) fn curves(root: Node<'_>, faults: &mut Vec<Fault>) -> (String, String, CurvePlan) {
+pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, CurvePlan) {
     let text = |key| root.text(key).unwrap_or_default().to_owned();
     let default = CurveRange::default();
     let range = CurveRange {
@@ -37,10 +35,14 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Vec<Fault>) -> (String, String
     let mut curves = Vec::new();
     for (table, span) in &tables {
         curves.extend(curve(root, *table, span.clone(), faults));
-    }
-    if curves.len() > MOST_CURVES {
-        let message = format!("these are {} curves, and {MOST_CURVES} at most", curves.len());
-        faults.push(Fault::new(root.span("curve"), message));
+        // Before the next ones: each may have a budget to be solved.
+        if curves.len() > MOST_CURVES {
+            let message = format!("these are more than {MOST_CURVES} curves");
+            faults.push(Fault::new(root.span("curve"), message));
+        }
+        if curves.len() > MOST_CURVES || faults.are_many() {
+            break;
+        }
     }
     let names: Vec<&str> = tables.iter().filter_map(|(table, _)| table.text("name")).collect();
     let acuity_parameters = root.table("acuity").map(written).unwrap_or_default();
@@ -67,7 +69,7 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Vec<Fault>) -> (String, String
 }
 
 /// The acuity model of a table's `acuity`.
-fn acuity_model(table: Node<'_>, faults: &mut Vec<Fault>) -> Option<AcuityModel> {
+fn acuity_model(table: Node<'_>, faults: &mut Faults) -> Option<AcuityModel> {
     let node = table.table("acuity")?;
     let mut model = AcuityModel::find(node.text("model")?)?;
     for (name, value, span) in params(node) {
@@ -86,7 +88,7 @@ fn params(node: Node<'_>) -> impl Iterator<Item = (&str, ParamValue, Range<usize
         .filter_map(|(name, span, value)| Some((name, param_value(value)?, span)))
 }
 
-fn said(set: Result<(), ParamError>, span: Range<usize>, faults: &mut Vec<Fault>) {
+fn said(set: Result<(), ParamError>, span: Range<usize>, faults: &mut Faults) {
     if let Err(error) = set {
         faults.push(Fault::new(span, error.to_string()));
     }
@@ -103,7 +105,7 @@ fn curve(
     root: Node<'_>,
     table: Node<'_>,
     span: Range<usize>,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> Vec<CurveSpec> {
     let name = table.text("name").unwrap_or_default().to_owned();
     let one_of = "give it either method = { model = … } or acuity = { model = … }";

@@ -8,7 +8,7 @@ use crate::curves::{
     CurvePlan, CurvePlot, CurvePlotKind, CurveSource, CurveSpec, CurveTable, CurveTableKind,
     PanelOf, RateKind, RateUnit,
 };
-use crate::fault::Fault;
+use crate::fault::{Fault, Faults};
 use crate::node::Node;
 use crate::resolve::plots::subset;
 
@@ -39,7 +39,7 @@ pub(super) fn few_panels(
     plot: &CurvePlot,
     plan: &CurvePlan,
     span: Range<usize>,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) {
     const MOST: usize = 48;
     let mut different: Vec<String> = Vec::new();
@@ -74,7 +74,7 @@ pub(super) fn plot(
     table: Node<'_>,
     names: &[&str],
     plan: &CurvePlan,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> CurvePlot {
     let word = |key| table.text(key).unwrap_or_default();
     let flag = |key| table.flag(key).unwrap_or(false);
@@ -140,7 +140,7 @@ fn named_mark(mark: Node<'_>) -> Option<(String, [f64; 2])> {
 const NEAREST: f64 = 1e-6;
 
 /// Whether a plot's keys are of its kind.
-fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Vec<Fault>) {
+fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Faults) {
     let (kind, keys): (&str, &[&str]) = match plot.kind {
         CurvePlotKind::Rates => ("rates", &["rings_deg", "f"]),
         CurvePlotKind::Density => {
@@ -207,7 +207,7 @@ pub(super) fn table(
     table: Node<'_>,
     names: &[&str],
     plan: &CurvePlan,
-    faults: &mut Vec<Fault>,
+    faults: &mut Faults,
 ) -> CurveTable {
     let kind = match table.text("kind") {
         Some("samples") => CurveTableKind::Samples,

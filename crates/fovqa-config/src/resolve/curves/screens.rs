@@ -7,8 +7,8 @@ use serde_spanned::Spanned;
 use toml::de::DeValue;
 
 use crate::curves::CurveSetting;
-use crate::fault::Fault;
-use crate::grammar::resolution;
+use crate::fault::{Fault, Faults};
+use crate::grammar::{MOST_CURVES, resolution};
 use crate::node::{Node, numbers, text};
 use crate::resolve::view::{gives_view, view};
 
@@ -31,11 +31,7 @@ impl<'a> Screens<'a> {
     }
 
     /// Every resolution with every gaze and direction.
-    pub(super) fn settings(
-        &self,
-        span: &Range<usize>,
-        faults: &mut Vec<Fault>,
-    ) -> Vec<CurveSetting> {
+    pub(super) fn settings(&self, span: &Range<usize>, faults: &mut Faults) -> Vec<CurveSetting> {
         let gives = |table: &&Node<'a>| gives_view(**table);
         let Some(seen) = self.tables.iter().rev().flatten().find(gives) else {
             let message = "the curve is on a screen, and no view is given";
@@ -71,6 +67,14 @@ impl<'a> Screens<'a> {
             Some("angular") => EccentricityKind::Angular,
             _ => EccentricityKind::Planar,
         };
+        let (sizes, gazes, directions) = (once(sizes), once(gazes), once(directions));
+        let all = sizes.len() * gazes.len() * directions.len();
+        if all > MOST_CURVES {
+            let message = format!("these are {all} curves, and {MOST_CURVES} at most");
+            let help = "name fewer resolutions, gazes or directions";
+            faults.push(Fault::new(span.clone(), message).help(help));
+            return Vec::new();
+        }
         let mut settings = Vec::new();
         for [width, height] in sizes {
             let view: View = match spec.resolve(width, height) {
@@ -91,13 +95,17 @@ impl<'a> Screens<'a> {
                 }));
             }
         }
-        // What is written twice is one curve.
-        let mut once: Vec<CurveSetting> = Vec::new();
-        for setting in settings {
-            if !once.contains(&setting) {
-                once.push(setting);
-            }
-        }
-        once
+        once(settings)
     }
+}
+
+/// What is written twice is one curve.
+fn once<T: PartialEq>(values: Vec<T>) -> Vec<T> {
+    let mut once = Vec::new();
+    for value in values {
+        if !once.contains(&value) {
+            once.push(value);
+        }
+    }
+    once
 }
