@@ -91,6 +91,15 @@ fn plan(experiment: &Experiment, found: &Found) -> String {
     for view in &found.views {
         scene(&mut text, experiment, view);
     }
+    if !experiment.gates.is_empty() {
+        let _ = writeln!(text, "\n{}", count(experiment.gates.len(), "gate rule"));
+    }
+    for rule in &experiment.gates {
+        let of = [&rule.scene, &rule.method, &rule.eye].into_iter().flatten();
+        let of = of.map(String::as_str).collect::<Vec<_>>().join(", ");
+        let of = if of.is_empty() { of } else { format!(" of {of}") };
+        let _ = writeln!(text, "  line {}: {}{of}: {}", rule.line, rule.quantity, rule.limits());
+    }
     let tests: usize =
         found.views.iter().flat_map(|view| &view.frames).map(|f| f.tests.len()).sum();
     let _ = writeln!(

@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::Path;
 
+use fovqa_metrics::MetricInfo;
+
 use super::Placeholders;
 use super::settings::{Layers, path};
 use super::view::{LUMINANCE_HELP, VIEW_HELP};
@@ -118,17 +120,25 @@ fn foveal_without_view(
     metrics: &MetricChoice,
     faults: &mut Faults,
 ) {
-    let MetricChoice::Named(named) = metrics else { return };
     if eyes.iter().all(|eye| eye.settings.view.is_some()) {
         return;
     }
-    let Some(table) = root.table("metrics") else { return };
-    for (key, span, _) in table.entries() {
-        if named.iter().any(|metric| metric.key() == key && metric.info().needs_view) {
-            let message = format!("{key} needs a view, and scene \"{scene}\" has none");
-            faults.push(Fault::new(span, message).help(VIEW_HELP));
-        }
+    for (key, span) in asked_for(root, metrics, |info| info.needs_view) {
+        let message = format!("{key} needs a view, and scene \"{scene}\" has none");
+        faults.push(Fault::new(span, message).help(VIEW_HELP));
     }
+}
+
+/// The metrics asked for by name that need something, each with its place.
+fn asked_for<'a>(
+    root: Node<'a>,
+    metrics: &MetricChoice,
+    needs: fn(&MetricInfo) -> bool,
+) -> Vec<(&'a str, Range<usize>)> {
+    let MetricChoice::Named(named) = metrics else { return Vec::new() };
+    let needy = |key: &str| named.iter().any(|m| m.key() == key && needs(m.info()));
+    let entries = root.table("metrics").into_iter().flat_map(Node::entries);
+    entries.filter(|(key, ..)| needy(key)).map(|(key, span, _)| (key, span)).collect()
 }
 
 /// Metrics of light where the display has no photometry, or shows the files otherwise than they are
@@ -140,12 +150,7 @@ fn unlit(
     metrics: &MetricChoice,
     faults: &mut Faults,
 ) {
-    let MetricChoice::Named(named) = metrics else { return };
-    let Some(table) = root.table("metrics") else { return };
-    for (key, span, _) in table.entries() {
-        if !named.iter().any(|metric| metric.key() == key && metric.info().needs_luminance) {
-            continue;
-        }
+    for (key, span) in asked_for(root, metrics, |info| info.needs_luminance) {
         if eyes.iter().any(|eye| eye.settings.photometry().is_none()) {
             let message =
                 format!("{key} needs the display's photometry, and scene \"{scene}\" has none");

@@ -1,5 +1,6 @@
 //! Transfer functions, one file each.
 
+mod chords;
 pub mod pq;
 pub mod pu21;
 pub mod srgb;

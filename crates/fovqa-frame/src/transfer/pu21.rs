@@ -4,6 +4,8 @@
 
 use std::sync::LazyLock;
 
+use super::chords::Chords;
+
 /// Where the encoding begins, cd/m². Darker luminance is taken for this.
 pub const FLOOR_CD_M2: f64 = 0.005;
 /// Where it ends, cd/m². Brighter luminance is taken for this.
@@ -26,25 +28,17 @@ pub fn encode(luminance_cd_m2: f64) -> f64 {
     P[6] * (libm::pow((P[0] + P[1] * power) / (1.0 + P[2] * power), P[4]) - P[5])
 }
 
-/// Segments of one octave. The error of a chord, (2^-9)² / 8 of the curvature, is 3e-5 units at
-/// most: the step of an `f32` there.
-const SEGMENT_BITS: u32 = 9;
-/// 2^-8, the power of two below the floor.
-const TABLE_FROM: f32 = 1.0 / 256.0;
-/// To 2^14, the one above the peak.
-const OCTAVES: usize = 22;
+/// Chords from 2^-8, below the floor, to 2^14, above the peak. The error of one of 2^9 an octave,
+/// (2^-9)² / 8 of the curvature, is 3e-5 units at most: the step of an `f32` there.
+type EncodeChords = Chords<9, -8>;
+const OCTAVES: u32 = 22;
 
-static CHORDS: LazyLock<Vec<f32>> = LazyLock::new(|| {
-    let first = TABLE_FROM.to_bits() >> (23 - SEGMENT_BITS);
-    (0..=(OCTAVES << SEGMENT_BITS) as u32)
-        .map(|i| encode(f64::from(f32::from_bits((first + i) << (23 - SEGMENT_BITS)))) as f32)
-        .collect()
-});
+static CHORDS: LazyLock<EncodeChords> = LazyLock::new(|| Chords::new(OCTAVES, encode));
 
-/// [`encode`] for many `f32` values: chords between exact points, picked by the bits of the value.
+/// [`encode`] for many `f32` values, by chords.
 #[derive(Debug, Clone, Copy)]
 pub struct Encoder {
-    chords: &'static [f32],
+    chords: &'static EncodeChords,
 }
 
 impl Encoder {
@@ -56,15 +50,8 @@ impl Encoder {
     /// Encodes one value, within 2e-4 units of [`encode`].
     #[inline]
     pub fn encode(self, luminance_cd_m2: f32) -> f32 {
-        const FRACTION_BITS: u32 = 23 - SEGMENT_BITS;
-        const FRACTION: u32 = (1 << FRACTION_BITS) - 1;
         // `max` first: of NaN and a number it is the number.
-        let value = luminance_cd_m2.max(FLOOR_CD_M2 as f32).min(PEAK_CD_M2 as f32);
-        let offset = value.to_bits() - TABLE_FROM.to_bits();
-        let index = (offset >> FRACTION_BITS) as usize;
-        let t = (offset & FRACTION) as f32 * (1.0 / (1u32 << FRACTION_BITS) as f32);
-        let (from, to) = (self.chords[index], self.chords[index + 1]);
-        from + (to - from) * t
+        self.chords.at(luminance_cd_m2.max(FLOOR_CD_M2 as f32).min(PEAK_CD_M2 as f32))
     }
 }
 

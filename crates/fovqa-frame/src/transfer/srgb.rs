@@ -3,6 +3,8 @@
 
 use std::sync::LazyLock;
 
+use super::chords::Chords;
+
 /// Where the linear toe of the encoding ends, in linear light.
 const TOE_END: f64 = 0.003_130_8;
 
@@ -16,26 +18,17 @@ pub fn decode(encoded: f64) -> f64 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }
 
-/// Segments of one octave. The error of a chord, (2^-10)² / 8 of the curvature, is 3e-8 relative:
-/// below the step of an `f32`.
-const SEGMENT_BITS: u32 = 10;
-/// 2^-9, the power of two just below the end of the toe.
-const TABLE_FROM: f32 = 1.0 / 512.0;
-const OCTAVES: usize = 9;
+/// Chords from 2^-9, just below the end of the toe, to 1. The error of one of 2^10 an octave,
+/// (2^-10)² / 8 of the curvature, is 3e-8 relative: below the step of an `f32`.
+type EncodeChords = Chords<10, -9>;
+const OCTAVES: u32 = 9;
 
-static CHORDS: LazyLock<Vec<f32>> = LazyLock::new(|| {
-    let first = TABLE_FROM.to_bits() >> (23 - SEGMENT_BITS);
-    (0..=(OCTAVES << SEGMENT_BITS) as u32)
-        .map(|i| encode(f64::from(f32::from_bits((first + i) << (23 - SEGMENT_BITS)))) as f32)
-        .collect()
-});
+static CHORDS: LazyLock<EncodeChords> = LazyLock::new(|| Chords::new(OCTAVES, encode));
 
-/// [`encode`] for many `f32` values: chords between exact points, picked by the bits of the
-/// value, since a power for each of 50 million samples would cost more than all metrics.
-/// Values are clamped to `[0, 1]`.
+/// [`encode`] for many `f32` values, by chords. Values are clamped to `[0, 1]`.
 #[derive(Debug, Clone, Copy)]
 pub struct Encoder {
-    chords: &'static [f32],
+    chords: &'static EncodeChords,
 }
 
 impl Encoder {
@@ -47,8 +40,6 @@ impl Encoder {
     /// Encodes one value, within 1e-7 of [`encode`].
     #[inline]
     pub fn encode(self, linear: f32) -> f32 {
-        const FRACTION_BITS: u32 = 23 - SEGMENT_BITS;
-        const FRACTION: u32 = (1 << FRACTION_BITS) - 1;
         if linear >= 1.0 {
             return 1.0;
         }
@@ -56,11 +47,7 @@ impl Encoder {
         if linear.is_nan() || linear <= TOE_END as f32 {
             return 12.92 * linear.max(0.0);
         }
-        let offset = linear.to_bits() - TABLE_FROM.to_bits();
-        let index = (offset >> FRACTION_BITS) as usize;
-        let t = (offset & FRACTION) as f32 * (1.0 / (1u32 << FRACTION_BITS) as f32);
-        let (from, to) = (self.chords[index], self.chords[index + 1]);
-        from + (to - from) * t
+        self.chords.at(linear)
     }
 }
 
