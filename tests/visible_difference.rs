@@ -1,7 +1,10 @@
 //! FovVideoVDP and PU-PSNR through the command: golden values, results in every form, heat maps, displays,
 //! absolute light.
 
-#![allow(clippy::float_cmp, reason = "the same number in several forms is the same to the last bit")]
+#![allow(
+    clippy::float_cmp,
+    reason = "the same number in several forms is the same to the last bit"
+)]
 
 use std::fs;
 use std::path::Path;

@@ -9,10 +9,12 @@ mod exit;
 mod experiment;
 mod heat_maps;
 mod list;
+mod merge;
 mod output;
 mod progress;
 mod published_numbers;
 mod report;
+mod results;
 mod run;
 mod schema;
 mod score;
@@ -43,6 +45,7 @@ fn dispatch(cli: Cli) -> Exit {
     match cli.command {
         Command::Score(args) => score::run(*args),
         Command::Run(args) => run::run(&args),
+        Command::Merge(args) => merge::run(&args),
         Command::Report(args) => report::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Curves(args) => curves::run(&args),

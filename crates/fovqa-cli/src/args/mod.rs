@@ -14,7 +14,7 @@ mod view;
 
 pub(crate) use curves::CurvesArgs;
 pub(crate) use published_numbers::PublishedNumbersArgs;
-pub(crate) use run::{CheckArgs, ReportArgs, RunArgs};
+pub(crate) use run::{CheckArgs, MergeArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -46,6 +46,9 @@ pub(crate) enum Command {
     /// Run an experiment: scenes, methods and metrics of a TOML file, with tables and figures.
     #[command(after_help = run::EXAMPLES)]
     Run(RunArgs),
+    /// Put the shards of a run together: what a run of all of it would write.
+    #[command(after_help = run::MERGE_EXAMPLES)]
+    Merge(MergeArgs),
     /// Draw the tables, figures and page of a run again, without scoring; or a page over several.
     Report(ReportArgs),
     /// Check an experiment file, and print its plan and the frames found; reads no pixels.
