@@ -10,7 +10,7 @@ use crate::diagnostic;
 use crate::exit::Exit;
 use crate::finished_run::FinishedRun;
 use crate::output;
-use crate::run::file_hash;
+use crate::results::text_hash;
 
 pub(crate) fn run(command: &BaselineCommand) -> Exit {
     let done = match command {
@@ -41,7 +41,7 @@ fn of_run(results: &Path) -> Result<Baseline, Exit> {
         return Err(Exit::Input);
     }
     let rules = &finished.record.resolved.gates;
-    Ok(Baseline::of(&finished.record, &finished.values, rules, &file_hash))
+    Ok(Baseline::of(&finished.record, &finished.values, rules, &text_hash))
 }
 
 fn write(baseline: &Baseline, path: &Path) -> Result<(), Exit> {

@@ -13,7 +13,7 @@ pub(crate) enum Dialect {
 }
 
 /// Setting, option, key.
-const SETTINGS: [(&str, &str, &str); 19] = [
+const SETTINGS: [(&str, &str, &str); 20] = [
     ("allow_missing", "--allow-missing", "allow_missing = true"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),
     ("alpha=over-black", "--alpha over-black", "alpha = \"over-black\""),
@@ -38,6 +38,7 @@ const SETTINGS: [(&str, &str, &str); 19] = [
     ("metrics", "--metrics", "[metrics]"),
     ("nonfinite=mask", "--nonfinite mask", "nonfinite = \"mask\""),
     ("output", "--output", "--output"),
+    ("resume", "--resume", "--resume"),
     ("start", "the working directory", "the folder of the experiment file"),
     ("transfer", "--transfer", "transfer"),
     (

@@ -10,7 +10,8 @@ use crate::args::{Annotations, GateArgs, GateFormat, RunArgs};
 use crate::diagnostic;
 use crate::exit::Exit;
 use crate::finished_run::FinishedRun;
-use crate::run::{Shown, file_hash, scored};
+use crate::results::{Shown, text_hash};
+use crate::run::scored;
 use crate::{experiment, output};
 
 pub(crate) fn run(args: &GateArgs) -> Exit {
@@ -43,7 +44,7 @@ fn gate(args: &GateArgs) -> Result<Exit, Exit> {
     let names = (finished.record.resolved.name.as_str(), file.as_str());
     let mut verdict = Verdict::of(names, rules, &finished.values, baseline.as_ref());
     if let Some(baseline) = &baseline {
-        let other = baseline.other_inputs(&finished.record, &file_hash).into_iter();
+        let other = baseline.other_inputs(&finished.record, &text_hash).into_iter();
         verdict.notes.extend(other.map(|folder| {
             let folder = if folder.is_empty() { ".".to_owned() } else { folder };
             format!("the inputs in {folder} are others than those of the baseline")
@@ -105,6 +106,8 @@ fn score(args: &GateArgs) -> Result<FinishedRun, Exit> {
     let run = RunArgs {
         experiment: args.target.clone(),
         output: args.output.clone(),
+        resume: args.resume,
+        shard: None,
         frames: args.frames,
         maps: None,
         threads: args.threads,
@@ -141,7 +144,7 @@ fn print(args: &GateArgs, verdict: &Verdict) -> Exit {
     match (args.annotations, args.format) {
         (Some(Annotations::Gitlab), _) => {
             diagnostic::block(&table);
-            let report = gitlab_report(verdict, file_hash);
+            let report = gitlab_report(verdict, text_hash);
             output::write(|out| out.write_all(report.as_bytes()))
         }
         (Some(Annotations::Github), _) => {

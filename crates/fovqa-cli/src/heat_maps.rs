@@ -3,9 +3,9 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use fovqa_engine::{EngineError, Finished, FvvdpMaps};
+use fovqa_engine::{EngineError, Entry, Finished, FvvdpMaps, Named};
 use fovqa_io::{exr_gray, png_rgb8};
-use fovqa_results::{FileError, write_whole};
+use fovqa_results::{FileError, FrameResult, write_whole};
 
 /// A folder for heat maps.
 #[derive(Debug)]
@@ -20,14 +20,29 @@ impl HeatMaps {
         Self { folder, several }
     }
 
-    /// Writes those of a frame, where it has some.
-    pub(crate) fn write(&self, finished: &Finished<'_>) -> Result<(), EngineError> {
-        let (Some(maps), Ok(frame)) = (finished.maps, finished.result) else { return Ok(()) };
+    /// The folder of a comparison.
+    fn folder(&self, named: Named<'_>) -> PathBuf {
         let mut folder = self.folder.clone();
         if self.several {
-            folder.extend([finished.scene, finished.method]);
-            folder.extend(finished.eye.map(fovqa_config::Eye::name));
+            folder.extend([named.scene, named.method]);
+            folder.extend(named.eye.map(fovqa_config::Eye::name));
         }
+        folder
+    }
+
+    /// Whether those of a frame are there, where it has some.
+    pub(crate) fn has(&self, named: Named<'_>, frame: &FrameResult) -> bool {
+        let raw = self.folder(named).join(raw(frame.frame));
+        frame.fvvdp.is_none() || raw.is_file()
+    }
+
+    /// Writes those of a pair, where it has some.
+    pub(crate) fn write(&self, entry: &Entry<'_>) -> Result<(), EngineError> {
+        let Entry::Pair(Finished { named, maps: Some(maps), result: Ok(frame), .. }) = *entry
+        else {
+            return Ok(());
+        };
+        let folder = self.folder(named);
         let at = |path: &Path, error| EngineError::Map { path: path.to_owned(), error };
         std::fs::create_dir_all(&folder).map_err(|error| at(&folder, error))?;
         for (name, bytes) in files(maps, frame.frame) {
@@ -49,10 +64,16 @@ impl HeatMaps {
 fn files(maps: &FvvdpMaps, frame: u64) -> Vec<(String, io::Result<Vec<u8>>)> {
     let (width, height) = (maps.raw.width(), maps.raw.height());
     let values = (0..height).flat_map(|y| maps.raw.row(y)).copied();
-    let raw = (format!("fvvdp-{frame:04}.exr"), exr_gray(width, height, values));
+    let raw_map = (raw(frame), exr_gray(width, height, values));
     let colored = maps.colored.iter().map(|(colors, codes)| {
         let name = format!("fvvdp-{}-{frame:04}.png", colors.name());
         (name, png_rgb8(width, height, codes))
     });
-    std::iter::once(raw).chain(colored).collect()
+    // The raw one last: where it is there, all are.
+    colored.chain([raw_map]).collect()
+}
+
+/// The name of a frame's raw map.
+fn raw(frame: u64) -> String {
+    format!("fvvdp-{frame:04}.exr")
 }

@@ -12,10 +12,12 @@ mod finished_run;
 mod gate;
 mod heat_maps;
 mod list;
+mod merge;
 mod output;
 mod progress;
 mod published_numbers;
 mod report;
+mod results;
 mod run;
 mod schema;
 mod score;
@@ -48,6 +50,7 @@ fn dispatch(cli: Cli) -> Exit {
         Command::Run(args) => run::run(&args),
         Command::Gate(args) => gate::run(&args),
         Command::Baseline(command) => baseline::run(&command),
+        Command::Merge(args) => merge::run(&args),
         Command::Report(args) => report::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Curves(args) => curves::run(&args),

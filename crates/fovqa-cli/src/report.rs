@@ -1,6 +1,6 @@
 //! `fovqa report`: tables and figures of a finished run, drawn again.
 
-use fovqa_engine::ResultsFolder;
+use fovqa_engine::{ResultsFolder, shard_in};
 use fovqa_results::{CURVES_JSON, RUN_JSON};
 
 use crate::args::ReportArgs;
@@ -30,6 +30,14 @@ pub(crate) fn run(args: &ReportArgs) -> Exit {
             }
         }
     }
+    if !args.results.join(RUN_JSON).is_file()
+        && let Some(shard) = shard_in(&args.results)
+    {
+        let shown = args.results.display();
+        let message = format!("{shown}: it has shard {shard} of a run, and no results yet");
+        diagnostic::error(&message, "`fovqa merge` puts shards together");
+        return Exit::Input;
+    }
     // Looked at first: a folder that is none of ours must not become one.
     if !args.results.join(RUN_JSON).is_file() {
         let message = format!("{}: there is no finished run in it", args.results.display());
@@ -47,7 +55,7 @@ pub(crate) fn run(args: &ReportArgs) -> Exit {
         }
     };
     match fovqa_report::draw(folder.path()) {
-        Ok(drawn) => crate::run::say(&drawn, folder.path()),
+        Ok(drawn) => crate::results::say(&drawn, folder.path()),
         Err(error) => {
             diagnostic::error(&error.to_string(), "run the experiment again");
             Exit::Input

@@ -1,16 +1,12 @@
-//! `fovqa run`: experiment, frames, scores, files, tables and figures.
+//! `fovqa run`: experiment, frames, scores, files, tables and figures; or one shard of the scores.
 
 use std::path::{Path, PathBuf};
 
 use fovqa_config::{Experiment, Eye};
-use fovqa_engine::{Found, Journal, ResultsFolder};
-use fovqa_io::FileId;
-use fovqa_metrics::Metric;
-use fovqa_report::Drawn;
-use fovqa_results::{
-    ExperimentRecord, FileError, RESULTS_CSV, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
-    SUMMARY_JSON, SummaryRecord, write_json_file, write_results_csv, write_whole_with,
+use fovqa_engine::{
+    EngineError, Findings, Found, Header, Journal, ResultsFolder, Shard, results, resume,
 };
+use fovqa_metrics::Metric;
 
 use crate::args::RunArgs;
 use crate::diagnostic;
@@ -18,19 +14,20 @@ use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::heat_maps::HeatMaps;
 use crate::progress::Terminal;
-use crate::{experiment, output, threads};
+use crate::results::{Shown, clear, failed, finish, say_failures_of_shard};
+use crate::{experiment, threads};
+
+/// A run that can begin.
+struct Run<'a> {
+    experiment: &'a Experiment,
+    found: &'a Found,
+    folder: &'a ResultsFolder,
+    shard: Option<Shard>,
+    maps: Option<HeatMaps>,
+}
 
 pub(crate) fn run(args: &RunArgs) -> Exit {
     scored(args, Shown::Table).1
-}
-
-/// What of a run goes to stdout.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Shown {
-    /// The comparison.
-    Table,
-    /// Nothing: something else will.
-    Nothing,
 }
 
 /// Scores an experiment; the folder with its results, where they could be written, and how that ended.
@@ -54,8 +51,7 @@ fn into_folder(args: &RunArgs, shown: Shown) -> Result<(PathBuf, Exit), Exit> {
         diagnostic::error(message, "add fvvdp = {} to [metrics]");
         return Err(Exit::Usage);
     }
-    let maps = args.maps.clone().map(|folder| HeatMaps::new(folder, true));
-    let folder = args.output.clone().unwrap_or_else(|| default_folder(&experiment));
+    let folder = args.output.clone().unwrap_or_else(|| default_folder(&experiment, args.shard));
     // Before anything is read or scored: a folder that cannot be written to is found now.
     let folder = ResultsFolder::open(&folder).map_err(|error| failed(&error, error.help()))?;
     let found = fovqa_engine::find(&experiment.plan);
@@ -63,13 +59,33 @@ fn into_folder(args: &RunArgs, shown: Shown) -> Result<(PathBuf, Exit), Exit> {
         say_problems(&experiment, &found);
         return Err(Exit::Usage);
     }
-    let results = score(&experiment, &found, &folder, maps.as_ref())?;
-    let exit = finish(&experiment, &results, &folder, shown)?;
+    let run = Run {
+        experiment: &experiment,
+        found: &found,
+        folder: &folder,
+        shard: args.shard,
+        maps: args.maps.clone().map(|folder| HeatMaps::new(folder, true)),
+    };
+    let header = Header::new(&experiment, &found, args.shard);
+    let known = if args.resume { run.known(&header)? } else { Findings::default() };
+    let terminal = Terminal::speaking(Dialect::Experiment);
+    let findings = run.score(&header, known, &terminal)?;
+    let exit = match args.shard {
+        None => {
+            let results = results(&experiment.plan, &terminal, findings);
+            finish(&experiment, &results, &folder, shown)?
+        }
+        Some(shard) => run.say_shard(shard, &findings),
+    };
     Ok((folder.path().to_owned(), exit))
 }
 
-fn default_folder(experiment: &Experiment) -> PathBuf {
-    Path::new("reports").join(&experiment.name)
+fn default_folder(experiment: &Experiment, shard: Option<Shard>) -> PathBuf {
+    let name = &experiment.name;
+    Path::new("reports").join(match shard {
+        None => name.clone(),
+        Some(shard) => format!("{name}-shard-{}-of-{}", shard.index(), shard.of()),
+    })
 }
 
 /// Says what is wrong with the inputs as a whole.
@@ -85,135 +101,83 @@ pub(crate) fn say_problems(experiment: &Experiment, found: &Found) {
     }
 }
 
-fn score(
-    experiment: &Experiment,
-    found: &Found,
-    folder: &ResultsFolder,
-    maps: Option<&HeatMaps>,
-) -> Result<RunResults, Exit> {
-    folder.clear().map_err(|error| failed(&error, error.help()))?;
-    fovqa_report::clear(folder.path());
-    let hash = file_hash(&experiment.text);
-    let terminal = Terminal::speaking(Dialect::Experiment);
-    let scored = Journal::create(folder.path(), &hash).and_then(|mut journal| {
-        fovqa_engine::run(&experiment.plan, found, &terminal, &mut |frame| {
-            maps.map_or(Ok(()), |maps| maps.write(&frame))?;
-            journal.write(&frame)
-        })
-    });
-    terminal.finish();
-    scored.map_err(|error| {
-        diagnostic::error(&error.to_string(), &Dialect::Experiment.spell(&error.help()));
-        if error.is_usage() { Exit::Usage } else { Exit::Input }
-    })
-}
-
-/// Writes the results, draws them, and says where they are.
-fn finish(
-    experiment: &Experiment,
-    results: &RunResults,
-    folder: &ResultsFolder,
-    shown: Shown,
-) -> Result<Exit, Exit> {
-    let summary = SummaryRecord::of(&experiment.name, results);
-    say_failures(results);
-    if let Err(error) = write(experiment, results, &summary, folder.path()) {
-        return Err(failed(&error, "free some space, or give another folder with --output"));
+impl Run<'_> {
+    /// What an earlier run of the same has left; what keeps it from being of use is said.
+    fn known(&self, header: &Header) -> Result<Findings, Exit> {
+        const SHOWN: usize = 10;
+        let folder = self.folder.path();
+        let resumed = resume(folder, header, &self.experiment.plan, self.found).map_err(broken)?;
+        let mut changes = resumed.changes;
+        let lacks = self.maps.as_ref().is_some_and(|maps| {
+            let mut scored = resumed.known.scored(&self.experiment.plan);
+            scored.any(|(named, frame)| !maps.has(named, frame))
+        });
+        if lacks {
+            changes.push("heat maps of finished frames are not in the folder of --maps".to_owned());
+        }
+        let shown = folder.display();
+        if changes.is_empty() {
+            let pairs = resumed.known.pairs();
+            if pairs > 0 {
+                let frames = if pairs == 1 { "1 frame is" } else { &format!("{pairs} frames are") };
+                diagnostic::note(&format!("{shown}: {frames} finished; going on from there"));
+            }
+            return Ok(resumed.known);
+        }
+        for change in changes.iter().take(SHOWN) {
+            diagnostic::warning(&format!("{shown}: {change}"));
+        }
+        if changes.len() > SHOWN {
+            diagnostic::warning(&format!("{shown}: {} more changes", changes.len() - SHOWN));
+        }
+        diagnostic::warning(&format!("{shown}: what is finished there is not used: all is scored"));
+        Ok(Findings::default())
     }
-    let drawn = fovqa_report::draw(folder.path()).map_err(|error| failed(&error, DRAW_AGAIN))?;
-    let drawn = match shown {
-        Shown::Table => drawn,
-        Shown::Nothing => Drawn { table: None, ..drawn },
-    };
-    let printed = say(&drawn, folder.path());
-    let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
-    let scored: usize = own.map(|comparison| comparison.report.frames.len()).sum();
-    if summary.errors.is_empty() {
-        return Ok(printed);
-    }
-    let errors = summary.errors.len();
-    let lines = if errors == 1 { "1 error" } else { &format!("{errors} errors") };
-    let rest = match scored {
-        0 => "nothing was scored".to_owned(),
-        scored => format!("{scored} frames scored all the same"),
-    };
-    diagnostic::error(&format!("{lines}, {rest}"), "");
-    Ok(Exit::Input)
-}
 
-/// What is left to do when only the drawing failed.
-const DRAW_AGAIN: &str = "the results are written: mend this, and `fovqa report` draws them";
-
-/// Says what could not be scored; of a great many, the first.
-fn say_failures(results: &RunResults) {
-    const SHOWN: usize = 20;
-    let failures = || {
-        let comparisons = results.comparisons.iter();
-        comparisons.flat_map(|comparison| {
-            comparison.report.failures.iter().map(move |failure| (comparison, failure))
-        })
-    };
-    for (comparison, failure) in failures().take(SHOWN) {
-        let frame = failure.frame.map(|frame| format!("frame {frame}"));
-        let eye = Some(comparison.eye).filter(|eye| !eye.is_empty()).map(str::to_owned);
-        let place = [Some(comparison.scene.clone()), Some(comparison.method.clone()), eye, frame];
-        let place: Vec<String> = place.into_iter().flatten().collect();
-        let help = Dialect::Experiment.spell(&failure.help);
-        diagnostic::error(&format!("{}: {}", place.join(", "), failure.message), &help);
+    fn score(
+        &self,
+        header: &Header,
+        known: Findings,
+        terminal: &Terminal,
+    ) -> Result<Findings, Exit> {
+        clear(self.folder).map_err(|error| failed(&error, error.help()))?;
+        let plan = &self.experiment.plan;
+        let scored =
+            Journal::begin(self.folder.path(), header, plan, &known).and_then(|mut journal| {
+                let record = &mut |entry: fovqa_engine::Entry<'_>| {
+                    self.maps.as_ref().map_or(Ok(()), |maps| maps.write(&entry))?;
+                    journal.write(entry)
+                };
+                let scored =
+                    fovqa_engine::score(plan, self.found, self.shard, known, terminal, record)?;
+                if self.shard.is_some() { journal.done().map(|()| scored) } else { Ok(scored) }
+            });
+        terminal.finish();
+        scored.map_err(broken)
     }
-    let more = failures().count().saturating_sub(SHOWN);
-    if more > 0 {
-        diagnostic::note(&format!("{more} more errors stand in summary.json"));
+
+    /// Says what could not be scored of a shard, and where it is.
+    fn say_shard(&self, shard: Shard, findings: &Findings) -> Exit {
+        let plan = &self.experiment.plan;
+        for problem in &self.found.problems {
+            let scene = &plan.scenes[problem.scene].name;
+            diagnostic::warning(&format!("{scene}: {} (of no shard)", problem.error));
+        }
+        let scored = findings.scored(plan).count();
+        let failures = say_failures_of_shard(&findings.failures(plan), scored);
+        let frames = if scored == 1 { "1 frame" } else { &format!("{scored} frames") };
+        diagnostic::note(&format!(
+            "{}: shard {shard} of {}, {frames}; `fovqa merge` puts shards together",
+            self.folder.path().display(),
+            self.experiment.name
+        ));
+        if failures { Exit::Input } else { Exit::Done }
     }
 }
 
-pub(crate) fn file_hash(text: &str) -> String {
-    // Reading from memory does not fail.
-    FileId::of(text.as_bytes()).map(|id| id.sha256).unwrap_or_default()
-}
-
-fn write(
-    experiment: &Experiment,
-    results: &RunResults,
-    summary: &SummaryRecord,
-    folder: &Path,
-) -> Result<(), FileError> {
-    write_whole_with(&folder.join(RESULTS_CSV), |out| write_results_csv(results, out))?;
-    write_json_file(&folder.join(SUMMARY_JSON), summary)?;
-    let file = experiment.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let record = RunRecord {
-        schema: RUN_SCHEMA.to_owned(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        experiment: ExperimentRecord {
-            file,
-            sha256: file_hash(&experiment.text),
-            text: experiment.text.clone(),
-        },
-        resolved: experiment.resolved(),
-        inputs: results.inputs.clone(),
-    };
-    write_json_file(&folder.join(RUN_JSON), &record)
-}
-
-/// The comparison on stdout, and where the files are on stderr.
-pub(crate) fn say(drawn: &Drawn, folder: &Path) -> Exit {
-    let printed = match &drawn.table {
-        Some(table) => output::write(|out| out.write_all(table.terminal().as_bytes())),
-        None => Exit::Done,
-    };
-    let figures = match drawn.figures {
-        0 => String::new(),
-        1 => ", 1 figure".to_owned(),
-        n => format!(", {n} figures"),
-    };
-    let folder = folder.display();
-    diagnostic::note(&format!(
-        "{folder}: results.csv, summary.json{figures}; look at {folder}/index.html"
-    ));
-    printed
-}
-
-fn failed(error: &dyn std::error::Error, help: &str) -> Exit {
-    diagnostic::error(&error.to_string(), &Dialect::Experiment.spell(help));
-    Exit::Input
+/// Says why a run cannot be.
+#[allow(clippy::needless_pass_by_value, reason = "it is the error of a result")]
+pub(crate) fn broken(error: EngineError) -> Exit {
+    diagnostic::error(&error.to_string(), &Dialect::Experiment.spell(&error.help()));
+    if error.is_usage() { Exit::Usage } else { Exit::Input }
 }

@@ -74,8 +74,8 @@ fn score(plan: &Plan, maps: Option<&HeatMaps>) -> Result<ScoreReport, EngineErro
         return Err(problem.error);
     }
     let terminal = Terminal::default();
-    let results = fovqa_engine::run(plan, &found, &terminal, &mut |frame| {
-        maps.map_or(Ok(()), |maps| maps.write(&frame))
+    let results = fovqa_engine::run(plan, &found, &terminal, &mut |entry| {
+        maps.map_or(Ok(()), |maps| maps.write(&entry))
     });
     terminal.finish();
     Ok(results?.comparisons.pop().map(|comparison| comparison.report).unwrap_or_default())

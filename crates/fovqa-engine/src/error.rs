@@ -93,6 +93,14 @@ pub enum EngineError {
         /// The reason.
         error: std::io::Error,
     },
+    /// A journal that cannot be read.
+    #[error("{}: the journal cannot be read: {error}", path.display())]
+    JournalRead {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: std::io::Error,
+    },
 }
 
 impl EngineError {
@@ -126,7 +134,8 @@ impl EngineError {
             | Self::GazeFile { .. }
             | Self::Mask(_)
             | Self::Map { .. }
-            | Self::Journal { .. } => false,
+            | Self::Journal { .. }
+            | Self::JournalRead { .. } => false,
         }
     }
 
@@ -161,8 +170,10 @@ impl EngineError {
             Self::GazeTrace { error, .. } => gaze_help(error).to_owned(),
             Self::Mask(error) => error.kind.help().to_owned(),
             Self::Journal { .. } => {
-                "free some space: frames in the journal are not lost".to_owned()
+                "free some space: frames in the journal are not lost, and {resume} goes on with them"
+                    .to_owned()
             }
+            Self::JournalRead { .. } => "mend that, or leave {resume} out".to_owned(),
         }
     }
 }

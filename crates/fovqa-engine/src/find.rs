@@ -37,6 +37,13 @@ pub struct FoundView {
     pub passed_over: usize,
 }
 
+impl FoundView {
+    /// How many tests there are to score.
+    pub fn pairs(&self) -> usize {
+        self.frames.iter().map(|frame| frame.tests.len()).sum()
+    }
+}
+
 /// One frame: its reference and the tests there are of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FoundFrame {

@@ -48,6 +48,27 @@ fn has_content(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|file| file.is_dir() || file.len() > 0)
 }
 
+/// Takes away what writers that were killed have left under temporary names. Nobody writes there now.
+fn sweep(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        if is_temporary(&entry.file_name().to_string_lossy()) {
+            // Where it cannot be taken away, it is in nobody's way.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether a name is `.NAME.PROCESS.tmp`, of a file that a run or a drawing writes.
+fn is_temporary(name: &str) -> bool {
+    const ENDINGS: [&str; 8] = ["csv", "json", "jsonl", "html", "md", "tex", "svg", "png"];
+    let inner = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp"));
+    inner.and_then(|inner| inner.rsplit_once('.')).is_some_and(|(of, process)| {
+        let ours = of == "fovqa" || of.rsplit_once('.').is_some_and(|(_, e)| ENDINGS.contains(&e));
+        ours && !process.is_empty() && process.bytes().all(|b| b.is_ascii_digit())
+    })
+}
+
 /// A folder of results, locked for as long as this lives.
 #[derive(Debug)]
 pub struct ResultsFolder {
@@ -146,6 +167,9 @@ impl ResultsFolder {
         let made = File::create(&probe).and_then(|mut file| file.write_all(b"fovqa"));
         let removed = fs::remove_file(&probe);
         made.and(removed).map_err(failed)?;
+        for folder in [path, &path.join("plots")] {
+            sweep(folder);
+        }
         Ok(Self { path: path.to_owned(), _lock: lock })
     }
 
@@ -183,6 +207,21 @@ mod tests {
         assert!(matches!(ResultsFolder::open(folder.path()), Err(FolderError::Busy(_))));
         drop(first);
         ResultsFolder::open(folder.path()).unwrap();
+    }
+
+    #[test]
+    fn what_a_killed_writer_left_is_taken_away() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("plots")).unwrap();
+        let ours = [".index.html.123.tmp", ".journal.jsonl.7.tmp", "plots/.a.b.svg.9.tmp"];
+        let others =
+            [".index.html.tmp", ".mine.12.tmp", "a.csv.1.tmp", ".a.csv.x.tmp", "plots/a.png"];
+        for file in ours.iter().chain(&others) {
+            fs::write(folder.path().join(file), "half").unwrap();
+        }
+        drop(ResultsFolder::open(folder.path()).unwrap());
+        assert!(ours.iter().all(|file| !folder.path().join(file).exists()));
+        assert!(others.iter().all(|file| folder.path().join(file).exists()));
     }
 
     #[test]

@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use fovqa_config::Plan;
 use fovqa_io::FileId;
 use fovqa_results::Input;
+use rayon::prelude::*;
 
 /// Inputs by path.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Inputs(BTreeMap<String, FileId>);
 
 impl Inputs {
@@ -16,17 +18,46 @@ impl Inputs {
             return None;
         }
         self.0.insert(path.to_owned(), id.clone());
-        Some(input((path.to_owned(), id.clone())))
+        Some(input((path, id)))
+    }
+
+    /// What is known of a file.
+    pub(crate) fn get(&self, path: &str) -> Option<&FileId> {
+        self.0.get(path)
+    }
+
+    /// All files, by path.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &FileId)> {
+        self.0.iter().map(|(path, id)| (path.as_str(), id))
     }
 
     /// All of them, by path.
-    pub(crate) fn all(self) -> Vec<Input> {
-        self.0.into_iter().map(input).collect()
+    pub(crate) fn all(&self) -> Vec<Input> {
+        self.0.iter().map(|(path, id)| input((path.as_str(), id))).collect()
+    }
+
+    /// What is not as it was, by path, in words.
+    pub(crate) fn changes(&self, plan: &Plan) -> Vec<String> {
+        let files: Vec<(&String, &FileId)> = self.0.iter().collect();
+        let change = |(shown, id): &(&String, &FileId)| {
+            let path = plan.base.join(shown);
+            match std::fs::metadata(&path) {
+                Err(_) => return Some(format!("{shown} is not there any more")),
+                Ok(file) if file.is_file() && file.len() == id.bytes => {}
+                Ok(_) => return Some(format!("{shown} has changed")),
+            }
+            match FileId::of_file(&path) {
+                Ok(now) if now == **id => None,
+                Ok(_) => Some(format!("{shown} has changed")),
+                Err(error) => Some(format!("{shown} cannot be read any more: {error}")),
+            }
+        };
+        files.par_iter().filter_map(change).collect()
     }
 }
 
-fn input((path, FileId { bytes, sha256 }): (String, FileId)) -> Input {
-    Input { path, bytes, sha256 }
+fn input((path, id): (&str, &FileId)) -> Input {
+    Input { path: path.to_owned(), bytes: id.bytes, sha256: id.sha256.clone() }
 }
 
 #[cfg(test)]
@@ -41,5 +72,22 @@ mod tests {
         assert!(inputs.add("b", &id).is_none());
         let paths: Vec<String> = inputs.all().into_iter().map(|input| input.path).collect();
         assert_eq!(paths, ["a", "b"]);
+    }
+
+    #[test]
+    fn what_has_changed_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let plan = Plan { base: folder.path().to_owned(), ..Plan::default() };
+        let mut inputs = Inputs::default();
+        for (name, text) in [("same", "a"), ("longer", "a"), ("other", "a"), ("gone", "a")] {
+            std::fs::write(folder.path().join(name), text).unwrap();
+            inputs.add(name, &FileId::of_file(&folder.path().join(name)).unwrap());
+        }
+        assert!(inputs.changes(&plan).is_empty());
+        std::fs::write(folder.path().join("longer"), "aa").unwrap();
+        std::fs::write(folder.path().join("other"), "b").unwrap();
+        std::fs::remove_file(folder.path().join("gone")).unwrap();
+        let wanted = ["gone is not there any more", "longer has changed", "other has changed"];
+        assert_eq!(inputs.changes(&plan), wanted);
     }
 }

@@ -3,28 +3,39 @@
 //! Knows nothing of TOML, drawing or the terminal; what it has to say on the way goes through
 //! [`Events`].
 
+mod assemble;
 mod error;
 mod events;
 mod find;
+mod findings;
 mod folder;
 mod inputs;
 mod journal;
 mod light;
 mod load;
+mod merge;
 mod read_ahead;
+mod resume;
 mod retina;
 mod run;
 mod scoring;
 mod settle;
 mod setup;
+mod share;
 mod temporal;
 mod timing;
 mod view;
+mod work;
 
+pub use assemble::results;
 pub use error::EngineError;
 pub use events::Events;
 pub use find::{Found, FoundFrame, FoundView, Problem, find};
+pub use findings::{Entry, Findings, Finished, Named, Record, Settled};
 pub use folder::{FolderError, ResultsFolder};
-pub use journal::{JOURNAL, Journal};
+pub use journal::{Header, JOURNAL, Journal, shard_in};
 pub use light::FvvdpMaps;
-pub use run::{Finished, Record, check, run};
+pub use merge::{MergeError, Shards};
+pub use resume::{Resumed, resume};
+pub use run::{check, run, score};
+pub use share::{Shard, ShardError};

@@ -1,6 +1,9 @@
 //! What is measured of the light that the display shows: FovVideoVDP and PU-PSNR.
 
+mod sequence;
+
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 use fovqa_config::{Plan, Settings};
@@ -15,7 +18,8 @@ use fovqa_results::FvvdpSight;
 
 use crate::find::FoundView;
 use crate::load::Fault;
-use crate::timing::{Timing, timings};
+use crate::timing::timings;
+use sequence::{Missing, Sequence, State};
 
 /// A frame's heat maps.
 #[derive(Debug)]
@@ -39,30 +43,6 @@ pub(crate) struct Light {
     sequences: BTreeMap<usize, Sequence>,
     /// The reference as it was seen last, for the other tests of a frame.
     prepared: Option<(Seen, FvvdpReference)>,
-}
-
-/// A method's sequence.
-struct Sequence {
-    timing: Timing,
-    state: State,
-}
-
-enum State {
-    /// Before its first frame.
-    New,
-    /// So many frames are through.
-    Going { reference: Stream, test: Stream, done: usize },
-    /// It cannot go on.
-    Broken(Missing),
-}
-
-/// What a sequence lacks.
-#[derive(Debug, Clone)]
-enum Missing {
-    /// A frame that could not be scored, by its index in the view.
-    Frame(usize),
-    /// Something else, in words.
-    Said(String),
 }
 
 /// The frames a reference is made from, and the gaze.
@@ -112,13 +92,7 @@ impl Light {
         let photometry = Photometry::new(settings.photometry()?);
         // That sequences can be timed was found out with their frames.
         let timings = timings(view, fps, &params).unwrap_or_default().into_iter();
-        let sequences = timings.map(|(method, timing)| {
-            let state = match &timing.time {
-                Ok(_) => State::New,
-                Err(gap) => State::Broken(Missing::Said(gap.to_string())),
-            };
-            (method, Sequence { timing, state })
-        });
+        let sequences = timings.map(|(method, timing)| (method, Sequence::new(timing)));
         let wants_fvvdp = metrics.contains(&Metric::Fvvdp);
         Some(Self {
             params,
@@ -130,6 +104,26 @@ impl Light {
             sequences: sequences.filter(|_| wants_fvvdp).collect(),
             prepared: None,
         })
+    }
+
+    /// Goes on with a method's sequence where `done` of its frames are through, up to `end`: those of
+    /// them that have to come once more, without being scored.
+    pub(crate) fn go_on(&mut self, method: usize, done: usize, end: usize) -> Range<usize> {
+        let sequence = self.sequences.get_mut(&method);
+        sequence.map_or(done..done, |sequence| sequence.go_on(done, end))
+    }
+
+    /// Takes a pair in without scoring it.
+    pub(crate) fn warm_up(
+        &mut self,
+        (frame, method): (usize, usize),
+        [reference, test]: [&Frame; 2],
+        load: &LoadPair<'_>,
+    ) {
+        if self.sequences.contains_key(&method) {
+            let reference = self.luminance_of_reference(frame, reference);
+            self.step(frame, method, &reference, &self.luminance(test), load);
+        }
     }
 
     /// Whether a frame's values are taken for cd/m² without anybody having said so, and none is brighter
@@ -164,7 +158,7 @@ impl Light {
         let pu_psnr = self.pu_psnr.then(|| pu_psnr_db(&reference, &test, pair.regions));
         let mut measured = Measured { pu_psnr_db: pu_psnr.flatten(), ..Measured::default() };
         if let Some((metric, regions)) = pair.fvvdp
-            && self.step(pair, &reference, &test, load)
+            && self.step(pair.frame, pair.method, &reference, &test, load)
         {
             let (frame, maps) = self.score(pair, metric, regions);
             measured.fvvdp = Some(frame);
@@ -176,16 +170,17 @@ impl Light {
     /// Takes a frame into its sequence; whether that still goes on.
     fn step(
         &mut self,
-        pair: &Lit<'_>,
+        frame: usize,
+        method: usize,
         reference: &Arc<Grid>,
         test: &Arc<Grid>,
         load: &LoadPair<'_>,
     ) -> bool {
-        let Some(mut sequence) = self.sequences.remove(&pair.method) else { return false };
-        let place = sequence.timing.frames.binary_search(&pair.frame).unwrap_or(usize::MAX);
+        let Some(mut sequence) = self.sequences.remove(&method) else { return false };
+        let place = sequence.timing.frames.binary_search(&frame).unwrap_or(usize::MAX);
         match &mut sequence.state {
-            State::New if place == 0 => {
-                sequence.state = self.begin(&sequence.timing, pair.method, reference, test, load);
+            State::New if place == sequence.start => {
+                sequence.state = self.begin(&sequence, method, reference, test, load);
             }
             State::Going { reference: before, test: test_before, done } if *done == place => {
                 before.push(place, Arc::clone(reference));
@@ -199,13 +194,13 @@ impl Light {
             State::Broken(_) => {}
         }
         let goes_on = matches!(sequence.state, State::Going { .. });
-        self.sequences.insert(pair.method, sequence);
+        self.sequences.insert(method, sequence);
         goes_on
     }
 
     fn begin(
         &self,
-        timing: &Timing,
+        Sequence { timing, start, .. }: &Sequence,
         method: usize,
         reference: &Arc<Grid>,
         test: &Arc<Grid>,
@@ -215,6 +210,14 @@ impl Light {
             Ok(time) => time,
             Err(gap) => return State::Broken(Missing::Said(gap.to_string())),
         };
+        if *start > 0 {
+            let begun = |luminance| Stream::begin_at(time, *start, luminance);
+            return State::Going {
+                reference: begun(reference),
+                test: begun(test),
+                done: start + 1,
+            };
+        }
         let mut before = [BTreeMap::new(), BTreeMap::new()];
         for frame in time.before_first() {
             let pair = match load(timing.frames[frame], method) {
@@ -242,7 +245,7 @@ impl Light {
         metric: &Fvvdp,
         regions: &FvvdpRegions,
     ) -> (FvvdpFrame, Option<FvvdpMaps>) {
-        let Some(Sequence { timing, state: State::Going { reference, test, .. } }) =
+        let Some(Sequence { timing, state: State::Going { reference, test, .. }, .. }) =
             self.sequences.get(&pair.method)
         else {
             unreachable!("the sequence goes on")
@@ -277,13 +280,17 @@ impl Light {
         (frame, maps)
     }
 
-    /// How a method's sequence was seen, and whether it has a value; `number` names its frames.
-    pub(crate) fn sight(
+    /// Why a method's sequence has no value, as far as it goes here; `number` names its frames.
+    pub(crate) fn missing(
         &self,
         method: usize,
-        pixels_per_degree: f64,
         number: impl Fn(usize) -> String,
-    ) -> Option<FvvdpSight> {
+    ) -> Option<String> {
+        self.sequences.get(&method)?.missing(number)
+    }
+
+    /// How a method's sequence is seen.
+    pub(crate) fn sight(&self, method: usize, pixels_per_degree: f64) -> Option<FvvdpSight> {
         let sequence = self.sequences.get(&method)?;
         Some(FvvdpSight {
             pixels_per_degree,
@@ -291,28 +298,8 @@ impl Light {
             black_cd_m2: self.photometry.black_cd_m2(),
             foveated: self.params.foveated,
             fps: sequence.timing.fps,
-            missing: sequence.missing(number),
+            missing: None,
             eyes_jod: None,
         })
-    }
-}
-
-impl Sequence {
-    /// How many frames are through.
-    fn done(&self) -> usize {
-        match &self.state {
-            State::Going { done, .. } => *done,
-            State::New | State::Broken(_) => 0,
-        }
-    }
-
-    /// Why it has no value; `None` where all its frames are through.
-    fn missing(&self, number: impl Fn(usize) -> String) -> Option<String> {
-        let frame = match &self.state {
-            State::Broken(Missing::Said(why)) => return Some(why.clone()),
-            State::Broken(Missing::Frame(frame)) => frame,
-            State::New | State::Going { .. } => self.timing.frames.get(self.done())?,
-        };
-        Some(format!("frame {} could not be scored", number(*frame)))
     }
 }

@@ -1,24 +1,24 @@
 //! One view's share of a run: its files in order, every test against its reference.
 
-use std::collections::BTreeMap;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
-use fovqa_config::{EyeView, Gaze, MetricChoice, Plan, Scene};
+use fovqa_config::{EyeView, Gaze, Plan, Scene};
 use fovqa_frame::Mask;
 use fovqa_io::{FileId, frame_size, read_mask};
-use fovqa_metrics::{Metric, MetricKind};
-use fovqa_results::{Input, ScoreReport};
+use fovqa_metrics::Metric;
 use fovqa_vision::{BandEdges, GazeAt};
 
+use crate::assemble::whole;
 use crate::error::EngineError;
 use crate::events::{Progress, Warnings};
 use crate::find::{Found, FoundFrame, FoundView};
+use crate::findings::{Entry, Finished, Named, Outcome, Record, Settled, ViewFindings};
 use crate::inputs::Inputs;
 use crate::load::{Loaded, Loader, Step};
 use crate::read_ahead::read_ahead;
-use crate::run::{Finished, Place, Record, whole};
 use crate::setup::farthest_deg;
 use crate::view::ViewRun;
+use crate::work::Work;
 
 /// What is to be scored.
 pub(crate) struct Scoring<'a> {
@@ -27,100 +27,152 @@ pub(crate) struct Scoring<'a> {
     pub(crate) view: &'a FoundView,
     /// Bands of the whole scene, where both eyes' views decide them.
     pub(crate) bands: Option<&'a BandEdges>,
+    /// Which of the view's pairs, not none of them.
+    pub(crate) range: Range<usize>,
 }
 
 /// Where it goes.
 pub(crate) struct TakenDown<'a, 'e, 'r> {
-    pub(crate) reports: &'a mut BTreeMap<Place, ScoreReport>,
     pub(crate) inputs: &'a mut Inputs,
     pub(crate) warnings: &'a mut Warnings<'e>,
     pub(crate) progress: &'a mut Progress<'e>,
     pub(crate) record: &'a mut Record<'r>,
 }
 
-impl Scoring<'_> {
-    fn eye(&self) -> &EyeView {
+impl TakenDown<'_, '_, '_> {
+    fn input(&mut self, path: &str, id: &FileId) -> Result<(), EngineError> {
+        self.inputs.add(path, id).map_or(Ok(()), |input| (self.record)(Entry::Input(&input)))
+    }
+
+    /// The files that were read for a step.
+    fn inputs_of(&mut self, loaded: &Loaded) -> Result<(), EngineError> {
+        let sides = loaded.reference.iter().chain([&loaded.test]).flatten();
+        let mut ids = sides.flat_map(|side| &side.ids);
+        ids.try_for_each(|(file, id)| self.input(file, id))
+    }
+}
+
+impl<'a> Scoring<'a> {
+    fn eye(&self) -> &'a EyeView {
         &self.scene.eyes[self.view.eye]
     }
 
-    pub(crate) fn run(&self, down: &mut TakenDown<'_, '_, '_>) -> Result<(), EngineError> {
+    fn named(&self, method: usize) -> Named<'a> {
+        let (scene, method) = (&self.scene.name, &self.plan.methods[method]);
+        Named { scene, method, eye: self.eye().eye }
+    }
+
+    /// Scores what is not known.
+    pub(crate) fn run(
+        &self,
+        known: ViewFindings,
+        down: &mut TakenDown<'_, '_, '_>,
+    ) -> Result<ViewFindings, EngineError> {
         let (plan, eye) = (self.plan, self.eye());
-        let steps = steps(self.view);
         let metrics = self.begin(down)?;
         let mask = match self.mask() {
             Ok(mask) => mask,
             Err(error) => {
-                for &(method, _) in &eye.tests {
-                    let failure = whole(error.to_string(), error.help());
-                    self.report(method, down).failures.push(failure);
-                }
-                down.progress.step(steps.len());
-                return Ok(());
+                let failure = whole(error.to_string(), error.help());
+                (down.record)(Entry::ViewFailed(&self.scene.name, eye.eye, &failure))?;
+                down.progress.step(self.range.len());
+                return Ok(ViewFindings { failed: Some(failure), ..ViewFindings::default() });
             }
         };
-        for &(method, _) in &eye.tests {
-            let report = self.report(method, down);
-            report.metrics.clone_from(&metrics);
-            let held = |trace: &Vec<GazeAt>| trace.iter().filter(|gaze| gaze.held).count();
-            report.gaze_held = self.view.trace.as_ref().map(held);
+        self.inputs_beside(down)?;
+        down.progress.step(known.pairs.len());
+        let work = Work::new(self.view, self.range.clone(), &known.pairs);
+        if work.todo.is_empty() && known.settled.is_some() {
+            return Ok(known);
         }
-        let mut beside = self.inputs_beside(down.inputs);
         let guides = metrics.contains(&Metric::Atd);
         let loader = Loader { plan, settings: &eye.settings, guides };
         let sequence = (self.bands, self.scene.fps);
-        let mut run = ViewRun::new(plan, eye, self.view, mask, metrics, sequence, &loader);
+        let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
+        let mut findings = known;
+        let frame = self.take_up(&work, &mut run, &loader, &mut findings, down)?;
+        self.score(&work.steps(frame), &mut run, &loader, &mut findings, down)?;
+        let settled = self.settled(&run, metrics, &work);
+        let (scene, methods) = (&self.scene.name, &plan.methods);
+        (down.record)(Entry::Settled(scene, eye.eye, &settled, methods))?;
+        Ok(ViewFindings { settled: Some(settled), ..findings })
+    }
+
+    /// Brings a run to where it would be before the first pair that is to be scored; the frame it is
+    /// at then.
+    fn take_up(
+        &self,
+        work: &Work<'_>,
+        run: &mut ViewRun<'_>,
+        loader: &Loader<'_>,
+        findings: &mut ViewFindings,
+        down: &mut TakenDown<'_, '_, '_>,
+    ) -> Result<Option<usize>, EngineError> {
+        let kept = run.go_on(work);
+        let mut frame = None;
+        for index in 0..work.first() {
+            let (kept, step) = (kept.contains(&index), work.step(index, frame));
+            if !kept && !run.wants(&step, work) {
+                continue;
+            }
+            frame = Some(step.frame);
+            let loaded = loader.load(&step);
+            down.inputs_of(&loaded)?;
+            if let Err(failure) = run.warm_up(&step, loaded, kept, down.warnings) {
+                findings.unsound = true;
+                (down.record)(Entry::Before(self.named(step.method), &failure))?;
+            }
+        }
+        Ok(frame)
+    }
+
+    fn score(
+        &self,
+        steps: &[(usize, Step<'_>)],
+        run: &mut ViewRun<'_>,
+        loader: &Loader<'_>,
+        findings: &mut ViewFindings,
+        down: &mut TakenDown<'_, '_, '_>,
+    ) -> Result<(), EngineError> {
         let mut written = Ok(());
         read_ahead(
-            &steps,
+            steps,
             rayon::current_num_threads(),
-            |step| loader.load(step),
+            |(_, step)| loader.load(step),
             Loaded::bytes,
-            |index, loaded| {
-                let step = &steps[index];
-                let mut inputs = std::mem::take(&mut beside);
-                for side in loaded.reference.iter().chain([&loaded.test]).flatten() {
-                    for (file, id) in &side.ids {
-                        inputs.extend(down.inputs.add(file, id));
-                    }
+            |nth, loaded| {
+                let (index, step) = &steps[nth];
+                written = down.inputs_of(&loaded);
+                // What cannot be taken down any more is not worth scoring.
+                if written.is_err() {
+                    return ControlFlow::Break(());
                 }
                 let result = run.step(step, loaded, down.warnings);
-                written = (down.record)(Finished {
-                    scene: &self.scene.name,
-                    method: &plan.methods[step.method],
-                    eye: eye.eye,
-                    inputs,
+                let guides = run.atd_guides(step.method);
+                written = (down.record)(Entry::Pair(Finished {
+                    named: self.named(step.method),
+                    step: *index,
                     result: result.as_ref().map(|(frame, _)| frame),
+                    guides,
                     maps: result.as_ref().ok().and_then(|(_, maps)| maps.as_ref()),
-                });
-                let report = self.report(step.method, down);
-                match result {
-                    Ok((frame, _)) => report.frames.push(frame),
-                    Err(failure) => report.failures.push(failure),
-                }
+                }));
+                let result = result.map(|(frame, _)| frame);
+                findings.pairs.insert(*index, Outcome { method: step.method, result, guides });
                 down.progress.step(1);
-                // What cannot be taken down any more is not worth scoring.
                 if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
         );
-        written?;
-        for &(method, _) in &eye.tests {
-            if let Some((view, metrics)) = run.settled() {
-                let report = self.report(method, down);
-                report.view = view;
-                report.metrics = metrics;
-                report.atd_guides = run.atd_guides(method);
-                report.fvvdp = run.fvvdp(method);
-                // A frame that could not be scored has said so; one that was never there has not.
-                let missing = report.fvvdp.as_ref().and_then(|fvvdp| fvvdp.missing.clone());
-                if let Some(why) = missing.filter(|_| report.failures.is_empty()) {
-                    let message = format!("FovVideoVDP has no value for the sequence: {why}");
-                    let help =
-                        "render the frames that are missing, or leave fvvdp out of {metrics}";
-                    report.failures.push(whole(message, help.to_owned()));
-                }
-            }
-        }
-        Ok(())
+        written
+    }
+
+    fn settled(&self, run: &ViewRun<'_>, metrics: Vec<Metric>, work: &Work<'_>) -> Settled {
+        let held = |trace: &Vec<GazeAt>| trace.iter().filter(|gaze| gaze.held).count();
+        let gaze_held = self.view.trace.as_ref().map(held);
+        let (view, metrics) = run.settled().unwrap_or((None, metrics));
+        let methods = work.methods();
+        let fvvdp = methods.iter().filter_map(|method| Some((*method, run.fvvdp(*method)?)));
+        let missing = methods.iter().filter_map(|method| Some((*method, run.missing(*method)?)));
+        Settled { view, metrics, gaze_held, fvvdp: fvvdp.collect(), missing: missing.collect() }
     }
 
     /// Settles the metrics, and says what has to be said before the first frame.
@@ -130,10 +182,7 @@ impl Scoring<'_> {
             Some(eye) => format!("{}, {} eye", self.scene.name, eye.name()),
         };
         down.warnings.enter(place, self.view.frames.len());
-        let (mut metrics, left_out) = crate::settle::metrics(self.plan, &self.eye().settings)?;
-        if self.plan.metrics == MetricChoice::Default && self.view.frames.len() < 2 {
-            metrics.retain(|metric| !metric.is(MetricKind::Temporal));
-        }
+        let (metrics, left_out) = self.view.metrics(self.plan)?;
         for metric in left_out {
             let label = metric.info().label;
             let message = format!("{label} is left out: it needs {{view}}");
@@ -154,41 +203,22 @@ impl Scoring<'_> {
         mask.transpose().map_err(|error| shown(EngineError::Mask(error)))
     }
 
-    fn report<'a>(
-        &self,
-        method: usize,
-        down: &'a mut TakenDown<'_, '_, '_>,
-    ) -> &'a mut ScoreReport {
-        down.reports.entry((self.view.scene, method, self.view.eye)).or_default()
-    }
-
     /// What is read once for all frames: mask and gaze trace.
-    fn inputs_beside(&self, inputs: &mut Inputs) -> Vec<Input> {
+    fn inputs_beside(&self, down: &mut TakenDown<'_, '_, '_>) -> Result<(), EngineError> {
         let settings = &self.eye().settings;
         let trace = match &settings.gaze {
             Gaze::Trace { path, .. } => Some(path),
             Gaze::Centre | Gaze::Point(_) => None,
         };
         let files = [settings.mask.as_ref(), trace].into_iter().flatten();
-        files
-            .filter(|_| self.plan.hash_inputs)
+        for path in files.filter(|_| self.plan.hash_inputs) {
             // They have been read; one that has gone since is no input of another run either.
-            .filter_map(|path| inputs.add(&self.plan.shown(path), &FileId::of_file(path).ok()?))
-            .collect()
+            if let Ok(id) = FileId::of_file(path) {
+                down.input(&self.plan.shown(path), &id)?;
+            }
+        }
+        Ok(())
     }
-}
-
-fn steps(view: &FoundView) -> Vec<Step<'_>> {
-    let frames = view.frames.iter().enumerate();
-    let steps = frames.flat_map(|(index, frame)| {
-        frame.tests.iter().enumerate().map(move |(nth, (method, test))| Step {
-            frame: index,
-            reference: (nth == 0).then_some((&*frame.reference, &frame.guides)),
-            method: *method,
-            test,
-        })
-    });
-    steps.collect()
 }
 
 /// The bands of a scene with two eyes and none given: one list, as far as either eye sees.

@@ -1,10 +1,11 @@
 //! Which metrics a view allows, before a pixel is read.
 
 use fovqa_config::{MetricChoice, Plan, Settings};
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Metric, MetricKind};
 use fovqa_vision::ViewSpec;
 
 use crate::error::{EngineError, no_view};
+use crate::find::FoundView;
 
 /// The metrics of a view, and those of the default ones that are left out for want of one.
 ///
@@ -37,6 +38,18 @@ pub(crate) fn metrics(
             let (left_out, metrics) = Metric::DEFAULT.into_iter().partition(lacking);
             Ok((metrics, left_out))
         }
+    }
+}
+
+impl FoundView {
+    /// The same for frames that were found: one alone has no differences over time.
+    pub(crate) fn metrics(&self, plan: &Plan) -> Result<(Vec<Metric>, Vec<Metric>), EngineError> {
+        let settings = &plan.scenes[self.scene].eyes[self.eye].settings;
+        let (mut metrics, left_out) = metrics(plan, settings)?;
+        if plan.metrics == MetricChoice::Default && self.frames.len() < 2 {
+            metrics.retain(|metric| !metric.is(MetricKind::Temporal));
+        }
+        Ok((metrics, left_out))
     }
 }
 

@@ -73,6 +73,11 @@ struct Carries {
 }
 
 impl Carries {
+    /// Whether a frame would tell more.
+    fn lacks(&self, first: bool) -> bool {
+        self.depth.is_none() || (!first && self.motion.is_none())
+    }
+
     fn check(&mut self, side: &Side, first: bool) -> Result<(), Fault> {
         let Guides { motion, depth } = &side.guides;
         if !first {
@@ -122,6 +127,12 @@ impl Temporal {
         }
     }
 
+    /// Whether a pair tells what the frames of the reference carry; or those of its method's tests.
+    pub(crate) fn lacks(&self, method: usize, first: bool) -> [bool; 2] {
+        let test = self.tests.get(&method).is_none_or(|test| test.carries.lacks(first));
+        [self.reference.carries.lacks(first), test]
+    }
+
     /// Checks that frames carry what those before them did.
     pub(crate) fn check(&mut self, present: &Present<'_>, first: bool) -> Result<(), Fault> {
         self.reference.carries.check(present.reference, first)?;
@@ -165,14 +176,19 @@ impl Temporal {
         counted: Counted<'_>,
     ) -> Option<Sides<AtdFrame>> {
         let found = self.compare(present, &counted);
+        self.keep(present, counted.finite);
+        found
+    }
+
+    /// Keeps a pair for the next one, once both lumas are there.
+    pub(crate) fn keep(&mut self, present: &Present<'_>, finite: Option<Mask>) {
         let test = self.tests.entry(present.method).or_default();
         std::mem::swap(&mut test.luma, &mut self.test_luma);
         test.at = Some(present.position);
-        test.finite = counted.finite;
+        test.finite = finite;
         if self.params.depth_tolerance.is_some() {
             test.depth.take(present.test.guides.depth.as_ref(), present.position);
         }
-        found
     }
 
     fn compare(&mut self, present: &Present<'_>, counted: &Counted<'_>) -> Option<Sides<AtdFrame>> {

@@ -1,5 +1,7 @@
 //! One eye's view of a scene, frame by frame: each reference is kept for all tests of its frame.
 
+mod warm_up;
+
 use fovqa_config::{EyeView, Plan};
 use fovqa_frame::{Mask, PairSignal, SignalTables};
 use fovqa_metrics::temporal::KeptPlane;
@@ -71,11 +73,16 @@ impl<'a> ViewRun<'a> {
         self.temporal.as_ref().map(|temporal| temporal.guides(method)).unwrap_or_default()
     }
 
-    /// How FovVideoVDP saw the sequence of a method, where it is asked for and a pair could be compared.
+    /// How FovVideoVDP sees the sequence of a method, where it is asked for and a pair could be compared.
     pub(crate) fn fvvdp(&self, method: usize) -> Option<FvvdpSight> {
         let geometry = self.setup.as_ref()?.fvvdp()?.geometry();
+        self.light.as_ref()?.sight(method, geometry.pixels_per_degree)
+    }
+
+    /// Why FovVideoVDP has no value for the sequence of a method, as far as it goes here.
+    pub(crate) fn missing(&self, method: usize) -> Option<String> {
         let number = |index: usize| self.view.frames[index].number.to_string();
-        self.light.as_ref()?.sight(method, geometry.pixels_per_degree, number)
+        self.light.as_ref()?.missing(method, number)
     }
 
     /// The view and the metrics that fit it, once a pair could be compared.
@@ -91,6 +98,19 @@ impl<'a> ViewRun<'a> {
         loaded: Loaded,
         warnings: &mut Warnings<'_>,
     ) -> Result<(FrameResult, Option<FvvdpMaps>), Failure> {
+        self.take(step, loaded, |run, reference, test| {
+            let finite = run.enter(step, reference, test, warnings)?;
+            run.score(step, reference, test, finite, warnings)
+        })
+    }
+
+    /// Takes over the reference that comes with a step, and does something with the pair.
+    fn take<T>(
+        &mut self,
+        step: &Step<'_>,
+        loaded: Loaded,
+        with: impl FnOnce(&mut Self, &Side, &Side) -> Result<T, Fault>,
+    ) -> Result<T, Failure> {
         if let Some(reference) = loaded.reference {
             if let (Some(Ok(old)), Some(temporal)) = (&self.reference, &mut self.temporal) {
                 temporal.leave(old, self.position);
@@ -102,10 +122,9 @@ impl<'a> ViewRun<'a> {
         let reference = self.reference.take();
         let result = match &reference {
             Some(Err(fault)) => Err(fault.clone()),
-            Some(Ok(reference)) => loaded
-                .test
-                .map_err(Fault::from)
-                .and_then(|test| self.score(step, reference, &test, warnings)),
+            Some(Ok(reference)) => {
+                loaded.test.map_err(Fault::from).and_then(|test| with(self, reference, &test))
+            }
             None => unreachable!("the first test of a frame brings its reference"),
         };
         self.reference = reference;
@@ -152,13 +171,14 @@ impl<'a> ViewRun<'a> {
         })
     }
 
-    fn score(
+    /// Checks that a pair may be compared, and that it fits those before it; where both are finite.
+    fn enter(
         &mut self,
         step: &Step<'_>,
         reference: &Side,
         test: &Side,
         warnings: &mut Warnings<'_>,
-    ) -> Result<(FrameResult, Option<FvvdpMaps>), Fault> {
+    ) -> Result<Option<Mask>, Fault> {
         let finite = comparable(reference, test, self.eye.settings.nonfinite)?;
         for side in [reference, test] {
             for note in &side.notes {
@@ -166,6 +186,22 @@ impl<'a> ViewRun<'a> {
             }
         }
         self.settle(reference, warnings)?;
+        let position = self.view.frames[step.frame].position;
+        if let Some(temporal) = &mut self.temporal {
+            let present = Present { reference, test, method: step.method, position };
+            temporal.check(&present, step.frame == 0)?;
+        }
+        Ok(finite)
+    }
+
+    fn score(
+        &mut self,
+        step: &Step<'_>,
+        reference: &Side,
+        test: &Side,
+        finite: Option<Mask>,
+        warnings: &mut Warnings<'_>,
+    ) -> Result<(FrameResult, Option<FvvdpMaps>), Fault> {
         let (view, size) = (self.view, reference.size());
         let Some(setup) = &mut self.setup else { unreachable!("it has just been settled") };
         let gaze_px = view.trace.as_ref().map(|trace| trace[step.frame].px);
@@ -177,9 +213,6 @@ impl<'a> ViewRun<'a> {
         }
         let position = view.frames[step.frame].position;
         let present = Present { reference, test, method: step.method, position };
-        if let Some(temporal) = &mut self.temporal {
-            temporal.check(&present, step.frame == 0)?;
-        }
         let retina = setup.retina();
         let (regions, blocks) = match &finite {
             None => retina.regions(),
@@ -190,10 +223,7 @@ impl<'a> ViewRun<'a> {
         };
         let signal = PairSignal::new(&reference.frame, &test.frame, &self.tables);
         let scores = setup.scorer.score(&signal, &regions, retina.weight.as_ref());
-        let mut scores = scores.map_err(|error| Fault {
-            message: format!("{}: {error}", test.file),
-            help: format!("leave it out of {{metrics}}, or {}", score_help(&error)),
-        })?;
+        let mut scores = scores.map_err(|error| unscored(&test.file, &error))?;
         let lit = Lit {
             frame: step.frame,
             method: step.method,
@@ -328,6 +358,13 @@ fn warn_of_gaze(gaze: [f64; 2], size: (usize, usize), warnings: &mut Warnings<'_
             gaze[0], gaze[1], size.0, size.1
         );
         warnings.once_a_view("gaze outside", &message);
+    }
+}
+
+fn unscored(file: &str, error: &ScoreError) -> Fault {
+    Fault {
+        message: format!("{file}: {error}"),
+        help: format!("leave it out of {{metrics}}, or {}", score_help(error)),
     }
 }
 

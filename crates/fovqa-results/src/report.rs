@@ -68,7 +68,7 @@ pub struct AtdGuides {
 }
 
 /// How FovVideoVDP sees a sequence, and what came of it as a whole.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FvvdpSight {
     /// Pixels of the display in a degree at its centre.
     pub pixels_per_degree: f64,

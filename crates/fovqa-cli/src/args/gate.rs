@@ -71,6 +71,9 @@ pub(crate) struct GateArgs {
     /// Folder for the results of an experiment [default: reports/NAME, NAME being the experiment's]
     #[arg(long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
+    /// Go on with a run that was broken off, as `fovqa run --resume` does
+    #[arg(long)]
+    pub(crate) resume: bool,
     /// Only these of each scene's frames, from A up to, but without, B
     #[arg(long, value_name = "A..B:STEP")]
     pub(crate) frames: Option<FrameRange>,

@@ -18,7 +18,7 @@ pub(crate) use baseline::BaselineCommand;
 pub(crate) use curves::CurvesArgs;
 pub(crate) use gate::{Annotations, GateArgs, GateFormat};
 pub(crate) use published_numbers::PublishedNumbersArgs;
-pub(crate) use run::{CheckArgs, ReportArgs, RunArgs};
+pub(crate) use run::{CheckArgs, MergeArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -57,6 +57,9 @@ pub(crate) enum Command {
     /// Save, show and renew the baseline that a gate compares with.
     #[command(subcommand, after_help = baseline::EXAMPLES)]
     Baseline(BaselineCommand),
+    /// Put the shards of a run together: what a run of all of it would write.
+    #[command(after_help = run::MERGE_EXAMPLES)]
+    Merge(MergeArgs),
     /// Draw the tables, figures and page of a run again, without scoring; or a page over several.
     Report(ReportArgs),
     /// Check an experiment file, and print its plan and the frames found; reads no pixels.

@@ -60,6 +60,11 @@ impl Time {
         frames.filter(|frame| *frame > 0).collect()
     }
 
+    /// How many frames the filters reach over, the present one among them.
+    pub fn reach(&self) -> usize {
+        self.filters.as_ref().map_or(1, TemporalFilters::len)
+    }
+
     fn at_first(&self) -> Vec<usize> {
         match &self.filters {
             None => vec![0],
@@ -85,6 +90,13 @@ impl Stream {
         Self(Window::new(frames.collect()))
     }
 
+    /// Begins in the middle of a sequence. What lies before this frame is taken to be like it: channels
+    /// are those of the whole sequence once [`Time::reach`] frames are in, this one among them.
+    pub fn begin_at(time: &Time, frame: usize, luminance: &Arc<Grid>) -> Self {
+        let alike = (0..time.reach()).map(|_| (frame, Arc::clone(luminance)));
+        Self(Window::new(alike.collect()))
+    }
+
     /// Goes on to the next frame, by its number.
     pub fn push(&mut self, frame: usize, luminance: Arc<Grid>) {
         self.0.push(frame, luminance);
@@ -100,6 +112,46 @@ impl Stream {
         match &time.filters {
             None => vec![self.0.newest()],
             Some(filters) => self.0.filtered(filters).into_iter().map(Arc::new).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(value: f32) -> Arc<Grid> {
+        let mut grid = Grid::new(3, 2);
+        grid.fill_blocks(|_, rows| rows.for_each(|row| row[..3].fill(value)));
+        Arc::new(grid)
+    }
+
+    /// 24 frames a second are 6 taps.
+    #[test]
+    fn a_sequence_can_be_taken_up_in_its_middle() {
+        const FRAMES: usize = 12;
+        let frames: Vec<Arc<Grid>> = (0..FRAMES).map(|i| grid((i * i) as f32 + 0.1)).collect();
+        for padding in [Padding::Replicate, Padding::Circular, Padding::Pingpong] {
+            let time = Time::new(FRAMES, Some(24.0), padding).unwrap();
+            assert_eq!(time.reach(), 6);
+            let before = (1..FRAMES).map(|i| (i, Arc::clone(&frames[i]))).collect();
+            let mut whole = Stream::begin(&time, &frames[0], &before);
+            let mut at = Vec::new();
+            for (frame, luminance) in frames.iter().enumerate() {
+                if frame > 0 {
+                    whole.push(frame, Arc::clone(luminance));
+                }
+                at.push(whole.channels(&time));
+            }
+            // From the frame on that is as many before another as the filters reach back.
+            for first in 1..FRAMES {
+                let mut part = Stream::begin_at(&time, first, &frames[first]);
+                for frame in first + 1..FRAMES {
+                    part.push(frame, Arc::clone(&frames[frame]));
+                    let alike = part.channels(&time) == at[frame];
+                    assert_eq!(alike, frame - first >= 5, "{padding:?}: {frame} from {first}");
+                }
+            }
         }
     }
 }

@@ -1,0 +1,126 @@
+//! What was found of all pairs to the results of a run: comparison by comparison, in order.
+
+use std::collections::BTreeMap;
+
+use fovqa_config::{Eye, Plan};
+use fovqa_results::{Comparison, Failure, RunResults, ScoreReport, both_eyes};
+
+use crate::events::Events;
+use crate::findings::{Findings, Outcome, Place, Settled, ViewFindings, ViewPlace};
+
+/// A failure of a whole comparison.
+pub(crate) fn whole(message: String, help: String) -> Failure {
+    Failure { frame: None, reference: String::new(), test: String::new(), message, help }
+}
+
+/// The results of a whole run.
+pub fn results(plan: &Plan, events: &dyn Events, findings: Findings) -> RunResults {
+    let inputs = findings.inputs.all();
+    RunResults { comparisons: in_order(plan, events, reports(plan, findings)), inputs }
+}
+
+fn reports(plan: &Plan, findings: Findings) -> BTreeMap<Place, ScoreReport> {
+    let mut reports: BTreeMap<Place, ScoreReport> = BTreeMap::new();
+    for (place, failure) in findings.problems {
+        reports.entry(place).or_default().failures.push(failure);
+    }
+    for (view, findings) in findings.views {
+        report_view(plan, view, findings, &mut reports);
+    }
+    reports
+}
+
+fn report_view(
+    plan: &Plan,
+    (scene, eye): ViewPlace,
+    findings: ViewFindings,
+    reports: &mut BTreeMap<Place, ScoreReport>,
+) {
+    let methods = plan.scenes[scene].eyes[eye].tests.iter().map(|(method, _)| *method);
+    if let Some(failure) = findings.failed {
+        for method in methods {
+            let report = reports.entry((scene, method, eye)).or_default();
+            report.failures.push(failure.clone());
+        }
+        return;
+    }
+    for Outcome { method, result, guides } in findings.pairs.into_values() {
+        let report = reports.entry((scene, method, eye)).or_default();
+        match result {
+            Ok(frame) => {
+                if frame.atd.is_some() {
+                    report.atd_guides = guides;
+                }
+                report.frames.push(frame);
+            }
+            Err(failure) => report.failures.push(failure),
+        }
+    }
+    let Some(settled) = findings.settled else { return };
+    for method in methods {
+        settle(reports.entry((scene, method, eye)).or_default(), method, &settled);
+    }
+}
+
+/// What holds for a sequence as a whole.
+fn settle(report: &mut ScoreReport, method: usize, settled: &Settled) {
+    report.view.clone_from(&settled.view);
+    report.metrics.clone_from(&settled.metrics);
+    report.gaze_held = settled.gaze_held;
+    report.fvvdp = settled.fvvdp.get(&method).cloned();
+    if let Some(fvvdp) = &mut report.fvvdp {
+        fvvdp.missing = settled.missing.get(&method).cloned();
+    }
+    // A frame that could not be scored has said so; one that was never there has not.
+    let missing = report.fvvdp.as_ref().and_then(|fvvdp| fvvdp.missing.clone());
+    if let Some(why) = missing.filter(|_| report.failures.is_empty()) {
+        let message = format!("FovVideoVDP has no value for the sequence: {why}");
+        let help = "render the frames that are missing, or leave fvvdp out of {metrics}";
+        report.failures.push(whole(message, help.to_owned()));
+    }
+}
+
+/// Comparisons in the order of scenes, methods and eyes, with both eyes behind the two.
+fn in_order(
+    plan: &Plan,
+    events: &dyn Events,
+    mut reports: BTreeMap<Place, ScoreReport>,
+) -> Vec<Comparison> {
+    let mut comparisons = Vec::new();
+    for (scene_index, scene) in plan.scenes.iter().enumerate() {
+        for (method_index, method) in plan.methods.iter().enumerate() {
+            let mut push = |eye, report| {
+                let (scene, method) = (scene.name.clone(), method.clone());
+                comparisons.push(Comparison { scene, method, eye, report });
+            };
+            let mut eyes = Vec::new();
+            for (index, view) in scene.eyes.iter().enumerate() {
+                if let Some(report) = reports.remove(&(scene_index, method_index, index)) {
+                    eyes.push((view.eye.map_or("", Eye::name), report));
+                }
+            }
+            let both = match eyes.as_slice() {
+                [(_, left), (_, right)] => {
+                    let both = both_eyes(left, right);
+                    let alone = left.frames.len() + right.frames.len() - 2 * both.frames.len();
+                    if alone > 0 {
+                        let (scene, frames) =
+                            (&scene.name, if alone == 1 { "frame" } else { "frames" });
+                        events.warn(&format!(
+                            "{scene}, {method}: {alone} {frames} of one eye have no partner of the other, and are not in the results of both"
+                        ));
+                    }
+                    Some(both)
+                }
+                _ => None,
+            };
+            for (eye, report) in eyes {
+                push(eye, report);
+            }
+            if let Some(both) = both {
+                push("both", both);
+            }
+        }
+    }
+    comparisons
+}

@@ -1,0 +1,181 @@
+//! What a run has found so far, pair by pair: what its journal holds, and what its results are made of.
+
+use std::collections::BTreeMap;
+
+use fovqa_config::{Eye, Plan};
+use fovqa_metrics::Metric;
+use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, Input, ViewResult};
+
+use crate::error::EngineError;
+use crate::inputs::Inputs;
+use crate::light::FvvdpMaps;
+
+/// What was found: of a whole run, of one of its shards, or of one that was broken off.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Findings {
+    /// Views by the indices of scene and eye.
+    pub(crate) views: BTreeMap<ViewPlace, ViewFindings>,
+    /// What kept whole comparisons from being scored before any file was read.
+    pub(crate) problems: Vec<(Place, Failure)>,
+    pub(crate) inputs: Inputs,
+}
+
+/// Indices of a scene and an eye's view in it.
+pub(crate) type ViewPlace = (usize, usize);
+
+/// Indices of a scene, a method and an eye's view.
+pub(crate) type Place = (usize, usize, usize);
+
+/// What was found of a view.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct ViewFindings {
+    /// Pairs by their place among all of the view.
+    pub(crate) pairs: BTreeMap<usize, Outcome>,
+    /// What holds for all of them, once they are through.
+    pub(crate) settled: Option<Settled>,
+    /// Why none of it could be scored.
+    pub(crate) failed: Option<Failure>,
+    /// Whether a pair that was looked at for the sake of others could not be compared.
+    pub(crate) unsound: bool,
+}
+
+/// What became of a pair.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Outcome {
+    /// Index of the method.
+    pub(crate) method: usize,
+    pub(crate) result: Result<FrameResult, Failure>,
+    /// What its differences over time were taken along, where it has some.
+    pub(crate) guides: AtdGuides,
+}
+
+/// What holds for all pairs of a view.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Settled {
+    pub(crate) view: Option<ViewResult>,
+    pub(crate) metrics: Vec<Metric>,
+    pub(crate) gaze_held: Option<usize>,
+    /// How FovVideoVDP sees the sequence of a method.
+    pub(crate) fvvdp: BTreeMap<usize, FvvdpSight>,
+    /// Why it has no value for it, as far as the sequence goes here.
+    pub(crate) missing: BTreeMap<usize, String>,
+}
+
+/// Names of what a line of the journal is about.
+#[derive(Debug, Clone, Copy)]
+pub struct Named<'a> {
+    /// The scene.
+    pub scene: &'a str,
+    /// The method.
+    pub method: &'a str,
+    /// The eye, in a scene with two.
+    pub eye: Option<Eye>,
+}
+
+impl<'a> Named<'a> {
+    pub(crate) fn of(plan: &'a Plan, (scene, method, eye): Place) -> Self {
+        let (scene, method) = (&plan.scenes[scene], &plan.methods[method]);
+        Self { scene: &scene.name, method, eye: scene.eyes[eye].eye }
+    }
+}
+
+/// A pair, scored or not, as soon as it is finished.
+#[derive(Debug, Clone, Copy)]
+pub struct Finished<'a> {
+    /// Whose it is.
+    pub named: Named<'a>,
+    /// Its place among the pairs of its view.
+    pub step: usize,
+    /// Its result.
+    pub result: Result<&'a FrameResult, &'a Failure>,
+    /// What its differences over time were taken along, where it has some.
+    pub guides: AtdGuides,
+    /// Its heat maps, where they are asked for.
+    pub maps: Option<&'a FvvdpMaps>,
+}
+
+/// Something that is to be taken down.
+#[derive(Debug, Clone, Copy)]
+pub enum Entry<'a> {
+    /// An input, when it is first read.
+    Input(&'a Input),
+    /// A pair.
+    Pair(Finished<'a>),
+    /// A pair before those to be scored that could not be compared: those after it are scored
+    /// without it.
+    Before(Named<'a>, &'a Failure),
+    /// A comparison that could not be scored.
+    Problem(Named<'a>, &'a Failure),
+    /// A view that could not be scored.
+    ViewFailed(&'a str, Option<Eye>, &'a Failure),
+    /// A view that is through, with the names of all methods.
+    Settled(&'a str, Option<Eye>, &'a Settled, &'a [String]),
+}
+
+/// Takes down what is found; an error ends the run.
+pub type Record<'a> = dyn FnMut(Entry<'_>) -> Result<(), EngineError> + 'a;
+
+impl Findings {
+    /// How many pairs are finished.
+    pub fn pairs(&self) -> usize {
+        self.views.values().map(|view| view.pairs.len()).sum()
+    }
+
+    /// The pairs that were scored.
+    pub fn scored<'a>(
+        &'a self,
+        plan: &'a Plan,
+    ) -> impl Iterator<Item = (Named<'a>, &'a FrameResult)> {
+        self.outcomes(plan)
+            .filter_map(|(named, outcome)| Some((named, outcome.result.as_ref().ok()?)))
+    }
+
+    /// What could not be scored of the pairs that were to be.
+    pub fn failures<'a>(&'a self, plan: &'a Plan) -> Vec<(Named<'a>, &'a Failure)> {
+        let views = self.views.iter().filter_map(|(&(scene, eye), view)| {
+            let tests = plan.scenes[scene].eyes[eye].tests.iter();
+            let named = tests.map(move |(method, _)| Named::of(plan, (scene, *method, eye)));
+            Some(named.zip(std::iter::repeat(view.failed.as_ref()?)))
+        });
+        let pairs = self.outcomes(plan);
+        let pairs =
+            pairs.filter_map(|(named, outcome)| Some((named, outcome.result.as_ref().err()?)));
+        views.flatten().chain(pairs).collect()
+    }
+
+    fn outcomes<'a>(&'a self, plan: &'a Plan) -> impl Iterator<Item = (Named<'a>, &'a Outcome)> {
+        self.views.iter().flat_map(move |(&(scene, eye), view)| {
+            let named = move |outcome: &Outcome| Named::of(plan, (scene, outcome.method, eye));
+            view.pairs.values().map(move |outcome| (named(outcome), outcome))
+        })
+    }
+
+    /// Takes all of it down again, in the order of a run.
+    pub(crate) fn record(&self, plan: &Plan, record: &mut Record<'_>) -> Result<(), EngineError> {
+        for (place, failure) in &self.problems {
+            record(Entry::Problem(Named::of(plan, *place), failure))?;
+        }
+        for input in self.inputs.all() {
+            record(Entry::Input(&input))?;
+        }
+        for (&(scene, eye), view) in &self.views {
+            for (&step, outcome) in &view.pairs {
+                record(Entry::Pair(Finished {
+                    named: Named::of(plan, (scene, outcome.method, eye)),
+                    step,
+                    result: outcome.result.as_ref(),
+                    guides: outcome.guides,
+                    maps: None,
+                }))?;
+            }
+            let (scene, eye) = (&plan.scenes[scene].name, plan.scenes[scene].eyes[eye].eye);
+            if let Some(failure) = &view.failed {
+                record(Entry::ViewFailed(scene, eye, failure))?;
+            }
+            if let Some(settled) = &view.settled {
+                record(Entry::Settled(scene, eye, settled, &plan.methods))?;
+            }
+        }
+        Ok(())
+    }
+}

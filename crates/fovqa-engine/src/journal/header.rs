@@ -1,0 +1,128 @@
+//! The first line of a journal: what a run is of. Two runs that have it in common find the same in the
+//! same files.
+
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+
+use fovqa_config::{Experiment, Eye};
+use fovqa_io::FileId;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+use super::JOURNAL;
+use crate::find::{Found, FoundView};
+use crate::share::Shard;
+
+/// Name and version of the format.
+const SCHEMA: &str = "fovqa.journal/1";
+
+/// What a run is of.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Header {
+    // In front, where folders are told by it.
+    schema: String,
+    pub(crate) version: String,
+    pub(crate) experiment_sha256: String,
+    /// The file's name.
+    pub(crate) experiment_file: String,
+    pub(crate) experiment_text: String,
+    /// Only these of each scene's frames.
+    pub(crate) frames: Option<String>,
+    /// `None`: all of it.
+    pub(crate) shard: Option<Shard>,
+    pub(crate) views: Vec<ViewFiles>,
+}
+
+/// The files of a view.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct ViewFiles {
+    pub(crate) scene: String,
+    pub(crate) eye: Option<Eye>,
+    /// How many pairs are to be scored.
+    pub(crate) pairs: usize,
+    /// SHA-256 of which files are paired with which.
+    pub(crate) files: String,
+}
+
+impl Header {
+    /// That of a run of an experiment, whose frames were found, or of a shard of it.
+    pub fn new(experiment: &Experiment, found: &Found, shard: Option<Shard>) -> Self {
+        let file = experiment.path.file_name().unwrap_or_default();
+        let plan = &experiment.plan;
+        let views = found.views.iter().map(|view| {
+            let scene = &plan.scenes[view.scene];
+            ViewFiles {
+                scene: scene.name.clone(),
+                eye: scene.eyes[view.eye].eye,
+                pairs: view.pairs(),
+                files: files(experiment, view),
+            }
+        });
+        Self {
+            schema: SCHEMA.to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            experiment_sha256: sha256(experiment.text.as_bytes()),
+            experiment_file: file.to_string_lossy().into_owned(),
+            experiment_text: experiment.text.clone(),
+            frames: plan.frames.map(|frames| frames.to_string()),
+            shard,
+            views: views.collect(),
+        }
+    }
+
+    /// The name of the experiment's file.
+    pub fn experiment_file(&self) -> &str {
+        &self.experiment_file
+    }
+
+    /// The text of the experiment.
+    pub fn experiment_text(&self) -> &str {
+        &self.experiment_text
+    }
+
+    /// Which frames of each scene, as on the command line.
+    pub fn frames(&self) -> Option<&str> {
+        self.frames.as_deref()
+    }
+
+    /// That of the whole run of which this is of a shard.
+    #[must_use]
+    pub(crate) fn of_all(&self) -> Self {
+        Self { shard: None, ..self.clone() }
+    }
+
+    /// A line of a journal as its first; `None` where it is something else.
+    pub(super) fn parse(line: &[u8]) -> Option<Self> {
+        let header: Self = serde_json::from_slice(line).ok()?;
+        let whole = sha256(header.experiment_text.as_bytes()) == header.experiment_sha256;
+        (header.schema == SCHEMA && whole).then_some(header)
+    }
+}
+
+/// The shard that a folder holds.
+pub fn shard_in(folder: &Path) -> Option<Shard> {
+    /// An experiment is no longer than 4 MiB, and its text grows a little in JSON.
+    const LONGEST: u64 = 64 << 20;
+    let file = std::fs::File::open(folder.join(JOURNAL)).ok()?;
+    let mut line = Vec::new();
+    BufReader::new(file.take(LONGEST)).read_until(b'\n', &mut line).ok()?;
+    Header::parse(&line)?.shard
+}
+
+fn files(experiment: &Experiment, view: &FoundView) -> String {
+    let shown = |path: &std::path::PathBuf| experiment.plan.shown(path);
+    let frames = view.frames.iter().map(|frame| {
+        let tests = frame.tests.iter().map(|(method, test)| json!([method, shown(test)]));
+        let guides = [&frame.guides.motion, &frame.guides.depth];
+        let guides = guides.map(|file| file.as_ref().map(shown));
+        let tests: Vec<_> = tests.collect();
+        json!([frame.number, frame.position, shown(&frame.reference), guides, tests])
+    });
+    let frames: serde_json::Value = frames.collect();
+    sha256(frames.to_string().as_bytes())
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    // Reading from memory does not fail.
+    FileId::of(bytes).map(|id| id.sha256).unwrap_or_default()
+}

@@ -1,0 +1,23 @@
+//! The journal: what is finished, line by line, so that a run that is killed loses nothing of it, and
+//! shards of a run can be put together.
+//!
+//! Each line is one JSON object, written in one go: a kill leaves whole lines and at most one piece
+//! of a line. Numbers are written so that they are read again to the last bit.
+
+mod header;
+mod measures;
+mod number;
+mod read;
+mod records;
+mod write;
+
+pub(crate) use header::ViewFiles;
+pub use header::{Header, shard_in};
+pub(crate) use read::{Found, Text, place, read};
+pub use write::Journal;
+
+/// Its name in the folder of results.
+pub const JOURNAL: &str = "journal.jsonl";
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,175 @@
+//! Reading a journal again.
+
+use std::fs;
+use std::io;
+use std::ops::Range;
+use std::path::Path;
+
+use fovqa_config::{Eye, Plan};
+use fovqa_io::FileId;
+use fovqa_results::Input;
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::JOURNAL;
+use super::header::Header;
+use super::records::{ErrorRecord, FrameRecord, SettledRecord};
+use crate::findings::{Findings, Outcome, ViewFindings, ViewPlace};
+use crate::share::shares;
+
+/// What was found of a journal.
+pub(crate) enum Found {
+    /// None.
+    Nothing,
+    /// Something that is none of this format.
+    Other,
+    /// One.
+    Journal(Box<Text>),
+}
+
+/// A journal that is yet to be understood.
+pub(crate) struct Text {
+    pub(crate) header: Header,
+    /// What it has, or is to have, of each view of its header.
+    pub(crate) shares: Vec<Range<usize>>,
+    /// Its other lines.
+    rest: Vec<u8>,
+}
+
+/// What a journal says.
+pub(crate) struct Said {
+    pub(crate) findings: Findings,
+    /// Whether its last line says that it is done.
+    pub(crate) done: bool,
+    /// Whether something in it is not understood; what is behind that is not looked at.
+    pub(crate) torn: bool,
+    /// An input that was taken down with two hashes.
+    pub(crate) twice: Option<String>,
+}
+
+/// Reads the journal of a folder.
+///
+/// # Errors
+/// When the system refuses.
+pub(crate) fn read(folder: &Path) -> io::Result<Found> {
+    let bytes = match fs::read(folder.join(JOURNAL)) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Found::Nothing),
+        Err(error) => return Err(error),
+    };
+    // A run that was killed, or had no room, before it had written anything.
+    if bytes.is_empty() {
+        return Ok(Found::Nothing);
+    }
+    let end = bytes.iter().position(|byte| *byte == b'\n').unwrap_or(bytes.len());
+    let Some(header) = Header::parse(&bytes[..end]) else { return Ok(Found::Other) };
+    let rest = bytes[(end + 1).min(bytes.len())..].to_vec();
+    let pairs: Vec<usize> = header.views.iter().map(|view| view.pairs).collect();
+    let shares = shares(header.shard, &pairs);
+    Ok(Found::Journal(Box::new(Text { header, shares, rest })))
+}
+
+impl Text {
+    /// What it says of a plan, that of its experiment.
+    pub(crate) fn said(&self, plan: &Plan) -> Said {
+        let mut said =
+            Said { findings: Findings::default(), done: false, torn: false, twice: None };
+        for line in self.rest.split_inclusive(|byte| *byte == b'\n') {
+            let whole = line.last() == Some(&b'\n');
+            // Nothing comes behind the last line.
+            if said.done || !whole || self.line(plan, line, &mut said).is_none() {
+                (said.torn, said.done) = (true, false);
+                break;
+            }
+        }
+        said
+    }
+
+    /// Takes a line in; `None` where it is not understood.
+    fn line(&self, plan: &Plan, line: &[u8], said: &mut Said) -> Option<()> {
+        let value: Value = serde_json::from_slice(line).ok()?;
+        let has = |key: &str| value.get(key).is_some();
+        let findings = &mut said.findings;
+        if has("input") {
+            let Input { path, bytes, sha256 } = input(&value)?;
+            let id = FileId { bytes, sha256 };
+            if findings.inputs.get(&path).is_some_and(|known| *known != id) {
+                said.twice.get_or_insert_with(|| path.clone());
+            }
+            findings.inputs.add(&path, &id);
+        } else if has("scores") {
+            let record: FrameRecord = from(value)?;
+            let method = method(plan, &record.method)?;
+            let step = record.step;
+            let view = self.view(plan, findings, &record.scene, record.eye, Some(step))?;
+            let (frame, guides) = record.read()?;
+            view.pairs.insert(step, Outcome { method, result: Ok(frame), guides });
+        } else if has("error") {
+            self.error(plan, findings, from(value)?)?;
+        } else if has("settled") {
+            let record: SettledRecord = from(value.get("settled")?.clone())?;
+            let view = self.view(plan, findings, &record.scene, record.eye, None)?;
+            view.settled = Some(record.read(|name| method(plan, name))?);
+        } else {
+            said.done = value.get("done")?.as_bool()?;
+        }
+        Some(())
+    }
+
+    fn error(&self, plan: &Plan, findings: &mut Findings, record: ErrorRecord) -> Option<()> {
+        let Some(name) = &record.method else {
+            let view = self.view(plan, findings, &record.scene, record.eye, None)?;
+            view.failed = Some(record.read());
+            return Some(());
+        };
+        let method = method(plan, name)?;
+        if let Some(step) = record.step {
+            let view = self.view(plan, findings, &record.scene, record.eye, Some(step))?;
+            let (result, guides) = (Err(record.read()), fovqa_results::AtdGuides::default());
+            view.pairs.insert(step, Outcome { method, result, guides });
+        } else if record.before {
+            self.view(plan, findings, &record.scene, record.eye, None)?.unsound = true;
+        } else {
+            let (scene, eye) = place(plan, &record.scene, record.eye)?;
+            findings.problems.push(((scene, method, eye), record.read()));
+        }
+        Some(())
+    }
+
+    /// The findings of a view of this journal; `None` where it has none of that name, or no such pair.
+    fn view<'a>(
+        &self,
+        plan: &Plan,
+        findings: &'a mut Findings,
+        scene: &str,
+        eye: Option<Eye>,
+        step: Option<usize>,
+    ) -> Option<&'a mut ViewFindings> {
+        let views = &self.header.views;
+        let index = views.iter().position(|view| view.scene == scene && view.eye == eye)?;
+        let own = step.is_none_or(|step| self.shares[index].contains(&step));
+        let place = place(plan, scene, eye).filter(|_| own)?;
+        Some(findings.views.entry(place).or_default())
+    }
+}
+
+fn from<T: for<'de> Deserialize<'de>>(value: Value) -> Option<T> {
+    serde_json::from_value(value).ok()
+}
+
+fn input(value: &Value) -> Option<Input> {
+    let text = |key: &str| Some(value.get(key)?.as_str()?.to_owned());
+    let bytes = value.get("bytes")?.as_u64()?;
+    Some(Input { path: text("input")?, bytes, sha256: text("sha256")? })
+}
+
+fn method(plan: &Plan, name: &str) -> Option<usize> {
+    plan.methods.iter().position(|method| method == name)
+}
+
+/// The place of a view that is called by the name of its scene and its eye.
+pub(crate) fn place(plan: &Plan, scene: &str, eye: Option<Eye>) -> Option<ViewPlace> {
+    let index = plan.scenes.iter().position(|of| of.name == scene)?;
+    let eye = plan.scenes[index].eyes.iter().position(|view| view.eye == eye)?;
+    Some((index, eye))
+}

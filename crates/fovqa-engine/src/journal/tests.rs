@@ -1,0 +1,310 @@
+//! What is written is read again, to the last bit; what is not whole is not.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use fovqa_config::{Experiment, Eye, EyeView, Plan, Scene};
+use fovqa_io::FileId;
+use fovqa_metrics::fvvdp::{FvvdpBand, FvvdpFrame};
+use fovqa_metrics::temporal::{AtdBand, AtdFrame};
+use fovqa_metrics::{BandScores, HaarBand, HaarStatistics, Metric, PairScores, Profile};
+use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, Sides, ViewResult};
+
+use super::read::Said;
+use super::write::line_of;
+use super::*;
+use crate::findings::{Entry, Findings, Outcome, Settled, ViewFindings};
+
+fn plan() -> Plan {
+    let eye =
+        |eye| EyeView { eye, tests: vec![(0, "a".into()), (1, "b".into())], ..EyeView::default() };
+    let scene = |name: &str, eyes| Scene { name: name.to_owned(), eyes, ..Scene::default() };
+    let both = Eye::BOTH.map(|side| eye(Some(side))).into();
+    Plan {
+        scenes: vec![scene("one", vec![eye(None)]), scene("two", both)],
+        methods: vec!["A".to_owned(), "B, \"quoted\"".to_owned()],
+        ..Plan::default()
+    }
+}
+
+/// A frame with everything that a frame can have.
+fn frame() -> FrameResult {
+    let statistics = |at: f64| HaarStatistics::from([at, 0.1 + 0.2, f64::MIN_POSITIVE]);
+    let band = |coefficients, statistics, orientations| HaarBand {
+        coefficients,
+        statistics,
+        orientations,
+    };
+    let three = || Box::new([statistics(1.0), statistics(2.0), statistics(3.0)]);
+    let profile = |at: f64| Profile {
+        rms_contrast: Some(vec![Some(at), None, Some(-0.0)]),
+        haar: Some(vec![
+            vec![band(900, Some(statistics(at)), None), band(0, None, None)],
+            vec![band(9, Some(statistics(at)), Some(three())), band(1, None, Some(three()))],
+        ]),
+    };
+    let atd = |at: f64| AtdFrame {
+        whole: AtdBand { mean: Some(at), valid: 7 },
+        pixels: 9,
+        bands: vec![AtdBand { mean: None, valid: 0 }, AtdBand { mean: Some(1.0 / 3.0), valid: 1 }],
+    };
+    FrameResult {
+        frame: u64::MAX,
+        reference: "gt/ä \u{1}.png".to_owned(),
+        test: "a".to_owned(),
+        gaze_px: Some([0.1, -7.25]),
+        gaze_step_deg: Some(1e-300),
+        scores: PairScores {
+            scores: BTreeMap::from([
+                (Metric::Psnr, f64::INFINITY),
+                (Metric::Fpsnr, f64::NEG_INFINITY),
+                (Metric::Ssim, 0.1 + 0.7),
+                (Metric::Mse, 5.0),
+            ]),
+            bands: vec![
+                BandScores {
+                    pixels: 3,
+                    mse: Some(1.0 / 7.0),
+                    scores: BTreeMap::from([
+                        (Metric::Psnr, Some(f64::INFINITY)),
+                        (Metric::Ssim, None),
+                    ]),
+                },
+                BandScores { pixels: 0, mse: None, scores: BTreeMap::new() },
+            ],
+            pixels: 10,
+            outside_bands: 2,
+            left_out: 1,
+            mse: Some(2.0_f64.sqrt()),
+            weighted_squared_error: Some((1.0 / 3.0, 1e22)),
+        },
+        profiles: Some(Sides { reference: profile(0.3), test: profile(f64::MAX) }),
+        atd: Some(Sides { reference: atd(0.25), test: atd(1e-17) }),
+        fvvdp: Some(FvvdpFrame {
+            q: 123.4,
+            frame_jod: 9.99,
+            bands: vec![
+                FvvdpBand { cpd: 6.5, sustained: 0.7, transient: Some(f64::INFINITY) },
+                FvvdpBand { cpd: 3.25, sustained: 0.1, transient: None },
+            ],
+            shares: Some(vec![0.1, 0.2, 0.7]),
+        }),
+    }
+}
+
+/// A frame with nothing that it need not have.
+fn bare_frame() -> FrameResult {
+    let whole = frame();
+    FrameResult {
+        gaze_px: None,
+        gaze_step_deg: None,
+        scores: PairScores {
+            mse: None,
+            weighted_squared_error: None,
+            bands: vec![],
+            ..whole.scores
+        },
+        profiles: Some(Sides::default()),
+        atd: None,
+        fvvdp: Some(FvvdpFrame { shares: None, bands: vec![], ..whole.fvvdp.unwrap() }),
+        ..whole
+    }
+}
+
+fn failure(frame: Option<u64>) -> Failure {
+    let text = |text: &str| text.to_owned();
+    let (message, help) = (text("no\npicture"), text("mend {it}"));
+    Failure { frame, reference: text("gt/1"), test: text("a/1"), message, help }
+}
+
+fn findings() -> Findings {
+    let mut findings = Findings::default();
+    let id = |sha256: &str| FileId { bytes: 1 << 60, sha256: sha256.to_owned() };
+    findings.inputs.add("gt/ä.png", &id("00"));
+    findings.inputs.add("b", &id("11"));
+    findings.problems.push(((0, 1, 0), failure(None)));
+    let outcome = |method, result| {
+        let guides = AtdGuides { motion: GuideSource::Test, depth: GuideSource::Reference };
+        Outcome { method, result, guides }
+    };
+    let bare = Outcome { guides: AtdGuides::default(), ..outcome(1, Ok(bare_frame())) };
+    let failed = Outcome { guides: AtdGuides::default(), ..outcome(0, Err(failure(Some(3)))) };
+    let sight = FvvdpSight {
+        pixels_per_degree: 13.1,
+        peak_cd_m2: 100.1,
+        black_cd_m2: 0.1,
+        foveated: true,
+        fps: Some(23.976),
+        missing: None,
+        eyes_jod: None,
+    };
+    let still = FvvdpSight { fps: None, foveated: false, ..sight.clone() };
+    let settled = Settled {
+        view: Some(ViewResult {
+            size: [3, 4],
+            focal_px: [1.1, 2.2],
+            gaze_px: [0.1 + 0.2, 0.25],
+            eccentricity: "planar",
+            bands_deg: vec![(0.0, 5.0), (5.0, 10.1)],
+        }),
+        metrics: vec![Metric::Psnr, Metric::MsSsim, Metric::Atd],
+        gaze_held: Some(2),
+        fvvdp: BTreeMap::from([(0, sight), (1, still)]),
+        missing: BTreeMap::from([(1, "frame 3 could not be scored".to_owned())]),
+    };
+    let of = |pairs, settled| ViewFindings { pairs, settled, ..ViewFindings::default() };
+    let pairs = BTreeMap::from([(0, outcome(0, Ok(frame()))), (1, bare), (2, failed)]);
+    findings.views.insert((0, 0), of(pairs, Some(settled)));
+    let none = Settled { metrics: vec![Metric::Mse], ..Settled::default() };
+    findings.views.insert((1, 0), of(BTreeMap::new(), Some(none)));
+    let failed = Some(failure(None));
+    findings.views.insert((1, 1), ViewFindings { failed, ..ViewFindings::default() });
+    findings
+}
+
+fn header(plan: &Plan, shard: Option<&str>) -> Header {
+    let text = "name = \"e\"\n".to_owned();
+    let experiment =
+        Experiment { plan: plan.clone(), text, path: "x/e.toml".into(), ..Experiment::default() };
+    let found = crate::find::Found { views: vec![], problems: vec![] };
+    let mut header = Header::new(&experiment, &found, shard.map(|shard| shard.parse().unwrap()));
+    for (scene, eye) in [("one", None), ("two", Some(Eye::Left)), ("two", Some(Eye::Right))] {
+        let (scene, files) = (scene.to_owned(), String::new());
+        header.views.push(ViewFiles { scene, eye, pairs: 4, files });
+    }
+    header
+}
+
+fn read_text(folder: &Path) -> Box<Text> {
+    match read(folder).unwrap() {
+        Found::Journal(text) => text,
+        _ => panic!("it is a journal"),
+    }
+}
+
+fn said(folder: &Path, lines: &[u8]) -> Said {
+    std::fs::write(folder.join(JOURNAL), lines).unwrap();
+    read_text(folder).said(&plan())
+}
+
+#[test]
+fn everything_is_read_again_to_the_last_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let (plan, findings) = (plan(), findings());
+    let header = header(&plan, None);
+    let mut journal = Journal::begin(folder.path(), &header, &plan, &findings).unwrap();
+    let text = read_text(folder.path());
+    assert_eq!(text.header, header);
+    assert_eq!(header.experiment_file(), "e.toml");
+    let said = text.said(&plan);
+    assert!(!said.torn && !said.done && said.twice.is_none());
+    // In words too: equal numbers may differ in their sign.
+    assert_eq!(said.findings, findings);
+    assert_eq!(format!("{:?}", said.findings), format!("{findings:?}"));
+    // What comes later counts.
+    let mended = Outcome { method: 0, result: Ok(bare_frame()), guides: AtdGuides::default() };
+    let finished = crate::findings::Finished {
+        named: crate::findings::Named::of(&plan, (0, 0, 0)),
+        step: 2,
+        result: mended.result.as_ref(),
+        guides: mended.guides,
+        maps: None,
+    };
+    journal.write(Entry::Pair(finished)).unwrap();
+    journal.done().unwrap();
+    let said = read_text(folder.path()).said(&plan);
+    assert_eq!(said.findings.views[&(0, 0)].pairs[&2], mended);
+    assert!(said.done);
+}
+
+#[test]
+fn what_is_no_number_is_read_again() {
+    let mut result = bare_frame();
+    result.scores.scores.insert(Metric::Ssim, f64::NAN);
+    result.gaze_step_deg = Some(f64::NAN);
+    let finished = crate::findings::Finished {
+        named: crate::findings::Named { scene: "one", method: "A", eye: None },
+        step: 0,
+        result: Ok(&result),
+        guides: AtdGuides::default(),
+        maps: None,
+    };
+    let line = line_of(Entry::Pair(finished));
+    let record: super::records::FrameRecord = serde_json::from_slice(&line).unwrap();
+    let (again, _) = record.read().unwrap();
+    assert_eq!(format!("{again:?}"), format!("{result:?}"));
+}
+
+#[test]
+fn a_piece_of_a_line_is_dropped_and_what_is_behind_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = plan();
+    Journal::begin(folder.path(), &header(&plan, None), &plan, &findings()).unwrap();
+    let whole = std::fs::read(folder.path().join(JOURNAL)).unwrap();
+    let lines: Vec<&[u8]> = whole.split_inclusive(|byte| *byte == b'\n').collect();
+    for end in lines[0].len()..=whole.len() {
+        let said = said(folder.path(), &whole[..end]);
+        assert_eq!(said.torn, whole[end - 1] != b'\n', "{end}");
+        let before = whole[..end].split(|byte| *byte == b'\n').count() - 1;
+        let frames = lines[..before]
+            .iter()
+            .filter(|line| String::from_utf8_lossy(line).contains("\"step\""));
+        assert_eq!(said.findings.pairs(), frames.count(), "{end}");
+    }
+    // Within the first line there is no journal yet.
+    for end in [1, 20, lines[0].len() - 2] {
+        std::fs::write(folder.path().join(JOURNAL), &whole[..end]).unwrap();
+        assert!(matches!(read(folder.path()).unwrap(), Found::Other), "{end}");
+    }
+    std::fs::write(folder.path().join(JOURNAL), "").unwrap();
+    assert!(matches!(read(folder.path()).unwrap(), Found::Nothing));
+}
+
+#[test]
+fn lines_of_something_else_are_not_understood() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = plan();
+    Journal::begin(folder.path(), &header(&plan, Some("1/3")), &plan, &Findings::default())
+        .unwrap();
+    let head = std::fs::read(folder.path().join(JOURNAL)).unwrap();
+    assert_eq!(shard_in(folder.path()), Some("1/3".parse().unwrap()));
+    let line = |named: crate::findings::Named<'_>, step| {
+        let result = bare_frame();
+        let guides = AtdGuides::default();
+        let finished =
+            crate::findings::Finished { named, step, result: Ok(&result), guides, maps: None };
+        String::from_utf8(line_of(Entry::Pair(finished))).unwrap()
+    };
+    let named = |scene, method, eye| crate::findings::Named { scene, method, eye };
+    let good = line(named("one", "A", None), 3);
+    let torn = |line: &str| {
+        let said = said(folder.path(), &[&head, line.as_bytes(), good.as_bytes()].concat());
+        assert_eq!(said.findings.pairs(), usize::from(!said.torn), "{line}");
+        said.torn
+    };
+    assert!(!torn(&good));
+    for bad in [
+        line(named("three", "A", None), 3),
+        line(named("one", "C", None), 3),
+        line(named("one", "A", Some(Eye::Left)), 3),
+        // Of the second shard, and of none.
+        line(named("two", "A", Some(Eye::Left)), 0),
+        line(named("one", "A", None), 4),
+        good.replace("\"mse\"", "\"msf\""),
+        good.replace("\"inf\"", "\"much\""),
+        good.replace("\"pixels\":10", "\"pixels\":\"10\""),
+        "[]\n".to_owned(),
+        "{}\n".to_owned(),
+        "{\"done\":1}\n".to_owned(),
+        "\n".to_owned(),
+    ] {
+        assert!(torn(&bad), "{bad}");
+    }
+    let id = |sha256: &str| format!("{{\"input\":\"x\",\"bytes\":1,\"sha256\":\"{sha256}\"}}\n");
+    let twice = [id("0"), id("0"), id("1")].concat();
+    assert_eq!(said(folder.path(), &[&head, twice.as_bytes()].concat()).twice.unwrap(), "x");
+    // A text that is not the one it says.
+    let other = String::from_utf8(head).unwrap().replace("name = ", "nome = ");
+    std::fs::write(folder.path().join(JOURNAL), other).unwrap();
+    assert!(matches!(read(folder.path()).unwrap(), Found::Other));
+}

@@ -1,0 +1,117 @@
+//! Writing a journal.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use fovqa_config::Plan;
+use fovqa_results::{FileError, Input, write_whole_with};
+use serde::Serialize;
+use serde_json::json;
+
+use super::JOURNAL;
+use super::header::Header;
+use super::records::{ErrorRecord, FrameRecord, SettledRecord};
+use crate::error::EngineError;
+use crate::findings::{Entry, Findings, Finished, Named};
+
+/// An open journal.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    file: File,
+}
+
+impl Journal {
+    /// Begins a journal in place of the one that may be there: first what it is of, then what is known
+    /// of it already. The old one stays until the new one has all of that.
+    ///
+    /// # Errors
+    /// When the file cannot be made.
+    pub fn begin(
+        folder: &Path,
+        header: &Header,
+        plan: &Plan,
+        known: &Findings,
+    ) -> Result<Self, EngineError> {
+        let path = folder.join(JOURNAL);
+        let failed = |error| EngineError::Journal { path: path.clone(), error };
+        let written = write_whole_with(&path, |out| {
+            out.write_all(&line(header))?;
+            let written = known.record(plan, &mut |entry| {
+                let written = out.write_all(&line_of(entry));
+                written.map_err(|error| EngineError::Journal { path: PathBuf::new(), error })
+            });
+            written.map_err(|error| match error {
+                EngineError::Journal { error, .. } => error,
+                other => std::io::Error::other(other),
+            })
+        });
+        written.map_err(|error| match error {
+            FileError::Write { error, .. } | FileError::Read { error, .. } => failed(error),
+            FileError::Format { detail, .. } => failed(std::io::Error::other(detail)),
+        })?;
+        let file = File::options().append(true).open(&path).map_err(failed)?;
+        Ok(Self { path, file })
+    }
+
+    /// Takes something down.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write(&mut self, entry: Entry<'_>) -> Result<(), EngineError> {
+        self.append(&line_of(entry))
+    }
+
+    /// Says that a shard is done.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn done(&mut self) -> Result<(), EngineError> {
+        self.append(&line(&json!({ "done": true })))
+    }
+
+    fn append(&mut self, line: &[u8]) -> Result<(), EngineError> {
+        let failed = |error| EngineError::Journal { path: self.path.clone(), error };
+        self.file.write_all(line).map_err(failed)
+    }
+}
+
+pub(super) fn line_of(entry: Entry<'_>) -> Vec<u8> {
+    match entry {
+        Entry::Input(Input { path, bytes, sha256 }) => {
+            line(&json!({ "input": path, "bytes": bytes, "sha256": sha256 }))
+        }
+        Entry::Pair(finished) => pair(&finished),
+        Entry::Before(named, failure) => {
+            line(&ErrorRecord { before: true, ..ErrorRecord::of(named, failure) })
+        }
+        Entry::Problem(named, failure) => line(&ErrorRecord::of(named, failure)),
+        Entry::ViewFailed(scene, eye, failure) => {
+            let named = Named { scene, method: "", eye };
+            line(&ErrorRecord { method: None, ..ErrorRecord::of(named, failure) })
+        }
+        Entry::Settled(scene, eye, settled, methods) => {
+            line(&json!({ "settled": SettledRecord::of(scene, eye, settled, methods) }))
+        }
+    }
+}
+
+fn pair(finished: &Finished<'_>) -> Vec<u8> {
+    match finished.result {
+        Ok(result) => line(&FrameRecord::of(finished, result)),
+        Err(failure) => {
+            let step = Some(finished.step);
+            line(&ErrorRecord { step, ..ErrorRecord::of(finished.named, failure) })
+        }
+    }
+}
+
+fn line(record: &impl Serialize) -> Vec<u8> {
+    let mut line = match serde_json::to_vec(record) {
+        Ok(line) => line,
+        Err(error) => unreachable!("names and numbers are JSON: {error}"),
+    };
+    line.push(b'\n');
+    line
+}

@@ -1,0 +1,263 @@
+//! Shards of a run, put together: the findings are those of the whole run.
+
+use std::path::{Path, PathBuf};
+
+use fovqa_config::Plan;
+use thiserror::Error;
+
+use crate::findings::{Findings, Outcome, Settled, ViewFindings};
+use crate::journal::{self, Found, Header, Text, place};
+use crate::share::Shard;
+
+/// Shards that cannot be put together.
+#[derive(Debug, Error)]
+pub enum MergeError {
+    /// A folder without one.
+    #[error("{}: there is no shard of a run in it", .0.display())]
+    NoShard(PathBuf),
+    /// A folder with a whole run.
+    #[error("{}: it has a whole run, not a shard of one", .0.display())]
+    Whole(PathBuf),
+    /// A journal that cannot be read.
+    #[error("{}: the journal cannot be read: {error}", path.display())]
+    Io {
+        /// The folder.
+        path: PathBuf,
+        /// The reason.
+        error: std::io::Error,
+    },
+    /// One that is not done.
+    #[error("{}: shard {shard} is not finished", path.display())]
+    Unfinished {
+        /// The folder.
+        path: PathBuf,
+        /// Which it is.
+        shard: Shard,
+    },
+    /// Two that are not of one run.
+    #[error("{} and {} are not of one run: {what}", first.display(), second.display())]
+    Differ {
+        /// A folder.
+        first: PathBuf,
+        /// Another one.
+        second: PathBuf,
+        /// What differs.
+        what: String,
+    },
+    /// Shards of another version.
+    #[error("{}: it is of fovqa {version}, and this is {}", path.display(), env!("CARGO_PKG_VERSION"))]
+    Version {
+        /// A folder.
+        path: PathBuf,
+        /// Its version.
+        version: String,
+    },
+    /// The same one twice.
+    #[error("shard {shard} is there twice: {} and {}", first.display(), second.display())]
+    Twice {
+        /// Which.
+        shard: Shard,
+        /// A folder.
+        first: PathBuf,
+        /// The other one.
+        second: PathBuf,
+    },
+    /// Some that are not there.
+    #[error("{} missing: {}", if missing.len() == 1 { "a shard is" } else { "shards are" }, listed(missing, *of))]
+    Missing {
+        /// Which.
+        missing: Vec<u32>,
+        /// How many there are to be.
+        of: u32,
+    },
+    /// A file that was not the same for all.
+    #[error("{file} was not the same file for all shards: {}", path.display())]
+    Input {
+        /// The file.
+        file: String,
+        /// A folder where it is another one than in one before.
+        path: PathBuf,
+    },
+}
+
+fn listed(missing: &[u32], of: u32) -> String {
+    const SHOWN: usize = 10;
+    let mut names: Vec<String> =
+        missing.iter().take(SHOWN).map(|index| format!("{index}/{of}")).collect();
+    if missing.len() > SHOWN {
+        names.push(format!("{} more", missing.len() - SHOWN));
+    }
+    names.join(", ")
+}
+
+impl MergeError {
+    /// How to mend it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::NoShard(_) | Self::Io { .. } => {
+                "give the folders that `fovqa run --shard` wrote to"
+            }
+            Self::Whole(_) => "it needs no merging; `fovqa report` draws it again",
+            Self::Unfinished { .. } => "go on with it: `fovqa run --shard I/N --resume`",
+            Self::Differ { .. } | Self::Version { .. } => {
+                "score all shards with one version, of one experiment file, with the same --frames"
+            }
+            Self::Twice { .. } => "give each shard once",
+            Self::Missing { .. } => "score them, and give their folders too",
+            Self::Input { .. } => "score all shards of the same files",
+        }
+    }
+}
+
+/// All shards of a run.
+pub struct Shards {
+    header: Header,
+    /// In order.
+    shards: Vec<(PathBuf, Shard, Text)>,
+}
+
+impl Shards {
+    /// Reads the shards in some folders: all of one run, each once.
+    ///
+    /// # Errors
+    /// When they are something else.
+    pub fn read(folders: &[PathBuf]) -> Result<Self, MergeError> {
+        let mut shards: Vec<(PathBuf, Shard, Text)> = Vec::new();
+        for path in folders {
+            let text = text(path)?;
+            let Some(shard) = text.header.shard else {
+                return Err(MergeError::Whole(path.clone()));
+            };
+            if let Some((first, _, other)) = shards.first()
+                && let Some(what) = difference(&other.header, &text.header)
+            {
+                return Err(MergeError::Differ {
+                    first: first.clone(),
+                    second: path.clone(),
+                    what,
+                });
+            }
+            if let Some((first, _, _)) = shards.iter().find(|(_, other, _)| *other == shard) {
+                let (first, second) = (first.clone(), path.clone());
+                return Err(MergeError::Twice { shard, first, second });
+            }
+            shards.push((path.clone(), shard, text));
+        }
+        shards.sort_by_key(|(_, shard, _)| *shard);
+        let Some((_, first, text)) = shards.first() else {
+            return Err(MergeError::Missing { missing: vec![1], of: 1 });
+        };
+        let (header, of) = (text.header.of_all(), first.of());
+        let there = |index: &u32| shards.iter().any(|(_, shard, _)| shard.index() == *index);
+        let missing: Vec<u32> = (1..=of).filter(|index| !there(index)).collect();
+        if !missing.is_empty() {
+            return Err(MergeError::Missing { missing, of });
+        }
+        Ok(Self { header, shards })
+    }
+
+    /// What the whole run is of.
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// What all of them have found; `plan` is that of their experiment.
+    ///
+    /// # Errors
+    /// When one is not done, or files were not the same for all.
+    pub fn findings(&self, plan: &Plan) -> Result<Findings, MergeError> {
+        let mut all = Findings::default();
+        for (path, shard, text) in &self.shards {
+            let said = text.said(plan);
+            if !said.done || said.torn || !is_complete(plan, text, &said.findings) {
+                return Err(MergeError::Unfinished { path: path.clone(), shard: *shard });
+            }
+            let changed = |file: String| MergeError::Input { file, path: path.clone() };
+            if let Some(file) = said.twice {
+                return Err(changed(file));
+            }
+            for (file, id) in said.findings.inputs.iter() {
+                if all.inputs.get(file).is_some_and(|known| known != id) {
+                    return Err(changed(file.to_owned()));
+                }
+                all.inputs.add(file, id);
+            }
+            // All of them have all of these.
+            all.problems = said.findings.problems;
+            for (place, view) in said.findings.views {
+                join(all.views.entry(place).or_default(), view);
+            }
+        }
+        Ok(all)
+    }
+}
+
+fn text(path: &Path) -> Result<Text, MergeError> {
+    let none = || MergeError::NoShard(path.to_owned());
+    let text = match journal::read(path) {
+        Ok(Found::Journal(text)) => *text,
+        Ok(Found::Nothing | Found::Other) => return Err(none()),
+        Err(error) if error.kind() == std::io::ErrorKind::NotADirectory => return Err(none()),
+        Err(error) => return Err(MergeError::Io { path: path.to_owned(), error }),
+    };
+    if text.header.version != env!("CARGO_PKG_VERSION") {
+        let version = text.header.version;
+        return Err(MergeError::Version { path: path.to_owned(), version });
+    }
+    Ok(text)
+}
+
+/// What keeps two shards from being of one run.
+fn difference(one: &Header, other: &Header) -> Option<String> {
+    let frames = |header: &Header| header.frames.clone().unwrap_or_else(|| "all".to_owned());
+    let of = |header: &Header| header.shard.map_or(0, Shard::of);
+    let differ = |what: &str, one: &str, other: &str| Some(format!("{what} {one} and {other}"));
+    if one.version != other.version {
+        differ("versions", &one.version, &other.version)
+    } else if one.experiment_sha256 != other.experiment_sha256 {
+        Some("their experiments differ".to_owned())
+    } else if one.experiment_file != other.experiment_file {
+        differ("experiment files", &one.experiment_file, &other.experiment_file)
+    } else if one.frames != other.frames {
+        differ("frames", &frames(one), &frames(other))
+    } else if of(one) != of(other) {
+        differ("shards of", &of(one).to_string(), &of(other).to_string())
+    } else if one.views != other.views {
+        Some("other files were found for them".to_owned())
+    } else {
+        None
+    }
+}
+
+/// Whether a shard has all that it should have.
+fn is_complete(plan: &Plan, text: &Text, findings: &Findings) -> bool {
+    text.header.views.iter().zip(&text.shares).all(|(view, share)| {
+        let place = place(plan, &view.scene, view.eye);
+        let found = place.and_then(|place| findings.views.get(&place));
+        share.is_empty()
+            || found.is_some_and(|found| {
+                let through = found.settled.is_some() && found.pairs.len() == share.len();
+                found.failed.is_some() || through
+            })
+    })
+}
+
+/// Joins what the next shard has of a view to what those before it have.
+fn join(all: &mut ViewFindings, mut next: ViewFindings) {
+    all.failed = all.failed.take().or(next.failed);
+    let Settled { fvvdp, missing, .. } = all.settled.take().unwrap_or_default();
+    // A sequence that has not come through up to here has no values from here on.
+    let broken = |outcome: &&mut Outcome| missing.contains_key(&outcome.method);
+    for outcome in next.pairs.values_mut().filter(broken) {
+        if let Ok(frame) = &mut outcome.result {
+            frame.fvvdp = None;
+        }
+    }
+    all.pairs.append(&mut next.pairs);
+    // The later one has looked for a pair to settle it from the first one on.
+    all.settled = next.settled.map(|mut settled| {
+        settled.fvvdp.extend(fvvdp);
+        settled.missing.extend(missing);
+        settled
+    });
+}

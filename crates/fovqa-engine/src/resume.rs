@@ -1,0 +1,160 @@
+//! Going on with a run that was broken off: what its journal has that still holds.
+
+use std::ops::Range;
+use std::path::Path;
+
+use fovqa_config::{Eye, Plan};
+use fovqa_metrics::Metric;
+
+use crate::error::EngineError;
+use crate::find::{Found, FoundView};
+use crate::findings::{Findings, ViewFindings};
+use crate::journal::{self, Header, JOURNAL, ViewFiles};
+use crate::share::{Shard, shares};
+use crate::timing::timings;
+
+/// What can be gone on with.
+#[derive(Debug, Default)]
+pub struct Resumed {
+    /// What is known already: nothing, where all begins afresh.
+    pub known: Findings,
+    /// Why all begins afresh although something was there, in words: what has changed since.
+    pub changes: Vec<String>,
+}
+
+/// Looks for what a run that begins now, with this header, would find once more. Every file it has read
+/// is read again, for its hash.
+///
+/// # Errors
+/// When the journal is there and cannot be read.
+pub fn resume(
+    folder: &Path,
+    header: &Header,
+    plan: &Plan,
+    found: &Found,
+) -> Result<Resumed, EngineError> {
+    let changed = |changes| Ok(Resumed { changes, ..Resumed::default() });
+    let text = match journal::read(folder) {
+        Ok(journal::Found::Nothing) => return Ok(Resumed::default()),
+        Ok(journal::Found::Other) => {
+            return changed(vec![format!("{JOURNAL} is not in the format of this version")]);
+        }
+        Ok(journal::Found::Journal(text)) => text,
+        Err(error) => return Err(EngineError::JournalRead { path: folder.join(JOURNAL), error }),
+    };
+    let changes = differences(&text.header, header);
+    if !changes.is_empty() {
+        return changed(changes);
+    }
+    let said = text.said(plan);
+    let changes = said.findings.inputs.changes(plan);
+    if !changes.is_empty() {
+        return changed(changes);
+    }
+    let known = still_good(plan, found, header.shard, said.findings)?;
+    Ok(Resumed { known, changes: Vec::new() })
+}
+
+/// What keeps one run from going on with what another has found.
+fn differences(then: &Header, now: &Header) -> Vec<String> {
+    let mut differences = Vec::new();
+    if then.version != now.version {
+        differences.push(format!("it is of fovqa {}, and this is {}", then.version, now.version));
+    }
+    if then.experiment_sha256 != now.experiment_sha256 {
+        differences.push("the experiment file has changed".to_owned());
+    }
+    if then.frames != now.frames {
+        let frames = |header: &Header| match &header.frames {
+            None => "all frames".to_owned(),
+            Some(frames) => format!("--frames {frames}"),
+        };
+        differences.push(format!("it is of {}, and this is of {}", frames(then), frames(now)));
+    }
+    if then.shard != now.shard {
+        let shard = |header: &Header| match header.shard {
+            None => "a whole run".to_owned(),
+            Some(shard) => format!("shard {shard}"),
+        };
+        differences.push(format!("it is of {}, and this is {}", shard(then), shard(now)));
+    }
+    // What follows is of another experiment, or of other frames of it.
+    if differences.is_empty() {
+        differences.extend(other_files(&then.views, &now.views, now.shard));
+    }
+    differences
+}
+
+/// Views of other files than before. A view that has come new costs the others nothing, but in a shard,
+/// whose share it changes.
+fn other_files(then: &[ViewFiles], now: &[ViewFiles], shard: Option<Shard>) -> Vec<String> {
+    let same = |a: &ViewFiles, b: &ViewFiles| a.scene == b.scene && a.eye == b.eye;
+    let named = |view: &ViewFiles| match view.eye {
+        None => view.scene.clone(),
+        Some(eye) => format!("{}, {} eye", view.scene, Eye::name(eye)),
+    };
+    let gone = then.iter().filter(|old| !now.iter().any(|new| same(old, new)));
+    let gone = gone.map(|view| format!("{}: its frames are not found any more", named(view)));
+    let new = now.iter().filter_map(|new| match then.iter().find(|old| same(old, new)) {
+        Some(old) if old == new => None,
+        Some(_) => Some(format!("{}: other files are found for it than before", named(new))),
+        None if shard.is_none() => None,
+        None => Some(format!("{}: its frames were not found before", named(new))),
+    });
+    gone.chain(new).collect()
+}
+
+/// What of a journal still holds, whatever becomes of the rest.
+fn still_good(
+    plan: &Plan,
+    found: &Found,
+    shard: Option<Shard>,
+    mut findings: Findings,
+) -> Result<Findings, EngineError> {
+    let pairs: Vec<usize> = found.views.iter().map(FoundView::pairs).collect();
+    let mut views = std::mem::take(&mut findings.views);
+    for (view, range) in found.views.iter().zip(shares(shard, &pairs)) {
+        let place = (view.scene, view.eye);
+        if let Some(known) = views.remove(&place) {
+            findings.views.insert(place, of_view(plan, view, range, known)?);
+        }
+    }
+    // What is wrong now is found again.
+    findings.problems.clear();
+    Ok(findings)
+}
+
+fn of_view(
+    plan: &Plan,
+    view: &FoundView,
+    range: Range<usize>,
+    mut known: ViewFindings,
+) -> Result<ViewFindings, EngineError> {
+    let (metrics, _) = view.metrics(plan)?;
+    known.failed = None;
+    // What could not be scored may have been mended.
+    known.pairs.retain(|_, outcome| outcome.result.is_ok());
+    // The first pair that can be compared settles size and bands of all: that must not be another now.
+    let begun = range.start > 0 || known.pairs.contains_key(&0);
+    if known.unsound || !begun {
+        return Ok(ViewFindings::default());
+    }
+    let fvvdp = metrics.contains(&Metric::Fvvdp);
+    if fvvdp || metrics.contains(&Metric::Atd) {
+        let timings = timings(view, plan.scenes[view.scene].fps, &plan.params.fvvdp);
+        let timings = timings.unwrap_or_default();
+        let good = |index: &usize| {
+            let Some(outcome) = known.pairs.get(index) else { return false };
+            let Ok(frame) = &outcome.result else { return false };
+            let timed = timings.get(&outcome.method).is_some_and(|timing| timing.time.is_ok());
+            !(fvvdp && timed && frame.fvvdp.is_none())
+        };
+        // Each pair has seen those before it.
+        let first = range.clone().find(|index| !good(index)).unwrap_or(range.end);
+        known.pairs.split_off(&first);
+    }
+    if known.pairs.len() < range.len() {
+        known.settled = None;
+    }
+    Ok(known)
+}
