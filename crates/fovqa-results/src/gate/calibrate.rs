@@ -123,6 +123,11 @@ fn rounded(value: f64, spread: f64, round: impl Fn(f64) -> f64) -> f64 {
     let digits = 1 - libm::floor(libm::log10(spread)) as i32;
     // By a power of ten above one: its quotients print short.
     let power = libm::pow(10.0, f64::from(digits.abs()));
+    // What is a whole digit but for the last bits of a sum stays that.
+    let round = |value: f64| {
+        let whole = value.round();
+        if (value - whole).abs() < 1e-6 { whole } else { round(value) }
+    };
     if digits >= 0 { round(value * power) / power } else { round(value / power) * power }
 }
 
