@@ -41,7 +41,7 @@ fn check(folder: &Folder, text: &str) -> Run {
 }
 
 /// Whether the schema allows a file.
-fn schema_allows(text: &str) -> bool {
+pub(crate) fn schema_allows(text: &str) -> bool {
     let schema: Value = Run::from(command(&["schema"]).output().unwrap()).ok().json();
     let validator = jsonschema::validator_for(&schema).unwrap();
     let experiment: Value = toml::from_str(text).unwrap();

@@ -3,15 +3,24 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod bad_input;
+mod baselines;
+mod calibration;
 mod curve_files;
 mod curves;
 mod curves_golden;
 mod decoding;
+mod exit_codes;
 mod experiment_files;
 mod experiment_folder;
 mod experiments;
 mod figures;
 mod fovqa;
+mod gate;
+mod gate_baselines;
+mod gate_outcomes;
+mod gate_reports;
+mod gate_rules;
+mod gate_verdicts;
 mod golden;
 mod motion_and_depth;
 mod moving_frames;

@@ -86,6 +86,10 @@ fn accept(results: &Path, path: &Path, scenes: &[String], dry: bool) -> Result<E
         diagnostic::note(&format!("{} values differ; nothing is written", differences.len()));
         return Ok(printed);
     }
+    if printed != Exit::Done {
+        // What could not be shown is not taken over.
+        return Ok(printed);
+    }
     write(&accepted, path)?;
     diagnostic::note(&format!("{}: {} values have changed", path.display(), differences.len()));
     Ok(printed)

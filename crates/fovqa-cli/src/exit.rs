@@ -23,6 +23,19 @@ pub(crate) enum Exit {
 const INTERRUPTED: i32 = 130;
 
 impl Exit {
+    /// Of two ways to end, the one that counts: what is wrong with the command line before inputs, and
+    /// these before gates.
+    pub(crate) fn or_worse(self, other: Self) -> Self {
+        let rank = |exit| match exit {
+            Exit::Done => 0,
+            Exit::Gate => 1,
+            Exit::Input => 2,
+            Exit::Usage => 3,
+            Exit::Bug => 4,
+        };
+        if rank(other) > rank(self) { other } else { self }
+    }
+
     fn code(self) -> u8 {
         match self {
             Exit::Done => 0,

@@ -2,16 +2,18 @@
 
 use std::path::Path;
 
-use fovqa_config::{Experiment, GateRule};
+use fovqa_config::{GateRule, Resolved};
 use fovqa_report::{github_annotations, gitlab_report, junit, markdown, verdict_table};
-use fovqa_results::{Baseline, State, Verdict, calibrate, write_verdict_json, write_whole};
+use fovqa_results::{
+    Baseline, Lacking, State, Verdict, calibrate, write_verdict_json, write_whole,
+};
 
 use crate::args::{Annotations, GateArgs, GateFormat, RunArgs};
 use crate::diagnostic;
 use crate::exit::Exit;
 use crate::finished_run::FinishedRun;
 use crate::results::{Shown, text_hash};
-use crate::run::scored;
+use crate::run::{say_problems, scored};
 use crate::{experiment, output};
 
 pub(crate) fn run(args: &GateArgs) -> Exit {
@@ -20,21 +22,8 @@ pub(crate) fn run(args: &GateArgs) -> Exit {
 }
 
 fn gate(args: &GateArgs) -> Result<Exit, Exit> {
-    let baseline = args.baseline.as_deref().map(baseline).transpose()?;
-    let finished = if args.target.is_dir() {
-        let finished = FinishedRun::read(&args.target)?;
-        check(&finished.record.resolved.gates, &args.target, baseline.as_ref())?;
-        finished
-    } else {
-        let experiment = experiment::read(&args.target)?;
-        check(&experiment.gates, &args.target, baseline.as_ref())?;
-        // Before anything is scored.
-        fits(baseline.as_ref(), args, &experiment)?;
-        score(args)?
-    };
-    if let Some(baseline) = &baseline {
-        refused(baseline.refuses(&finished.record.resolved), args)?;
-    }
+    let (finished, baseline) =
+        if args.target.is_dir() { of_folder(args)? } else { of_experiment(args)? };
     let rules = &finished.record.resolved.gates;
     let file = if args.target.is_dir() {
         finished.record.experiment.file.clone()
@@ -50,52 +39,81 @@ fn gate(args: &GateArgs) -> Result<Exit, Exit> {
             format!("the inputs in {folder} are others than those of the baseline")
         }));
     }
-    write_files(args, &verdict)?;
     let printed = print(args, &verdict);
-    Ok(match verdict.state() {
-        State::Passed => printed,
+    let written = write_files(args, &verdict);
+    let judged = match verdict.state() {
+        State::Passed => Exit::Done,
         State::Failed => Exit::Gate,
         State::NotScored => Exit::Input,
         State::Wrong => Exit::Usage,
-    })
+    };
+    Ok(judged.or_worse(printed).or_worse(written))
+}
+
+/// A run that is finished, and the baseline it is held against.
+fn of_folder(args: &GateArgs) -> Result<(FinishedRun, Option<Baseline>), Exit> {
+    let options = [
+        ("--output", args.output.is_some()),
+        ("--frames", args.frames.is_some()),
+        ("--threads", args.threads.is_some()),
+    ];
+    if let Some((option, _)) = options.iter().find(|(_, given)| *given) {
+        let folder = args.target.display();
+        let message = format!("{option} is of scoring, and {folder} has been scored");
+        diagnostic::error(&message, "leave it out, or give the experiment file");
+        return Err(Exit::Usage);
+    }
+    let finished = FinishedRun::read(&args.target)?;
+    let resolved = &finished.record.resolved;
+    let file = args.target.join(&finished.record.experiment.file);
+    check(&resolved.gates, &file, args)?;
+    let baseline = fitting(args, resolved)?;
+    Ok((finished, baseline))
+}
+
+/// An experiment, scored. What is wrong with it comes before what cannot be read.
+fn of_experiment(args: &GateArgs) -> Result<(FinishedRun, Option<Baseline>), Exit> {
+    let experiment = experiment::read(&args.target)?;
+    check(&experiment.gates, &args.target, args)?;
+    let mut resolved = experiment.resolved();
+    resolved.frames = args.frames.map(|frames| frames.to_string());
+    let found = args.baseline.as_ref().map(|_| fovqa_engine::find(&experiment.plan));
+    if let Some(found) = found.filter(|f| f.problems.iter().any(|p| p.error.is_usage())) {
+        say_problems(&experiment, &found);
+        return Err(Exit::Usage);
+    }
+    // Before anything is scored.
+    let baseline = fitting(args, &resolved)?;
+    Ok((score(args)?, baseline))
 }
 
 /// Whether there are rules, and what they need.
-fn check(rules: &[GateRule], target: &Path, baseline: Option<&Baseline>) -> Result<(), Exit> {
-    let target = target.display();
+fn check(rules: &[GateRule], file: &Path, args: &GateArgs) -> Result<(), Exit> {
+    let file = file.display();
     if rules.is_empty() {
-        let message = format!("{target}: there is no [[gate]] in it, and no rule is no pass");
+        let message = format!("{file}: there is no [[gate]] in it, and no rule is no pass");
         diagnostic::error(&message, "write a rule, such as metric = \"psnr\" with at_least = 30");
         return Err(Exit::Usage);
     }
     if let Some(rule) = rules.iter().find(|rule| rule.needs_baseline())
-        && baseline.is_none()
+        && args.baseline.is_none()
     {
-        let message =
-            format!("{target}:{}: {} is held against a baseline", rule.line, rule.quantity);
+        let message = format!("{file}:{}: {} is held against a baseline", rule.line, rule.quantity);
         diagnostic::error(&message, "give it with --baseline; `fovqa baseline save` makes one");
         return Err(Exit::Usage);
     }
     Ok(())
 }
 
-fn baseline(path: &Path) -> Result<Baseline, Exit> {
-    Baseline::read(path).map_err(|error| {
+/// The baseline, where one is given, if it is of what is scored.
+fn fitting(args: &GateArgs, run: &Resolved) -> Result<Option<Baseline>, Exit> {
+    let Some(path) = args.baseline.as_deref() else { return Ok(None) };
+    let baseline = Baseline::read(path).map_err(|error| {
         diagnostic::error(&error.to_string(), "`fovqa baseline save` makes one of a run");
         Exit::Input
-    })
-}
-
-fn fits(baseline: Option<&Baseline>, args: &GateArgs, experiment: &Experiment) -> Result<(), Exit> {
-    let Some(baseline) = baseline else { return Ok(()) };
-    let mut resolved = experiment.resolved();
-    resolved.frames = args.frames.map(|frames| frames.to_string());
-    refused(baseline.refuses(&resolved), args)
-}
-
-fn refused(why: Option<String>, args: &GateArgs) -> Result<(), Exit> {
-    let Some(why) = why else { return Ok(()) };
-    let file = args.baseline.as_deref().unwrap_or(Path::new("")).display();
+    })?;
+    let Some(why) = baseline.refuses(run) else { return Ok(Some(baseline)) };
+    let file = path.display();
     let message = format!("{file}: the baseline is of values that were taken otherwise: {why}");
     diagnostic::error(&message, "run the experiment, look at it, and `fovqa baseline accept` it");
     Err(Exit::Input)
@@ -118,25 +136,28 @@ fn score(args: &GateArgs) -> Result<FinishedRun, Exit> {
     }
 }
 
-fn write_files(args: &GateArgs, verdict: &Verdict) -> Result<(), Exit> {
-    let xml = || {
-        junit(verdict).map_err(|error| {
-            diagnostic::error(&format!("the verdict is no XML: {error}"), "");
-            Exit::Bug
-        })
-    };
-    let files = [
-        args.junit.as_deref().map(|path| Ok((path, xml()?))),
-        args.markdown.as_deref().map(|path| Ok((path, markdown(verdict)))),
-    ];
-    for file in files.into_iter().flatten() {
-        let (path, text) = file?;
-        write_whole(path, text.as_bytes()).map_err(|error| {
+/// Each file that is asked for, whatever becomes of the others.
+fn write_files(args: &GateArgs, verdict: &Verdict) -> Exit {
+    let mut exit = Exit::Done;
+    let mut write = |path: &Path, text: &str| {
+        if let Err(error) = write_whole(path, text.as_bytes()) {
             diagnostic::error(&error.to_string(), "give another file");
-            Exit::Input
-        })?;
+            exit = exit.or_worse(Exit::Input);
+        }
+    };
+    if let Some(path) = args.markdown.as_deref() {
+        write(path, &markdown(verdict));
     }
-    Ok(())
+    if let Some(path) = args.junit.as_deref() {
+        match junit(verdict) {
+            Ok(xml) => write(path, &xml),
+            Err(error) => {
+                diagnostic::error(&format!("the verdict is no XML: {error}"), "");
+                exit = Exit::Bug;
+            }
+        }
+    }
+    exit
 }
 
 fn print(args: &GateArgs, verdict: &Verdict) -> Exit {
@@ -170,21 +191,22 @@ fn propose(args: &GateArgs) -> Result<Exit, Exit> {
         diagnostic::error(message, "give the folders of several runs of one build");
         return Err(Exit::Usage);
     }
+    let mut resolved = experiment.resolved();
+    resolved.frames = args.frames.map(|frames| frames.to_string());
     let mut runs = Vec::new();
     for folder in &args.calibrate {
         let run = FinishedRun::read(folder)?;
-        let other = run.record.resolved.metrics != experiment.resolved().metrics;
-        if other || !run.values.errors.is_empty() {
-            let why = run.values.errors.first().map_or("it is of other metrics", String::as_str);
+        let other = run.record.resolved.differs(&resolved);
+        if let Some(why) = other.or_else(|| run.values.errors.first().cloned()) {
             let message = format!("{}: no limits come of it: {why}", folder.display());
             diagnostic::error(&message, "run the experiment again");
             return Err(Exit::Input);
         }
-        runs.push(run.values);
+        runs.push((folder.display().to_string(), run.values));
     }
-    let calibration = calibrate(&experiment.gates, &runs).map_err(|why| {
-        diagnostic::error(&why, "run the experiment again");
-        Exit::Input
+    let calibration = calibrate(&experiment.gates, &runs).map_err(|lacking| {
+        diagnostic::error(&lacking.to_string(), "mend the rule, or run the experiment again");
+        if matches!(lacking, Lacking::Band(_)) { Exit::Usage } else { Exit::Input }
     })?;
     if calibration.proposals.is_empty() {
         diagnostic::error("the runs have nothing that the rules are of", "check the rules");

@@ -158,8 +158,10 @@ impl Aggregate {
             "max" => Some(Self::Max),
             word => {
                 let digits = word.strip_prefix('p').filter(|digits| digits.len() == 2)?;
+                // A number may have a sign; a percentile may not.
+                let plain = digits.bytes().all(|digit| digit.is_ascii_digit());
                 let percent: u8 = digits.parse().ok()?;
-                (1..=99).contains(&percent).then_some(Self::Percentile(percent))
+                (plain && (1..=99).contains(&percent)).then_some(Self::Percentile(percent))
             }
         }
     }

@@ -28,4 +28,4 @@ pub use grammar::{curves_schema, resolution, schema};
 pub use nearest::nearest;
 pub use plan::{Eye, EyeView, Gaze, MetricChoice, Nonfinite, Plan, Scene, Settings};
 pub use plots::{Plot, PlotKind};
-pub use resolved::{Resolved, ResolvedEye, ResolvedScene};
+pub use resolved::{Resolved, ResolvedEye, ResolvedScene, other_parameter};

@@ -71,6 +71,92 @@ pub struct ResolvedEye {
     pub signal: Value,
 }
 
+impl Resolved {
+    /// What of this is otherwise than in another experiment: metrics, parameters, scenes, methods, or how
+    /// those are seen and read. In words; `None`: they are the same.
+    pub fn differs(&self, other: &Self) -> Option<String> {
+        let names = |resolved: &Self| resolved.scenes.iter().map(|s| s.name.clone()).collect();
+        let scenes: [Vec<String>; 2] = [names(self), names(other)];
+        let keys = |resolved: &Self| json!(resolved.metrics.keys().collect::<Vec<_>>());
+        let whole = [
+            ("scenes", json!(scenes[0]), json!(scenes[1])),
+            ("methods", json!(self.methods), json!(other.methods)),
+            ("metrics", keys(self), keys(other)),
+        ];
+        let whole = whole.into_iter().find(|(_, a, b)| a != b);
+        let whole = whole.map(|(key, a, b)| format!("it has the {key} {a}, and not {b}"));
+        let metric = |(key, parameters): (&String, &BTreeMap<String, Value>)| {
+            other_parameter(key, parameters, other.metrics.get(key)?)
+        };
+        whole
+            .or_else(|| self.metrics.iter().find_map(metric))
+            .or_else(|| self.taken_otherwise(other))
+    }
+
+    /// What of the scenes that two experiments share is seen or read otherwise in the other one.
+    pub fn taken_otherwise(&self, other: &Self) -> Option<String> {
+        let said = |key: &str, was: &Value, place: &str, is: &Value| {
+            format!("it has {key} = {was}{place}, and not {is}")
+        };
+        if self.frames != other.frames {
+            return Some(said("--frames", &json!(self.frames), "", &json!(other.frames)));
+        }
+        self.scenes.iter().find_map(|scene| {
+            let now = other.scenes.iter().find(|now| now.name == scene.name)?;
+            let whole = [
+                ("frames", json!(scene.frames), json!(now.frames)),
+                ("fps", json!(scene.fps), json!(now.fps)),
+                ("eyes", json!(scene.eyes.len()), json!(now.eyes.len())),
+            ];
+            let whole = whole.into_iter().map(|(key, was, is)| (key.to_owned(), was, is));
+            let eyes = scene.eyes.iter().zip(&now.eyes).flat_map(|(was, is)| {
+                [("view", &was.view, &is.view), ("signal", &was.signal, &is.signal)]
+            });
+            let keys = eyes.flat_map(|(table, was, is)| table_keys(table, was, is));
+            let (key, was, is) = whole.chain(keys).find(|(_, was, is)| !alike(was, is))?;
+            Some(said(&key, &was, &format!(" in scene {}", scene.name), &is))
+        })
+    }
+}
+
+/// The first parameter of a metric that has another value, in words.
+pub fn other_parameter(
+    metric: &str,
+    before: &BTreeMap<String, Value>,
+    now: &BTreeMap<String, Value>,
+) -> Option<String> {
+    now.iter().find_map(|(name, is)| {
+        let was = before.get(name).unwrap_or(&Value::Null);
+        (!alike(was, is)).then(|| format!("it has {metric}.{name} = {was}, and not {is}"))
+    })
+}
+
+/// The keys of a table of settings, with their values here and there.
+fn table_keys(table: &str, was: &Value, is: &Value) -> Vec<(String, Value, Value)> {
+    let (Value::Object(was), Value::Object(is)) = (was, is) else { return Vec::new() };
+    let keys = was.keys().chain(is.keys().filter(|key| !was.contains_key(*key)));
+    let of = |map: &serde_json::Map<String, Value>, key: &str| {
+        map.get(key).cloned().unwrap_or(Value::Null)
+    };
+    keys.map(|key| (format!("{table}.{key}"), of(was, key), of(is, key))).collect()
+}
+
+/// Whether two values are the same: `1` and `1.0` are.
+fn alike(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Number(a), Value::Number(b)) => {
+            a.as_f64().map(f64::to_bits) == b.as_f64().map(f64::to_bits)
+        }
+        (Value::Array(a), Value::Array(b)) => {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| alike(a, b))
+        }
+        (Value::Object(a), Value::Object(b)) => {
+            a.len() == b.len() && a.iter().all(|(key, a)| b.get(key).is_some_and(|b| alike(a, b)))
+        }
+        (a, b) => a == b,
+    }
+}
+
 impl Experiment {
     /// The experiment with all its defaults written out.
     pub fn resolved(&self) -> Resolved {

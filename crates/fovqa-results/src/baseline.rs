@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use fovqa_config::{Aggregate, GateRule, Quantity, Resolved};
+use fovqa_config::{Aggregate, GateRule, Quantity, Resolved, other_parameter};
 use fovqa_metrics::{Better, Metric, MetricKind};
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::files::{FileError, read_json_file};
 use crate::gate::{Place, RunValues};
@@ -148,6 +148,11 @@ impl Baseline {
         read_json_file(path, BASELINE_SCHEMA, "a baseline")
     }
 
+    /// Frames of a comparison; `None`: there is no such comparison.
+    pub(crate) fn frames_of(&self, place: &Place) -> Option<usize> {
+        self.comparisons.iter().find(|c| c.place() == *place).map(|c| c.frames)
+    }
+
     /// The value of a comparison.
     pub(crate) fn value(&self, place: &Place, quantity: &Quantity) -> Result<f64, String> {
         let found = self.comparisons.iter().find(|c| c.place() == *place);
@@ -179,30 +184,11 @@ impl Baseline {
                     before.version
                 ));
             }
-            let other = parameters.iter().find(|(name, value)| {
-                before.parameters.get(*name).is_none_or(|before| !alike(before, value))
-            });
-            if let Some((name, value)) = other {
-                let before = before.parameters.get(name).unwrap_or(&Value::Null);
-                return Some(format!("it has {key}.{name} = {before}, and the run has {value}"));
+            if let Some(why) = other_parameter(key, &before.parameters, parameters) {
+                return Some(why);
             }
         }
-        self.resolved.scenes.iter().find_map(|before| {
-            let now = run.scenes.iter().find(|scene| scene.name == before.name)?;
-            let settings = [
-                ("frames", json!(before.frames), json!(now.frames)),
-                ("fps", json!(before.fps), json!(now.fps)),
-            ];
-            let eyes = before.eyes.iter().zip(&now.eyes).flat_map(|(before, now)| {
-                [("view", &before.view, &now.view), ("signal", &before.signal, &now.signal)]
-            });
-            let changed = eyes.flat_map(|(table, before, now)| changed(table, before, now));
-            let whole = settings.iter().filter(|(_, before, now)| !alike(before, now));
-            let whole =
-                whole.map(|(key, before, now)| ((*key).to_owned(), before.clone(), now.clone()));
-            let (key, was, is) = whole.chain(changed).next()?;
-            Some(format!("it has {key} = {was} in scene {}, and the run has {is}", before.name))
-        })
+        self.resolved.taken_otherwise(run)
     }
 
     /// The folders whose inputs are others than in the baseline.
@@ -266,9 +252,36 @@ impl Baseline {
         let mut comparisons = of(&self.comparisons, false);
         comparisons.extend(of(&new.comparisons, true));
         comparisons.sort_by_key(BaselineComparison::place);
+        // What stays is still of the inputs it was of.
         let mut inputs = self.inputs.clone();
-        inputs.extend(new.inputs.clone());
-        Ok(Self { inputs, comparisons, ..new.clone() })
+        let taken = new
+            .inputs
+            .iter()
+            .filter(|(folder, _)| !self.inputs.contains_key(*folder) || new.reads(folder, scenes));
+        inputs.extend(taken.map(|(folder, group)| (folder.clone(), group.clone())));
+        let mut metrics = self.metrics.clone();
+        metrics.extend(new.metrics.clone());
+        Ok(Self { metrics, inputs, comparisons, ..new.clone() })
+    }
+}
+
+impl Baseline {
+    /// Whether any of these scenes has files in a folder.
+    fn reads(&self, folder: &str, scenes: &[String]) -> bool {
+        let of = self.resolved.scenes.iter().filter(|scene| scenes.contains(&scene.name));
+        of.flat_map(|scene| &scene.eyes).any(|eye| {
+            let beside = [
+                &eye.view["gaze"]["trace"],
+                &eye.signal["mask"],
+                &eye.signal["motion"]["files"],
+                &eye.signal["depth"]["files"],
+            ];
+            let paths = eye.tests.values().chain([&eye.reference]).map(String::as_str);
+            let mut paths = paths.chain(beside.into_iter().filter_map(Value::as_str));
+            let parent =
+                |path: &str| path.rsplit_once('/').map_or("", |(parent, _)| parent) == folder;
+            paths.any(|path| path == folder || parent(path))
+        })
     }
 }
 
@@ -283,34 +296,6 @@ fn usual(metric: Metric) -> Vec<Quantity> {
             .map(|image| Quantity { image: image.to_owned(), ..of(Aggregate::Mean) })
             .into(),
         (_, MetricKind::Profile, _) => Vec::new(),
-    }
-}
-
-/// Keys of a table of settings whose values differ.
-fn changed(table: &str, before: &Value, now: &Value) -> Vec<(String, Value, Value)> {
-    let (Value::Object(before), Value::Object(now)) = (before, now) else { return Vec::new() };
-    let keys = before.keys().chain(now.keys().filter(|key| !before.contains_key(*key)));
-    let value = |map: &serde_json::Map<String, Value>, key: &String| {
-        map.get(key).cloned().unwrap_or(Value::Null)
-    };
-    keys.map(|key| (format!("{table}.{key}"), value(before, key), value(now, key)))
-        .filter(|(_, before, now)| !alike(before, now))
-        .collect()
-}
-
-/// Whether two values are the same: `1` and `1.0` are.
-fn alike(a: &Value, b: &Value) -> bool {
-    match (a, b) {
-        (Value::Number(a), Value::Number(b)) => {
-            a.as_f64().map(f64::to_bits) == b.as_f64().map(f64::to_bits)
-        }
-        (Value::Array(a), Value::Array(b)) => {
-            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| alike(a, b))
-        }
-        (Value::Object(a), Value::Object(b)) => {
-            a.len() == b.len() && a.iter().all(|(key, a)| b.get(key).is_some_and(|b| alike(a, b)))
-        }
-        (a, b) => a == b,
     }
 }
 

@@ -66,7 +66,7 @@ pub(crate) struct GateArgs {
     #[arg(long, value_name = "FORMAT", default_value = "table")]
     pub(crate) format: GateFormat,
     /// Print limits for the rules, from the spread of these repeated runs of one build, as TOML
-    #[arg(long, value_name = "RESULTS_DIR", num_args = 1.., conflicts_with_all = ["baseline", "junit", "markdown", "annotations", "format"])]
+    #[arg(long, value_name = "RESULTS_DIR", num_args = 1.., conflicts_with_all = ["baseline", "junit", "markdown", "annotations", "format", "output", "threads"])]
     pub(crate) calibrate: Vec<PathBuf>,
     /// Folder for the results of an experiment [default: reports/NAME, NAME being the experiment's]
     #[arg(long, value_name = "DIR")]

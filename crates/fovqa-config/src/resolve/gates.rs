@@ -6,6 +6,7 @@ use fovqa_metrics::{Better, Metric, MetricKind};
 
 use super::plots::Known;
 use super::scenes::Resolved;
+use super::view::VIEW_HELP;
 use crate::fault::{Fault, Faults};
 use crate::gates::{Aggregate, Allowance, GateRule, Quantity, better};
 use crate::grammar::quoted;
@@ -142,7 +143,14 @@ fn statistic(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fa
         let help = if allowed.is_empty() {
             "leave statistic out: aggregate says how frames become one value".to_owned()
         } else {
-            format!("it is one of {}", quoted(allowed.iter().map(String::as_str)))
+            let words = quoted(allowed.iter().map(String::as_str));
+            let split = ORIENTATIONS.iter().any(|of| word.ends_with(&format!("_{of}")));
+            let more = if metric == Metric::Haar && split && !known.params.haar.orientations {
+                "; those of an orientation need haar = { orientations = true }"
+            } else {
+                ""
+            };
+            format!("it is one of {words}{more}")
         };
         faults.push(Fault::new(table.span("statistic"), message).help(help));
     }
@@ -226,12 +234,23 @@ fn bands(table: Node<'_>, metric: Metric, scenes: &[&Resolved], faults: &mut Fau
     }
     let of_bands = metric != Metric::Fvvdp || table.text("statistic") == Some("share");
     if !metric.info().per_band || !of_bands {
-        let message = format!("{} has no value per band", metric.key());
-        faults.push(Fault::new(span, message).help("leave band_deg out"));
+        let (message, help) = if metric == Metric::Fvvdp {
+            let statistic = table.text("statistic").unwrap_or("jod");
+            let help = "leave band_deg out, or take statistic = \"share\"";
+            (format!("fvvdp {statistic} has no value per band"), help)
+        } else {
+            (format!("{} has no value per band", metric.key()), "leave band_deg out")
+        };
+        faults.push(Fault::new(span, message).help(help));
         return;
     }
     let mut inside = 0;
     for settings in scenes.iter().flat_map(|scene| &scene.scene.eyes).map(|eye| &eye.settings) {
+        if settings.view.is_none() {
+            let message = "bands need a view, and a scene of the rule has none";
+            faults.push(Fault::new(span, message).help(VIEW_HELP));
+            return;
+        }
         let known = match &settings.bands {
             Some(edges) => edges.iter().collect(),
             // How many of them there are is seen with the frames.

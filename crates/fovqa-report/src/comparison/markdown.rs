@@ -43,7 +43,7 @@ impl ComparisonTable {
 pub(crate) fn escaped_markdown(text: &str) -> String {
     let mut plain = String::new();
     for c in text.chars() {
-        if matches!(c, '|' | '*' | '_' | '`' | '\\' | '<' | '>' | '[' | ']' | '#') {
+        if matches!(c, '|' | '*' | '_' | '`' | '\\' | '<' | '>' | '[' | ']' | '#' | '&' | '~') {
             plain.push('\\');
         }
         plain.push(c);

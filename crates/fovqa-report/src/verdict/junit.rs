@@ -62,6 +62,10 @@ fn case(verdict: &Verdict, rule: &RuleVerdict) -> TestCase {
 
 /// Text that XML can hold.
 fn visible(text: &str) -> String {
-    let allowed = |c: &char| !c.is_control() || matches!(c, '\n' | '\t');
+    let allowed = |c: &char| match c {
+        '\n' | '\t' => true,
+        '\u{fffe}' | '\u{ffff}' => false,
+        c => !c.is_control(),
+    };
     text.chars().filter(allowed).collect()
 }

@@ -16,7 +16,7 @@ use std::fmt::Write as _;
 
 use fovqa_results::{Check, Limit, Place, State, Verdict};
 
-/// A value as verdicts show it: short, but never rounded across a limit.
+/// A value as verdicts show it: short. On which side of a limit it lies, its margin says.
 fn number(value: f64) -> String {
     if value.is_infinite() {
         return if value > 0.0 { "inf" } else { "-inf" }.to_owned();

@@ -6,7 +6,8 @@ use std::fmt::Write as _;
 use fovqa_config::{GateRule, Quantity};
 use fovqa_metrics::Better;
 
-use super::values::{Place, RunValues};
+use super::values::{Lacking, Place, RunValues};
+use super::verdict::is_of;
 
 /// Limits for a gate, from repeated runs.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,32 +35,24 @@ pub struct Proposal {
     pub deviation: f64,
 }
 
-/// Proposes limits for rules from the values of repeated runs.
+/// Proposes limits for rules from the values of repeated runs, each with its name.
 ///
 /// # Errors
 /// When a run lacks a value.
-pub fn calibrate(rules: &[GateRule], runs: &[RunValues]) -> Result<Calibration, String> {
-    let mut proposals = Vec::new();
-    let Some(first) = runs.first() else { return Ok(Calibration { runs: 0, proposals }) };
+pub fn calibrate(rules: &[GateRule], runs: &[(String, RunValues)]) -> Result<Calibration, Lacking> {
+    let mut proposals: Vec<Proposal> = Vec::new();
+    let Some((_, first)) = runs.first() else { return Ok(Calibration { runs: 0, proposals }) };
     for rule in rules {
-        let wanted =
-            |wanted: &Option<String>, name: &String| wanted.as_ref().is_none_or(|w| w == name);
-        let eye = |name: &String| match &rule.eye {
-            Some(eye) => eye == name,
-            None => name.is_empty() || name == "both",
-        };
-        let places = first.places().filter(|(scene, method, of)| {
-            wanted(&rule.scene, scene) && wanted(&rule.method, method) && eye(of)
-        });
-        for place in places {
-            let values = runs.iter().enumerate().map(|(index, run)| {
-                let found = run.of(place, &rule.quantity);
-                let lacks =
-                    |_| format!("run {} has no {} of {}", index + 1, rule.quantity, named(place));
-                found.map(|found| found.value).map_err(lacks)
-            });
-            let values: Vec<f64> = values.collect::<Result<_, _>>()?;
-            proposals.push(Proposal::new(rule, place, &values));
+        for place in first.places().filter(|place| is_of(rule, place)) {
+            let value = |(name, run): &(String, RunValues)| {
+                let found = run.of(place, &rule.quantity).map(|found| found.value);
+                found.map_err(|lacking| lacking.within(&format!("{name}: {}", named(place))))
+            };
+            let values: Vec<f64> = runs.iter().map(value).collect::<Result<_, _>>()?;
+            let proposal = Proposal::new(rule, place, &values);
+            if !proposals.contains(&proposal) {
+                proposals.push(proposal);
+            }
         }
     }
     Ok(Calibration { runs: runs.len(), proposals })
@@ -104,7 +97,11 @@ impl Proposal {
         rounded(2.0 * self.spread(), self.spread(), f64::ceil)
     }
 
+    /// The lines of its limits; none where a value is infinite, which has no distance from others.
     fn limits(&self) -> Vec<String> {
+        if !self.min.is_finite() || !self.max.is_finite() {
+            return Vec::new();
+        }
         let number = |key: &str, value: f64| format!("{key} = {value:?}");
         match (self.quantity.better(), self.relative) {
             (Better::Higher, false) => vec![number("at_least", self.at_least())],
@@ -126,6 +123,11 @@ fn rounded(value: f64, spread: f64, round: impl Fn(f64) -> f64) -> f64 {
     let digits = 1 - libm::floor(libm::log10(spread)) as i32;
     // By a power of ten above one: its quotients print short.
     let power = libm::pow(10.0, f64::from(digits.abs()));
+    // What is a whole digit but for the last bits of a sum stays that.
+    let round = |value: f64| {
+        let whole = value.round();
+        if (value - whole).abs() < 1e-6 { whole } else { round(value) }
+    };
     if digits >= 0 { round(value * power) / power } else { round(value / power) * power }
 }
 
@@ -138,6 +140,15 @@ impl Calibration {
         );
         for proposal in &self.proposals {
             let Proposal { place, quantity, min, max, deviation, .. } = proposal;
+            let limits = proposal.limits();
+            if limits.is_empty() {
+                let place = comment(&named(place));
+                let _ = write!(
+                    text,
+                    "\n# {place}: {quantity} {min} to {max} in {runs} runs: no limit comes of an infinite value\n"
+                );
+                continue;
+            }
             let _ = write!(
                 text,
                 "\n# {}: {quantity} {min} to {max} in {runs} runs (spread {}, standard deviation {deviation:.2e})\n",
@@ -169,7 +180,7 @@ impl Calibration {
             if let Some(aggregate) = quantity.aggregate {
                 key("aggregate", &quoted(&aggregate.to_string()));
             }
-            for limit in proposal.limits() {
+            for limit in limits {
                 let _ = writeln!(text, "{limit}");
             }
         }

@@ -3,6 +3,7 @@
 mod aggregate;
 mod calibrate;
 mod json;
+mod reading;
 mod values;
 mod verdict;
 

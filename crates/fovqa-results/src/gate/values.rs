@@ -1,15 +1,13 @@
 //! The values of a finished run, from results.csv and summary.json.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::fmt;
 
 use fovqa_config::{Aggregate, Quantity};
 use fovqa_metrics::{Metric, mse_of_db, psnr_db};
 
 use super::aggregate::aggregate;
-use crate::csv_table::ERROR;
-use crate::files::{FileError, RESULTS_CSV, SUMMARY_JSON, read_json_file};
-use crate::json::{ComparisonSummary, SUMMARY_SCHEMA, SummaryRecord};
+use crate::json::ComparisonSummary;
 
 /// Scene, method and eye.
 pub type Place = (String, String, String);
@@ -17,30 +15,30 @@ pub type Place = (String, String, String);
 /// The values of a run, comparison by comparison.
 #[derive(Debug, Default)]
 pub struct RunValues {
-    places: BTreeMap<Place, Values>,
+    pub(super) places: BTreeMap<Place, Values>,
     /// What could not be scored, in words.
     pub errors: Vec<String>,
 }
 
 /// The values of a comparison.
 #[derive(Debug, Default)]
-struct Values {
-    rows: BTreeMap<Kind, Vec<Row>>,
-    summary: Option<ComparisonSummary>,
+pub(super) struct Values {
+    pub(super) rows: BTreeMap<Kind, Vec<Row>>,
+    pub(super) summary: Option<ComparisonSummary>,
     /// Frames, or the whole, that could not be scored.
-    errors: usize,
+    pub(super) errors: usize,
 }
 
 /// What a row is of: metric, statistic, image, level.
-type Kind = (String, String, String, Option<usize>);
+pub(super) type Kind = (String, String, String, Option<usize>);
 
 /// A value.
 #[derive(Debug, Clone, Copy)]
-struct Row {
+pub(super) struct Row {
     /// `None`: of the whole sequence.
-    frame: Option<u64>,
-    band: Option<[f64; 2]>,
-    value: Option<f64>,
+    pub(super) frame: Option<u64>,
+    pub(super) band: Option<[f64; 2]>,
+    pub(super) value: Option<f64>,
 }
 
 /// A value of a comparison.
@@ -63,74 +61,26 @@ pub enum Lacking {
     Nothing(String),
 }
 
+impl Lacking {
+    /// The same, with where that is in front.
+    pub(super) fn within(self, place: &str) -> Self {
+        let named = |why: String| format!("{place}: {why}");
+        match self {
+            Self::Band(why) => Self::Band(named(why)),
+            Self::NotScored(why) => Self::NotScored(named(why)),
+            Self::Nothing(why) => Self::Nothing(named(why)),
+        }
+    }
+}
+
+impl fmt::Display for Lacking {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Self::Band(why) | Self::NotScored(why) | Self::Nothing(why)) = self;
+        f.write_str(why)
+    }
+}
+
 impl RunValues {
-    /// Reads those of a folder of results.
-    ///
-    /// # Errors
-    /// When its files are missing or not what they should be.
-    pub fn read(folder: &Path) -> Result<Self, FileError> {
-        let path = folder.join(SUMMARY_JSON);
-        let summary: SummaryRecord = read_json_file(&path, SUMMARY_SCHEMA, "a summary of a run")?;
-        let mut values = Self::default();
-        values.read_csv(&folder.join(RESULTS_CSV))?;
-        for comparison in summary.comparisons {
-            let place =
-                (comparison.scene.clone(), comparison.method.clone(), comparison.eye.clone());
-            let entry = values.places.entry(place).or_default();
-            entry.errors = comparison.errors;
-            entry.summary = Some(comparison);
-        }
-        values.errors = summary
-            .errors
-            .iter()
-            .map(|error| {
-                let frame = error.frame.map(|frame| format!("frame {frame}"));
-                let eye = Some(error.eye.clone()).filter(|eye| !eye.is_empty());
-                let place = [Some(error.scene.clone()), Some(error.method.clone()), eye, frame];
-                let place: Vec<String> = place.into_iter().flatten().collect();
-                format!("{}: {}", place.join(", "), error.message)
-            })
-            .collect();
-        Ok(values)
-    }
-
-    fn read_csv(&mut self, path: &Path) -> Result<(), FileError> {
-        let broken = |detail: String| FileError::Format {
-            path: path.to_owned(),
-            expected: "the results of a run",
-            detail,
-        };
-        let mut reader = csv::Reader::from_path(path).map_err(|e| broken(e.to_string()))?;
-        let headers = reader.headers().map_err(|e| broken(e.to_string()))?.clone();
-        if !headers.iter().eq(crate::csv_table::COLUMNS) {
-            return Err(broken("its columns are others".to_owned()));
-        }
-        let mut record = csv::StringRecord::new();
-        while reader.read_record(&mut record).map_err(|e| broken(e.to_string()))? {
-            let cell = |index: usize| record.get(index).unwrap_or_default();
-            let line = record.position().map_or(0, csv::Position::line);
-            let number = |index: usize| -> Result<Option<f64>, FileError> {
-                let text = cell(index);
-                let wrong = |_| broken(format!("line {line}: {text:?} is no number"));
-                if text.is_empty() { Ok(None) } else { text.parse().map(Some).map_err(wrong) }
-            };
-            if cell(6) == ERROR {
-                continue;
-            }
-            let whole = |value: Option<f64>| value.map(|value| value as u64);
-            let row = Row {
-                frame: whole(number(4)?),
-                band: number(9)?.zip(number(10)?).map(|(from, to)| [from, to]),
-                value: number(11)?.filter(|value| !value.is_nan()),
-            };
-            let level = whole(number(8)?).map(|level| level as usize);
-            let text = |index: usize| cell(index).to_owned();
-            let values = self.places.entry((text(0), text(1), text(3))).or_default();
-            values.rows.entry((text(6), text(7), text(5), level)).or_default().push(row);
-        }
-        Ok(())
-    }
-
     /// Scene, method and eye of every comparison.
     pub fn places(&self) -> impl Iterator<Item = &Place> {
         self.places.keys()
@@ -178,26 +128,29 @@ impl Values {
         let frames = self.frames(&of_frames).unwrap_or_default();
         let summary = self.summary.as_ref();
         let value = match (Metric::find(&quantity.metric), quantity.band_deg) {
+            (Some(Metric::Psnr), Some(band)) => Some(self.pooled_in(quantity, band)?),
             (Some(Metric::Fvvdp), _) => summary.and_then(|summary| summary.fvvdp.as_ref()?.jod),
             (Some(metric), None) => {
                 summary.and_then(|summary| summary.metrics.get(&metric)?.pooled)
             }
-            (Some(_), Some(band)) => self.pooled_in(band),
-            (None, _) => None,
+            _ => None,
         };
         Ok(Found { value: value.ok_or_else(|| lacks(quantity))?, frames })
     }
 
     /// PSNR of the error of all frames in a band.
-    fn pooled_in(&self, band: [f64; 2]) -> Option<f64> {
+    fn pooled_in(&self, quantity: &Quantity, band: [f64; 2]) -> Result<f64, Lacking> {
         let psnr = Quantity { band_deg: Some(band), ..Quantity::of(Metric::Psnr, Aggregate::Mean) };
-        let parts = self.parts(&psnr).ok()?;
+        // Says what is missing.
+        self.frames(&psnr)?;
         let (mut squared, mut pixels) = (0.0, 0.0);
-        for part in parts.into_values().flatten() {
-            squared += mse_of_db(part.value?) * part.weight;
+        for part in self.parts(&psnr)?.into_values().flatten() {
+            // A band without pixels has no value, and weighs nothing.
+            let Some(value) = part.value else { continue };
+            squared += mse_of_db(value) * part.weight;
             pixels += part.weight;
         }
-        (pixels > 0.0).then(|| psnr_db(squared / pixels))
+        if pixels > 0.0 { Ok(psnr_db(squared / pixels)) } else { Err(lacks(quantity)) }
     }
 
     fn ratio_of_means(&self, quantity: &Quantity) -> Result<f64, Lacking> {
@@ -212,16 +165,18 @@ impl Values {
             aggregate(kind, &values, false).ok_or_else(|| lacks(quantity))
         };
         let (reference, test) = (mean("reference")?, mean("test")?);
-        if reference == 0.0 {
-            let why = format!("{quantity}: there is no ratio to a reference of 0");
-            return Err(Lacking::NotScored(why));
-        }
-        Ok(test / reference)
+        if reference == 0.0 { Err(no_ratio(quantity)) } else { Ok(test / reference) }
     }
 
     /// The value of each frame that has one.
     fn frames(&self, quantity: &Quantity) -> Result<Vec<(u64, f64)>, Lacking> {
         let parts = self.parts(quantity)?;
+        if !self.rows.contains_key(&kind(quantity)) {
+            return Err(lacks(quantity));
+        }
+        if quantity.image == "ratio" && parts.values().any(|parts| parts.len() > 1) {
+            return self.ratios(quantity);
+        }
         let metric = Metric::find(&quantity.metric);
         let mut frames = Vec::new();
         let mut pixels = 0.0;
@@ -234,16 +189,32 @@ impl Values {
         if frames.is_empty() && quantity.band_deg.is_some() && pixels == 0.0 {
             return Err(Lacking::Nothing(format!("{quantity}: no pixel is in the band")));
         }
-        if frames.is_empty() { Err(lacks(quantity)) } else { Ok(frames) }
+        match quantity.image.as_str() {
+            _ if !frames.is_empty() => Ok(frames),
+            "ratio" => Err(no_ratio(quantity)),
+            _ => Err(lacks(quantity)),
+        }
+    }
+
+    /// Frame by frame, test over reference of several bands together: not the mean of their ratios.
+    fn ratios(&self, quantity: &Quantity) -> Result<Vec<(u64, f64)>, Lacking> {
+        let of =
+            |image: &str| self.frames(&Quantity { image: image.to_owned(), ..quantity.clone() });
+        let (references, tests) = (of("reference")?, of("test")?);
+        let references: BTreeMap<u64, f64> = references.into_iter().collect();
+        let ratio = |(frame, test): (u64, f64)| {
+            let reference = references.get(&frame).filter(|reference| **reference != 0.0)?;
+            Some((frame, test / reference))
+        };
+        let frames: Vec<(u64, f64)> = tests.into_iter().filter_map(ratio).collect();
+        if frames.is_empty() { Err(no_ratio(quantity)) } else { Ok(frames) }
     }
 
     /// The values of each frame's bands that a quantity is of, with their weights.
     fn parts(&self, quantity: &Quantity) -> Result<BTreeMap<u64, Vec<Part>>, Lacking> {
-        let Quantity { metric, statistic, image, level, band_deg, .. } = quantity;
-        let kind = (metric.clone(), statistic.clone(), image.clone(), *level);
-        let rows = self.rows.get(&kind).map(Vec::as_slice).unwrap_or_default();
+        let rows = self.rows.get(&kind(quantity)).map(Vec::as_slice).unwrap_or_default();
         let mut frames: BTreeMap<u64, Vec<Part>> = BTreeMap::new();
-        let Some([from, to]) = *band_deg else {
+        let Some([from, to]) = quantity.band_deg else {
             for row in rows.iter().filter(|row| row.band.is_none()) {
                 let part = Part { value: row.value, weight: 1.0 };
                 if let Some(frame) = row.frame {
@@ -253,15 +224,17 @@ impl Values {
             return Ok(frames);
         };
         let weights = self.weights(quantity);
-        let mut edges: Vec<[f64; 2]> = Vec::new();
         for row in rows {
             let (Some(frame), Some(band)) = (row.frame, row.band) else { continue };
-            edges.push(band);
             if from <= band[0] && band[1] <= to {
                 let weight = weights.get(&(frame, band.map(f64::to_bits))).copied().unwrap_or(0.0);
                 frames.entry(frame).or_default().push(Part { value: row.value, weight });
             }
         }
+        // Every band has its pixels, whatever else it lacks.
+        let pixels = ("pixels".to_owned(), String::new(), "pair".to_owned(), None);
+        let pixels = self.rows.get(&pixels).into_iter().flatten();
+        let edges: Vec<[f64; 2]> = pixels.filter_map(|row| row.band).collect();
         let is_edge =
             |at: f64, side: usize| edges.iter().any(|band| band[side].to_bits() == at.to_bits());
         let known = rows.is_empty() || (is_edge(from, 0) && is_edge(to, 1));
@@ -287,6 +260,11 @@ impl Values {
             |row: &Row| Some(((row.frame?, row.band?.map(f64::to_bits)), row.value.unwrap_or(0.0)));
         rows.filter_map(weight).collect()
     }
+}
+
+fn kind(quantity: &Quantity) -> Kind {
+    let Quantity { metric, statistic, image, level, .. } = quantity;
+    (metric.clone(), statistic.clone(), image.clone(), *level)
 }
 
 /// A band of a frame.
@@ -331,6 +309,10 @@ fn known_bands(quantity: &Quantity, edges: &[[f64; 2]]) -> String {
         "{quantity}: the band does not begin and end with bands that are scored: {}",
         known.join(", ")
     )
+}
+
+fn no_ratio(quantity: &Quantity) -> Lacking {
+    Lacking::NotScored(format!("{quantity}: there is no ratio to a reference of 0"))
 }
 
 fn lacks(quantity: &Quantity) -> Lacking {

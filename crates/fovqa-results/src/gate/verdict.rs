@@ -174,25 +174,25 @@ fn strangers(run: &RunValues, baseline: &Baseline) -> Vec<String> {
     gone.map(|c| format!("the baseline has {}, and the run has not", c.named())).collect()
 }
 
-fn judged(rule: &GateRule, run: &RunValues, baseline: Option<&Baseline>) -> RuleVerdict {
-    let wanted = |wanted: &Option<String>, name: &String| wanted.as_ref().is_none_or(|w| w == name);
-    let eye = |name: &str| match (&rule.eye, name) {
-        (Some(eye), name) => eye == name,
-        (None, name) => name.is_empty() || name == "both",
+/// Whether a rule is of a comparison: of both eyes together, where it names none.
+pub(super) fn is_of(rule: &GateRule, (scene, method, eye): &Place) -> bool {
+    let wanted = |wanted: &Option<String>, name: &str| wanted.as_ref().is_none_or(|w| w == name);
+    let of_eye = match &rule.eye {
+        Some(wanted) => wanted == eye,
+        None => eye.is_empty() || eye == "both",
     };
-    let places = run.places().filter(|(scene, method, of)| {
-        wanted(&rule.scene, scene) && wanted(&rule.method, method) && eye(of)
-    });
+    of_eye && wanted(&rule.scene, scene) && wanted(&rule.method, method)
+}
+
+fn judged(rule: &GateRule, run: &RunValues, baseline: Option<&Baseline>) -> RuleVerdict {
+    let places = run.places().filter(|place| is_of(rule, place));
     let checks: Vec<Check> = places.map(|place| check(rule, run, place, baseline)).collect();
     let nothing = checks.is_empty().then(|| "nothing was compared that this rule is of".to_owned());
     // A comparison that the rule is of, and that is no longer there, is no pass either.
     let lost = baseline.filter(|_| rule.needs_baseline()).and_then(|baseline| {
         let gone = baseline.comparisons.iter().find(|c| {
             let place = c.place();
-            wanted(&rule.scene, &place.0)
-                && wanted(&rule.method, &place.1)
-                && eye(&place.2)
-                && !run.places().any(|here| *here == place)
+            is_of(rule, &place) && !run.places().any(|here| *here == place)
         });
         gone.map(|c| format!("the baseline has {}, and the run has not", c.named()))
     });
@@ -232,6 +232,14 @@ fn check(rule: &GateRule, run: &RunValues, place: &Place, baseline: Option<&Base
         }
     };
     check.baseline = before;
+    let frames = run.frames_of(place);
+    if let Some(was) = baseline.filter(|_| before.is_some()).and_then(|b| b.frames_of(place))
+        && was != frames
+    {
+        let why = format!("the baseline is of {was} frames, and the run of {frames}");
+        check.outcome = Outcome::NotScored(why);
+        return check;
+    }
     let limits = limits(rule, found.value, before);
     let tightest = limits.into_iter().reduce(|a, b| if b.margin < a.margin { b } else { a });
     check.worst = worst(&found, rule, tightest);
