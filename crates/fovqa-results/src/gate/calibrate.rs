@@ -123,6 +123,9 @@ fn rounded(value: f64, spread: f64, round: impl Fn(f64) -> f64) -> f64 {
     let digits = 1 - libm::floor(libm::log10(spread)) as i32;
     // By a power of ten above one: its quotients print short.
     let power = libm::pow(10.0, f64::from(digits.abs()));
+    if power.is_infinite() {
+        return value;
+    }
     // What is a whole digit but for the last bits of a sum stays that.
     let round = |value: f64| {
         let whole = value.round();
@@ -220,6 +223,7 @@ mod tests {
         assert_eq!(relative.limits(), ["max_drop = 0.178"]);
         let same = Proposal { max: 28.613, ..proposal };
         assert_eq!(same.limits(), ["at_least = 28.613"]);
-        assert!((rounded(123_456.0, 5000.0, f64::floor) - 123_000.0).abs() < 1e-9);
+        assert!((rounded(123_456.0, 5000.0, f64::floor) - 123_400.0).abs() < 1e-9);
+        assert!((rounded(1e-310, 1e-320, f64::floor) - 1e-310).abs() < 1e-315, "no power of ten");
     }
 }
