@@ -254,19 +254,24 @@ fn a_shard_is_gone_on_with() {
 #[test]
 fn what_lies_before_a_shard_may_be_mended() {
     let folder = sequence("replicate");
+    let text = fs::read_to_string(folder.path("e.toml")).unwrap();
+    let without = text.replace("fvvdp = { temp_padding = \"replicate\" }", "");
     let whole = fs::read(folder.path("moving/a/0005.exr")).unwrap();
-    folder.write("moving/a/0005.exr", "no picture");
-    assert_eq!(shard(&folder, "s", 1, 2).code, 3);
-    let run = shard(&folder, "s", 2, 2).ok();
-    assert!(!run.stderr.contains("0005"), "it is not of this shard: {}", run.stderr);
-    folder.write("moving/a/0005.exr", whole);
-    for index in ["1/2", "2/2"] {
-        let output = format!("s-{}", index.replace('/', "-of-"));
-        folder.run(&["run", "e.toml", "--shard", index, "--resume", "--output", &output]).ok();
+    for text in [text, without] {
+        folder.write("e.toml", text);
+        folder.write("moving/a/0005.exr", "no picture");
+        assert_eq!(shard(&folder, "s", 1, 2).code, 3);
+        let run = shard(&folder, "s", 2, 2).ok();
+        assert!(!run.stderr.contains("0005"), "it is not of this shard: {}", run.stderr);
+        folder.write("moving/a/0005.exr", &whole);
+        for index in ["1/2", "2/2"] {
+            let output = format!("s-{}", index.replace('/', "-of-"));
+            folder.run(&["run", "e.toml", "--shard", index, "--resume", "--output", &output]).ok();
+        }
+        folder.run(&["run", "e.toml", "--output", "whole"]).ok();
+        merge(&folder, &names("s", 2), "merged").ok();
+        assert_same(&results(&folder.path("merged")), &results(&folder.path("whole")), "mended");
     }
-    folder.run(&["run", "e.toml", "--output", "whole"]).ok();
-    merge(&folder, &names("s", 2), "merged").ok();
-    assert_same(&results(&folder.path("merged")), &results(&folder.path("whole")), "mended");
 }
 
 #[test]
@@ -332,7 +337,7 @@ fn shards_that_do_not_belong_together_are_told() {
             .unwrap();
     }
     shard(&folder, "s", 3, 3).ok();
-    fails(&[one, two, three], &["other files were found for them"]);
+    fails(&[one, two, three], &["other files, or other bands, were found for them"]);
     folder.write("e.toml", fs::read_to_string(folder.path("e.toml")).unwrap() + "# other\n");
     shard(&folder, "s", 3, 3).ok();
     fails(&[one, two, three], &["their experiments differ"]);
