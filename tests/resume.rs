@@ -253,12 +253,12 @@ fn what_has_changed_is_said_and_all_is_scored() {
         let last = folder.path(&format!("hall/{side}/0002.png"));
         fs::copy(last, folder.path(&format!("hall/{side}/0003.png"))).unwrap();
     }
-    resumed(&cut, &[], &["hall: other files are found for it than before"]);
+    resumed(&cut, &[], &["hall: its files, or the bands they decide, are others than before"]);
     for side in ["gt", "a", "b"] {
         fs::remove_file(folder.path(&format!("hall/{side}/0003.png"))).unwrap();
         fs::remove_file(folder.path(&format!("room/{side}/0002.png"))).unwrap();
     }
-    resumed(&cut, &[], &["room: other files are found for it than before"]);
+    resumed(&cut, &[], &["room: its files, or the bands they decide, are others than before"]);
 }
 
 /// A scene that was missing altogether costs the others nothing when it comes.
@@ -285,6 +285,28 @@ fn a_scene_that_has_come_is_scored_alone() {
     for (name, marked) in marks(&folder, "out") {
         assert_eq!(name.starts_with("hall"), marked, "{name}");
     }
+}
+
+/// The bands of a scene go as far as either eye sees: what cannot be read of one counts for both.
+#[test]
+fn an_eye_that_is_mended_widens_the_bands_of_both() {
+    let folder = Folder::new();
+    for eye in ["left", "right"] {
+        folder.png_pair(&format!("gt_{eye}.png"), &format!("a_{eye}.png"), 48, 40);
+    }
+    folder.write(
+        "e.toml",
+        "name = \"e\"\n[view]\nfov_vertical_deg = 60\ngaze = { left = [24, 20], right = [47, 40] }\n\
+         [[scene]]\nname = \"s\"\nreference = { left = \"gt_left.png\", right = \"gt_right.png\" }\n\
+         [[method]]\nname = \"A\"\ntest = \"a_{eye}.png\"\n[metrics]\nmse = {}\n",
+    );
+    let whole = fs::read(folder.path("gt_right.png")).unwrap();
+    folder.write("gt_right.png", "no picture");
+    assert_eq!(folder.run(&["run", "e.toml", "--output", "out"]).code, 3);
+    folder.write("gt_right.png", whole);
+    folder.run(&["run", "e.toml", "--resume", "--output", "out"]).ok();
+    folder.run(&["run", "e.toml", "--output", "whole"]).ok();
+    assert_same(&results(&folder.path("out")), &results(&folder.path("whole")), "mended");
 }
 
 #[test]

@@ -3,8 +3,11 @@
 use std::fs;
 use std::path::Path;
 
+use fovqa_testkit::exr_files::{File, Part};
+
 use crate::experiment_folder::{bytes, rows};
 use crate::fovqa::{Folder, Run};
+use crate::moving_frames::{SIZE, moving};
 use crate::recorded::{FRAMES, assert_same, journal, results, sequence, two_scenes};
 
 /// Runs one shard, into `NAME-I-of-N`.
@@ -108,6 +111,41 @@ fn motion_that_stops_is_seen_by_shards() {
     run.says(&["has no motion vectors, and frames before it have some"]);
     for of in [2, 5, 24] {
         divided(&folder, of, 3);
+    }
+}
+
+/// Bad pixels that are left out: some, which the next frame has to know of, and all of a frame.
+#[test]
+fn pixels_that_are_left_out_are_the_same_in_shards() {
+    let folder = sequence("replicate");
+    let bad = |frame: usize, bad: fn(usize, usize) -> bool| {
+        let value = move |x, y| if bad(x, y) { f32::NAN } else { moving(2, frame * frame)(x, y) };
+        File::new(vec![Part::rgb(SIZE, value)])
+            .write(&folder.path(&format!("moving/a/{frame:04}.exr")));
+    };
+    bad(3, |x, y| x < 20 && y < 9);
+    bad(7, |_, _| true);
+    let text = fs::read_to_string(folder.path("e.toml")).unwrap();
+    let text = text.replace("[signal]\n", "[signal]\nnonfinite = \"mask\"\n");
+    let without = text.replace("fvvdp = { temp_padding = \"replicate\" }", "");
+    for (text, errors) in
+        [(text, "is not defined where pixels are left out"), (without, "no pixel")]
+    {
+        folder.write("e.toml", text);
+        let run = folder.run(&["run", "e.toml", "--output", "whole"]);
+        assert_eq!(run.code, 3);
+        run.says(&[errors]);
+        for of in [2, 3, 24] {
+            divided(&folder, of, 3);
+        }
+        let lines = journal(&folder, "whole");
+        for end in 1..=lines.len() {
+            folder.write("cut/journal.jsonl", lines[..end].concat());
+            let run = folder.run(&["run", "e.toml", "--resume", "--output", "cut"]);
+            assert_eq!(run.code, 3, "{}", run.stderr);
+            assert_same(&results(&folder.path("cut")), &results(&folder.path("whole")), "cut");
+        }
+        fs::remove_dir_all(folder.path("whole")).unwrap();
     }
 }
 
@@ -216,19 +254,24 @@ fn a_shard_is_gone_on_with() {
 #[test]
 fn what_lies_before_a_shard_may_be_mended() {
     let folder = sequence("replicate");
+    let text = fs::read_to_string(folder.path("e.toml")).unwrap();
+    let without = text.replace("fvvdp = { temp_padding = \"replicate\" }", "");
     let whole = fs::read(folder.path("moving/a/0005.exr")).unwrap();
-    folder.write("moving/a/0005.exr", "no picture");
-    assert_eq!(shard(&folder, "s", 1, 2).code, 3);
-    let run = shard(&folder, "s", 2, 2).ok();
-    assert!(!run.stderr.contains("0005"), "it is not of this shard: {}", run.stderr);
-    folder.write("moving/a/0005.exr", whole);
-    for index in ["1/2", "2/2"] {
-        let output = format!("s-{}", index.replace('/', "-of-"));
-        folder.run(&["run", "e.toml", "--shard", index, "--resume", "--output", &output]).ok();
+    for text in [text, without] {
+        folder.write("e.toml", text);
+        folder.write("moving/a/0005.exr", "no picture");
+        assert_eq!(shard(&folder, "s", 1, 2).code, 3);
+        let run = shard(&folder, "s", 2, 2).ok();
+        assert!(!run.stderr.contains("0005"), "it is not of this shard: {}", run.stderr);
+        folder.write("moving/a/0005.exr", &whole);
+        for index in ["1/2", "2/2"] {
+            let output = format!("s-{}", index.replace('/', "-of-"));
+            folder.run(&["run", "e.toml", "--shard", index, "--resume", "--output", &output]).ok();
+        }
+        folder.run(&["run", "e.toml", "--output", "whole"]).ok();
+        merge(&folder, &names("s", 2), "merged").ok();
+        assert_same(&results(&folder.path("merged")), &results(&folder.path("whole")), "mended");
     }
-    folder.run(&["run", "e.toml", "--output", "whole"]).ok();
-    merge(&folder, &names("s", 2), "merged").ok();
-    assert_same(&results(&folder.path("merged")), &results(&folder.path("whole")), "mended");
 }
 
 #[test]
@@ -294,7 +337,7 @@ fn shards_that_do_not_belong_together_are_told() {
             .unwrap();
     }
     shard(&folder, "s", 3, 3).ok();
-    fails(&[one, two, three], &["other files were found for them"]);
+    fails(&[one, two, three], &["other files, or other bands, were found for them"]);
     folder.write("e.toml", fs::read_to_string(folder.path("e.toml")).unwrap() + "# other\n");
     shard(&folder, "s", 3, 3).ok();
     fails(&[one, two, three], &["their experiments differ"]);

@@ -161,7 +161,8 @@ impl Run<'_> {
         let plan = &self.experiment.plan;
         for problem in &self.found.problems {
             let scene = &plan.scenes[problem.scene].name;
-            diagnostic::warning(&format!("{scene}: {} (of no shard)", problem.error));
+            let merged = "it will be an error of what is merged";
+            diagnostic::warning(&format!("{scene}: {} ({merged})", problem.error));
         }
         let scored = findings.scored(plan).count();
         let failures = say_failures_of_shard(&findings.failures(plan), scored);

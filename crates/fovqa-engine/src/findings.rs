@@ -35,7 +35,8 @@ pub(crate) struct ViewFindings {
     pub(crate) settled: Option<Settled>,
     /// Why none of it could be scored.
     pub(crate) failed: Option<Failure>,
-    /// Whether a pair that was looked at for the sake of others could not be compared.
+    /// Whether a journal says that a pair in front of those to be scored could not be compared: once
+    /// it can be, those after it are others.
     pub(crate) unsound: bool,
 }
 

@@ -223,7 +223,7 @@ fn difference(one: &Header, other: &Header) -> Option<String> {
     } else if of(one) != of(other) {
         differ("shards of", &of(one).to_string(), &of(other).to_string())
     } else if one.views != other.views {
-        Some("other files were found for them".to_owned())
+        Some("other files, or other bands, were found for them".to_owned())
     } else {
         None
     }

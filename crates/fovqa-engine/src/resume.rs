@@ -97,7 +97,10 @@ fn other_files(then: &[ViewFiles], now: &[ViewFiles], shard: Option<Shard>) -> V
     let gone = gone.map(|view| format!("{}: its frames are not found any more", named(view)));
     let new = now.iter().filter_map(|new| match then.iter().find(|old| same(old, new)) {
         Some(old) if old == new => None,
-        Some(_) => Some(format!("{}: other files are found for it than before", named(new))),
+        Some(_) => Some(format!(
+            "{}: its files, or the bands they decide, are others than before",
+            named(new)
+        )),
         None if shard.is_none() => None,
         None => Some(format!("{}: its frames were not found before", named(new))),
     });

@@ -89,8 +89,8 @@ impl<'a> Scoring<'a> {
         let loader = Loader { plan, settings: &eye.settings, guides };
         let sequence = (self.bands, self.scene.fps);
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
+        let frame = self.take_up(&work, &mut run, &loader, down)?;
         let mut findings = known;
-        let frame = self.take_up(&work, &mut run, &loader, &mut findings, down)?;
         self.score(&work.steps(frame), &mut run, &loader, &mut findings, down)?;
         let settled = self.settled(&run, metrics, &work);
         let (scene, methods) = (&self.scene.name, &plan.methods);
@@ -105,7 +105,6 @@ impl<'a> Scoring<'a> {
         work: &Work<'_>,
         run: &mut ViewRun<'_>,
         loader: &Loader<'_>,
-        findings: &mut ViewFindings,
         down: &mut TakenDown<'_, '_, '_>,
     ) -> Result<Option<usize>, EngineError> {
         let kept = run.go_on(work);
@@ -119,7 +118,6 @@ impl<'a> Scoring<'a> {
             let loaded = loader.load(&step);
             down.inputs_of(&loaded)?;
             if let Err(failure) = run.warm_up(&step, loaded, kept, down.warnings) {
-                findings.unsound = true;
                 (down.record)(Entry::Before(self.named(step.method), &failure))?;
             }
         }

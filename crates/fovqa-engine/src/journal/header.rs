@@ -2,15 +2,17 @@
 //! same files.
 
 use std::io::{BufRead, BufReader, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use fovqa_config::{Experiment, Eye};
+use fovqa_config::{Experiment, Eye, Plan};
 use fovqa_io::FileId;
+use fovqa_vision::BandEdges;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::JOURNAL;
 use crate::find::{Found, FoundView};
+use crate::scoring::scene_bands;
 use crate::share::Shard;
 
 /// Name and version of the format.
@@ -40,7 +42,7 @@ pub(crate) struct ViewFiles {
     pub(crate) eye: Option<Eye>,
     /// How many pairs are to be scored.
     pub(crate) pairs: usize,
-    /// SHA-256 of which files are paired with which.
+    /// SHA-256 of which files are paired with which, and of bands that other files decide.
     pub(crate) files: String,
 }
 
@@ -55,7 +57,7 @@ impl Header {
                 scene: scene.name.clone(),
                 eye: scene.eyes[view.eye].eye,
                 pairs: view.pairs(),
-                files: files(experiment, view),
+                files: files(plan, view, scene_bands(scene, found, view.scene).as_ref()),
             }
         });
         Self {
@@ -109,8 +111,8 @@ pub fn shard_in(folder: &Path) -> Option<Shard> {
     Header::parse(&line)?.shard
 }
 
-fn files(experiment: &Experiment, view: &FoundView) -> String {
-    let shown = |path: &std::path::PathBuf| experiment.plan.shown(path);
+fn files(plan: &Plan, view: &FoundView, bands: Option<&BandEdges>) -> String {
+    let shown = |path: &PathBuf| plan.shown(path);
     let frames = view.frames.iter().map(|frame| {
         let tests = frame.tests.iter().map(|(method, test)| json!([method, shown(test)]));
         let guides = [&frame.guides.motion, &frame.guides.depth];
@@ -119,7 +121,8 @@ fn files(experiment: &Experiment, view: &FoundView) -> String {
         json!([frame.number, frame.position, shown(&frame.reference), guides, tests])
     });
     let frames: serde_json::Value = frames.collect();
-    sha256(frames.to_string().as_bytes())
+    let bands: Option<Vec<(f64, f64)>> = bands.map(|bands| bands.iter().collect());
+    sha256(json!([frames, bands]).to_string().as_bytes())
 }
 
 fn sha256(bytes: &[u8]) -> String {
