@@ -1,5 +1,6 @@
 //! `make bench`: CPU seconds, megapixels a second and peak memory of whole runs of the command,
-//! beside decoding alone and beside the peers it finds installed.
+//! beside decoding alone and beside the peers it finds installed. `cargo bench … -- fvvdp`: of FovVideoVDP
+//! alone.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot go on has nothing to say")]
 #![allow(clippy::print_stdout, reason = "its results")]
@@ -390,11 +391,12 @@ fn main() {
             make_sequence(Path::new(folder), FOUR_K.0, FOUR_K.1);
             make_video(Path::new(folder), VGA);
         }
-        _ => report(),
+        words => report(words.contains(&"fvvdp")),
     }
 }
 
-fn report() {
+/// Measures everything, or FovVideoVDP alone.
+fn report(only_visible: bool) {
     let folder = tempfile::tempdir().unwrap();
     // In a process of its own: a child's peak memory counts from that of its parent.
     let this = std::env::current_exe().unwrap().display().to_string();
@@ -405,6 +407,9 @@ fn report() {
         "medians of {RUNS} runs of whole processes; Mpx/s: megapixels of a pair a CPU second\n"
     );
     println!("{:<44} {:>7} {:>7} {:>8} {:>7}   aim", "case", "CPU s", "wall s", "Mpx/s", "MiB");
+    if only_visible {
+        return visible_difference(folder.path());
+    }
     compare("4K PNG", &four_k, Some("0.60 CPU s, 350 MiB"), Some("0.30"));
     compare("1080p PNG", &pair("png", FULL_HD), Some("0.18 CPU s"), None);
     compare("4K EXR, half, ZIP", &pair("exr", FOUR_K), None, None);

@@ -206,7 +206,9 @@ fn a_shard_leaves_its_journal_and_nothing_else() {
     let lines = journal(&folder, "s");
     assert!(lines[0].contains("\"shard\":\"2/3\""));
     assert_eq!(lines.last().unwrap(), "{\"done\":true}\n");
-    folder.run(&["report", "s"]).fails(3, &["s: it has shard 2/3 of a run", "`fovqa merge`"]);
+    for command in ["report", "gate"] {
+        folder.run(&[command, "s"]).fails(3, &["s: it has shard 2/3 of a run", "`fovqa merge`"]);
+    }
     // Where no folder is named, each has one of its own.
     let run = folder.run(&["run", "e.toml", "--shard", "36/40"]).ok();
     run.says(&["reports/e-shard-36-of-40", "1 frame;"]);

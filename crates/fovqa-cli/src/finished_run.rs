@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use fovqa_engine::shard_in;
 use fovqa_results::{FileError, RUN_JSON, RUN_SCHEMA, RunRecord, RunValues, read_json_file};
 
 use crate::diagnostic;
@@ -18,8 +19,18 @@ impl FinishedRun {
     /// Reads a folder; what is wrong with it has been said otherwise.
     pub(crate) fn read(folder: &Path) -> Result<Self, Exit> {
         if !folder.join(RUN_JSON).is_file() {
-            let message = format!("{}: there is no finished run in it", folder.display());
-            diagnostic::error(&message, "give the folder that `fovqa run` wrote to");
+            let shown = folder.display();
+            let (message, help) = match shard_in(folder) {
+                Some(shard) => (
+                    format!("{shown}: it has shard {shard} of a run, and no results yet"),
+                    "`fovqa merge` puts shards together",
+                ),
+                None => (
+                    format!("{shown}: there is no finished run in it"),
+                    "give the folder that `fovqa run` wrote to",
+                ),
+            };
+            diagnostic::error(&message, help);
             return Err(Exit::Input);
         }
         let read = || -> Result<Self, FileError> {

@@ -30,8 +30,8 @@ pub use gate::{
 };
 pub use json::{
     BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,
-    HaarValues, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, SummaryRecord,
-    ViewRecord, write_json,
+    HaarValues, Number, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues,
+    SummaryRecord, ViewRecord, write_json,
 };
 pub use report::{
     AtdGuides, Comparison, Failure, FrameResult, FvvdpSight, GuideSource, Input, RunResults,

@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use fovqa_results::{Check, RuleVerdict, State, Verdict};
+use fovqa_results::{RuleVerdict, State, Verdict};
 use serde_json::json;
 
-use super::sentence;
+use super::{place, sentence};
 
 /// Workflow commands of GitHub, a line a check that does not hold.
 pub fn github_annotations(verdict: &Verdict) -> String {
@@ -20,7 +20,7 @@ pub fn github_annotations(verdict: &Verdict) -> String {
             data(message),
         );
     };
-    for (rule, message) in messages(verdict) {
+    for Message { rule, text: message, .. } in messages(verdict) {
         let title = format!("fovqa gate: {}", rule.title());
         say(Some(rule.rule.line), &title, &message);
     }
@@ -32,34 +32,48 @@ pub fn github_annotations(verdict: &Verdict) -> String {
 
 /// A Code Quality report of GitLab.
 pub fn gitlab_report(verdict: &Verdict, fingerprint: impl Fn(&str) -> String) -> String {
-    let issue = |name: &str, line: usize, message: &str, severity: &str| {
+    // The same from one build to the next, whatever the value is.
+    let issue = |name: &str, line: usize, (of, message): (&str, &str), severity: &str| {
         json!({
             "description": message,
             "check_name": name,
-            "fingerprint": fingerprint(&format!("{name}\n{line}\n{message}")),
+            "fingerprint": fingerprint(&format!("{name}\n{line}\n{of}")),
             "severity": severity,
             "location": { "path": verdict.file, "lines": { "begin": line } },
         })
     };
-    let rules = messages(verdict).into_iter().map(|(rule, message)| {
+    let rules = messages(verdict).into_iter().map(|Message { rule, of, text }| {
         let severity = if rule.state() == State::Failed { "major" } else { "critical" };
-        issue(&format!("fovqa gate: {}", rule.title()), rule.rule.line, &message, severity)
+        let name = format!("fovqa gate: {}", rule.title());
+        issue(&name, rule.rule.line, (&of, &text), severity)
     });
     let errors = verdict.errors.iter();
-    let errors = errors.map(|error| issue("fovqa gate: not scored", 1, error, "critical"));
+    let errors = errors.map(|error| issue("fovqa gate: not scored", 1, (error, error), "critical"));
     let issues: serde_json::Value = rules.chain(errors).collect();
     format!("{issues:#}\n")
 }
 
-/// What there is to say of each rule that does not hold.
-fn messages(verdict: &Verdict) -> Vec<(&RuleVerdict, String)> {
-    let broken = |check: &&Check| check.outcome.reason().is_some();
-    let of = |rule: &'_ RuleVerdict| -> Vec<String> {
-        let checks = rule.checks.iter().filter(broken).map(sentence);
-        checks.chain(rule.failure.clone()).collect()
-    };
-    let rules = verdict.rules.iter();
-    rules.flat_map(|rule| of(rule).into_iter().map(move |message| (rule, message))).collect()
+/// What there is to say of a rule that does not hold.
+struct Message<'a> {
+    rule: &'a RuleVerdict,
+    /// Of which comparison; empty where it is of none.
+    of: String,
+    text: String,
+}
+
+fn messages(verdict: &Verdict) -> Vec<Message<'_>> {
+    let mut messages = Vec::new();
+    for rule in &verdict.rules {
+        let broken = rule.checks.iter().filter(|check| check.outcome.reason().is_some());
+        messages.extend(broken.map(|check| Message {
+            rule,
+            of: place(&check.place),
+            text: sentence(check),
+        }));
+        let whole = rule.failure.iter();
+        messages.extend(whole.map(|why| Message { rule, of: String::new(), text: why.clone() }));
+    }
+    messages
 }
 
 /// Escaped as GitHub reads messages.

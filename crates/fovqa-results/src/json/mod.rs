@@ -12,4 +12,4 @@ pub use score::{SCORE_SCHEMA, write_json};
 pub use summary::{
     BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, SummaryRecord, ViewRecord,
 };
-pub(crate) use values::Number;
+pub use values::Number;

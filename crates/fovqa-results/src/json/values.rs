@@ -10,16 +10,17 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use crate::summary::Statistics;
 
-/// A number, with infinity as the string `"inf"`.
+/// A number, to the last bit; with what JSON has no number for as a word, `"inf"`, `"-inf"`, `"nan"`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Number(pub(crate) f64);
+pub struct Number(pub f64);
 
 impl Serialize for Number {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        if self.0.is_infinite() {
-            serializer.serialize_str(if self.0 > 0.0 { "inf" } else { "-inf" })
-        } else {
-            serializer.serialize_f64(self.0)
+        match self.0 {
+            number if number.is_finite() => serializer.serialize_f64(number),
+            number if number.is_nan() => serializer.serialize_str("nan"),
+            number if number > 0.0 => serializer.serialize_str("inf"),
+            _ => serializer.serialize_str("-inf"),
         }
     }
 }
@@ -30,7 +31,7 @@ impl<'de> Deserialize<'de> for Number {
         impl Visitor<'_> for NumberVisitor {
             type Value = Number;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number or \"inf\"")
+                f.write_str("a number, \"inf\", \"-inf\" or \"nan\"")
             }
             fn visit_f64<E: Error>(self, number: f64) -> Result<Number, E> {
                 Ok(Number(number))
@@ -45,6 +46,7 @@ impl<'de> Deserialize<'de> for Number {
                 match text {
                     "inf" => Ok(Number(f64::INFINITY)),
                     "-inf" => Ok(Number(f64::NEG_INFINITY)),
+                    "nan" => Ok(Number(f64::NAN)),
                     other => Err(E::custom(format!("{other:?} is no number"))),
                 }
             }
