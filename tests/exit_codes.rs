@@ -205,7 +205,7 @@ const OTHERS: &[Case] = &[
     ("baseline show schema.json", 3, "its schema is fovqa.run/1"),
     ("baseline show nan.json", 3, "it is not a baseline"),
     ("baseline show huge.json", 3, "out of range"),
-    ("baseline show type.json", 3, "a number or \"inf\""),
+    ("baseline show type.json", 3, "a number, \"inf\""),
     ("baseline accept reports/e b.json", 0, ""),
     ("baseline accept reports/e cut.json", 3, "it is not a baseline"),
     ("baseline accept reports/e no.json", 3, "no.json"),
