@@ -3,6 +3,8 @@
 use fovqa_frame::{BLOCK_ROWS, Frame, LightTables, LuminanceScratch};
 use rayon::prelude::*;
 
+use super::spare;
+
 /// Floats of two of the widest vectors.
 const ROW_STEP: usize = 32;
 
@@ -19,7 +21,7 @@ impl Grid {
     /// A plane of zeros.
     pub(crate) fn new(width: usize, height: usize) -> Self {
         let stride = width.next_multiple_of(ROW_STEP);
-        Self { width, height, stride, values: vec![0.0; stride * height] }
+        Self { width, height, stride, values: spare::zeros(stride * height) }
     }
 
     /// The luminance of a frame in cd/m².
@@ -101,5 +103,11 @@ impl Grid {
         }
         let each = blocks.into_par_iter().enumerate();
         each.for_each(|(block, mut rows)| fill(block * BLOCK_ROWS, &mut rows));
+    }
+}
+
+impl Drop for Grid {
+    fn drop(&mut self) {
+        spare::give_back(std::mem::take(&mut self.values));
     }
 }

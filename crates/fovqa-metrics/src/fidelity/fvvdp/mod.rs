@@ -17,6 +17,7 @@
 //! | frames to a sequence | `sequence` |
 //! | Q and just-objectionable differences | `pooling` |
 //! | heat maps | `heat_map` |
+//! | planes, their memory | `grid`, `spare` |
 //!
 //! Luminance is in cd/m². Q is 0 and above; JOD is 10 for no difference, falls by 1 where 75 % of observers
 //! prefer the reference, and has no lower end. Everything is computed in `f32`, one pixel like any other,
@@ -40,6 +41,7 @@ mod pooling;
 mod pyramid;
 mod score;
 mod sequence;
+mod spare;
 mod temporal_filters;
 #[cfg(test)]
 mod tests;
