@@ -76,6 +76,19 @@ impl<'a> Setup<'a> {
             };
             Fvvdp::new(Geometry::new(sight.view, display), &plan.params.fvvdp)
         });
+        if plan.params.fvvdp.foveated
+            && let Some(fvvdp) = &fvvdp
+            && fvvdp.geometry().passes_90_deg()
+        {
+            let message = format!(
+                "the field is too wide for its {:.2} pixels per degree: beyond 90° FovVideoVDP takes a negative \
+                 frequency for its lowest, as the original does, so differences at the edges count too much and \
+                 the JOD is no measure of quality; use frames of more pixels, a narrower field, or \
+                 fvvdp.foveated = false",
+                fvvdp.geometry().pixels_per_degree
+            );
+            warnings.once_a_view("field beyond 90 degrees", &message);
+        }
         let gaze_px = view.as_ref().map_or([0.0; 2], |view: &ViewResult| view.gaze_px);
         let mut retinas = Retinas::new(RetinaMaker {
             sight,

@@ -24,22 +24,43 @@ pub struct Eccentricity {
     view: View,
     gaze_px: [f64; 2],
     kind: EccentricityKind,
+    planar: Planar,
+}
+
+/// What planar eccentricity is measured with: pixels of the full frame, also over a picture that is
+/// scaled unequally along x and y.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Planar {
+    focal_px: f64,
+    /// Pixels of the full frame in a pixel of the picture.
+    step_px: [f64; 2],
+}
+
+impl Planar {
+    /// The distance to the gaze in pixels of the full frame.
+    fn offset_px(&self, [dx, dy]: [f64; 2]) -> [f64; 2] {
+        [dx * self.step_px[0], dy * self.step_px[1]]
+    }
 }
 
 impl Eccentricity {
     /// Eccentricity from a gaze in pixels, which may lie outside the frame.
     pub fn new(view: View, gaze_px: [f64; 2], kind: EccentricityKind) -> Self {
-        Self { view, gaze_px, kind }
+        let planar = Planar { focal_px: view.mean_focal_px(), step_px: [1.0; 2] };
+        Self { view, gaze_px, kind, planar }
     }
 
-    /// The same over a picture of another size in place of the frame, scaled along x and y.
+    /// The same over a picture of another size in place of the frame, scaled along x and y. Each of
+    /// its pixels has the eccentricity of its place in the frame.
     #[must_use]
     pub fn scaled(&self, (width, height): (usize, usize), scale: [f64; 2]) -> Self {
         let by_scale = |[x, y]: [f64; 2]| [x * scale[0], y * scale[1]];
         let View { focal_px, principal_px, .. } = self.view;
         let (focal_px, principal_px) = (by_scale(focal_px), by_scale(principal_px));
         let view = View { width, height, focal_px, principal_px };
-        Self { view, gaze_px: by_scale(self.gaze_px), kind: self.kind }
+        let [x, y] = self.planar.step_px;
+        let planar = Planar { step_px: [x / scale[0], y / scale[1]], ..self.planar };
+        Self { view, gaze_px: by_scale(self.gaze_px), kind: self.kind, planar }
     }
 
     /// The view.
@@ -60,8 +81,9 @@ impl Eccentricity {
                 libm::atan2(cross, dot)
             }
             EccentricityKind::Planar => {
-                let r = libm::hypot(x_px - self.gaze_px[0], y_px - self.gaze_px[1]);
-                libm::atan2(r, self.view.mean_focal_px())
+                let offset = [x_px - self.gaze_px[0], y_px - self.gaze_px[1]];
+                let [dx, dy] = self.planar.offset_px(offset);
+                libm::atan2(libm::hypot(dx, dy), self.planar.focal_px)
             }
         };
         radians * (180.0 / PI)
@@ -91,8 +113,9 @@ impl Eccentricity {
                 cross / (lengths + dot)
             }
             EccentricityKind::Planar => {
-                let (dx, dy) = (x_px - self.gaze_px[0], y_px - self.gaze_px[1]);
-                (dx * dx + dy * dy).sqrt() / self.view.mean_focal_px()
+                let offset = [x_px - self.gaze_px[0], y_px - self.gaze_px[1]];
+                let [dx, dy] = self.planar.offset_px(offset);
+                (dx * dx + dy * dy).sqrt() / self.planar.focal_px
             }
         }
     }
@@ -153,9 +176,9 @@ impl Eccentricity {
         let offset_px = (0.5 - self.gaze_px[0]) as f32;
         match self.kind {
             EccentricityKind::Planar => {
-                let f = self.view.mean_focal_px();
-                let row = Row { start, offset_px, step: (1.0 / f) as f32, dy: (dy_px / f) as f32 };
-                planar_row(row, out);
+                let f = self.planar.focal_px;
+                let [step, dy] = self.planar.offset_px([1.0 / f, dy_px / f]);
+                planar_row(Row { start, offset_px, step: step as f32, dy: dy as f32 }, out);
             }
             EccentricityKind::Angular => {
                 let [cx, cy] = self.view.principal_px;
@@ -265,6 +288,27 @@ mod tests {
         let at = |kind| Eccentricity::new(view, gaze, kind).at_deg(2060.0, 720.0);
         assert!((at(EccentricityKind::Planar) - 44.8).abs() < 0.05);
         assert!((at(EccentricityKind::Angular) - 11.4).abs() < 0.05);
+    }
+
+    #[test]
+    fn a_scaled_picture_has_the_eccentricity_of_the_frame() {
+        // Halved to 17x62 pixels: by 17/33 along x and 62/123 along y.
+        let (w, h) = (33.0, 123.0);
+        let view = view(33, 123, 70.0);
+        for kind in [EccentricityKind::Angular, EccentricityKind::Planar] {
+            let full = Eccentricity::new(view, [4.0, 100.0], kind);
+            let once = full.scaled((17, 62), [17.0 / w, 62.0 / h]);
+            let twice = once.scaled((9, 31), [9.0 / 17.0, 31.0 / 62.0]);
+            for (scaled, size) in [(once, [17.0, 62.0]), (twice, [9.0, 31.0])] {
+                for [x, y] in [[0.5, 0.5], [8.5, 30.5], [3.5, 11.5]] {
+                    let want = full.at_deg(x * w / size[0], y * h / size[1]);
+                    assert!((scaled.at_deg(x, y) - want).abs() < 1e-9, "{kind:?}");
+                    let mut row = [0.0; 9];
+                    scaled.fill_row_deg(y as usize, 0..9, &mut row);
+                    assert!((f64::from(row[x as usize]) - want).abs() < 1e-3, "{kind:?}");
+                }
+            }
+        }
     }
 
     proptest! {

@@ -38,11 +38,25 @@ impl Geometry {
         [libm::atan((x_px - cx) / fx).to_degrees(), libm::atan((cy - y_px) / fy).to_degrees()]
     }
 
-    /// How many times more pixels a degree has this far from the centre of the display.
+    /// How many times more pixels a degree has this far from the centre of the display. Negative
+    /// where half a pixel more passes 90°: see [`Geometry::passes_90_deg`].
     pub fn magnification(&self, from_centre_deg: f64) -> f64 {
         let angle = from_centre_deg.min(FARTHEST_DEG).to_radians();
         let delta = (0.5 / self.pixels_per_degree).to_radians();
         libm::cos(delta) / (libm::cos(angle) * libm::cos(angle + delta))
+    }
+
+    /// Whether a pixel of the frame lies so far from the centre of the display that A + δ passes 90°,
+    /// which only happens below 5 pixels per degree. The magnification is negative there, and so is
+    /// the frequency. FovVideoVDP then takes the sensitivity of its lowest frequency, 1/16 cpd: a
+    /// difference far off the axis counts much more than it should.
+    pub fn passes_90_deg(&self) -> bool {
+        let (w, h) = (self.view.width, self.view.height);
+        let [columns, rows] = self.directions((w, h));
+        let farthest =
+            |directions: &[f64]| directions.iter().fold(0.0, |far: f64, d| far.max(d.abs()));
+        let corner_deg = libm::hypot(farthest(&columns), farthest(&rows));
+        corner_deg.min(FARTHEST_DEG) + 0.5 / self.pixels_per_degree >= 90.0
     }
 
     /// The directions of the columns and of the rows of a band.
@@ -103,16 +117,21 @@ fn coordinates(
     [rho, ecc]: [&mut [f32]; 2],
 ) {
     const RADIANS: f32 = (std::f64::consts::PI / 180.0) as f32;
-    /// What is left of the sky beyond the farthest direction and half a pixel: little, but something.
+    /// Keeps the logarithm finite; so near to 90° every frequency is beyond the table's last node.
     const LEAST_RAD: f32 = 1e-4;
+    /// The coordinate of the lowest frequency.
+    const LOWEST: f32 = 0.0;
     let n = rho.len();
     let (centre, gaze, ecc) = (&centre[..n], &gaze[..n], &mut ecc[..n]);
     for x in 0..n {
         let from_centre_deg = (centre[x] + row_centre).sqrt().min(FARTHEST_DEG as f32);
         // Cosines as sines of what is left to 90°: exact in relation where they are small.
         let left = std::f32::consts::FRAC_PI_2 - from_centre_deg * RADIANS;
-        let cosines = sine(left) * sine((left - delta_rad).max(LEAST_RAD));
-        rho[x] = rho_of_band - log2(cosines) * RHO_STEPS_PER_OCTAVE as f32;
+        let left_of_pixel = left - delta_rad;
+        let cosines = sine(left) * sine(left_of_pixel.max(LEAST_RAD));
+        let at = rho_of_band - log2(cosines) * RHO_STEPS_PER_OCTAVE as f32;
+        // Beyond 90° the formula's frequency is negative, and the reference program reads the lowest.
+        rho[x] = if left_of_pixel > 0.0 { at } else { LOWEST };
         ecc[x] = (gaze[x] + row_gaze).sqrt().sqrt() * ECC_STEPS as f32;
     }
 }

@@ -168,12 +168,19 @@ fn directions_beyond_89_9_degrees_are_taken_for_that() {
             seen.check("wide", &[&reference], &[&test]);
         }
     }
-    // A display so coarse that half a pixel more is behind the eye has no magnification by the formula;
-    // it has a number all the same.
-    let coarse = Seen::new(size, tangents, 1.5).looking_at([24.0, 20.0]);
-    let pair = [&[Arc::new(reference)][..], &[Arc::new(test)][..]];
-    let found = score(&coarse.fvvdp, pair, [24.0, 20.0], None);
-    assert!(found.q.is_finite() && found.q > 0.0);
+}
+
+#[test]
+fn beyond_90_degrees_the_lowest_frequency_counts() {
+    // Half a pixel more passes 90° over a part of the frame.
+    let size = (48, 40);
+    let tangents = [86f64, 86.0, 84.0, 84.0].map(|deg| deg.to_radians().tan());
+    let (reference, test) = (noise(size, 7, [1.0, 100.0]), noise(size, 8, [1.0, 100.0]));
+    for ppd in [1.5, 3.0, 4.5] {
+        let seen = Seen::new(size, tangents, ppd).looking_at([24.0, 20.0]);
+        assert!(seen.fvvdp.geometry().passes_90_deg());
+        seen.check("beyond 90°", &[&reference], &[&test]);
+    }
 }
 
 #[test]

@@ -91,9 +91,11 @@ fn check_rows(geometry: &Geometry, gaze_px: [f64; 2]) {
                 assert_near("ecc", [f64::from(at.ecc[x])], [ecc], [0.0, 2e-5]);
                 let found = f64::from(at.rho[x]);
                 let angle = right.hypot(up);
-                if angle.min(89.9) + 0.5 / geometry.pixels_per_degree > 89.99 {
-                    // Behind the eye, by the formula: the highest frequency there is.
-                    assert!(found.is_finite() && found > 31.0, "{found} at {angle}°");
+                let far = angle.min(89.9) + 0.5 / geometry.pixels_per_degree;
+                if far > 89.99 {
+                    // The highest frequency just before 90°, the lowest beyond it.
+                    let wanted = if far >= 90.0 { found == 0.0 } else { found > 31.0 };
+                    assert!(found.is_finite() && wanted, "{found} at {angle}°");
                     continue;
                 }
                 let rho = (band.cpd * geometry.magnification(angle)).log2();
@@ -112,9 +114,19 @@ fn rows_of_directions_are_the_directions_of_their_pixels() {
     // Up to 119° from the centre, on displays where half a pixel is 1/40° to 1°.
     let wide = ViewSpec::Fov { horizontal_deg: Some(172.0), vertical_deg: Some(168.0) };
     let view = wide.resolve(48, 41).unwrap().view;
-    for ppd in [20.0, 6.0, 0.5] {
-        check_rows(&Geometry::new(view, Some(ppd)), [30.0, 8.0]);
+    for (ppd, passes) in [(20.0, false), (6.0, false), (4.9, true), (0.5, true)] {
+        let geometry = Geometry::new(view, Some(ppd));
+        check_rows(&geometry, [30.0, 8.0]);
+        assert_eq!(geometry.passes_90_deg(), passes, "{ppd}");
     }
+    // A narrow field never passes, however few its pixels.
+    assert!(
+        !Geometry::new(
+            seen(&ViewSpec::Fov { horizontal_deg: Some(60.0), vertical_deg: None }, 48, 41).view,
+            Some(0.5)
+        )
+        .passes_90_deg()
+    );
 }
 
 #[test]

@@ -44,7 +44,8 @@ impl Table {
     pub(super) fn interpolated(&self, rho_cpd: f64, cd_m2: f64, ecc_deg: f64) -> f64 {
         let axes = [
             (cd_m2.log10() + 3.0) * 31.0 / 7.0,
-            (rho_cpd.log2() + 4.0) * 31.0 / 10.0,
+            // Of a negative frequency, beyond 90° from the display's centre, the lowest.
+            if rho_cpd > 0.0 { (rho_cpd.log2() + 4.0) * 31.0 / 10.0 } else { 0.0 },
             ecc_deg.sqrt() * 31.0 / 120f64.sqrt(),
         ];
         let at = axes.map(|at| at.clamp(0.0, 31.0));

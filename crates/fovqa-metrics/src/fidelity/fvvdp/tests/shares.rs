@@ -10,6 +10,7 @@ const H: usize = 80;
 const EDGES: [f64; 4] = [2.0, 10.0, 20.0, 26.0];
 
 struct Setup {
+    size: (usize, usize),
     fvvdp: Fvvdp,
     eccentricity: Eccentricity,
     regions: FvvdpRegions,
@@ -18,12 +19,16 @@ struct Setup {
 /// 60° by 51°, with a gaze to the left, so that there are pixels within the innermost edge and beyond the
 /// outermost.
 fn setup() -> Setup {
+    setup_of((W, H), EccentricityKind::Angular)
+}
+
+fn setup_of(size: (usize, usize), kind: EccentricityKind) -> Setup {
     let spec = ViewSpec::Fov { horizontal_deg: Some(60.0), vertical_deg: None };
-    let view = spec.resolve(W, H).unwrap().view;
+    let view = spec.resolve(size.0, size.1).unwrap().view;
     let fvvdp = Fvvdp::new(Geometry::new(view, Some(8.0)), &Params::default());
-    let eccentricity = Eccentricity::new(view, [20.0, 40.0], EccentricityKind::Angular);
+    let eccentricity = Eccentricity::new(view, [20.0, 40.0], kind);
     let regions = fvvdp.regions(&eccentricity, &BandEdges::new(EDGES.to_vec()).unwrap());
-    Setup { fvvdp, eccentricity, regions }
+    Setup { size, fvvdp, eccentricity, regions }
 }
 
 impl Setup {
@@ -37,9 +42,10 @@ impl Setup {
 
     /// The band of a pixel of a level; those outside all bands have the last.
     fn band(&self, (x, y): (usize, usize), level: &Plane) -> usize {
+        let (w, h) = self.size;
         let at = [
-            (x as f64 + 0.5) * W as f64 / level.width as f64,
-            (y as f64 + 0.5) * H as f64 / level.height as f64,
+            (x as f64 + 0.5) * w as f64 / level.width as f64,
+            (y as f64 + 0.5) * h as f64 / level.height as f64,
         ];
         let deg = self.eccentricity.at_deg(at[0], at[1]);
         EDGES.windows(2).position(|edges| (edges[0]..edges[1]).contains(&deg)).unwrap_or(3)
@@ -48,12 +54,21 @@ impl Setup {
 
 #[test]
 fn shares_are_those_of_the_pooled_powers_and_sum_to_one() {
-    let setup = setup();
+    // The levels of 33x123 pixels are not halves of one another along both sides.
+    for size in [(W, H), (33, 123)] {
+        for kind in [EccentricityKind::Angular, EccentricityKind::Planar] {
+            check_shares(&setup_of(size, kind));
+        }
+    }
+}
+
+fn check_shares(setup: &Setup) {
+    let (w, h) = setup.size;
     let View { focal_px: [fx, fy], principal_px: [cx, cy], .. } = *setup.eccentricity.view();
-    let tangents = [cx / fx, (W as f64 - cx) / fx, cy / fy, (H as f64 - cy) / fy];
+    let tangents = [cx / fx, (w as f64 - cx) / fx, cy / fy, (h as f64 - cy) / fy];
     let gaze_px = Some(setup.eccentricity.gaze_px());
     let oracle = Oracle { tangents, ppd: 8.0, gaze_px, exact_edges: false };
-    let pair = |seed: u64| [random(W, H, seed, [1.0, 90.0]), random(W, H, seed + 1, [-9.0, 9.0])];
+    let pair = |seed: u64| [random(w, h, seed, [1.0, 90.0]), random(w, h, seed + 1, [-9.0, 9.0])];
     let (reference, test) = (pair(1), pair(11));
     let (reference, test) = (reference.each_ref(), test.each_ref());
     for channels in [1, 2] {
