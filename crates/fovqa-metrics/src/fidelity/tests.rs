@@ -12,6 +12,8 @@ use super::*;
 use crate::{Metric, Params, Regions, WeightField};
 use fovqa_params::ParamValue;
 
+mod flat_regions;
+
 const ALL: [Metric; 6] =
     [Metric::Mse, Metric::Psnr, Metric::Ssim, Metric::MsSsim, Metric::Fpsnr, Metric::Fssim];
 

@@ -38,8 +38,7 @@ impl Default for Params {
 /// Smallest K1: the means it stabilises lose nothing.
 pub(crate) const MIN_K1: f64 = 1e-3;
 
-/// Smallest K2: C2 = 1e-4 of peak² stays a thousand times above the 6e-8 that a variance of 32-bit
-/// squares loses.
+/// Smallest K2: C2 = 1e-4 of peak² stays far above what rounding can do to the mean of a window.
 pub(crate) const MIN_K2: f64 = 1e-2;
 
 /// Largest radius of the window.

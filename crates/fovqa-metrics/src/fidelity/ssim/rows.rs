@@ -3,8 +3,8 @@
 use fovqa_frame::{PairTile, Part};
 use multiversion::multiversion;
 
-/// Moments that are windowed: u, u², v, v².
-const MOMENTS: usize = 4;
+/// Parts of a pair that are windowed: u and v.
+const PARTS: usize = 2;
 
 /// Radius of the standard window, for which the taps are unrolled.
 const STANDARD_RADIUS: usize = 5;
@@ -32,17 +32,30 @@ impl Constants {
     }
 }
 
-/// Room for the steps of one row.
+/// Mean and variance in a window, of each pixel of a row.
+#[derive(Debug)]
+struct Moments {
+    mean: Vec<f32>,
+    variance: Vec<f32>,
+}
+
+impl Moments {
+    fn new(columns: usize) -> Self {
+        Self { mean: vec![0.0; columns], variance: vec![0.0; columns] }
+    }
+}
+
+/// Room for the steps of one row: moments down the columns, and in the whole window.
 #[derive(Debug)]
 pub(crate) struct Scratch {
-    columns: [Vec<f32>; MOMENTS],
-    moments: [Vec<f32>; MOMENTS],
+    columns: Moments,
+    windows: [Moments; PARTS],
 }
 
 impl Scratch {
     pub(crate) fn new(columns: usize) -> Self {
-        let rows = || std::array::from_fn(|_| vec![0.0; columns]);
-        Self { columns: rows(), moments: rows() }
+        let row = || Moments::new(columns);
+        Self { columns: row(), windows: [row(), row()] }
     }
 }
 
@@ -65,28 +78,27 @@ pub(crate) fn map_row(
 ) {
     let n = out.ssim.len();
     let length = n + 2 * constants.radius();
-    let Scratch { columns, moments } = scratch;
-    let (sums, differences) = columns.split_at_mut(2);
-    for (part, columns) in [(Part::Sum, sums), (Part::Difference, differences)] {
-        let [values, squares] = columns else { unreachable!("two moments a part") };
-        let (values, squares) = (&mut values[..length], &mut squares[..length]);
+    let Scratch { columns, windows } = scratch;
+    for (part, window) in [Part::Sum, Part::Difference].into_iter().zip(windows.iter_mut()) {
+        let mean = &mut columns.mean[..length];
+        let variance = &mut columns.variance[..length];
         let at = |row: usize| tile.row(plane, part, row, length);
-        if let &[c0, c1, c2, c3, c4, c5] = constants.taps.as_slice() {
+        let standard: Option<[f32; 6]> = constants.taps.as_slice().try_into().ok();
+        if let Some(taps) = standard {
             let rows = std::array::from_fn(|k| at(row + k - STANDARD_RADIUS));
-            vertical_standard(rows, [c0, c1, c2, c3, c4, c5], values, squares);
+            vertical_standard(rows, taps, mean, variance);
         } else {
-            vertical(at, row, &constants.taps, values, squares);
+            vertical(at, row, &constants.taps, mean, variance);
+        }
+        let (window_mean, window_variance) = (&mut window.mean[..n], &mut window.variance[..n]);
+        if let Some(taps) = standard {
+            horizontal_standard(mean, variance, taps, window_mean, window_variance);
+        } else {
+            horizontal(mean, variance, &constants.taps, window_mean, window_variance);
         }
     }
-    for (columns, moment) in columns.iter().zip(moments.iter_mut()) {
-        let (columns, moment) = (&columns[..length], &mut moment[..n]);
-        if let &[c0, c1, c2, c3, c4, c5] = constants.taps.as_slice() {
-            horizontal_standard(columns, [c0, c1, c2, c3, c4, c5], moment);
-        } else {
-            horizontal(columns, &constants.taps, moment);
-        }
-    }
-    let moments = moments.each_ref().map(|m| &m[..n]);
+    let [u, v] = windows;
+    let moments = [&u.mean, &u.variance, &v.mean, &v.variance].map(|moment| &moment[..n]);
     quotients(
         moments,
         constants.c1,
@@ -97,50 +109,62 @@ pub(crate) fn map_row(
     );
 }
 
-/// The window down the columns: of the values, and of their squares, which cost less to compute
-/// again than to keep.
+/// The window down the columns.
+///
+/// Squares of deviations from the pixel in the middle are summed, not squares of values: where the
+/// window is flat they are exactly 0, and where it is nearly flat the variance keeps its digits.
+/// Σ w v² - (Σ w v)² would be off by the rounding of v², which is as large as C2 divided by 10⁴.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn vertical_standard(rows: [&[f32]; 11], taps: [f32; 6], values: &mut [f32], squares: &mut [f32]) {
-    let n = values.len();
-    let squares = &mut squares[..n];
+fn vertical_standard(rows: [&[f32]; 11], taps: [f32; 6], mean: &mut [f32], variance: &mut [f32]) {
+    let n = mean.len();
+    let variance = &mut variance[..n];
     let [r0, r1, r2, r3, r4, r5, r6, r7, r8, r9, r10] = rows;
     let (r0, r1, r2, r3, r4, r5) = (&r0[..n], &r1[..n], &r2[..n], &r3[..n], &r4[..n], &r5[..n]);
     let (r6, r7, r8, r9, r10) = (&r6[..n], &r7[..n], &r8[..n], &r9[..n], &r10[..n]);
     for x in 0..n {
-        let (mut sum, mut square) = (taps[0] * r5[x], taps[0] * (r5[x] * r5[x]));
+        let middle = r5[x];
+        let (mut sum, mut square) = (0.0, 0.0);
         let pairs =
             [(r4[x], r6[x]), (r3[x], r7[x]), (r2[x], r8[x]), (r1[x], r9[x]), (r0[x], r10[x])];
         for (k, (above, below)) in pairs.into_iter().enumerate() {
+            let (above, below) = (above - middle, below - middle);
             sum += taps[k + 1] * (above + below);
             square += taps[k + 1] * (above * above + below * below);
         }
-        values[x] = sum;
-        squares[x] = square;
+        mean[x] = middle + sum;
+        variance[x] = square - sum * sum;
     }
 }
 
-/// The window along a row: sixteen values at a time from the 26 they look at, which stay in
-/// registers. Wider vectors gain nothing here: every other load would straddle two cache lines.
-#[multiversion(targets("x86_64+avx2"))]
-fn horizontal_standard(row: &[f32], taps: [f32; 6], out: &mut [f32]) {
-    const AT_ONCE: usize = 16;
-    const READ: usize = AT_ONCE + 2 * STANDARD_RADIUS;
-    let (chunks, rest) = out.as_chunks_mut::<AT_ONCE>();
-    for (i, out) in chunks.iter_mut().enumerate() {
-        let Some(window) = row[i * AT_ONCE..].first_chunk::<READ>() else { return };
-        let mut sums = [0.0f32; AT_ONCE];
-        for (x, sum) in sums.iter_mut().enumerate() {
-            *sum = taps[0] * window[x + STANDARD_RADIUS];
+/// The window along a row of column moments: the variance is the mean of the columns' variances plus
+/// the variance of their means, again by deviations from the middle.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn horizontal_standard(
+    means: &[f32],
+    variances: &[f32],
+    taps: [f32; 6],
+    // Each of its own: only so the compiler knows that they do not overlap, and vectorises.
+    mean: &mut [f32],
+    variance: &mut [f32],
+) {
+    let n = mean.len();
+    let variance = &mut variance[..n];
+    // The row as each place in the window sees it, so that the loop below is one over columns.
+    let (m, v) = (|k: usize| &means[k..][..n], |k: usize| &variances[k..][..n]);
+    let m = [m(0), m(1), m(2), m(3), m(4), m(5), m(6), m(7), m(8), m(9), m(10)];
+    let v = [v(0), v(1), v(2), v(3), v(4), v(5), v(6), v(7), v(8), v(9), v(10)];
+    for x in 0..n {
+        let middle = m[STANDARD_RADIUS][x];
+        let (mut sum, mut square) = (0.0, taps[0] * v[STANDARD_RADIUS][x]);
+        for k in 0..STANDARD_RADIUS {
+            let (from, to) = (STANDARD_RADIUS - 1 - k, STANDARD_RADIUS + 1 + k);
+            let (left, right) = (m[from][x] - middle, m[to][x] - middle);
+            sum += taps[k + 1] * (left + right);
+            square += taps[k + 1] * ((left * left + v[from][x]) + (right * right + v[to][x]));
         }
-        for (k, tap) in taps.iter().enumerate().skip(1) {
-            for (x, sum) in sums.iter_mut().enumerate() {
-                let at = x + STANDARD_RADIUS;
-                *sum += tap * (window[at - k] + window[at + k]);
-            }
-        }
-        *out = sums;
+        mean[x] = middle + sum;
+        variance[x] = square - sum * sum;
     }
-    horizontal(&row[chunks.len() * AT_ONCE..], &taps, rest);
 }
 
 /// [`vertical_standard`] for any radius.
@@ -148,37 +172,47 @@ fn vertical<'a>(
     at: impl Fn(usize) -> &'a [f32],
     row: usize,
     taps: &[f32],
-    values: &mut [f32],
-    squares: &mut [f32],
+    mean: &mut [f32],
+    variance: &mut [f32],
 ) {
-    for ((value, square), v) in values.iter_mut().zip(squares.iter_mut()).zip(at(row)) {
-        *value = taps[0] * v;
-        *square = taps[0] * (v * v);
-    }
+    mean.fill(0.0);
+    variance.fill(0.0);
+    let middle = at(row);
     for (k, tap) in taps.iter().enumerate().skip(1) {
-        let pairs = at(row - k).iter().zip(at(row + k));
-        for ((value, square), (a, b)) in values.iter_mut().zip(squares.iter_mut()).zip(pairs) {
-            *value += tap * (a + b);
-            *square += tap * (a * a + b * b);
+        let rows = at(row - k).iter().zip(at(row + k)).zip(middle);
+        for ((sum, square), ((above, below), middle)) in
+            mean.iter_mut().zip(variance.iter_mut()).zip(rows)
+        {
+            let (above, below) = (above - middle, below - middle);
+            *sum += tap * (above + below);
+            *square += tap * (above * above + below * below);
         }
+    }
+    for ((sum, square), middle) in mean.iter_mut().zip(variance).zip(middle) {
+        *square -= *sum * *sum;
+        *sum += middle;
     }
 }
 
 /// [`horizontal_standard`] for any radius.
-fn horizontal(row: &[f32], taps: &[f32], out: &mut [f32]) {
+fn horizontal(m: &[f32], v: &[f32], taps: &[f32], mean: &mut [f32], variance: &mut [f32]) {
     let radius = taps.len() - 1;
-    for (x, out) in out.iter_mut().enumerate() {
+    for (x, (mean, variance)) in mean.iter_mut().zip(variance).enumerate() {
         let at = x + radius;
-        *out = taps[0] * row[at];
+        let (mut sum, mut square) = (0.0, taps[0] * v[at]);
         for (k, tap) in taps.iter().enumerate().skip(1) {
-            *out += tap * (row[at - k] + row[at + k]);
+            let (left, right) = (m[at - k] - m[at], m[at + k] - m[at]);
+            sum += tap * (left + right);
+            square += tap * ((left * left + v[at - k]) + (right * right + v[at + k]));
         }
+        *mean = m[at] + sum;
+        *variance = square - sum * sum;
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn quotients(
-    moments: [&[f32]; MOMENTS],
+    moments: [&[f32]; 2 * PARTS],
     c1: f32,
     c2: f32,
     peak: f32,
@@ -186,12 +220,12 @@ fn quotients(
     contrast_structure: &mut [f32],
 ) {
     let n = ssim.len();
-    let [u, uu, v, vv] = moments.map(|m| &m[..n]);
+    let [u, var_u, v, var_v] = moments.map(|m| &m[..n]);
     let contrast_structure = &mut contrast_structure[..n];
     for x in 0..n {
         let (mean_u, mean_v) = (u[x] + peak, v[x]);
         let (mean_uu, mean_vv) = (mean_u * mean_u, mean_v * mean_v);
-        let (var_u, var_v) = (uu[x] - u[x] * u[x], vv[x] - mean_vv);
+        let (var_u, var_v) = (var_u[x], var_v[x]);
         let luminance = (0.5 * (mean_uu - mean_vv) + c1) / (0.5 * (mean_uu + mean_vv) + c1);
         let structure = (0.5 * (var_u - var_v) + c2) / (0.5 * (var_u + var_v) + c2);
         contrast_structure[x] = structure;
@@ -213,16 +247,18 @@ mod tests {
         });
         let taps = Params::default().taps();
         let six: [f32; 6] = taps.clone().try_into().unwrap();
-        let buffer = || vec![0.0; WIDTH];
-        let (mut values, mut squares) = (buffer(), buffer());
-        vertical(|row| &rows[row], 5, &taps, &mut values, &mut squares);
-        let (mut unrolled_values, mut unrolled_squares) = (buffer(), buffer());
+        let buffers = |n: usize| [vec![0.0; n], vec![0.0; n]];
+        let [mut mean, mut variance] = buffers(WIDTH);
+        vertical(|row| &rows[row], 5, &taps, &mut mean, &mut variance);
+        let [mut unrolled_mean, mut unrolled_variance] = buffers(WIDTH);
         let rows = rows.each_ref().map(Vec::as_slice);
-        vertical_standard(rows, six, &mut unrolled_values, &mut unrolled_squares);
-        assert_eq!((&values, &squares), (&unrolled_values, &unrolled_squares));
-        let (mut general, mut unrolled) = (vec![0.0; WIDTH - 10], vec![0.0; WIDTH - 10]);
-        horizontal(&values, &taps, &mut general);
-        horizontal_standard(&values, six, &mut unrolled);
+        vertical_standard(rows, six, &mut unrolled_mean, &mut unrolled_variance);
+        assert_eq!((&mean, &variance), (&unrolled_mean, &unrolled_variance));
+        let (mut general, mut unrolled) = (buffers(WIDTH - 10), buffers(WIDTH - 10));
+        let [general_mean, general_variance] = &mut general;
+        horizontal(&mean, &variance, &taps, general_mean, general_variance);
+        let [unrolled_mean, unrolled_variance] = &mut unrolled;
+        horizontal_standard(&mean, &variance, six, unrolled_mean, unrolled_variance);
         assert_eq!(general, unrolled);
     }
 
