@@ -37,8 +37,8 @@ pub struct Counts {
     pub samples_on_screen: f64,
     /// What a frame wider than the method's own field needs beyond `samples` (VaFR beyond 60°).
     pub samples_beyond: f64,
-    /// The integral of the density that is seen, over the frame: without what is shaded and then
-    /// covered by a finer layer.
+    /// Samples that are shaded and seen: the integral of the density over the frame, without what is
+    /// shaded and then covered by a finer layer, and without what is reprojected.
     pub samples_seen: f64,
 }
 
@@ -95,6 +95,12 @@ pub trait Foveation: Debug + Send + Sync {
 
     /// How many samples there are.
     fn counts(&self) -> Counts;
+
+    /// Share of the samples at any place that is shaded, from 0 to 1. The others are reprojected from
+    /// the other eye: the density counts them, and the numbers of samples do not.
+    fn shaded_share(&self) -> f64 {
+        1.0
+    }
 
     /// How far its curves reach.
     fn reach(&self) -> Reach {

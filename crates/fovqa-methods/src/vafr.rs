@@ -389,8 +389,12 @@ impl Foveation for Vafr {
             samples: samples * self.shaded,
             samples_on_screen: on_screen * self.shaded,
             samples_beyond: beyond * self.shaded,
-            samples_seen: on_screen,
+            samples_seen: on_screen * self.shaded,
         }
+    }
+
+    fn shaded_share(&self) -> f64 {
+        self.shaded
     }
 
     fn mapping(&self) -> Option<&dyn Mapping> {

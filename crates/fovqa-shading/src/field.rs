@@ -24,10 +24,10 @@ pub struct Field {
     pub below_tangential: f64,
     /// Share where either is.
     pub below: f64,
-    /// Samples seen beyond what acuity asks for: the integral over the frame of
-    /// density (1 - min(1, f/radial) min(1, f/tangential)).
+    /// Shaded samples beyond what acuity asks for: the integral over the frame of
+    /// density (1 - min(1, f/radial) min(1, f/tangential)), times the share that is shaded.
     pub samples_above: f64,
-    /// These over all samples that are seen.
+    /// These as a share of all samples that are shaded and seen.
     pub above: f64,
 }
 
@@ -83,13 +83,14 @@ pub fn field(
         below_radial: sums.below_radial / all,
         below_tangential: sums.below_tangential / all,
         below: sums.below / all,
-        samples_above: sums.samples_above * cell_pixels,
+        samples_above: sums.samples_above * cell_pixels * foveation.shaded_share(),
         above: if samples > 0.0 { sums.samples_above / samples } else { 0.0 },
     })
 }
 
 #[cfg(test)]
 mod tests {
+    use fovqa_params::ParamValue;
     use fovqa_vision::{EccentricityKind, Tangential, ViewSpec};
 
     use super::*;
@@ -118,6 +119,24 @@ mod tests {
         let angle = found("vafr", &screen(2560, 1440, Tangential::Angle));
         assert!((angle.below_tangential - 1.0).abs() < 1e-12 && angle.below_radial == 0.0);
         assert!((angle.below - 1.0).abs() < 1e-12 && angle.above == 0.0);
+    }
+
+    /// What is reprojected is not shaded: neither above acuity nor below it.
+    #[test]
+    fn samples_above_are_of_those_that_are_shaded() {
+        let screen = screen(2560, 1440, Tangential::Paper);
+        let with = |share: f64| {
+            let mut method = Method::find("vafr").unwrap();
+            method.set("factor", &ParamValue::Number(2.0)).unwrap();
+            method.set("reprojected_share", &ParamValue::Number(share)).unwrap();
+            let found = field(&method, &screen, &AcuityModel::default()).unwrap();
+            (found, method.over(&screen.setting().unwrap()).unwrap().counts().samples_seen)
+        };
+        let ((all, seen), (half, half_seen)) = (with(1.0), with(0.0));
+        assert!(all.samples_above > 0.5 * seen);
+        assert!((half.samples_above / all.samples_above - 0.5).abs() < 1e-12);
+        assert!(half.samples_above < half_seen && (half_seen / seen - 0.5).abs() < 1e-12);
+        assert_eq!((half.above, half.below), (all.above, all.below));
     }
 
     /// The display's radial rate meets acuity on one circle, as it rises and acuity falls.
