@@ -43,11 +43,12 @@ fn bands(frame: &Value, to: f64) -> Vec<&Value> {
     bands.filter(|band| band["to_deg"].as_f64().unwrap() <= to).collect()
 }
 
-/// A value of several bands, weighed by their pixels.
-fn pooled(bands: &[&Value], of: impl Fn(&Value) -> f64) -> f64 {
-    let pixels = |band: &Value| band["pixels"].as_f64().unwrap();
-    let sum: f64 = bands.iter().map(|band| of(band) * pixels(band)).sum();
-    sum / bands.iter().map(|band| pixels(band)).sum::<f64>()
+/// A value of several bands, weighted by a count of theirs.
+fn pooled(bands: &[&Value], count: &str, of: impl Fn(&Value) -> f64) -> f64 {
+    let weight = |band: &Value| band[count].as_f64().unwrap();
+    let filled = || bands.iter().filter(|band| weight(band) > 0.0);
+    let sum: f64 = filled().map(|band| of(band) * weight(band)).sum();
+    sum / filled().map(|band| weight(band)).sum::<f64>()
 }
 
 fn psnr(mse: f64) -> f64 {
@@ -104,8 +105,14 @@ fn bands_are_put_together_by_what_is_in_them() {
     let scores = scores(&folder, ["gt", "test"]);
     let mut rules = Vec::new();
     for to in [5.0, 10.0, 30.0, 50.0] {
-        let mse = all(&scores, |f| pooled(&bands(f, to), |band| number(&band["mse"])));
-        let ssim = all(&scores, |f| pooled(&bands(f, to), |band| number(&band["ssim"])));
+        let mse = all(&scores, |f| pooled(&bands(f, to), "pixels", |band| number(&band["mse"])));
+        let of = |f: &Value| pooled(&bands(f, to), "ssim_map_pixels", |b| number(&b["ssim"]));
+        let ssim = all(&scores, of);
+        if to == 50.0 {
+            // All bands together are the frame.
+            let whole = all(&scores, |f| number(&f["metrics"]["ssim"]));
+            assert!(whole.iter().zip(&ssim).all(|(a, b)| (a - b).abs() < 1e-12));
+        }
         let psnrs: Vec<f64> = mse.iter().map(|mse| psnr(*mse)).collect();
         for word in AGGREGATES {
             let finite: Vec<f64> = psnrs.iter().copied().filter(|p| p.is_finite()).collect();
@@ -169,6 +176,9 @@ fn the_wavelet_is_put_together_by_coefficients() {
             let ratios: Vec<f64> = test.iter().zip(&reference).map(|(t, r)| t / r).collect();
             let rest =
                 format!("statistic = \"{statistic}\"\nlevel = {level}\nband_deg = [0, {to}]");
+            // By default the mean over frames, and of largest values the largest.
+            let usual = if statistic.starts_with("max_abs") { largest } else { mean };
+            rules.push(rule("haar", &format!("{rest}\nimage = \"test\""), usual(&test)));
             let mut add = |image: &str, word: &str, value: f64| {
                 let rest = format!("{rest}\nimage = \"{image}\"\naggregate = \"{word}\"");
                 rules.push(rule("haar", &rest, value));
@@ -231,7 +241,8 @@ fn eyes_have_values_of_their_own_and_together() {
         for metric in ["mse", "ssim", "psnr"] {
             rules.push(rule(metric, &rest, mean(&of(scores, metric))));
         }
-        let near_gaze = all(scores, |f| pooled(&bands(f, 10.0), |band| number(&band["mse"])));
+        let near_gaze =
+            all(scores, |f| pooled(&bands(f, 10.0), "pixels", |band| number(&band["mse"])));
         rules.push(rule("mse", &format!("{rest}\nband_deg = [0, 10]"), mean(&near_gaze)));
     }
     let text = experiment(VIEW, "", METRICS)

@@ -170,7 +170,13 @@ fn pooled_band(left: &BandScores, right: &BandScores) -> BandScores {
         let r = *right.scores.get(&metric)?;
         Some((metric, either(l, r, |l, r| pooled_score(metric, mse, None, l, r))))
     });
-    BandScores { pixels: left.pixels + right.pixels, mse, scores: scores.collect() }
+    let map_pixels = left.ssim_map_pixels.zip(right.ssim_map_pixels);
+    BandScores {
+        pixels: left.pixels + right.pixels,
+        mse,
+        ssim_map_pixels: map_pixels.map(|(left, right)| left + right),
+        scores: scores.collect(),
+    }
 }
 
 /// The mean squared error over the pixels of both.
@@ -216,9 +222,15 @@ mod tests {
             BandScores {
                 pixels,
                 mse: Some(mse),
+                ssim_map_pixels: Some(pixels / 2),
                 scores: BTreeMap::from([(Metric::Mse, Some(mse)), (Metric::Ssim, Some(ssim))]),
             },
-            BandScores { pixels: 0, mse: None, scores: BTreeMap::from([(Metric::Ssim, None)]) },
+            BandScores {
+                pixels: 0,
+                mse: None,
+                ssim_map_pixels: Some(0),
+                scores: BTreeMap::from([(Metric::Ssim, None)]),
+            },
         ];
         PairScores {
             scores,
@@ -240,6 +252,7 @@ mod tests {
         assert_eq!(both.scores[&Metric::Fpsnr], psnr_db(0.375), "by weight, not by pixels");
         assert_eq!((both.pixels, both.outside_bands, both.left_out), (400, 2, 4));
         assert_eq!(both.bands[0].scores[&Metric::Mse], Some(0.4375));
+        assert_eq!(both.bands[0].ssim_map_pixels, Some(200));
         assert_eq!(both.bands[1].scores[&Metric::Ssim], None);
     }
 

@@ -33,6 +33,9 @@ pub const ERROR: &str = "error";
 
 const FVVDP: &str = "fvvdp";
 
+/// The statistic of SSIM by which its bands are pooled: pixels of the band that have a map value.
+pub(crate) const SSIM_MAP_PIXELS: &str = "map_pixels";
+
 /// What a value is of.
 #[derive(Default, Clone, Copy, PartialEq, Eq)]
 enum Image {
@@ -153,6 +156,10 @@ impl<W: Write> Table<W> {
                 let row = Row { band: Some(band), ..row };
                 let pixels = Some(Value::Count(scores.pixels));
                 self.write(&Row { metric: "pixels", value: pixels, ..row })?;
+                if let Some(pixels) = scores.ssim_map_pixels {
+                    let (metric, value) = (Metric::Ssim.key(), Some(Value::Count(pixels)));
+                    self.write(&Row { metric, statistic: SSIM_MAP_PIXELS, value, ..row })?;
+                }
                 for (metric, value) in &scores.scores {
                     self.write(&Row {
                         metric: metric.key(),

@@ -16,7 +16,8 @@ use crate::node::Node;
 /// Statistics of single frames, by metric; those of others are empty.
 const FVVDP_STATISTICS: [&str; 6] =
     ["jod", "frame_jod", "q", "share", "q_sustained", "q_transient"];
-const HAAR_STATISTICS: [&str; 3] = ["mean_abs", "max_abs", "energy"];
+const HAAR_STATISTICS: [&str; 3] = ["mean_abs", MAX_ABS, "energy"];
+const MAX_ABS: &str = "max_abs";
 const ORIENTATIONS: [&str; 3] = ["lh", "hl", "hh"];
 
 /// The rules; mistakes go to `faults`.
@@ -110,6 +111,8 @@ fn quantity(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fau
             aggregate
         }
         None if whole => None,
+        // Of largest values the largest. A ratio is that of the largest already.
+        None if statistic.starts_with(MAX_ABS) && image != "ratio" => Some(Aggregate::Max),
         None => Some(Aggregate::Mean),
     };
     let level = level(table, metric, &statistic, known, faults);

@@ -42,6 +42,8 @@ pub(super) struct FrameRecord {
 struct BandRecord {
     pixels: u64,
     squared_error: Option<Number>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    ssim_map_pixels: Option<u64>,
     #[serde(flatten)]
     scores: BTreeMap<String, Option<Number>>,
 }
@@ -53,6 +55,7 @@ impl FrameRecord {
         let bands = scores.bands.iter().map(|band| BandRecord {
             pixels: band.pixels,
             squared_error: maybe(band.mse),
+            ssim_map_pixels: band.ssim_map_pixels,
             scores: band.scores.iter().map(|(m, value)| (key(m), maybe(*value))).collect(),
         });
         Self {
@@ -88,7 +91,8 @@ impl FrameRecord {
             |(key, value): (String, Option<Number>)| Some((Metric::find(&key)?, read(value)));
         let bands = self.bands.into_iter().map(|band| {
             let scores = band.scores.into_iter().map(in_band).collect::<Option<_>>()?;
-            Some(BandScores { pixels: band.pixels, mse: read(band.squared_error), scores })
+            let (pixels, ssim_map_pixels) = (band.pixels, band.ssim_map_pixels);
+            Some(BandScores { pixels, mse: read(band.squared_error), ssim_map_pixels, scores })
         });
         let (atd, guides) = self.atd.map(AtdRecord::read).unzip();
         let result = FrameResult {

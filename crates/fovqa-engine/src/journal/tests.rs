@@ -65,12 +65,13 @@ fn frame() -> FrameResult {
                 BandScores {
                     pixels: 3,
                     mse: Some(1.0 / 7.0),
+                    ssim_map_pixels: Some(2),
                     scores: BTreeMap::from([
                         (Metric::Psnr, Some(f64::INFINITY)),
                         (Metric::Ssim, None),
                     ]),
                 },
-                BandScores { pixels: 0, mse: None, scores: BTreeMap::new() },
+                BandScores { pixels: 0, mse: None, ssim_map_pixels: None, scores: BTreeMap::new() },
             ],
             pixels: 10,
             outside_bands: 2,

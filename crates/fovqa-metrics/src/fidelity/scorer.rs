@@ -61,6 +61,9 @@ pub struct BandScores {
     pub pixels: u64,
     /// Mean squared error, peak 1, where MSE or PSNR is asked for: sequences pool it.
     pub mse: Option<f64>,
+    /// Its pixels that have a value in the SSIM map, where SSIM is asked for: several bands are pooled
+    /// by them.
+    pub ssim_map_pixels: Option<u64>,
     /// Its scores; `None` where no pixel, or no window, is in it.
     pub scores: BTreeMap<Metric, Option<f64>>,
 }
@@ -252,7 +255,12 @@ impl Scorer {
                     | Metric::Atd => None,
                 });
                 let pooled = mse.filter(|_| asks_mse);
-                BandScores { pixels: pixels[band], mse: pooled, scores: scores.collect() }
+                BandScores {
+                    pixels: pixels[band],
+                    mse: pooled,
+                    ssim_map_pixels: self.wants(Metric::Ssim).then_some(windows),
+                    scores: scores.collect(),
+                }
             })
             .collect();
         let scale = planes * peak * peak;

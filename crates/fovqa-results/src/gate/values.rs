@@ -7,6 +7,7 @@ use fovqa_config::{Aggregate, Quantity};
 use fovqa_metrics::{Metric, mse_of_db, psnr_db};
 
 use super::aggregate::aggregate;
+use crate::csv_table::SSIM_MAP_PIXELS;
 use crate::json::ComparisonSummary;
 
 /// Scene, method and eye.
@@ -223,7 +224,7 @@ impl Values {
             }
             return Ok(frames);
         };
-        let weights = self.weights(quantity);
+        let weights = self.weights(quantity)?;
         for row in rows {
             let (Some(frame), Some(band)) = (row.frame, row.band) else { continue };
             if from <= band[0] && band[1] <= to {
@@ -244,8 +245,9 @@ impl Values {
         Ok(frames)
     }
 
-    /// How much each band of each frame weighs: its pixels or, of the wavelet, its coefficients.
-    fn weights(&self, quantity: &Quantity) -> BTreeMap<(u64, [u64; 2]), f64> {
+    /// The weight of each band of each frame: its pixels or, of the wavelet, its coefficients, of SSIM
+    /// those of its pixels that have a value in the map.
+    fn weights(&self, quantity: &Quantity) -> Result<BTreeMap<(u64, [u64; 2]), f64>, Lacking> {
         let pair = |metric: &str, statistic: &str, level| {
             (metric.to_owned(), statistic.to_owned(), "pair".to_owned(), level)
         };
@@ -253,12 +255,23 @@ impl Values {
             Some(level) if quantity.metric == Metric::Haar.key() => {
                 pair(Metric::Haar.key(), "coefficients", Some(level))
             }
+            _ if quantity.metric == Metric::Ssim.key() => {
+                pair(Metric::Ssim.key(), SSIM_MAP_PIXELS, None)
+            }
             _ => pair("pixels", "", None),
         };
-        let rows = self.rows.get(&kind).into_iter().flatten();
+        let none = Vec::new();
+        let scored = self.rows.contains_key(&self::kind(quantity));
+        let Some(rows) = self.rows.get(&kind).or(Some(&none).filter(|_| !scored)) else {
+            // Results of a version that did not write them: bands' pixels would be a wrong weight.
+            let why = format!(
+                "{quantity}: the results do not say how many pixels of each band have a value; score them again"
+            );
+            return Err(Lacking::NotScored(why));
+        };
         let weight =
             |row: &Row| Some(((row.frame?, row.band?.map(f64::to_bits)), row.value.unwrap_or(0.0)));
-        rows.filter_map(weight).collect()
+        Ok(rows.iter().filter_map(weight).collect())
     }
 }
 

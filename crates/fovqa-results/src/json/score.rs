@@ -138,6 +138,7 @@ impl<'a> Frame<'a> {
                     from_deg,
                     to_deg,
                     pixels: band.pixels,
+                    ssim_map_pixels: band.ssim_map_pixels,
                     scores: band.scores.iter().map(|(m, v)| (*m, v.map(Number))).collect(),
                     compared: in_band(frame, index),
                     fvvdp_share: frame.fvvdp.iter().map(|fvvdp| fvvdp.share(index)).collect(),
@@ -164,6 +165,7 @@ struct Band {
     from_deg: f64,
     to_deg: f64,
     pixels: u64,
+    ssim_map_pixels: Option<u64>,
     scores: Vec<(Metric, Option<Number>)>,
     compared: Vec<(Metric, SideValues<f64>)>,
     /// What of FovVideoVDP's Q lies in the band: one value where that is asked for, else none.
@@ -176,6 +178,9 @@ impl Serialize for Band {
         map.serialize_entry("from_deg", &self.from_deg)?;
         map.serialize_entry("to_deg", &self.to_deg)?;
         map.serialize_entry("pixels", &self.pixels)?;
+        if let Some(pixels) = self.ssim_map_pixels {
+            map.serialize_entry("ssim_map_pixels", &pixels)?;
+        }
         for (metric, value) in &self.scores {
             map.serialize_entry(metric.key(), value)?;
         }
