@@ -104,6 +104,42 @@ fn means_over_scenes_are_of_scenes_that_all_methods_have() {
     assert!(!data(&folder, "bars-psnr").iter().any(|row| row[0] == "Average"));
 }
 
+/// A scene in which nothing of a method could be scored counts for no method: not in the table, not in
+/// bars, and not in profiles, which once left the method out instead.
+#[test]
+fn one_rule_for_means_over_scenes() {
+    let folder = two_scenes();
+    let third = "[[scene]]\nname = \"cellar\"\nreference = \"cellar/gt\"\n";
+    for name in ["gt", "a", "b"] {
+        let frames = fs::read_dir(folder.path(&format!("room/{name}"))).unwrap();
+        for frame in frames.map(|entry| entry.unwrap().path()) {
+            let file = frame.file_name().unwrap().to_str().unwrap();
+            let broken = name == "b";
+            let bytes = if broken { b"no picture".to_vec() } else { fs::read(&frame).unwrap() };
+            folder.write(&format!("cellar/{name}/{file}"), bytes);
+        }
+    }
+    folder.write("e.toml", experiment("").replacen("[[method]]", &format!("{third}[[method]]"), 1));
+    assert_eq!(folder.run(&["run", "e.toml"]).code, 3);
+    let label = "Average of the 2 scenes all methods have";
+    let table = fs::read_to_string(folder.path("reports/e/table.md")).unwrap();
+    assert!(table.contains(label), "{table}");
+    let bars = data(&folder, "bars-psnr");
+    assert_eq!(bars.iter().filter(|row| row[0] == label).count(), 2);
+    let profile = data(&folder, "profile-psnr");
+    for method in ["A", "B"] {
+        let of = |name: &str, method: &str| {
+            let bands = comparison(&folder, name, method)["bands"].clone();
+            bands[0]["psnr"]["mean"].as_f64().unwrap()
+        };
+        let first = profile.iter().find(|row| row[0] == method).unwrap();
+        let wanted = f64::midpoint(of("room", method), of("hall", method));
+        assert!((first[2].parse::<f64>().unwrap() - wanted).abs() < 1e-12, "{method}");
+    }
+    let page = fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    assert!(page.contains("mean over 2 scenes that all methods have"));
+}
+
 #[test]
 fn figures_of_two_eyes_are_of_both() {
     let folder = two_scenes();

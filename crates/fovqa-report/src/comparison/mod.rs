@@ -102,7 +102,10 @@ impl ComparisonTable {
                 Row { label: (*scene).to_owned(), average: false, cells: cells.collect() }
             })
             .collect();
-        rows.extend(average(&groups, &rows));
+        let names: Vec<&str> = methods.iter().map(String::as_str).collect();
+        let common: Vec<Vec<&str>> =
+            metrics.iter().map(|metric| common_scenes(summary, &scenes, &names, *metric)).collect();
+        rows.extend(average(&groups, &rows, &common));
         let mut notes = vec!["Means over frames; the best of each row is marked.".to_owned()];
         if metrics.contains(&Metric::Fpsnr) || metrics.contains(&Metric::Fssim) {
             notes.push(FOVEAL_NOTE.to_owned());
@@ -146,6 +149,30 @@ pub(crate) fn overall<'a>(
     summary.comparisons.iter().filter(eyes).find(|c| c.scene == scene && c.method == method)
 }
 
+/// The scenes in which every method has a value of a metric: those that means over scenes are of, in
+/// tables and figures alike. Means over different scenes could not be compared.
+pub(crate) fn common_scenes<'a>(
+    summary: &SummaryRecord,
+    scenes: &[&'a str],
+    methods: &[&str],
+    metric: Metric,
+) -> Vec<&'a str> {
+    let has = |scene: &str, method: &str| {
+        overall(summary, scene, method).is_some_and(|of| value(of, metric).is_some())
+    };
+    let all = |scene: &&str| methods.iter().all(|method| has(scene, method));
+    scenes.iter().copied().filter(all).collect()
+}
+
+/// What a mean over scenes is called, by how many of all scenes it is of.
+pub(crate) fn average_label(of: usize, all: usize) -> String {
+    if of == all {
+        "Average".to_owned()
+    } else {
+        format!("Average of the {of} scenes all methods have")
+    }
+}
+
 /// The columns of a metric: its values or, over time, the papers' percentage.
 fn group(metric: Metric) -> Group {
     let info = metric.info();
@@ -182,15 +209,15 @@ fn marked(group: &Group, values: impl Iterator<Item = Option<f64>>) -> Vec<Cell>
     values.into_iter().map(cell).collect()
 }
 
-/// The means over the scenes that all methods have, of the measures for which there are at least two;
-/// `None` where there is no such measure.
-fn average(groups: &[Group], rows: &[Row]) -> Option<Row> {
+/// The means over the scenes that all methods have ([`common_scenes`], measure by measure), of the
+/// measures for which there are at least two; `None` where there is no such measure.
+fn average(groups: &[Group], rows: &[Row], common: &[Vec<&str>]) -> Option<Row> {
     let mut scenes = Vec::new();
     let cells = groups.iter().enumerate().map(|(index, group)| {
         let whole: Vec<&Vec<Cell>> = rows
             .iter()
+            .filter(|row| common[index].contains(&row.label.as_str()))
             .map(|row| &row.cells[index])
-            .filter(|cells| cells.iter().all(|cell| cell.value.is_some()))
             .collect();
         let several = whole.len() > 1;
         if several {
@@ -204,10 +231,10 @@ fn average(groups: &[Group], rows: &[Row]) -> Option<Row> {
     });
     let cells = cells.collect();
     let (fewest, most) = (scenes.iter().min().copied()?, scenes.iter().max().copied()?);
-    let label = match fewest {
-        all if all == rows.len() => "Average".to_owned(),
-        count if count == most => format!("Average of the {count} scenes all methods have"),
-        _ => "Average of the scenes all methods have".to_owned(),
+    let label = if fewest == most {
+        average_label(fewest, rows.len())
+    } else {
+        "Average of the scenes all methods have".to_owned()
     };
     Some(Row { label, average: true, cells })
 }

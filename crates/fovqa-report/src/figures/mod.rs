@@ -13,7 +13,9 @@ use fovqa_results::{
     BandStatistics, ComparisonSummary, EccentricityShare, RunRecord, SummaryRecord,
 };
 
-use crate::comparison::{ComparisonTable, Ratios, mean, overall, statistic, value};
+use crate::comparison::{
+    ComparisonTable, Ratios, average_label, common_scenes, mean, overall, statistic, value,
+};
 use crate::frame_values::{FrameValues, Image};
 use crate::sheet::NamedFigure;
 
@@ -161,7 +163,11 @@ impl<'a> Selection<'a> {
             metric => metric.info().label,
         };
         let mut figures: Vec<NamedFigure> = Vec::new();
-        let common = self.common_scenes(metric);
+        let mut common = self.common_scenes(metric);
+        // Without a view a scene has values, but no bands.
+        common.retain(|scene| {
+            self.methods.iter().any(|(method, _)| !self.bands(metric, scene, method).is_empty())
+        });
         if common.len() > 1 {
             let bands = |method: &str| self.mean_bands(metric, &common, method);
             let which =
@@ -249,12 +255,9 @@ impl<'a> Selection<'a> {
             .collect()
     }
 
-    /// The scenes in which every method has bands: means over others could not be compared.
-    fn common_scenes(&self, metric: Metric) -> Vec<&str> {
-        let has = |scene: &&str| {
-            self.methods.iter().all(|(method, _)| !self.bands(metric, scene, method).is_empty())
-        };
-        self.scenes.iter().copied().filter(has).collect()
+    fn common_scenes(&self, metric: Metric) -> Vec<&'a str> {
+        let methods: Vec<&str> = self.methods.iter().map(|(method, _)| *method).collect();
+        common_scenes(self.source.summary, &self.scenes, &methods, metric)
     }
 
     /// The mean over scenes, of the bands that all of them have.
@@ -280,13 +283,14 @@ impl<'a> Selection<'a> {
         });
         let mut series: Vec<BarSeries> = series.collect();
         let mut groups: Vec<String> = self.scenes.iter().map(|&scene| scene.to_owned()).collect();
-        // Averages are of the same scenes for all methods, or not there.
-        let whole = series.iter().all(|series| series.values.iter().all(Option::is_some));
-        if groups.len() > 1 && whole {
-            groups.push("Average".to_owned());
+        let common = self.common_scenes(metric);
+        if common.len() > 1 {
+            groups.push(average_label(common.len(), self.scenes.len()));
             for BarSeries { values, .. } in &mut series {
-                let all: Vec<f64> = values.iter().copied().flatten().collect();
-                values.push(mean(&all));
+                let of_common = self.scenes.iter().zip(&*values);
+                let of_common = of_common.filter(|(scene, _)| common.contains(scene));
+                let of_common: Vec<f64> = of_common.filter_map(|(_, value)| *value).collect();
+                values.push(mean(&of_common));
             }
         }
         let y = match metric {
