@@ -1,17 +1,20 @@
-//! `fovqa check`: the plan and the frames found, without reading a pixel.
+//! `fovqa check`: the plan, the frames found, and what a run will warn of, without reading a pixel.
 
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use fovqa_config::{CurveSource, CurvesFile, Experiment, EyeView, Gaze, MetricChoice};
-use fovqa_engine::{Found, FoundFrame, FoundView};
+use fovqa_engine::{Events, Found, FoundFrame, FoundView};
 use fovqa_io::frame_size;
+use fovqa_metrics::Metric;
 
 use crate::args::CheckArgs;
 use crate::diagnostic;
 use crate::dialect::Dialect;
 use crate::exit::Exit;
+use crate::progress::Terminal;
 use crate::{experiment, output};
 
 pub(crate) fn run(args: &CheckArgs) -> Exit {
@@ -23,7 +26,18 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
         Err(exit) => return exit,
     };
     let found = fovqa_engine::find(&experiment.plan);
-    let printed = output::write(|out| out.write_all(plan(&experiment, &found).as_bytes()));
+    let terminal = Terminal::speaking(Dialect::Experiment);
+    // The warnings come where those of a run do, after the plan.
+    let warnings = Later::default();
+    let metrics = match fovqa_engine::foresee(&experiment.plan, &found, &warnings) {
+        Ok(metrics) => metrics,
+        Err(error) => return crate::run::broken(error),
+    };
+    let text = plan(&experiment, &metrics, &found);
+    let printed = output::write(|out| out.write_all(text.as_bytes()));
+    for message in warnings.0.take() {
+        terminal.warn(&message);
+    }
     crate::run::say_problems(&experiment, &found);
     let masks = masks(&experiment);
     if found.problems.iter().any(|problem| problem.error.is_usage()) {
@@ -33,6 +47,18 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
     } else {
         Exit::Input
     }
+}
+
+/// Keeps warnings until the plan is printed.
+#[derive(Default)]
+struct Later(RefCell<Vec<String>>);
+
+impl Events for Later {
+    fn warn(&self, message: &str) {
+        self.0.borrow_mut().push(message.to_owned());
+    }
+
+    fn progress(&self, _done: usize, _total: usize) {}
 }
 
 /// The curves, tables and figures of a file.
@@ -79,9 +105,8 @@ fn masks(experiment: &Experiment) -> bool {
     readable
 }
 
-fn plan(experiment: &Experiment, found: &Found) -> String {
+fn plan(experiment: &Experiment, metrics: &[Metric], found: &Found) -> String {
     let mut text = String::new();
-    let metrics = experiment.plan.metrics.metrics();
     let metrics: Vec<&str> = metrics.iter().map(|metric| metric.info().label).collect();
     let by_default = match experiment.plan.metrics {
         MetricChoice::Default => " (by default)",

@@ -69,7 +69,7 @@ impl<'a> Scoring<'a> {
         down: &mut TakenDown<'_, '_, '_>,
     ) -> Result<ViewFindings, EngineError> {
         let (plan, eye) = (self.plan, self.eye());
-        let metrics = self.begin(down)?;
+        let metrics = self.begin(down.warnings)?;
         let mask = match self.mask() {
             Ok(mask) => mask,
             Err(error) => {
@@ -174,22 +174,22 @@ impl<'a> Scoring<'a> {
     }
 
     /// Settles the metrics, and says what has to be said before the first frame.
-    fn begin(&self, down: &mut TakenDown<'_, '_, '_>) -> Result<Vec<Metric>, EngineError> {
+    pub(crate) fn begin(&self, warnings: &mut Warnings<'_>) -> Result<Vec<Metric>, EngineError> {
         let place = match self.eye().eye {
             None => self.scene.name.clone(),
             Some(eye) => format!("{}, {} eye", self.scene.name, eye.name()),
         };
-        down.warnings.enter(place, self.view.frames.len());
+        warnings.enter(place, self.view.frames.len());
         let (metrics, left_out) = self.view.metrics(self.plan)?;
         for metric in left_out {
             let label = metric.info().label;
             let message = format!("{label} is left out: it needs {{view}}");
-            down.warnings.once_a_view(metric.key(), &message);
+            warnings.once_a_view(metric.key(), &message);
         }
         let alone = self.view.passed_over;
         if alone > 0 {
             let message = format!("{alone} frames without a partner are passed over");
-            down.warnings.once_a_view("alone", &message);
+            warnings.once_a_view("alone", &message);
         }
         Ok(metrics)
     }

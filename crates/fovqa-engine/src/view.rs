@@ -350,7 +350,7 @@ fn warn_of_left_out(
     }
 }
 
-fn warn_of_gaze(gaze: [f64; 2], size: (usize, usize), warnings: &mut Warnings<'_>) {
+pub(crate) fn warn_of_gaze(gaze: [f64; 2], size: (usize, usize), warnings: &mut Warnings<'_>) {
     let inside = |at: f64, side: usize| (0.0..=side as f64).contains(&at);
     if !(inside(gaze[0], size.0) && inside(gaze[1], size.1)) {
         let message = format!(

@@ -1,0 +1,73 @@
+//! What a run will warn of, as far as settings, frame numbers and the headers of files tell.
+
+use fovqa_config::Plan;
+use fovqa_io::frame_size;
+use fovqa_metrics::Metric;
+use fovqa_vision::BandEdges;
+
+use crate::error::EngineError;
+use crate::events::{Events, Warnings};
+use crate::find::{Found, FoundView};
+use crate::scoring::{Scoring, scene_bands};
+use crate::setup::{Inputs, Setup};
+use crate::view::warn_of_gaze;
+
+/// Warns of what [`crate::run`] will warn of without reading a pixel, and returns the metrics that it
+/// will score, in any of the views.
+///
+/// # Errors
+/// When the plan itself cannot be ([`crate::check`]).
+pub fn foresee(
+    plan: &Plan,
+    found: &Found,
+    events: &dyn Events,
+) -> Result<Vec<Metric>, EngineError> {
+    let mut warnings = Warnings::new(events);
+    let mut metrics = Vec::new();
+    for view in &found.views {
+        let scene = &plan.scenes[view.scene];
+        let bands = scene_bands(scene, found, view.scene);
+        let scoring = Scoring { plan, scene, view, bands: bands.as_ref(), range: 0..view.pairs() };
+        let wanted = scoring.begin(&mut warnings)?;
+        metrics.extend(settle(plan, view, bands.as_ref(), wanted, &mut warnings));
+    }
+    metrics.sort_unstable();
+    metrics.dedup();
+    Ok(metrics)
+}
+
+/// Settles a view as its first frame will; the metrics that fit.
+fn settle(
+    plan: &Plan,
+    view: &FoundView,
+    scene_bands: Option<&BandEdges>,
+    metrics: Vec<Metric>,
+    warnings: &mut Warnings<'_>,
+) -> Vec<Metric> {
+    let settings = &plan.scenes[view.scene].eyes[view.eye].settings;
+    // What cannot be read now is an error of its frame.
+    let first = view.frames.iter().find_map(|f| Some((f, frame_size(&f.reference).ok()?)));
+    let Some((first, file_size)) = first else { return metrics };
+    let size = settings.crop.map_or(file_size, |crop| (crop.width, crop.height));
+    let inputs = Inputs {
+        plan,
+        settings,
+        scene_bands,
+        metrics: &metrics,
+        mask: None,
+        trace: view.trace.as_deref(),
+        pairs: &view.frames.iter().map(|frame| frame.tests.len()).collect::<Vec<_>>(),
+        file_size,
+    };
+    let Ok(setup) = Setup::new(&inputs, size, plan.shown(&first.reference), warnings) else {
+        return metrics;
+    };
+    if let Some(seen) = &setup.view {
+        let fixed = [seen.gaze_px];
+        let gazes = view.trace.as_ref().map(|trace| trace.iter().map(|gaze| gaze.px).collect());
+        for gaze in gazes.unwrap_or_else(|| Vec::from(fixed)) {
+            warn_of_gaze(gaze, size, warnings);
+        }
+    }
+    setup.scorer.metrics().to_vec()
+}
