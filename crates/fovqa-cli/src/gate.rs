@@ -55,6 +55,7 @@ fn of_folder(args: &GateArgs) -> Result<(FinishedRun, Option<Baseline>), Exit> {
     let options = [
         ("--output", args.output.is_some()),
         ("--frames", args.frames.is_some()),
+        ("--maps", args.maps.is_some()),
         ("--threads", args.threads.is_some()),
     ];
     if let Some((option, _)) = options.iter().find(|(_, given)| *given) {
@@ -127,7 +128,7 @@ fn score(args: &GateArgs) -> Result<FinishedRun, Exit> {
         resume: args.resume,
         shard: None,
         frames: args.frames,
-        maps: None,
+        maps: args.maps.clone(),
         threads: args.threads,
     };
     match scored(&run, Shown::Nothing) {

@@ -66,7 +66,7 @@ pub(crate) struct GateArgs {
     #[arg(long, value_name = "FORMAT", default_value = "table")]
     pub(crate) format: GateFormat,
     /// Print limits for the rules, from the spread of these repeated runs of one build, as TOML
-    #[arg(long, value_name = "RESULTS_DIR", num_args = 1.., conflicts_with_all = ["baseline", "junit", "markdown", "annotations", "format", "output", "threads"])]
+    #[arg(long, value_name = "RESULTS_DIR", num_args = 1.., conflicts_with_all = ["baseline", "junit", "markdown", "annotations", "format", "output", "maps", "threads"])]
     pub(crate) calibrate: Vec<PathBuf>,
     /// Folder for the results of an experiment [default: reports/NAME, NAME being the experiment's]
     #[arg(long, value_name = "DIR")]
@@ -77,6 +77,9 @@ pub(crate) struct GateArgs {
     /// Only these of each scene's frames, from A up to, but without, B
     #[arg(long, value_name = "A..B:STEP")]
     pub(crate) frames: Option<FrameRange>,
+    /// Write heat maps of the frames of an experiment into a folder, as `fovqa run --maps` does
+    #[arg(long, value_name = "DIR")]
+    pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
