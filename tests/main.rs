@@ -36,3 +36,4 @@ mod signal;
 mod temporal;
 mod visible_difference;
 mod visible_difference_errors;
+mod wide_fields;
