@@ -227,7 +227,7 @@ pub fn frame_size(path: &Path) -> Result<(usize, usize), ReadError> {
     read().map_err(|kind| kind.at(path))
 }
 
-/// Reads a mask: white (at least half of full scale) is visible. Alpha is ignored.
+/// Reads a mask: white (every channel above half of full scale) is visible. Alpha is ignored.
 ///
 /// # Errors
 /// As [`read_frame`].
