@@ -331,3 +331,37 @@ fn a_folder_has_been_scored_and_needs_rules() {
     folder.run(&["run", "e.toml"]).ok();
     folder.run(&["gate", "reports/e"]).fails(2, &["reports/e/e.toml:19", "--baseline"]);
 }
+
+#[test]
+fn heat_maps_of_a_gate_are_those_of_a_run() {
+    let folder = sequence();
+    let view = "display = \"htc-vive-pro\"";
+    let rest = "[metrics]\nfvvdp = {}\n[[gate]]\nmetric = \"fvvdp\"\nat_least = -1e9\n";
+    let text = experiment(view, "", rest)
+        .replace("reference = \"gt\"\n", "reference = \"gt\"\nfps = 30\n");
+    folder.write("e.toml", &text);
+    folder.run(&["gate", "e.toml", "--maps", "gate-maps"]).ok();
+    folder.run(&["run", "e.toml", "--maps", "run-maps"]).ok();
+    let files = |name: &str| {
+        let mut stack = vec![folder.path(name)];
+        let mut files = std::collections::BTreeMap::new();
+        while let Some(path) = stack.pop() {
+            for entry in fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()) {
+                if entry.is_dir() {
+                    stack.push(entry);
+                } else {
+                    let name = entry.strip_prefix(folder.path(name)).unwrap().to_owned();
+                    files.insert(name, fs::read(&entry).unwrap());
+                }
+            }
+        }
+        files
+    };
+    let maps = files("gate-maps");
+    assert!(maps.len() >= 3 && maps == files("run-maps"));
+    folder
+        .run(&["gate", "reports/e", "--maps", "more"])
+        .fails(2, &["--maps is of scoring", "give the experiment file"]);
+    folder.write("e.toml", text.replace("fvvdp", "psnr"));
+    folder.run(&["gate", "e.toml", "--maps", "more"]).fails(2, &["--maps are of FovVideoVDP"]);
+}

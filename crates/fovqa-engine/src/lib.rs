@@ -14,6 +14,7 @@ mod inputs;
 mod journal;
 mod light;
 mod load;
+mod memory;
 mod merge;
 mod read_ahead;
 mod resume;

@@ -6,6 +6,7 @@ use fovqa_config::{EyeView, Gaze, Plan, Scene};
 use fovqa_frame::Mask;
 use fovqa_io::{FileId, frame_size, read_mask};
 use fovqa_metrics::Metric;
+use fovqa_results::Failure;
 use fovqa_vision::{BandEdges, GazeAt};
 
 use crate::assemble::whole;
@@ -15,6 +16,7 @@ use crate::find::{Found, FoundFrame, FoundView};
 use crate::findings::{Entry, Finished, Named, Outcome, Record, Settled, ViewFindings};
 use crate::inputs::Inputs;
 use crate::load::{Loaded, Loader, Step};
+use crate::memory::shortage;
 use crate::read_ahead::read_ahead;
 use crate::setup::farthest_deg;
 use crate::view::ViewRun;
@@ -70,10 +72,10 @@ impl<'a> Scoring<'a> {
     ) -> Result<ViewFindings, EngineError> {
         let (plan, eye) = (self.plan, self.eye());
         let metrics = self.begin(down.warnings)?;
-        let mask = match self.mask() {
+        let readable = self.mask().map_err(|error| whole(error.to_string(), error.help()));
+        let mask = match self.shortage(&metrics).map_or(readable, Err) {
             Ok(mask) => mask,
-            Err(error) => {
-                let failure = whole(error.to_string(), error.help());
+            Err(failure) => {
                 (down.record)(Entry::ViewFailed(&self.scene.name, eye.eye, &failure))?;
                 down.progress.step(self.range.len());
                 return Ok(ViewFindings { failed: Some(failure), ..ViewFindings::default() });
@@ -192,6 +194,17 @@ impl<'a> Scoring<'a> {
             warnings.once_a_view("alone", &message);
         }
         Ok(metrics)
+    }
+
+    /// Why this machine's memory does not hold what the frames need, if so.
+    pub(crate) fn shortage(&self, metrics: &[Metric]) -> Option<Failure> {
+        let settings = &self.eye().settings;
+        let of_file = |frame: &FoundFrame| frame_size(&frame.reference).ok();
+        let size = match settings.crop {
+            Some(crop) => (crop.width, crop.height),
+            None => self.view.frames.iter().find_map(of_file)?,
+        };
+        shortage(self.plan, self.view, metrics, size, self.scene.fps)
     }
 
     fn mask(&self) -> Result<Option<Mask>, EngineError> {

@@ -194,6 +194,9 @@ fn look(
         );
         warnings.once_a_view("stretched", &message);
     }
+    for doubt in spec.doubts(&resolved.view) {
+        warnings.once_a_view(&doubt, &doubt);
+    }
     let (view, kind) = (resolved.view, inputs.settings.eccentricity);
     let bands = inputs.scene_bands.or(inputs.settings.bands.as_ref());
     let edges = bands.cloned().unwrap_or_else(|| {

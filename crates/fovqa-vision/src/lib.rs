@@ -12,6 +12,7 @@
 pub mod acuity;
 mod bands;
 mod displays;
+mod doubts;
 mod eccentricity;
 mod gaze_trace;
 mod pixel_scale;

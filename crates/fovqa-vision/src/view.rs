@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::displays::Display;
+use crate::doubts::listed;
 
 /// A pinhole eye buffer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,6 +109,21 @@ pub enum ViewError {
         /// Upper tangent as given.
         up: f64,
         /// Lower tangent as given.
+        down: f64,
+    },
+    /// Angles in degrees where tangents belong.
+    #[error(
+        "the frustum {left}, {right}, {up}, {down} is in degrees: it is made of the tangents of the half angles, \
+         {}", listed([*left, *right, *up, *down].map(|deg| libm::tan(deg.abs().to_radians())))
+    )]
+    FrustumDegrees {
+        /// Left side as given.
+        left: f64,
+        /// Right side as given.
+        right: f64,
+        /// Upper side as given.
+        up: f64,
+        /// Lower side as given.
         down: f64,
     },
     /// A focal length beyond reason.
@@ -226,9 +242,14 @@ fn length(value: f64, which: &'static str) -> Result<f64, ViewError> {
 fn frustum_sides(left: f64, right: f64, up: f64, down: f64) -> Result<[f64; 4], ViewError> {
     /// The tangent of 89.99°.
     const STEEPEST: f64 = 6000.0;
+    /// The tangent of 85°. No frustum is that wide to all four sides, and any headset's is wider in
+    /// degrees.
+    const STEEPER_THAN_ANY: f64 = 11.43;
     let sides =
         if left < 0.0 && down < 0.0 { [-left, right, up, -down] } else { [left, right, up, down] };
-    if sides.iter().all(|side| *side > 0.0 && *side <= STEEPEST) {
+    if sides.iter().all(|side| (STEEPER_THAN_ANY..90.0).contains(side)) {
+        Err(ViewError::FrustumDegrees { left, right, up, down })
+    } else if sides.iter().all(|side| *side > 0.0 && *side <= STEEPEST) {
         Ok(sides)
     } else {
         Err(ViewError::Frustum { left, right, up, down })
