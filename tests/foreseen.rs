@@ -61,9 +61,12 @@ fn check_lists_what_will_be_scored() {
 #[test]
 fn frames_beyond_memory_are_an_error_before_anything_is_scored() {
     let folder = Folder::new();
+    // A header, and the begin of the picture.
+    let mut header = header_only(60_000, 60_000);
+    header.extend(b"\0\0\0\0IDAT\x35\xaf\x06\x1e");
     for frame in 0..40 {
         for side in ["gt", "test"] {
-            folder.write(&format!("{side}/{frame:04}.png"), header_only(60_000, 60_000));
+            folder.write(&format!("{side}/{frame:04}.png"), &header);
         }
     }
     let arguments =

@@ -104,7 +104,7 @@ fn default_metrics_have_profiles_of_the_documented_shape() {
     let bands = frame["bands"].as_array().unwrap();
     assert_eq!(
         keys(&bands[0]),
-        ["from_deg", "mse", "pixels", "psnr", "rms_contrast", "ssim", "to_deg"]
+        ["from_deg", "mse", "pixels", "psnr", "rms_contrast", "ssim", "ssim_map_pixels", "to_deg"]
     );
     assert_eq!(keys(&bands[0]["rms_contrast"]), ["ratio", "reference", "test"]);
     let haar = frame["haar"].as_array().unwrap();

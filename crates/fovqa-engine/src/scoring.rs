@@ -204,6 +204,11 @@ impl<'a> Scoring<'a> {
             Some(crop) => (crop.width, crop.height),
             None => self.view.frames.iter().find_map(of_file)?,
         };
+        // Files beyond the limit of size are errors of their own, whatever memory there is.
+        let limit = settings.read.max_megapixels.saturating_mul(1_000_000);
+        if (size.0 as u64).saturating_mul(size.1 as u64) > limit {
+            return None;
+        }
         shortage(self.plan, self.view, metrics, size, self.scene.fps)
     }
 
