@@ -1,0 +1,142 @@
+//! Bits of entropy-coded data, the highest first.
+
+use super::huffman::Huffman;
+use super::{Result, damaged};
+
+/// Reads bits of the data between two markers.
+///
+/// Behind the end come zeros. What was decoded counts only after [`Bits::check`].
+#[derive(Debug)]
+pub(super) struct Bits<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    /// The next bits, from the highest on.
+    window: u64,
+    /// How many of them there are.
+    count: u32,
+    /// How many of them, the last ones, are not of the data.
+    beyond: u32,
+}
+
+impl<'a> Bits<'a> {
+    /// Of data without stuffed zeros.
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, at: 0, window: 0, count: 0, beyond: 0 }
+    }
+
+    /// Makes sure of at least 56 bits: more than a code (16) and its value (15) take.
+    #[inline(always)]
+    fn refill(&mut self) {
+        if let Some(next) = self.bytes.get(self.at..self.at + 8) {
+            let next = u64::from_be_bytes(next.try_into().unwrap_or_default());
+            self.window |= next >> self.count;
+            self.at += ((63 - self.count) / 8) as usize;
+            self.count |= 56;
+        } else {
+            self.refill_at_end();
+        }
+    }
+
+    #[cold]
+    fn refill_at_end(&mut self) {
+        while self.count < 56 {
+            if let Some(byte) = self.bytes.get(self.at) {
+                // What a refill of eight bytes has put there already are the same bits.
+                self.window |= u64::from(*byte) << (56 - self.count);
+                self.at += 1;
+            } else {
+                self.beyond += 8;
+            }
+            self.count += 8;
+        }
+    }
+
+    #[inline(always)]
+    fn consume(&mut self, count: u32) {
+        self.window <<= count;
+        self.count -= count;
+    }
+
+    /// Up to 16 bits as a number.
+    #[inline(always)]
+    fn take(&mut self, count: u32) -> u32 {
+        // In two steps: a shift by all 64 bits is none.
+        let value = (self.window >> 1 >> (63 - count)) as u32;
+        self.consume(count);
+        value
+    }
+
+    /// The next code of a table and, behind it, as many bits as `size` says of it, 16 at most.
+    #[inline(always)]
+    pub(super) fn symbol(&mut self, table: &Huffman) -> Result<u8> {
+        self.refill();
+        let (symbol, length) = table.find((self.window >> 48) as u16);
+        if length == 0 {
+            return Err(self.bad_code());
+        }
+        self.consume(length);
+        Ok(symbol)
+    }
+
+    #[cold]
+    fn bad_code(&self) -> super::ReadErrorKind {
+        match self.check() {
+            Err(error) => error,
+            Ok(()) => damaged("its data holds a Huffman code that is not in the table"),
+        }
+    }
+
+    /// The value of `size` bits, up to 15, right behind a symbol: negative where the first bit is 0
+    /// (T.81, F.2.2.1).
+    #[inline(always)]
+    pub(super) fn value(&mut self, size: u8) -> i32 {
+        let size = u32::from(size);
+        let bits = self.take(size) as i32;
+        // The largest bit is 0 for values below 0, which are then 2^size - 1 less.
+        let below = (bits >> size.saturating_sub(1)) - 1;
+        let span = (1 << size) - 1;
+        bits - (below & span)
+    }
+
+    /// Up to 15 bits right behind a symbol, as they are.
+    #[inline(always)]
+    pub(super) fn raw(&mut self, count: u8) -> u32 {
+        self.take(u32::from(count))
+    }
+
+    /// One bit, anywhere.
+    #[inline(always)]
+    pub(super) fn bit(&mut self) -> bool {
+        if self.count == 0 {
+            self.refill();
+        }
+        self.take(1) == 1
+    }
+
+    /// # Errors
+    /// When more bits were taken than there are.
+    #[inline(always)]
+    pub(super) fn check(&self) -> Result<()> {
+        if self.count < self.beyond { Err(too_short()) } else { Ok(()) }
+    }
+
+    /// # Errors
+    /// When more bits were taken than there are, or a whole byte is left over. What fills the last
+    /// byte up is no matter.
+    pub(super) fn finish(self) -> Result<()> {
+        self.check()?;
+        let left = (self.bytes.len() - self.at) * 8 + (self.count - self.beyond) as usize;
+        if left >= 8 {
+            let bytes = left / 8;
+            return Err(damaged(format!(
+                "{bytes} extraneous bytes of entropy-coded data stand in front of a marker"
+            )));
+        }
+        Ok(())
+    }
+}
+
+#[cold]
+fn too_short() -> super::ReadErrorKind {
+    damaged("its entropy-coded data ends too early, in front of a marker")
+}
