@@ -140,3 +140,61 @@ impl<'a> Bits<'a> {
 fn too_short() -> super::ReadErrorKind {
     damaged("its entropy-coded data ends too early, in front of a marker")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One bit: 0 for the symbol 3.
+    fn table() -> Huffman {
+        let mut counts = [0; 16];
+        counts[0] = 1;
+        Huffman::new(&counts, &[3]).unwrap()
+    }
+
+    #[test]
+    fn values_have_a_sign() {
+        // Symbol, 3 bits, four times: 7, 4, -4, -7; 16 bits.
+        let bytes = [0b0111_0100, 0b0011_0000];
+        let mut bits = Bits::new(&bytes);
+        for wanted in [7, 4, -4, -7] {
+            let size = bits.symbol(&table()).unwrap();
+            assert_eq!((size, bits.value(size)), (3, wanted));
+            bits.check().unwrap();
+        }
+        bits.finish().unwrap();
+    }
+
+    #[test]
+    fn takes_neither_more_nor_less_than_there_is() {
+        let long: Vec<u8> = vec![0b0101_0101; 100];
+        for length in 0..long.len() {
+            let mut bits = Bits::new(&long[..length]);
+            for _ in 0..2 * length {
+                bits.symbol(&table()).unwrap();
+                assert_eq!(bits.value(3), 5);
+                bits.check().unwrap();
+            }
+            assert!(bits.bit() || bits.check().is_err(), "{length}");
+            let mut bits = Bits::new(&long[..length]);
+            for _ in 1..2 * length {
+                bits.symbol(&table()).unwrap();
+                bits.value(3);
+            }
+            bits.finish().unwrap();
+            if length > 1 {
+                let mut bits = Bits::new(&long[..length]);
+                for _ in 2..2 * length {
+                    bits.symbol(&table()).unwrap();
+                    bits.value(3);
+                }
+                assert!(bits.finish().is_err(), "a byte is left");
+            }
+        }
+    }
+
+    #[test]
+    fn a_code_that_does_not_exist() {
+        assert!(Bits::new(&[0xff]).symbol(&table()).is_err());
+    }
+}

@@ -95,7 +95,9 @@ impl Decoder {
                 let number = self.frame.components[component.index].quantisation;
                 let steps = settings.quantisation[number];
                 self.steps[component.index] = steps.ok_or_else(|| {
-                    damaged(format!("a component uses quantisation table {number}, which is not there"))
+                    damaged(format!(
+                        "a component uses quantisation table {number}, which is not there"
+                    ))
                 })?;
             }
         }
@@ -139,9 +141,7 @@ impl Decoder {
     /// Decodes a scan into the coefficients of all scans before it.
     fn progressive(&mut self, mut scan: Scan<'_>, order: &Order) -> Result<()> {
         for y in 0..order.units.1 {
-            let places = self.coefficients.iter_mut().enumerate();
-            let mut of_component: Vec<Option<&mut Vec<Coefficients>>> =
-                places.map(|(_, blocks)| Some(blocks)).collect();
+            let mut of_component: Vec<_> = self.coefficients.iter_mut().map(Some).collect();
             let mut rows = Vec::with_capacity(order.shares.len());
             for share in &order.shares {
                 let blocks = of_component[share.component].take();
@@ -158,8 +158,12 @@ impl Decoder {
 
     /// The samples of all components.
     fn finish(mut self) -> Result<Vec<Plane>> {
-        for ((component, blocks), steps) in
-            self.frame.components.iter().zip(std::mem::take(&mut self.coefficients)).zip(&self.steps)
+        for ((component, blocks), steps) in self
+            .frame
+            .components
+            .iter()
+            .zip(std::mem::take(&mut self.coefficients))
+            .zip(&self.steps)
         {
             let mut plane = plane(component);
             let stride = plane.stride;

@@ -124,8 +124,7 @@ impl FrameHeader {
         for component in &mut self.components {
             let (h, v) = component.factors;
             component.size = ((self.width * h).div_ceil(max_h), (height * v).div_ceil(max_v));
-            component.blocks =
-                (component.size.0.div_ceil(BLOCK), component.size.1.div_ceil(BLOCK));
+            component.blocks = (component.size.0.div_ceil(BLOCK), component.size.1.div_ceil(BLOCK));
         }
     }
 

@@ -141,3 +141,53 @@ fn found(tables: &[Option<Huffman>; 4], number: usize) -> Result<&Huffman> {
     let table = tables.get(number).and_then(Option::as_ref);
     table.ok_or_else(|| damaged(format!("a scan uses Huffman table {number}, which is not there")))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn counts(of_length: &[(usize, u8)]) -> [u8; LONGEST] {
+        let mut counts = [0; LONGEST];
+        for (length, count) in of_length {
+            counts[length - 1] = *count;
+        }
+        counts
+    }
+
+    #[test]
+    fn codes_short_and_long() {
+        // 0, 10, then 110 and nine more bits: 12 bits in all.
+        let table = Huffman::new(&counts(&[(1, 1), (2, 1), (12, 3)]), &[5, 6, 7, 8, 9]).unwrap();
+        assert_eq!(table.find(0b0111_1111_1111_1111), (5, 1));
+        assert_eq!(table.find(0b1011_1111_1111_1111), (6, 2));
+        assert_eq!(table.find(0b1100_0000_0000_0000), (7, 12));
+        assert_eq!(table.find(0b1100_0000_0010_1111), (9, 12));
+        assert_eq!(table.find(0b1100_0000_0011_0000), (0, 0), "no code");
+        assert_eq!(table.find(0xffff), (0, 0), "no code");
+    }
+
+    #[test]
+    fn tables_that_cannot_be() {
+        assert!(Huffman::new(&counts(&[(1, 2)]), &[1, 2]).is_err(), "ones alone are reserved");
+        assert!(Huffman::new(&counts(&[(1, 1), (2, 2)]), &[1, 2, 3]).is_err());
+        assert!(Huffman::new(&counts(&[(1, 3)]), &[1, 2, 3]).is_err(), "too many");
+        let mut tables = Tables::default();
+        let mut data = [&[0x00][..], &counts(&[(1, 1)]), &[16]].concat();
+        tables.parse(&data).unwrap();
+        assert!(tables.means(0).is_err(), "a mean's difference of 16 bits");
+        data[0] = 0x20;
+        assert!(tables.parse(&data).is_err(), "neither class");
+        assert!(tables.means(1).is_err() && tables.others(0).is_err(), "not there");
+    }
+
+    #[test]
+    fn the_standard_tables_are_full() {
+        let mut tables = Tables::default();
+        super::super::standard_huffman::fill_in(&mut tables).unwrap();
+        // T.81, tables K.3 and K.5.
+        assert_eq!(tables.means(0).unwrap().find(0b1111_1111_0000_0000), (11, 9));
+        assert_eq!(tables.others(0).unwrap().find(0b1010_1111_1111_1111), (0, 4));
+        assert_eq!(tables.others(0).unwrap().find(0xfffe), (0xfa, 16));
+        assert_eq!(tables.others(1).unwrap().find(0b0011_1111_1111_1111), (0, 2));
+    }
+}

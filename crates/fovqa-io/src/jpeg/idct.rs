@@ -5,12 +5,11 @@
 //! place as libjpeg's accurate method has: so samples are the same to the last bit.
 
 use std::num::Wrapping;
-use std::ops::{Add, Mul, Shl, Sub};
 
 use multiversion::multiversion;
 
 use super::frame_header::BLOCK;
-use super::quantisation::Steps;
+use super::quantisation::{COEFFICIENTS, Steps};
 use super::sequential::Coefficients;
 
 /// Fractional bits of the constants.
@@ -18,91 +17,68 @@ const FRACTION: usize = 13;
 /// Fractional bits that are kept between columns and rows.
 const KEPT: usize = 2;
 
-/// Eight numbers that go the same way: one of each column, or of each row. Values that no picture
-/// has may wrap round.
-#[derive(Clone, Copy)]
-struct Eight([Wrapping<i32>; BLOCK]);
-
-impl Eight {
-    #[inline(always)]
-    fn each(self, of: impl Fn(Wrapping<i32>) -> Wrapping<i32>) -> Self {
-        Self(self.0.map(of))
-    }
-
-    /// Divided by a power of two and rounded.
-    #[inline(always)]
-    fn rounded(self, bits: usize) -> Self {
-        self.each(|v| (v + Wrapping(1 << (bits - 1))) >> bits)
-    }
-}
-
-impl Add for Eight {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
-    }
-}
-
-impl Sub for Eight {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] - other.0[i]))
-    }
-}
-
-impl Mul<i32> for Eight {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, by: i32) -> Self {
-        self.each(|v| v * Wrapping(by))
-    }
-}
-
-impl Shl<usize> for Eight {
-    type Output = Self;
-    #[inline(always)]
-    fn shl(self, bits: usize) -> Self {
-        self.each(|v| v << bits)
-    }
-}
+/// The numbers of a block, row by row.
+type Block = [i32; COEFFICIENTS];
 
 /// A constant of the factorisation, with [`FRACTION`] bits.
 const fn fixed(value: f64) -> i32 {
     (value * (1 << FRACTION) as f64 + 0.5) as i32
 }
 
-/// The transform along one direction, its result with [`FRACTION`] more bits.
+/// The transform of each column, divided by a power of two and rounded; `bits` are those that go,
+/// [`FRACTION`] of which are of the constants. Numbers that no image has may wrap round.
 #[inline(always)]
-fn along(v: [Eight; BLOCK]) -> [Eight; BLOCK] {
-    const SQRT2_COS6: i32 = fixed(0.541_196_100);
-    const SQRT2_COS2_LESS_COS6: i32 = fixed(0.765_366_865);
-    const SQRT2_COS2_AND_COS6: i32 = fixed(1.847_759_065);
-    let turned = (v[2] + v[6]) * SQRT2_COS6;
-    let (low, high) = (turned + v[2] * SQRT2_COS2_LESS_COS6, turned - v[6] * SQRT2_COS2_AND_COS6);
-    let (sum, difference) = ((v[0] + v[4]) << FRACTION, (v[0] - v[4]) << FRACTION);
-    let even = [sum + low, difference + high, difference - high, sum - low];
+fn columns(values: &Block, bits: usize) -> Block {
+    let mut out = [0; COEFFICIENTS];
+    // One column per turn: the compiler makes one turn of eight of them.
+    for x in 0..BLOCK {
+        let at = |y: usize| values[y * BLOCK + x];
+        let column = [at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)].map(Wrapping);
+        let [even, odd] = halves(column);
+        for y in 0..BLOCK / 2 {
+            let rounded = |v: Wrapping<i32>| ((v + Wrapping(1 << (bits - 1))) >> bits).0;
+            out[y * BLOCK + x] = rounded(even[y] + odd[y]);
+            out[(BLOCK - 1 - y) * BLOCK + x] = rounded(even[y] - odd[y]);
+        }
+    }
+    out
+}
 
-    let (outer, inner) = (v[7] + v[1], v[5] + v[3]);
+/// Sums and differences of these are the transform of eight numbers, from both ends inwards.
+#[inline(always)]
+fn halves(v: [Wrapping<i32>; BLOCK]) -> [[Wrapping<i32>; BLOCK / 2]; 2] {
+    let times = |v: Wrapping<i32>, constant: i32| v * Wrapping(constant);
+    let turned = times(v[2] + v[6], const { fixed(0.541_196_100) });
+    let low = turned + times(v[2], const { fixed(0.765_366_865) });
+    let high = turned - times(v[6], const { fixed(1.847_759_065) });
+    let (sum, difference) = ((v[0] + v[4]) << FRACTION, (v[0] - v[4]) << FRACTION);
+
     let (third, first) = (v[7] + v[3], v[5] + v[1]);
-    let all = (third + first) * fixed(1.175_875_602);
-    let outer = outer * fixed(0.899_976_223);
-    let inner = inner * fixed(2.562_915_447);
-    let third = all - third * fixed(1.961_570_560);
-    let first = all - first * fixed(0.390_180_644);
-    let odd = [
-        v[1] * fixed(1.501_321_110) - outer + first,
-        v[3] * fixed(3.072_711_026) - inner + third,
-        v[5] * fixed(2.053_119_869) - inner + first,
-        v[7] * fixed(0.298_631_336) - outer + third,
-    ];
-    std::array::from_fn(|i| if i < 4 { even[i] + odd[i] } else { even[7 - i] - odd[7 - i] })
+    let all = times(third + first, const { fixed(1.175_875_602) });
+    let outer = times(v[7] + v[1], const { fixed(0.899_976_223) });
+    let inner = times(v[5] + v[3], const { fixed(2.562_915_447) });
+    let third = all - times(third, const { fixed(1.961_570_560) });
+    let first = all - times(first, const { fixed(0.390_180_644) });
+    [
+        [sum + low, difference + high, difference - high, sum - low],
+        [
+            times(v[1], const { fixed(1.501_321_110) }) - outer + first,
+            times(v[3], const { fixed(3.072_711_026) }) - inner + third,
+            times(v[5], const { fixed(2.053_119_869) }) - inner + first,
+            times(v[7], const { fixed(0.298_631_336) }) - outer + third,
+        ],
+    ]
 }
 
 #[inline(always)]
-fn transposed(v: [Eight; BLOCK]) -> [Eight; BLOCK] {
-    std::array::from_fn(|i| Eight(std::array::from_fn(|j| v[j].0[i])))
+fn transposed(values: &Block) -> Block {
+    let mut out = [0; COEFFICIENTS];
+    for y in 0..BLOCK {
+        for x in 0..BLOCK {
+            out[y * BLOCK + x] = values[x * BLOCK + y];
+        }
+    }
+    out
 }
 
 /// The samples of a row of blocks, into rows of `stride` samples. `false` where a block holds a
@@ -125,8 +101,8 @@ pub(super) fn samples(
             rows.for_each(|row| row[..BLOCK].fill(flat));
         } else {
             let whole = transform(block, steps);
-            for (row, samples) in rows.zip(whole) {
-                row[..BLOCK].copy_from_slice(&samples);
+            for (row, samples) in rows.zip(whole.as_chunks::<BLOCK>().0) {
+                row[..BLOCK].copy_from_slice(samples);
             }
         }
     }
@@ -160,10 +136,69 @@ fn sample(value: i32) -> u8 {
 }
 
 #[inline(always)]
-fn transform(block: &Coefficients, steps: &Steps) -> [[u8; BLOCK]; BLOCK] {
-    let value = |i: usize| Wrapping(i32::from(block[i])) * Wrapping(i32::from(steps[i]));
-    let rows = std::array::from_fn(|y| Eight(std::array::from_fn(|x| value(y * BLOCK + x))));
-    let columns_done = along(rows).map(|v| v.rounded(FRACTION - KEPT));
-    let rows_done = along(transposed(columns_done)).map(|v| v.rounded(FRACTION + KEPT + 3));
-    transposed(rows_done).map(|row| row.0.map(|v| sample(v.0)))
+fn transform(block: &Coefficients, steps: &Steps) -> [u8; COEFFICIENTS] {
+    let mut values = [0; COEFFICIENTS];
+    for i in 0..COEFFICIENTS {
+        values[i] = i32::from(block[i]) * i32::from(steps[i]);
+    }
+    let values = columns(&values, FRACTION - KEPT);
+    let values = columns(&transposed(&values), FRACTION + KEPT + 3);
+    let values = transposed(&values);
+    let mut out = [0; COEFFICIENTS];
+    for i in 0..COEFFICIENTS {
+        out[i] = sample(values[i]);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use fovqa_testkit::synthetic::Xorshift;
+
+    use super::*;
+
+    /// By the definition (T.81, A.3.3).
+    fn literal(block: &Coefficients, steps: &Steps, x: usize, y: usize) -> f64 {
+        let cosine = |at: usize, frequency: usize| {
+            let scale = if frequency == 0 { 0.5f64.sqrt() } else { 1.0 };
+            scale * ((2 * at + 1) as f64 * frequency as f64 * std::f64::consts::PI / 16.0).cos()
+        };
+        let term = |i: usize| {
+            let value = f64::from(block[i]) * f64::from(steps[i]);
+            value * cosine(x, i % BLOCK) * cosine(y, i / BLOCK) / 4.0
+        };
+        (0..COEFFICIENTS).map(term).sum::<f64>() + 128.0
+    }
+
+    #[test]
+    fn is_the_transform_of_the_standard() {
+        let mut random = Xorshift::new(3);
+        let steps = std::array::from_fn(|i| 1 + i as u16 / 4);
+        for _ in 0..200 {
+            let mut blocks = [[0i16; COEFFICIENTS]; 2];
+            blocks[0][0] = (random.next_unit() * 800.0 - 400.0) as i16;
+            blocks[1] = std::array::from_fn(|i| {
+                (80.0 * (random.next_unit() - 0.5) / (1 + i % 8 + i / 8) as f64) as i16
+            });
+            let mut out = [0; 2 * COEFFICIENTS];
+            assert!(samples(&blocks, &steps, 16, &mut out));
+            for (i, found) in out.iter().enumerate() {
+                let (x, y) = (i % 16, i / 16);
+                let wanted = literal(&blocks[x / 8], &steps, x % 8, y).clamp(0.0, 255.0);
+                assert!((f64::from(*found) - wanted).abs() < 0.75, "{found} for {wanted}");
+            }
+        }
+    }
+
+    #[test]
+    fn coefficients_that_no_image_has() {
+        let mut out = [0; COEFFICIENTS];
+        let mut possible = |value: i16, step: u16| {
+            let mut block = [0; COEFFICIENTS];
+            block[9] = value;
+            samples(&[block], &[step; COEFFICIENTS], BLOCK, &mut out)
+        };
+        assert!(possible(1024, 1) && possible(-64, 16) && possible(1, 2000) && possible(0, 65535));
+        assert!(!possible(-2100, 1) && !possible(300, 16) && !possible(i16::MIN, u16::MAX));
+    }
 }

@@ -67,3 +67,32 @@ impl Intervals {
         Ok((0..count).map(move |i| &self.bytes[from(i)..self.ends[i]]))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zeros_and_markers_are_taken_out() {
+        let data = [1, 0xff, 0, 2, 0xff, 0xff, 0xd0, 3, 0xff, 0xd1, 0xff, 0xd9, 7];
+        let found = Intervals::read(&data).unwrap();
+        assert_eq!(found.length, 10);
+        let stretches: Vec<&[u8]> = found.exactly(3).unwrap().collect();
+        assert_eq!(stretches, [&[1, 0xff, 2][..], &[3], &[]]);
+        assert_eq!(found.exactly(2).unwrap().count(), 2, "a marker behind the last is no harm");
+        assert!(found.exactly(1).is_err() && found.exactly(4).is_err());
+    }
+
+    #[test]
+    fn what_is_not_well_formed() {
+        for data in [
+            &[1, 2, 3][..],
+            &[1, 0xff],
+            &[1, 0xff, 0xff],
+            &[1, 0xff, 0xd1, 2, 0xff, 0xd9],
+            &[1, 0xff, 0xff, 0, 2, 0xff, 0xd9],
+        ] {
+            assert!(Intervals::read(data).is_err(), "{data:?}");
+        }
+    }
+}

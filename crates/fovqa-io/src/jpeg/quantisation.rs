@@ -64,3 +64,30 @@ pub(super) fn parse(mut data: &[u8], tables: &mut [Option<Steps>; 4]) -> Result<
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_order_is_that_of_figure_a_6() {
+        assert_eq!(ZIGZAG[..10], [0, 1, 8, 16, 9, 2, 3, 10, 17, 24]);
+        assert_eq!(ZIGZAG[28..36], [7, 14, 21, 28, 35, 42, 49, 56]);
+        assert_eq!(ZIGZAG[54..], [39, 46, 53, 60, 61, 54, 47, 55, 62, 63]);
+    }
+
+    #[test]
+    fn steps_of_one_and_two_bytes() {
+        let mut tables = [None; 4];
+        let mut data = vec![0x01];
+        data.extend(1..=64);
+        data.push(0x12);
+        data.extend((1..=64u16).flat_map(|step| (step * 1000).to_be_bytes()));
+        parse(&data, &mut tables).unwrap();
+        let (narrow, wide) = (tables[1].unwrap(), tables[2].unwrap());
+        assert_eq!((narrow[8], narrow[63], wide[8], wide[63]), (3, 64, 3000, 64_000));
+        assert!(parse(&data[..64], &mut tables).is_err(), "cut short");
+        data[5] = 0;
+        assert!(parse(&data, &mut tables).is_err(), "a step of 0");
+    }
+}

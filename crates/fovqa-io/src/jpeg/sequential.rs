@@ -10,12 +10,7 @@ pub(super) type Coefficients = [i16; COEFFICIENTS];
 
 /// The next mean, from the difference to the one before; its bits start with bit `low`.
 #[inline(always)]
-pub(super) fn mean(
-    bits: &mut Bits<'_>,
-    table: &Huffman,
-    before: &mut i32,
-    low: u8,
-) -> Result<i16> {
+pub(super) fn mean(bits: &mut Bits<'_>, table: &Huffman, before: &mut i32, low: u8) -> Result<i16> {
     let size = bits.symbol(table)?;
     *before += bits.value(size);
     if before.abs() >= 1 << 15 {

@@ -131,3 +131,45 @@ fn half_both(sums: &[u16], out: &mut [u8]) {
         *out = ((4 * sums[last] + 7) >> 4) as u8;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(plane: &Plane, factors: (usize, usize), size: (usize, usize)) -> Vec<Vec<u8>> {
+        let upsampled = Upsampled::new(plane, factors);
+        let row = |y| {
+            let mut out = vec![0; size.0];
+            upsampled.row(y, &mut Vec::new(), &mut out);
+            out
+        };
+        (0..size.1).map(row).collect()
+    }
+
+    /// By hand; the fourth column and the third row are what fills a block up.
+    fn plane() -> Plane {
+        let samples = vec![0, 40, 80, 255, 100, 140, 180, 255, 255, 255, 255, 255];
+        Plane { samples, stride: 4, size: (3, 2) }
+    }
+
+    #[test]
+    fn half_the_resolution_is_interpolated() {
+        let across = [[0, 10, 30, 50, 70, 80], [100, 110, 130, 150, 170, 180]];
+        assert_eq!(rows(&plane(), (2, 1), (6, 2)), across);
+        assert_eq!(rows(&plane(), (2, 1), (5, 2))[1], across[1][..5]);
+        let down = rows(&plane(), (1, 2), (3, 4));
+        assert_eq!(down, [[0, 40, 80], [25, 65, 105], [75, 115, 155], [100, 140, 180]]);
+        let both = rows(&plane(), (2, 2), (6, 3));
+        assert_eq!(both[0], across[0]);
+        assert_eq!(both[1], [25, 35, 55, 75, 95, 105]);
+        assert_eq!(both[2], [75, 85, 105, 125, 145, 155]);
+    }
+
+    #[test]
+    fn other_ratios_repeat() {
+        assert_eq!(rows(&plane(), (3, 1), (8, 1))[0], [0, 0, 0, 40, 40, 40, 80, 80]);
+        assert_eq!(rows(&plane(), (1, 4), (3, 8))[5], [100, 140, 180]);
+        let narrow = Plane { size: (2, 2), ..plane() };
+        assert_eq!(rows(&narrow, (2, 2), (4, 4))[2], [100, 100, 140, 140]);
+    }
+}

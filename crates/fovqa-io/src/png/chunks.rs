@@ -32,7 +32,8 @@ fn is_near(value: u32, srgb: u32, tolerance: u32) -> bool {
 
 fn is_srgb_gamma(data: &[u8]) -> bool {
     const TOLERANCE: u32 = 5;
-    data.first_chunk().is_some_and(|gamma| is_near(u32::from_be_bytes(*gamma), SRGB_GAMMA, TOLERANCE))
+    data.first_chunk()
+        .is_some_and(|gamma| is_near(u32::from_be_bytes(*gamma), SRGB_GAMMA, TOLERANCE))
 }
 
 fn are_srgb_chromaticities(data: &[u8]) -> bool {
@@ -110,7 +111,8 @@ mod tests {
         let gamma = SRGB_GAMMA.to_be_bytes();
         let other_gamma = 100_000u32.to_be_bytes();
         let own = chromaticities(SRGB_CHROMATICITIES);
-        let rounded = chromaticities([31_269, 32_899, 63_999, 33_001, 30_000, 60_000, 15_000, 5_999]);
+        let rounded =
+            chromaticities([31_269, 32_899, 63_999, 33_001, 30_000, 60_000, 15_000, 5_999]);
         // Display P3.
         let other = chromaticities([31_270, 32_900, 68_000, 32_000, 26_500, 69_000, 15_000, 6_000]);
         let none: [&str; 0] = [];

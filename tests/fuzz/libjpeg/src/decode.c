@@ -46,7 +46,7 @@ static void emit(j_common_ptr info, int level) {
 }
 
 void fovqa_fuzz_decode(const unsigned char *bytes, size_t length, unsigned long most_samples,
-                       struct result *result) {
+                       int in_floats, struct result *result) {
     struct jpeg_decompress_struct info;
     struct manager manager;
     memset(result, 0, sizeof *result);
@@ -67,6 +67,8 @@ void fovqa_fuzz_decode(const unsigned char *bytes, size_t length, unsigned long 
         info.out_color_space = JCS_CMYK;
     else if (info.num_components == 3)
         info.out_color_space = JCS_RGB;
+    if (in_floats)
+        info.dct_method = JDCT_FLOAT;
     jpeg_calc_output_dimensions(&info);
     result->width = info.output_width;
     result->height = info.output_height;

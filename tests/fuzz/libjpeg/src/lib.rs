@@ -19,6 +19,7 @@ unsafe extern "C" {
         bytes: *const u8,
         length: usize,
         most_samples: c_ulong,
+        in_floats: c_int,
         result: *mut Raw,
     );
     fn free(memory: *mut u8);
@@ -39,15 +40,28 @@ pub struct Decoded {
     pub warning: Option<String>,
 }
 
+/// How libjpeg transforms coefficients.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Transform {
+    /// Its default: whole numbers, which overflow where no image has such coefficients.
+    Whole,
+    /// Floats, a little different.
+    Float,
+}
+
 /// Decodes a file of at most `most_samples` samples.
 ///
 /// # Errors
 /// In libjpeg's words.
-pub fn decode(bytes: &[u8], most_samples: usize) -> Result<Decoded, String> {
+pub fn decode(bytes: &[u8], most_samples: usize, transform: Transform) -> Result<Decoded, String> {
     // SAFETY: zeros are valid for all of its fields.
     let mut raw: Raw = unsafe { std::mem::zeroed() };
     // SAFETY: reads `length` bytes, fills the result in.
-    unsafe { fovqa_fuzz_decode(bytes.as_ptr(), bytes.len(), most_samples as c_ulong, &raw mut raw) };
+    unsafe {
+        let in_floats = c_int::from(transform == Transform::Float);
+        let most = most_samples as c_ulong;
+        fovqa_fuzz_decode(bytes.as_ptr(), bytes.len(), most, in_floats, &raw mut raw);
+    }
     let (width, height) = (raw.width as usize, raw.height as usize);
     let channels = raw.channels as usize;
     let mut samples = Vec::new();
