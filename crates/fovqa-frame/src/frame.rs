@@ -156,12 +156,14 @@ pub struct Frame {
     height: usize,
     channels: Channels,
     samples: Samples,
+    /// Whether the samples are encoded for display rather than linear light.
+    encoded: bool,
     /// The visible part, within `width` x `height`.
     crop: Crop,
 }
 
 impl Frame {
-    /// Puts samples and their size together.
+    /// Puts samples and their size together. Integer samples are encoded, floats are linear light.
     ///
     /// # Errors
     /// When there are no pixels, or not `width * height * channels` samples.
@@ -180,7 +182,20 @@ impl Frame {
             return Err(FrameError::SampleCount { found: samples.len(), expected });
         }
         let crop = Crop { x: 0, y: 0, width, height };
-        Ok(Self { width, height, channels, samples, crop })
+        let encoded = samples.is_integer();
+        Ok(Self { width, height, channels, samples, encoded, crop })
+    }
+
+    /// The same frame with samples that are encoded for display, floats too: the values of an 8- or
+    /// 16-bit file that were computed with, and would lose by being rounded.
+    #[must_use]
+    pub fn encoded(self) -> Self {
+        Self { encoded: true, ..self }
+    }
+
+    /// Whether the samples are encoded for display, unless the user says otherwise.
+    pub fn is_encoded(&self) -> bool {
+        self.encoded
     }
 
     /// The same frame with only a rectangle of it visible; no sample is copied.

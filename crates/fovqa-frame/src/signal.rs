@@ -1,6 +1,6 @@
 //! From samples to the signal metrics see: display-encoded, per channel.
 //!
-//! Encoded input (8- and 16-bit files, unless told otherwise) is used as it is. Linear input
+//! Encoded input (PNG and JPEG, unless told otherwise) is used as it is. Linear input
 //! (OpenEXR, unless told otherwise) gets exposure, then the tone map per channel, then the sRGB
 //! encoding. NaN becomes 0 and an infinity the end of the range, so that a masked pixel cannot
 //! leak into its neighbours.
@@ -49,7 +49,7 @@ impl Luma {
 /// How samples become the signal.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SignalParams {
-    /// `None`: sRGB for integer samples, linear for floats.
+    /// `None`: sRGB for encoded frames, linear for others.
     pub transfer: Option<Transfer>,
     /// Exposure of linear input, in stops.
     pub exposure_stops: f64,
@@ -62,11 +62,7 @@ pub struct SignalParams {
 impl SignalParams {
     /// The transfer function of a frame: the one asked for, or that of its kind of file.
     pub fn transfer_of(&self, frame: &Frame) -> Transfer {
-        self.transfer.unwrap_or(if frame.samples().is_integer() {
-            Transfer::Srgb
-        } else {
-            Transfer::Linear
-        })
+        self.transfer.unwrap_or(if frame.is_encoded() { Transfer::Srgb } else { Transfer::Linear })
     }
 }
 

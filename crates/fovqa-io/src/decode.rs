@@ -11,7 +11,7 @@ use crate::contain::contained;
 use crate::error::{ReadError, ReadErrorKind};
 use crate::file_id::FileId;
 use crate::guides::{GuideOptions, GuideSearch};
-use crate::{exr, raster};
+use crate::{exr, jpeg, png};
 
 /// How files are read.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +66,8 @@ pub enum Note {
     ConvertedPrimaries,
     /// An EXIF orientation that is not applied.
     Orientation,
+    /// Inks were converted to RGB without a colour profile.
+    Inks,
     /// The data window of motion or depth does not cover the display window; the rest is NaN.
     UncoveredGuides,
 }
@@ -87,6 +89,10 @@ impl Note {
                 "the chromaticities attribute is not Rec.709; colours were converted".to_owned()
             }
             Note::Orientation => "the EXIF orientation is not applied".to_owned(),
+            Note::Inks => {
+                "its CMYK inks are converted to RGB without a colour profile, as ink times black"
+                    .to_owned()
+            }
             Note::UncoveredGuides => {
                 "the data window of motion or depth does not cover the display window; uncovered pixels have none"
                     .to_owned()
@@ -191,9 +197,9 @@ pub(crate) fn buffered(file: File) -> Result<(BufReader<File>, Vec<u8>), ReadErr
 fn decode_by_magic(file: File, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
     let (file, magic) = buffered(file)?;
     if magic.starts_with(PNG_MAGIC) {
-        raster::read_png(file, options)
+        png::read(file, options)
     } else if magic.starts_with(JPEG_MAGIC) {
-        raster::read_jpeg(file, options)
+        jpeg::read(file, options)
     } else if magic.starts_with(EXR_MAGIC) {
         exr::read(file, options)
     } else {
@@ -216,8 +222,10 @@ pub fn frame_size(path: &Path) -> Result<(usize, usize), ReadError> {
             file.rewind()?;
             if magic.starts_with(EXR_MAGIC) {
                 exr::size(file)
-            } else if magic.starts_with(PNG_MAGIC) || magic.starts_with(JPEG_MAGIC) {
-                raster::size(file)
+            } else if magic.starts_with(PNG_MAGIC) {
+                png::size(file)
+            } else if magic.starts_with(JPEG_MAGIC) {
+                jpeg::size(file)
             } else {
                 Err(ReadErrorKind::NotAnImage)
             }

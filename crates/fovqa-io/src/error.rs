@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::jpeg::JpegKind;
+
 /// A file that could not be read as a frame, and why.
 #[derive(Debug, Error)]
 #[error("{}: {kind}", path.display())]
@@ -42,6 +44,9 @@ pub enum ReadErrorKind {
         /// The decoder's words.
         detail: String,
     },
+    /// A JPEG that may be whole, but of a kind that is not read.
+    #[error("it is a JPEG of a kind that is not read: {0}")]
+    UnsupportedJpeg(JpegKind),
     /// More pixels than the limit.
     #[error(
         "it declares {width}x{height} pixels, more than the limit of {limit_megapixels} megapixels"
@@ -160,6 +165,7 @@ impl ReadErrorKind {
             Self::NotAnImage => "convert it to PNG or OpenEXR",
             Self::Damaged { .. } => "render or copy it again",
             Self::Unsupported { .. } => "save it again with another compression, such as ZIP",
+            Self::UnsupportedJpeg(kind) => kind.help(),
             Self::TooLarge { .. } | Self::BlockTooLarge { .. } => {
                 "raise {max_megapixels} if the size is meant"
             }

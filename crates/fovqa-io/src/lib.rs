@@ -8,10 +8,12 @@ mod alpha;
 mod contain;
 mod decode;
 mod error;
+mod exif;
 mod exr;
 mod file_id;
 mod guides;
-mod raster;
+mod jpeg;
+mod png;
 pub mod sequence;
 mod write;
 
@@ -26,4 +28,5 @@ pub use guides::{
     DecodedGuides, DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels,
     MotionUnit, NamedMotion, Sought, read_guides, read_guides_and_hash,
 };
+pub use jpeg::JpegKind;
 pub use write::{exr_gray, png_rgb8};

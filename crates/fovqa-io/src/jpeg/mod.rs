@@ -1,0 +1,105 @@
+//! JPEG (ITU-T T.81): baseline, extended sequential and progressive files with Huffman coding and 8
+//! bits per sample, gray, RGB, YCbCr, CMYK and YCCK, with any order of scans and any sampling of
+//! whole ratios.
+//!
+//! Samples are those of libjpeg-turbo with its default settings, to the last bit. Unlike most
+//! decoders, this one refuses what it cannot be certain of: whatever is damaged in a way that the
+//! format shows is an error, and nothing is filled up or skipped.
+
+mod application;
+mod bits;
+mod colour;
+mod coverage;
+mod decoder;
+mod frame_header;
+mod head;
+mod huffman;
+mod idct;
+mod intervals;
+mod kind;
+mod order;
+mod picture;
+mod progressive;
+mod quantisation;
+mod scan;
+mod scan_header;
+mod segments;
+mod sequential;
+mod standard_huffman;
+mod upsample;
+
+use std::io::{BufRead, Read, Seek};
+
+use fovqa_frame::{Channels, Frame, Samples};
+
+pub use kind::JpegKind;
+
+use crate::decode::{Decoded, Note, ReadOptions};
+use crate::error::ReadErrorKind;
+use colour::Colours;
+use head::Head;
+
+type Result<T> = std::result::Result<T, ReadErrorKind>;
+
+/// A JPEG is read whole; this is four bytes a pixel of the largest one by default.
+const MAX_BYTES: u64 = 1 << 30;
+
+fn damaged(detail: impl Into<String>) -> ReadErrorKind {
+    ReadErrorKind::Damaged { format: "JPEG", detail: detail.into() }
+}
+
+fn not_read(kind: JpegKind) -> ReadErrorKind {
+    ReadErrorKind::UnsupportedJpeg(kind)
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// When it is damaged, of a kind that is not read, or too large.
+pub(crate) fn read(mut file: impl BufRead + Seek, options: &ReadOptions) -> Result<Decoded> {
+    let mut bytes = Vec::new();
+    file.by_ref().take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(damaged("it is longer than any image of its kind, 1 GiB"));
+    }
+    let head = Head::read(&bytes)?;
+    let frame = head.frame.clone();
+    options.check_size(frame.width as u64, frame.height as u64)?;
+    frame.check_length(head.segments.rest().len())?;
+    let colours = Colours::of(&frame, &head.settings.application)?;
+    let (planes, settings) = decoder::decode(head)?;
+    let samples = picture::compose(&frame, &planes, colours);
+    let channels = if colours == Colours::Gray { Channels::Gray } else { Channels::Rgb };
+    let frame = Frame::new(frame.width, frame.height, channels, Samples::U8(samples))
+        .map_err(|error| damaged(error.to_string()))?;
+    let mut notes = Vec::new();
+    if settings.application.turned {
+        notes.push(Note::Orientation);
+    }
+    if settings.application.profile {
+        notes.push(Note::ColourChunks("ICC profile".to_owned()));
+    }
+    if matches!(colours, Colours::Cmyk | Colours::Ycck) {
+        notes.push(Note::Inks);
+    }
+    Ok(Decoded::without_guides(frame, notes, options))
+}
+
+/// The size that a file declares.
+///
+/// # Errors
+/// When its header is damaged, or of a kind that is not read.
+pub(crate) fn size(mut file: impl BufRead + Seek) -> Result<(usize, usize)> {
+    /// Most headers, and those with thumbnails and profiles.
+    const USUAL: [u64; 2] = [64 << 10, 4 << 20];
+    let mut bytes = Vec::new();
+    for part in USUAL {
+        file.by_ref().take(part).read_to_end(&mut bytes)?;
+        if let Ok(head) = Head::read(&bytes) {
+            return Ok((head.frame.width, head.frame.height));
+        }
+    }
+    file.take(MAX_BYTES).read_to_end(&mut bytes)?;
+    let head = Head::read(&bytes)?;
+    Ok((head.frame.width, head.frame.height))
+}
