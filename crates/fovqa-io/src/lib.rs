@@ -13,6 +13,7 @@ mod file_id;
 mod guides;
 mod raster;
 pub mod sequence;
+mod small_file;
 mod write;
 
 pub use alpha::AlphaPolicy;
@@ -26,4 +27,5 @@ pub use guides::{
     DecodedGuides, DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels,
     MotionUnit, NamedMotion, Sought, read_guides, read_guides_and_hash,
 };
+pub use small_file::{open_regular_file, read_head, read_small_file};
 pub use write::{exr_gray, png_rgb8};

@@ -56,7 +56,7 @@ pub(crate) struct ScoreArgs {
     #[command(flatten)]
     guides: GuideArgs,
     /// Frames by their numbers, from A up to, but without, B
-    #[arg(long, value_name = "A..B:STEP", help_heading = "Sequence")]
+    #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP", help_heading = "Sequence")]
     frames: Option<FrameRange>,
     /// Frames a second: FovVideoVDP of a sequence, and gaze traces in seconds, need it
     #[arg(long, value_name = "N", value_parser = positive, help_heading = "Sequence")]
