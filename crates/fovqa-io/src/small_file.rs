@@ -63,7 +63,7 @@ fn refuse_special(kind: &std::fs::Metadata) -> io::Result<()> {
     if kind.is_file() {
         return Ok(());
     }
-    let what = if kind.is_dir() { "it is a folder" } else { special(kind) };
+    let what = if kind.is_dir() { "it is a folder, not a regular file" } else { special(kind) };
     Err(io::Error::new(io::ErrorKind::InvalidInput, what))
 }
 
@@ -71,7 +71,7 @@ fn refuse_special(kind: &std::fs::Metadata) -> io::Result<()> {
 fn special(kind: &std::fs::Metadata) -> &'static str {
     use std::os::unix::fs::FileTypeExt;
     if kind.file_type().is_fifo() {
-        "it is a pipe, and files are read more than once: write it to a file first"
+        "it is a pipe, not a regular file: files are read more than once, so write it to a file first"
     } else {
         "it is not a regular file"
     }
@@ -95,7 +95,9 @@ mod tests {
         assert_eq!(read_head(&path, 4).unwrap(), b"a");
         let large = read_small_file(&path, 5).unwrap_err();
         assert_eq!(large.kind(), io::ErrorKind::FileTooLarge);
-        assert!(read_small_file(folder.path(), 5).unwrap_err().to_string().contains("a folder"));
+        assert!(
+            read_small_file(folder.path(), 5).unwrap_err().to_string().contains("it is a folder")
+        );
         let gone = read_small_file(&folder.path().join("b"), 5).unwrap_err();
         assert_eq!(gone.kind(), io::ErrorKind::NotFound);
     }

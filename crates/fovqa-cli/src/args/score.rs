@@ -14,8 +14,8 @@ use super::values::positive;
 use super::view::ViewArgs;
 
 pub(crate) const EXAMPLES: &str = "\
-Paths are files, folders, globs ('renders/*.exr') or printf patterns (gt.%04d.exr). Frames pair by
-name, then by the last number in the name.
+Paths are files, folders, globs ('renders/*.exr') or patterns (gt.%04d.exr, 'gt.####.exr').
+Frames pair by name, then by the number that changes from name to name (docs/files.md).
 
 Examples:
   fovqa score gt.png rmfr.png --fov-vertical 100
