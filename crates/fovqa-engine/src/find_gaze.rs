@@ -59,6 +59,11 @@ fn of_trace(plan: &Plan, path: &Path, trace: &GazeTrace) -> Vec<String> {
             trace.unused_quality_columns().join(", ")
         ));
     }
+    if trace.is_in_first_pixel() {
+        remarks.push(format!(
+            "{file}: all positions lie in the first pixel of the frame: x_px and y_px are pixels, not shares of the frame"
+        ));
+    }
     if let Some(interval) = trace.interval_s().filter(|s| *s > LONGEST_INTERVAL_S) {
         remarks.push(format!(
             "{file}: time_s rises by {interval} s from row to row: is it in seconds, as it should be?"

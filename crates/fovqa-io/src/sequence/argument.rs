@@ -25,8 +25,8 @@ pub fn list_below(folder: &Path, argument: &Path) -> Result<Listing, ListingErro
 
 /// The files an argument stands for: a file, a folder, a glob (`*.exr`) or a pattern with a number
 /// (`gt.%04d.exr`, `gt.####.exr`). In folders and globs, files that are not images are passed over.
-/// What is named like an image is one of the files even where it cannot be read: a link to nothing, a
-/// folder, a pipe.
+/// What is named like an image is one of the files even where it cannot be read: a link to nothing or to
+/// a folder, a pipe.
 ///
 /// # Errors
 /// When nothing is there, it cannot be read, or two images share a stem.
@@ -57,8 +57,7 @@ fn listed(argument: &Path, start: &Path, below: &Path) -> Result<Listing, Listin
         WildcardError::Pattern(error) => pattern_error(argument, &error.to_string()),
         WildcardError::Io { path, error } => ListingError::Io { path, error },
     })?;
-    // Folders that fit a glob are not meant, unless they are named like frames.
-    paths.retain(|path| is_image(path) || !path.is_dir());
+    paths.retain(|path| !is_folder(path));
     images(argument, paths)
 }
 
@@ -80,7 +79,7 @@ fn is_image(path: &Path) -> bool {
     path.extension().is_some_and(|e| ENDINGS.iter().any(|ending| e.eq_ignore_ascii_case(ending)))
 }
 
-/// What a folder has, but for hidden entries and folders that are not named like frames.
+/// What a folder has, but for hidden entries and folders.
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, ListingError> {
     let io_error = |error| ListingError::Io { path: folder.to_owned(), error };
     let mut paths = Vec::new();
@@ -88,11 +87,22 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, ListingError> {
         let name = entry.map_err(io_error)?.file_name();
         let path = folder.join(&name);
         let hidden = name.as_encoded_bytes().starts_with(b".");
-        if !hidden && (is_image(&path) || !path.is_dir()) {
+        if !hidden && !is_folder(&path) {
             paths.push(path);
         }
     }
+    // The system has no order of its own, and messages name the first.
+    paths.sort();
     Ok(paths)
+}
+
+/// Whether a path is a folder. A link to one that is named like a frame is not: it stands for a frame.
+fn is_folder(path: &Path) -> bool {
+    if is_image(path) {
+        path.symlink_metadata().is_ok_and(|entry| entry.is_dir())
+    } else {
+        path.is_dir()
+    }
 }
 
 /// The files beside an argument whose names fit its pattern.

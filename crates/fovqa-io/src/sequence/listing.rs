@@ -1,5 +1,6 @@
 //! The files that a path argument stands for, with the numbers of their frames.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -46,7 +47,8 @@ impl Listing {
         Self::by_name(argument, paths).checked()
     }
 
-    fn by_name(argument: &Path, paths: Vec<PathBuf>) -> Self {
+    fn by_name(argument: &Path, mut paths: Vec<PathBuf>) -> Self {
+        paths.sort_by(|a, b| in_natural_order(a, b));
         let stem = |path: &PathBuf| path.file_stem().unwrap_or_default().to_owned();
         let stems: Vec<OsString> = paths.iter().map(stem).collect();
         let texts: Vec<_> = stems.iter().map(|stem| stem.to_string_lossy()).collect();
@@ -79,9 +81,7 @@ impl Listing {
     /// The same in order, if each stem is there once.
     fn checked(mut self) -> Result<Self, ListingError> {
         self.files.sort_by(|a, b| {
-            let text = |file: &FrameFile| file.path.to_string_lossy().into_owned();
-            let by_name = || natural_cmp(&text(a), &text(b)).then_with(|| a.path.cmp(&b.path));
-            a.number.cmp(&b.number).then_with(by_name)
+            a.number.cmp(&b.number).then_with(|| in_natural_order(&a.path, &b.path))
         });
         let mut stems: BTreeMap<String, &FrameFile> = BTreeMap::new();
         for file in &self.files {
@@ -96,6 +96,10 @@ impl Listing {
         }
         Ok(self)
     }
+}
+
+fn in_natural_order(a: &Path, b: &Path) -> Ordering {
+    natural_cmp(&a.to_string_lossy(), &b.to_string_lossy()).then_with(|| a.cmp(b))
 }
 
 #[cfg(test)]
