@@ -59,9 +59,12 @@ impl GazeTrace {
         let samples = match table.clock {
             Clock::Frame => {
                 let frames = table.rows.iter().map(|row| (row, row.frame)).collect();
-                Samples::Frames(rising(frames, |row, at, before| match at == before {
-                    true => GazeTraceError::Twice { line: row.line, frame: at },
-                    false => order(row, Clock::Frame, at as f64, before as f64),
+                Samples::Frames(rising(frames, |row, at, before| {
+                    if at == before {
+                        GazeTraceError::Twice { line: row.line, frame: at }
+                    } else {
+                        order(row, Clock::Frame, at as f64, before as f64)
+                    }
                 })?)
             }
             Clock::TimeS => {
