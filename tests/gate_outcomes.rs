@@ -252,7 +252,11 @@ const DAMAGES: &[Damage] = &[
         |t| t.replacen("room,A,,,0,pair,psnr,,,,,", "room,A,,,0,pair,psnr,,,,,1e999", 1),
         "is no number",
     ),
-    ("results.csv", |t| t.replacen("room,A,,,0,", "room,A,,,-1,", 1), "\"-1\" is no whole number"),
+    (
+        "results.csv",
+        |t| t.replacen("room,A,,,0,", "room,A,,,1.5,", 1),
+        "\"1.5\" is no whole number",
+    ),
     (
         "results.csv",
         |t| t.replacen("room,A,,,0,", "room,A,,,99999999999999999999,", 1),

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
         terminal.warn(&message);
     }
     crate::run::say_problems(&experiment, &found);
-    let masks = masks(&experiment);
+    let masks = masks(&experiment) & frames(&experiment, &found);
     if found.problems.iter().any(|problem| problem.error.is_usage()) {
         Exit::Usage
     } else if found.problems.is_empty() && masks {
@@ -103,6 +103,26 @@ fn masks(experiment: &Experiment) -> bool {
         }
     }
     readable
+}
+
+/// Whether every frame is a file that is there. The first that is not is said, of each view.
+fn frames(experiment: &Experiment, found: &Found) -> bool {
+    let mut there = true;
+    for view in &found.views {
+        let files = view
+            .frames
+            .iter()
+            .flat_map(|frame| frame.tests.iter().map(|(_, test)| test).chain([&frame.reference]));
+        let mut missing = files.filter(|file| !file.is_file());
+        if let Some(first) = missing.next() {
+            let (file, more) = (experiment.plan.shown(first), missing.count());
+            let more = if more > 0 { format!(" (nor are {more} more)") } else { String::new() };
+            let message = format!("{file}: it is not a file that is there{more}");
+            diagnostic::error(&message, "fetch it (git annex get, dvc pull), or render it again");
+            there = false;
+        }
+    }
+    there
 }
 
 fn plan(experiment: &Experiment, metrics: &[Metric], found: &Found) -> String {

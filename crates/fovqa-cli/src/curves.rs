@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use fovqa_config::CurvesFile;
-use fovqa_engine::ResultsFolder;
+use fovqa_engine::{Locking, ResultsFolder};
 use fovqa_shading::{Curve, trace, trace_all};
 
 use crate::args::CurvesArgs;
@@ -84,21 +84,21 @@ fn files(args: &CurvesArgs) -> Exit {
             None => PathBuf::from("reports").join(&file.name),
         };
         // What is wrong with one folder is no reason to leave the others out.
-        if let Err(exit) = draw(file, &folder) {
+        if let Err(exit) = draw(file, &folder, args.lock.locking()) {
             outcome = exit;
         }
     }
     outcome
 }
 
-fn draw(file: &CurvesFile, folder: &Path) -> Result<(), Exit> {
+fn draw(file: &CurvesFile, folder: &Path, locking: Locking) -> Result<(), Exit> {
     let failed = |message: &str, help: &str, exit: Exit| {
         diagnostic::error(message, &Dialect::Options.spell(help));
         exit
     };
     let curves = trace_all(&file.plan)
         .map_err(|error| failed(&format!("{}: {error}", file.name), "", Exit::Usage))?;
-    let folder = ResultsFolder::open_for_curves(folder)
+    let folder = ResultsFolder::open_for_curves(folder, locking)
         .map_err(|error| failed(&error.to_string(), error.help(), Exit::Input))?;
     folder.clear().map_err(|error| failed(&error.to_string(), error.help(), Exit::Input))?;
     let drawn = fovqa_report::draw_curves(folder.path(), file, &curves).map_err(|error| {

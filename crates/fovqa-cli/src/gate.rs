@@ -130,6 +130,7 @@ fn score(args: &GateArgs) -> Result<FinishedRun, Exit> {
         frames: args.frames,
         maps: args.maps.clone(),
         threads: args.threads,
+        lock: args.lock.clone(),
     };
     match scored(&run, Shown::Nothing) {
         (Some(folder), Exit::Done | Exit::Input) => FinishedRun::read(&folder),

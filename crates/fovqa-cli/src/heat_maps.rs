@@ -61,12 +61,12 @@ impl HeatMaps {
     }
 }
 
-fn files(maps: &FvvdpMaps, frame: u64) -> Vec<(String, io::Result<Vec<u8>>)> {
+fn files(maps: &FvvdpMaps, frame: i64) -> Vec<(String, io::Result<Vec<u8>>)> {
     let (width, height) = (maps.raw.width(), maps.raw.height());
     let values = (0..height).flat_map(|y| maps.raw.row(y)).copied();
     let raw_map = (raw(frame), exr_gray(width, height, values));
     let colored = maps.colored.iter().map(|(colors, codes)| {
-        let name = format!("fvvdp-{}-{frame:04}.png", colors.name());
+        let name = format!("fvvdp-{}-{}.png", colors.name(), padded(frame));
         (name, png_rgb8(width, height, codes))
     });
     // The raw one last: where it is there, all are.
@@ -74,6 +74,12 @@ fn files(maps: &FvvdpMaps, frame: u64) -> Vec<(String, io::Result<Vec<u8>>)> {
 }
 
 /// The name of a frame's raw map.
-fn raw(frame: u64) -> String {
-    format!("fvvdp-{frame:04}.exr")
+fn raw(frame: i64) -> String {
+    format!("fvvdp-{}.exr", padded(frame))
+}
+
+/// A frame's number with four digits at least, behind the minus sign of a negative one.
+fn padded(frame: i64) -> String {
+    let sign = if frame < 0 { "-" } else { "" };
+    format!("{sign}{:04}", frame.unsigned_abs())
 }

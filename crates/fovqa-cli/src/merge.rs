@@ -35,7 +35,7 @@ pub(crate) fn run(args: &MergeArgs) -> Exit {
         Err(error) => return failed(&error, error.help()),
     };
     // Nothing is written before all of it is known to be right.
-    let folder = match ResultsFolder::open(&args.output) {
+    let folder = match ResultsFolder::open(&args.output, args.lock.locking()) {
         Ok(folder) => folder,
         Err(error) => return failed(&error, error.help()),
     };

@@ -47,7 +47,7 @@ pub(crate) fn run(args: &ReportArgs) -> Exit {
         );
         return Exit::Input;
     }
-    let folder = match ResultsFolder::open(&args.results) {
+    let folder = match ResultsFolder::open(&args.results, args.lock.locking()) {
         Ok(folder) => folder,
         Err(error) => {
             diagnostic::error(&error.to_string(), &Dialect::Options.spell(error.help()));

@@ -53,7 +53,8 @@ fn into_folder(args: &RunArgs, shown: Shown) -> Result<(PathBuf, Exit), Exit> {
     }
     let folder = args.output.clone().unwrap_or_else(|| default_folder(&experiment, args.shard));
     // Before anything is read or scored: a folder that cannot be written to is found now.
-    let folder = ResultsFolder::open(&folder).map_err(|error| failed(&error, error.help()))?;
+    let folder = ResultsFolder::open(&folder, args.lock.locking())
+        .map_err(|error| failed(&error, error.help()))?;
     let found = fovqa_engine::find(&experiment.plan);
     if found.problems.iter().any(|problem| problem.error.is_usage()) {
         say_problems(&experiment, &found);

@@ -1,9 +1,8 @@
 //! A TOML file, read, parsed and held against a grammar.
 
-use std::fs;
-use std::io::Read;
 use std::path::Path;
 
+use fovqa_io::read_small_file;
 use toml::de::DeTable;
 
 use crate::fault::{ExperimentError, Fault, Faults};
@@ -16,17 +15,7 @@ const MAX_BYTES: u64 = 4 << 20;
 /// The text of a file. No other file is looked at.
 pub(crate) fn read(path: &Path) -> Result<String, ExperimentError> {
     let unreadable = |reason: String| ExperimentError::Unreadable { path: path.to_owned(), reason };
-    let kind = fs::metadata(path).map_err(|error| unreadable(reason(&error)))?;
-    // Before it is opened, which a pipe without a writer would never end.
-    if !kind.is_file() {
-        return Err(unreadable("it is not a regular file".to_owned()));
-    }
-    let file = fs::File::open(path).map_err(|error| unreadable(reason(&error)))?;
-    let mut bytes = Vec::new();
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(reason(&error)))?;
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(unreadable("it is larger than 4 MiB".to_owned()));
-    }
+    let bytes = read_small_file(path, MAX_BYTES).map_err(|error| unreadable(reason(&error)))?;
     String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text".to_owned()))
 }
 

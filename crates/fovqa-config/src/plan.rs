@@ -1,5 +1,6 @@
 //! What is to be scored: scenes, methods, metrics, and how each eye sees.
 
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use fovqa_frame::{Crop, SignalParams, Transfer};
@@ -200,7 +201,7 @@ pub struct Plan {
 
 impl Plan {
     /// A path as results show it: from the experiment's folder where it begins there, else as it
-    /// is; `/` between folders.
+    /// is; `/` between folders, and bytes that are not UTF-8 as `\\xff`.
     pub fn shown(&self, path: &Path) -> String {
         slashed(path.strip_prefix(&self.base).unwrap_or(path))
     }
@@ -214,15 +215,44 @@ fn slashed(path: &Path) -> String {
         match part {
             Component::RootDir => parts.push(String::new()),
             Component::CurDir => {}
-            part => parts.push(part.as_os_str().to_string_lossy().into_owned()),
+            part => parts.push(text_of(part.as_os_str())),
         }
     }
     parts.join("/")
 }
 
+/// A name as text, each name another one: bytes that are not UTF-8 are written `\\xff`, and in a name
+/// with such, or with what looks like it, a backslash is written twice.
+fn text_of(name: &std::ffi::OsStr) -> String {
+    if let Some(text) = name.to_str().filter(|text| !text.contains("\\x")) {
+        return text.to_owned();
+    }
+    let mut text = String::new();
+    for chunk in name.as_encoded_bytes().utf8_chunks() {
+        text.push_str(&chunk.valid().replace('\\', "\\\\"));
+        for byte in chunk.invalid() {
+            // Writing to a string does not fail.
+            let _ = write!(text, "\\x{byte:02x}");
+        }
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn names_that_are_no_text_are_told_apart() {
+        use std::os::unix::ffi::OsStrExt;
+        let shown = |name: &[u8]| text_of(std::ffi::OsStr::from_bytes(name));
+        assert_eq!(shown(b"g\xfft"), r"g\xfft");
+        assert_eq!(shown(b"g\xfet"), r"g\xfet");
+        assert_eq!(shown(br"g\xfft"), r"g\\xfft");
+        assert_eq!(shown(br"a\b"), r"a\b");
+        assert_eq!(shown("g\u{fffd}t".as_bytes()), "g\u{fffd}t");
+    }
 
     #[test]
     fn paths_are_shown_from_the_experiment() {

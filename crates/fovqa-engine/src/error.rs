@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use fovqa_io::ReadError;
-use fovqa_io::sequence::{ListingError, PairingError};
+use fovqa_io::sequence::{Doubt, ListingError, PairingError};
 use fovqa_metrics::Metric;
 use fovqa_metrics::fvvdp::TimeError;
 use fovqa_params::ParamError;
@@ -23,9 +23,19 @@ pub enum EngineError {
     #[error("no frame is selected; there are frames {first} to {last}")]
     NoFrames {
         /// Lowest number there is.
-        first: u64,
+        first: i64,
         /// Highest number there is.
-        last: u64,
+        last: i64,
+    },
+    /// Frames that are asked for by number, where the names have none that tell them apart.
+    #[error("{}: {what} goes by the numbers of frames, and those in the names do not tell the frames apart: {}", path.display(), doubt.in_words())]
+    NoNumbers {
+        /// The reference argument.
+        path: PathBuf,
+        /// What goes by numbers.
+        what: &'static str,
+        /// Why they do not.
+        doubt: Doubt,
     },
     /// A view that cannot be.
     #[error(transparent)]
@@ -109,6 +119,9 @@ impl EngineError {
         match self {
             Self::Listing(error) => Self::Listing(error.with_paths(shown)),
             Self::Pairing(error) => Self::Pairing(error.with_paths(shown)),
+            Self::NoNumbers { path, what, doubt } => {
+                Self::NoNumbers { path: shown(&path), what, doubt }
+            }
             Self::GazeFile { path, error } => Self::GazeFile { path: shown(&path), error },
             Self::GazeTrace { path, error } => Self::GazeTrace { path: shown(&path), error },
             Self::Mask(ReadError { path, kind }) => {
@@ -131,6 +144,7 @@ impl EngineError {
             Self::Listing(error) => matches!(error, ListingError::Pattern { .. }),
             Self::Pairing(_)
             | Self::NoFrames { .. }
+            | Self::NoNumbers { .. }
             | Self::GazeFile { .. }
             | Self::Mask(_)
             | Self::Map { .. }
@@ -143,7 +157,11 @@ impl EngineError {
     pub fn help(&self) -> String {
         match self {
             Self::Listing(error) => error.help().to_owned(),
-            Self::Pairing(error) => error.help().to_owned(),
+            Self::Pairing(error) => error.help(),
+            Self::NoNumbers { .. } => {
+                "give a pattern that has the number, such as 'renders/f_%04d.png', or rename the files"
+                    .to_owned()
+            }
             Self::NoFrames { .. } => {
                 "{frames} selects by number, from A up to, but without, B".to_owned()
             }
@@ -166,8 +184,8 @@ impl EngineError {
             Self::Param(_) => {
                 "`fovqa list metrics` shows every parameter with its range".to_owned()
             }
-            Self::GazeFile { .. } => "check the path; a gaze point is written {gaze}".to_owned(),
-            Self::GazeTrace { error, .. } => gaze_help(error).to_owned(),
+            Self::GazeFile { .. } => "give a CSV file; a gaze point is written {gaze}".to_owned(),
+            Self::GazeTrace { error, .. } => error.help().to_owned(),
             Self::Mask(error) => error.kind.help().to_owned(),
             Self::Journal { .. } => {
                 "free some space: frames in the journal are not lost, and {resume} goes on with them"
@@ -182,19 +200,6 @@ fn unlit(display: Option<&String>) -> String {
     match display {
         None => "none is given".to_owned(),
         Some(name) => format!("that of {} is not known", name.replace('_', "-")),
-    }
-}
-
-fn gaze_help(error: &GazeTraceError) -> &'static str {
-    match error {
-        GazeTraceError::NoFps => "give {fps}",
-        GazeTraceError::Missing { .. } => {
-            "record it for every frame, or keep the last gaze with {gaze_hold}"
-        }
-        GazeTraceError::NothingToHold { .. } => "start the trace with a row that has a gaze",
-        _ => {
-            "a gaze trace is CSV with the columns frame,x_px,y_px (or time_s,x_px,y_px), rows rising"
-        }
     }
 }
 

@@ -39,6 +39,12 @@ impl<'a> Warnings<'a> {
         }
     }
 
+    /// Says `message` with the place: it is about the frames as a whole.
+    pub(crate) fn of_view(&mut self, message: &str) {
+        let place = if self.place.is_empty() { String::new() } else { format!("{}: ", self.place) };
+        self.events.warn(&format!("{place}{message}"));
+    }
+
     /// Says `message` with the place, unless something was said of this view under the same `key`.
     pub(crate) fn once_a_view(&mut self, key: &str, message: &str) {
         if self.said.insert((self.place.clone(), key.to_owned())) {

@@ -2,15 +2,16 @@
 //! each.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use fovqa_config::{EyeView, Gaze, Plan, Scene};
-use fovqa_io::sequence::{FramePair, Listing, PairingError, Pairs, list_below, pair};
+use fovqa_config::{EyeView, Plan, Scene};
+use fovqa_io::sequence::{FramePair, Listing, PairingError, Pairs, Spacing, list_below, pair};
 use fovqa_metrics::Metric;
-use fovqa_vision::{GazeAt, GazeTrace};
+use fovqa_vision::GazeAt;
 
 use crate::error::EngineError;
+use crate::find_gaze::gaze;
+use crate::remarks::remarks;
 use crate::timing::timings;
 
 /// The frames of a plan, and what is wrong with its inputs.
@@ -35,6 +36,8 @@ pub struct FoundView {
     pub trace: Option<Vec<GazeAt>>,
     /// Files without a partner that the plan says to pass over.
     pub passed_over: usize,
+    /// What the user should know of the frames that were found: a sentence each.
+    pub remarks: Vec<String>,
 }
 
 impl FoundView {
@@ -48,8 +51,9 @@ impl FoundView {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FoundFrame {
     /// Frame number.
-    pub number: u64,
-    /// Its position among all references there are, from 0.
+    pub number: i64,
+    /// Its place in the sequence, from 0: two frames follow each other where their positions differ by
+    /// 1. Numbers that are missing on both sides have a position as well.
     pub position: usize,
     /// The reference.
     pub reference: PathBuf,
@@ -99,12 +103,14 @@ pub fn find(plan: &Plan) -> Found {
             };
             let mut pairings = Vec::new();
             let mut passed_over = 0;
-            let mut without_reference = BTreeSet::new();
+            let mut numbers = BTreeSet::new();
             for (method, test) in &view.tests {
                 match paired(plan, &reference, test) {
                     Ok(mut pairs) => {
                         let mut alone = std::mem::take(&mut pairs.alone);
-                        without_reference.extend(alone.test.iter().filter_map(|(n, _)| *n));
+                        numbers.extend(pairs.pairs.iter().map(|pair| pair.number));
+                        let sides = alone.reference.iter().chain(&alone.test);
+                        numbers.extend(sides.filter_map(|(number, _)| *number));
                         alone.retain(|number| is_wanted(plan, scene, number));
                         if scene.allow_missing {
                             passed_over += alone.count();
@@ -120,16 +126,15 @@ pub fn find(plan: &Plan) -> Found {
             if pairings.is_empty() {
                 continue;
             }
-            let first = pairings[0].1.first;
-            let mut frames = merge(pairings);
-            // Where a test has no reference, one is missing: what is on both sides is no neighbour.
-            for frame in &mut frames {
-                frame.position += without_reference.range(..frame.number).count();
-            }
-            match select(plan, scene, frames).and_then(|mut frames| {
+            let numbering = pairings[0].1.numbering.clone();
+            let spacing = Spacing::of(&numbers);
+            match select(plan, scene, merge(pairings, &spacing)).and_then(|mut frames| {
                 find_guides(plan, view, &reference, &mut frames)?;
-                let trace = gaze_trace(view, scene, &frames, first)?;
-                let view = FoundView { scene: scene_index, eye, frames, trace, passed_over };
+                let mut remarks = remarks(plan, scene, view, &numbering, &spacing)?;
+                let (trace, of_gaze) = gaze(plan, view, scene, &frames)?;
+                remarks.extend(of_gaze);
+                let view =
+                    FoundView { scene: scene_index, eye, frames, trace, passed_over, remarks };
                 if plan.metrics.metrics().contains(&Metric::Fvvdp) {
                     timings(&view, scene.fps, &plan.params.fvvdp)?;
                 }
@@ -164,11 +169,12 @@ fn paired(plan: &Plan, reference: &Listing, test: &Path) -> Result<Pairs, Engine
 
 /// The pairs of all methods, by number and reference. A reference that is one file can be of
 /// several numbers, where a test beside it carries its number and another does not.
-fn merge(pairings: Vec<(usize, Pairs)>) -> Vec<FoundFrame> {
-    let mut frames: BTreeMap<(u64, PathBuf), FoundFrame> = BTreeMap::new();
-    let mut order: Vec<(u64, PathBuf)> = Vec::new();
+fn merge(pairings: Vec<(usize, Pairs)>, spacing: &Spacing) -> Vec<FoundFrame> {
+    let mut frames: BTreeMap<(i64, PathBuf), FoundFrame> = BTreeMap::new();
+    let mut order: Vec<(i64, PathBuf)> = Vec::new();
     for (method, pairs) in pairings {
-        for FramePair { number, position, reference, test } in pairs.pairs {
+        for FramePair { number, reference, test } in pairs.pairs {
+            let position = spacing.place(number);
             let key = (number, reference.clone());
             let frame = frames.entry(key.clone()).or_insert_with(|| {
                 order.push(key);
@@ -212,7 +218,7 @@ fn find_guides(
 }
 
 /// Whether both the plan and the scene ask for a frame.
-fn is_wanted(plan: &Plan, scene: &Scene, number: u64) -> bool {
+pub(crate) fn is_wanted(plan: &Plan, scene: &Scene, number: i64) -> bool {
     [scene.frames, plan.frames].into_iter().flatten().all(|range| range.contains(number))
 }
 
@@ -229,34 +235,4 @@ fn select(
         return Err(EngineError::NoFrames { first, last });
     }
     Ok(frames)
-}
-
-/// Hours of gaze at any rate a tracker has.
-const MAX_GAZE_BYTES: u64 = 64 << 20;
-
-/// The gaze of each frame, where it comes from a trace.
-fn gaze_trace(
-    view: &EyeView,
-    scene: &Scene,
-    frames: &[FoundFrame],
-    first_frame: u64,
-) -> Result<Option<Vec<GazeAt>>, EngineError> {
-    let Gaze::Trace { path, hold } = &view.settings.gaze else { return Ok(None) };
-    let open = || {
-        // Looked at before it is opened, which a pipe without a writer would never end.
-        let size = std::fs::metadata(path)?;
-        if !size.is_file() {
-            return Err(std::io::Error::other("it is not a regular file"));
-        }
-        if size.len() > MAX_GAZE_BYTES {
-            return Err(std::io::Error::other("it is larger than 64 MiB"));
-        }
-        File::open(path)
-    };
-    let file = open().map_err(|error| EngineError::GazeFile { path: path.clone(), error })?;
-    let numbers: Vec<u64> = frames.iter().map(|frame| frame.number).collect();
-    GazeTrace::read(std::io::BufReader::new(file))
-        .and_then(|trace| trace.at_frames(&numbers, first_frame, scene.fps, *hold))
-        .map(Some)
-        .map_err(|error| EngineError::GazeTrace { path: path.clone(), error })
 }

@@ -1,9 +1,10 @@
 //! The folder a run writes to: one run at a time, found wanting before any scoring.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use fovqa_io::read_head;
 use fovqa_results::{CURVES_CSV, CURVES_JSON, REPORT_JSON, RESULTS_CSV, RUN_JSON, SUMMARY_JSON};
 use thiserror::Error;
 
@@ -37,15 +38,14 @@ fn is_ours(path: &Path) -> bool {
 
 /// Whether a file in a folder begins as one of a schema does.
 fn begins(path: &Path, file: &str, schema: &str) -> bool {
-    let mut head = [0; 256];
-    let read = File::open(path.join(file)).and_then(|mut file| file.read(&mut head));
-    let head = String::from_utf8_lossy(&head[..read.unwrap_or(0)]).into_owned();
-    head.contains(&format!("\"{schema}/"))
+    const HEAD_BYTES: u64 = 256;
+    let head = read_head(&path.join(file), HEAD_BYTES).unwrap_or_default();
+    String::from_utf8_lossy(&head).contains(&format!("\"{schema}/"))
 }
 
 /// Whether there is something to lose. (A full disk leaves empty files.)
 fn has_content(path: &Path) -> bool {
-    fs::metadata(path).is_ok_and(|file| file.is_dir() || file.len() > 0)
+    fs::metadata(path).is_ok_and(|file| !file.is_file() || file.len() > 0)
 }
 
 /// Takes away what writers that were killed have left under temporary names. Nobody writes there now.
@@ -69,12 +69,22 @@ fn is_temporary(name: &str) -> bool {
     })
 }
 
+/// Whether a folder is locked while it is written to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Locking {
+    /// One process at a time writes there.
+    #[default]
+    Locked,
+    /// Whoever asks for it takes care of that: some network file systems have no locks.
+    Unlocked,
+}
+
 /// A folder of results, locked for as long as this lives.
 #[derive(Debug)]
 pub struct ResultsFolder {
     path: PathBuf,
     /// The system releases it with the process, however that ends.
-    _lock: File,
+    _lock: Option<File>,
 }
 
 /// A folder that cannot be written to.
@@ -83,6 +93,14 @@ pub enum FolderError {
     /// The system refuses.
     #[error("{}: results cannot be written there: {error}", path.display())]
     Io {
+        /// The folder.
+        path: PathBuf,
+        /// The reason.
+        error: io::Error,
+    },
+    /// The file system has no locks, or refuses this one.
+    #[error("{}: it cannot be locked against another run: {error}", path.display())]
+    Lock {
         /// The folder.
         path: PathBuf,
         /// The reason.
@@ -114,11 +132,39 @@ impl FolderError {
     pub fn help(&self) -> &'static str {
         match self {
             Self::Io { .. } => "give a folder that can be written to with {output}",
+            Self::Lock { .. } => {
+                "write to a local disk with {output}, or use --no-lock and see to it that nothing else writes there"
+            }
             Self::Busy(_) => "wait until it is done, or give another folder with {output}",
             Self::Other { .. } | Self::Foreign { .. } => {
                 "move it away, or give another folder with {output}"
             }
         }
+    }
+}
+
+/// The lock file of a folder, locked.
+fn locked(folder: &Path) -> Result<File, FolderError> {
+    let failed = |error| FolderError::Io { path: folder.to_owned(), error };
+    let path = folder.join(LOCK);
+    // Opening a pipe would wait for its other end.
+    if fs::metadata(&path).is_ok_and(|file| !file.is_file()) {
+        let error = io::Error::other(format!("{LOCK} in it is not a regular file"));
+        return Err(failed(error));
+    }
+    let file = File::options().create(true).append(true).open(&path).map_err(failed)?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(error) => Err(not_locked(folder, error)),
+    }
+}
+
+/// Why a folder is not locked.
+fn not_locked(folder: &Path, error: TryLockError) -> FolderError {
+    let path = folder.to_owned();
+    match error {
+        TryLockError::WouldBlock => FolderError::Busy(path),
+        TryLockError::Error(error) => FolderError::Lock { path, error },
     }
 }
 
@@ -128,11 +174,11 @@ impl ResultsFolder {
     /// # Errors
     /// When it cannot be made or written to, another process has it, or its files are not those of a
     /// run.
-    pub fn open(path: &Path) -> Result<Self, FolderError> {
+    pub fn open(path: &Path, locking: Locking) -> Result<Self, FolderError> {
         if begins(path, CURVES_JSON, "fovqa.curves") {
             return Err(FolderError::Other { path: path.to_owned(), of: "`fovqa curves`" });
         }
-        Self::of_any(path)
+        Self::of_any(path, locking)
     }
 
     /// The same of curves.
@@ -140,14 +186,14 @@ impl ResultsFolder {
     /// # Errors
     /// When it cannot be made or written to, another process has it, or its files are not those of
     /// curves.
-    pub fn open_for_curves(path: &Path) -> Result<Self, FolderError> {
+    pub fn open_for_curves(path: &Path, locking: Locking) -> Result<Self, FolderError> {
         if begins(path, RUN_JSON, "fovqa.run") || begins(path, JOURNAL, "fovqa.journal") {
             return Err(FolderError::Other { path: path.to_owned(), of: "`fovqa run`" });
         }
-        Self::of_any(path)
+        Self::of_any(path, locking)
     }
 
-    fn of_any(path: &Path) -> Result<Self, FolderError> {
+    fn of_any(path: &Path, locking: Locking) -> Result<Self, FolderError> {
         let failed = |error| FolderError::Io { path: path.to_owned(), error };
         fs::create_dir_all(path).map_err(failed)?;
         if !is_ours(path)
@@ -155,13 +201,10 @@ impl ResultsFolder {
         {
             return Err(FolderError::Foreign { path: path.to_owned(), file });
         }
-        let lock = path.join(LOCK);
-        let lock = File::options().create(true).append(true).open(&lock).map_err(failed)?;
-        match lock.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(FolderError::Busy(path.to_owned())),
-            Err(TryLockError::Error(error)) => return Err(failed(error)),
-        }
+        let lock = match locking {
+            Locking::Locked => Some(locked(path)?),
+            Locking::Unlocked => None,
+        };
         // The lock file may be older than what now keeps others from being made.
         let probe = path.join(format!(".fovqa.{}.tmp", std::process::id()));
         let made = File::create(&probe).and_then(|mut file| file.write_all(b"fovqa"));
@@ -200,13 +243,34 @@ impl ResultsFolder {
 mod tests {
     use super::*;
 
+    fn open(path: &Path) -> Result<ResultsFolder, FolderError> {
+        ResultsFolder::open(path, Locking::Locked)
+    }
+
+    #[test]
+    fn a_file_system_without_locks_is_said_and_can_do_without() {
+        let folder = tempfile::tempdir().unwrap();
+        for kind in [io::ErrorKind::Unsupported, io::ErrorKind::Other] {
+            let error = not_locked(folder.path(), TryLockError::Error(kind.into()));
+            assert!(matches!(error, FolderError::Lock { .. }), "{error}");
+            assert!(error.help().contains("--no-lock"));
+        }
+        let first = open(folder.path()).unwrap();
+        ResultsFolder::open(folder.path(), Locking::Unlocked).unwrap();
+        drop(first);
+        fs::remove_file(folder.path().join(LOCK)).unwrap();
+        fs::create_dir(folder.path().join(LOCK)).unwrap();
+        assert!(open(folder.path()).is_err());
+        ResultsFolder::open(folder.path(), Locking::Unlocked).unwrap();
+    }
+
     #[test]
     fn one_run_at_a_time() {
         let folder = tempfile::tempdir().unwrap();
-        let first = ResultsFolder::open(folder.path()).unwrap();
-        assert!(matches!(ResultsFolder::open(folder.path()), Err(FolderError::Busy(_))));
+        let first = open(folder.path()).unwrap();
+        assert!(matches!(open(folder.path()), Err(FolderError::Busy(_))));
         drop(first);
-        ResultsFolder::open(folder.path()).unwrap();
+        open(folder.path()).unwrap();
     }
 
     #[test]
@@ -219,7 +283,7 @@ mod tests {
         for file in ours.iter().chain(&others) {
             fs::write(folder.path().join(file), "half").unwrap();
         }
-        drop(ResultsFolder::open(folder.path()).unwrap());
+        drop(open(folder.path()).unwrap());
         assert!(ours.iter().all(|file| !folder.path().join(file).exists()));
         assert!(others.iter().all(|file| folder.path().join(file).exists()));
     }
@@ -228,25 +292,25 @@ mod tests {
     fn files_of_others_are_not_replaced() {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join(RESULTS_CSV), "mine").unwrap();
-        let error = ResultsFolder::open(folder.path()).unwrap_err();
+        let error = open(folder.path()).unwrap_err();
         assert!(matches!(error, FolderError::Foreign { .. }));
         fs::remove_file(folder.path().join(RESULTS_CSV)).unwrap();
-        drop(ResultsFolder::open(folder.path()).unwrap());
+        drop(open(folder.path()).unwrap());
         fs::write(folder.path().join(RUN_JSON), "{\"my\": \"run\"}").unwrap();
-        let error = ResultsFolder::open(folder.path()).unwrap_err();
+        let error = open(folder.path()).unwrap_err();
         assert!(matches!(error, FolderError::Foreign { file: RUN_JSON, .. }), "{error}");
         fs::write(folder.path().join(RUN_JSON), "{\n  \"schema\": \"fovqa.run/1\"").unwrap();
         fs::write(folder.path().join(RESULTS_CSV), "old").unwrap();
-        let ours = ResultsFolder::open(folder.path()).unwrap();
+        let ours = open(folder.path()).unwrap();
         ours.clear().unwrap();
         assert!(!folder.path().join(RESULTS_CSV).exists());
         drop(ours);
         // What a full disk leaves is nobody's loss.
         fs::write(folder.path().join(JOURNAL), "").unwrap();
-        drop(ResultsFolder::open(folder.path()).unwrap());
+        drop(open(folder.path()).unwrap());
         fs::write(folder.path().join("table.md"), "mine").unwrap();
-        assert!(ResultsFolder::open(folder.path()).is_err());
+        assert!(open(folder.path()).is_err());
         fs::write(folder.path().join(REPORT_JSON), "{\n  \"schema\": \"fovqa.report/1\"").unwrap();
-        ResultsFolder::open(folder.path()).unwrap();
+        open(folder.path()).unwrap();
     }
 }

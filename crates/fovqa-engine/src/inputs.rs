@@ -1,6 +1,7 @@
 //! The files a run has read, each taken down once.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use fovqa_config::Plan;
 use fovqa_io::FileId;
@@ -36,11 +37,12 @@ impl Inputs {
         self.0.iter().map(|(path, id)| input((path.as_str(), id))).collect()
     }
 
-    /// What is not as it was, by path, in words.
-    pub(crate) fn changes(&self, plan: &Plan) -> Vec<String> {
+    /// What is not as it was, by path, in words. `known` are paths of files by how they are shown, which
+    /// does not say them where names are not UTF-8.
+    pub(crate) fn changes(&self, plan: &Plan, known: &BTreeMap<String, PathBuf>) -> Vec<String> {
         let files: Vec<(&String, &FileId)> = self.0.iter().collect();
         let change = |(shown, id): &(&String, &FileId)| {
-            let path = plan.base.join(shown);
+            let path = known.get(*shown).cloned().unwrap_or_else(|| plan.base.join(shown));
             match std::fs::metadata(&path) {
                 Err(_) => return Some(format!("{shown} is not there any more")),
                 Ok(file) if file.is_file() && file.len() == id.bytes => {}
@@ -83,11 +85,11 @@ mod tests {
             std::fs::write(folder.path().join(name), text).unwrap();
             inputs.add(name, &FileId::of_file(&folder.path().join(name)).unwrap());
         }
-        assert!(inputs.changes(&plan).is_empty());
+        assert!(inputs.changes(&plan, &BTreeMap::new()).is_empty());
         std::fs::write(folder.path().join("longer"), "aa").unwrap();
         std::fs::write(folder.path().join("other"), "b").unwrap();
         std::fs::remove_file(folder.path().join("gone")).unwrap();
         let wanted = ["gone is not there any more", "longer has changed", "other has changed"];
-        assert_eq!(inputs.changes(&plan), wanted);
+        assert_eq!(inputs.changes(&plan, &BTreeMap::new()), wanted);
     }
 }

@@ -49,7 +49,7 @@ impl LoadError {
                 "nothing is resampled: render both at one size, or cut with {crop}"
             }
             Self::NoGuideFile { .. } => {
-                "files of motion and depth pair with the reference by name, then by the last number in it"
+                "files of motion and depth pair with the reference by name, then by the number of the frame"
             }
             Self::Nonfinite { .. } => {
                 "mend the render, or leave such pixels out with {nonfinite=mask}"

@@ -1,9 +1,10 @@
 //! Going on with a run that was broken off: what its journal has that still holds.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use fovqa_config::{Eye, Plan};
+use fovqa_config::{Eye, Gaze, Plan};
 use fovqa_metrics::Metric;
 
 use crate::error::EngineError;
@@ -47,12 +48,30 @@ pub fn resume(
         return changed(changes);
     }
     let said = text.said(plan);
-    let changes = said.findings.inputs.changes(plan);
+    let changes = said.findings.inputs.changes(plan, &paths(plan, found));
     if !changes.is_empty() {
         return changed(changes);
     }
     let known = still_good(plan, found, header.shard, said.findings)?;
     Ok(Resumed { known, changes: Vec::new() })
+}
+
+/// All files that a run reads, by how results show them.
+fn paths(plan: &Plan, found: &Found) -> BTreeMap<String, PathBuf> {
+    let settings = plan.scenes.iter().flat_map(|scene| &scene.eyes).map(|eye| &eye.settings);
+    let beside = settings.flat_map(|settings| {
+        let trace = match &settings.gaze {
+            Gaze::Trace { path, .. } => Some(path),
+            Gaze::Centre | Gaze::Point(_) => None,
+        };
+        [settings.mask.as_ref(), trace].into_iter().flatten()
+    });
+    let frames = found.views.iter().flat_map(|view| &view.frames).flat_map(|frame| {
+        let guides = [frame.guides.motion.as_ref(), frame.guides.depth.as_ref()];
+        let tests = frame.tests.iter().map(|(_, test)| test);
+        tests.chain([&frame.reference]).chain(guides.into_iter().flatten())
+    });
+    beside.chain(frames).map(|path| (plan.shown(path), path.clone())).collect()
 }
 
 /// What keeps one run from going on with what another has found.

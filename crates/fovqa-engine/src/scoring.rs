@@ -188,6 +188,9 @@ impl<'a> Scoring<'a> {
             let message = format!("{label} is left out: it needs {{view}}");
             warnings.once_a_view(metric.key(), &message);
         }
+        for remark in &self.view.remarks {
+            warnings.of_view(remark);
+        }
         let alone = self.view.passed_over;
         if alone > 0 {
             let message = format!("{alone} frames without a partner are passed over");

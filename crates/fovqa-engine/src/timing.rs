@@ -20,7 +20,7 @@ pub(crate) struct Timing {
 
 /// Frames that do not lie equally far apart: the numbers of two between which some are missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Gap(u64, u64);
+pub(crate) struct Gap(i64, i64);
 
 impl std::fmt::Display for Gap {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -65,14 +65,14 @@ mod tests {
 
     fn view(positions: &[usize]) -> FoundView {
         let frame = |position: &usize| FoundFrame {
-            number: *position as u64 + 10,
+            number: *position as i64 + 10,
             position: *position,
             reference: "r".into(),
             guides: GuideFiles::default(),
             tests: vec![(0, "t".into())],
         };
         let frames = positions.iter().map(frame).collect();
-        FoundView { scene: 0, eye: 0, frames, trace: None, passed_over: 0 }
+        FoundView { scene: 0, eye: 0, frames, trace: None, passed_over: 0, remarks: Vec::new() }
     }
 
     fn timing(positions: &[usize], fps: Option<f64>) -> Result<Timing, TimeError> {

@@ -334,7 +334,7 @@ impl Measuring<'_> {
 fn warn_of_left_out(
     metrics: &[Metric],
     scores: &PairScores,
-    frame: u64,
+    frame: i64,
     warnings: &mut Warnings<'_>,
 ) {
     let left_out = |metric: &&Metric| {

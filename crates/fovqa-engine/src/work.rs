@@ -94,14 +94,14 @@ mod tests {
     /// Three frames, of which the second has one test.
     fn view() -> FoundView {
         let frame = |number: usize, methods: &[usize]| FoundFrame {
-            number: number as u64,
+            number: number as i64,
             position: number,
             reference: format!("gt/{number}").into(),
             guides: GuideFiles::default(),
             tests: methods.iter().map(|m| (*m, format!("{m}/{number}").into())).collect(),
         };
         let frames = vec![frame(0, &[0, 1]), frame(1, &[1]), frame(2, &[0, 1])];
-        FoundView { scene: 0, eye: 0, frames, trace: None, passed_over: 0 }
+        FoundView { scene: 0, eye: 0, frames, trace: None, passed_over: 0, remarks: Vec::new() }
     }
 
     #[test]

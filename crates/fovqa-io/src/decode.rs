@@ -165,7 +165,12 @@ pub(crate) fn hashed<T>(
 
 /// Opens a regular file.
 pub(crate) fn open(path: &Path) -> Result<File, ReadErrorKind> {
-    let kind = std::fs::metadata(path)?;
+    let kind = match std::fs::metadata(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            return Err(std::fs::read_link(path).map_or(error.into(), ReadErrorKind::Dangling));
+        }
+        found => found?,
+    };
     if kind.is_dir() {
         return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
     }

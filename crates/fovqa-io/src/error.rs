@@ -24,6 +24,9 @@ pub enum ReadErrorKind {
     /// A device, a pipe or the like.
     #[error("it is not a regular file")]
     NotRegular,
+    /// A link to something that is not there, as git-annex and DVC leave them.
+    #[error("it is a link to {}, which is not there", .0.display())]
+    Dangling(PathBuf),
     /// The operating system refused.
     #[error("{}", io_reason(.0))]
     Io(#[from] io::Error),
@@ -161,6 +164,7 @@ impl ReadErrorKind {
                 "check the path; a relative one starts in {start}"
             }
             Self::NotRegular => "give a file, a folder or a pattern",
+            Self::Dangling(_) => "fetch the file (git annex get, dvc pull), or render it again",
             Self::Io(_) => "check that it is a file and may be read",
             Self::NotAnImage => "convert it to PNG or OpenEXR",
             Self::Damaged { .. } => "render or copy it again",

@@ -1,11 +1,12 @@
 //! What tells one version of an input from another: its size and its SHA-256.
 
 use std::fmt::Write;
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
 use sha2::{Digest, Sha256};
+
+use crate::small_file::open_regular_file;
 
 /// Size and hash of a file's bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,7 +23,7 @@ impl FileId {
     /// # Errors
     /// When it cannot be read.
     pub fn of_file(path: &Path) -> io::Result<Self> {
-        Self::of(File::open(path)?)
+        Self::of(open_regular_file(path)?)
     }
 
     /// Of everything a reader still has.

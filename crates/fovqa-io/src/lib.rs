@@ -15,6 +15,7 @@ mod guides;
 mod jpeg;
 mod png;
 pub mod sequence;
+mod small_file;
 mod write;
 
 pub use alpha::AlphaPolicy;
@@ -29,4 +30,5 @@ pub use guides::{
     MotionUnit, NamedMotion, Sought, read_guides, read_guides_and_hash,
 };
 pub use jpeg::JpegKind;
+pub use small_file::{open_regular_file, read_head, read_small_file};
 pub use write::{exr_gray, png_rgb8};

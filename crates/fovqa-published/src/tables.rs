@@ -5,6 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
+use fovqa_io::read_small_file;
 use thiserror::Error;
 
 use crate::printed::Printed;
@@ -127,6 +128,9 @@ impl TablesError {
     }
 }
 
+/// Far more than a paper's table.
+const MOST_BYTES: u64 = 1 << 20;
+
 /// The tables of a folder.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tables {
@@ -147,10 +151,12 @@ impl Tables {
         }
         let read = |format: &Format| {
             let path = folder.join(format.file);
-            let text = std::fs::read_to_string(&path).map_err(|error| TablesError::Unreadable {
-                path: path.clone(),
-                reason: error.to_string(),
-            })?;
+            let unreadable =
+                |reason: String| TablesError::Unreadable { path: path.clone(), reason };
+            let bytes = read_small_file(&path, MOST_BYTES)
+                .map_err(|error| unreadable(error.to_string()))?;
+            let text = String::from_utf8(bytes)
+                .map_err(|_| unreadable("it is not UTF-8 text".to_owned()))?;
             Table::parse(format, &text, &path)
         };
         Ok(Self { rmfr: read(&RMFR_TABLE)?, deamp: read(&DEAMP_TABLE)? })

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use fovqa_metrics::Metric;
-use fovqa_results::{FileError, RESULTS_CSV};
+use fovqa_results::{FileError, RESULTS_CSV, open_result_file};
 
 /// Whole-frame values by scene, method and eye, in the order of the frames.
 #[derive(Debug, Default)]
@@ -20,7 +20,7 @@ struct Comparison {
 }
 
 /// A frame's number and a value.
-pub(crate) type FrameValue = (u64, f64);
+pub(crate) type FrameValue = (i64, f64);
 
 /// What a value is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,7 +38,7 @@ impl FrameValues {
             let path = path.clone();
             FileError::Format { path, expected: "the results of a run", detail }
         };
-        let mut reader = csv::Reader::from_path(&path).map_err(|e| broken(e.to_string()))?;
+        let mut reader = csv::Reader::from_reader(open_result_file(&path)?);
         let headers = reader.headers().map_err(|e| broken(e.to_string()))?.clone();
         let column = |name: &str| {
             let found = headers.iter().position(|header| header == name);
@@ -82,7 +82,7 @@ impl FrameValues {
             let line = record.position().map_or(0, csv::Position::line);
             let no_number = |cell: &str| broken(format!("line {line}: {cell:?} is no number"));
             let number = cell(value).parse::<f64>().map_err(|_| no_number(cell(value)))?;
-            let frame = cell(frame).parse::<u64>().map_err(|_| no_number(cell(frame)))?;
+            let frame = cell(frame).parse::<i64>().map_err(|_| no_number(cell(frame)))?;
             let key = (cell(scene).to_owned(), cell(method).to_owned(), cell(eye).to_owned());
             let comparison = values.0.entry(key).or_default();
             match known {
@@ -113,11 +113,11 @@ impl FrameValues {
     }
 
     /// The frames in which the gaze of any eye jumps farther than `deg`, in order.
-    pub(crate) fn jumps(&self, scene: &str, method: &str, deg: f64) -> Vec<u64> {
+    pub(crate) fn jumps(&self, scene: &str, method: &str, deg: f64) -> Vec<i64> {
         let eyes = ["", "left", "right"].into_iter();
         let steps = eyes.filter_map(|eye| self.comparison(scene, method, eye));
         let far = steps.flat_map(|comparison| &comparison.gaze_steps).filter(|step| step.1 > deg);
-        let mut frames: Vec<u64> = far.map(|(frame, _)| *frame).collect();
+        let mut frames: Vec<i64> = far.map(|(frame, _)| *frame).collect();
         frames.sort_unstable();
         frames.dedup();
         frames

@@ -2,11 +2,12 @@
 
 use std::fmt::Write;
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use fovqa_results::{
     CURVES_JSON, CURVES_SCHEMA, CurvesRecord, FileError, RUN_JSON, RUN_SCHEMA, RunRecord,
-    read_json_file, write_whole,
+    open_result_file, read_json_file, write_whole,
 };
 
 use crate::page::{address, begin, end, escaped};
@@ -45,9 +46,7 @@ pub fn draw_index(folder: &Path) -> Result<Option<usize>, ReportError> {
     }
     paths.sort_by_key(|path| sorting(&path.file_name().unwrap_or_default().to_string_lossy()));
     let page = folder.join("index.html");
-    if let Ok(text) = fs::read_to_string(&page)
-        && !text.contains(MARK)
-    {
+    if page.symlink_metadata().is_ok() && !is_ours(&page) {
         return Err(ReportError::Foreign { path: page });
     }
     let entries: Result<Vec<Entry>, FileError> =
@@ -57,6 +56,14 @@ pub fn draw_index(folder: &Path) -> Result<Option<usize>, ReportError> {
     let name = name.as_deref().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
     write_whole(&page, html(&name, &entries).as_bytes())?;
     Ok(Some(entries.len()))
+}
+
+/// Whether a page is one of ours.
+fn is_ours(page: &Path) -> bool {
+    let mut text = String::new();
+    let read = open_result_file(page).map(|mut file| file.read_to_string(&mut text));
+    // A page that cannot be read is left to the writer, which says why.
+    !matches!(read, Ok(Ok(_))) || text.contains(MARK)
 }
 
 /// Numbers in names as numbers: fig-8 before fig-10.

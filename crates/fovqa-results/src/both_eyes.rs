@@ -16,7 +16,7 @@ use crate::report::{AtdGuides, FrameResult, GuideSource, ScoreReport};
 pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
     let edges = |report: &ScoreReport| report.view.as_ref().map(|view| view.bands_deg.clone());
     let alike = edges(left) == edges(right);
-    let right_frames: BTreeMap<u64, &FrameResult> =
+    let right_frames: BTreeMap<i64, &FrameResult> =
         right.frames.iter().map(|frame| (frame.frame, frame)).collect();
     let frames = left.frames.iter().filter_map(|l| {
         let r = right_frames.get(&l.frame)?;
@@ -289,7 +289,7 @@ mod tests {
             atd: None,
             fvvdp: None,
         };
-        let report = |frames: &[u64]| ScoreReport {
+        let report = |frames: &[i64]| ScoreReport {
             metrics: vec![Metric::Mse],
             frames: frames.iter().map(|n| frame(*n)).collect(),
             ..ScoreReport::default()

@@ -63,7 +63,7 @@ struct Row<'a> {
     scene: &'a str,
     method: &'a str,
     eye: &'a str,
-    frame: Option<u64>,
+    frame: Option<i64>,
     image: Image,
     metric: &'a str,
     statistic: &'a str,

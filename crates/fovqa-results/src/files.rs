@@ -5,6 +5,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use fovqa_io::{open_regular_file, read_small_file};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
@@ -97,6 +98,17 @@ pub fn write_json_file(path: &Path, value: &impl Serialize) -> Result<(), FileEr
     write_whole(path, &bytes)
 }
 
+/// Far more than the summary of the largest run.
+const MOST_BYTES: u64 = 4 << 30;
+
+/// Opens a file of a run.
+///
+/// # Errors
+/// When it is not there, or is no regular file.
+pub fn open_result_file(path: &Path) -> Result<File, FileError> {
+    open_regular_file(path).map_err(|error| FileError::Read { path: path.to_owned(), error })
+}
+
 /// Reads a JSON file of a run, of one schema.
 ///
 /// # Errors
@@ -106,7 +118,8 @@ pub fn read_json_file<T: DeserializeOwned>(
     schema: &str,
     expected: &'static str,
 ) -> Result<T, FileError> {
-    let bytes = fs::read(path).map_err(|error| FileError::Read { path: path.to_owned(), error })?;
+    let bytes = read_small_file(path, MOST_BYTES)
+        .map_err(|error| FileError::Read { path: path.to_owned(), error })?;
     let format = |detail: String| FileError::Format { path: path.to_owned(), expected, detail };
     let value: serde_json::Value =
         serde_json::from_slice(&bytes).map_err(|error| format(error.to_string()))?;

@@ -180,7 +180,7 @@ mod tests {
     use fovqa_metrics::PairScores;
     use std::collections::BTreeMap;
 
-    fn frame(number: u64, q: f64, shares: Option<Vec<f64>>) -> FrameResult {
+    fn frame(number: i64, q: f64, shares: Option<Vec<f64>>) -> FrameResult {
         let band = FvvdpBand { cpd: 8.0, sustained: q, transient: Some(2.0 * q) };
         FrameResult {
             frame: number,

@@ -21,7 +21,7 @@ pub use csv_table::{COLUMNS, ERROR, write_csv, write_results_csv};
 pub use curves::{CurveRecord, CurvesRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
     CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RUN_JSON,
-    SUMMARY_JSON, read_json_file, write_json_file, write_whole, write_whole_with,
+    SUMMARY_JSON, open_result_file, read_json_file, write_json_file, write_whole, write_whole_with,
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{

@@ -26,7 +26,7 @@ pub struct ViewResult {
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrameResult {
     /// Frame number.
-    pub frame: u64,
+    pub frame: i64,
     /// Reference file, `/` between folders.
     pub reference: String,
     /// Test file.
@@ -90,7 +90,7 @@ pub struct FvvdpSight {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failure {
     /// Frame number; `None`: the whole comparison.
-    pub frame: Option<u64>,
+    pub frame: Option<i64>,
     /// Reference file, of a frame.
     pub reference: String,
     /// Test file, of a frame.

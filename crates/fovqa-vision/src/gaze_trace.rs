@@ -1,28 +1,28 @@
-//! A recorded gaze: one position a frame, or positions over time.
+//! A recorded gaze: one position per frame, or positions over time.
 
 use std::io::Read;
 
-use thiserror::Error;
+use crate::gaze_error::GazeTraceError;
+use crate::gaze_table::{Clock, Row, Table};
 
 /// A gaze trace as its file holds it: rising frames or times, a position each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GazeTrace {
-    clock: Clock,
-    samples: Vec<Sample>,
+    samples: Samples,
+    /// Columns about the quality of samples that are not applied.
+    unused: Vec<String>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Clock {
-    Frame,
-    TimeS,
+/// Frames or times, with a position each.
+#[derive(Debug, Clone, PartialEq)]
+enum Samples {
+    Frames(Vec<Sample<i64>>),
+    Times(Vec<Sample<f64>>),
 }
-
-/// Beyond this no frame number, time or position of a real recording lies.
-const LARGEST: f64 = 1e9;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Sample {
-    at: f64,
+struct Sample<At> {
+    at: At,
     /// `None`: a blink.
     position_px: Option<[f64; 2]>,
     /// The position, or the last one before it that is no blink: not looked for frame by frame,
@@ -39,205 +39,179 @@ pub struct GazeAt {
     pub held: bool,
 }
 
-/// A gaze trace that cannot be read, or does not fit the sequence.
-#[derive(Debug, Error)]
-pub enum GazeTraceError {
-    /// Not CSV.
-    #[error("it is not a CSV table: {0}")]
-    Csv(#[from] csv::Error),
-    /// A column that has to be there.
-    #[error("it has no column {wanted}; its columns are: {found}")]
-    Column {
-        /// What was looked for.
-        wanted: &'static str,
-        /// What is there.
-        found: String,
-    },
-    /// A cell that is not a number.
-    #[error("line {line}: {column} is {found:?}, not a number")]
-    Number {
-        /// Line of the file, from 1.
-        line: u64,
-        /// The column.
-        column: &'static str,
-        /// The cell.
-        found: String,
-    },
-    /// Rows out of order, or two for one moment.
-    #[error("line {line}: {clock} {at} does not come after the {before} before it")]
-    Order {
-        /// Line of the file, from 1.
-        line: u64,
-        /// `frame` or `time_s`.
-        clock: &'static str,
-        /// Its value.
-        at: f64,
-        /// The value before.
-        before: f64,
-    },
-    /// A table without rows.
-    #[error("it has no rows")]
-    Empty,
-    /// Times without a frame rate.
-    #[error("it gives times, and a time names a frame only with a frame rate")]
-    NoFps,
-    /// No gaze for a frame.
-    #[error("it has no gaze for frame {frame}; it covers {clock} {from} to {to}")]
-    Missing {
-        /// The frame's number.
-        frame: u64,
-        /// `frame` or `time_s`.
-        clock: &'static str,
-        /// Start of the trace.
-        from: f64,
-        /// End of the trace.
-        to: f64,
-    },
-    /// A blink, or a frame the trace does not cover, with nothing before it to hold.
-    #[error("frame {frame} has no gaze of its own, and there is none before it to hold")]
-    NothingToHold {
-        /// The frame's number.
-        frame: u64,
-    },
-}
-
-impl Clock {
-    fn column(self) -> &'static str {
-        match self {
-            Clock::Frame => "frame",
-            Clock::TimeS => "time_s",
-        }
-    }
-}
+/// A frame's number and its place in the sequence, from 0: its time is that place over the frame rate.
+pub type FrameAt = (i64, usize);
 
 impl GazeTrace {
-    /// Reads a CSV table with columns `frame` (or `time_s`), `x_px`, `y_px`; others are ignored.
-    /// A NaN or an empty cell as a position is a blink.
+    /// Reads a CSV table with columns `frame` (or `time_s`), `x_px`, `y_px`; commas, semicolons or
+    /// tabs separate them, in UTF-8 or UTF-16. A NaN or an empty cell as a position is a blink, and so
+    /// is a row whose column `valid` says 0 or false; other columns are ignored.
     ///
     /// # Errors
-    /// When it is not such a table, or its rows do not rise.
+    /// When it is not such a table, its rows do not rise, or its positions are shares of the frame.
     pub fn read(source: impl Read) -> Result<Self, GazeTraceError> {
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source);
-        let headers = reader.headers()?.clone();
-        let find = |name: &str| {
-            headers.iter().position(|h| h.trim_start_matches('\u{feff}').eq_ignore_ascii_case(name))
-        };
-        let column = |wanted: &'static str, name: &str| {
-            find(name).ok_or_else(|| GazeTraceError::Column {
-                wanted,
-                found: headers.iter().take(24).collect::<Vec<_>>().join(", "),
-            })
-        };
-        let clock = if find("frame").is_some() { Clock::Frame } else { Clock::TimeS };
-        let at = column("frame (or time_s)", clock.column())?;
-        let (x, y) = (column("x_px", "x_px")?, column("y_px", "y_px")?);
-        let mut samples: Vec<Sample> = Vec::new();
-        for record in reader.records() {
-            let record = record?;
-            let line = record.position().map_or(0, csv::Position::line);
-            let number = |index: usize, column: &'static str| {
-                let cell = &record[index];
-                let value = if cell.is_empty() { Ok(f64::NAN) } else { cell.parse::<f64>() };
-                value.ok().filter(|v| v.is_nan() || v.abs() <= LARGEST).ok_or_else(|| {
-                    GazeTraceError::Number { line, column, found: cell.chars().take(40).collect() }
-                })
-            };
-            let clock_at = number(at, clock.column())?;
-            if clock_at.is_nan() || (clock == Clock::Frame && clock_at.fract() != 0.0) {
-                let found = record[at].chars().take(40).collect();
-                return Err(GazeTraceError::Number { line, column: clock.column(), found });
-            }
-            if let Some(before) = samples.last().map(|s| s.at).filter(|b| *b >= clock_at) {
-                let clock = clock.column();
-                return Err(GazeTraceError::Order { line, clock, at: clock_at, before });
-            }
-            let position = [number(x, "x_px")?, number(y, "y_px")?];
-            let open = !position.iter().any(|v| v.is_nan());
-            let position_px = open.then_some(position);
-            let held_px = position_px.or_else(|| samples.last()?.held_px);
-            samples.push(Sample { at: clock_at, position_px, held_px });
-        }
-        if samples.is_empty() {
+        let table = Table::read(source)?;
+        if table.rows.is_empty() {
             return Err(GazeTraceError::Empty);
         }
-        Ok(Self { clock, samples })
+        let positions = table.rows.iter().filter_map(|row| row.position_px);
+        shares(positions)?;
+        let samples = match table.clock {
+            Clock::Frame => {
+                let frames = table.rows.iter().map(|row| (row, row.frame)).collect();
+                Samples::Frames(rising(frames, |row, at, before| {
+                    if at == before {
+                        GazeTraceError::Twice { line: row.line, frame: at }
+                    } else {
+                        order(row, Clock::Frame, at as f64, before as f64)
+                    }
+                })?)
+            }
+            Clock::TimeS => {
+                let times = table.rows.iter().map(|row| (row, row.time_s)).collect();
+                Samples::Times(rising(times, |row, at, before| {
+                    order(row, Clock::TimeS, at, before)
+                })?)
+            }
+        };
+        Ok(Self { samples, unused: table.unused })
     }
 
-    /// The gaze of each of `frames`. A blink holds the gaze before it. Times start
-    /// with frame `first_frame`, and the sample nearest in time counts, if it is no farther than
-    /// one frame away. With `hold`, a frame the trace does not cover keeps the gaze before it.
+    /// Columns of the table about the quality of samples, by their headings, that are not applied:
+    /// rows that are not to count need an empty position.
+    pub fn unused_quality_columns(&self) -> &[String] {
+        &self.unused
+    }
+
+    /// Whether all positions lie in the first pixel, and not all of them in its corner: they may be
+    /// shares of the frame that were rounded.
+    pub fn is_in_first_pixel(&self) -> bool {
+        let held: Vec<[f64; 2]> = match &self.samples {
+            Samples::Frames(samples) => samples.iter().filter_map(|s| s.position_px).collect(),
+            Samples::Times(samples) => samples.iter().filter_map(|s| s.position_px).collect(),
+        };
+        let within = |at: &f64| (0.0..=1.0).contains(at);
+        held.iter().flatten().all(within) && held.iter().flatten().any(|at| *at > 0.0)
+    }
+
+    /// The usual distance of two samples, seconds, of a trace that gives times.
+    pub fn interval_s(&self) -> Option<f64> {
+        let Samples::Times(samples) = &self.samples else { return None };
+        let mut steps: Vec<f64> = samples.windows(2).map(|pair| pair[1].at - pair[0].at).collect();
+        steps.sort_by(f64::total_cmp);
+        steps.get(steps.len() / 2).copied()
+    }
+
+    /// The gaze of each of `frames`. A blink holds the gaze before it. Times start at 0 with place 0
+    /// of the sequence, and the sample nearest in time counts, if it is no farther than one frame away.
+    /// With `hold`, a frame the trace does not cover keeps the gaze before it.
     ///
     /// # Errors
     /// When a frame has no gaze, when the trace begins with a blink, or when it gives times and
     /// there is no frame rate.
     pub fn at_frames(
         &self,
-        frames: &[u64],
-        first_frame: u64,
+        frames: &[FrameAt],
         fps: Option<f64>,
         hold: bool,
     ) -> Result<Vec<GazeAt>, GazeTraceError> {
-        let mut gaze: Vec<GazeAt> = Vec::with_capacity(frames.len());
-        for &frame in frames {
-            let sample = match self.clock {
-                Clock::Frame => {
-                    let found = self.samples.binary_search_by(|s| s.at.total_cmp(&(frame as f64)));
-                    found.ok().map(|index| &self.samples[index])
+        let at = |&(frame, place): &FrameAt| {
+            let (own, held, missing) = match &self.samples {
+                Samples::Frames(samples) => {
+                    let own = samples.binary_search_by(|sample| sample.at.cmp(&frame)).ok();
+                    let own = own.map(|index| samples[index].position_px);
+                    let held = held_at(samples, |at| *at <= frame);
+                    let (from, to) = (samples[0].at, samples[samples.len() - 1].at);
+                    (own, held, GazeTraceError::Missing { frame, from, to })
                 }
-                Clock::TimeS => {
+                Samples::Times(samples) => {
                     let fps = fps.ok_or(GazeTraceError::NoFps)?;
-                    self.nearest(frame.saturating_sub(first_frame) as f64 / fps, 1.0 / fps)
+                    let at_s = place as f64 / fps;
+                    let own = nearest(samples, at_s, 1.0 / fps).map(|sample| sample.position_px);
+                    let held = held_at(samples, |at| *at <= at_s);
+                    let (from_s, to_s) = (samples[0].at, samples[samples.len() - 1].at);
+                    (own, held, GazeTraceError::MissingTime { frame, at_s, from_s, to_s })
                 }
             };
-            // The last open eye before this frame, in the trace itself: frames may be a subset.
-            let held = || self.last_open_before(frame, first_frame, fps);
-            let missing = || GazeTraceError::Missing {
-                frame,
-                clock: self.clock.column(),
-                from: self.samples[0].at,
-                to: self.samples[self.samples.len() - 1].at,
-            };
-            let at = match sample.map(|s| s.position_px) {
-                Some(Some(px)) => GazeAt { px, held: false },
-                Some(None) => {
-                    let px = held().ok_or(GazeTraceError::NothingToHold { frame })?;
-                    GazeAt { px, held: true }
-                }
-                None if hold => {
-                    let px = held().ok_or(GazeTraceError::NothingToHold { frame })?;
-                    GazeAt { px, held: true }
-                }
-                None => return Err(missing()),
-            };
-            gaze.push(at);
-        }
-        Ok(gaze)
-    }
-
-    fn nearest(&self, time_s: f64, within_s: f64) -> Option<&Sample> {
-        let distance = |s: &&Sample| (s.at - time_s).abs();
-        // Samples rise: the nearest is one of the two around the moment.
-        let after = self.samples.partition_point(|s| s.at < time_s);
-        self.samples[after.saturating_sub(1)..(after + 1).min(self.samples.len())]
-            .iter()
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-            .filter(|s| distance(s) <= within_s)
-    }
-
-    fn last_open_before(&self, frame: u64, first_frame: u64, fps: Option<f64>) -> Option<[f64; 2]> {
-        let now = match self.clock {
-            Clock::Frame => frame as f64,
-            Clock::TimeS => frame.saturating_sub(first_frame) as f64 / fps?,
+            match own {
+                Some(Some(px)) => Ok(GazeAt { px, held: false }),
+                // The last open eye before this frame, in the trace itself: frames may be a subset.
+                None if !hold => Err(missing),
+                _ => match held {
+                    Some(px) => Ok(GazeAt { px, held: true }),
+                    // A trace that begins after the frame is another mistake than a blink.
+                    None if own.is_none() && matches!(self.samples, Samples::Times(_)) => {
+                        Err(missing)
+                    }
+                    None => Err(GazeTraceError::NothingToHold { frame }),
+                },
+            }
         };
-        let past = self.samples.partition_point(|s| s.at <= now);
-        self.samples[..past].last()?.held_px
+        frames.iter().map(at).collect()
     }
+}
+
+fn order(row: &Row, clock: Clock, at: f64, before: f64) -> GazeTraceError {
+    GazeTraceError::Order { line: row.line, clock: clock.column(), at, before }
+}
+
+/// Samples of rows whose frames or times rise.
+fn rising<At: Copy + PartialOrd>(
+    rows: Vec<(&Row, At)>,
+    wrong: impl Fn(&Row, At, At) -> GazeTraceError,
+) -> Result<Vec<Sample<At>>, GazeTraceError> {
+    let mut samples: Vec<Sample<At>> = Vec::with_capacity(rows.len());
+    for (row, at) in rows {
+        let last = samples.last();
+        if let Some(before) = last.map(|last| last.at).filter(|before| *before >= at) {
+            return Err(wrong(row, at, before));
+        }
+        let held_px = row.position_px.or_else(|| last?.held_px);
+        samples.push(Sample { at, position_px: row.position_px, held_px });
+    }
+    Ok(samples)
+}
+
+/// Refuses positions that are shares of the frame. Trackers give such from 0 to 1, and a little beyond
+/// where the eye looks past the screen; nobody looks at the first pixels of a frame all the time.
+fn shares(positions: impl Iterator<Item = [f64; 2]>) -> Result<(), GazeTraceError> {
+    let (mut from, mut to, mut fractions) = (f64::INFINITY, f64::NEG_INFINITY, false);
+    for value in positions.flatten() {
+        (from, to) = (from.min(value), to.max(value));
+        fractions |= value.fract() != 0.0;
+    }
+    let about = fractions && from >= -1.0 && to <= 2.0;
+    if about {
+        return Err(GazeTraceError::Shares { from, to });
+    }
+    Ok(())
+}
+
+fn nearest(samples: &[Sample<f64>], time_s: f64, within_s: f64) -> Option<&Sample<f64>> {
+    let distance = |s: &&Sample<f64>| (s.at - time_s).abs();
+    // Samples rise: the nearest is one of the two around the moment.
+    let after = samples.partition_point(|s| s.at < time_s);
+    samples[after.saturating_sub(1)..(after + 1).min(samples.len())]
+        .iter()
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .filter(|s| distance(s) <= within_s)
+}
+
+/// The last open eye up to a moment.
+fn held_at<At>(samples: &[Sample<At>], is_past: impl Fn(&At) -> bool) -> Option<[f64; 2]> {
+    let past = samples.partition_point(|sample| is_past(&sample.at));
+    samples[..past].last()?.held_px
 }
 
 #[cfg(test)]
 #[allow(clippy::float_cmp, reason = "what is only passed on comes back exactly")]
 mod tests {
     use super::*;
+
+    /// Frames whose places are their numbers less that of the first.
+    fn from(first: i64, frames: &[i64]) -> Vec<FrameAt> {
+        frames.iter().map(|frame| (*frame, usize::try_from(frame - first).unwrap_or(0))).collect()
+    }
 
     fn trace(text: &str) -> Result<GazeTrace, GazeTraceError> {
         GazeTrace::read(text.as_bytes())
@@ -246,64 +220,64 @@ mod tests {
     #[test]
     fn frames_times_and_other_columns() {
         let t = trace("note,frame,time_s,x_px,y_px\na,0,0,1,2\nb,1,9,3,4\n").unwrap();
-        let at = t.at_frames(&[0, 1], 0, None, false).unwrap();
+        let at = t.at_frames(&from(0, &[0, 1]), None, false).unwrap();
         assert_eq!(at[1], GazeAt { px: [3.0, 4.0], held: false });
         // 1/72 s, as a file with six digits rounds it, is that of frame 1.
         let t = trace("time_s,x_px,y_px\n0,1,1\n0.013889,2,2\n0.027778,3,3\n").unwrap();
-        let at = t.at_frames(&[5, 6, 7], 5, Some(72.0), false).unwrap();
+        let at = t.at_frames(&from(5, &[5, 6, 7]), Some(72.0), false).unwrap();
         assert_eq!(at.iter().map(|g| g.px[0]).collect::<Vec<_>>(), [1.0, 2.0, 3.0]);
-        assert!(matches!(t.at_frames(&[0], 0, None, false), Err(GazeTraceError::NoFps)));
+        assert!(matches!(t.at_frames(&from(0, &[0]), None, false), Err(GazeTraceError::NoFps)));
     }
 
     #[test]
     fn a_blink_holds_the_gaze_before_it() {
         let t = trace("frame,x_px,y_px\n0,1,1\n1,nan,NaN\n2,,\n3,4,4\n").unwrap();
-        let at = t.at_frames(&[0, 1, 2, 3], 0, None, false).unwrap();
+        let at = t.at_frames(&from(0, &[0, 1, 2, 3]), None, false).unwrap();
         assert_eq!(
             at.iter().map(|g| (g.px[0], g.held)).collect::<Vec<_>>(),
             [(1.0, false), (1.0, true), (1.0, true), (4.0, false)]
         );
-        assert_eq!(t.at_frames(&[2], 0, None, false).unwrap()[0].px, [1.0, 1.0]);
-        let blind = trace("frame,x_px,y_px\n0,nan,1\n").unwrap();
+        assert_eq!(t.at_frames(&from(0, &[2]), None, false).unwrap()[0].px, [1.0, 1.0]);
+        let blind = trace("frame,x_px,y_px\n0,nan,1\n1,nan,9\n").unwrap();
         assert!(matches!(
-            blind.at_frames(&[0], 0, None, true),
+            blind.at_frames(&from(0, &[0]), None, true),
             Err(GazeTraceError::NothingToHold { frame: 0 })
         ));
     }
 
     #[test]
     fn a_long_blink_is_not_looked_through_frame_by_frame() {
-        const ROWS: u64 = 200_000;
+        const ROWS: i64 = 200_000;
         let rows = (1..ROWS).map(|frame| format!("{frame},,"));
         let rows: Vec<String> = std::iter::once("0,1,2".to_owned()).chain(rows).collect();
         let t = trace(&format!("frame,x_px,y_px\n{}\n", rows.join("\n"))).unwrap();
-        let frames: Vec<u64> = (0..ROWS).collect();
-        let from = std::time::Instant::now();
-        let at = t.at_frames(&frames, 0, None, false).unwrap();
+        let frames: Vec<i64> = (0..ROWS).collect();
+        let begun = std::time::Instant::now();
+        let at = t.at_frames(&from(0, &frames), None, false).unwrap();
         assert!(at[1..].iter().all(|at| at.held && at.px == [1.0, 2.0]));
         // Twenty thousand million steps otherwise.
-        assert!(from.elapsed() < std::time::Duration::from_secs(5), "{:?}", from.elapsed());
+        assert!(begun.elapsed() < std::time::Duration::from_secs(5), "{:?}", begun.elapsed());
     }
 
     #[test]
     fn too_short_is_an_error_unless_held() {
         let t = trace("frame,x_px,y_px\n0,1,1\n1,2,2\n").unwrap();
         assert!(matches!(
-            t.at_frames(&[0, 1, 2], 0, None, false),
+            t.at_frames(&from(0, &[0, 1, 2]), None, false),
             Err(GazeTraceError::Missing { frame: 2, .. })
         ));
-        let at = t.at_frames(&[0, 1, 2], 0, None, true).unwrap();
+        let at = t.at_frames(&from(0, &[0, 1, 2]), None, true).unwrap();
         assert_eq!(at[2], GazeAt { px: [2.0, 2.0], held: true });
     }
 
     #[test]
     fn a_gap_in_time_is_one_when_no_sample_is_within_a_frame() {
         let t = trace("time_s,x_px,y_px\n0,1,1\n0.05,2,2\n").unwrap();
-        let at = t.at_frames(&[0, 1, 4], 0, Some(72.0), false).unwrap();
+        let at = t.at_frames(&from(0, &[0, 1, 4]), Some(72.0), false).unwrap();
         assert_eq!(at.iter().map(|g| g.px[0]).collect::<Vec<_>>(), [1.0, 1.0, 2.0]);
-        let far = t.at_frames(&[8], 0, Some(72.0), false);
-        assert!(matches!(far, Err(GazeTraceError::Missing { frame: 8, .. })));
-        assert!(t.at_frames(&[8], 0, Some(72.0), true).unwrap()[0].held);
+        let far = t.at_frames(&from(0, &[8]), Some(72.0), false);
+        assert!(matches!(far, Err(GazeTraceError::MissingTime { frame: 8, .. })));
+        assert!(t.at_frames(&from(0, &[8]), Some(72.0), true).unwrap()[0].held);
     }
 
     #[test]
@@ -321,8 +295,48 @@ mod tests {
         ));
         assert!(matches!(
             trace("frame,x_px,y_px\n1,1,2\n1,1,2\n"),
+            Err(GazeTraceError::Twice { line: 3, frame: 1 })
+        ));
+        assert!(matches!(
+            trace("frame,x_px,y_px\n1,1,2\n0,1,2\n"),
+            Err(GazeTraceError::Order { line: 3, .. })
+        ));
+        assert!(matches!(
+            trace("time_s,x_px,y_px\n1,1,2\n1,1,2\n"),
             Err(GazeTraceError::Order { line: 3, .. })
         ));
         assert!(trace("frame,x_px,y_px\n0,1\n").is_err());
+    }
+
+    #[test]
+    fn numbers_are_exact_however_large_and_may_be_negative() {
+        let text = "frame,x_px,y_px\n-2,1,9\n-1,2,9\n9007199254740992,3,9\n9007199254740993,4,9\n";
+        let t = trace(text).unwrap();
+        let frames = [(-2, 0), (-1, 1), (9_007_199_254_740_993, 2)];
+        let at = t.at_frames(&frames, None, false).unwrap();
+        assert_eq!(at.iter().map(|g| g.px[0]).collect::<Vec<_>>(), [1.0, 2.0, 4.0]);
+    }
+
+    #[test]
+    fn unix_times_are_no_times_of_the_sequence() {
+        let t = trace("time_s,x_px,y_px\n1700000000.0,9,9\n1700000000.011,9,9\n").unwrap();
+        for hold in [false, true] {
+            let error = t.at_frames(&[(7, 0)], Some(90.0), hold).unwrap_err();
+            assert!(error.to_string().contains("times start at 0 with the first frame"), "{error}");
+            assert!(error.help().contains("subtract the time of the first frame"));
+        }
+        let slow = trace("time_s,x_px,y_px\n0,9,9\n11,9,9\n22,9,9\n").unwrap();
+        assert_eq!(slow.interval_s(), Some(11.0));
+    }
+
+    #[test]
+    fn shares_of_the_frame_are_no_pixels() {
+        let table = |rows: &str| trace(&format!("frame,x_px,y_px\n{rows}"));
+        for rows in ["0,0.5,0.5\n1,0.25,0.75\n", "0,0.5,0.5\n", "0,-0.1,0.5\n1,1.2,0.3\n"] {
+            assert!(matches!(table(rows), Err(GazeTraceError::Shares { .. })), "{rows:?}");
+        }
+        for rows in ["0,0,0\n", "0,0.5,0.5\n1,3,0.5\n", "0,1,2\n1,2,1\n", "0,1,1\n", "0,,\n"] {
+            assert!(table(rows).is_ok(), "{rows:?}");
+        }
     }
 }

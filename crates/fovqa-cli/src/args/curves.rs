@@ -11,6 +11,7 @@ use fovqa_params::ParamValue;
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::{Tangential, ViewSpec};
 
+use super::lock::LockArgs;
 use super::no_such::no_such;
 use super::values::{finite, literal, numbers};
 use super::view::{EccentricityArg, FAR, ViewSpecArgs, near};
@@ -128,6 +129,8 @@ pub(crate) struct CurvesArgs {
     /// [default: reports/NAME, NAME being the file's]
     #[arg(long, verbatim_doc_comment, value_name = "DIR", conflicts_with_all = ["method", "acuity"])]
     pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) lock: LockArgs,
 }
 
 fn gaze(text: &str) -> Result<[f64; 2], String> {

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use fovqa_io::sequence::FrameRange;
 
+use super::lock::LockArgs;
+
 pub(crate) const EXAMPLES: &str = "\
 Rules stand in the experiment file; docs/experiments.md shows every key:
 
@@ -75,7 +77,7 @@ pub(crate) struct GateArgs {
     #[arg(long)]
     pub(crate) resume: bool,
     /// Only these of each scene's frames, from A up to, but without, B
-    #[arg(long, value_name = "A..B:STEP")]
+    #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP")]
     pub(crate) frames: Option<FrameRange>,
     /// Write heat maps of the frames of an experiment into a folder, as `fovqa run --maps` does
     #[arg(long, value_name = "DIR")]
@@ -83,4 +85,6 @@ pub(crate) struct GateArgs {
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) lock: LockArgs,
 }

@@ -4,6 +4,7 @@ mod baseline;
 mod curves;
 mod gate;
 mod guides;
+mod lock;
 mod luminance;
 mod metrics;
 mod no_such;

@@ -6,6 +6,8 @@ use clap::Args;
 use fovqa_engine::Shard;
 use fovqa_io::sequence::FrameRange;
 
+use super::lock::LockArgs;
+
 pub(crate) const EXAMPLES: &str = "\
 The experiment file names scenes, methods and metrics; docs/experiments.md shows every key, and
 `fovqa schema` prints its JSON Schema. The smallest one:
@@ -49,7 +51,7 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
     /// Only these of each scene's frames, from A up to, but without, B
-    #[arg(long, value_name = "A..B:STEP")]
+    #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP")]
     pub(crate) frames: Option<FrameRange>,
     /// Write a heat map of FovVideoVDP for each frame into a folder, SCENE/METHOD in it: raw (OpenEXR, in
     /// units like JOD), and coloured for differences at the threshold and above it (PNG)
@@ -58,6 +60,8 @@ pub(crate) struct RunArgs {
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub(crate) threads: Option<u16>,
+    #[command(flatten)]
+    pub(crate) lock: LockArgs,
 }
 
 #[derive(Debug, Args)]
@@ -70,6 +74,8 @@ pub(crate) struct CheckArgs {
 pub(crate) struct ReportArgs {
     /// Folder with the results of a run, or with several such folders: a page over all of them
     pub(crate) results: PathBuf,
+    #[command(flatten)]
+    pub(crate) lock: LockArgs,
 }
 
 pub(crate) const MERGE_EXAMPLES: &str = "\
@@ -90,4 +96,6 @@ pub(crate) struct MergeArgs {
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
     pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) lock: LockArgs,
 }

@@ -14,8 +14,8 @@ use super::values::positive;
 use super::view::ViewArgs;
 
 pub(crate) const EXAMPLES: &str = "\
-Paths are files, folders, globs ('renders/*.exr') or printf patterns (gt.%04d.exr). Frames pair by
-name, then by the last number in the name.
+Paths are files, folders, globs ('renders/*.exr') or patterns (gt.%04d.exr, 'gt.####.exr').
+Frames pair by name, then by the number that changes from name to name (docs/files.md).
 
 Examples:
   fovqa score gt.png rmfr.png --fov-vertical 100
@@ -56,7 +56,7 @@ pub(crate) struct ScoreArgs {
     #[command(flatten)]
     guides: GuideArgs,
     /// Frames by their numbers, from A up to, but without, B
-    #[arg(long, value_name = "A..B:STEP", help_heading = "Sequence")]
+    #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP", help_heading = "Sequence")]
     frames: Option<FrameRange>,
     /// Frames a second: FovVideoVDP of a sequence, and gaze traces in seconds, need it
     #[arg(long, value_name = "N", value_parser = positive, help_heading = "Sequence")]

@@ -225,7 +225,7 @@ static SCENE_TABLE: [Key; 6 + VIEW.len() + 1 + SHARED.len() + SIGNAL.len() + 2] 
         required(
             "reference",
             FILES,
-            "reference frames: file, folder, glob or printf pattern, or { left, right }",
+            "reference frames: file, folder, glob or pattern (%04d, ####), or { left, right }",
         ),
         key(
             "folder",

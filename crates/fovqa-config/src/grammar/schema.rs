@@ -76,7 +76,7 @@ fn kind(kind: &Kind) -> Value {
         Kind::Word(words) => json!({ "enum": words }),
         Kind::Frames => json!({
             "type": "string",
-            "pattern": r"^[0-9]{0,18}\.\.(=?[0-9]{1,18})?(:0{0,9}[1-9][0-9]{0,8})?$"
+            "pattern": r"^(-?[0-9]{1,18})?\.\.(=?-?[0-9]{1,18})?(:0{0,9}[1-9][0-9]{0,8})?$"
         }),
         Kind::Display => {
             // Both spellings, `-` and `_`, as people write them.

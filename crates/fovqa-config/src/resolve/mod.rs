@@ -75,11 +75,7 @@ impl Placeholders<'_> {
         // In a pattern, names stand for themselves, whatever characters they have.
         let pattern = is_glob(Path::new(text));
         let verbatim = |name: &str| {
-            if pattern {
-                literal(Path::new(name)).to_string_lossy().into_owned()
-            } else {
-                name.to_owned()
-            }
+            if pattern { literal(name) } else { name.to_owned() }
         };
         let too_long = || {
             let message = format!("the path becomes longer than {LONGEST_PATH} bytes");

@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use fovqa_config::{Experiment, Eye, Plan};
-use fovqa_io::FileId;
+use fovqa_io::{FileId, open_regular_file};
 use fovqa_vision::BandEdges;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -105,10 +105,11 @@ impl Header {
 pub fn shard_in(folder: &Path) -> Option<Shard> {
     /// An experiment is no longer than 4 MiB, and its text grows a little in JSON.
     const LONGEST: u64 = 64 << 20;
-    let file = std::fs::File::open(folder.join(JOURNAL)).ok()?;
+    let file = open_regular_file(&folder.join(JOURNAL)).ok()?;
     let mut line = Vec::new();
     BufReader::new(file.take(LONGEST)).read_until(b'\n', &mut line).ok()?;
-    Header::parse(&line)?.shard
+    let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&line);
+    Header::parse(line)?.shard
 }
 
 fn files(plan: &Plan, view: &FoundView, bands: Option<&BandEdges>) -> String {

@@ -1,12 +1,11 @@
 //! Reading a journal again.
 
-use std::fs;
 use std::io;
 use std::ops::Range;
 use std::path::Path;
 
 use fovqa_config::{Eye, Plan};
-use fovqa_io::FileId;
+use fovqa_io::{FileId, read_small_file};
 use fovqa_results::Input;
 use serde::Deserialize;
 use serde_json::Value;
@@ -47,12 +46,15 @@ pub(crate) struct Said {
     pub(crate) twice: Option<String>,
 }
 
+/// More than the journal of the largest run that fits into memory.
+const MOST_BYTES: u64 = 64 << 30;
+
 /// Reads the journal of a folder.
 ///
 /// # Errors
 /// When the system refuses.
 pub(crate) fn read(folder: &Path) -> io::Result<Found> {
-    let bytes = match fs::read(folder.join(JOURNAL)) {
+    let bytes = match read_small_file(&folder.join(JOURNAL), MOST_BYTES) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Found::Nothing),
         Err(error) => return Err(error),

@@ -18,7 +18,7 @@ pub(super) struct FrameRecord {
     pub(super) method: String,
     pub(super) eye: Option<Eye>,
     pub(super) step: usize,
-    frame: u64,
+    frame: i64,
     reference: String,
     test: String,
     gaze_px: Option<[f64; 2]>,
@@ -130,7 +130,7 @@ pub(super) struct ErrorRecord {
     /// Whether it was looked at for the sake of pairs after it alone.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(super) before: bool,
-    pub(super) frame: Option<u64>,
+    pub(super) frame: Option<i64>,
     pub(super) reference: String,
     pub(super) test: String,
     pub(super) error: String,

@@ -49,7 +49,7 @@ fn frame() -> FrameResult {
         bands: vec![AtdBand { mean: None, valid: 0 }, AtdBand { mean: Some(1.0 / 3.0), valid: 1 }],
     };
     FrameResult {
-        frame: u64::MAX,
+        frame: i64::MIN,
         reference: "gt/ä \u{1}.png".to_owned(),
         test: "a".to_owned(),
         gaze_px: Some([0.1, -7.25]),
@@ -112,7 +112,7 @@ fn bare_frame() -> FrameResult {
     }
 }
 
-fn failure(frame: Option<u64>) -> Failure {
+fn failure(frame: Option<i64>) -> Failure {
     let text = |text: &str| text.to_owned();
     let (message, help) = (text("no\npicture"), text("mend {it}"));
     Failure { frame, reference: text("gt/1"), test: text("a/1"), message, help }

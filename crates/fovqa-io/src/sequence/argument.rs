@@ -1,126 +1,15 @@
 //! One path argument to a list of image files.
 
-use std::collections::BTreeMap;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
-use thiserror::Error;
-
-use super::natural_order::{last_number, natural_cmp};
-#[cfg(doc)]
-use crate::ReadErrorKind;
+use super::frame_pattern::FramePattern;
+use super::listing::Listing;
+use super::listing_error::ListingError;
+use super::wildcards::{WildcardError, fitting, is_glob};
 
 /// Endings of the files that count as images in folders and globs.
 const ENDINGS: [&str; 4] = ["png", "jpg", "jpeg", "exr"];
-
-/// An image file of a sequence.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FrameFile {
-    /// The file.
-    pub path: PathBuf,
-    /// Its name without the ending.
-    pub stem: String,
-    /// The last run of digits in the stem, or what `%d` stood for.
-    pub number: Option<u64>,
-}
-
-/// What a path argument stands for.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Listing {
-    /// The argument.
-    pub argument: PathBuf,
-    /// Whether it names one file outright.
-    pub is_file: bool,
-    /// The files, in natural order.
-    pub files: Vec<FrameFile>,
-}
-
-/// A path argument that stands for nothing, or for more than can be told apart.
-#[derive(Debug, Error)]
-pub enum ListingError {
-    /// Nothing there.
-    #[error("{}: there is no such file or folder", .0.display())]
-    NotFound(PathBuf),
-    /// A device, a pipe or the like.
-    #[error("{}: it is neither a file nor a folder", .0.display())]
-    NotRegular(PathBuf),
-    /// The operating system refused.
-    #[error("{}: it cannot be read: {error}", path.display())]
-    Io {
-        /// The folder.
-        path: PathBuf,
-        /// The reason.
-        error: io::Error,
-    },
-    /// A folder or pattern without an image.
-    #[error("{}: {}", path.display(), nothing(*.other_files))]
-    Empty {
-        /// The argument.
-        path: PathBuf,
-        /// Files of other types that are there.
-        other_files: usize,
-    },
-    /// Two images of one stem.
-    #[error("{} and {} have one stem: which is the frame?", .0.display(), .1.display())]
-    SameStem(PathBuf, PathBuf),
-    /// A broken glob.
-    #[error("{}: it is not a pattern: {detail}", path.display())]
-    Pattern {
-        /// The argument.
-        path: PathBuf,
-        /// What is wrong.
-        detail: String,
-    },
-}
-
-fn nothing(other_files: usize) -> String {
-    match other_files {
-        0 => "no file is there".to_owned(),
-        1 => "no image is there, only a file of another type".to_owned(),
-        n => format!("no image is there, only {n} files of other types"),
-    }
-}
-
-impl ListingError {
-    /// The same of other paths: as results show them.
-    #[must_use]
-    pub fn with_paths(self, shown: &dyn Fn(&Path) -> PathBuf) -> Self {
-        match self {
-            Self::NotFound(path) => Self::NotFound(shown(&path)),
-            Self::NotRegular(path) => Self::NotRegular(shown(&path)),
-            Self::Io { path, error } => Self::Io { path: shown(&path), error },
-            Self::Empty { path, other_files } => Self::Empty { path: shown(&path), other_files },
-            Self::SameStem(a, b) => Self::SameStem(shown(&a), shown(&b)),
-            Self::Pattern { path, detail } => Self::Pattern { path: shown(&path), detail },
-        }
-    }
-
-    /// How to mend it; settings stand in braces, as in [`ReadErrorKind::help`].
-    pub fn help(&self) -> &'static str {
-        match self {
-            Self::NotFound(_) => "check the path; a relative one starts in {start}",
-            Self::NotRegular(_) => "give a file, a folder or a pattern",
-            Self::Io { .. } => "check that it may be read",
-            Self::Empty { .. } => {
-                "give a folder with .png, .jpg or .exr files, or a pattern that matches some"
-            }
-            Self::SameStem(..) => "give a pattern with the ending, such as 'renders/*.exr'",
-            Self::Pattern { .. } => "use *, ? and [a-z], or one printf field such as %04d",
-        }
-    }
-}
-
-/// The characters of a path as themselves, for a pattern to be made of it: `[`, `*` and `?` in the
-/// names of folders are no wildcards.
-pub fn literal(path: &Path) -> PathBuf {
-    glob::Pattern::escape(&path.to_string_lossy()).into()
-}
-
-/// Whether a path has wildcards in it.
-pub fn is_glob(path: &Path) -> bool {
-    path.to_string_lossy().contains(['*', '?', '['])
-}
 
 /// The files an argument below a folder stands for, as [`list`]; wildcards in the folder's own name
 /// are none.
@@ -129,163 +18,117 @@ pub fn is_glob(path: &Path) -> bool {
 /// As [`list`].
 pub fn list_below(folder: &Path, argument: &Path) -> Result<Listing, ListingError> {
     match argument.strip_prefix(folder) {
-        Ok(below) if is_glob(below) && !argument.exists() => list(&literal(folder).join(below)),
-        _ => list(argument),
+        Ok(below) => listed(argument, folder, below),
+        Err(_) => list(argument),
     }
 }
 
-/// The files an argument stands for: a file, a folder, a glob (`*.exr`) or a printf pattern
-/// (`gt.%04d.exr`). In folders and globs, files that are not images are passed over.
+/// The files an argument stands for: a file, a folder, a glob (`*.exr`) or a pattern with a number
+/// (`gt.%04d.exr`, `gt.####.exr`). In folders and globs, files that are not images are passed over.
+/// What is named like an image is one of the files even where it cannot be read: a link to nothing or to
+/// a folder, a pipe.
 ///
 /// # Errors
 /// When nothing is there, it cannot be read, or two images share a stem.
 pub fn list(argument: &Path) -> Result<Listing, ListingError> {
-    let text = argument.to_string_lossy();
-    let is_file = argument.is_file();
-    let (paths, others): (Vec<PathBuf>, usize) = if is_file {
-        (vec![argument.to_owned()], 0)
-    } else if argument.is_dir() {
-        let (images, others) =
-            folder(argument)?.into_iter().partition::<Vec<_>, _>(|p| is_image(p));
-        (images, others.len())
-    } else if let Some(pattern) = Printf::parse(argument) {
-        return printf(argument, &pattern?);
-    } else if text.contains(['*', '?', '[']) {
-        let visible =
-            glob::MatchOptions { require_literal_leading_dot: true, ..Default::default() };
-        let found =
-            glob::glob_with(&text, visible).map_err(|e| pattern_error(argument, &e.to_string()))?;
-        let mut paths = Vec::new();
-        for path in found {
-            paths.push(
-                path.map_err(|e| ListingError::Io { path: e.path().to_owned(), error: e.into() })?,
-            );
-        }
-        paths.retain(|p| p.is_file());
-        let (images, others) = paths.into_iter().partition::<Vec<_>, _>(|p| is_image(p));
-        (images, others.len())
-    } else {
-        return Err(nothing_at(argument));
-    };
-    let files = paths.into_iter().map(|path| {
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let number = last_number(&stem);
-        FrameFile { path, stem, number }
-    });
-    listing(argument, is_file, files.collect(), others)
+    listed(argument, Path::new(""), argument)
 }
 
-/// Why a path is neither a file nor a folder.
-fn nothing_at(argument: &Path) -> ListingError {
-    let path = argument.to_owned();
-    match fs::metadata(argument) {
-        Ok(_) => ListingError::NotRegular(path),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => ListingError::NotFound(path),
-        Err(error) => ListingError::Io { path, error },
+/// The files of an argument, which is `below` in `start`: only there, wildcards are some.
+fn listed(argument: &Path, start: &Path, below: &Path) -> Result<Listing, ListingError> {
+    if argument.is_file() {
+        return Ok(Listing::of_file(argument));
     }
-}
-
-fn listing(
-    argument: &Path,
-    is_file: bool,
-    mut files: Vec<FrameFile>,
-    other_files: usize,
-) -> Result<Listing, ListingError> {
-    let path = argument.to_owned();
-    if files.is_empty() {
-        return Err(ListingError::Empty { path, other_files });
+    if argument.is_dir() {
+        return images(argument, entries(argument)?);
     }
-    files.sort_by(|a, b| natural_cmp(&a.path.to_string_lossy(), &b.path.to_string_lossy()));
-    let mut stems: BTreeMap<&str, &Path> = BTreeMap::new();
-    for file in &files {
-        if let Some(other) = stems.insert(&file.stem, &file.path) {
-            return Err(ListingError::SameStem(other.to_owned(), file.path.clone()));
-        }
+    let name = argument.file_name().unwrap_or_default();
+    // A link to nothing that has a wildcard in its name is that link.
+    let is_there = fs::symlink_metadata(argument).is_ok();
+    match FramePattern::parse(&name.to_string_lossy()).filter(|_| !is_there) {
+        Some(Ok(pattern)) => return numbered(argument, &pattern),
+        Some(Err(detail)) => return Err(pattern_error(argument, detail)),
+        None => {}
     }
-    Ok(Listing { argument: path, is_file, files })
+    if is_there || !is_glob(below) {
+        return Err(ListingError::nothing_at(argument));
+    }
+    let mut paths = fitting(start, below).map_err(|error| match error {
+        WildcardError::Pattern(error) => pattern_error(argument, &error.to_string()),
+        WildcardError::Io { path, error } => ListingError::Io { path, error },
+    })?;
+    paths.retain(|path| !is_folder(path));
+    images(argument, paths)
 }
 
 fn pattern_error(path: &Path, detail: &str) -> ListingError {
     ListingError::Pattern { path: path.to_owned(), detail: detail.to_owned() }
 }
 
+/// The images among the files that were found.
+fn images(argument: &Path, paths: Vec<PathBuf>) -> Result<Listing, ListingError> {
+    let (images, others): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| is_image(path));
+    if images.is_empty() {
+        let other_files = others.len();
+        return Err(ListingError::Empty { path: argument.to_owned(), other_files });
+    }
+    Listing::of_names(argument, images)
+}
+
 fn is_image(path: &Path) -> bool {
     path.extension().is_some_and(|e| ENDINGS.iter().any(|ending| e.eq_ignore_ascii_case(ending)))
 }
 
-fn folder(path: &Path) -> Result<Vec<PathBuf>, ListingError> {
-    let io_error = |error| ListingError::Io { path: path.to_owned(), error };
+/// What a folder has, but for hidden entries and folders.
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, ListingError> {
+    let io_error = |error| ListingError::Io { path: folder.to_owned(), error };
     let mut paths = Vec::new();
-    for entry in fs::read_dir(path).map_err(io_error)? {
-        let entry = entry.map_err(io_error)?;
-        let hidden = entry.file_name().to_string_lossy().starts_with('.');
-        if !hidden && entry.path().is_file() {
-            paths.push(entry.path());
+    for entry in fs::read_dir(folder).map_err(io_error)? {
+        let name = entry.map_err(io_error)?.file_name();
+        let path = folder.join(&name);
+        let hidden = name.as_encoded_bytes().starts_with(b".");
+        if !hidden && !is_folder(&path) {
+            paths.push(path);
         }
     }
+    // The system has no order of its own, and messages name the first.
+    paths.sort();
     Ok(paths)
 }
 
-/// A file name with one `%d` or `%04d` in it.
-struct Printf {
-    before: String,
-    digits: usize,
-    after: String,
-}
-
-impl Printf {
-    /// `None` when the file name has no `%`.
-    fn parse(argument: &Path) -> Option<Result<Self, ListingError>> {
-        let name = argument.file_name()?.to_string_lossy();
-        let (before, rest) = name.split_once('%')?;
-        let parse = || {
-            let digits = rest.find('d')?;
-            let width = &rest[..digits];
-            let digits_wanted = if width.is_empty() {
-                0
-            } else {
-                width.strip_prefix('0')?.parse().ok().filter(|n| *n < 20)?
-            };
-            let after = &rest[digits + 1..];
-            (!after.contains('%')).then(|| Printf {
-                before: before.to_owned(),
-                digits: digits_wanted,
-                after: after.to_owned(),
-            })
-        };
-        let detail = "the % in it is not one field such as %d or %04d";
-        Some(parse().ok_or_else(|| pattern_error(argument, detail)))
-    }
-
-    /// The number of a file name that fits.
-    fn number(&self, name: &str) -> Option<u64> {
-        let digits = name.strip_prefix(&self.before)?.strip_suffix(&self.after)?;
-        let plain = digits.bytes().all(|b| b.is_ascii_digit());
-        // %04d writes at least four digits, and more only without leading zeros.
-        let fits = digits.len() == self.digits.max(1)
-            || (digits.len() > self.digits.max(1) && !digits.starts_with('0'));
-        (plain && fits).then(|| digits.parse().ok()).flatten()
+/// Whether a path is a folder. A link to one that is named like a frame is not: it stands for a frame.
+fn is_folder(path: &Path) -> bool {
+    if is_image(path) {
+        path.symlink_metadata().is_ok_and(|entry| entry.is_dir())
+    } else {
+        path.is_dir()
     }
 }
 
-fn printf(argument: &Path, pattern: &Printf) -> Result<Listing, ListingError> {
+/// The files beside an argument whose names fit its pattern.
+fn numbered(argument: &Path, pattern: &FramePattern) -> Result<Listing, ListingError> {
     let parent = match argument.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
     if !parent.is_dir() {
-        return Err(ListingError::NotFound(parent.to_owned()));
+        return Err(ListingError::nothing_at(parent));
     }
-    let mut files = Vec::new();
-    for path in folder(parent)? {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if let Some(number) = pattern.number(&name) {
-            let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            let path = if parent == Path::new(".") { PathBuf::from(&name) } else { path };
-            files.push(FrameFile { path, stem, number: Some(number) });
-        }
+    let paths = entries(parent)?;
+    let names = paths.iter().map(|path| path.file_name().unwrap_or_default().to_string_lossy());
+    let names: Vec<_> = names.collect();
+    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+    let (fitting, numbering) = pattern.select(&names);
+    if fitting.is_empty() {
+        return Err(ListingError::Empty { path: argument.to_owned(), other_files: 0 });
     }
-    listing(argument, false, files, 0)
+    let here = parent == Path::new(".");
+    let file = |(index, number): (usize, i64)| {
+        let path: &Path = &paths[index];
+        let path = if here { Path::new(path.file_name().unwrap_or_default()) } else { path };
+        (path.to_owned(), number)
+    };
+    Listing::of_pattern(argument, fitting.into_iter().map(file).collect(), numbering)
 }
 
 #[cfg(test)]
@@ -301,20 +144,27 @@ mod tests {
     }
 
     fn stems(listing: &Listing) -> Vec<&str> {
-        listing.files.iter().map(|f| f.stem.as_str()).collect()
+        listing.files.iter().map(|f| f.stem.to_str().unwrap()).collect()
     }
 
     #[test]
     fn folders_globs_and_patterns() {
-        let dir = folder_with(&["f10.png", "f9.png", "notes.txt", "f11.EXR", ".f1.png", "g1.jpeg"]);
+        let names = ["f10.png", "f9.png", "notes.txt", "f11.EXR", ".f1.png", "f12.jpeg"];
+        let dir = folder_with(&names);
         let all = list(dir.path()).unwrap();
-        assert_eq!(stems(&all), ["f9", "f10", "f11", "g1"]);
-        assert_eq!(stems(&list(&dir.path().join("f*")).unwrap()), ["f9", "f10", "f11"]);
+        assert_eq!(stems(&all), ["f9", "f10", "f11", "f12"]);
+        assert_eq!(stems(&list(&dir.path().join("f1*")).unwrap()), ["f10", "f11", "f12"]);
         assert_eq!(stems(&list(&dir.path().join("*.png")).unwrap()), ["f9", "f10"], "no dot files");
-        let printf = list(&dir.path().join("f%d.png")).unwrap();
-        assert_eq!(printf.files.iter().map(|f| f.number).collect::<Vec<_>>(), [Some(9), Some(10)]);
+        for pattern in ["f%d.png", "f#.png"] {
+            let found = list(&dir.path().join(pattern)).unwrap();
+            let numbers: Vec<_> = found.files.iter().map(|f| f.number).collect();
+            assert_eq!(numbers, [Some(9), Some(10)]);
+        }
         assert_eq!(stems(&list(&dir.path().join("f%02d.png")).unwrap()), ["f10"]);
+        assert_eq!(stems(&list(&dir.path().join("f##.*")).unwrap()), ["f10", "f11", "f12"]);
         assert!(list(&dir.path().join("f10.png")).unwrap().is_file);
+        let below = list_below(dir.path(), &dir.path().join("f1[01]*")).unwrap();
+        assert_eq!(stems(&below), ["f10", "f11"]);
     }
 
     #[test]
@@ -328,5 +178,29 @@ mod tests {
         assert!(matches!(list(&dir.path().join("x[.png")), Err(ListingError::Pattern { .. })));
         let twice = folder_with(&["0.png", "0.exr"]);
         assert!(matches!(list(twice.path()), Err(ListingError::SameStem(..))));
+    }
+
+    #[test]
+    fn a_file_is_itself_whatever_its_name() {
+        let dir = folder_with(&["a#1.png", "b[1].png", "c%d.png"]);
+        for name in ["a#1.png", "b[1].png", "c%d.png"] {
+            assert!(list(&dir.path().join(name)).unwrap().is_file, "{name}");
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_cannot_be_read_is_a_frame_all_the_same() {
+        use std::os::unix::fs::symlink;
+        let dir = folder_with(&["f1.png", "f2.png"]);
+        symlink("nowhere", dir.path().join("f3.png")).unwrap();
+        symlink(".", dir.path().join("f4.png")).unwrap();
+        symlink("nowhere", dir.path().join("notes.txt")).unwrap();
+        fs::create_dir(dir.path().join("old")).unwrap();
+        for argument in ["", "*.png", "f%d.png", "f*"] {
+            let found = list(&dir.path().join(argument)).unwrap();
+            assert_eq!(stems(&found), ["f1", "f2", "f3", "f4"], "{argument:?}");
+        }
+        assert!(matches!(list(&dir.path().join("f3.png")), Err(ListingError::Dangling { .. })));
     }
 }

@@ -5,11 +5,12 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-/// A selection of frames by their numbers: from A up to, but without, B, every STEP-th.
+/// A selection of frames by their numbers: from A up to, but without, B, every STEP-th, counted from A
+/// or, without A, from 0. Numbers may be negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FrameRange {
-    from: u64,
-    to: Option<u64>,
+    from: Option<i64>,
+    to: Option<i64>,
     step: u64,
 }
 
@@ -22,17 +23,18 @@ pub struct FrameRangeError(String);
 
 impl FrameRange {
     /// Whether frame `number` is selected.
-    pub fn contains(&self, number: u64) -> bool {
-        number >= self.from
+    pub fn contains(&self, number: i64) -> bool {
+        let offset = i128::from(number) - i128::from(self.from.unwrap_or(0));
+        self.from.is_none_or(|from| number >= from)
             && self.to.is_none_or(|to| number < to)
-            && (number - self.from).is_multiple_of(self.step)
+            && offset.rem_euclid(i128::from(self.step)) == 0
     }
 }
 
 impl fmt::Display for FrameRange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let to = self.to.map(|to| to.to_string()).unwrap_or_default();
-        write!(f, "{}..{to}:{}", self.from, self.step)
+        let end = |end: Option<i64>| end.map(|end| end.to_string()).unwrap_or_default();
+        write!(f, "{}..{}:{}", end(self.from), end(self.to), self.step)
     }
 }
 
@@ -40,18 +42,22 @@ impl FromStr for FrameRange {
     type Err = FrameRangeError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        // Plain digits, of a number that fits: no sign, nothing else that parses.
-        let number = |digits: &str| {
+        // Plain digits, of a number that fits, and a minus sign where one may be: nothing else that
+        // parses.
+        let number = |text: &str| {
+            let digits = text.strip_prefix('-').unwrap_or(text);
             let plain = digits.len() <= 18 && digits.bytes().all(|b| b.is_ascii_digit());
-            if plain { digits.parse::<u64>().ok() } else { None }
+            if plain { text.parse::<i64>().ok() } else { None }
         };
         let parse = || {
             let (range, step) = match text.split_once(':') {
-                Some((range, step)) => (range, number(step).filter(|s| *s > 0)?),
+                Some((range, step)) => {
+                    (range, u64::try_from(number(step)?).ok().filter(|s| *s > 0)?)
+                }
                 None => (text, 1),
             };
             let (from, to) = range.split_once("..")?;
-            let from = if from.is_empty() { 0 } else { number(from)? };
+            let from = if from.is_empty() { None } else { Some(number(from)?) };
             let (to, inclusive) = to.strip_prefix('=').map_or((to, 0), |to| (to, 1));
             let to =
                 if to.is_empty() && inclusive == 0 { None } else { Some(number(to)? + inclusive) };
@@ -69,17 +75,32 @@ mod tests {
     fn selects_by_number() {
         let picked = |text: &str| {
             let range: FrameRange = text.parse().unwrap();
-            (0..12).filter(|n| range.contains(*n)).collect::<Vec<_>>()
+            (-4..12).filter(|n| range.contains(*n)).collect::<Vec<_>>()
         };
         assert_eq!(picked("2..5"), [2, 3, 4]);
         assert_eq!(picked("2..=5"), [2, 3, 4, 5]);
         assert_eq!(picked("1..:4"), [1, 5, 9]);
-        assert_eq!(picked("..3"), [0, 1, 2]);
-        let range: FrameRange = "2..=5".parse().unwrap();
-        assert_eq!(range.to_string().parse(), Ok(range));
-        for bad in
-            ["", "3", "a..b", "1..2:0", "1..2:x", "..=", "-1..2", "+0..2", "0..9999999999999999999"]
-        {
+        assert_eq!(picked("..3"), [-4, -3, -2, -1, 0, 1, 2]);
+        assert_eq!(picked("..:5"), [0, 5, 10]);
+        assert_eq!(picked("-2..2"), [-2, -1, 0, 1]);
+        assert_eq!(picked("-3..=-1:2"), [-3, -1]);
+        for text in ["2..=5", "-2..:3", "..-1", ".."] {
+            let range: FrameRange = text.parse().unwrap();
+            assert_eq!(range.to_string().parse(), Ok(range), "{text}");
+        }
+        for bad in [
+            "",
+            "3",
+            "a..b",
+            "1..2:0",
+            "1..2:x",
+            "..=",
+            "--1..2",
+            "-..2",
+            "0..2:-1",
+            "+0..2",
+            "0..9999999999999999999",
+        ] {
             assert!(bad.parse::<FrameRange>().is_err(), "{bad}");
         }
     }

@@ -1,10 +1,22 @@
-//! Path arguments to pairs of files: folders, globs, printf patterns, pairing, frame ranges.
+//! Path arguments to pairs of files: folders, globs, patterns with a number, pairing, frame ranges.
 
 mod argument;
+mod frame_number;
+mod frame_pattern;
 mod frame_range;
+mod listing;
+mod listing_error;
 mod natural_order;
 mod pairing;
+mod spacing;
+mod wildcards;
 
-pub use argument::{FrameFile, Listing, ListingError, is_glob, list, list_below, literal};
+pub use argument::{list, list_below};
+pub use frame_number::{Doubt, Numbering};
+pub use frame_pattern::FramePattern;
 pub use frame_range::{FrameRange, FrameRangeError};
+pub use listing::{FrameFile, Listing};
+pub use listing_error::ListingError;
 pub use pairing::{Alone, FramePair, PairingError, Pairs, pair};
+pub use spacing::{MissingFrames, Spacing};
+pub use wildcards::{is_glob, literal};

@@ -32,15 +32,6 @@ fn leading_digits(text: &str) -> usize {
     text.bytes().take_while(u8::is_ascii_digit).count()
 }
 
-/// The value of the last run of digits in a name.
-pub(crate) fn last_number(name: &str) -> Option<u64> {
-    let end = name.rfind(|c: char| c.is_ascii_digit())? + 1;
-    let start = name[..end]
-        .rfind(|c: char| !c.is_ascii_digit())
-        .map_or(0, |i| i + name[i..].chars().next().map_or(1, char::len_utf8));
-    name[start..end].parse().ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -54,13 +45,5 @@ mod tests {
             natural_cmp("99999999999999999999998", "99999999999999999999999"),
             Ordering::Less
         );
-    }
-
-    #[test]
-    fn last_run_of_digits() {
-        assert_eq!(last_number("shot2_gt.0017"), Some(17));
-        assert_eq!(last_number("12é7x"), Some(7));
-        assert_eq!(last_number("gt"), None);
-        assert_eq!(last_number("99999999999999999999999"), None);
     }
 }

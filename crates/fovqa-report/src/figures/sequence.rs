@@ -65,7 +65,7 @@ fn points(frames: &[FrameValue]) -> Vec<(f64, Option<f64>)> {
 }
 
 /// Frames in a row as one stretch, half a frame to each side.
-fn spans(mut frames: Vec<u64>) -> Vec<Span> {
+fn spans(mut frames: Vec<i64>) -> Vec<Span> {
     frames.sort_unstable();
     frames.dedup();
     let mut spans: Vec<Span> = Vec::new();
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn frames_in_a_row_are_one_saccade() {
-        let ends = |frames: &[u64]| -> Vec<(f64, f64)> {
+        let ends = |frames: &[i64]| -> Vec<(f64, f64)> {
             spans(frames.to_vec()).iter().map(|span| (span.from, span.to)).collect()
         };
         assert_eq!(ends(&[9, 7, 8, 8, 20]), [(6.5, 9.5), (19.5, 20.5)]);

@@ -45,7 +45,7 @@ struct CheckRecord<'a> {
     baseline: Option<Number>,
     limit: Option<Number>,
     margin: Option<Number>,
-    worst_frame: Option<u64>,
+    worst_frame: Option<i64>,
     worst_value: Option<Number>,
 }
 

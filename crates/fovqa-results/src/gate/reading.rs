@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::values::{Place, Row, RunValues, Values};
 use crate::csv_table::{COLUMNS, ERROR};
-use crate::files::{FileError, RESULTS_CSV, SUMMARY_JSON, read_json_file};
+use crate::files::{FileError, RESULTS_CSV, SUMMARY_JSON, open_result_file, read_json_file};
 use crate::json::{ComparisonSummary, SUMMARY_SCHEMA, SummaryRecord};
 
 impl RunValues {
@@ -49,7 +49,7 @@ impl RunValues {
     }
 
     fn read_csv(&mut self, path: &Path) -> Result<(), FileError> {
-        let mut reader = csv::Reader::from_path(path).map_err(|error| unreadable(path, error))?;
+        let mut reader = csv::Reader::from_reader(open_result_file(path)?);
         let headers = reader.headers().map_err(|error| unreadable(path, error))?.clone();
         if !headers.iter().eq(COLUMNS) {
             return Err(broken(path, "its columns are others".to_owned()));
@@ -72,7 +72,7 @@ impl RunValues {
                     .map(Into::into),
                 value: number(cell(11)).map_err(at)?,
             };
-            let level = whole(cell(8)).map_err(at)?.map(|level| level as usize);
+            let level = whole(cell(8)).map_err(at)?;
             values.rows.entry((text(6), text(7), text(5), level)).or_default().push(row);
         }
         Ok(())
@@ -109,7 +109,7 @@ fn number(cell: &str) -> Result<Option<f64>, String> {
     if value.is_finite() || matches!(cell, "inf" | "-inf") { Ok(Some(value)) } else { Err(wrong()) }
 }
 
-fn whole(cell: &str) -> Result<Option<u64>, String> {
+fn whole<T: std::str::FromStr>(cell: &str) -> Result<Option<T>, String> {
     if cell.is_empty() {
         return Ok(None);
     }
@@ -122,7 +122,7 @@ fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String>
     let lacks =
         |what: &str| format!("it has other {what} of {scene}, {method} than {SUMMARY_JSON}");
     let rows = values.rows.values().flatten();
-    let frames: BTreeSet<u64> = rows.filter_map(|row| row.frame).collect();
+    let frames: BTreeSet<i64> = rows.filter_map(|row| row.frame).collect();
     if frames.len() != comparison.frames {
         return Err(lacks("frames"));
     }

@@ -37,7 +37,7 @@ pub(super) type Kind = (String, String, String, Option<usize>);
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
     /// `None`: of the whole sequence.
-    pub(super) frame: Option<u64>,
+    pub(super) frame: Option<i64>,
     pub(super) band: Option<[f64; 2]>,
     pub(super) value: Option<f64>,
 }
@@ -48,7 +48,7 @@ pub struct Found {
     /// The value.
     pub value: f64,
     /// The frames it is of, with theirs; empty where it is of the sequence alone.
-    pub frames: Vec<(u64, f64)>,
+    pub frames: Vec<(i64, f64)>,
 }
 
 /// Why there is no value.
@@ -170,7 +170,7 @@ impl Values {
     }
 
     /// The value of each frame that has one.
-    fn frames(&self, quantity: &Quantity) -> Result<Vec<(u64, f64)>, Lacking> {
+    fn frames(&self, quantity: &Quantity) -> Result<Vec<(i64, f64)>, Lacking> {
         let parts = self.parts(quantity)?;
         if !self.rows.contains_key(&kind(quantity)) {
             return Err(lacks(quantity));
@@ -198,23 +198,23 @@ impl Values {
     }
 
     /// Frame by frame, test over reference of several bands together: not the mean of their ratios.
-    fn ratios(&self, quantity: &Quantity) -> Result<Vec<(u64, f64)>, Lacking> {
+    fn ratios(&self, quantity: &Quantity) -> Result<Vec<(i64, f64)>, Lacking> {
         let of =
             |image: &str| self.frames(&Quantity { image: image.to_owned(), ..quantity.clone() });
         let (references, tests) = (of("reference")?, of("test")?);
-        let references: BTreeMap<u64, f64> = references.into_iter().collect();
-        let ratio = |(frame, test): (u64, f64)| {
+        let references: BTreeMap<i64, f64> = references.into_iter().collect();
+        let ratio = |(frame, test): (i64, f64)| {
             let reference = references.get(&frame).filter(|reference| **reference != 0.0)?;
             Some((frame, test / reference))
         };
-        let frames: Vec<(u64, f64)> = tests.into_iter().filter_map(ratio).collect();
+        let frames: Vec<(i64, f64)> = tests.into_iter().filter_map(ratio).collect();
         if frames.is_empty() { Err(no_ratio(quantity)) } else { Ok(frames) }
     }
 
     /// The values of each frame's bands that a quantity is of, with their weights.
-    fn parts(&self, quantity: &Quantity) -> Result<BTreeMap<u64, Vec<Part>>, Lacking> {
+    fn parts(&self, quantity: &Quantity) -> Result<BTreeMap<i64, Vec<Part>>, Lacking> {
         let rows = self.rows.get(&kind(quantity)).map(Vec::as_slice).unwrap_or_default();
-        let mut frames: BTreeMap<u64, Vec<Part>> = BTreeMap::new();
+        let mut frames: BTreeMap<i64, Vec<Part>> = BTreeMap::new();
         let Some([from, to]) = quantity.band_deg else {
             for row in rows.iter().filter(|row| row.band.is_none()) {
                 let part = Part { value: row.value, weight: 1.0 };
@@ -247,7 +247,7 @@ impl Values {
 
     /// The weight of each band of each frame: its pixels or, of the wavelet, its coefficients, of SSIM
     /// those of its pixels that have a value in the map.
-    fn weights(&self, quantity: &Quantity) -> Result<BTreeMap<(u64, [u64; 2]), f64>, Lacking> {
+    fn weights(&self, quantity: &Quantity) -> Result<BTreeMap<(i64, [u64; 2]), f64>, Lacking> {
         let pair = |metric: &str, statistic: &str, level| {
             (metric.to_owned(), statistic.to_owned(), "pair".to_owned(), level)
         };

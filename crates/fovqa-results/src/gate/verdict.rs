@@ -44,7 +44,7 @@ pub struct Check {
     /// The limit it comes nearest to, or that it breaks most.
     pub limit: Option<Limit>,
     /// The frame that is worst, with its value.
-    pub worst: Option<(u64, f64)>,
+    pub worst: Option<(i64, f64)>,
     /// The baseline's value, where one is looked at.
     pub baseline: Option<f64>,
     /// What came of it.
@@ -288,13 +288,13 @@ fn limits(rule: &GateRule, value: f64, before: Option<f64>) -> Vec<Limit> {
 }
 
 /// The frame that is worst by the rule's direction, or nearest to its limit where it has none.
-fn worst(found: &Found, rule: &GateRule, limit: Option<Limit>) -> Option<(u64, f64)> {
+fn worst(found: &Found, rule: &GateRule, limit: Option<Limit>) -> Option<(i64, f64)> {
     let low = match rule.quantity.better() {
         Better::Higher => true,
         Better::Lower => false,
         Better::Neither => limit.is_none_or(|limit| limit.at_least),
     };
-    let worse = |a: (u64, f64), b: (u64, f64)| {
+    let worse = |a: (i64, f64), b: (i64, f64)| {
         let is_worse = if low { b.1 < a.1 } else { b.1 > a.1 };
         if is_worse { b } else { a }
     };

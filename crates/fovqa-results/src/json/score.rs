@@ -93,7 +93,7 @@ struct Atd {
 
 #[derive(serde::Serialize)]
 struct Frame<'a> {
-    frame: u64,
+    frame: i64,
     reference: &'a str,
     test: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -196,7 +196,7 @@ impl Serialize for Band {
 
 #[derive(serde::Serialize)]
 struct Error<'a> {
-    frame: Option<u64>,
+    frame: Option<i64>,
     reference: &'a str,
     test: &'a str,
     message: &'a str,

@@ -103,7 +103,7 @@ pub struct ErrorRecord {
     /// The eye; empty in a scene with one picture a frame.
     pub eye: String,
     /// The frame; `None`: the whole comparison.
-    pub frame: Option<u64>,
+    pub frame: Option<i64>,
     /// What is wrong.
     pub message: String,
 }

@@ -1,0 +1,73 @@
+//! The gaze of each frame that was found, where it comes from a trace.
+
+use std::path::Path;
+
+use fovqa_config::{EyeView, Gaze, Plan, Scene};
+use fovqa_io::read_small_file;
+use fovqa_vision::{FrameAt, GazeAt, GazeTrace};
+
+use crate::error::EngineError;
+use crate::find::FoundFrame;
+
+/// Hours of gaze at any rate a tracker has.
+const MAX_GAZE_BYTES: u64 = 64 << 20;
+
+/// The gaze of each frame, where it comes from a trace, and what the user should know of it.
+///
+/// # Errors
+/// When a trace cannot be read, or has no gaze for a frame.
+pub(crate) fn gaze(
+    plan: &Plan,
+    view: &EyeView,
+    scene: &Scene,
+    frames: &[FoundFrame],
+) -> Result<(Option<Vec<GazeAt>>, Vec<String>), EngineError> {
+    let (path, hold) = match &view.settings.gaze {
+        Gaze::Centre => return Ok((None, Vec::new())),
+        Gaze::Point(point) => return Ok((None, of_point(*point).into_iter().collect())),
+        Gaze::Trace { path, hold } => (path, *hold),
+    };
+    let bytes = read_small_file(path, MAX_GAZE_BYTES)
+        .map_err(|error| EngineError::GazeFile { path: path.clone(), error })?;
+    let failed = |error| EngineError::GazeTrace { path: path.clone(), error };
+    let trace = GazeTrace::read(bytes.as_slice()).map_err(failed)?;
+    let frames: Vec<FrameAt> = frames.iter().map(|frame| (frame.number, frame.position)).collect();
+    let gaze = trace.at_frames(&frames, scene.fps, hold).map_err(failed)?;
+    let remarks = of_trace(plan, path, &trace);
+    Ok((Some(gaze), remarks))
+}
+
+/// A point that looks like shares of the frame. The corner itself is the same in both.
+fn of_point([x, y]: [f64; 2]) -> Option<String> {
+    let share = |at: f64| (0.0..=1.0).contains(&at);
+    (share(x) && share(y) && (x > 0.0 || y > 0.0)).then(|| {
+        format!(
+            "the gaze ({x}, {y}) lies in the first pixel of the frame: it is in pixels from the top-left corner; \
+             of shares, multiply by the frame's width and height"
+        )
+    })
+}
+
+fn of_trace(plan: &Plan, path: &Path, trace: &GazeTrace) -> Vec<String> {
+    /// Trackers are faster, and so are frames that show motion.
+    const LONGEST_INTERVAL_S: f64 = 1.0;
+    let file = plan.shown(path);
+    let mut remarks = Vec::new();
+    if !trace.unused_quality_columns().is_empty() {
+        remarks.push(format!(
+            "{file}: not applied: {}; rows that are not to count need an empty x_px or y_px, or a column valid with 0",
+            trace.unused_quality_columns().join(", ")
+        ));
+    }
+    if trace.is_in_first_pixel() {
+        remarks.push(format!(
+            "{file}: all positions lie in the first pixel of the frame: x_px and y_px are pixels, not shares of the frame"
+        ));
+    }
+    if let Some(interval) = trace.interval_s().filter(|s| *s > LONGEST_INTERVAL_S) {
+        remarks.push(format!(
+            "{file}: time_s rises by {interval} s from row to row: is it in seconds, as it should be?"
+        ));
+    }
+    remarks
+}

@@ -1,0 +1,55 @@
+//! What the user should know of the frames that were found, before a pixel is read.
+
+use fovqa_config::{EyeView, Gaze, Plan, Scene};
+use fovqa_io::sequence::{Numbering, Spacing};
+
+use crate::error::EngineError;
+use crate::find::is_wanted;
+
+/// What the user should know of the frames of a view.
+///
+/// # Errors
+/// When frames are asked for by numbers that the names do not have.
+pub(crate) fn remarks(
+    plan: &Plan,
+    scene: &Scene,
+    view: &EyeView,
+    numbering: &Numbering,
+    spacing: &Spacing,
+) -> Result<Vec<String>, EngineError> {
+    let by_number = if matches!(view.settings.gaze, Gaze::Trace { .. }) {
+        Some("a gaze trace")
+    } else if scene.frames.or(plan.frames).is_some() {
+        Some("a selection of frames")
+    } else {
+        None
+    };
+    let mut remarks = Vec::new();
+    match (numbering, by_number) {
+        (Numbering::Doubtful(doubt), Some(what)) => {
+            let (path, doubt) = (view.reference.clone(), doubt.clone());
+            return Err(EngineError::NoNumbers { path, what, doubt });
+        }
+        (Numbering::Doubtful(doubt), None) => {
+            let doubt = doubt.in_words();
+            remarks.push(format!(
+                "{}: the numbers in the names do not tell the frames apart: {doubt}; frames count by \
+                 their position from 0, and a pattern such as 'f_%04d.png' picks those of one sequence",
+                plan.shown(&view.reference)
+            ));
+        }
+        (Numbering::LastOfSeveral(name), Some(what)) => remarks.push(format!(
+            "{name} has several numbers, and {what} goes by the last of them: give a pattern such as \
+             'f_%04d.png' if that is not the frame's"
+        )),
+        _ => {}
+    }
+    let missing = spacing.missing(|number| is_wanted(plan, scene, number));
+    if !missing.is_empty() {
+        let (are, them) = if missing.count() == 1 { ("is", "it") } else { ("are", "them") };
+        remarks.push(format!(
+            "{missing} {are} missing in reference and test: no difference over time is taken across {them}"
+        ));
+    }
+    Ok(remarks)
+}

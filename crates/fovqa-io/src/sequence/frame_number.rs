@@ -1,0 +1,353 @@
+//! The frame number of a file name: the run of digits that changes over the names of a folder.
+//!
+//! One name alone says nothing of what changes; its last run of digits counts. A minus sign in front
+//! of the digits belongs to the number where a separator, or nothing, stands before it (`f.-0002`), and
+//! elsewhere where the same names occur without it (`f-0002` beside `f0000`). In `f-0001`, `f-0002`
+//! alone it is a separator.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How the names of a listing number its frames.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Numbering {
+    /// Each name has a number of its own.
+    ByName,
+    /// One name alone, with several numbers in it: the last one counts.
+    LastOfSeveral(String),
+    /// No name has a number: frames count by their position.
+    ByPosition,
+    /// The names have numbers that do not tell the frames apart; frames count by their position.
+    Doubtful(Doubt),
+}
+
+/// Why the numbers in names do not tell the frames apart.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Doubt {
+    /// A name without a number among others that have one.
+    Without(String),
+    /// Two names of one number.
+    Twice(i64, String, String),
+    /// A number that does not fit into 64 bits.
+    TooLarge(String),
+    /// Names of different wording, each with several numbers.
+    Wording(String, String),
+    /// Names of one wording in which several numbers change.
+    Several {
+        /// Two of the names.
+        names: [String; 2],
+        /// Patterns, one for each number that changes, `%d` in its place and `*` in those of the others.
+        patterns: Vec<String>,
+    },
+}
+
+impl Doubt {
+    /// The doubt in words, after "the numbers in the names do not tell the frames apart: ".
+    pub fn in_words(&self) -> String {
+        match self {
+            Self::Without(name) => format!("{name} has none"),
+            Self::Twice(number, a, b) => format!("{a} and {b} both have {number}"),
+            Self::TooLarge(name) => format!("that of {name} does not fit into 64 bits"),
+            Self::Wording(a, b) => {
+                format!("{a} and {b} have several each, and differ in more than numbers")
+            }
+            Self::Several { names: [a, b], .. } => {
+                format!("several change from name to name, as in {a} and {b}")
+            }
+        }
+    }
+}
+
+/// A run of digits in a name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Run<'a> {
+    /// Bytes of the name in front of the digits, without a minus sign that belongs to them.
+    start: usize,
+    end: usize,
+    minus: Minus,
+    /// Without leading zeros; empty is 0.
+    digits: &'a str,
+}
+
+/// What a minus sign in front of digits is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Minus {
+    /// None is there, or it stands before a 0.
+    Absent,
+    Sign,
+    /// A separator, unless names without it show that it is none.
+    Separator,
+}
+
+impl Run<'_> {
+    fn key(&self) -> (bool, &str) {
+        (self.minus == Minus::Sign, self.digits)
+    }
+
+    fn value(&self) -> Option<i64> {
+        let sign = if self.minus == Minus::Sign { "-" } else { "" };
+        let digits = if self.digits.is_empty() { "0" } else { self.digits };
+        format!("{sign}{digits}").parse().ok()
+    }
+}
+
+/// A name taken apart.
+struct Name<'a> {
+    text: &'a str,
+    runs: Vec<Run<'a>>,
+}
+
+impl<'a> Name<'a> {
+    fn new(text: &'a str) -> Self {
+        let bytes = text.as_bytes();
+        let mut runs = Vec::new();
+        let mut at = 0;
+        while at < bytes.len() {
+            if !bytes[at].is_ascii_digit() {
+                at += 1;
+                continue;
+            }
+            let length = bytes[at..].iter().take_while(|b| b.is_ascii_digit()).count();
+            let (start, end) = (at, at + length);
+            let digits = text[start..end].trim_start_matches('0');
+            let minus = match text[..start].strip_suffix('-') {
+                Some(before) if !digits.is_empty() => match before.chars().next_back() {
+                    Some(c) if c.is_alphanumeric() || c == '-' => Minus::Separator,
+                    _ => Minus::Sign,
+                },
+                _ => Minus::Absent,
+            };
+            let start = if minus == Minus::Sign { start - 1 } else { start };
+            runs.push(Run { start, end, minus, digits });
+            at = end;
+        }
+        Self { text, runs }
+    }
+
+    /// What stands between the numbers, with a mark for each of them.
+    fn wording(&self) -> String {
+        let mut wording = String::new();
+        let mut at = 0;
+        for run in &self.runs {
+            wording.push_str(&self.text[at..run.start]);
+            wording.push('\0');
+            at = run.end;
+        }
+        wording + &self.text[at..]
+    }
+
+    /// Takes the minus sign of a run for its own.
+    fn negate(&mut self, run: usize) {
+        self.runs[run].minus = Minus::Sign;
+        self.runs[run].start -= 1;
+    }
+
+    /// The same name with a minus sign taken for that of a number, if there are names without it.
+    fn signed(mut self, wordings: &BTreeSet<String>) -> Self {
+        for run in 0..self.runs.len() {
+            if self.runs[run].minus == Minus::Separator {
+                self.negate(run);
+                if !wordings.contains(&self.wording()) {
+                    self.runs[run].minus = Minus::Separator;
+                    self.runs[run].start += 1;
+                }
+            }
+        }
+        self
+    }
+
+    /// The pattern that takes one run for the frame's number, and anything for some others.
+    fn pattern(&self, number: usize, any: &[usize]) -> String {
+        let mut pattern = String::new();
+        let mut at = 0;
+        for (index, run) in self.runs.iter().enumerate() {
+            pattern.push_str(&self.text[at..run.start]);
+            let width = run.end - run.start;
+            match index {
+                _ if index == number => pattern.push_str(&field(self.text, run, width)),
+                _ if any.contains(&index) => pattern.push('*'),
+                _ => pattern.push_str(&self.text[run.start..run.end]),
+            }
+            at = run.end;
+        }
+        pattern + &self.text[at..]
+    }
+}
+
+/// `%04d` for a number that is padded, `%d` for another one.
+fn field(text: &str, run: &Run<'_>, width: usize) -> String {
+    if text[run.start..run.end].starts_with('0') && width > 1 {
+        format!("%0{width}d")
+    } else {
+        "%d".to_owned()
+    }
+}
+
+/// The numbers of the frames whose files have these names (without their endings), and how they were
+/// found; no number has one where the names do not tell the frames apart.
+pub(crate) fn frame_numbers(names: &[&str]) -> (Vec<Option<i64>>, Numbering) {
+    let none = |numbering| (vec![None; names.len()], numbering);
+    let first: Vec<Name<'_>> = names.iter().map(|name| Name::new(name)).collect();
+    let wordings: BTreeSet<String> = first.iter().map(Name::wording).collect();
+    let taken: Vec<Name<'_>> = first.into_iter().map(|name| name.signed(&wordings)).collect();
+    if taken.iter().all(|name| name.runs.is_empty()) {
+        return none(Numbering::ByPosition);
+    }
+    if let [name] = taken.as_slice() {
+        let number = name.runs.last().and_then(Run::value);
+        let keys: BTreeSet<_> = name.runs.iter().map(Run::key).collect();
+        let numbering = match number {
+            None => Numbering::Doubtful(Doubt::TooLarge(name.text.to_owned())),
+            Some(_) if keys.len() > 1 => Numbering::LastOfSeveral(name.text.to_owned()),
+            Some(_) => Numbering::ByName,
+        };
+        return (vec![number], numbering);
+    }
+    if let Some(name) = taken.iter().find(|name| name.runs.is_empty()) {
+        return none(Numbering::Doubtful(Doubt::Without(name.text.to_owned())));
+    }
+    match changing(&taken).map(|chosen| numbered(&taken, &chosen)) {
+        Ok(Ok(numbers)) => (numbers.into_iter().map(Some).collect(), Numbering::ByName),
+        Ok(Err(doubt)) | Err(doubt) => none(Numbering::Doubtful(doubt)),
+    }
+}
+
+/// The run of each name that is the frame's number.
+fn changing<'a>(names: &'a [Name<'_>]) -> Result<Vec<&'a Run<'a>>, Doubt> {
+    let wording = names[0].wording();
+    let other = names.iter().find(|name| name.wording() != wording);
+    let fewest = names.iter().map(|name| name.runs.len()).min().unwrap_or(0);
+    let from_start = |k: usize| names.iter().map(|n| &n.runs[k]).collect::<Vec<_>>();
+    let from_end = |k: usize| names.iter().map(|n| &n.runs[n.runs.len() - 1 - k]).collect();
+    let mut columns: Vec<Vec<&Run<'_>>> = (0..fewest).map(from_start).collect();
+    if other.is_some() {
+        columns.extend((0..fewest).map(from_end));
+    }
+    let keys = |column: &[&'a Run<'_>]| column.iter().map(|run| run.key()).collect::<Vec<_>>();
+    let changes = |column: &[&Run<'_>]| column.iter().any(|run| run.key() != column[0].key());
+    let mut places: Vec<usize> = Vec::new();
+    for place in (0..columns.len()).filter(|place| changes(&columns[*place])) {
+        if !places.iter().any(|known| keys(&columns[*known]) == keys(&columns[place])) {
+            places.push(place);
+        }
+    }
+    match (places.as_slice(), other) {
+        // All names have the same numbers: the last is as good as any.
+        ([], _) => Ok(from_end(0)),
+        ([place], _) => Ok(columns.swap_remove(*place)),
+        (_, Some(other)) => Err(Doubt::Wording(names[0].text.to_owned(), other.text.to_owned())),
+        ([one, another, ..], None) => {
+            let differs = |name: &&Name<'_>| {
+                [*one, *another].iter().all(|k| name.runs[*k].key() != names[0].runs[*k].key())
+            };
+            let second = names.iter().find(differs).unwrap_or(&names[names.len() - 1]);
+            let all: Vec<usize> =
+                (0..columns.len()).filter(|place| changes(&columns[*place])).collect();
+            let patterns = places.iter().map(|place| names[0].pattern(*place, &all)).collect();
+            let names = [names[0].text.to_owned(), second.text.to_owned()];
+            Err(Doubt::Several { names, patterns })
+        }
+    }
+}
+
+/// The values of runs, if each has its own.
+fn numbered(names: &[Name<'_>], runs: &[&Run<'_>]) -> Result<Vec<i64>, Doubt> {
+    let mut seen: BTreeMap<i64, &str> = BTreeMap::new();
+    let mut numbers = Vec::with_capacity(runs.len());
+    for (name, run) in names.iter().zip(runs) {
+        let number = run.value().ok_or_else(|| Doubt::TooLarge(name.text.to_owned()))?;
+        if let Some(other) = seen.insert(number, name.text) {
+            return Err(Doubt::Twice(number, other.to_owned(), name.text.to_owned()));
+        }
+        numbers.push(number);
+    }
+    Ok(numbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(names: &[&str]) -> Vec<i64> {
+        let (numbers, numbering) = frame_numbers(names);
+        assert!(!matches!(numbering, Numbering::Doubtful(_)), "{numbering:?}");
+        numbers.into_iter().map(Option::unwrap).collect()
+    }
+
+    fn doubt(names: &[&str]) -> Doubt {
+        match frame_numbers(names) {
+            (numbers, Numbering::Doubtful(doubt)) => {
+                assert!(numbers.iter().all(Option::is_none), "{numbers:?}");
+                doubt
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_run_that_changes_is_the_number() {
+        assert_eq!(numbers(&["gt_0001_1080p", "gt_0002_1080p"]), [1, 2]);
+        assert_eq!(numbers(&["shot12_0001_v3", "shot12_0002_v3", "shot12_0010_v3"]), [1, 2, 10]);
+        assert_eq!(numbers(&["4k_0001", "4k_0002"]), [1, 2]);
+        assert_eq!(numbers(&["f9", "f10", "f11"]), [9, 10, 11]);
+        assert_eq!(numbers(&["2024-05-01_120000_0001", "2024-05-01_120000_0002"]), [1, 2]);
+        assert_eq!(numbers(&["render_1920x1080_7_of_8", "render_1920x1080_8_of_8"]), [7, 8]);
+        // A number that is written twice is one number.
+        assert_eq!(numbers(&["f0001_t0001", "f0002_t0002"]), [1, 2]);
+        assert_eq!(numbers(&["f1_t0001", "f2_t0002"]), [1, 2]);
+        // Names of different wording whose numbers agree from either end.
+        assert_eq!(numbers(&["blue2", "red1"]), [2, 1]);
+        assert_eq!(numbers(&["f1_final", "f2_final2"]), [1, 2]);
+        assert_eq!(numbers(&["1699999999990", "1699999999991"])[1], 1_699_999_999_991);
+    }
+
+    #[test]
+    fn one_name_alone_has_its_last_number() {
+        assert_eq!(numbers(&["shot2_gt.0017"]), [17]);
+        assert_eq!(numbers(&["12é7x"]), [7]);
+        assert_eq!(frame_numbers(&["f.0017"]).1, Numbering::ByName);
+        assert_eq!(frame_numbers(&["a1_1"]).1, Numbering::ByName);
+        let several = Numbering::LastOfSeveral("gt_0001_1080p".into());
+        assert_eq!(frame_numbers(&["gt_0001_1080p"]), (vec![Some(1080)], several));
+        assert_eq!(frame_numbers(&["gt"]), (vec![None], Numbering::ByPosition));
+    }
+
+    #[test]
+    fn a_minus_sign_belongs_to_the_number_behind_a_separator() {
+        assert_eq!(numbers(&["f.-0002", "f.-0001", "f.0000", "f.0001"]), [-2, -1, 0, 1]);
+        assert_eq!(numbers(&["-1", "0", "1"]), [-1, 0, 1]);
+        assert_eq!(numbers(&["f_-12_1080p", "f_5_1080p"]), [-12, 5]);
+        assert_eq!(numbers(&["f.-0002"]), [-2]);
+    }
+
+    #[test]
+    fn a_minus_sign_behind_a_letter_is_one_where_names_are_without_it() {
+        assert_eq!(numbers(&["f-0001", "f-0002"]), [1, 2]);
+        assert_eq!(numbers(&["f-0002", "f-0001", "f0000", "f0001"]), [-2, -1, 0, 1]);
+        assert_eq!(numbers(&["f--1", "f-0", "f-1"]), [-1, 0, 1]);
+        assert_eq!(numbers(&["f--1", "f--2"]), [1, 2]);
+        assert_eq!(numbers(&["2024-05-01", "2024-05-02"]), [1, 2]);
+        assert_eq!(numbers(&["f-0000", "f-0001"]), [0, 1]);
+    }
+
+    #[test]
+    fn what_is_not_certain_is_a_doubt() {
+        let Doubt::Several { names, patterns } =
+            doubt(&["f0001_t0017_4k", "f0001_t0033_4k", "f0002_t0050_4k"])
+        else {
+            panic!("two numbers change")
+        };
+        assert_eq!(names, ["f0001_t0017_4k", "f0002_t0050_4k"]);
+        assert_eq!(patterns, ["f%04d_t*_4k", "f*_t%04d_4k"]);
+        assert_eq!(doubt(&["cover", "f1"]), Doubt::Without("cover".into()));
+        let twice = |n, a: &str, b: &str| Doubt::Twice(n, a.into(), b.into());
+        assert_eq!(doubt(&["left_1", "right_1"]), twice(1, "left_1", "right_1"));
+        assert_eq!(doubt(&["f1", "f01"]), twice(1, "f1", "f01"));
+        assert_eq!(doubt(&["f.-0", "f.0"]), twice(0, "f.-0", "f.0"));
+        let wording = Doubt::Wording("bath2_v1".into(), "lab12_v2".into());
+        assert_eq!(doubt(&["bath2_v1", "lab12_v2"]), wording);
+        let large = "f99999999999999999999999";
+        assert_eq!(doubt(&["f1", large]), Doubt::TooLarge(large.into()));
+        assert_eq!(frame_numbers(&["blue", "red"]).1, Numbering::ByPosition);
+        assert_eq!(frame_numbers(&[]), (vec![], Numbering::ByPosition));
+    }
+}

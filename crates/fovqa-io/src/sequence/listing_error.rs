@@ -1,0 +1,109 @@
+//! Path arguments that stand for no files.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+#[cfg(doc)]
+use crate::ReadErrorKind;
+
+/// A path argument that stands for nothing, or for more than can be told apart.
+#[derive(Debug, Error)]
+pub enum ListingError {
+    /// Nothing there.
+    #[error("{}: there is no such file or folder", .0.display())]
+    NotFound(PathBuf),
+    /// A link to something that is not there.
+    #[error("{}: it is a link to {}, which is not there", link.display(), to.display())]
+    Dangling {
+        /// The link.
+        link: PathBuf,
+        /// Where it points.
+        to: PathBuf,
+    },
+    /// A device, a pipe or the like.
+    #[error("{}: it is neither a file nor a folder", .0.display())]
+    NotRegular(PathBuf),
+    /// The operating system refused.
+    #[error("{}: it cannot be read: {error}", path.display())]
+    Io {
+        /// The folder.
+        path: PathBuf,
+        /// The reason.
+        error: io::Error,
+    },
+    /// A folder or pattern without an image.
+    #[error("{}: {}", path.display(), nothing(*.other_files))]
+    Empty {
+        /// The argument.
+        path: PathBuf,
+        /// Files of other types that are there.
+        other_files: usize,
+    },
+    /// Two images of one stem.
+    #[error("{} and {} have one stem: which is the frame?", .0.display(), .1.display())]
+    SameStem(PathBuf, PathBuf),
+    /// A broken pattern.
+    #[error("{}: it is not a pattern: {detail}", path.display())]
+    Pattern {
+        /// The argument.
+        path: PathBuf,
+        /// What is wrong.
+        detail: String,
+    },
+}
+
+fn nothing(other_files: usize) -> String {
+    match other_files {
+        0 => "no file is there".to_owned(),
+        1 => "no image is there, only a file of another type".to_owned(),
+        n => format!("no image is there, only {n} files of other types"),
+    }
+}
+
+impl ListingError {
+    /// Why a path is neither a file nor a folder.
+    pub(super) fn nothing_at(argument: &Path) -> Self {
+        let path = argument.to_owned();
+        match std::fs::metadata(argument) {
+            Ok(_) => Self::NotRegular(path),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                match std::fs::read_link(argument) {
+                    Ok(to) => Self::Dangling { link: path, to },
+                    Err(_) => Self::NotFound(path),
+                }
+            }
+            Err(error) => Self::Io { path, error },
+        }
+    }
+
+    /// The same of other paths: as results show them.
+    #[must_use]
+    pub fn with_paths(self, shown: &dyn Fn(&Path) -> PathBuf) -> Self {
+        match self {
+            Self::NotFound(path) => Self::NotFound(shown(&path)),
+            Self::Dangling { link, to } => Self::Dangling { link: shown(&link), to },
+            Self::NotRegular(path) => Self::NotRegular(shown(&path)),
+            Self::Io { path, error } => Self::Io { path: shown(&path), error },
+            Self::Empty { path, other_files } => Self::Empty { path: shown(&path), other_files },
+            Self::SameStem(a, b) => Self::SameStem(shown(&a), shown(&b)),
+            Self::Pattern { path, detail } => Self::Pattern { path: shown(&path), detail },
+        }
+    }
+
+    /// How to mend it; settings stand in braces, as in [`ReadErrorKind::help`].
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::NotFound(_) => "check the path; a relative one starts in {start}",
+            Self::Dangling { .. } => "fetch the file (git annex get, dvc pull), or mend the link",
+            Self::NotRegular(_) => "give a file, a folder or a pattern",
+            Self::Io { .. } => "check that it may be read",
+            Self::Empty { .. } => {
+                "give a folder with .png, .jpg or .exr files, or a pattern that matches some"
+            }
+            Self::SameStem(..) => "give a pattern with the ending, such as 'renders/*.exr'",
+            Self::Pattern { .. } => "use *, ? and [a-z], or one number such as %04d or ####",
+        }
+    }
+}

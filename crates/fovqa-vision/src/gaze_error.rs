@@ -1,0 +1,183 @@
+//! Gaze traces that cannot be read, or do not fit the sequence.
+
+use thiserror::Error;
+
+/// A gaze trace that cannot be read, or does not fit the sequence.
+#[derive(Debug, Error)]
+pub enum GazeTraceError {
+    /// Not CSV.
+    #[error("it is not a CSV table: {0}")]
+    Csv(#[from] csv::Error),
+    /// A column that has to be there.
+    #[error("it has no column {wanted}; its columns are: {found}")]
+    Column {
+        /// What was looked for.
+        wanted: &'static str,
+        /// What is there.
+        found: String,
+        /// What its columns look like.
+        export: Option<Export>,
+    },
+    /// A column that is there twice.
+    #[error("it has the column {0} twice")]
+    TwoColumns(&'static str),
+    /// A cell that is not a number.
+    #[error("line {line}: {column} is {found:?}, not {wanted}")]
+    Number {
+        /// Line of the file, from 1.
+        line: u64,
+        /// The column.
+        column: &'static str,
+        /// The cell.
+        found: String,
+        /// What it should be.
+        wanted: &'static str,
+    },
+    /// Two rows for one frame.
+    #[error("line {line}: there is a row for frame {frame} already")]
+    Twice {
+        /// Line of the file, from 1.
+        line: u64,
+        /// The frame's number.
+        frame: i64,
+    },
+    /// Rows out of order, or two for one moment.
+    #[error("line {line}: {clock} {at} does not come after the {before} before it")]
+    Order {
+        /// Line of the file, from 1.
+        line: u64,
+        /// `frame` or `time_s`.
+        clock: &'static str,
+        /// Its value.
+        at: f64,
+        /// The value before.
+        before: f64,
+    },
+    /// A table without rows.
+    #[error("it has no rows")]
+    Empty,
+    /// Positions that are shares of the frame.
+    #[error(
+        "all its positions lie within {from} to {to}: they look like shares of the frame, and x_px and y_px are pixels"
+    )]
+    Shares {
+        /// The smallest coordinate.
+        from: f64,
+        /// The largest coordinate.
+        to: f64,
+    },
+    /// Times without a frame rate.
+    #[error("it gives times, and a time names a frame only with a frame rate")]
+    NoFps,
+    /// No gaze for a frame.
+    #[error("it has no gaze for frame {frame}; it covers the frames {from} to {to}")]
+    Missing {
+        /// The frame's number.
+        frame: i64,
+        /// Start of the trace.
+        from: i64,
+        /// End of the trace.
+        to: i64,
+    },
+    /// No gaze near the time of a frame.
+    #[error(
+        "it has no gaze for frame {frame}, which is shown at {at_s} s; it covers time_s {from_s} to {to_s}, and times start at 0 with the first frame of the sequence"
+    )]
+    MissingTime {
+        /// The frame's number.
+        frame: i64,
+        /// Its time, seconds from the first frame.
+        at_s: f64,
+        /// Start of the trace.
+        from_s: f64,
+        /// End of the trace.
+        to_s: f64,
+    },
+    /// A blink, or a frame the trace does not cover, with nothing before it to hold.
+    #[error("frame {frame} has no gaze of its own, and there is none before it to hold")]
+    NothingToHold {
+        /// The frame's number.
+        frame: i64,
+    },
+}
+
+/// Whose export a table looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Export {
+    /// Tobii Pro Lab.
+    Tobii,
+    /// Pupil Labs.
+    Pupil,
+    /// Varjo.
+    Varjo,
+}
+
+impl Export {
+    /// By the headings of the table.
+    pub(crate) fn of(headings: &[String]) -> Option<Self> {
+        let has = |part: &str| headings.iter().any(|heading| heading.to_lowercase().contains(part));
+        if has("norm_pos_x") || has("gaze x [px]") {
+            Some(Self::Pupil)
+        } else if has("gaze point x") || has("gazepointx") || has("recording timestamp") {
+            Some(Self::Tobii)
+        } else if has("gaze_forward") || has("gaze forward") {
+            Some(Self::Varjo)
+        } else {
+            None
+        }
+    }
+
+    /// How to make a gaze trace of it.
+    fn help(self) -> &'static str {
+        match self {
+            Self::Tobii => {
+                "this looks like an export of Tobii: gaze points are pixels of the screen, so subtract the frame's position there, \
+                 keep one row per frame, and name the columns frame,x_px,y_px (or time_s, in seconds from the first frame)"
+            }
+            Self::Pupil => {
+                "this looks like an export of Pupil Labs: x_px = norm_pos_x * width, y_px = (1 - norm_pos_y) * height where norm_pos is \
+                 given, in pixels of the rendered frame; keep one row per frame, and name the columns frame,x_px,y_px (or time_s, in \
+                 seconds from the first frame)"
+            }
+            Self::Varjo => {
+                "this looks like an export of Varjo, whose gaze is a direction: project it into the frame, \
+                 keep one row per frame, and name the columns frame,x_px,y_px (or time_s, in seconds from the first frame)"
+            }
+        }
+    }
+}
+
+impl GazeTraceError {
+    /// How to mend it; settings stand in braces.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::NoFps => "give {fps}",
+            Self::Missing { .. } => {
+                "record it for every frame, or keep the last gaze with {gaze_hold}"
+            }
+            Self::MissingTime { at_s, from_s, .. } if from_s > at_s => {
+                "subtract the time of the first frame from time_s"
+            }
+            Self::MissingTime { .. } => {
+                "record it for every frame, in seconds from the first one, or keep the last gaze with {gaze_hold}"
+            }
+            Self::NothingToHold { .. } => {
+                "start the trace with a row that has a gaze, at or before the first frame (time_s is 0 there)"
+            }
+            Self::Twice { .. } => "keep one row per frame: the gaze with which it was rendered",
+            Self::Shares { .. } => {
+                "multiply x_px by the frame's width and y_px by its height (pixels from the top-left corner)"
+            }
+            Self::Number { found, .. } if found.contains(',') => {
+                "write numbers with a decimal point and without separators of thousands"
+            }
+            Self::Column { export: Some(export), .. } => export.help(),
+            Self::Csv(error) if matches!(error.kind(), csv::ErrorKind::UnequalLengths { .. }) => {
+                "every row has as many cells as the heading; numbers have a decimal point, not a comma"
+            }
+            _ => {
+                "a gaze trace is CSV with the columns frame,x_px,y_px (or time_s,x_px,y_px), rows rising"
+            }
+        }
+    }
+}
