@@ -4,6 +4,7 @@
 //! [`Events`].
 
 mod assemble;
+mod available_memory;
 mod error;
 mod events;
 mod find;
@@ -13,6 +14,7 @@ mod inputs;
 mod journal;
 mod light;
 mod load;
+mod memory;
 mod merge;
 mod read_ahead;
 mod resume;
@@ -35,6 +37,7 @@ pub use findings::{Entry, Findings, Finished, Named, Record, Settled};
 pub use folder::{FolderError, ResultsFolder};
 pub use journal::{Header, JOURNAL, Journal, shard_in};
 pub use light::FvvdpMaps;
+pub use memory::Needed;
 pub use merge::{MergeError, Shards};
 pub use resume::{Resumed, resume};
 pub use run::{check, run, score};

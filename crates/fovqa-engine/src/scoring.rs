@@ -15,6 +15,7 @@ use crate::find::{Found, FoundFrame, FoundView};
 use crate::findings::{Entry, Finished, Named, Outcome, Record, Settled, ViewFindings};
 use crate::inputs::Inputs;
 use crate::load::{Loaded, Loader, Step};
+use crate::memory;
 use crate::read_ahead::read_ahead;
 use crate::setup::farthest_deg;
 use crate::view::ViewRun;
@@ -70,7 +71,8 @@ impl<'a> Scoring<'a> {
     ) -> Result<ViewFindings, EngineError> {
         let (plan, eye) = (self.plan, self.eye());
         let metrics = self.begin(down)?;
-        let mask = match self.mask() {
+        let fits = memory::check(plan, self.view, self.scene.fps, &metrics);
+        let mask = match fits.and_then(|()| self.mask()) {
             Ok(mask) => mask,
             Err(error) => {
                 let failure = whole(error.to_string(), error.help());
@@ -86,7 +88,8 @@ impl<'a> Scoring<'a> {
             return Ok(known);
         }
         let guides = metrics.contains(&Metric::Atd);
-        let loader = Loader { plan, settings: &eye.settings, guides };
+        let loader =
+            Loader { plan, settings: &eye.settings, test_layers: &eye.test_layers, guides };
         let sequence = (self.bands, self.scene.fps);
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
         let frame = self.take_up(&work, &mut run, &loader, down)?;

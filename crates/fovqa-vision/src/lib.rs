@@ -15,6 +15,7 @@ mod displays;
 mod eccentricity;
 mod gaze_trace;
 mod pixel_scale;
+mod questionable;
 mod view;
 
 pub use bands::{BandEdges, BandEdgesError, BandMap, DEFAULT_BAND_DEG, Run};
@@ -22,4 +23,5 @@ pub use displays::{Display, Eotf, Luminance, LuminanceError, displays, find_disp
 pub use eccentricity::{Eccentricity, EccentricityKind};
 pub use gaze_trace::{GazeAt, GazeTrace, GazeTraceError};
 pub use pixel_scale::{PixelScale, Tangential};
+pub use questionable::Doubt;
 pub use view::{Resolved, View, ViewError, ViewSpec};

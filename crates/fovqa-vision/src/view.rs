@@ -110,6 +110,16 @@ pub enum ViewError {
         /// Lower tangent as given.
         down: f64,
     },
+    /// Tangents of more than 85°, which are likely angles.
+    #[error(
+        "a frustum whose tangents are {} sees more than 85° to one side; if these are degrees, the \
+         tangents are {}",
+        with_commas(*given), with_commas(given.map(|angle| libm::tan(angle.to_radians())))
+    )]
+    FrustumAngles {
+        /// Left, right, up and down as given.
+        given: [f64; 4],
+    },
     /// A focal length beyond reason.
     #[error("the view's focal length of {found_px} px is not between 0.001 and 100,000,000")]
     Focal {
@@ -223,16 +233,24 @@ fn length(value: f64, which: &'static str) -> Result<f64, ViewError> {
     }
 }
 
+/// Numbers as a message shows them.
+fn with_commas(numbers: [f64; 4]) -> String {
+    numbers.map(|number| ((number * 1e4).round() / 1e4).to_string()).join(", ")
+}
+
 fn frustum_sides(left: f64, right: f64, up: f64, down: f64) -> Result<[f64; 4], ViewError> {
-    /// The tangent of 89.99°.
-    const STEEPEST: f64 = 6000.0;
+    /// The tangent of 85°: no eye buffer sees more to one side, and any half angle of 12° or more
+    /// that is given in degrees is above it.
+    const STEEPEST: f64 = 11.430_052_302_761_343;
     let sides =
         if left < 0.0 && down < 0.0 { [-left, right, up, -down] } else { [left, right, up, down] };
-    if sides.iter().all(|side| *side > 0.0 && *side <= STEEPEST) {
-        Ok(sides)
-    } else {
-        Err(ViewError::Frustum { left, right, up, down })
+    if !sides.iter().all(|side| *side > 0.0 && side.is_finite()) {
+        return Err(ViewError::Frustum { left, right, up, down });
     }
+    if sides.iter().any(|side| *side > STEEPEST) {
+        return Err(ViewError::FrustumAngles { given: [left, right, up, down] });
+    }
+    Ok(sides)
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use fovqa_vision::{Tangential, ViewSpec};
 use super::no_such::no_such;
 use super::values::{finite, literal, numbers};
 use super::view::{EccentricityArg, FAR, ViewSpecArgs, near};
+use crate::diagnostic;
 
 pub(crate) const EXAMPLES: &str = "\
 Examples:
@@ -227,6 +228,9 @@ impl CurvesArgs {
             }
         };
         let view = spec.resolve(width, height).map_err(|error| error.to_string())?.view;
+        for doubt in spec.doubts(&view) {
+            diagnostic::warning(&doubt.to_string());
+        }
         let gaze_px = self.gaze.unwrap_or(view.principal_px);
         Ok(CurveSetting {
             view,

@@ -1,0 +1,197 @@
+//! Whether a view's frames fit into memory, by arithmetic, before any of them is read.
+//!
+//! An allocation that fails ends the process. What follows is a lower bound of what is held at once,
+//! for frames of `n` pixels, so that nothing is refused that would have gone through:
+//!
+//! | held by | bytes |
+//! | --- | --- |
+//! | decoded frames | 6 n for a pair of 8-bit RGB, 12 n for half floats; in a sequence the next pair too |
+//! | FovVideoVDP, PU-PSNR | luminance, 4 n for each picture |
+//! | FovVideoVDP over time | 4 n for each frame of its window (0.25 s), once for the reference and once for each method; 16 n for the filtered channels of both |
+//! | FovVideoVDP of several methods | 16/3 n, and 32/3 n for each channel of the reference |
+//! | FovVideoVDP's pyramids | 5/4 n for each channel of reference and test: two levels at a time |
+//! | ATD | luma, 4 n for this frame and the one before: of the reference, and of each method |
+//! | MS-SSIM | its second level: 3 n for both pictures |
+//!
+//! What is kept row by row or in bands of rows does not count.
+
+use std::fmt;
+use std::path::Path;
+
+use fovqa_config::Plan;
+use fovqa_io::{ReadOptions, frame_size};
+use fovqa_metrics::Metric;
+
+use crate::available_memory::available_bytes;
+use crate::error::EngineError;
+use crate::find::FoundView;
+use crate::timing::timings;
+
+/// What is held at once, by who holds it.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Needed(Vec<(&'static str, u64)>);
+
+impl Needed {
+    /// Bytes in all.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.0.iter().fold(0, |sum, (_, bytes)| sum.saturating_add(*bytes))
+    }
+
+    /// Whether most of it is held by FovVideoVDP.
+    pub(crate) fn is_of_fvvdp(&self) -> bool {
+        self.0.iter().max_by_key(|(_, bytes)| *bytes).is_some_and(|(who, _)| *who == FVVDP)
+    }
+}
+
+impl fmt::Display for Needed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let parts = self.0.iter().filter(|(_, bytes)| *bytes > 0);
+        let parts: Vec<String> =
+            parts.map(|(who, bytes)| format!("{who} {}", gigabytes(*bytes))).collect();
+        f.write_str(&parts.join(", "))
+    }
+}
+
+const FVVDP: &str = "FovVideoVDP";
+
+/// Bytes as a message shows them.
+pub(crate) fn gigabytes(bytes: u64) -> String {
+    format!("{:.1} GB", bytes as f64 / 1e9)
+}
+
+/// What the arithmetic is of.
+#[derive(Debug, Clone, Copy)]
+struct Amount<'a> {
+    /// Pixels of a file, and of the crop of it that is scored.
+    pixels: [u64; 2],
+    /// Bytes of a pixel of a decoded file.
+    pixel_bytes: u64,
+    frames: u64,
+    methods: u64,
+    metrics: &'a [Metric],
+    /// Frames that FovVideoVDP's filters reach over; 1 for stills.
+    window: u64,
+}
+
+impl Amount<'_> {
+    fn needed(&self) -> Needed {
+        let has = |metric| self.metrics.contains(&metric);
+        let [file, pixels] = self.pixels;
+        let pairs = if self.frames > 1 { 2 } else { 1 };
+        let decoded = file.saturating_mul(2 * pairs * self.pixel_bytes);
+        let planes = |planes: u64| pixels.saturating_mul(4 * planes);
+        let fvvdp = if has(Metric::Fvvdp) {
+            let held = self.window.min(self.frames).max(1);
+            let (filtered, channels) = if self.window > 1 { (4, 2) } else { (0, 1) };
+            let kept = if self.methods > 1 { (1 + 2 * channels) * 16 / 3 } else { 0 };
+            let pyramids = 2 * channels * 5 / 4;
+            planes(held * (1 + self.methods) + filtered)
+                .saturating_add(pixels.saturating_mul(kept + pyramids))
+        } else {
+            0
+        };
+        let of = |metric, bytes| if has(metric) { bytes } else { 0 };
+        let pu_psnr = if has(Metric::Fvvdp) { 0 } else { of(Metric::PuPsnr, planes(2)) };
+        let atd = if self.frames > 1 { of(Metric::Atd, planes(3 + self.methods)) } else { 0 };
+        Needed(vec![
+            ("decoded frames", decoded),
+            (FVVDP, fvvdp),
+            ("PU-PSNR", pu_psnr),
+            ("ATD", atd),
+            ("MS-SSIM", of(Metric::MsSsim, pixels.saturating_mul(3))),
+        ])
+    }
+}
+
+/// Refuses a view whose frames cannot fit. What cannot be known, neither the size of the frames nor how
+/// much memory there is, is no reason.
+///
+/// # Errors
+/// [`EngineError::Memory`].
+pub(crate) fn check(
+    plan: &Plan,
+    view: &FoundView,
+    fps: Option<f64>,
+    metrics: &[Metric],
+) -> Result<(), EngineError> {
+    let settings = &plan.scenes[view.scene].eyes[view.eye].settings;
+    let Some(first) = view.frames.first().map(|frame| frame.reference.as_path()) else {
+        return Ok(());
+    };
+    let Ok((width, height)) = frame_size(first) else { return Ok(()) };
+    let file = (width as u64).saturating_mul(height as u64);
+    if !is_read(&settings.read, file) {
+        return Ok(());
+    }
+    let crop = settings.crop.map(|crop| (crop.width as u64).saturating_mul(crop.height as u64));
+    let timings = timings(view, fps, &plan.params.fvvdp).unwrap_or_default();
+    let windows = timings.values().filter_map(|timing| Some(timing.time.as_ref().ok()?.reach()));
+    let amount = Amount {
+        pixels: [file, crop.unwrap_or(file).min(file)],
+        pixel_bytes: if is_exr(first) { 6 } else { 3 },
+        frames: view.frames.len() as u64,
+        methods: timings.len().max(1) as u64,
+        metrics,
+        window: windows.max().unwrap_or(1) as u64,
+    };
+    let needed = amount.needed();
+    match available_bytes() {
+        Some(available) if needed.bytes() > available => {
+            Err(EngineError::Memory { size: (width, height), needed, available })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether the limit on a file's size lets it be read at all.
+fn is_read(read: &ReadOptions, pixels: u64) -> bool {
+    pixels <= read.max_megapixels.saturating_mul(1_000_000)
+}
+
+fn is_exr(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RETINAL: u64 = 11_520 * 6480;
+
+    fn amount(metrics: &[Metric]) -> Amount<'_> {
+        Amount {
+            pixels: [RETINAL; 2],
+            pixel_bytes: 3,
+            frames: 100,
+            methods: 1,
+            metrics,
+            window: 23,
+        }
+    }
+
+    /// 23 frames of 299 MB, of reference and test, and the filtered channels.
+    #[test]
+    fn a_window_of_retinal_frames_takes_as_much_as_was_measured() {
+        let bytes = amount(&[Metric::Fvvdp]).needed().bytes();
+        assert!((14_000_000_000..17_000_000_000).contains(&bytes), "{bytes}");
+        let short = Amount { frames: 2, ..amount(&[Metric::Fvvdp]) }.needed();
+        assert!(short.bytes() < 5_000_000_000, "{short}");
+        let still = Amount { frames: 1, window: 1, ..amount(&[Metric::Fvvdp]) }.needed();
+        assert!((1_000_000_000..1_500_000_000).contains(&still.bytes()), "{still}");
+    }
+
+    #[test]
+    fn each_metric_adds_what_it_holds() {
+        let of = |metrics: &[Metric]| amount(metrics).needed().bytes() / RETINAL;
+        let frames = of(&[Metric::Psnr, Metric::Ssim, Metric::Haar]);
+        assert_eq!(frames, 12, "the pair and the next one");
+        assert_eq!(of(&[Metric::Atd]) - frames, 16);
+        assert_eq!(of(&[Metric::PuPsnr]) - frames, 8);
+        assert_eq!(of(&[Metric::MsSsim]) - frames, 3);
+        assert_eq!(of(&[Metric::Fvvdp, Metric::PuPsnr]), of(&[Metric::Fvvdp]));
+        let crop = Amount { pixels: [RETINAL, 1000], ..amount(&[Metric::Fvvdp]) }.needed();
+        assert!(crop.bytes() < RETINAL * 12 + 1_000_000, "{crop}");
+        let several = Amount { methods: 3, ..amount(&[Metric::Fvvdp]) }.needed();
+        assert!(several.bytes() > 2 * 13_000_000_000 && several.is_of_fvvdp(), "{several}");
+    }
+}
