@@ -54,7 +54,7 @@ fn renderers_are_known_by_their_channels() {
         (
             "unreal",
             [&*format!("{unreal}.R"), &*format!("{unreal}.G")],
-            [0.5 - mx / w, 0.5 + my / h],
+            [0.5 - mx / w / 2.0, 0.5 + my / h / 2.0],
         ),
         ("mitsuba", ["motion.X", "motion.Y"], [mx, my]),
     ] {

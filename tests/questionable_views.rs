@@ -16,9 +16,9 @@ fn frusta_in_other_units() {
     for right in ["-1.2,1.2,1,-1", "1.1,1.3,1,1"] {
         assert_eq!(score(right).ok().stderr, "", "{right}");
     }
-    score("50,45,42,48").fails(2, &["is in degrees", "1.1918,1.0000,0.9004,1.1106"]);
-    score("-50,45,42,-48").fails(2, &["is in degrees"]);
-    score("12,12,0.9,0.9").ok().says(&["sees 170.5° x", "more than any headset"]);
+    score("50,45,42,48").fails(2, &["if these are degrees", "1.1918, 1, 0.9004, 1.1106"]);
+    score("-50,45,42,-48").fails(2, &["if these are degrees"]);
+    score("12,12,0.9,0.9").fails(2, &["sees more than 85° to one side"]);
     // 1.2 and 1 are the tangents of 0.876 and 0.785 radians.
     score("0.876058,0.876058,0.785398,0.785398")
         .ok()
@@ -54,7 +54,7 @@ fn experiments_and_curves_too() {
     assert!(HEAD.contains("fov_vertical_deg = 60"));
     frustum("50,45,42,48");
     for command in ["check", "run"] {
-        folder.run(&[command, "e.toml"]).fails(2, &["is in degrees", "1.1918"]);
+        folder.run(&[command, "e.toml"]).fails(2, &["if these are degrees", "1.1918"]);
     }
     frustum("1,1,1.2,1.2");
     for command in ["check", "run"] {
@@ -66,6 +66,6 @@ fn experiments_and_curves_too() {
     let curve = |frustum: &str| {
         folder.run(&["curves", "--method", "rmfr", "--resolution", "800x800", "--frustum", frustum])
     };
-    curve("50,45,42,48").fails(2, &["is in degrees"]);
+    curve("50,45,42,48").fails(2, &["if these are degrees"]);
     curve("2,2,1,1").ok().says(&["pixels are 2.00 times"]);
 }

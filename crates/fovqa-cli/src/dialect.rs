@@ -24,10 +24,17 @@ const SETTINGS: [(&str, &str, &str); 20] = [
     ("gaze_hold", "--gaze-hold", "hold = true beside trace"),
     (
         "guides",
-        "--motion or --depth",
-        "motion = { channels = [\"…\", \"…\"] } or depth = { channel = \"…\" }",
+        "--motion or --depth: --motion RENDERER:X,Y for two channels as that renderer (blender, falcor, \
+         unreal, mitsuba) encodes them, --motion X,Y for pixels to the right and down, X,-Y for y up, \
+         --depth CHANNEL",
+        "motion = { channels = [\"…\", \"…\"], encoding = \"blender\" } (or another renderer, or sign, \
+         scale and unit) or depth = { channel = \"…\" }",
     ),
-    ("layer", "--layer", "layer = \"…\""),
+    (
+        "layer",
+        "--layer (of the test alone: --test-layer)",
+        "layer = \"…\" (in the method for its tests alone)",
+    ),
     (
         "luminance",
         "the display's photometry with --luminance",

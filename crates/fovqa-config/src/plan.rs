@@ -1,5 +1,6 @@
 //! What is to be scored: scenes, methods, metrics, and how each eye sees.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -159,6 +160,9 @@ pub struct EyeView {
     pub reference: PathBuf,
     /// The same of each test, with the index of its method in [`Plan::methods`], which rises.
     pub tests: Vec<(usize, PathBuf)>,
+    /// The colour layer of the tests of a method, by its index, where it is another than that of
+    /// `settings.read`.
+    pub test_layers: BTreeMap<usize, String>,
     /// How frames are read and seen.
     pub settings: Settings,
 }

@@ -65,6 +65,9 @@ pub struct ResolvedEye {
     pub reference: String,
     /// The test of each method.
     pub tests: BTreeMap<String, String>,
+    /// The colour layer of a method's tests, where it has one of its own.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub test_layers: BTreeMap<String, String>,
     /// View, gaze and bands, as keys of `[view]`.
     pub view: Value,
     /// How files are read, as keys of `[signal]`.
@@ -109,10 +112,16 @@ impl Resolved {
                 ("eyes", json!(scene.eyes.len()), json!(now.eyes.len())),
             ];
             let whole = whole.into_iter().map(|(key, was, is)| (key.to_owned(), was, is));
-            let eyes = scene.eyes.iter().zip(&now.eyes).flat_map(|(was, is)| {
-                [("view", &was.view, &is.view), ("signal", &was.signal, &is.signal)]
+            let eyes = scene.eyes.iter().zip(&now.eyes);
+            let keys = eyes.flat_map(|(was, is)| {
+                let layers = [was, is].map(|eye| json!(eye.test_layers));
+                [
+                    table_keys("view", &was.view, &is.view),
+                    table_keys("signal", &was.signal, &is.signal),
+                    table_keys("layer of method", &layers[0], &layers[1]),
+                ]
             });
-            let keys = eyes.flat_map(|(table, was, is)| table_keys(table, was, is));
+            let keys = keys.flatten();
             let (key, was, is) = whole.chain(keys).find(|(_, was, is)| !alike(was, is))?;
             Some(said(&key, &was, &format!(" in scene {}", scene.name), &is))
         })
@@ -271,6 +280,11 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
         tests: tests
             .map(|(index, path)| (plan.methods[*index].clone(), plan.shown(path)))
             .collect(),
+        test_layers: eye
+            .test_layers
+            .iter()
+            .map(|(index, layer)| (plan.methods[*index].clone(), layer.clone()))
+            .collect(),
         view,
         signal,
     }
@@ -281,6 +295,9 @@ fn motion_keys(plan: &Plan, settings: &Settings) -> Value {
         MotionChannels::None => json!("none"),
         MotionChannels::Auto => json!("auto"),
         MotionChannels::Preset(preset) => json!(preset.name()),
+        MotionChannels::NamedAs(preset, channels) => {
+            json!({ "channels": channels, "encoding": preset.name() })
+        }
         MotionChannels::Named(NamedMotion { channels, sign, scale, unit }) => json!({
             "channels": channels,
             "sign": sign,

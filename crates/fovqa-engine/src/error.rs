@@ -10,6 +10,8 @@ use fovqa_params::ParamError;
 use fovqa_vision::{GazeTraceError, ViewError};
 use thiserror::Error;
 
+use crate::memory::{Needed, gigabytes};
+
 /// Why a run could not start.
 #[derive(Debug, Error)]
 pub enum EngineError {
@@ -92,6 +94,19 @@ pub enum EngineError {
         /// The reason.
         error: GazeTraceError,
     },
+    /// Frames that do not fit into memory.
+    #[error(
+        "frames of {}x{} pixels need at least {} of memory ({needed}), and {} are available",
+        size.0, size.1, gigabytes(needed.bytes()), gigabytes(*available)
+    )]
+    Memory {
+        /// Width and height of the frames.
+        size: (usize, usize),
+        /// What is held at once.
+        needed: Needed,
+        /// Bytes that are available.
+        available: u64,
+    },
     /// A mask that cannot be read.
     #[error("the mask {0}")]
     Mask(#[from] ReadError),
@@ -147,6 +162,7 @@ impl EngineError {
             | Self::NoNumbers { .. }
             | Self::GazeFile { .. }
             | Self::Mask(_)
+            | Self::Memory { .. }
             | Self::Map { .. }
             | Self::Journal { .. }
             | Self::JournalRead { .. } => false,
@@ -186,6 +202,14 @@ impl EngineError {
             }
             Self::GazeFile { .. } => "give a CSV file; a gaze point is written {gaze}".to_owned(),
             Self::GazeTrace { error, .. } => error.help().to_owned(),
+            Self::Memory { needed, .. } => {
+                let fvvdp = if needed.is_of_fvvdp() {
+                    "leave fvvdp out with {metrics}, or score fewer methods at once; "
+                } else {
+                    ""
+                };
+                format!("{fvvdp}score a part with {{crop}}, or use a machine with more memory")
+            }
             Self::Mask(error) => error.kind.help().to_owned(),
             Self::Journal { .. } => {
                 "free some space: frames in the journal are not lost, and {resume} goes on with them"

@@ -29,9 +29,8 @@ pub fn foresee(
         let bands = scene_bands(scene, found, view.scene);
         let scoring = Scoring { plan, scene, view, bands: bands.as_ref(), range: 0..view.pairs() };
         let wanted = scoring.begin(&mut warnings)?;
-        if let Some(failure) = scoring.shortage(&wanted) {
-            let message = format!("{}; {}", failure.message, failure.help);
-            warnings.once_a_view("memory", &message);
+        if let Err(error) = scoring.fits(&wanted) {
+            warnings.once_a_view("memory", &format!("{error}; {}", error.help()));
         }
         metrics.extend(settle(plan, view, bands.as_ref(), wanted, &mut warnings));
     }

@@ -4,6 +4,7 @@
 //! [`Events`].
 
 mod assemble;
+mod available_memory;
 mod error;
 mod events;
 mod find;
@@ -40,6 +41,7 @@ pub use folder::{FolderError, Locking, ResultsFolder};
 pub use foresee::foresee;
 pub use journal::{Header, JOURNAL, Journal, shard_in};
 pub use light::FvvdpMaps;
+pub use memory::Needed;
 pub use merge::{MergeError, Shards};
 pub use resume::{Resumed, resume};
 pub use run::{check, run, score};

@@ -1,5 +1,6 @@
 //! Files to frames, and frames to pairs that may be compared.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use fovqa_config::{Nonfinite, Plan, Settings};
@@ -111,6 +112,8 @@ pub(crate) struct Side {
     /// The files read for it, where they are hashed.
     pub(crate) ids: Vec<(String, FileId)>,
     pub(crate) notes: Vec<String>,
+    /// Width of a pixel over its height, as the file declares it.
+    pub(crate) pixel_aspect: f32,
     bad: Option<BadPixel>,
     missing: Missing,
 }
@@ -155,6 +158,8 @@ pub(crate) fn comparable(
 pub(crate) struct Loader<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) settings: &'a Settings,
+    /// Layers of the tests of methods that have their own.
+    pub(crate) test_layers: &'a BTreeMap<usize, String>,
     /// Whether motion and depth are of any use.
     pub(crate) guides: bool,
 }
@@ -165,7 +170,7 @@ impl Loader<'_> {
         let first = step.frame == 0;
         let (reference, test) = rayon::join(
             || step.reference.map(|(path, guides)| self.reference(path, guides, first)),
-            || self.side(step.test, &self.beside_colour()),
+            || self.side(step.test, self.test_layer(step.method), &self.beside_colour()),
         );
         Loaded { reference, test }
     }
@@ -175,11 +180,23 @@ impl Loader<'_> {
         let test = frame.tests.iter().find(|(m, _)| *m == method).map(|(_, test)| test);
         let Some(test) = test else { unreachable!("the frame is of the method's sequence") };
         let nothing = GuideOptions::default();
-        let (reference, test) =
-            rayon::join(|| self.side(&frame.reference, &nothing), || self.side(test, &nothing));
+        let (reference, test) = rayon::join(
+            || self.side(&frame.reference, self.layer(), &nothing),
+            || self.side(test, self.test_layer(method), &nothing),
+        );
         let (reference, test) = (reference?, test?);
         comparable(&reference, &test, Nonfinite::Error)?;
         Ok([reference.frame, test.frame])
+    }
+
+    /// The colour layer of the reference.
+    fn layer(&self) -> Option<&str> {
+        self.settings.read.layer.as_deref()
+    }
+
+    /// The colour layer of a method's tests.
+    fn test_layer(&self, method: usize) -> Option<&str> {
+        self.test_layers.get(&method).map(String::as_str).or(self.layer())
     }
 
     /// What is looked for beside the colour: not the names a user has given channels of files of their
@@ -187,7 +204,7 @@ impl Loader<'_> {
     fn beside_colour(&self) -> GuideOptions {
         let Settings { guides, motion_files, depth_files, .. } = self.settings;
         let mut wanted = if self.guides { guides.clone() } else { GuideOptions::default() };
-        if motion_files.is_some() && matches!(wanted.motion, MotionChannels::Named(_)) {
+        if motion_files.is_some() && is_named(&wanted.motion) {
             wanted.motion = MotionChannels::None;
         }
         if depth_files.is_some() && matches!(wanted.depth, DepthChannels::Named(_)) {
@@ -198,7 +215,7 @@ impl Loader<'_> {
 
     /// A reference with its motion and depth, from its own file or from others.
     fn reference(&self, path: &Path, files: &GuideFiles, first: bool) -> Result<Side, LoadError> {
-        let mut side = self.side(path, &self.beside_colour())?;
+        let mut side = self.side(path, self.layer(), &self.beside_colour())?;
         if !self.guides {
             return Ok(side);
         }
@@ -272,18 +289,24 @@ impl Loader<'_> {
         }
     }
 
-    fn side(&self, path: &Path, guides: &GuideOptions) -> Result<Side, LoadError> {
+    fn side(
+        &self,
+        path: &Path,
+        layer: Option<&str>,
+        guides: &GuideOptions,
+    ) -> Result<Side, LoadError> {
         let Settings { signal, crop, .. } = self.settings;
         let file = self.plan.shown(path);
         let named = |error: ReadError| ReadError { path: PathBuf::from(&file), ..error };
-        let read = ReadOptions { guides: guides.clone(), ..self.settings.read.clone() };
+        let (guides, layer) = (guides.clone(), layer.map(str::to_owned));
+        let read = ReadOptions { guides, layer, ..self.settings.read.clone() };
         let (decoded, ids) = if self.plan.hash_inputs {
             let (decoded, id) = read_frame_and_hash(path, &read).map_err(named)?;
             (decoded, vec![(file.clone(), id)])
         } else {
             (read_frame(path, &read).map_err(named)?, Vec::new())
         };
-        let missing = Missing::of(guides, &decoded.guide_search);
+        let missing = Missing::of(&read.guides, &decoded.guide_search);
         let mut notes: Vec<String> = decoded.notes.iter().map(Note::in_words).collect();
         let guides = self.cropped(decoded.guides, &file)?;
         let frame = match *crop {
@@ -304,8 +327,14 @@ impl Loader<'_> {
             }
         }
         let bad = frame.bad_pixel();
-        Ok(Side { file, frame, guides, ids, notes, bad, missing })
+        let pixel_aspect = decoded.pixel_aspect;
+        Ok(Side { file, frame, guides, ids, notes, pixel_aspect, bad, missing })
     }
+}
+
+/// Whether a user has named the channels of the motion.
+fn is_named(motion: &MotionChannels) -> bool {
+    matches!(motion, MotionChannels::Named(_) | MotionChannels::NamedAs(..))
 }
 
 /// What a user has named and a file does not have.

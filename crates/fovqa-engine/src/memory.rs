@@ -1,181 +1,197 @@
-//! Whether the memory of this machine holds what a view needs: foreseen by arithmetic, since what the
-//! operating system does when it runs out is end the program without a word.
+//! Whether a view's frames fit into memory, by arithmetic, before any of them is read.
+//!
+//! An allocation that fails ends the process. What follows is a lower bound of what is held at once,
+//! for frames of `n` pixels, so that nothing is refused that would have gone through:
+//!
+//! | held by | bytes |
+//! | --- | --- |
+//! | decoded frames | 6 n for a pair of 8-bit RGB, 12 n for half floats; in a sequence the next pair too |
+//! | FovVideoVDP, PU-PSNR | luminance, 4 n for each picture |
+//! | FovVideoVDP over time | 4 n for each frame of its window (0.25 s), once for the reference and once for each method; 16 n for the filtered channels of both |
+//! | FovVideoVDP of several methods | 16/3 n, and 32/3 n for each channel of the reference |
+//! | FovVideoVDP's pyramids | 5/4 n for each channel of reference and test: two levels at a time |
+//! | ATD | luma, 4 n for this frame and the one before: of the reference, and of each method |
+//! | MS-SSIM | its second level: 3 n for both pictures |
+//!
+//! What is kept row by row or in bands of rows does not count.
 
-use std::fs;
+use std::fmt;
+use std::path::Path;
 
 use fovqa_config::Plan;
+use fovqa_io::{ReadOptions, frame_size};
 use fovqa_metrics::Metric;
-use fovqa_results::Failure;
 
-use crate::assemble::whole;
+use crate::available_memory::available_bytes;
+use crate::error::EngineError;
 use crate::find::FoundView;
 use crate::timing::timings;
 
-/// Bytes of a pixel of a plane of 32-bit floats.
-const PLANE: u64 = 4;
+/// What is held at once, by who holds it.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Needed(Vec<(&'static str, u64)>);
 
-/// Bytes of a pixel of a decoded frame, at least: 8-bit red, green and blue.
-const DECODED: u64 = 3;
+impl Needed {
+    /// Bytes in all.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.0.iter().fold(0, |sum, (_, bytes)| sum.saturating_add(*bytes))
+    }
 
-/// A pyramid has 1 + 1/4 + 1/16 + … of the pixels of its finest level, which is counted by itself.
-const COARSER_LEVELS: f64 = 1.0 / 3.0;
-
-/// The least that a view needs, bytes, and what most of it is for.
-#[derive(Debug, Clone, PartialEq)]
-struct Need {
-    bytes: u64,
-    /// How many frames the temporal window of FovVideoVDP holds; 0 where there is none.
-    window: usize,
-}
-
-impl Need {
-    /// Of frames of so many pixels. `methods` are compared with one reference; `window` is how many
-    /// frames FovVideoVDP looks back over, 1 in a still; `atd` whether differences over time are taken.
-    fn of(pixels: u64, methods: usize, window: Option<usize>, atd: bool) -> Self {
-        // Reference and test, and with several pairs the next one, which is decoded meanwhile.
-        let mut bytes_per_pixel = (2 * DECODED) as f64;
-        let planes = |count: usize| (PLANE * count as u64) as f64;
-        if let Some(window) = window {
-            bytes_per_pixel += planes(window * (1 + methods));
-            // Sustained and transient channels of both; a still is its own channel.
-            let channels = if window > 1 { 4 } else { 2 };
-            let filtered = if window > 1 { planes(channels) } else { 0.0 };
-            bytes_per_pixel += filtered + planes(channels) * COARSER_LEVELS;
-        }
-        if atd {
-            // The luma of the frame before, of the reference and of each method.
-            bytes_per_pixel += planes(1 + methods);
-        }
-        let bytes = (pixels as f64 * bytes_per_pixel) as u64;
-        Self { bytes, window: window.filter(|window| *window > 1).unwrap_or(0) }
+    /// Whether most of it is held by FovVideoVDP.
+    pub(crate) fn is_of_fvvdp(&self) -> bool {
+        self.0.iter().max_by_key(|(_, bytes)| *bytes).is_some_and(|(who, _)| *who == FVVDP)
     }
 }
 
-/// Why a view cannot be scored on this machine, if so. `size` is that of the frames after any crop.
-pub(crate) fn shortage(
+impl fmt::Display for Needed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let parts = self.0.iter().filter(|(_, bytes)| *bytes > 0);
+        let parts: Vec<String> =
+            parts.map(|(who, bytes)| format!("{who} {}", gigabytes(*bytes))).collect();
+        f.write_str(&parts.join(", "))
+    }
+}
+
+const FVVDP: &str = "FovVideoVDP";
+
+/// Bytes as a message shows them.
+pub(crate) fn gigabytes(bytes: u64) -> String {
+    format!("{:.1} GB", bytes as f64 / 1e9)
+}
+
+/// What the arithmetic is of.
+#[derive(Debug, Clone, Copy)]
+struct Amount<'a> {
+    /// Pixels of a file, and of the crop of it that is scored.
+    pixels: [u64; 2],
+    /// Bytes of a pixel of a decoded file.
+    pixel_bytes: u64,
+    frames: u64,
+    methods: u64,
+    metrics: &'a [Metric],
+    /// Frames that FovVideoVDP's filters reach over; 1 for stills.
+    window: u64,
+}
+
+impl Amount<'_> {
+    fn needed(&self) -> Needed {
+        let has = |metric| self.metrics.contains(&metric);
+        let [file, pixels] = self.pixels;
+        let pairs = if self.frames > 1 { 2 } else { 1 };
+        let decoded = file.saturating_mul(2 * pairs * self.pixel_bytes);
+        let planes = |planes: u64| pixels.saturating_mul(4 * planes);
+        let fvvdp = if has(Metric::Fvvdp) {
+            let held = self.window.min(self.frames).max(1);
+            let (filtered, channels) = if self.window > 1 { (4, 2) } else { (0, 1) };
+            let kept = if self.methods > 1 { (1 + 2 * channels) * 16 / 3 } else { 0 };
+            let pyramids = 2 * channels * 5 / 4;
+            planes(held * (1 + self.methods) + filtered)
+                .saturating_add(pixels.saturating_mul(kept + pyramids))
+        } else {
+            0
+        };
+        let of = |metric, bytes| if has(metric) { bytes } else { 0 };
+        let pu_psnr = if has(Metric::Fvvdp) { 0 } else { of(Metric::PuPsnr, planes(2)) };
+        let atd = if self.frames > 1 { of(Metric::Atd, planes(3 + self.methods)) } else { 0 };
+        Needed(vec![
+            ("decoded frames", decoded),
+            (FVVDP, fvvdp),
+            ("PU-PSNR", pu_psnr),
+            ("ATD", atd),
+            ("MS-SSIM", of(Metric::MsSsim, pixels.saturating_mul(3))),
+        ])
+    }
+}
+
+/// Refuses a view whose frames cannot fit. What cannot be known, neither the size of the frames nor how
+/// much memory there is, is no reason.
+///
+/// # Errors
+/// [`EngineError::Memory`].
+pub(crate) fn check(
     plan: &Plan,
     view: &FoundView,
-    metrics: &[Metric],
-    size: (usize, usize),
     fps: Option<f64>,
-) -> Option<Failure> {
-    let timings = || timings(view, fps, &plan.params.fvvdp).ok();
-    let reach = |timings: &std::collections::BTreeMap<usize, crate::timing::Timing>| {
-        let reaches = timings.values().map(|timing| {
-            let reach = timing.time.as_ref().map_or(1, fovqa_metrics::fvvdp::Time::reach);
-            reach.min(timing.frames.len())
-        });
-        reaches.max().unwrap_or(1)
+    metrics: &[Metric],
+) -> Result<(), EngineError> {
+    let settings = &plan.scenes[view.scene].eyes[view.eye].settings;
+    let Some(first) = view.frames.first().map(|frame| frame.reference.as_path()) else {
+        return Ok(());
     };
-    let wants = |metric| metrics.contains(&metric);
-    let window = wants(Metric::Fvvdp).then(|| timings().as_ref().map_or(1, reach));
-    let methods = view.frames.iter().map(|frame| frame.tests.len()).max().unwrap_or(0);
-    let pixels = (size.0 as u64).saturating_mul(size.1 as u64);
-    let need = Need::of(pixels, methods, window, wants(Metric::Atd));
-    refusal(&need, size, methods, available_bytes()?)
-}
-
-fn refusal(
-    need: &Need,
-    (width, height): (usize, usize),
-    methods: usize,
-    available: u64,
-) -> Option<Failure> {
-    if need.bytes <= available {
-        return None;
+    let Ok((width, height)) = frame_size(first) else { return Ok(()) };
+    let file = (width as u64).saturating_mul(height as u64);
+    if !is_read(&settings.read, file) {
+        return Ok(());
     }
-    let gigabytes = |bytes: u64| bytes as f64 / 1e9;
-    let why = match need.window {
-        0 => String::new(),
-        window => {
-            let tests =
-                if methods == 1 { "the test".to_owned() } else { format!("{methods} tests") };
-            format!(": FovVideoVDP keeps {window} frames of the reference and of {tests}")
+    let crop = settings.crop.map(|crop| (crop.width as u64).saturating_mul(crop.height as u64));
+    let timings = timings(view, fps, &plan.params.fvvdp).unwrap_or_default();
+    let windows = timings.values().filter_map(|timing| Some(timing.time.as_ref().ok()?.reach()));
+    let amount = Amount {
+        pixels: [file, crop.unwrap_or(file).min(file)],
+        pixel_bytes: if is_exr(first) { 6 } else { 3 },
+        frames: view.frames.len() as u64,
+        methods: timings.len().max(1) as u64,
+        metrics,
+        window: windows.max().unwrap_or(1) as u64,
+    };
+    let needed = amount.needed();
+    match available_bytes() {
+        Some(available) if needed.bytes() > available => {
+            Err(EngineError::Memory { size: (width, height), needed, available })
         }
-    };
-    let message = format!(
-        "frames of {width}x{height} need at least {:.1} GB of memory, and {:.1} GB are free{why}",
-        gigabytes(need.bytes),
-        gigabytes(available)
-    );
-    let help = match need.window {
-        0 => "score a part of the frame at a time with {crop}, or fewer {metrics}".to_owned(),
-        _ => "leave fvvdp out of {metrics}, score a part of the frame at a time with {crop}, every second \
-              frame with {frames}:2, or fewer methods in a run"
-            .to_owned(),
-    };
-    Some(whole(message, help))
+        _ => Ok(()),
+    }
 }
 
-/// Memory that this process can still have, bytes: what Linux says, with its swap, or what is left of
-/// the process' control group. `None` elsewhere.
-fn available_bytes() -> Option<u64> {
-    let machine = fs::read_to_string("/proc/meminfo").ok().and_then(|text| of_meminfo(&text))?;
-    let group = || {
-        let limit = fs::read_to_string("/sys/fs/cgroup/memory.max").ok()?;
-        let used = fs::read_to_string("/sys/fs/cgroup/memory.stat").ok()?;
-        of_control_group(&limit, &used)
-    };
-    Some(group().map_or(machine, |group| group.min(machine)))
+/// Whether the limit on a file's size lets it be read at all.
+fn is_read(read: &ReadOptions, pixels: u64) -> bool {
+    pixels <= read.max_megapixels.saturating_mul(1_000_000)
 }
 
-/// MemAvailable and SwapFree together.
-fn of_meminfo(text: &str) -> Option<u64> {
-    let value = |name: &str| {
-        let line = text.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(':'))?;
-        line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
-    };
-    Some(value("MemAvailable")?.saturating_add(value("SwapFree").unwrap_or(0)))
-}
-
-/// The limit, less what cannot be given back: pages of files can.
-fn of_control_group(limit: &str, statistics: &str) -> Option<u64> {
-    // "max" is no limit.
-    let limit: u64 = limit.trim().parse().ok()?;
-    let used = statistics.lines().find_map(|line| line.strip_prefix("anon "))?;
-    Some(limit.saturating_sub(used.trim().parse().ok()?))
+fn is_exr(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn what_the_system_says_is_read() {
-        let text = "MemTotal:       24000000 kB\nMemAvailable:    1000 kB\nSwapFree:  24 kB\n";
-        assert_eq!(of_meminfo(text), Some(1_048_576));
-        assert_eq!(of_meminfo("MemAvailable:    1000 kB\n"), Some(1_024_000));
-        assert_eq!(of_meminfo("MemAvailable: many\n"), None);
-        assert_eq!(of_control_group("max\n", "anon 5\n"), None);
-        assert_eq!(of_control_group("100\n", "anon 30\nfile 60\n"), Some(70));
-        assert_eq!(of_control_group("100\n", "anon 300\n"), Some(0));
-    }
+    const RETINAL: u64 = 11_520 * 6480;
 
-    /// The retinal resolution of the papers at 90 Hz: 23 frames of reference and test alone are 13.7 GB.
-    #[test]
-    fn a_retinal_sequence_needs_its_window() {
-        let pixels = 11_520 * 6480;
-        let sequence = Need::of(pixels, 1, Some(23), false);
-        assert!((13.7e9..17e9).contains(&(sequence.bytes as f64)), "{sequence:?}");
-        let still = Need::of(pixels, 1, Some(1), false);
-        assert!((1e9..2e9).contains(&(still.bytes as f64)), "{still:?}");
-        assert!(Need::of(pixels, 1, None, false).bytes < still.bytes);
-        let both = Need::of(pixels, 3, Some(23), true);
-        assert!(both.bytes > 3 * sequence.bytes / 2);
-    }
-
-    #[test]
-    fn a_shortage_says_what_helps() {
-        let need = Need::of(11_520 * 6480, 1, Some(23), false);
-        assert_eq!(refusal(&need, (11_520, 6480), 1, need.bytes), None);
-        let failure = refusal(&need, (11_520, 6480), 1, 8_000_000_000).unwrap();
-        for words in
-            ["11520x6480", "at least 15.", "8.0 GB", "23 frames of the reference and of the test"]
-        {
-            assert!(failure.message.contains(words), "{}", failure.message);
+    fn amount(metrics: &[Metric]) -> Amount<'_> {
+        Amount {
+            pixels: [RETINAL; 2],
+            pixel_bytes: 3,
+            frames: 100,
+            methods: 1,
+            metrics,
+            window: 23,
         }
-        assert!(failure.help.contains("{crop}") && failure.help.contains("fvvdp"));
-        let plain = refusal(&Need::of(100, 1, None, false), (10, 10), 1, 1).unwrap();
-        assert!(!plain.message.contains("FovVideoVDP") && plain.help.contains("{metrics}"));
+    }
+
+    /// 23 frames of 299 MB, of reference and test, and the filtered channels.
+    #[test]
+    fn a_window_of_retinal_frames_takes_as_much_as_was_measured() {
+        let bytes = amount(&[Metric::Fvvdp]).needed().bytes();
+        assert!((14_000_000_000..17_000_000_000).contains(&bytes), "{bytes}");
+        let short = Amount { frames: 2, ..amount(&[Metric::Fvvdp]) }.needed();
+        assert!(short.bytes() < 5_000_000_000, "{short}");
+        let still = Amount { frames: 1, window: 1, ..amount(&[Metric::Fvvdp]) }.needed();
+        assert!((1_000_000_000..1_500_000_000).contains(&still.bytes()), "{still}");
+    }
+
+    #[test]
+    fn each_metric_adds_what_it_holds() {
+        let of = |metrics: &[Metric]| amount(metrics).needed().bytes() / RETINAL;
+        let frames = of(&[Metric::Psnr, Metric::Ssim, Metric::Haar]);
+        assert_eq!(frames, 12, "the pair and the next one");
+        assert_eq!(of(&[Metric::Atd]) - frames, 16);
+        assert_eq!(of(&[Metric::PuPsnr]) - frames, 8);
+        assert_eq!(of(&[Metric::MsSsim]) - frames, 3);
+        assert_eq!(of(&[Metric::Fvvdp, Metric::PuPsnr]), of(&[Metric::Fvvdp]));
+        let crop = Amount { pixels: [RETINAL, 1000], ..amount(&[Metric::Fvvdp]) }.needed();
+        assert!(crop.bytes() < RETINAL * 12 + 1_000_000, "{crop}");
+        let several = Amount { methods: 3, ..amount(&[Metric::Fvvdp]) }.needed();
+        assert!(several.bytes() > 2 * 13_000_000_000 && several.is_of_fvvdp(), "{several}");
     }
 }

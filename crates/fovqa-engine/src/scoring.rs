@@ -6,7 +6,6 @@ use fovqa_config::{EyeView, Gaze, Plan, Scene};
 use fovqa_frame::Mask;
 use fovqa_io::{FileId, frame_size, read_mask};
 use fovqa_metrics::Metric;
-use fovqa_results::Failure;
 use fovqa_vision::{BandEdges, GazeAt};
 
 use crate::assemble::whole;
@@ -16,7 +15,7 @@ use crate::find::{Found, FoundFrame, FoundView};
 use crate::findings::{Entry, Finished, Named, Outcome, Record, Settled, ViewFindings};
 use crate::inputs::Inputs;
 use crate::load::{Loaded, Loader, Step};
-use crate::memory::shortage;
+use crate::memory;
 use crate::read_ahead::read_ahead;
 use crate::setup::farthest_deg;
 use crate::view::ViewRun;
@@ -72,10 +71,10 @@ impl<'a> Scoring<'a> {
     ) -> Result<ViewFindings, EngineError> {
         let (plan, eye) = (self.plan, self.eye());
         let metrics = self.begin(down.warnings)?;
-        let readable = self.mask().map_err(|error| whole(error.to_string(), error.help()));
-        let mask = match self.shortage(&metrics).map_or(readable, Err) {
+        let mask = match self.fits(&metrics).and_then(|()| self.mask()) {
             Ok(mask) => mask,
-            Err(failure) => {
+            Err(error) => {
+                let failure = whole(error.to_string(), error.help());
                 (down.record)(Entry::ViewFailed(&self.scene.name, eye.eye, &failure))?;
                 down.progress.step(self.range.len());
                 return Ok(ViewFindings { failed: Some(failure), ..ViewFindings::default() });
@@ -88,7 +87,8 @@ impl<'a> Scoring<'a> {
             return Ok(known);
         }
         let guides = metrics.contains(&Metric::Atd);
-        let loader = Loader { plan, settings: &eye.settings, guides };
+        let loader =
+            Loader { plan, settings: &eye.settings, test_layers: &eye.test_layers, guides };
         let sequence = (self.bands, self.scene.fps);
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
         let frame = self.take_up(&work, &mut run, &loader, down)?;
@@ -199,20 +199,9 @@ impl<'a> Scoring<'a> {
         Ok(metrics)
     }
 
-    /// Why this machine's memory does not hold what the frames need, if so.
-    pub(crate) fn shortage(&self, metrics: &[Metric]) -> Option<Failure> {
-        let settings = &self.eye().settings;
-        let of_file = |frame: &FoundFrame| frame_size(&frame.reference).ok();
-        let size = match settings.crop {
-            Some(crop) => (crop.width, crop.height),
-            None => self.view.frames.iter().find_map(of_file)?,
-        };
-        // Files beyond the limit of size are errors of their own, whatever memory there is.
-        let limit = settings.read.max_megapixels.saturating_mul(1_000_000);
-        if (size.0 as u64).saturating_mul(size.1 as u64) > limit {
-            return None;
-        }
-        shortage(self.plan, self.view, metrics, size, self.scene.fps)
+    /// Whether the frames fit into memory.
+    pub(crate) fn fits(&self, metrics: &[Metric]) -> Result<(), EngineError> {
+        memory::check(self.plan, self.view, self.scene.fps, metrics)
     }
 
     fn mask(&self) -> Result<Option<Mask>, EngineError> {

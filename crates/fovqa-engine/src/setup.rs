@@ -115,6 +115,29 @@ impl<'a> Setup<'a> {
         Ok(Self { size, first_file, scorer, profiler, view, retinas, retina })
     }
 
+    /// Whether a file may be seen so: where it declares that its pixels are not square, the view has to
+    /// agree within a hundredth, which no rounding of the two reaches.
+    pub(crate) fn check_pixels(&self, file: &str, pixel_aspect: f32) -> Result<(), Fault> {
+        const TOLERANCE: f64 = 0.01;
+        let Some(sight) = &self.retinas.maker.sight else { return Ok(()) };
+        let [x, y] = sight.view.focal_px;
+        let (declared, seen) = (f64::from(pixel_aspect), y / x);
+        let is = |aspect: f64| (declared / aspect - 1.0).abs() <= TOLERANCE;
+        // Files without square pixels say so; those that say nothing, or 1, leave it to the view.
+        if is(1.0) || is(seen) {
+            return Ok(());
+        }
+        Err(Fault {
+            message: format!(
+                "{file} has the pixelAspectRatio {pixel_aspect}, the width of a pixel over its height, and the \
+                 view has {seen:.4}"
+            ),
+            help: "give the horizontal and the vertical field of view, or the frustum, as it was rendered; if the \
+                   pixels are square, write 1 into the file"
+                .to_owned(),
+        })
+    }
+
     /// Moves the gaze, where there is a view.
     pub(crate) fn look_at(&mut self, gaze_px: [f64; 2]) {
         if self.view.is_some() {

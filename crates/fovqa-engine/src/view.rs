@@ -186,6 +186,11 @@ impl<'a> ViewRun<'a> {
             }
         }
         self.settle(reference, warnings)?;
+        if let Some(setup) = &self.setup {
+            for side in [reference, test] {
+                setup.check_pixels(&side.file, side.pixel_aspect)?;
+            }
+        }
         let position = self.view.frames[step.frame].position;
         if let Some(temporal) = &mut self.temporal {
             let present = Present { reference, test, method: step.method, position };

@@ -57,6 +57,14 @@ impl Chromaticities {
         matrix.iter().flatten().all(|v| v.is_finite()).then_some(matrix)
     }
 
+    /// What linear R, G and B of these primaries contribute to the luminance; white has 1. `None` when
+    /// the primaries do not span a colour space, or green has no luminance.
+    pub fn luminance_weights(&self) -> Option<[f64; 3]> {
+        let [_, weights, _] = self.rgb_to_xyz()?;
+        (weights.iter().all(|weight| weight.is_finite()) && weights[1].abs() > 1e-6)
+            .then_some(weights)
+    }
+
     /// SMPTE RP 177: the primaries scaled so that they add up to white.
     fn rgb_to_xyz(&self) -> Option<Matrix> {
         let column = |[x, y]: [f64; 2]| [x, y, 1.0 - x - y];
@@ -127,6 +135,14 @@ mod tests {
         }
         // The AP1 to Rec.709 matrix with Bradford adaptation, as published with ACES.
         assert!((m[0][0] - 1.705_05).abs() < 1e-3 && (m[1][1] - 1.140_8).abs() < 1e-3, "{m:?}");
+    }
+
+    #[test]
+    fn luminance_weights_are_those_of_the_standard() {
+        let weights = Chromaticities::REC709.luminance_weights().unwrap();
+        for (weight, expected) in weights.into_iter().zip([0.2126, 0.7152, 0.0722]) {
+            assert!((weight - expected).abs() < 1e-4, "{weights:?}");
+        }
     }
 
     #[test]

@@ -70,6 +70,17 @@ pub enum Note {
     Inks,
     /// The data window of motion or depth does not cover the display window; the rest is NaN.
     UncoveredGuides,
+    /// Motion or depth is there, but not for the colour's view or layer, and is not taken.
+    GuidesElsewhere {
+        /// `motion` or `depth`.
+        what: &'static str,
+        /// The channels there are.
+        channels: String,
+    },
+    /// Motion as Unreal encodes it, whose scale has no official source.
+    UnrealMotion,
+    /// Motion in R and G of a file of its own, taken as Falcor writes it.
+    AssumedFalcor,
 }
 
 impl Note {
@@ -93,6 +104,23 @@ impl Note {
                 "its CMYK inks are converted to RGB without a colour profile, as ink times black"
                     .to_owned()
             }
+            Note::GuidesElsewhere { what, channels } => {
+                format!(
+                    "{channels} is not taken for the {what}: it belongs to another view or layer than the colour; \
+                     if it is meant, name it in full with {{guides}}"
+                )
+            }
+            Note::UnrealMotion => {
+                "Unreal's motion is read as 2 (v - 0.5) of the frame, x from right to left, y from bottom to top; \
+                 Unreal documents neither scale nor direction: try it on a known motion (an experiment may give \
+                 channels, sign, scale and unit instead)"
+                    .to_owned()
+            }
+            Note::AssumedFalcor => {
+                "R and G are read as the motion that Falcor writes, in fractions of the frame; \
+                 name the renderer with {guides} if it is another one"
+                    .to_owned()
+            }
             Note::UncoveredGuides => {
                 "the data window of motion or depth does not cover the display window; uncovered pixels have none"
                     .to_owned()
@@ -112,13 +140,15 @@ pub struct Decoded {
     pub guides: Guides,
     /// What was looked for to find them.
     pub guide_search: GuideSearch,
+    /// Width of a pixel over its height, as the file declares it; 1 where it declares nothing.
+    pub pixel_aspect: f32,
 }
 
 impl Decoded {
     /// A frame of a file that cannot hold guides.
     pub(crate) fn without_guides(frame: Frame, notes: Vec<Note>, options: &ReadOptions) -> Self {
         let guide_search = GuideSearch::in_vain(&options.guides);
-        Self { frame, notes, guides: Guides::default(), guide_search }
+        Self { frame, notes, guides: Guides::default(), guide_search, pixel_aspect: 1.0 }
     }
 }
 

@@ -94,6 +94,30 @@ pub enum ReadErrorKind {
         /// The channels there are.
         channels: String,
     },
+    /// A luminance whose chroma is not there or not read.
+    #[error(
+        "its layer {layer} has the channels {channels}, an encoding of colour that is not read"
+    )]
+    OtherEncoding {
+        /// The layer.
+        layer: String,
+        /// The channels.
+        channels: String,
+    },
+    /// A layer of Cryptomatte that was asked for as colour.
+    #[error("its layer {layer:?} holds the IDs of a Cryptomatte, which are no colour")]
+    Cryptomatte {
+        /// The layer.
+        layer: String,
+    },
+    /// Headers with too many attributes, or too long ones.
+    #[error("its header has {what}, more than the limit of {limit}")]
+    Header {
+        /// What there is too much of.
+        what: String,
+        /// The limit.
+        limit: String,
+    },
     /// Several colour layers.
     #[error("it has several colour layers: {layers}")]
     SeveralLayers {
@@ -146,6 +170,14 @@ pub enum ReadErrorKind {
         /// These channels.
         channels: String,
     },
+    /// Motion, or depth, of another view or layer alone.
+    #[error("it has no {what} of the colour's view and layer, only {channels}")]
+    GuidesElsewhere {
+        /// `motion` or `depth`.
+        what: &'static str,
+        /// These channels.
+        channels: String,
+    },
     /// Parts whose pixels do not lie on each other.
     #[error("its parts have different display windows")]
     DisplayWindows,
@@ -178,20 +210,27 @@ impl ReadErrorKind {
             }
             Self::AllTransparent => "use {alpha=ignore}: the colours are usually whole",
             Self::Deep => "flatten it to one colour a pixel first",
-            Self::NoColour { .. } => "give the file that holds the beauty pass",
+            Self::NoColour { .. } => {
+                "give the file that holds the beauty pass, as R, G and B (X, Y, Z and H, S, V are not converted)"
+            }
+            Self::OtherEncoding { .. } => {
+                "save it as R, G and B, or as Y, RY and BY at full resolution"
+            }
+            Self::Cryptomatte { .. } => "name a layer of colour with {layer}, or none",
+            Self::Header { .. } => {
+                "save the file again without attributes that are not needed for its pixels"
+            }
             Self::SeveralLayers { .. } => "name one with {layer}",
             Self::NoSuchLayer { .. } => "name one of these with {layer}",
-            Self::Subsampled { .. } => {
-                "save it with every channel at full resolution, luminance and chroma as R, G, B"
-            }
+            Self::Subsampled { .. } => "save it with every channel at full resolution",
             Self::DisjointWindows { .. } => {
                 "nothing of it would be seen: check the render's region"
             }
             Self::Chromaticities => "write the file with valid primaries, or without the attribute",
             Self::NotOpenExr => "save motion and depth as OpenEXR",
-            Self::NoGuide { .. } => "name the channels with {guides}, or render them",
-            Self::SeveralGuides { .. } => {
-                "name the one that is meant with {guides}, its layer in front"
+            Self::NoGuide { .. } => "render them, or name the channels with {guides}",
+            Self::SeveralGuides { .. } | Self::GuidesElsewhere { .. } => {
+                "name the one that is meant, its layer in front, with {guides}"
             }
             Self::DisplayWindows => "save all parts with the display window of the colour",
         }

@@ -506,7 +506,7 @@ fn presets_mean_what_their_renderers_write() {
             GuidePreset::Unreal,
             [unreal[0].as_str(), unreal[1].as_str()],
             "FinalImageMovieRenderQueue_WorldDepth.R",
-            [-w, h],
+            [-2.0 * w, 2.0 * h],
             0.5,
         ),
         (GuidePreset::Mitsuba, ["motion.X", "motion.Y"], "depth.T", [1.0, 1.0], 0.0),
@@ -655,8 +655,8 @@ fn bare_names_of_motion_in_a_file_of_its_own() {
     assert_eq!(scale(&["X", "Y"], MotionChannels::Preset(GuidePreset::Mitsuba)), [1.0, 1.0]);
     let unreal = MotionChannels::Preset(GuidePreset::Unreal);
     let unreal = motion(&["R", "G", "B", "A"], unreal).unwrap();
-    assert_eq!(unreal.scale(), [-w, h]);
-    assert_eq!(unreal.at(2, 1)[0], (f64::from(value(0, 2, 1)) - 0.5) * -w);
+    assert_eq!(unreal.scale(), [-2.0 * w, 2.0 * h]);
+    assert_eq!(unreal.at(2, 1)[0], (f64::from(value(0, 2, 1)) - 0.5) * -2.0 * w);
     // Layers that say what they are go before bare names, those of other things are none.
     let both = ["X", "Y", "Vector.X", "Vector.Y"];
     is_motion(&motion(&both, MotionChannels::Auto).unwrap(), [2, 3], [1.0, -1.0]);

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use exr::meta::attribute::AttributeValue;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
     LayerAttributes, Vec2, WritableImage,
@@ -30,19 +31,45 @@ pub struct Part {
     pub size: (usize, usize),
     /// Channels by name.
     pub channels: Vec<(String, Values)>,
+    /// The attribute `view`, empty for none.
+    pub view: &'static str,
+    /// The attribute `multiView`, empty for none.
+    pub views: Vec<&'static str>,
+    /// Further attributes: names and texts.
+    pub texts: Vec<(String, String)>,
 }
 
 impl Part {
     /// A part at the origin.
     pub fn new(size: (usize, usize), channels: &[(&str, Values)]) -> Self {
         let channels = channels.iter().map(|(name, v)| ((*name).to_owned(), v.clone())).collect();
-        Self { name: "", at: (0, 0), size, channels }
+        let (views, texts) = (Vec::new(), Vec::new());
+        Self { name: "", at: (0, 0), size, channels, view: "", views, texts }
     }
 
     /// The same with a name.
     #[must_use]
     pub fn named(self, name: &'static str) -> Self {
         Self { name, ..self }
+    }
+
+    /// The same of one view.
+    #[must_use]
+    pub fn of_view(self, view: &'static str) -> Self {
+        Self { view, ..self }
+    }
+
+    /// The same with channels of these views, the first of which needs no name.
+    #[must_use]
+    pub fn of_views(self, views: &[&'static str]) -> Self {
+        Self { views: views.to_vec(), ..self }
+    }
+
+    /// The same with an attribute.
+    #[must_use]
+    pub fn saying(mut self, name: &str, text: &str) -> Self {
+        self.texts.push((name.to_owned(), text.to_owned()));
+        self
     }
 
     /// The same with the corner of its data window elsewhere.
@@ -86,12 +113,15 @@ pub struct File {
     pub encoding: Encoding,
     /// Primaries red, green, blue, white.
     pub chromaticities: Option<[(f32, f32); 4]>,
+    /// Width of a pixel over its height.
+    pub pixel_aspect: f32,
 }
 
 impl File {
     /// A file of these parts, ZIP-compressed.
     pub fn new(parts: Vec<Part>) -> Self {
-        Self { parts, display: None, encoding: Encoding::SMALL_LOSSLESS, chromaticities: None }
+        let encoding = Encoding::SMALL_LOSSLESS;
+        Self { parts, display: None, encoding, chromaticities: None, pixel_aspect: 1.0 }
     }
 
     /// Writes it.
@@ -103,6 +133,7 @@ impl File {
         let (at, size) = self.display.unwrap_or((first.at, first.size));
         let mut attributes =
             ImageAttributes::new(IntegerBounds::new(Vec2(at.0, at.1), Vec2(size.0, size.1)));
+        attributes.pixel_aspect = self.pixel_aspect;
         attributes.chromaticities = self.chromaticities.map(|[r, g, b, w]| {
             let xy = |v: (f32, f32)| Vec2(v.0, v.1);
             exr::meta::attribute::Chromaticities {
@@ -116,6 +147,16 @@ impl File {
             let own = LayerAttributes {
                 layer_name: (!part.name.is_empty()).then(|| part.name.into()),
                 layer_position: Vec2(part.at.0, part.at.1),
+                view_name: (!part.view.is_empty()).then(|| part.view.into()),
+                multi_view_names: (!part.views.is_empty())
+                    .then(|| part.views.iter().map(|&view| view.into()).collect()),
+                other: part
+                    .texts
+                    .iter()
+                    .map(|(name, text)| {
+                        (name.as_str().into(), AttributeValue::Text(text.as_str().into()))
+                    })
+                    .collect(),
                 ..LayerAttributes::default()
             };
             let channels = part.channels.iter().map(|(name, values)| {

@@ -3,7 +3,6 @@
 use thiserror::Error;
 
 use crate::displays::Display;
-use crate::doubts::listed;
 
 /// A pinhole eye buffer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,20 +110,15 @@ pub enum ViewError {
         /// Lower tangent as given.
         down: f64,
     },
-    /// Angles in degrees where tangents belong.
+    /// Tangents of more than 85°, which are likely angles.
     #[error(
-        "the frustum {left}, {right}, {up}, {down} is in degrees: it is made of the tangents of the half angles, \
-         {}", listed([*left, *right, *up, *down].map(|deg| libm::tan(deg.abs().to_radians())))
+        "a frustum whose tangents are {} sees more than 85° to one side; if these are degrees, the \
+         tangents are {}",
+        with_commas(*given), with_commas(given.map(|angle| libm::tan(angle.to_radians())))
     )]
-    FrustumDegrees {
-        /// Left side as given.
-        left: f64,
-        /// Right side as given.
-        right: f64,
-        /// Upper side as given.
-        up: f64,
-        /// Lower side as given.
-        down: f64,
+    FrustumAngles {
+        /// Left, right, up and down as given.
+        given: [f64; 4],
     },
     /// A focal length beyond reason.
     #[error("the view's focal length of {found_px} px is not between 0.001 and 100,000,000")]
@@ -239,21 +233,24 @@ fn length(value: f64, which: &'static str) -> Result<f64, ViewError> {
     }
 }
 
+/// Numbers as a message shows them.
+fn with_commas(numbers: [f64; 4]) -> String {
+    numbers.map(|number| ((number * 1e4).round() / 1e4).to_string()).join(", ")
+}
+
 fn frustum_sides(left: f64, right: f64, up: f64, down: f64) -> Result<[f64; 4], ViewError> {
-    /// The tangent of 89.99°.
-    const STEEPEST: f64 = 6000.0;
-    /// The tangent of 85°. No frustum is that wide to all four sides, and any headset's is wider in
-    /// degrees.
-    const STEEPER_THAN_ANY: f64 = 11.43;
+    /// The tangent of 85°: no eye buffer sees more to one side, and any half angle of 12° or more
+    /// that is given in degrees is above it.
+    const STEEPEST: f64 = 11.430_052_302_761_343;
     let sides =
         if left < 0.0 && down < 0.0 { [-left, right, up, -down] } else { [left, right, up, down] };
-    if sides.iter().all(|side| (STEEPER_THAN_ANY..90.0).contains(side)) {
-        Err(ViewError::FrustumDegrees { left, right, up, down })
-    } else if sides.iter().all(|side| *side > 0.0 && *side <= STEEPEST) {
-        Ok(sides)
-    } else {
-        Err(ViewError::Frustum { left, right, up, down })
+    if !sides.iter().all(|side| *side > 0.0 && side.is_finite()) {
+        return Err(ViewError::Frustum { left, right, up, down });
     }
+    if sides.iter().any(|side| *side > STEEPEST) {
+        return Err(ViewError::FrustumAngles { given: [left, right, up, down] });
+    }
+    Ok(sides)
 }
 
 #[cfg(test)]

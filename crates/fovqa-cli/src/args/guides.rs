@@ -8,9 +8,10 @@ use fovqa_io::{DepthChannels, GuideOptions, GuidePreset, MotionChannels, MotionU
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Sequence")]
 pub(crate) struct GuideArgs {
-    /// Backward motion vectors: auto, none, blender, falcor, unreal, mitsuba, or the names of two
-    /// OpenEXR channels, X,Y in pixels (experiments can give them signs and units)
-    #[arg(long, verbatim_doc_comment, value_name = "WHICH", default_value = "auto", value_parser = motion)]
+    /// Backward motion vectors: auto, none, blender, falcor, unreal, mitsuba, or two OpenEXR channels:
+    /// X,Y in pixels to the right and down (X,-Y: y up), or blender:X,Y as a renderer encodes them
+    /// (experiments can give units and scales as well)
+    #[arg(long, verbatim_doc_comment, value_name = "WHICH", default_value = "auto", allow_hyphen_values = true, value_parser = motion)]
     motion: MotionChannels,
     /// OpenEXR files that hold the motion alone; they pair with the reference frames
     #[arg(long, value_name = "PATH")]
@@ -36,17 +37,59 @@ fn motion(text: &str) -> Result<MotionChannels, String> {
     if let Some(preset) = preset(text) {
         return Ok(MotionChannels::Preset(preset));
     }
-    match text.split(',').map(str::trim).collect::<Vec<_>>().as_slice() {
-        [x, y] if !x.is_empty() && !y.is_empty() => Ok(MotionChannels::Named(NamedMotion {
-            channels: [(*x).to_owned(), (*y).to_owned()],
-            sign: [1.0; 2],
-            scale: [1.0; 2],
-            unit: MotionUnit::Pixels,
-        })),
-        _ => {
-            Err("write auto, none, blender, falcor, unreal, mitsuba, or two channels with a comma \
-                  between them"
-                .to_owned())
+    let of_preset = text.split_once(':').and_then(|(word, rest)| Some((preset(word)?, rest)));
+    let names = of_preset.map_or(text, |(_, names)| names);
+    let names: Vec<&str> = names.split(',').map(str::trim).collect();
+    let &[x, y] = names.as_slice() else { return Err(MOTION_FORMS.to_owned()) };
+    if let Some((preset, _)) = of_preset {
+        let channels = [x, y].map(str::to_owned);
+        return if channels.iter().any(String::is_empty) {
+            Err(MOTION_FORMS.to_owned())
+        } else {
+            Ok(MotionChannels::NamedAs(preset, channels))
+        };
+    }
+    let [x, y] = [x, y].map(signed);
+    let channels = [x.1.to_owned(), y.1.to_owned()];
+    if channels.iter().any(String::is_empty) {
+        return Err(MOTION_FORMS.to_owned());
+    }
+    if x.0.is_none() && y.0.is_none() {
+        check_plain(&channels)?;
+    }
+    Ok(MotionChannels::Named(NamedMotion {
+        channels,
+        sign: [x.0, y.0].map(|sign| sign.unwrap_or(1.0)),
+        scale: [1.0; 2],
+        unit: MotionUnit::Pixels,
+    }))
+}
+
+/// What `--motion` may be.
+const MOTION_FORMS: &str = "write auto, none, blender, falcor, unreal, mitsuba, two channels with a comma \
+                            between them, or a renderer, a colon and its two channels";
+
+/// The sign in front of the name of a channel, where there is one, and the name.
+fn signed(name: &str) -> (Option<f64>, &str) {
+    match (name.strip_prefix('-'), name.strip_prefix('+')) {
+        (Some(name), _) => (Some(-1.0), name),
+        (_, Some(name)) => (Some(1.0), name),
+        (None, None) => (None, name),
+    }
+}
+
+/// Refuses names under which a renderer writes other values than pixels to the right and down, where
+/// nothing says that these are.
+fn check_plain(channels: &[String; 2]) -> Result<(), String> {
+    match GuidePreset::of_motion(channels).filter(|preset| !preset.is_plain()) {
+        None => Ok(()),
+        Some(preset) => {
+            let ([x, y], renderer) = (channels, preset.name());
+            Err(format!(
+                "these are channels as {renderer} writes them, which are not pixels to the right and down: \
+                 write --motion {renderer}, or --motion {renderer}:{x},{y} for exactly these; \
+                 if they do hold pixels to the right and down, --motion +{x},+{y}"
+            ))
         }
     }
 }

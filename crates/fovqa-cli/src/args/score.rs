@@ -95,8 +95,13 @@ impl ScoreArgs {
             mask: self.signal.mask(),
             crop: self.signal.crop(),
         };
-        let eye =
-            EyeView { eye: None, reference: self.reference, tests: vec![(0, self.test)], settings };
+        let eye = EyeView {
+            eye: None,
+            reference: self.reference,
+            tests: vec![(0, self.test)],
+            test_layers: self.signal.test_layer().map(|layer| (0, layer)).into_iter().collect(),
+            settings,
+        };
         let scene = Scene {
             name: String::new(),
             frames: self.frames,

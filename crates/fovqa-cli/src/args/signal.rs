@@ -1,4 +1,4 @@
-//! `--channels`, `--exposure`, `--tonemap`, `--transfer`, `--layer`, `--alpha`, `--nonfinite`,
+//! `--channels`, `--exposure`, `--tonemap`, `--transfer`, `--layer`, `--test-layer`, `--alpha`, `--nonfinite`,
 //! `--mask`, `--crop`.
 
 use std::path::PathBuf;
@@ -76,9 +76,13 @@ pub(crate) struct SignalArgs {
     /// How values in the files are encoded
     #[arg(long, value_name = "NAME", default_value = "auto")]
     transfer: TransferArg,
-    /// Colour layer of OpenEXR files that have several; "root" for R, G, B without a prefix
+    /// Colour layer of OpenEXR files that have several, in reference and test; "root" for R, G, B without
+    /// a prefix
     #[arg(long, value_name = "NAME")]
     layer: Option<String>,
+    /// Colour layer of the test, where it is another than the reference's
+    #[arg(long, value_name = "NAME")]
+    test_layer: Option<String>,
     /// What to do about NaN and infinity
     #[arg(long, value_name = "POLICY", default_value = "error")]
     nonfinite: NonfiniteArg,
@@ -130,6 +134,10 @@ impl SignalArgs {
             max_megapixels: self.max_megapixels,
             ..ReadOptions::default()
         }
+    }
+
+    pub(crate) fn test_layer(&self) -> Option<String> {
+        self.test_layer.clone()
     }
 
     pub(crate) fn nonfinite(&self) -> Nonfinite {

@@ -94,7 +94,11 @@ const SIGNAL: &[Key] = &[
         Kind::Word(&["auto", "srgb", "linear", "pq", "gamma2.2"]),
         "how values in the files are encoded",
     ),
-    key("layer", Kind::Text, "colour layer of OpenEXR files that have several"),
+    key(
+        "layer",
+        Kind::Text,
+        "colour layer of OpenEXR files that have several, of reference and tests alike",
+    ),
     key("nonfinite", Kind::Word(&["error", "mask"]), "what to do about NaN and infinity"),
     key(
         "alpha",
@@ -128,6 +132,11 @@ const CHANNEL_SCALE: Kind = Kind::Number(-1e9, 1e9);
 const MOTION: &[Key] = &[
     key("channels", Kind::List(&Kind::Text, 2, 2), "names of the channels for x and y"),
     key("preset", PRESET, "the renderer, instead of channels"),
+    key(
+        "encoding",
+        PRESET,
+        "the renderer that writes channels so, instead of sign, scale and unit",
+    ),
     key(
         "sign",
         Kind::List(&Kind::Number(-1.0, 1.0), 2, 2),
@@ -246,7 +255,13 @@ static SCENE_TABLE: [Key; 6 + VIEW.len() + 1 + SHARED.len() + SIGNAL.len() + 2] 
     ],
 ]);
 
-static METHOD_TABLE: [Key; 3] = [
+/// The layers of a method's tests in scenes with two eyes.
+const LAYER_SIDES: &[Key] = &[
+    key("left", Kind::Text, "layer of the left eye's tests"),
+    key("right", Kind::Text, "layer of the right eye's tests"),
+];
+
+static METHOD_TABLE: [Key; 4] = [
     required("name", Kind::Name, "its name in results, and what {method} stands for"),
     required(
         "test",
@@ -254,6 +269,11 @@ static METHOD_TABLE: [Key; 3] = [
         "test frames, with {scene}, {folder}, {method} and {eye} for what differs",
     ),
     key("scenes", NAMES, "only these scenes"),
+    key(
+        "layer",
+        Kind::Either(&[Kind::Text, Kind::Table(LAYER_SIDES)]),
+        "colour layer of its tests, where it is another than the reference's; or { left, right }",
+    ),
 ];
 
 static PLOT_TABLE: [Key; 6] = [

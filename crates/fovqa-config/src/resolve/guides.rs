@@ -62,7 +62,7 @@ fn preset(word: &str) -> Option<GuidePreset> {
 fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
     either(table, "channels", faults);
     let Some(names) = table.names("channels") else {
-        for key in ["sign", "scale", "unit"].into_iter().filter(|key| table.has(key)) {
+        for key in ["sign", "scale", "unit", "encoding"].into_iter().filter(|key| table.has(key)) {
             let message = format!("{key} is that of channels, and none are named");
             let fault = Fault::new(table.span(key), message);
             faults.push(fault.help("add channels = [\"…\", \"…\"]: a preset has its own"));
@@ -71,6 +71,28 @@ fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
         return named.map_or(MotionChannels::Auto, MotionChannels::Preset);
     };
     let Ok([x, y]) = <[(&str, _); 2]>::try_from(names) else { return MotionChannels::Auto };
+    let channels = [x.0.to_owned(), y.0.to_owned()];
+    let own = ["sign", "scale", "unit"].into_iter().find(|key| table.has(key));
+    if let Some(preset) = table.text("encoding").and_then(preset) {
+        if let Some(key) = own {
+            let message = format!("both {key} and an encoding that has its own are given");
+            let fault = Fault::new(table.span(key), message);
+            faults.push(fault.label("beside encoding").help("keep one of them"));
+        }
+        return MotionChannels::NamedAs(preset, channels);
+    }
+    let known = GuidePreset::of_motion(&channels).filter(|preset| !preset.is_plain());
+    if let Some(preset) = known.filter(|_| own.is_none()) {
+        // Nothing says that they are otherwise than their renderer writes them.
+        let renderer = preset.name();
+        let message = format!(
+            "these are channels as {renderer} writes them, which are not pixels to the right and down"
+        );
+        let help = format!(
+            "add encoding = \"{renderer}\", or sign = [1, 1] if they do hold pixels to the right and down"
+        );
+        faults.push(Fault::new(table.span("channels"), message).help(help));
+    }
     let sign = table.array("sign").unwrap_or([1.0; 2]);
     if sign.iter().any(|sign| sign.abs() < 1.0) {
         let fault = Fault::new(table.span("sign"), "a sign is 1 or -1");
@@ -82,7 +104,7 @@ fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
         faults.push(Fault::new(table.span("scale"), "a scale of 0 leaves no motion"));
     }
     MotionChannels::Named(NamedMotion {
-        channels: [x.0.to_owned(), y.0.to_owned()],
+        channels,
         sign,
         scale,
         unit: match table.text("unit") {

@@ -90,6 +90,15 @@ fn tests(table: Node<'_>, index: usize, base: &Path, scene: &mut Resolved, fault
         faults.push(Fault::new(table.span("test"), message).help(help));
         return;
     }
+    let layers = table.table("layer");
+    if layers.is_some() && !two {
+        let message = format!(
+            "method \"{method}\" has a layer for each eye, and scene \"{name}\" has one reference"
+        );
+        let help =
+            "write layer = \"…\", or give the scene reference = { left = \"…\", right = \"…\" }";
+        faults.push(Fault::new(table.span("layer"), message).help(help));
+    }
     for view in &mut scene.scene.eyes {
         let (text, span) = match (sides, view.eye) {
             (Some(sides), Some(eye)) => (sides.text(eye.name()), sides.span(eye.name())),
@@ -103,6 +112,13 @@ fn tests(table: Node<'_>, index: usize, base: &Path, scene: &mut Resolved, fault
         };
         if let Some(path) = path(placeholders, base, text.unwrap_or_default(), span, faults) {
             view.tests.push((index, path));
+        }
+        let layer = match (layers, view.eye) {
+            (Some(layers), Some(eye)) => layers.text(eye.name()),
+            _ => table.text("layer"),
+        };
+        if let Some(layer) = layer {
+            view.test_layers.insert(index, layer.to_owned());
         }
     }
 }

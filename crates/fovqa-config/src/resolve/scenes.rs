@@ -1,6 +1,6 @@
 //! `[[scene]]`.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::Path;
 
@@ -60,6 +60,7 @@ pub(super) fn scenes(
                     eye,
                     reference: path(placeholders, base, text, span, faults).unwrap_or_default(),
                     tests: Vec::new(),
+                    test_layers: BTreeMap::new(),
                     settings: layers.settings(base, placeholders, faults),
                 }
             });

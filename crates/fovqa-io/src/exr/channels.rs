@@ -1,10 +1,11 @@
 //! The channels of all parts by name.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use ::exr::meta::header::Header;
 
 use super::layers::{joined, part_name};
+use super::views::Views;
 
 /// A channel of a part.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,16 +16,31 @@ pub(crate) struct Channel {
     pub(crate) index: usize,
     /// Its name, with part and layer in front.
     pub(crate) name: String,
+    /// The same without the view.
+    plain: String,
+    /// Its name within the part, without the view.
+    pub(crate) own: String,
+    /// The view it belongs to, in lower case.
+    pub(crate) view: Option<String>,
     /// Whether it stands in no layer of its part.
     pub(crate) bare: bool,
+}
+
+/// Which of its names a channel is found by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum By {
+    /// The name as it stands in the file.
+    Name,
+    /// That without the view, among the channels of the same view.
+    Plain,
 }
 
 /// All channels of a file.
 #[derive(Debug)]
 pub(crate) struct Channels {
     list: Vec<Channel>,
-    /// Where a name, in lower case, is in the list.
-    places: HashMap<String, usize>,
+    /// Where a name, in lower case, is in the list; for [`By::Plain`] with its view.
+    places: HashMap<(By, Option<String>, String), usize>,
 }
 
 /// Channels of one layer that have the names looked for.
@@ -32,21 +48,45 @@ pub(crate) struct Channels {
 pub(crate) struct Match<'a> {
     /// What stands in front of these names, without the dot.
     pub(crate) lead: &'a str,
+    /// Which of the channels' names that is.
+    pub(crate) by: By,
     /// The channels in the order of the names.
     pub(crate) channels: Vec<&'a Channel>,
 }
 
+impl Match<'_> {
+    /// The view the channels belong to.
+    pub(crate) fn view(&self) -> Option<&str> {
+        self.channels[0].view.as_deref()
+    }
+}
+
 impl Channels {
-    pub(crate) fn of(headers: &[Header]) -> Self {
+    pub(crate) fn of(headers: &[Header], views: &Views) -> Self {
         let mut list = Vec::new();
         let mut places = HashMap::new();
         for (part, header) in headers.iter().enumerate() {
             let part_name = part_name(header);
             for (index, channel) in header.channels.list.iter().enumerate() {
                 let own = channel.name.to_string();
+                let (prefix, last) = own.rsplit_once('.').unwrap_or(("", &own));
                 let name = joined(&part_name, &own);
-                places.entry(name.to_ascii_lowercase()).or_insert(list.len());
-                list.push(Channel { part, index, name, bare: !own.contains('.') });
+                let layer = joined(&part_name, prefix);
+                let view = views.of_layer(header, prefix, &layer);
+                let layer = views.without(&layer);
+                let plain =
+                    if layer.is_empty() { last.to_owned() } else { format!("{layer}.{last}") };
+                let keys = [
+                    (By::Name, None, name.to_ascii_lowercase()),
+                    (By::Plain, view.clone(), plain.to_ascii_lowercase()),
+                ];
+                for key in keys {
+                    places.entry(key).or_insert(list.len());
+                }
+                let prefix = views.without(prefix);
+                let bare = prefix.is_empty();
+                let own = if bare { last.to_owned() } else { format!("{prefix}.{last}") };
+                list.push(Channel { part, index, name, plain, own, view, bare });
             }
         }
         Self { list, places }
@@ -57,25 +97,41 @@ impl Channels {
         self.list.iter().map(|channel| channel.name.as_str())
     }
 
+    /// The views that channels belong to.
+    pub(crate) fn views(&self) -> BTreeSet<&str> {
+        self.list.iter().filter_map(|channel| channel.view.as_deref()).collect()
+    }
+
     /// The only channel.
     pub(crate) fn only(&self) -> Option<&Channel> {
         self.list.first().filter(|_| self.list.len() == 1)
     }
 
-    /// The channel `name` of the layer `lead`.
-    pub(crate) fn get(&self, lead: &str, name: &str) -> Option<&Channel> {
-        let whole = if lead.is_empty() { name.to_owned() } else { format!("{lead}.{name}") };
-        self.places.get(&whole.to_ascii_lowercase()).map(|&at| &self.list[at])
+    /// The channel `name` in the layer of a match.
+    pub(crate) fn beside(&self, found: &Match<'_>, name: &str) -> Option<&Channel> {
+        self.get(found.by, found.channels[0].view.as_ref(), found.lead, name)
     }
 
-    /// The layers that have all of these channels.
+    /// The channel `name` of the layer `lead`, by one of its names; the view counts for
+    /// [`By::Plain`] alone.
+    fn get(&self, by: By, view: Option<&String>, lead: &str, name: &str) -> Option<&Channel> {
+        let whole = if lead.is_empty() { name.to_owned() } else { format!("{lead}.{name}") };
+        let view = view.filter(|_| by == By::Plain).cloned();
+        self.places.get(&(by, view, whole.to_ascii_lowercase())).map(|&at| &self.list[at])
+    }
+
+    /// The layers that have all of these channels, by the names of the file or, where those do not
+    /// match, without the views.
     pub(crate) fn matching<'a>(&'a self, names: &'a [String]) -> impl Iterator<Item = Match<'a>> {
         let (first, others) = names.split_first().unwrap_or_else(|| unreachable!("some names"));
         self.list.iter().filter_map(move |channel| {
-            let lead = lead(&channel.name, first)?;
-            let others = others.iter().map(|name| self.get(lead, name));
-            let channels = std::iter::once(Some(channel)).chain(others).collect::<Option<_>>()?;
-            Some(Match { lead, channels })
+            let by = |by, name| {
+                let lead = lead(name, first)?;
+                let of = |name: &String| self.get(by, channel.view.as_ref(), lead, name);
+                let all = std::iter::once(Some(channel)).chain(others.iter().map(of));
+                Some(Match { lead, by, channels: all.collect::<Option<_>>()? })
+            };
+            by(By::Name, &channel.name).or_else(|| by(By::Plain, &channel.plain))
         })
     }
 }

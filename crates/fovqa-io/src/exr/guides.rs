@@ -3,73 +3,135 @@
 use ::exr::meta::header::Header;
 use fovqa_frame::{Guides, Motion, Plane};
 
-use super::channels::{Channel, Channels, Match};
+use super::channels::{By, Channel, Channels, Match};
 use super::pixels::{Planes, Request};
+use super::views::Views;
 use super::window::Window;
 use crate::decode::Note;
 use crate::error::{ReadErrorKind, listed};
 use crate::guides::{
-    DepthChoice, Encoding, GuideOptions, GuideSearch, MotionChoice, Place, Reach, Sought, in_one,
+    DepthChannels, DepthChoice, Encoding, GuideOptions, GuidePreset, GuideSearch, MotionChannels,
+    MotionChoice, Place, Reach, Sought, in_one,
 };
 
 /// What was found.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
-    motion: Option<([Channel; 2], Encoding)>,
+    motion: MotionFound,
     depth: Option<Channel>,
     pub(crate) search: GuideSearch,
+    notes: Vec<Note>,
 }
 
-/// Looks for what is asked for. `layer` is the full name of the colour's layer, empty for none.
+/// What motion and depth are looked for beside.
+#[derive(Debug)]
+pub(crate) struct Beside<'a> {
+    pub(crate) place: Place,
+    /// Full name of the colour's layer, empty for none.
+    pub(crate) layer: &'a str,
+    /// Its view, in lower case.
+    pub(crate) view: Option<String>,
+    /// Full names of all colour layers.
+    pub(crate) layers: &'a [String],
+}
+
+/// Looks for what is asked for.
 pub(crate) fn find(
     headers: &[Header],
+    views: &Views,
     options: &GuideOptions,
-    place: Place,
-    layer: &str,
+    beside: &Beside<'_>,
 ) -> Result<Found, ReadErrorKind> {
     if options.is_none() {
         return Ok(Found::default());
     }
-    let channels = Channels::of(headers);
-    let finder = Finder { channels: &channels, place, layer };
+    let channels = Channels::of(headers, views);
+    let place = beside.place;
+    let finder = Finder::new(&channels, views, beside);
     let (motions, depths) = (options.motion.choices(place), options.depth.choices(place));
-    let motion = finder.motion(&motions)?;
-    let taken: &[Channel] = motion.as_ref().map_or(&[], |(pair, _)| pair);
-    let depth = finder.depth(&depths, taken)?;
-    let found_motion = motion.as_ref().map(|(pair, _)| in_one(&pair.each_ref().map(name)));
+    let (motion, motion_elsewhere) = finder.motion(&motions)?;
+    let taken: &[Channel] = motion.as_ref().map_or(&[], |(pair, ..)| pair);
+    let (depth, depth_elsewhere) = finder.depth(&depths, taken)?;
+    let mut notes = Vec::new();
+    for (what, elsewhere, is_auto) in [
+        ("motion", &motion_elsewhere, options.motion == MotionChannels::Auto),
+        ("depth", &depth_elsewhere, options.depth == DepthChannels::Auto),
+    ] {
+        if let Some(channels) = elsewhere.as_ref().filter(|_| is_auto) {
+            notes.push(Note::GuidesElsewhere { what, channels: channels.clone() });
+        }
+    }
+    match motion.as_ref().and_then(|(pair, _, preset)| Some((&pair[0], (*preset)?))) {
+        Some((_, GuidePreset::Unreal)) => notes.push(Note::UnrealMotion),
+        // Others write R and G as well; only a name or a preset would tell.
+        Some((x, GuidePreset::Falcor))
+            if options.motion == MotionChannels::Auto && x.own.eq_ignore_ascii_case("R") =>
+        {
+            notes.push(Note::AssumedFalcor);
+        }
+        _ => {}
+    }
+    let found_motion = motion.as_ref().map(|(pair, ..)| in_one(&pair.each_ref().map(name)));
+    let found_depth = depth.as_ref().map(name);
     let search = GuideSearch {
-        motion: Sought::motion(&motions).map(|sought| Sought { found: found_motion, ..sought }),
-        depth: Sought::depth(&depths)
-            .map(|sought| Sought { found: depth.as_ref().map(name), ..sought }),
+        motion: Sought::motion(&motions).map(|sought| Sought {
+            found: found_motion,
+            elsewhere: motion_elsewhere,
+            ..sought
+        }),
+        depth: Sought::depth(&depths).map(|sought| Sought {
+            found: found_depth,
+            elsewhere: depth_elsewhere,
+            ..sought
+        }),
         channels: channels.names().map(str::to_owned).collect(),
     };
-    Ok(Found { motion, depth, search })
+    Ok(Found { motion, depth, search, notes })
 }
 
 fn name(channel: &Channel) -> String {
     channel.name.clone()
 }
 
+/// Channels that have the names, but belong to another view or layer than the colour, in words.
+type Elsewhere = Option<String>;
+
 struct Finder<'a> {
     channels: &'a Channels,
-    place: Place,
-    layer: &'a str,
+    views: &'a Views,
+    beside: &'a Beside<'a>,
+    /// Full name of the colour's layer without its view.
+    plain_layer: String,
+    /// First components of the names of all colour layers, without views and in lower case.
+    first_of_layers: Vec<String>,
+    /// Whether the file has channels of several views.
+    several_views: bool,
 }
 
-impl Finder<'_> {
+impl<'a> Finder<'a> {
+    fn new(channels: &'a Channels, views: &'a Views, beside: &'a Beside<'a>) -> Self {
+        Self {
+            channels,
+            views,
+            beside,
+            plain_layer: views.without(beside.layer),
+            first_of_layers: beside.layers.iter().map(|l| first(&views.without(l))).collect(),
+            several_views: channels.views().len() > 1,
+        }
+    }
+
     /// The first choice that is there.
-    fn motion(
-        &self,
-        choices: &[MotionChoice],
-    ) -> Result<Option<([Channel; 2], Encoding)>, ReadErrorKind> {
+    fn motion(&self, choices: &[MotionChoice]) -> Result<(MotionFound, Elsewhere), ReadErrorKind> {
+        let mut elsewhere = None;
         for choice in choices {
             let matches = self.matching(&choice.channels, choice.reach, &[]);
-            if let Some(found) = self.one_of(&matches, choice.reach, "motion")? {
+            let search = Search { reach: choice.reach, what: "motion", names: &choice.channels };
+            if let Some(found) = self.one_of(&matches, &search, &mut elsewhere)? {
                 let pair = [found.channels[0].clone(), found.channels[1].clone()];
-                return Ok(Some((pair, choice.encoding)));
+                return Ok((Some((pair, choice.encoding, choice.preset)), None));
             }
         }
-        Ok(None)
+        Ok((None, elsewhere))
     }
 
     /// The first choice that is there and, where a bare name alone says so, not `taken`.
@@ -77,21 +139,24 @@ impl Finder<'_> {
         &self,
         choices: &[DepthChoice],
         taken: &[Channel],
-    ) -> Result<Option<Channel>, ReadErrorKind> {
+    ) -> Result<(Option<Channel>, Elsewhere), ReadErrorKind> {
+        let mut elsewhere = None;
         for choice in choices {
             let found = match choice {
                 DepthChoice::Channel(name, reach) => {
                     let names = std::slice::from_ref(name);
                     let matches = self.matching(names, *reach, taken);
-                    self.one_of(&matches, *reach, "depth")?.map(|found| found.channels[0].clone())
+                    let search = Search { reach: *reach, what: "depth", names };
+                    let found = self.one_of(&matches, &search, &mut elsewhere)?;
+                    found.map(|found| found.channels[0].clone())
                 }
                 DepthChoice::Only => self.channels.only().cloned(),
             };
             if found.is_some() {
-                return Ok(found);
+                return Ok((found, None));
             }
         }
-        Ok(None)
+        Ok((None, elsewhere))
     }
 
     fn matching<'b>(
@@ -106,48 +171,162 @@ impl Finder<'_> {
             Reach::OwnWithout(other) => {
                 self.is_own(found)
                     && !taken.contains(found.channels[0])
-                    && self.channels.get(found.lead, other).is_none()
+                    && self.channels.beside(found, other).is_none()
             }
         };
         self.channels.matching(names).filter(within_reach).collect()
     }
 
+    /// The colour's layer as the names of a match are written.
+    fn layer(&self, found: &Match<'_>) -> &str {
+        match found.by {
+            By::Name => self.beside.layer,
+            By::Plain => &self.plain_layer,
+        }
+    }
+
     fn is_own(&self, found: &Match<'_>) -> bool {
-        match self.place {
+        match self.beside.place {
             Place::Alone => found.channels[0].bare,
+            // Of which view it is, is decided later.
             Place::BesideColour => {
-                let rest = self.layer.strip_prefix(found.lead);
-                found.lead.is_empty()
-                    || rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+                lies_in(self.layer(found), found.lead)
+                    || self.several_views && lies_in(&self.plain_layer, &self.plain_lead(found))
             }
         }
     }
 
-    /// The only match, or that of the colour's first layer.
+    /// What stands in front of the names of a match, without the view.
+    fn plain_lead(&self, found: &Match<'_>) -> String {
+        self.views.without(found.lead)
+    }
+
+    /// The only match of the colour's view, or the one nearest to the colour's layer. What belongs to
+    /// another view or layer goes to `elsewhere`.
     fn one_of<'b>(
         &self,
         matches: &'b [Match<'b>],
-        reach: Reach,
-        what: &'static str,
+        search: &Search<'_>,
+        elsewhere: &mut Elsewhere,
     ) -> Result<Option<&'b Match<'b>>, ReadErrorKind> {
-        let only = |fits: &dyn Fn(&Match<'_>) -> bool| {
-            let mut fitting = matches.iter().filter(|found| fits(found));
-            fitting.next().filter(|_| fitting.next().is_none())
-        };
-        let first = |name: &str| name.split('.').next().unwrap_or_default().to_ascii_lowercase();
-        let layer = first(self.layer);
-        let found = only(&|_| true)
-            .or_else(|| only(&|found| reach == Reach::Named && found.lead.is_empty()))
-            .or_else(|| only(&|found| first(found.lead) == layer));
-        if found.is_none() && !matches.is_empty() {
-            let sets = matches.iter().map(|found| {
-                let names: Vec<String> = found.channels.iter().map(|c| c.name.clone()).collect();
-                in_one(&names)
-            });
-            return Err(ReadErrorKind::SeveralGuides { what, channels: listed(sets) });
+        // A whole name, as a user gives it, leaves nothing to decide.
+        let is_whole = |found: &&Match<'_>| found.by == By::Name && found.lead.is_empty();
+        if let Some(whole) = matches.iter().find(is_whole).filter(|_| search.reach == Reach::Named)
+        {
+            return Ok(Some(whole));
         }
-        Ok(found)
+        let view = self.beside.view.as_deref();
+        let seen = matches.iter().filter(|found| !self.several_views || found.view() == view);
+        let mut seen: Vec<&Match<'_>> = seen.collect();
+        if seen.is_empty() && view.is_none() && matches.len() > 1 {
+            seen = matches.iter().collect();
+        }
+        let found = match seen.as_slice() {
+            [only] => Some(*only),
+            several => self.nearest(several),
+        };
+        match found {
+            Some(found) if self.is_of_another_layer(found, search.names) => {
+                *elsewhere = Some(sets(&[found]));
+                Ok(None)
+            }
+            Some(found) => Ok(Some(found)),
+            None if !seen.is_empty() => {
+                Err(ReadErrorKind::SeveralGuides { what: search.what, channels: sets(&seen) })
+            }
+            None => {
+                if !matches.is_empty() {
+                    let all: Vec<&Match<'_>> = matches.iter().collect();
+                    *elsewhere = Some(sets(&all));
+                }
+                Ok(None)
+            }
+        }
     }
+
+    /// The match whose layer has most in common with the colour's, where only one has.
+    fn nearest<'b>(&self, matches: &[&'b Match<'b>]) -> Option<&'b Match<'b>> {
+        let near = |found: &Match<'_>| {
+            let (lead, layer) = (self.plain_lead(found), components(&self.plain_layer));
+            if layer.is_empty() {
+                return usize::from(lead.is_empty());
+            }
+            let lead = components(&lead);
+            lead.iter().zip(&layer).take_while(|(a, b)| a.eq_ignore_ascii_case(b)).count()
+        };
+        let most = matches.iter().map(|found| near(found)).max().filter(|most| *most > 0)?;
+        let mut nearest = matches.iter().filter(|found| near(found) == most);
+        nearest.next().filter(|_| nearest.next().is_none()).copied()
+    }
+
+    /// Whether a match belongs to another Blender view layer, or to the layer of another picture,
+    /// whose name begins like it.
+    fn is_of_another_layer(&self, found: &Match<'_>, names: &[String]) -> bool {
+        if let Some((own, colour)) = self.view_layer(found, names).zip(self.view_layer_of_colour())
+        {
+            return own != colour;
+        }
+        let (own, colour) = (first(&self.plain_lead(found)), first(&self.plain_layer));
+        !own.is_empty() && own != colour && self.first_of_layers.contains(&own)
+    }
+
+    /// The view layer of a colour layer `ViewLayer.Combined`, in lower case.
+    fn view_layer_of_colour(&self) -> Option<String> {
+        let layer = self.plain_layer.to_ascii_lowercase();
+        let (view_layer, pass) = layer.rsplit_once('.')?;
+        (pass == "combined").then(|| last(view_layer))
+    }
+
+    /// The view layer of the pass `ViewLayer.Vector` or `ViewLayer.Depth`, in lower case. A part may
+    /// have any name in front of it.
+    fn view_layer(&self, found: &Match<'_>, names: &[String]) -> Option<String> {
+        let name = names.first()?.to_ascii_lowercase();
+        if !["vector.", "depth."].iter().any(|pass| name.starts_with(pass)) {
+            return None;
+        }
+        let own = found.channels[0].own.to_ascii_lowercase();
+        let view_layer = match own.strip_suffix(&name) {
+            Some(view_layer) => last(view_layer.strip_suffix('.')?),
+            // The pass stands in the name of the part.
+            None => last(&self.plain_lead(found)),
+        };
+        (!view_layer.is_empty()).then_some(view_layer)
+    }
+}
+
+/// What is looked for.
+struct Search<'a> {
+    reach: Reach,
+    what: &'static str,
+    names: &'a [String],
+}
+
+type MotionFound = Option<([Channel; 2], Encoding, Option<GuidePreset>)>;
+
+/// Whether a layer is `lead` or lies in it.
+fn lies_in(layer: &str, lead: &str) -> bool {
+    let rest = layer.strip_prefix(lead);
+    lead.is_empty() || rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+fn components(name: &str) -> Vec<&str> {
+    name.split('.').filter(|part| !part.is_empty()).collect()
+}
+
+fn first(name: &str) -> String {
+    name.split('.').next().unwrap_or_default().to_ascii_lowercase()
+}
+
+fn last(name: &str) -> String {
+    name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase()
+}
+
+/// The channels of matches, in words.
+fn sets(matches: &[&Match<'_>]) -> String {
+    listed(matches.iter().map(|found| {
+        let names: Vec<String> = found.channels.iter().map(|c| c.name.clone()).collect();
+        in_one(&names)
+    }))
 }
 
 impl Found {
@@ -159,7 +338,7 @@ impl Found {
         beside: &Header,
     ) -> Result<Vec<Request>, ReadErrorKind> {
         let display = |header: &Header| header.shared_attributes.display_window;
-        let motion = self.motion.iter().flat_map(|(pair, _)| pair);
+        let motion = self.motion.iter().flat_map(|(pair, ..)| pair);
         let requests = motion.chain(&self.depth).map(|channel| {
             let header = &headers[channel.part];
             if display(header) != display(beside) {
@@ -176,18 +355,19 @@ impl Found {
         &self,
         requests: &[Request],
         planes: impl IntoIterator<Item = Planes>,
-    ) -> Result<(Guides, Option<Note>), ReadErrorKind> {
+    ) -> Result<(Guides, Vec<Note>), ReadErrorKind> {
         let mut planes =
             requests.iter().zip(planes).map(|(request, planes)| plane(planes, &request.window));
         let mut next = || planes.next().unwrap_or_else(|| unreachable!("a plane a request"));
         let motion = match &self.motion {
-            Some((_, encoding)) => Some(motion(next()?, next()?, encoding)?),
+            Some((_, encoding, _)) => Some(motion(next()?, next()?, encoding)?),
             None => None,
         };
         let depth = self.depth.as_ref().map(|_| next()).transpose()?;
         let covered = requests.iter().all(|request| request.window.data_covers_display());
-        let note = (!covered).then_some(Note::UncoveredGuides);
-        Ok((Guides { motion, depth }, note))
+        let uncovered = (!covered).then_some(Note::UncoveredGuides);
+        let notes = uncovered.into_iter().chain(self.notes.iter().cloned()).collect();
+        Ok((Guides { motion, depth }, notes))
     }
 }
 

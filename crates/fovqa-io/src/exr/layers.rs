@@ -1,15 +1,38 @@
 //! Which channels are the picture.
 //!
 //! A layer is what channels share in front of their last dot, within one part. It is colour when
-//! it has R, G and B, or Y alone (without X, which would make it a vector). Blender writes
-//! `ViewLayer.Combined.R`, Unreal and Mitsuba `R` beside `albedo.R`, others name the part.
+//! it has R, G and B, or Y with RY and BY, or Y alone (without X, which would make it a vector).
+//! Blender writes `ViewLayer.Combined.R`, Unreal and Mitsuba `R` beside `albedo.R`, others name the
+//! part. Layers of data are no colour (see `data_layers.rs`).
 
 use ::exr::meta::header::Header;
 
+use super::data_layers::{Data, DataLayers};
+use super::views::Views;
 use crate::error::{ReadErrorKind, listed};
 
 /// The name under which the channels without a prefix are asked for.
 pub(super) const ROOT: &str = "root";
+
+/// The channels of a picture, by their indices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Colour {
+    /// R, G and B.
+    Rgb([usize; 3]),
+    /// Y, RY and BY.
+    LuminanceChroma([usize; 3]),
+    /// Y alone.
+    Gray(usize),
+}
+
+impl Colour {
+    pub(crate) fn channels(&self) -> &[usize] {
+        match self {
+            Colour::Rgb(channels) | Colour::LuminanceChroma(channels) => channels,
+            Colour::Gray(channel) => std::slice::from_ref(channel),
+        }
+    }
+}
 
 /// A colour layer.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -18,10 +41,11 @@ pub(crate) struct Layer {
     prefix: String,
     /// Index of the part.
     pub(crate) part: usize,
-    /// Channel indices of R, G, B, or of Y alone.
-    pub(crate) colour: Vec<usize>,
+    pub(crate) colour: Colour,
     /// Channel index of A.
     pub(crate) alpha: Option<usize>,
+    /// The view it belongs to, in lower case.
+    pub(crate) view: Option<String>,
 }
 
 impl Layer {
@@ -31,69 +55,136 @@ impl Layer {
     }
 }
 
-/// The colour layer asked for, or the only one.
-pub(crate) fn choose(headers: &[Header], wanted: Option<&str>) -> Result<Layer, ReadErrorKind> {
-    let mut layers: Vec<Layer> =
-        headers.iter().enumerate().flat_map(|(part, header)| colour_layers(part, header)).collect();
-    if layers.is_empty() {
-        let channels = headers.iter().flat_map(|h| h.channels.list.iter());
-        let channels = listed(channels.map(|c| c.name.to_string()));
-        return Err(ReadErrorKind::NoColour { channels });
-    }
-    let names = listed(layers.iter().map(|l| l.name.clone()));
-    if let Some(wanted) = wanted {
-        let whole = layers.iter().position(|l| l.name == wanted);
-        let by_prefix = || {
-            let mut matching = (0..layers.len()).filter(|&i| layers[i].prefix == wanted);
-            matching.next().filter(|_| matching.next().is_none())
-        };
-        // The plain picture beside others of many layers: a reference, say.
-        let plain = || (layers.len() == 1 && layers[0].name == ROOT).then_some(0);
-        return match whole.or_else(by_prefix).or_else(plain) {
-            Some(index) => Ok(layers.swap_remove(index)),
-            None => Err(ReadErrorKind::NoSuchLayer { wanted: wanted.to_owned(), layers: names }),
-        };
-    }
-    if layers.len() > 1 {
-        return Err(ReadErrorKind::SeveralLayers { layers: names });
-    }
-    Ok(layers.swap_remove(0))
+/// A layer that has the channels of a picture, and what may keep it from being one.
+struct Candidate {
+    layer: Layer,
+    data: Option<Data>,
+    /// Channels that belong to an encoding that is not read.
+    odd: Option<String>,
 }
 
-fn colour_layers(part: usize, header: &Header) -> Vec<Layer> {
-    let names: Vec<String> = header.channels.list.iter().map(|c| c.name.to_string()).collect();
-    let split: Vec<(&str, &str)> =
-        names.iter().map(|name| name.rsplit_once('.').unwrap_or(("", name))).collect();
-    let mut prefixes: Vec<&str> = split.iter().map(|s| s.0).collect();
-    // Channels stand in alphabetical order, which need not keep a layer's together.
-    prefixes.sort_unstable();
-    prefixes.dedup();
-    let part_name = part_name(header);
-    let find = |prefix: &str, names: [&str; 2]| {
-        split.iter().position(|(p, channel)| {
-            *p == prefix && names.iter().any(|name| channel.eq_ignore_ascii_case(name))
-        })
+/// The colour layer asked for, or the only one; and the full names of all.
+pub(crate) fn choose(
+    headers: &[Header],
+    views: &Views,
+    wanted: Option<&str>,
+) -> Result<(Layer, Vec<String>), ReadErrorKind> {
+    let data = DataLayers::of(headers);
+    let candidates: Vec<Candidate> = headers
+        .iter()
+        .enumerate()
+        .flat_map(|(part, header)| candidates(part, header, views, &data))
+        .collect();
+    let pictures: Vec<&Candidate> = candidates.iter().filter(|c| c.data.is_none()).collect();
+    let names = pictures.iter().map(|c| c.layer.full_name().to_owned()).collect();
+    let listed = || listed(pictures.iter().map(|c| c.layer.name.clone()));
+    let chosen = match (wanted, pictures.as_slice()) {
+        (Some(wanted), _) => match named(&candidates, &pictures, headers, wanted) {
+            Some(found) => found,
+            None if pictures.is_empty() => return Err(no_colour(headers)),
+            None => {
+                let (wanted, layers) = (wanted.to_owned(), listed());
+                return Err(ReadErrorKind::NoSuchLayer { wanted, layers });
+            }
+        },
+        (None, [only]) => only,
+        (None, []) => return Err(no_colour(headers)),
+        (None, _) => return Err(ReadErrorKind::SeveralLayers { layers: listed() }),
     };
-    prefixes
-        .into_iter()
-        .filter_map(|prefix| {
-            let rgb = [["R", "red"], ["G", "green"], ["B", "blue"]].map(|name| find(prefix, name));
-            let colour = if let [Some(r), Some(g), Some(b)] = rgb {
-                vec![r, g, b]
-            } else if rgb == [None; 3] && find(prefix, ["X", "X"]).is_none() {
-                vec![find(prefix, ["Y", "Y"])?]
-            } else {
-                return None;
-            };
-            Some(Layer {
-                name: layer_name(&part_name, prefix),
-                prefix: prefix.to_owned(),
-                part,
-                colour,
-                alpha: find(prefix, ["A", "alpha"]),
-            })
-        })
-        .collect()
+    let layer = chosen.layer.clone();
+    if chosen.data == Some(Data::Cryptomatte) {
+        return Err(ReadErrorKind::Cryptomatte { layer: layer.name });
+    }
+    if let Some(channels) = &chosen.odd {
+        let channels = channels.clone();
+        return Err(ReadErrorKind::OtherEncoding { layer: layer.name, channels });
+    }
+    Ok((layer, names))
+}
+
+/// The layer of a name: that of the whole name, else the only picture whose name within its part,
+/// whose part or whose view has it.
+fn named<'a>(
+    candidates: &'a [Candidate],
+    pictures: &[&'a Candidate],
+    headers: &[Header],
+    wanted: &str,
+) -> Option<&'a Candidate> {
+    let only = |fits: &dyn Fn(&Layer) -> bool| {
+        let mut fitting = pictures.iter().filter(|c| fits(&c.layer));
+        fitting.next().filter(|_| fitting.next().is_none()).copied()
+    };
+    let is_view = |view: &String| view.eq_ignore_ascii_case(wanted);
+    // The plain picture beside others of many layers: a reference, say.
+    let plain = || pictures.first().filter(|c| pictures.len() == 1 && c.layer.name == ROOT);
+    candidates
+        .iter()
+        .find(|c| c.layer.name == wanted)
+        .or_else(|| only(&|layer| layer.prefix == wanted))
+        .or_else(|| only(&|layer| part_name(&headers[layer.part]) == wanted))
+        .or_else(|| only(&|layer| layer.view.as_ref().is_some_and(is_view)))
+        .or_else(|| plain().copied())
+}
+
+fn no_colour(headers: &[Header]) -> ReadErrorKind {
+    let channels = headers.iter().flat_map(|h| h.channels.list.iter());
+    ReadErrorKind::NoColour { channels: listed(channels.map(|c| c.name.to_string())) }
+}
+
+/// The layers of a part that have the channels of a picture.
+fn candidates(part: usize, header: &Header, views: &Views, data: &DataLayers) -> Vec<Candidate> {
+    let names: Vec<String> = header.channels.list.iter().map(|c| c.name.to_string()).collect();
+    let split = names.iter().enumerate().map(|(index, name)| {
+        let (prefix, channel) = name.rsplit_once('.').unwrap_or(("", name));
+        (prefix, channel, index)
+    });
+    let mut split: Vec<(&str, &str, usize)> = split.collect();
+    // Channels stand in alphabetical order, which need not keep a layer's together.
+    split.sort_by_key(|(prefix, ..)| *prefix);
+    let part_name = part_name(header);
+    let layers = split.chunk_by(|(a, ..), (b, ..)| a == b);
+    let pictures = layers.filter_map(|channels| {
+        let prefix = channels[0].0;
+        let find = |names: &[&str]| {
+            let is_named =
+                |channel: &str| names.iter().any(|name| channel.eq_ignore_ascii_case(name));
+            channels.iter().find(|(_, channel, _)| is_named(channel)).map(|(.., index)| *index)
+        };
+        let (colour, odd) = colour(&find)?;
+        let full = joined(&part_name, prefix);
+        let view = views.of_layer(header, prefix, &full);
+        let data = data.data(&views.without(&full));
+        let name = layer_name(&part_name, prefix);
+        let alpha = find(&["A", "alpha"]);
+        let layer = Layer { name, prefix: prefix.to_owned(), part, colour, alpha, view };
+        Some(Candidate { layer, data, odd })
+    });
+    pictures.collect()
+}
+
+/// Chroma beside a luminance Y, in encodings that are not read.
+const OTHER_CHROMA: [[&str; 2]; 5] =
+    [["U", "V"], ["Cb", "Cr"], ["Pb", "Pr"], ["Co", "Cg"], ["I", "Q"]];
+
+/// The colour channels among those of a layer, and those of an encoding that is not read.
+fn colour(find: &dyn Fn(&[&str]) -> Option<usize>) -> Option<(Colour, Option<String>)> {
+    let rgb = [["R", "red"], ["G", "green"], ["B", "blue"]].map(|names| find(&names));
+    if let [Some(r), Some(g), Some(b)] = rgb {
+        return Some((Colour::Rgb([r, g, b]), None));
+    }
+    if rgb != [None; 3] || find(&["X"]).is_some() {
+        return None;
+    }
+    let luminance = find(&["Y"])?;
+    match [find(&["RY"]), find(&["BY"])] {
+        [Some(ry), Some(by)] => Some((Colour::LuminanceChroma([luminance, ry, by]), None)),
+        [Some(_), None] => Some((Colour::Gray(luminance), Some("Y and RY without BY".to_owned()))),
+        [None, Some(_)] => Some((Colour::Gray(luminance), Some("Y and BY without RY".to_owned()))),
+        [None, None] => {
+            let odd = OTHER_CHROMA.into_iter().find(|[a, b]| find(&[a]).and(find(&[b])).is_some());
+            Some((Colour::Gray(luminance), odd.map(|[a, b]| format!("Y, {a} and {b}"))))
+        }
+    }
 }
 
 fn layer_name(part: &str, prefix: &str) -> String {

@@ -1,13 +1,17 @@
 //! OpenEXR: one colour layer of one part, brought to the display window and to Rec.709, and the
 //! guides beside it.
 
+mod attributes;
 mod channels;
+mod data_layers;
 mod guides;
 mod layers;
+mod luminance_chroma;
 mod pixels;
+mod views;
 mod window;
 
-use std::io::{ErrorKind, Read, Seek};
+use std::io::{BufRead, ErrorKind, Seek};
 
 use ::exr::block::reader::Reader;
 use ::exr::math::Vec2;
@@ -19,11 +23,15 @@ use crate::alpha::{AlphaPolicy, require_opaque};
 use crate::decode::{Decoded, Note, ReadOptions};
 use crate::error::ReadErrorKind;
 use crate::guides::{DecodedGuides, Place};
-use pixels::{Planes, Request};
+use guides::Beside;
+use layers::Colour;
+use pixels::Request;
+use views::Views;
 use window::Window;
 
 /// The size of a file's display window.
-pub(crate) fn size(mut file: impl Read + Seek + Send) -> Result<(usize, usize), ReadErrorKind> {
+pub(crate) fn size(mut file: impl BufRead + Seek + Send) -> Result<(usize, usize), ReadErrorKind> {
+    attributes::check(&mut file)?;
     let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
     let size = meta.headers.first().map(|header| header.shared_attributes.display_window.size);
     let size = size.ok_or_else(no_parts)?;
@@ -31,19 +39,30 @@ pub(crate) fn size(mut file: impl Read + Seek + Send) -> Result<(usize, usize), 
 }
 
 pub(crate) fn read(
-    file: impl Read + Seek + Send,
+    file: impl BufRead + Seek + Send,
     options: &ReadOptions,
 ) -> Result<Decoded, ReadErrorKind> {
     let reader = reader(file, options)?;
     let headers = reader.headers();
-    let layer = layers::choose(headers, options.layer.as_deref())?;
+    let views = Views::of(headers);
+    let (layer, layers) = layers::choose(headers, &views, options.layer.as_deref())?;
     let header = &headers[layer.part];
     let window = Window::of(header)?;
     let alpha = layer.alpha.filter(|_| options.alpha == AlphaPolicy::Error);
-    let primaries = primaries(header)?.filter(|_| layer.colour.len() == 3);
-    let found = guides::find(headers, &options.guides, Place::BesideColour, layer.full_name())?;
+    let is_gray = matches!(layer.colour, Colour::Gray(_));
+    let primaries = primaries(header)?.filter(|_| !is_gray);
+    let luminance_weights =
+        chromaticities(header).unwrap_or(Chromaticities::REC709).luminance_weights();
+    let beside = Beside {
+        place: Place::BesideColour,
+        layer: layer.full_name(),
+        view: layer.view.clone(),
+        layers: &layers,
+    };
+    let found = guides::find(headers, &views, &options.guides, &beside)?;
+    let pixel_aspect = header.shared_attributes.pixel_aspect;
 
-    let channels: Vec<usize> = layer.colour.iter().copied().chain(alpha).collect();
+    let channels: Vec<usize> = layer.colour.channels().iter().copied().chain(alpha).collect();
     let mut requests = found.requests(headers, &headers[layer.part])?;
     requests.insert(0, Request { part: layer.part, channels, window });
     let mut planes = pixels::read(reader, &requests)?;
@@ -59,30 +78,42 @@ pub(crate) fn read(
     if !window.data_covers_display() {
         notes.push(Note::UncoveredPixels);
     }
-    let samples = match primaries {
-        Some(matrix) => {
-            notes.push(Note::ConvertedPrimaries);
-            Samples::F32(converted(planes, &matrix))
+    if primaries.is_some() {
+        notes.push(Note::ConvertedPrimaries);
+    }
+    let samples = match (layer.colour, primaries) {
+        (Colour::LuminanceChroma(_), primaries) => {
+            let weights = luminance_weights.ok_or(ReadErrorKind::Chromaticities)?;
+            let values = luminance_chroma::to_rgb(planes.into_f32(), weights);
+            Samples::F32(match primaries {
+                Some(matrix) => converted(values, &matrix),
+                None => values,
+            })
         }
-        None => planes.into_samples(),
+        (_, Some(matrix)) => Samples::F32(converted(planes.into_f32(), &matrix)),
+        (_, None) => planes.into_samples(),
     };
-    let colour = if layer.colour.len() == 3 { Channels::Rgb } else { Channels::Gray };
+    let colour = if is_gray { Channels::Gray } else { Channels::Rgb };
     let frame = Frame::new(window.display_width, window.display_height, colour, samples)
         .map_err(|e| ReadErrorKind::Damaged { format: "OpenEXR", detail: e.to_string() })?;
-    let (guides, note) = found.guides(&requests[1..], guide_planes)?;
-    notes.extend(note);
-    Ok(Decoded { frame, notes, guides, guide_search: found.search })
+    let (guides, guide_notes) = found.guides(&requests[1..], guide_planes)?;
+    notes.extend(guide_notes);
+    Ok(Decoded { frame, notes, guides, guide_search: found.search, pixel_aspect })
 }
 
 /// Reads the guides of a file that need not have colour. All that was asked for has to be there.
 pub(crate) fn read_guides(
-    file: impl Read + Seek + Send,
+    file: impl BufRead + Seek + Send,
     options: &ReadOptions,
 ) -> Result<DecodedGuides, ReadErrorKind> {
     let reader = reader(file, options)?;
     let headers = reader.headers();
+    let views = Views::of(headers);
     let layer = options.layer.as_deref().filter(|&layer| layer != layers::ROOT);
-    let found = guides::find(headers, &options.guides, Place::Alone, layer.unwrap_or_default())?;
+    let layer = layer.unwrap_or_default();
+    let view = views.in_name(layer);
+    let beside = Beside { place: Place::Alone, layer, view, layers: &[] };
+    let found = guides::find(headers, &views, &options.guides, &beside)?;
     let missing = found.search.missing_motion().or_else(|| found.search.missing_depth());
     if let Some(missing) = missing {
         return Err(missing);
@@ -90,16 +121,17 @@ pub(crate) fn read_guides(
     let Some(first) = headers.first() else { return Err(no_parts()) };
     let requests = found.requests(headers, first)?;
     let planes = pixels::read(reader, &requests)?;
-    let (guides, note) = found.guides(&requests, planes)?;
-    Ok(DecodedGuides { guides, notes: note.into_iter().collect(), search: found.search })
+    let (guides, notes) = found.guides(&requests, planes)?;
+    Ok(DecodedGuides { guides, notes, search: found.search })
 }
 
-/// Reads the headers. Sizes are checked first: whatever else is wrong with the file, nothing may be
-/// allocated for them.
-fn reader<R: Read + Seek + Send>(
+/// Reads the headers. Attributes and sizes are checked first: whatever else is wrong with the file,
+/// nothing may be allocated for them.
+fn reader<R: BufRead + Seek + Send>(
     mut file: R,
     options: &ReadOptions,
 ) -> Result<Reader<R>, ReadErrorKind> {
+    attributes::check(&mut file)?;
     let meta = MetaData::read_from_buffered(&mut file, false).map_err(damaged)?;
     for header in &meta.headers {
         if header.deep {
@@ -150,24 +182,29 @@ fn damaged(error: ::exr::error::Error) -> ReadErrorKind {
     }
 }
 
-/// The matrix to Rec.709, where the file has other primaries.
-fn primaries(header: &Header) -> Result<Option<[[f64; 3]; 3]>, ReadErrorKind> {
-    let Some(given) = header.shared_attributes.chromaticities else { return Ok(None) };
+/// The primaries a file declares.
+fn chromaticities(header: &Header) -> Option<Chromaticities> {
+    let given = header.shared_attributes.chromaticities?;
     let xy = |v: Vec2<f32>| [f64::from(v.0), f64::from(v.1)];
-    let given = Chromaticities {
+    Some(Chromaticities {
         red: xy(given.red),
         green: xy(given.green),
         blue: xy(given.blue),
         white: xy(given.white),
-    };
-    if given.is_rec709() {
-        return Ok(None);
-    }
-    given.to_rec709().map(Some).ok_or(ReadErrorKind::Chromaticities)
+    })
 }
 
-fn converted(planes: Planes, matrix: &[[f64; 3]; 3]) -> Vec<f32> {
-    let mut values = planes.into_f32();
+/// The matrix to Rec.709, where the file has other primaries.
+fn primaries(header: &Header) -> Result<Option<[[f64; 3]; 3]>, ReadErrorKind> {
+    match chromaticities(header) {
+        Some(given) if !given.is_rec709() => {
+            given.to_rec709().map(Some).ok_or(ReadErrorKind::Chromaticities)
+        }
+        _ => Ok(None),
+    }
+}
+
+fn converted(mut values: Vec<f32>, matrix: &[[f64; 3]; 3]) -> Vec<f32> {
     let plane = values.len() / 3;
     let (r, rest) = values.split_at_mut(plane);
     let (g, b) = rest.split_at_mut(plane);

@@ -62,12 +62,21 @@ pub(crate) struct MotionChoice {
     pub(crate) channels: Vec<String>,
     pub(crate) reach: Reach,
     pub(crate) encoding: Encoding,
+    /// The renderer that writes them so.
+    pub(crate) preset: Option<GuidePreset>,
 }
 
 impl MotionChoice {
-    pub(crate) fn new(channels: &[&str], reach: Reach, encoding: Encoding) -> Self {
+    /// Channels in pixels, x to the right and y down.
+    fn pixels(channels: &[&str], reach: Reach) -> Self {
         let channels = channels.iter().map(|&name| name.to_owned()).collect();
-        Self { channels, reach, encoding }
+        Self { channels, reach, encoding: Encoding::PIXELS, preset: None }
+    }
+
+    /// Channels as a renderer encodes them.
+    pub(crate) fn of(preset: GuidePreset, channels: &[&str], reach: Reach) -> Self {
+        let encoding = preset.encoding();
+        Self { encoding, preset: Some(preset), ..Self::pixels(channels, reach) }
     }
 }
 
@@ -75,7 +84,7 @@ impl From<&NamedMotion> for MotionChoice {
     fn from(named: &NamedMotion) -> Self {
         let &NamedMotion { ref channels, sign, scale, unit } = named;
         let encoding = Encoding { sign, scale, unit, offset: 0.0 };
-        Self { channels: channels.to_vec(), reach: Reach::Named, encoding }
+        Self { channels: channels.to_vec(), reach: Reach::Named, encoding, preset: None }
     }
 }
 
@@ -99,6 +108,9 @@ impl MotionChannels {
             MotionChannels::None => Vec::new(),
             MotionChannels::Auto => auto_motion(place),
             MotionChannels::Preset(preset) => preset.motion(place),
+            MotionChannels::NamedAs(preset, [x, y]) => {
+                vec![MotionChoice::of(*preset, &[x, y], Reach::Named)]
+            }
             MotionChannels::Named(named) => vec![named.into()],
         }
     }
@@ -116,16 +128,15 @@ impl DepthChannels {
 }
 
 fn auto_motion(place: Place) -> Vec<MotionChoice> {
-    let ours = MotionChoice::new(&["motion.X", "motion.Y"], Reach::Any, Encoding::PIXELS);
+    let ours = MotionChoice::pixels(&["motion.X", "motion.Y"], Reach::Any);
     // Bare names come last: a file of its own may still have layers that say what they are.
     let presets = GuidePreset::ALL.iter().flat_map(|p| p.motion(Place::BesideColour));
     let mut choices = vec![ours];
     choices.extend(presets.filter(|choice| choice.channels[0] != "motion.X"));
     if place == Place::Alone {
-        let own = |channels: &[&str], encoding| MotionChoice::new(channels, Reach::Own, encoding);
-        choices.push(own(&["X", "Y", "Z", "W"], GuidePreset::Blender.encoding()));
-        choices.push(own(&["X", "Y"], Encoding::PIXELS));
-        choices.push(own(&["R", "G"], GuidePreset::Falcor.encoding()));
+        choices.push(MotionChoice::of(GuidePreset::Blender, &["X", "Y", "Z", "W"], Reach::Own));
+        choices.push(MotionChoice::pixels(&["X", "Y"], Reach::Own));
+        choices.push(MotionChoice::of(GuidePreset::Falcor, &["R", "G"], Reach::Own));
     }
     choices
 }

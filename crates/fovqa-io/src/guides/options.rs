@@ -6,7 +6,8 @@ use super::preset::GuidePreset;
 ///
 /// Names are matched without regard to case, from a dot on: `Vector.X` is also
 /// `ViewLayer.Vector.X`, and the name of a part counts like a layer in front. Of several such
-/// channels the one whose first name is that of the colour layer is meant.
+/// channels the one of the colour's view is meant (see the parts and views of Blender's Multi-View)
+/// and, among those, the one whose layer has most of its first names in common with the colour's.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct GuideOptions {
     /// The motion.
@@ -37,6 +38,8 @@ pub enum MotionChannels {
     Preset(GuidePreset),
     /// Those of these names.
     Named(NamedMotion),
+    /// Those of these names, across and down, encoded as a renderer does.
+    NamedAs(GuidePreset, [String; 2]),
 }
 
 /// Channels of motion and what their values mean: the motion in pixels is

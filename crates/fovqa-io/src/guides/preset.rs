@@ -33,15 +33,16 @@ pub enum GuidePreset {
     /// `FinalImageMovieRenderQueue_WorldDepth.R`; `R` and `G` where each pass is a file.
     ///
     /// "Motion Vectors are stored in the 0,1 coordinate space for X and Y, where 0.5, 0.5 is no
-    /// motion", "normalized to the entire screen", to be scaled by the width of the image
-    /// (dev.epicgames.com, Cinematic Render Passes). So the offset is 0.5 and the unit the frame.
-    /// The direction is not in that text. The engine's velocity is current minus previous
-    /// (`PostProcessVelocityLookup` among its material shaders), taken here to be in clip space,
-    /// whose y points up: the sign is `[-1, 1]`. A public script that turns these channels into
-    /// optical flow has that sign too, but twice the scale; so the scale rests on the
-    /// documentation alone. Check both on a known motion before trusting them. Half floats hold
-    /// values near 0.5 in steps of 1/4096 to 1/2048 of the frame, up to a pixel: 32 bits are
-    /// better.
+    /// motion", "normalized to the entire screen" (dev.epicgames.com, Cinematic Render Passes). So
+    /// the offset is 0.5 and the unit the frame; scale and direction are not in that text. The
+    /// engine's velocity is current minus previous in clip space, two units over the frame, y up
+    /// (`PostProcessVelocityLookup` in MaterialTemplate.ush, what the material of this pass is
+    /// given), and its texture holds `0.499 * 0.5` times that, plus 0.5 (`EncodeVelocityToTexture`
+    /// in VelocityCommon.ush): 2 (v - 0.5) of the frame. A public script that turns these channels
+    /// into optical flow computes 2 (v - 0.5) times the size with the sign `[-1, 1]`, too. What the
+    /// material itself does stands in a binary asset, so a warning says to try a known motion. Half
+    /// floats hold values near 0.5 in steps of 1/4096 to 1/2048, up to two pixels of a frame of
+    /// 2048: 32 bits are better.
     ///
     /// Depth is in centimetres.
     Unreal,
@@ -52,6 +53,10 @@ pub enum GuidePreset {
     /// It has no motion: `motion.X` and `motion.Y` in pixels are looked for.
     Mitsuba,
 }
+
+/// Frames for a difference of 1 from 0.5 in Unreal's motion. See [`GuidePreset::Unreal`] for where
+/// it comes from.
+const UNREAL_FRAMES: f64 = 2.0;
 
 impl GuidePreset {
     /// All, in the order in which they are tried.
@@ -72,7 +77,10 @@ impl GuidePreset {
         match self {
             Self::Blender => Encoding { sign: [1.0, -1.0], ..Encoding::PIXELS },
             Self::Falcor => frame,
-            Self::Unreal => Encoding { sign: [-1.0, 1.0], offset: 0.5, ..frame },
+            Self::Unreal => {
+                let scale = [UNREAL_FRAMES; 2];
+                Encoding { sign: [-1.0, 1.0], scale, offset: 0.5, ..frame }
+            }
             Self::Mitsuba => Encoding::PIXELS,
         }
     }
@@ -90,11 +98,45 @@ impl GuidePreset {
             ),
             Self::Mitsuba => (["motion.X", "motion.Y"], ["X", "Y"]),
         };
-        let mut choices = vec![MotionChoice::new(&names, Reach::Any, self.encoding())];
+        let mut choices = vec![MotionChoice::of(self, &names, Reach::Any)];
         if place == Place::Alone {
-            choices.push(MotionChoice::new(&bare, Reach::Own, self.encoding()));
+            choices.push(MotionChoice::of(self, &bare, Reach::Own));
         }
         choices
+    }
+
+    /// The names of the layers that hold motion or depth.
+    pub(crate) fn layers() -> Vec<String> {
+        let layer = |channel: &str| channel.rsplit_once('.').map(|(layer, _)| layer.to_owned());
+        let presets = || Self::ALL.iter();
+        let motion = presets().flat_map(|p| p.motion(Place::BesideColour));
+        let motion = motion.flat_map(|choice| choice.channels);
+        let depth = presets().flat_map(|p| p.depth(Place::BesideColour));
+        let depth = depth.filter_map(|choice| match choice {
+            DepthChoice::Channel(name, _) => Some(name),
+            DepthChoice::Only => None,
+        });
+        let mut layers: Vec<String> = motion.chain(depth).filter_map(|name| layer(&name)).collect();
+        layers.sort_unstable();
+        layers.dedup();
+        layers
+    }
+
+    /// The renderer whose motion has these names in a layer, across and down, without regard to case.
+    pub fn of_motion(channels: &[String; 2]) -> Option<Self> {
+        let ends = |whole: &str, name: &str| {
+            let (whole, name) = (whole.to_ascii_lowercase(), name.to_ascii_lowercase());
+            whole.strip_suffix(&name).is_some_and(|rest| rest.is_empty() || rest.ends_with('.'))
+        };
+        Self::ALL.into_iter().find(|preset| {
+            let names = preset.motion(Place::BesideColour).into_iter().flat_map(|c| c.channels);
+            channels.iter().zip(names).all(|(whole, name)| ends(whole, &name))
+        })
+    }
+
+    /// Whether its motion is in pixels, x to the right and y down, as channels are that are only named.
+    pub fn is_plain(self) -> bool {
+        self.encoding() == Encoding::PIXELS
     }
 
     pub(crate) fn depth(self, place: Place) -> Vec<DepthChoice> {

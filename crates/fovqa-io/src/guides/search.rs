@@ -24,6 +24,9 @@ pub struct Sought {
     pub wanted: Vec<String>,
     /// The channels found, written likewise, with part and layer in front.
     pub found: Option<String>,
+    /// Channels of these names that belong to another view or layer than the colour, where nothing else
+    /// was found.
+    pub elsewhere: Option<String>,
 }
 
 impl Sought {
@@ -40,7 +43,7 @@ impl Sought {
 
     fn of(names: impl Iterator<Item = String>) -> Option<Self> {
         let wanted: Vec<String> = names.collect();
-        (!wanted.is_empty()).then_some(Self { wanted, found: None })
+        (!wanted.is_empty()).then_some(Self { wanted, found: None, elsewhere: None })
     }
 }
 
@@ -69,6 +72,9 @@ impl GuideSearch {
 
     fn missing(&self, what: &'static str, sought: Option<&Sought>) -> Option<ReadErrorKind> {
         let sought = sought.filter(|sought| sought.found.is_none())?;
+        if let Some(channels) = sought.elsewhere.clone() {
+            return Some(ReadErrorKind::GuidesElsewhere { what, channels });
+        }
         let wanted = listed(sought.wanted.iter().cloned());
         let channels = match self.channels.as_slice() {
             [] => "those of its colour".to_owned(),
