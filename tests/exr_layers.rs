@@ -38,7 +38,8 @@ fn luminance_and_chroma_are_colour() {
     let [yc, rgb, of_yc] = [&yc, &rgb, &of_yc].map(|path| path.to_str().unwrap());
     let value = psnr(&folder, &[yc, rgb]);
     assert!((value - 28.550).abs() < 5e-4, "{value}");
-    assert!(psnr(&folder, &[yc, of_yc]) > 100.0);
+    // Half floats leave 80 dB.
+    assert!(psnr(&folder, &[yc, of_yc]) > 75.0);
 }
 
 /// In the primaries of the file: luminance is that of its R, G and B.

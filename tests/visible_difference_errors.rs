@@ -122,8 +122,9 @@ fn a_frame_that_is_missing_or_damaged_ends_the_sequence() {
     for side in ["gt", "test"] {
         fs::remove_file(gap.path(&format!("{side}/0002.png"))).unwrap();
     }
-    // Two numbers that follow each other in the folder: nothing tells that there was one between.
-    gap.score(&[&["gt", "test"][..], &with_psnr].concat()).ok();
+    let run = gap.score(&[&["gt", "test"][..], &with_psnr].concat());
+    assert_eq!(run.code, 3);
+    run.says(&["frame 2 is missing in reference and test", "frames are missing between 1 and 3"]);
     let gap = sequence(5, (48, 40));
     fs::remove_file(gap.path("test/0002.png")).unwrap();
     let run = gap.score(&[&["gt", "test", "--allow-missing"][..], &with_psnr].concat());

@@ -242,9 +242,11 @@ fn frustum_sides(left: f64, right: f64, up: f64, down: f64) -> Result<[f64; 4], 
     /// The tangent of 85°: no eye buffer sees more to one side, and any half angle of 12° or more
     /// that is given in degrees is above it.
     const STEEPEST: f64 = 11.430_052_302_761_343;
+    /// The tangent of 89.99°, and more than any angle in degrees.
+    const LARGEST: f64 = 6000.0;
     let sides =
         if left < 0.0 && down < 0.0 { [-left, right, up, -down] } else { [left, right, up, down] };
-    if !sides.iter().all(|side| *side > 0.0 && side.is_finite()) {
+    if !sides.iter().all(|side| *side > 0.0 && *side <= LARGEST) {
         return Err(ViewError::Frustum { left, right, up, down });
     }
     if sides.iter().any(|side| *side > STEEPEST) {
