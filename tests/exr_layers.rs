@@ -178,7 +178,7 @@ fn each_side_has_a_layer() {
     let layers = ["--layer", "full", "--test-layer", "fast"];
     let value = psnr(&folder, &[&["both.exr", "both.exr"], &layers[..]].concat());
     assert_eq!(value.to_bits(), expected.to_bits());
-    assert_eq!(psnr(&folder, &["both.exr", "both.exr", "--layer", "full"]), f64::INFINITY);
+    assert!(psnr(&folder, &["both.exr", "both.exr", "--layer", "full"]).is_infinite());
     let run = folder.score(&["both.exr", "both.exr", "--layer", "full", "--test-layer", "slow"]);
     run.fails(3, &["no colour layer \"slow\"", "fast, full", "--layer", "--test-layer"]);
 

@@ -108,7 +108,7 @@ fn bands_are_put_together_by_what_is_in_them() {
         let mse = all(&scores, |f| pooled(&bands(f, to), "pixels", |band| number(&band["mse"])));
         let of = |f: &Value| pooled(&bands(f, to), "ssim_map_pixels", |b| number(&b["ssim"]));
         let ssim = all(&scores, of);
-        if to == 50.0 {
+        if to > 49.0 {
             // All bands together are the frame.
             let whole = all(&scores, |f| number(&f["metrics"]["ssim"]));
             assert!(whole.iter().zip(&ssim).all(|(a, b)| (a - b).abs() < 1e-12));

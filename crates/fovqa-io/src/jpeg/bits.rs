@@ -31,7 +31,7 @@ impl<'a> Bits<'a> {
             let next = u64::from_be_bytes(next.try_into().unwrap_or_default());
             self.window |= next >> self.count;
             self.at += ((63 - self.count) / 8) as usize;
-            self.count |= 56;
+            self.count |= 0b11_1000;
         } else {
             self.refill_at_end();
         }

@@ -37,9 +37,8 @@ impl Colours {
             (1, _) => Ok(Self::Gray),
             (3, _) if application.jfif => Ok(Self::YCbCr),
             (3, Some(0)) => Ok(Self::Rgb),
-            (3, Some(1)) => Ok(Self::YCbCr),
             (3, None) if ids == *b"RGB" => Ok(Self::Rgb),
-            (3, None) => Ok(Self::YCbCr),
+            (3, None | Some(1)) => Ok(Self::YCbCr),
             (4, Some(0) | None) => Ok(Self::Cmyk),
             (4, Some(2)) => Ok(Self::Ycck),
             (_, transform) => Err(unknown(transform.unwrap_or_default())),
@@ -58,7 +57,9 @@ impl Colours {
             (Self::Ycck, [y, cb, cr, k]) => {
                 from_ycbcr(y, cb, cr, out);
                 // What was converted as RGB are inks the other way round.
-                out.iter_mut().for_each(|ink| *ink = 255 - *ink);
+                for ink in out.iter_mut() {
+                    *ink = 255 - *ink;
+                }
                 darken(k, out);
             }
             _ => {}

@@ -121,7 +121,9 @@ impl Decoder {
         let mut strips: Vec<Vec<Coefficients>> =
             blocks_of_row.map(|count| vec![[0; COEFFICIENTS]; count]).collect();
         for y in 0..order.units.1 {
-            strips.iter_mut().for_each(|strip| strip.fill([0; COEFFICIENTS]));
+            for strip in &mut strips {
+                strip.fill([0; COEFFICIENTS]);
+            }
             let mut rows: Vec<&mut [Coefficients]> =
                 strips.iter_mut().map(Vec::as_mut_slice).collect();
             scan.row(y, &mut rows)?;

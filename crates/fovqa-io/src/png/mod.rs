@@ -58,7 +58,9 @@ pub(crate) fn read(
         BitDepth::Sixteen => {
             let mut codes = vec![0u16; length / 2];
             reader.next_frame(bytemuck::cast_slice_mut(&mut codes)).map_err(damaged)?;
-            codes.iter_mut().for_each(|code| *code = u16::from_be(*code));
+            for code in &mut codes {
+                *code = u16::from_be(*code);
+            }
             samples(codes, channels, has_alpha, width, options.alpha)?
         }
         BitDepth::Eight => {
