@@ -105,7 +105,7 @@ fn masks(experiment: &Experiment) -> bool {
     readable
 }
 
-/// Whether every frame is a file that is there. The first that is not is said, of each view.
+/// Whether every frame is an existing file. Reports the first missing file of each view.
 fn frames(experiment: &Experiment, found: &Found) -> bool {
     let mut there = true;
     for view in &found.views {
