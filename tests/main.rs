@@ -43,6 +43,7 @@ mod signal;
 mod special_files;
 mod stereo_layers;
 mod temporal;
+mod unchanged;
 mod visible_difference;
 mod visible_difference_errors;
 mod wide_fields;
