@@ -42,10 +42,10 @@ fn metrics() -> String {
             (true, MetricKind::Profile) => ", per band",
             (true, _) => ", per band too",
         };
-        let view = if info.needs_view { ", needs a view" } else { "" };
+        let view = if info.needs.view { ", needs a view" } else { "" };
         let _ = writeln!(text, "{} ({}{unit})", info.key, info.label);
         let _ = writeln!(text, "    {}", info.about);
-        let light = if info.needs_luminance { ", needs the display's photometry" } else { "" };
+        let light = if info.needs.luminance { ", needs the display's photometry" } else { "" };
         let _ = writeln!(text, "    {better}{bands}{view}{light}{default}");
         let _ = writeln!(text, "    source: {}", info.source);
         parameters(&mut text, &format!("{}.", info.key), info.params);

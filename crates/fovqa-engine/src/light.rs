@@ -85,7 +85,7 @@ impl Light {
         view: &FoundView,
         fps: Option<f64>,
     ) -> Option<Self> {
-        if !metrics.iter().any(|metric| metric.info().needs_luminance) {
+        if !metrics.iter().any(|metric| metric.info().needs.luminance) {
             return None;
         }
         let params = plan.params.fvvdp;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use fovqa_config::{Eye, Gaze, Plan};
-use fovqa_metrics::Metric;
+use fovqa_metrics::{LeadIn, Metric};
 
 use crate::error::EngineError;
 use crate::find::{Found, FoundView};
@@ -162,7 +162,7 @@ fn of_view(
         return Ok(ViewFindings::default());
     }
     let fvvdp = metrics.contains(&Metric::Fvvdp);
-    if fvvdp || metrics.contains(&Metric::Atd) {
+    if metrics.iter().any(|metric| metric.info().needs.lead_in > LeadIn::None) {
         let timings = timings(view, plan.scenes[view.scene].fps, &plan.params.fvvdp);
         let timings = timings.unwrap_or_default();
         let good = |index: &usize| {

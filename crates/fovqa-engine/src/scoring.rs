@@ -86,7 +86,7 @@ impl<'a> Scoring<'a> {
         if work.todo.is_empty() && known.settled.is_some() {
             return Ok(known);
         }
-        let guides = metrics.contains(&Metric::Atd);
+        let guides = metrics.iter().any(|metric| metric.info().needs.guides);
         let loader =
             Loader { plan, settings: &eye.settings, test_layers: &eye.test_layers, guides };
         let sequence = (self.bands, self.scene.fps);

@@ -21,7 +21,7 @@ pub(crate) fn metrics(
     } else if let Some(what) = settings.lacks_view() {
         return Err(EngineError::NoView { what: what.to_owned() });
     }
-    let lacking = |metric: &Metric| settings.view.is_none() && metric.info().needs_view;
+    let lacking = |metric: &Metric| settings.view.is_none() && metric.info().needs.view;
     match &plan.metrics {
         MetricChoice::Named(named) => {
             let foveal: Vec<Metric> = named.iter().copied().filter(lacking).collect();
@@ -55,7 +55,7 @@ impl FoundView {
 
 /// Whether what is of light has a display that can show the files.
 fn check_light(metrics: &[Metric], settings: &Settings) -> Result<(), EngineError> {
-    let of_light = metrics.iter().filter(|metric| metric.info().needs_luminance);
+    let of_light = metrics.iter().filter(|metric| metric.info().needs.luminance);
     let names: Vec<&str> = of_light.map(|metric| metric.info().label).collect();
     if names.is_empty() {
         return Ok(());

@@ -61,7 +61,7 @@ impl<'a> Setup<'a> {
             }
         }
         let wants_fvvdp = metrics.contains(&Metric::Fvvdp);
-        let foveal = metrics.iter().any(|m| WEIGHTED.contains(m));
+        let foveal = metrics.iter().any(|metric| metric.info().needs.foveal_weight);
         let profiler = Profiler::new(&metrics, &plan.params);
         let mut scorer = Scorer::new(metrics, plan.params.clone());
         if plan.metrics == MetricChoice::Default {
@@ -181,9 +181,6 @@ impl<'a> Setup<'a> {
 fn fits_fvvdp((width, height): (usize, usize)) -> bool {
     width.min(height) >= SMALLEST_SIDE
 }
-
-/// Metrics under the foveal weight.
-const WEIGHTED: [Metric; 2] = [Metric::Fpsnr, Metric::Fssim];
 
 /// How many pairs each gaze serves.
 fn uses(inputs: &Inputs<'_, '_>, gaze_px: [f64; 2]) -> BTreeMap<Key, usize> {

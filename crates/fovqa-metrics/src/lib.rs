@@ -6,7 +6,7 @@
 //! it. Each metric's formula stands in a file of its own under `fidelity/`, `profile/` or `temporal/`.
 
 mod fidelity;
-mod params;
+mod info;
 pub mod profile;
 mod regions;
 mod registry;
@@ -18,7 +18,7 @@ pub use fidelity::fvvdp;
 pub use fidelity::pu_psnr;
 pub use fidelity::ssim;
 pub use fidelity::{BandScores, PairScores, ScoreError, Scorer, mse_of_db, psnr_db};
-pub use params::Params;
+pub use info::{Better, LeadIn, MetricInfo, MetricKind, Needs, NoParams};
 pub use profile::{HaarBand, HaarStatistics, Profile, Profiler};
 pub use regions::{BlockRegions, Regions};
-pub use registry::{Better, Metric, MetricInfo, MetricKind};
+pub use registry::{Metric, Params};

@@ -124,7 +124,7 @@ fn foveal_without_view(
     if eyes.iter().all(|eye| eye.settings.view.is_some()) {
         return;
     }
-    for (key, span) in asked_for(root, metrics, |info| info.needs_view) {
+    for (key, span) in asked_for(root, metrics, |info| info.needs.view) {
         let message = format!("{key} needs a view, and scene \"{scene}\" has none");
         faults.push(Fault::new(span, message).help(VIEW_HELP));
     }
@@ -151,7 +151,7 @@ fn unlit(
     metrics: &MetricChoice,
     faults: &mut Faults,
 ) {
-    for (key, span) in asked_for(root, metrics, |info| info.needs_luminance) {
+    for (key, span) in asked_for(root, metrics, |info| info.needs.luminance) {
         if eyes.iter().any(|eye| eye.settings.photometry().is_none()) {
             let message =
                 format!("{key} needs the display's photometry, and scene \"{scene}\" has none");

@@ -13,7 +13,76 @@ use fovqa_vision::Eccentricity;
 use fovqa_vision::acuity::{GeislerPerry, LinearMar, PiecewiseMar};
 use multiversion::multiversion;
 
-use fovqa_params::ParamValue;
+use fovqa_params::{ParamError, ParamInfo, ParamValue, ParamValues};
+
+use crate::info::{MetricInfo, MetricParams, Needs};
+
+/// What there is to say about it.
+pub(crate) const INFO: MetricInfo = MetricInfo {
+    key: "fpsnr",
+    label: "FPSNR",
+    unit: "dB",
+    needs: Needs { view: true, foveal_weight: true, ..Needs::NOTHING },
+    about: "PSNR under the square of the visible cut-off frequency; compare methods, not papers",
+    source: "Lee, Pattichis, Bovik 2002; weights after Geisler and Perry 1998",
+    params: &[
+        ParamInfo {
+            name: "weight",
+            default: "\"lee2002\"",
+            values: ParamValues::Word(&["lee2002", "acuity"]),
+            about: "the curve (FSSIM too)",
+        },
+        ParamInfo {
+            name: "alpha",
+            default: "0.106",
+            values: ParamValues::Number(1e-3, 10.0),
+            about: "lee2002: decay of contrast sensitivity",
+        },
+        ParamInfo {
+            name: "e2_deg",
+            default: "2.3",
+            values: ParamValues::Number(0.01, 180.0),
+            about: "lee2002: half-resolution eccentricity, °",
+        },
+        ParamInfo {
+            name: "ct0",
+            default: "0.015625",
+            values: ParamValues::Number(1e-6, 0.99),
+            about: "lee2002: smallest contrast threshold",
+        },
+        ParamInfo {
+            name: "acuity",
+            default: "\"piecewise\"",
+            values: ParamValues::Word(&["piecewise", "linear_mar"]),
+            about: "acuity: the model",
+        },
+        ParamInfo {
+            name: "knots_deg",
+            default: "[0, 10, 20, 30, 60]",
+            values: ParamValues::Numbers,
+            about: "piecewise: eccentricities, °, rising from 0",
+        },
+        ParamInfo {
+            name: "knots_cpd",
+            default: "[40, 10, 6, 5, 4]",
+            values: ParamValues::Numbers,
+            about: "piecewise: acuity there, cpd, 0.01 to 1000",
+        },
+        ParamInfo {
+            name: "m",
+            default: "0.0275",
+            values: ParamValues::Number(0.0, 10.0),
+            about: "linear_mar: slope, ° per °",
+        },
+        ParamInfo {
+            name: "omega0_deg",
+            default: "0.020833333333333332",
+            values: ParamValues::Number(1e-4, 10.0),
+            about: "linear_mar: one cycle at the fovea, °",
+        },
+    ],
+    ..MetricInfo::FIDELITY
+};
 
 /// Which curve the weight follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -65,9 +134,8 @@ impl Default for Params {
     }
 }
 
-impl Params {
-    /// Sets what the registry has found to be one of its values.
-    pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+impl MetricParams for Params {
+    fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
             "weight" => {
                 self.weight = match value.text()? {
@@ -95,14 +163,23 @@ impl Params {
         Some(())
     }
 
-    /// Checks the knots; the error says what they have to be.
-    pub(crate) fn check(&self) -> Result<(), String> {
+    /// Knots are a falling curve of acuity.
+    fn check(&self) -> Result<(), ParamError> {
+        let wrong = |expected: String| ParamError::Value {
+            owner: INFO.key,
+            param: "knots_cpd",
+            value: format!("{:?} at {:?}", self.knots_cpd, self.knots_deg),
+            expected,
+        };
         if self.knots_cpd.iter().any(|f| !(0.01..=1000.0).contains(f)) {
-            return Err("acuity lies between 0.01 and 1000 cycles per degree".to_owned());
+            return Err(wrong("acuity lies between 0.01 and 1000 cycles per degree".to_owned()));
         }
-        PiecewiseMar::new(&self.knots_deg, &self.knots_cpd).map(|_| ()).map_err(|e| e.to_string())
+        let curve = PiecewiseMar::new(&self.knots_deg, &self.knots_cpd);
+        curve.map(|_| ()).map_err(|error| wrong(error.to_string()))
     }
+}
 
+impl Params {
     /// Degrees per cycle, 1 / f_c, at an eccentricity.
     fn degrees_per_cycle(&self) -> impl Fn(f64) -> f64 {
         let piecewise = PiecewiseMar::new(&self.knots_deg, &self.knots_cpd).unwrap_or_default();

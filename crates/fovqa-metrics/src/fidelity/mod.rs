@@ -1,16 +1,18 @@
 //! Test against reference: one file a metric, and one pass over the rows for all of them.
 
 pub mod fpsnr;
+pub(crate) mod fssim;
 pub mod fvvdp;
-mod ms_ssim;
+pub(crate) mod ms_ssim;
+pub(crate) mod mse;
 mod pass;
+pub(crate) mod psnr;
 pub mod pu_psnr;
 mod scorer;
-mod squared_error;
 pub mod ssim;
 #[cfg(test)]
 mod tests;
 mod weighted_mean;
 
+pub use psnr::{mse_of_db, psnr_db};
 pub use scorer::{BandScores, PairScores, ScoreError, Scorer};
-pub use squared_error::{mse_of_db, psnr_db};

@@ -10,7 +10,7 @@ use fovqa_frame::{BLOCK_ROWS, PairTile, Part, map_row_blocks};
 
 use super::fpsnr::WeightField;
 use super::ms_ssim::{HalvedRows, PairRows, Scale, unit_below};
-use super::squared_error::squared_row;
+use super::mse::squared_row;
 use super::ssim::rows::{Constants, MapRow, Scratch, map_row};
 use super::weighted_mean::WeightedMean;
 use crate::regions::{Regions, clipped};

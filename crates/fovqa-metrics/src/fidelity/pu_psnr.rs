@@ -8,9 +8,23 @@ use fovqa_frame::map_row_blocks;
 use fovqa_frame::transfer::pu21;
 
 use super::fvvdp::Grid;
-use super::squared_error::psnr_db;
+use super::psnr::psnr_db;
+use crate::info::{MetricInfo, Needs};
 use crate::regions::Regions;
 use crate::sums::add_by_band;
+
+/// What there is to say about it.
+pub(crate) const INFO: MetricInfo = MetricInfo {
+    key: "pu_psnr",
+    label: "PU-PSNR",
+    unit: "dB",
+    needs: Needs { luminance: true, ..Needs::NOTHING },
+    about: "PSNR of the display's luminance in perceptually uniform units (PU21)",
+    source: "Mantiuk, Azimi 2021, banding and glare; as in FovVideoVDP 1.2",
+    ..MetricInfo::FIDELITY
+};
+
+pub(crate) use crate::info::NoParams as Params;
 
 /// PU-PSNR of a test in dB, both given as luminance in cd/m², over the pixels that count; `None` where
 /// none does.

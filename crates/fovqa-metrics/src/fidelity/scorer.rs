@@ -7,14 +7,13 @@ use fovqa_vision::BandMap;
 use thiserror::Error;
 
 use super::fpsnr::WeightField;
-use super::fvvdp;
-use super::ms_ssim::{COARSEST, EXPONENTS, PairRows, combine};
+use super::ms_ssim::{EXPONENTS, PairRows, combine};
 use super::pass::{Scales, Sums, Wanted, run};
-use super::squared_error::psnr_db;
+use super::psnr::psnr_db;
 use super::ssim::rows::Constants;
-use crate::params::Params;
 use crate::regions::Regions;
 use crate::registry::Metric;
+use crate::registry::Params;
 
 /// A pair that a metric cannot score.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -124,19 +123,7 @@ impl Scorer {
 
     /// The metrics that do not fit frames of this size, and why.
     pub fn unfit(&self, width: usize, height: usize) -> Vec<(Metric, ScoreError)> {
-        let side = self.params.ssim.window_side();
-        let needed = |metric: Metric| match metric {
-            Metric::Mse
-            | Metric::Psnr
-            | Metric::Fpsnr
-            | Metric::PuPsnr
-            | Metric::RmsContrast
-            | Metric::Atd => 1,
-            Metric::Fvvdp => fvvdp::SMALLEST_SIDE,
-            Metric::Ssim | Metric::Fssim => side,
-            Metric::MsSsim => side * COARSEST,
-            Metric::Haar => self.params.haar.block_side(),
-        };
+        let needed = |metric: Metric| (metric.info().smallest_side)(&self.params);
         self.metrics
             .iter()
             .filter(|metric| width.min(height) < needed(**metric))
@@ -164,11 +151,11 @@ impl Scorer {
             return Err(error);
         }
         assert_eq!(regions.rows(), pair.height(), "regions of these frames");
-        let whole = [Metric::MsSsim, Metric::Fvvdp].into_iter().find(|m| self.wants(*m));
+        let whole = self.metrics.iter().copied().find(|metric| metric.info().needs.every_pixel);
         if let Some(metric) = whole.filter(|_| regions.is_masked()) {
             return Err(ScoreError::Masked { metric });
         }
-        let foveal = [Metric::Fpsnr, Metric::Fssim].into_iter().find(|m| self.wants(*m));
+        let foveal = self.metrics.iter().copied().find(|m| m.info().needs.foveal_weight);
         if let (Some(metric), None) = (foveal, weight) {
             return Err(ScoreError::NoView { metric });
         }

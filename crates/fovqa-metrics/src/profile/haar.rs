@@ -12,7 +12,33 @@
 
 use multiversion::multiversion;
 
-use fovqa_params::ParamValue;
+use fovqa_params::{ParamInfo, ParamValue, ParamValues};
+
+use crate::info::{MetricInfo, MetricParams};
+
+/// What there is to say about it.
+pub(crate) const INFO: MetricInfo = MetricInfo {
+    key: "haar",
+    label: "Haar wavelet",
+    smallest_side: |params| params.haar.block_side(),
+    about: "wavelet coefficients of luma by level and band (mean_abs, max_abs, energy), of reference and test, and their ratios",
+    source: "Patney et al. 2016, 4.4.2, Fig. 10",
+    params: &[
+        ParamInfo {
+            name: "levels",
+            default: "5",
+            values: ParamValues::Whole(1, MAX_LEVELS),
+            about: "levels; level l is of blocks of 2^l px a side",
+        },
+        ParamInfo {
+            name: "orientations",
+            default: "false",
+            values: ParamValues::Flag,
+            about: "LH, HL and HH one by one too",
+        },
+    ],
+    ..MetricInfo::PROFILE
+};
 
 /// The most levels there may be: blocks of 256 pixels a side.
 pub const MAX_LEVELS: u32 = 8;
@@ -32,9 +58,8 @@ impl Default for Params {
     }
 }
 
-impl Params {
-    /// Sets what the registry has found to be one of its values.
-    pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+impl MetricParams for Params {
+    fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
             "levels" => self.levels = value.number()? as u32,
             "orientations" => self.orientations = value.flag()?,
@@ -42,7 +67,9 @@ impl Params {
         }
         Some(())
     }
+}
 
+impl Params {
     /// The side of the coarsest block, in pixels: the least a picture may have.
     pub fn block_side(&self) -> usize {
         1 << self.levels

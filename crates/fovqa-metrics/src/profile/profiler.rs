@@ -5,9 +5,9 @@ use fovqa_frame::{Frame, LumaKind, LumaSignal, SignalTables};
 use super::haar::{self, HaarBand};
 use super::pass::{Contrast, Wanted, run};
 use super::rms_contrast;
-use crate::params::Params;
 use crate::regions::{BlockRegions, Regions};
 use crate::registry::Metric;
+use crate::registry::Params;
 use crate::temporal::KeptPlane;
 
 /// What there is to say of one picture.

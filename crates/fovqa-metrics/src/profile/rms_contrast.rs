@@ -8,7 +8,32 @@
 use fovqa_frame::LumaKind;
 use multiversion::multiversion;
 
-use fovqa_params::ParamValue;
+use fovqa_params::{ParamInfo, ParamValue, ParamValues};
+
+use crate::info::{MetricInfo, MetricParams};
+
+/// What there is to say about it.
+pub(crate) const INFO: MetricInfo = MetricInfo {
+    key: "rms_contrast",
+    label: "RMS contrast",
+    about: "standard deviation of luma in each band, of reference and test, and their ratio",
+    source: "Peli 1990; Patney et al. 2016, Fig. 4",
+    params: &[
+        ParamInfo {
+            name: "signal",
+            default: "\"luma\"",
+            values: ParamValues::Word(&["luma", "luminance"]),
+            about: "of the encoded signal, or of linear light after exposure",
+        },
+        ParamInfo {
+            name: "normalise",
+            default: "\"none\"",
+            values: ParamValues::Word(&["none", "mean"]),
+            about: "divided by the band's mean",
+        },
+    ],
+    ..MetricInfo::PROFILE
+};
 
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -29,9 +54,8 @@ pub enum Normalise {
     Mean,
 }
 
-impl Params {
-    /// Sets what the registry has found to be one of its values.
-    pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+impl MetricParams for Params {
+    fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match (name, value.text()?) {
             ("signal", "luma") => self.signal = LumaKind::Luma,
             ("signal", "luminance") => self.signal = LumaKind::Luminance,

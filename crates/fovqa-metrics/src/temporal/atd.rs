@@ -12,9 +12,29 @@ use multiversion::multiversion;
 
 use super::kept_plane::KeptPlane;
 use super::source::{Link, Sources, Stretch};
+use crate::info::{Better, LeadIn, MetricInfo, MetricKind, MetricParams, Needs};
 use crate::regions::{Regions, clipped};
 use crate::sums::add_by_band;
-use fovqa_params::ParamValue;
+use fovqa_params::{ParamInfo, ParamValue, ParamValues};
+
+/// What there is to say about it.
+pub(crate) const INFO: MetricInfo = MetricInfo {
+    key: "atd",
+    label: "ATD",
+    kind: MetricKind::Temporal,
+    better: Better::Lower,
+    per_band: true,
+    needs: Needs { guides: true, lead_in: LeadIn::Frame, ..Needs::NOTHING },
+    about: "average temporal difference of luma along the motion, of reference and test, and their ratio",
+    source: "Patney et al. 2016, 4.4.3",
+    params: &[ParamInfo {
+        name: "depth_tolerance",
+        default: "0.05",
+        values: ParamValues::NumberOr(0.0, 1e6, "off"),
+        about: "how much depth may differ along the motion, as a share; off leaves depth out",
+    }],
+    ..MetricInfo::FIDELITY
+};
 
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,9 +49,8 @@ impl Default for Params {
     }
 }
 
-impl Params {
-    /// Sets what the registry has found to be one of its values.
-    pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+impl MetricParams for Params {
+    fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
             "depth_tolerance" => self.depth_tolerance = value.number(),
             _ => return None,

@@ -52,6 +52,7 @@ pub use csf::sensitivity;
 pub use geometry::Geometry;
 pub use grid::Grid;
 pub use heat_map::{DifferenceMap, MapColors, colored};
+pub(crate) use params::INFO;
 pub use params::{MapContext, Padding, Params};
 pub use photometry::Photometry;
 pub use pooling::jod;

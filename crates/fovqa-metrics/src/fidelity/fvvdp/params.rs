@@ -1,8 +1,67 @@
 //! What a user may set.
 
-use fovqa_params::ParamValue;
+use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use super::color_space::ColorSpace;
+use super::score::SMALLEST_SIDE;
+use crate::info::{LeadIn, MetricInfo, MetricParams, Needs};
+
+/// What there is to say about it.
+pub(crate) const INFO: MetricInfo = MetricInfo {
+    key: "fvvdp",
+    label: "FovVideoVDP",
+    unit: "JOD",
+    per_band: true,
+    needs: Needs {
+        view: true,
+        luminance: true,
+        lead_in: LeadIn::Filters,
+        every_pixel: true,
+        ..Needs::NOTHING
+    },
+    smallest_side: |_| SMALLEST_SIDE,
+    about: "visible difference by eccentricity, over space and time: 10 for none, 1 less where 75 % prefer the reference; of bands, their share of the difference Q",
+    source: "Mantiuk et al. 2021, version 1.2",
+    params: &[
+        ParamInfo {
+            name: "foveated",
+            default: "true",
+            values: ParamValues::Flag,
+            about: "sensitivity falls off from the gaze; else every pixel is looked at directly",
+        },
+        ParamInfo {
+            name: "temp_padding",
+            default: "\"replicate\"",
+            values: ParamValues::Word(&["replicate", "circular", "pingpong"]),
+            about: "what stands before the first frame of a sequence",
+        },
+        ParamInfo {
+            name: "cd_m2_per_unit",
+            default: "\"auto\"",
+            values: ParamValues::NumberOr(1e-9, 1e9, "auto"),
+            about: "cd/m² of a linear sample of 1 (PU-PSNR too); auto is 1 on linear and PQ displays, and the tone-mapped signal on others",
+        },
+        ParamInfo {
+            name: "color_space",
+            default: "\"srgb\"",
+            values: ParamValues::Word(&ColorSpace::NAMES),
+            about: "primaries of the files (PU-PSNR too)",
+        },
+        ParamInfo {
+            name: "exact_edges",
+            default: "false",
+            values: ParamValues::Flag,
+            about: "weigh the right edge of coarser levels by their columns; FovVideoVDP does it by their rows",
+        },
+        ParamInfo {
+            name: "map_context",
+            default: "\"test\"",
+            values: ParamValues::Word(&["test", "reference"]),
+            about: "the picture below coloured heat maps",
+        },
+    ],
+    ..MetricInfo::FIDELITY
+};
 
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,9 +117,8 @@ impl Default for Params {
     }
 }
 
-impl Params {
-    /// Sets what the registry has found to be one of its values.
-    pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+impl MetricParams for Params {
+    fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
             "foveated" => self.foveated = value.flag()?,
             "temp_padding" => {

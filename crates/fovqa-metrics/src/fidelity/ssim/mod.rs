@@ -14,7 +14,46 @@
 
 pub(crate) mod rows;
 
-use fovqa_params::ParamValue;
+use fovqa_params::{ParamInfo, ParamValue, ParamValues};
+
+use crate::info::{MetricInfo, MetricParams};
+
+/// What there is to say about it.
+pub(crate) const INFO: MetricInfo = MetricInfo {
+    key: "ssim",
+    label: "SSIM",
+    per_band: true,
+    smallest_side: |params| params.ssim.window_side(),
+    about: "structural similarity, the mean of its map where the window fits",
+    source: "Wang, Bovik, Sheikh, Simoncelli 2004",
+    params: &[
+        ParamInfo {
+            name: "sigma",
+            default: "1.5",
+            values: ParamValues::Number(MIN_SIGMA, MAX_SIGMA),
+            about: "Gaussian window, px (MS-SSIM and FSSIM too)",
+        },
+        ParamInfo {
+            name: "radius",
+            default: "\"auto\"",
+            values: ParamValues::WholeOr(1, MAX_RADIUS, "auto"),
+            about: "window radius, px; auto is 3.5 sigma, rounded (5)",
+        },
+        ParamInfo {
+            name: "k1",
+            default: "0.01",
+            values: ParamValues::Number(MIN_K1, 1.0),
+            about: "stabiliser of the means",
+        },
+        ParamInfo {
+            name: "k2",
+            default: "0.03",
+            values: ParamValues::Number(MIN_K2, 1.0),
+            about: "stabiliser of the variances",
+        },
+    ],
+    ..MetricInfo::FIDELITY
+};
 
 /// Window and constants.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,9 +89,8 @@ pub(crate) const MAX_SIGMA: f64 = 64.0;
 /// Smallest standard deviation: below, the window is one pixel.
 pub(crate) const MIN_SIGMA: f64 = 0.1;
 
-impl Params {
-    /// Sets what the registry has found to be one of its values.
-    pub(crate) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
+impl MetricParams for Params {
+    fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
             "sigma" => self.sigma = value.number()?,
             "radius" if value.text() == Some("auto") => self.radius = None,
@@ -65,7 +103,9 @@ impl Params {
         }
         Some(())
     }
+}
 
+impl Params {
     /// Radius of the window in pixels.
     pub fn window_radius(&self) -> usize {
         let auto = (3.5 * self.sigma + 0.5) as usize;

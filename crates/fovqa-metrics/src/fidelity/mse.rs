@@ -1,21 +1,23 @@
-//! MSE and PSNR: the squared error of all channels, pooled, over the frame and per band.
+//! MSE, the mean squared error: the mean over pixels and channels of (a - b)², over the frame and per band.
 //!
-//! MSE = mean over pixels and channels of (a - b)², PSNR = -10 log10 MSE dB, both of the
-//! display-encoded signal with peak 1. Decibels are never averaged over channels.
-//! MSE in [0, 1], lower is better; PSNR in [0, ∞], higher is better.
+//! Of the display-encoded signal with peak 1; channels are pooled. In [0, 1], lower is better.
 
 use multiversion::multiversion;
 
-/// PSNR in dB of a mean squared error with peak 1; infinite for 0.
-pub fn psnr_db(mse: f64) -> f64 {
-    // Subtracted from 0, so that an error of 1 gives 0 dB and not -0.
-    if mse == 0.0 { f64::INFINITY } else { 0.0 - 10.0 * libm::log10(mse) }
-}
+use crate::info::{Better, MetricInfo};
 
-/// The mean squared error, with peak 1, that has a PSNR.
-pub fn mse_of_db(psnr_db: f64) -> f64 {
-    libm::pow(10.0, -psnr_db / 10.0)
-}
+/// What there is to say about it.
+pub(crate) const INFO: MetricInfo = MetricInfo {
+    key: "mse",
+    label: "MSE",
+    better: Better::Lower,
+    per_band: true,
+    about: "mean squared error of the encoded signal, peak 1",
+    source: "the squared error of all channels, pooled",
+    ..MetricInfo::FIDELITY
+};
+
+pub(crate) use crate::info::NoParams as Params;
 
 /// The squared error of one row, summed over its planes. Exact for 8-bit codes.
 pub(crate) fn squared_row(differences: &[&[f32]], out: &mut [f32]) {
