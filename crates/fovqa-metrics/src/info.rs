@@ -2,6 +2,7 @@
 
 use fovqa_params::{ParamError, ParamInfo, ParamValue};
 
+use crate::pooling::Statistic;
 use crate::registry::Params;
 
 /// What there is to say about a metric.
@@ -23,6 +24,8 @@ pub struct MetricInfo {
     pub per_band: bool,
     /// What it needs beside the frames.
     pub needs: Needs,
+    /// Its statistics, and how each is pooled.
+    pub statistics: &'static [Statistic],
     /// The smallest side that a frame may have, pixels.
     pub smallest_side: fn(&Params) -> usize,
     /// One line on what it is.
@@ -44,6 +47,7 @@ impl MetricInfo {
         better: Better::Higher,
         per_band: false,
         needs: Needs::NOTHING,
+        statistics: &[Statistic::VALUE],
         smallest_side: |_| 1,
         about: "",
         source: "",

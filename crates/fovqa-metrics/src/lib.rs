@@ -7,9 +7,11 @@
 
 mod fidelity;
 mod info;
+mod pooling;
 pub mod profile;
 mod regions;
 mod registry;
+mod row;
 mod sums;
 pub mod temporal;
 
@@ -19,6 +21,8 @@ pub use fidelity::pu_psnr;
 pub use fidelity::ssim;
 pub use fidelity::{BandScores, PairScores, ScoreError, Scorer, mse_of_db, psnr_db};
 pub use info::{Better, LeadIn, MetricInfo, MetricKind, Needs, NoParams};
+pub use pooling::{Parts, Pooling, Statistic, Weight, pool};
 pub use profile::{HaarBand, HaarStatistics, Profile, Profiler};
 pub use regions::{BlockRegions, Regions};
 pub use registry::{Metric, Params};
+pub use row::{Image, Key, Row, Rows, Subject};

@@ -16,6 +16,7 @@ use multiversion::multiversion;
 use fovqa_params::{ParamError, ParamInfo, ParamValue, ParamValues};
 
 use crate::info::{MetricInfo, MetricParams, Needs};
+use crate::pooling::{Pooling, Statistic};
 
 /// What there is to say about it.
 pub(crate) const INFO: MetricInfo = MetricInfo {
@@ -23,6 +24,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     label: "FPSNR",
     unit: "dB",
     needs: Needs { view: true, foveal_weight: true, ..Needs::NOTHING },
+    statistics: &[Statistic::VALUE.over_eyes(Pooling::Decibels).over_frames(Pooling::Decibels)],
     about: "PSNR under the square of the visible cut-off frequency; compare methods, not papers",
     source: "Lee, Pattichis, Bovik 2002; weights after Geisler and Perry 1998",
     params: &[

@@ -5,6 +5,7 @@
 use multiversion::multiversion;
 
 use crate::info::{Better, MetricInfo};
+use crate::pooling::{Pooling, Statistic};
 
 /// What there is to say about it.
 pub(crate) const INFO: MetricInfo = MetricInfo {
@@ -12,6 +13,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     label: "MSE",
     better: Better::Lower,
     per_band: true,
+    statistics: &[Statistic::VALUE.pooled(Pooling::Mean)],
     about: "mean squared error of the encoded signal, peak 1",
     source: "the squared error of all channels, pooled",
     ..MetricInfo::FIDELITY

@@ -3,6 +3,7 @@
 //! Decibels are never averaged over channels. In [0, ∞], higher is better; infinite for identical pictures.
 
 use crate::info::MetricInfo;
+use crate::pooling::{Pooling, Statistic};
 
 /// What there is to say about it.
 pub(crate) const INFO: MetricInfo = MetricInfo {
@@ -10,6 +11,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     label: "PSNR",
     unit: "dB",
     per_band: true,
+    statistics: &[Statistic::VALUE.pooled(Pooling::Decibels).over_frames(Pooling::Decibels)],
     about: "peak signal-to-noise ratio, -10 log10 MSE",
     source: "as scikit-image's peak_signal_noise_ratio",
     ..MetricInfo::FIDELITY

@@ -10,6 +10,7 @@ use fovqa_frame::transfer::pu21;
 use super::fvvdp::Grid;
 use super::psnr::psnr_db;
 use crate::info::{MetricInfo, Needs};
+use crate::pooling::{Pooling, Statistic};
 use crate::regions::Regions;
 use crate::sums::add_by_band;
 
@@ -19,6 +20,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     label: "PU-PSNR",
     unit: "dB",
     needs: Needs { luminance: true, ..Needs::NOTHING },
+    statistics: &[Statistic::VALUE.over_eyes(Pooling::Decibels).over_frames(Pooling::Decibels)],
     about: "PSNR of the display's luminance in perceptually uniform units (PU21)",
     source: "Mantiuk, Azimi 2021, banding and glare; as in FovVideoVDP 1.2",
     ..MetricInfo::FIDELITY

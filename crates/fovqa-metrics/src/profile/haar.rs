@@ -15,12 +15,41 @@ use multiversion::multiversion;
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::info::{MetricInfo, MetricParams};
+use crate::pooling::{Pooling, Statistic, Weight};
+
+/// Of all coefficients, then of each orientation, and how many there are.
+const STATISTICS: [Statistic; 13] = [
+    mean("mean_abs"),
+    MAX_ABS,
+    mean("energy"),
+    mean("mean_abs_lh"),
+    Statistic { name: "max_abs_lh", ..MAX_ABS },
+    mean("energy_lh"),
+    mean("mean_abs_hl"),
+    Statistic { name: "max_abs_hl", ..MAX_ABS },
+    mean("energy_hl"),
+    mean("mean_abs_hh"),
+    Statistic { name: "max_abs_hh", ..MAX_ABS },
+    mean("energy_hh"),
+    Statistic::count(COEFFICIENTS),
+];
+
+/// The statistic by which the others are pooled.
+pub(crate) const COEFFICIENTS: &str = "coefficients";
+
+const MAX_ABS: Statistic =
+    Statistic::named("max_abs").pooled(Pooling::Max).over_frames(Pooling::Max);
+
+const fn mean(name: &'static str) -> Statistic {
+    Statistic::named(name).pooled(Pooling::Mean).weighed_by(Weight::Statistic(COEFFICIENTS))
+}
 
 /// What there is to say about it.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "haar",
     label: "Haar wavelet",
     smallest_side: |params| params.haar.block_side(),
+    statistics: &STATISTICS,
     about: "wavelet coefficients of luma by level and band (mean_abs, max_abs, energy), of reference and test, and their ratios",
     source: "Patney et al. 2016, 4.4.2, Fig. 10",
     params: &[

@@ -13,6 +13,7 @@ use multiversion::multiversion;
 use super::kept_plane::KeptPlane;
 use super::source::{Link, Sources, Stretch};
 use crate::info::{Better, LeadIn, MetricInfo, MetricKind, MetricParams, Needs};
+use crate::pooling::{Pooling, Statistic};
 use crate::regions::{Regions, clipped};
 use crate::sums::add_by_band;
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
@@ -25,6 +26,13 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     better: Better::Lower,
     per_band: true,
     needs: Needs { guides: true, lead_in: LeadIn::Frame, ..Needs::NOTHING },
+    statistics: &[
+        Statistic::VALUE.over_eyes(Pooling::Mean),
+        Statistic::named("left_out")
+            .pooled(Pooling::Mean)
+            .over_frames(Pooling::Mean)
+            .without_ratio(),
+    ],
     about: "average temporal difference of luma along the motion, of reference and test, and their ratio",
     source: "Patney et al. 2016, 4.4.3",
     params: &[ParamInfo {

@@ -5,6 +5,25 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 use super::color_space::ColorSpace;
 use super::score::SMALLEST_SIDE;
 use crate::info::{LeadIn, MetricInfo, MetricParams, Needs};
+use crate::pooling::{Pooling, Statistic};
+
+/// Of a frame: its JOD, and Q in all, by band of spatial frequency (the level) and channel, and by what
+/// each band of eccentricity has in it.
+const STATISTICS: [Statistic; 6] = [
+    Statistic::named("frame_jod"),
+    Statistic::named("q"),
+    Statistic::named("q_sustained"),
+    Statistic::named("q_transient"),
+    // Of the Q of both eyes, or of all frames.
+    Statistic::named("share")
+        .over_bands(Pooling::Sum)
+        .over_eyes(Pooling::Mean)
+        .over_frames(Pooling::Mean),
+    Statistic::named("share_outside_bands")
+        .over_eyes(Pooling::Mean)
+        .over_frames(Pooling::Mean)
+        .without_row(),
+];
 
 /// What there is to say about it.
 pub(crate) const INFO: MetricInfo = MetricInfo {
@@ -20,6 +39,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
         ..Needs::NOTHING
     },
     smallest_side: |_| SMALLEST_SIDE,
+    statistics: &STATISTICS,
     about: "visible difference by eccentricity, over space and time: 10 for none, 1 less where 75 % prefer the reference; of bands, their share of the difference Q",
     source: "Mantiuk et al. 2021, version 1.2",
     params: &[

@@ -17,6 +17,10 @@ pub(crate) mod rows;
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::info::{MetricInfo, MetricParams};
+use crate::pooling::{Pooling, Statistic, Weight};
+
+/// The statistic by which bands are pooled: pixels of the band that have a value in the map.
+pub(crate) const MAP_PIXELS: &str = "map_pixels";
 
 /// What there is to say about it.
 pub(crate) const INFO: MetricInfo = MetricInfo {
@@ -24,6 +28,10 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     label: "SSIM",
     per_band: true,
     smallest_side: |params| params.ssim.window_side(),
+    statistics: &[
+        Statistic::VALUE.over_bands(Pooling::Mean).weighed_by(Weight::Statistic(MAP_PIXELS)),
+        Statistic::count(MAP_PIXELS),
+    ],
     about: "structural similarity, the mean of its map where the window fits",
     source: "Wang, Bovik, Sheikh, Simoncelli 2004",
     params: &[

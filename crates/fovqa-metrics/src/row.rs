@@ -1,0 +1,393 @@
+//! The one form of every measured value: what it is of, the value, and what it takes to pool it.
+//!
+//! A row is of a frame, which has the frame's number; whose frame it is, of which eye, stands with the
+//! sequence that it is part of.
+
+use std::cmp::Ordering;
+
+use crate::info::MetricKind;
+use crate::pooling::{Parts, Pooling, Statistic, pool};
+use crate::registry::Metric;
+
+/// What a value is of, apart from eye and frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Key {
+    /// What is measured, or counted.
+    pub subject: Subject,
+    /// Its statistic: index in those of the metric.
+    statistic: u8,
+    /// Of which picture.
+    pub image: Image,
+    /// Level of the wavelet, or band of spatial frequency, from 1 on.
+    pub level: Option<u8>,
+    /// Index of the eccentricity band; `None`: the whole frame.
+    pub band: Option<u16>,
+}
+
+/// What is measured, or counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Subject {
+    /// Pixels that count, of a band.
+    Pixels,
+    /// Pixels that count and lie outside all bands.
+    PixelsOutsideBands,
+    /// Pixels that a mask leaves out.
+    PixelsLeftOut,
+    /// A metric.
+    Metric(Metric),
+}
+
+/// Of which picture a value is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub enum Image {
+    /// Of test and reference together.
+    #[default]
+    Pair,
+    /// Of the reference.
+    Reference,
+    /// Of the test.
+    Test,
+    /// Test over reference.
+    Ratio,
+}
+
+impl Image {
+    /// All, in the order of results.
+    pub const ALL: [Image; 4] = [Image::Pair, Image::Reference, Image::Test, Image::Ratio];
+
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Image::Pair => "pair",
+            Image::Reference => "reference",
+            Image::Test => "test",
+            Image::Ratio => "ratio",
+        }
+    }
+
+    /// The picture of a name.
+    pub fn find(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|image| image.name() == name)
+    }
+}
+
+/// Pixels are counted.
+const PIXELS: Statistic = Statistic::count("");
+
+impl Subject {
+    const COUNTS: [Subject; 3] =
+        [Subject::Pixels, Subject::PixelsOutsideBands, Subject::PixelsLeftOut];
+
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Subject::Pixels => "pixels",
+            Subject::PixelsOutsideBands => "pixels_outside_bands",
+            Subject::PixelsLeftOut => "pixels_left_out",
+            Subject::Metric(metric) => metric.key(),
+        }
+    }
+
+    /// The subject of a name.
+    pub fn find(name: &str) -> Option<Self> {
+        let metric = || Metric::ALL.into_iter().find(|metric| metric.key() == name);
+        let count = Self::COUNTS.into_iter().find(|count| count.name() == name);
+        count.or_else(|| metric().map(Subject::Metric))
+    }
+
+    fn statistics(self) -> &'static [Statistic] {
+        match self {
+            Subject::Metric(metric) => metric.info().statistics,
+            _ => &[PIXELS],
+        }
+    }
+
+    fn metric(self) -> Option<Metric> {
+        match self {
+            Subject::Metric(metric) => Some(metric),
+            _ => None,
+        }
+    }
+}
+
+impl Key {
+    /// The value of a metric for a pair: of the whole frame, its own statistic.
+    pub fn of(metric: Metric) -> Self {
+        Self::pixels(Subject::Metric(metric))
+    }
+
+    /// A number of pixels of the whole frame.
+    pub fn pixels(subject: Subject) -> Self {
+        Self { subject, statistic: 0, image: Image::Pair, level: None, band: None }
+    }
+
+    /// A statistic by its name; `None` where the metric has none of it.
+    pub fn named(subject: Subject, statistic: &str) -> Option<Self> {
+        let index = subject.statistics().iter().position(|known| known.name == statistic)?;
+        Some(Self { statistic: u8::try_from(index).ok()?, ..Self::pixels(subject) })
+    }
+
+    /// The same of a statistic by its place in the metric's table.
+    pub(crate) fn nth(self, statistic: usize) -> Self {
+        debug_assert!(statistic < self.subject.statistics().len(), "a statistic of the metric");
+        Self { statistic: statistic as u8, ..self }
+    }
+
+    /// The same in a band.
+    #[must_use]
+    pub fn in_band(self, band: usize) -> Self {
+        Self { band: Some(band as u16), ..self }
+    }
+
+    /// The same on a level.
+    #[must_use]
+    pub fn on_level(self, level: usize) -> Self {
+        Self { level: Some(level as u8), ..self }
+    }
+
+    /// The same of a picture.
+    #[must_use]
+    pub fn of_image(self, image: Image) -> Self {
+        Self { image, ..self }
+    }
+
+    /// The metric; `None` of a number of pixels.
+    pub fn metric(&self) -> Option<Metric> {
+        self.subject.metric()
+    }
+
+    /// Its statistic.
+    pub fn statistic(&self) -> &'static Statistic {
+        &self.subject.statistics()[usize::from(self.statistic)]
+    }
+
+    /// Whether it is the metric's own value for a pair.
+    pub fn is_score(&self) -> bool {
+        self.image == Image::Pair && self.statistic().name.is_empty() && self.metric().is_some()
+    }
+
+    /// Where it stands among the rows of a frame: first the whole frame, then bands, then levels of
+    /// bands; in each, numbers of pixels and of values, scores, other statistics, what each picture has.
+    fn place(&self) -> impl Ord + use<> {
+        let counted = matches!(self.subject, Subject::PixelsOutsideBands | Subject::PixelsLeftOut);
+        let area = match (self.band, self.level) {
+            (None, _) if counted => 1,
+            (None, _) => 0,
+            (Some(_), None) => 2,
+            (Some(_), Some(_)) => 3,
+        };
+        let outer_level = self.level.filter(|_| area == 3);
+        let of_picture = self.metric().is_some_and(|metric| !metric.is(MetricKind::Fidelity));
+        let kind = match () {
+            () if self.subject == Subject::Pixels => 0,
+            () if self.statistic().is_count => 1,
+            () if of_picture => 4,
+            () if self.statistic().name.is_empty() => 2,
+            () => 3,
+        };
+        let inner = (self.subject, self.level, self.statistic, self.image);
+        (area, outer_level, self.band, kind, inner)
+    }
+}
+
+impl PartialOrd for Key {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Key {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.place().cmp(&other.place())
+    }
+}
+
+/// A measured value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// What it is of.
+    pub key: Key,
+    /// The value; `None` where there is nothing to have one of.
+    pub value: Option<f64>,
+    /// What it takes to pool it.
+    pub parts: Parts,
+}
+
+/// The values of a frame, in the order of results.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Rows(Vec<Row>);
+
+impl Rows {
+    /// Adds a value.
+    pub fn push(&mut self, key: Key, value: Option<f64>, parts: Parts) {
+        self.0.push(Row { key, value, parts });
+    }
+
+    /// Adds a value that is pooled by itself.
+    pub fn score(&mut self, key: Key, value: f64) {
+        self.push(key, Some(value), Parts::Value);
+    }
+
+    /// Adds a number of something.
+    pub fn count(&mut self, key: Key, count: u64) {
+        self.score(key, count as f64);
+    }
+
+    /// Adds all of another set.
+    pub fn extend(&mut self, other: &Rows) {
+        self.0.extend_from_slice(&other.0);
+    }
+
+    /// Puts them into the order of results, in which they are looked up.
+    pub fn sort(&mut self) {
+        self.0.sort_by_key(|row| row.key);
+        // Vectors grow by halves; frames are many.
+        self.0.shrink_to_fit();
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> std::slice::Iter<'_, Row> {
+        self.0.iter()
+    }
+
+    /// Keeps some of them.
+    pub fn retain(&mut self, keep: impl Fn(&Row) -> bool) {
+        self.0.retain(keep);
+    }
+
+    /// The row of a key.
+    pub fn get(&self, key: Key) -> Option<&Row> {
+        let found = self.0.binary_search_by(|row| row.key.cmp(&key)).ok()?;
+        self.0.get(found)
+    }
+
+    /// The value of a key; `None` where there is no row, or nothing to have a value of.
+    pub fn value(&self, key: Key) -> Option<f64> {
+        self.get(key)?.value
+    }
+
+    /// The number of a key; 0 without a row.
+    pub fn number(&self, key: Key) -> u64 {
+        self.value(key).map_or(0, |value| value as u64)
+    }
+
+    /// Whether there is a row of a metric.
+    pub fn has(&self, metric: Metric) -> bool {
+        self.0.iter().any(|row| row.key.metric() == Some(metric))
+    }
+
+    /// Those of a metric.
+    pub fn of(&self, metric: Metric) -> impl Iterator<Item = &Row> {
+        self.0.iter().filter(move |row| row.key.metric() == Some(metric))
+    }
+
+    /// The values of both eyes: of what both have, pooled as each statistic says. Where an eye has
+    /// nothing to have a value of, it is the other's.
+    #[must_use]
+    pub fn of_both_eyes(left: &Rows, right: &Rows) -> Rows {
+        let both = left.iter().filter_map(|l| {
+            let r = right.get(l.key)?;
+            let pooling = l.key.statistic().eyes;
+            let (value, parts) = pool(pooling, [(l.value, l.parts), (r.value, r.parts)]);
+            (pooling != Pooling::None).then_some(Row { key: l.key, value, parts })
+        });
+        Rows(both.collect())
+    }
+}
+
+impl<'a> IntoIterator for &'a Rows {
+    type Item = &'a Row;
+    type IntoIter = std::slice::Iter<'a, Row>;
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.iter()
+    }
+}
+
+impl FromIterator<Row> for Rows {
+    fn from_iter<I: IntoIterator<Item = Row>>(rows: I) -> Self {
+        let mut rows = Rows(rows.into_iter().collect());
+        rows.sort();
+        rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pooling::Weight;
+
+    #[test]
+    fn every_key_is_found_by_its_names() {
+        for metric in Metric::ALL {
+            let statistics = metric.info().statistics;
+            assert!(!statistics.is_empty(), "{}", metric.key());
+            for (index, statistic) in statistics.iter().enumerate() {
+                let subject = Subject::find(metric.key()).unwrap();
+                let key = Key::named(subject, statistic.name).unwrap();
+                assert_eq!(key, Key::of(metric).nth(index));
+                assert_eq!(key.statistic(), statistic);
+                let named = |name: &str| statistics.iter().any(|known| known.name == name);
+                match statistic.weight {
+                    Weight::Pixels => {}
+                    Weight::Statistic(name) => assert!(named(name)),
+                    Weight::Moments { count, mean } => assert!(named(count) && named(mean)),
+                }
+            }
+        }
+        assert_eq!(Subject::find("pixels"), Some(Subject::Pixels));
+        assert!(Subject::find("pixel").is_none() && Key::named(Subject::Pixels, "x").is_none());
+        for image in Image::ALL {
+            assert_eq!(Image::find(image.name()), Some(image));
+        }
+    }
+
+    #[test]
+    fn whole_frames_come_before_bands_and_bands_before_levels() {
+        let (psnr, haar) = (Key::of(Metric::Psnr), Key::of(Metric::Haar).on_level(1));
+        let left_out = Key::pixels(Subject::PixelsLeftOut);
+        let atd = Key::of(Metric::Atd).of_image(Image::Reference);
+        let pixels = Key::pixels(Subject::Pixels);
+        let order = [
+            psnr,
+            Key::named(Subject::Metric(Metric::Fvvdp), "q").unwrap(),
+            atd,
+            left_out,
+            pixels.in_band(0),
+            psnr.in_band(0),
+            Key::of(Metric::RmsContrast).of_image(Image::Reference).in_band(0),
+            pixels.in_band(1),
+            psnr.in_band(1),
+            haar.in_band(0),
+            haar.in_band(1),
+            haar.on_level(2).in_band(0),
+        ];
+        let mut mixed: Vec<Key> = order.iter().rev().copied().collect();
+        mixed.sort();
+        assert_eq!(mixed, order);
+        let rows: Rows =
+            mixed.iter().map(|&key| Row { key, value: None, parts: Parts::Value }).collect();
+        assert!(order.iter().all(|key| rows.get(*key).is_some()));
+        assert!(rows.get(psnr.in_band(2)).is_none());
+    }
+
+    #[test]
+    fn what_one_eye_has_not_is_the_others_and_what_it_was_not_asked_for_is_nobodys() {
+        let key = Key::of(Metric::Ssim);
+        let mut left = Rows::default();
+        left.score(key, 0.5);
+        left.push(key.in_band(0), Some(0.25), Parts::Value);
+        left.push(key.in_band(1), None, Parts::Value);
+        left.score(Key::of(Metric::MsSsim), 0.1);
+        let mut right = Rows::default();
+        right.score(key, 1.0);
+        right.push(key.in_band(0), None, Parts::Value);
+        right.push(key.in_band(1), None, Parts::Value);
+        left.sort();
+        right.sort();
+        let both = Rows::of_both_eyes(&left, &right);
+        assert_eq!(both.value(key), Some(0.75));
+        assert_eq!(both.value(key.in_band(0)), Some(0.25));
+        assert_eq!(both.get(key.in_band(1)).map(|row| row.value), Some(None));
+        assert!(!both.has(Metric::MsSsim));
+    }
+}
