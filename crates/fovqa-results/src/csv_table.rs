@@ -5,57 +5,15 @@
 use std::fmt;
 use std::io::{self, Write};
 
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Image, Metric};
 
 use crate::compared::{Compared, HaarStatistic};
 use crate::fvvdp::{FvvdpSummary, SpatialBand};
 use crate::report::{Comparison, FrameResult, RunResults, ScoreReport};
 use crate::summary::{Statistics, Summary};
-
-/// The columns, in order.
-pub const COLUMNS: [&str; 12] = [
-    "scene",
-    "method",
-    "parameters",
-    "eye",
-    "frame",
-    "image",
-    "metric",
-    "statistic",
-    "level",
-    "from_deg",
-    "to_deg",
-    "value",
-];
-
-/// The metric of a row that stands for something that could not be scored.
-pub const ERROR: &str = "error";
+use crate::table::{COLUMNS, ERROR};
 
 const FVVDP: &str = "fvvdp";
-
-/// The statistic of SSIM by which its bands are pooled: pixels of the band that have a map value.
-pub(crate) const SSIM_MAP_PIXELS: &str = "map_pixels";
-
-/// What a value is of.
-#[derive(Default, Clone, Copy, PartialEq, Eq)]
-enum Image {
-    #[default]
-    Pair,
-    Reference,
-    Test,
-    Ratio,
-}
-
-impl Image {
-    fn name(self) -> &'static str {
-        match self {
-            Image::Pair => "pair",
-            Image::Reference => "reference",
-            Image::Test => "test",
-            Image::Ratio => "ratio",
-        }
-    }
-}
 
 /// A row of the table; `parameters` belongs to sweeps to come.
 #[derive(Default, Clone, Copy)]
@@ -158,7 +116,7 @@ impl<W: Write> Table<W> {
                 self.write(&Row { metric: "pixels", value: pixels, ..row })?;
                 if let Some(pixels) = scores.ssim_map_pixels {
                     let (metric, value) = (Metric::Ssim.key(), Some(Value::Count(pixels)));
-                    self.write(&Row { metric, statistic: SSIM_MAP_PIXELS, value, ..row })?;
+                    self.write(&Row { metric, statistic: "map_pixels", value, ..row })?;
                 }
                 for (metric, value) in &scores.scores {
                     self.write(&Row {

@@ -11,13 +11,14 @@ mod gate;
 mod json;
 mod report;
 mod summary;
+mod table;
 
 pub use baseline::{
     BASELINE_SCHEMA, Baseline, BaselineComparison, Difference, InputGroup, MetricRecord,
 };
 pub use both_eyes::both_eyes;
 pub use compared::{Compared, HaarStatistic, Measure, Sides};
-pub use csv_table::{COLUMNS, ERROR, write_csv, write_results_csv};
+pub use csv_table::{write_csv, write_results_csv};
 pub use curves::{CurveRecord, CurvesRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
     CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RUN_JSON,
@@ -38,3 +39,4 @@ pub use report::{
     ScoreReport, ViewResult,
 };
 pub use summary::{AtdSummary, BandSummary, SideStatistics, Spread, Statistics, Summary};
+pub use table::{COLUMNS, ERROR, GAZE_STEP, TableRow, read_results_csv};

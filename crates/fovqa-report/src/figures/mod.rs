@@ -5,7 +5,7 @@ mod compared;
 mod sequence;
 
 use fovqa_config::{Plot, PlotKind};
-use fovqa_metrics::{Better, Metric, MetricKind};
+use fovqa_metrics::{Better, Image, Metric, MetricKind};
 use fovqa_plot::{
     Axis, BarChart, BarSeries, Figure, LineChart, LineSeries, Look, SpreadChart, SpreadSeries,
 };
@@ -16,7 +16,7 @@ use fovqa_results::{
 use crate::comparison::{
     ComparisonTable, Ratios, average_label, common_scenes, mean, overall, statistic, value,
 };
-use crate::frame_values::{FrameValues, Image};
+use crate::frame_values::FrameValues;
 use crate::sheet::NamedFigure;
 
 /// More edges than this do not fit the axis as ticks.

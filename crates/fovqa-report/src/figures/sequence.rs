@@ -1,11 +1,11 @@
 //! A metric frame by frame, with the frames marked in which the eye jumps (Patney et al. 2016,
 //! Fig. 12).
 
-use fovqa_metrics::{Metric, MetricKind};
+use fovqa_metrics::{Image, Metric, MetricKind};
 use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Span};
 
 use super::{NamedFigure, Selection, frame_axis, slug};
-use crate::frame_values::{FrameValue, Image};
+use crate::frame_values::FrameValue;
 
 /// A gaze that moves farther in a frame is in a saccade: at 72 frames a second 144° a second, which no
 /// pursuit reaches.

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::values::{Place, Row, RunValues, Values};
-use crate::csv_table::{COLUMNS, ERROR};
-use crate::files::{FileError, RESULTS_CSV, SUMMARY_JSON, open_result_file, read_json_file};
+use crate::files::{FileError, RESULTS_CSV, SUMMARY_JSON, read_json_file};
 use crate::json::{ComparisonSummary, SUMMARY_SCHEMA, SummaryRecord};
+use crate::table::{ERROR, not_results, read_results_csv};
 
 impl RunValues {
     /// Reads those of a folder of results.
@@ -19,8 +19,8 @@ impl RunValues {
         let summary: SummaryRecord = read_json_file(&path, SUMMARY_SCHEMA, "a summary of a run")?;
         let mut values = Self::default();
         let path = folder.join(RESULTS_CSV);
-        let broken = |detail: String| broken(&path, detail);
-        values.read_csv(&path)?;
+        let broken = |detail: String| not_results(&path, detail);
+        values.read_csv(folder)?;
         for comparison in summary.comparisons {
             let place = place(&comparison);
             let entry = values.places.entry(place).or_default();
@@ -48,72 +48,24 @@ impl RunValues {
         Ok(values)
     }
 
-    fn read_csv(&mut self, path: &Path) -> Result<(), FileError> {
-        let mut reader = csv::Reader::from_reader(open_result_file(path)?);
-        let headers = reader.headers().map_err(|error| unreadable(path, error))?.clone();
-        if !headers.iter().eq(COLUMNS) {
-            return Err(broken(path, "its columns are others".to_owned()));
-        }
-        let mut record = csv::StringRecord::new();
-        while reader.read_record(&mut record).map_err(|error| unreadable(path, error))? {
-            let cell = |index: usize| record.get(index).unwrap_or_default();
-            let line = record.position().map_or(0, csv::Position::line);
-            let at = |detail: String| broken(path, format!("line {line}: {detail}"));
-            let text = |index: usize| cell(index).to_owned();
-            let values = self.places.entry((text(0), text(1), text(3))).or_default();
-            if cell(6) == ERROR {
-                continue;
+    fn read_csv(&mut self, folder: &Path) -> Result<(), FileError> {
+        read_results_csv(folder, |row| {
+            let place = (row.scene.to_owned(), row.method.to_owned(), row.eye.to_owned());
+            let values = self.places.entry(place).or_default();
+            if row.metric != ERROR {
+                let (metric, statistic) = (row.metric.to_owned(), row.statistic.to_owned());
+                let kind = (metric, statistic, row.image.name().to_owned(), row.level);
+                let value = row.value;
+                let (frame, band) = (row.frame, row.band);
+                values.rows.entry(kind).or_default().push(Row { frame, band, value });
             }
-            let row = Row {
-                frame: whole(cell(4)).map_err(at)?,
-                band: number(cell(9))
-                    .map_err(at)?
-                    .zip(number(cell(10)).map_err(at)?)
-                    .map(Into::into),
-                value: number(cell(11)).map_err(at)?,
-            };
-            let level = whole(cell(8)).map_err(at)?;
-            values.rows.entry((text(6), text(7), text(5), level)).or_default().push(row);
-        }
-        Ok(())
+            Ok(())
+        })
     }
 }
 
 fn place(comparison: &ComparisonSummary) -> Place {
     (comparison.scene.clone(), comparison.method.clone(), comparison.eye.clone())
-}
-
-fn broken(path: &Path, detail: String) -> FileError {
-    FileError::Format { path: path.to_owned(), expected: "the results of a run", detail }
-}
-
-/// A file that is not there is said as such.
-fn unreadable(path: &Path, error: csv::Error) -> FileError {
-    match error.into_kind() {
-        csv::ErrorKind::Io(error) => FileError::Read { path: path.to_owned(), error },
-        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
-            let line = pos.map_or(0, |at| at.line());
-            broken(path, format!("line {line}: it has {len} cells, not {expected_len}"))
-        }
-        other => broken(path, format!("{other:?}")),
-    }
-}
-
-/// A number of a cell, as it is written there: of what is infinite, `inf` alone, and no NaN.
-fn number(cell: &str) -> Result<Option<f64>, String> {
-    if cell.is_empty() {
-        return Ok(None);
-    }
-    let wrong = || format!("{cell:?} is no number");
-    let value: f64 = cell.parse().map_err(|_| wrong())?;
-    if value.is_finite() || matches!(cell, "inf" | "-inf") { Ok(Some(value)) } else { Err(wrong()) }
-}
-
-fn whole<T: std::str::FromStr>(cell: &str) -> Result<Option<T>, String> {
-    if cell.is_empty() {
-        return Ok(None);
-    }
-    cell.parse().map(Some).map_err(|_| format!("{cell:?} is no whole number"))
 }
 
 /// Whether the rows of a comparison are those that its summary is of.

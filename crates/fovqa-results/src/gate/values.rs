@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use fovqa_config::{Aggregate, Quantity};
-use fovqa_metrics::{Metric, mse_of_db, psnr_db};
+use fovqa_metrics::{Key, Metric, Parts, Pooling, Statistic, Subject, Weight, pool};
 
 use super::aggregate::aggregate;
-use crate::csv_table::SSIM_MAP_PIXELS;
 use crate::json::ComparisonSummary;
 
 /// Scene, method and eye.
@@ -129,40 +128,31 @@ impl Values {
         let frames = self.frames(&of_frames).unwrap_or_default();
         let summary = self.summary.as_ref();
         let value = match (Metric::find(&quantity.metric), quantity.band_deg) {
-            (Some(Metric::Psnr), Some(band)) => Some(self.pooled_in(quantity, band)?),
             (Some(Metric::Fvvdp), _) => summary.and_then(|summary| summary.fvvdp.as_ref()?.jod),
             (Some(metric), None) => {
                 summary.and_then(|summary| summary.metrics.get(&metric)?.pooled)
             }
+            (Some(_), Some(_)) => Some(self.pooled_in_bands(&of_frames)?),
             _ => None,
         };
         Ok(Found { value: value.ok_or_else(|| lacks(quantity))?, frames })
     }
 
-    /// PSNR of the error of all frames in a band.
-    fn pooled_in(&self, quantity: &Quantity, band: [f64; 2]) -> Result<f64, Lacking> {
-        let psnr = Quantity { band_deg: Some(band), ..Quantity::of(Metric::Psnr, Aggregate::Mean) };
+    /// What all frames have together in a band, or several.
+    fn pooled_in_bands(&self, quantity: &Quantity) -> Result<f64, Lacking> {
         // Says what is missing.
-        self.frames(&psnr)?;
-        let (mut squared, mut pixels) = (0.0, 0.0);
-        for part in self.parts(&psnr)?.into_values().flatten() {
-            // A band without pixels has no value, and weighs nothing.
-            let Some(value) = part.value else { continue };
-            squared += mse_of_db(value) * part.weight;
-            pixels += part.weight;
-        }
-        if pixels > 0.0 { Ok(psnr_db(squared / pixels)) } else { Err(lacks(quantity)) }
+        self.frames(quantity)?;
+        let pooling = statistic(quantity).map_or(Pooling::None, |statistic| statistic.frames);
+        let parts = self.parts(quantity, pooling)?.into_values().flatten();
+        pool(pooling, parts.map(|part| (part.value, part.parts))).0.ok_or_else(|| lacks(quantity))
     }
 
     fn ratio_of_means(&self, quantity: &Quantity) -> Result<f64, Lacking> {
         let mean = |image: &str| {
             let of = Quantity { image: image.to_owned(), ..quantity.clone() };
             let values: Vec<f64> = self.frames(&of)?.into_iter().map(|(_, value)| value).collect();
-            let kind = if quantity.statistic.starts_with("max_abs") {
-                Aggregate::Max
-            } else {
-                Aggregate::Mean
-            };
+            let maximum = statistic(quantity).is_some_and(Statistic::is_maximum);
+            let kind = if maximum { Aggregate::Max } else { Aggregate::Mean };
             aggregate(kind, &values, false).ok_or_else(|| lacks(quantity))
         };
         let (reference, test) = (mean("reference")?, mean("test")?);
@@ -171,19 +161,20 @@ impl Values {
 
     /// The value of each frame that has one.
     fn frames(&self, quantity: &Quantity) -> Result<Vec<(i64, f64)>, Lacking> {
-        let parts = self.parts(quantity)?;
+        let pooling = statistic(quantity).map_or(Pooling::None, |statistic| statistic.bands);
+        let parts = self.parts(quantity, pooling)?;
         if !self.rows.contains_key(&kind(quantity)) {
             return Err(lacks(quantity));
         }
         if quantity.image == "ratio" && parts.values().any(|parts| parts.len() > 1) {
             return self.ratios(quantity);
         }
-        let metric = Metric::find(&quantity.metric);
         let mut frames = Vec::new();
         let mut pixels = 0.0;
         for (frame, parts) in parts {
             pixels += parts.iter().map(|part| part.weight).sum::<f64>();
-            if let Some(value) = united(metric, &quantity.statistic, &parts) {
+            let parts = parts.iter().map(|part| (part.value, part.parts));
+            if let Some(value) = pool(pooling, parts).0 {
                 frames.push((frame, value));
             }
         }
@@ -211,25 +202,31 @@ impl Values {
         if frames.is_empty() { Err(no_ratio(quantity)) } else { Ok(frames) }
     }
 
-    /// The values of each frame's bands that a quantity is of, with their weights.
-    fn parts(&self, quantity: &Quantity) -> Result<BTreeMap<i64, Vec<Part>>, Lacking> {
+    /// The values of each frame's bands that a quantity is of, with what it takes to pool them.
+    fn parts(
+        &self,
+        quantity: &Quantity,
+        pooling: Pooling,
+    ) -> Result<BTreeMap<i64, Vec<Part>>, Lacking> {
         let rows = self.rows.get(&kind(quantity)).map(Vec::as_slice).unwrap_or_default();
         let mut frames: BTreeMap<i64, Vec<Part>> = BTreeMap::new();
         let Some([from, to]) = quantity.band_deg else {
             for row in rows.iter().filter(|row| row.band.is_none()) {
-                let part = Part { value: row.value, weight: 1.0 };
+                let part = Part { value: row.value, weight: 1.0, parts: Parts::Value };
                 if let Some(frame) = row.frame {
                     frames.entry(frame).or_default().push(part);
                 }
             }
             return Ok(frames);
         };
-        let weights = self.weights(quantity)?;
+        let (weights, means) = self.weights(quantity)?;
         for row in rows {
             let (Some(frame), Some(band)) = (row.frame, row.band) else { continue };
             if from <= band[0] && band[1] <= to {
-                let weight = weights.get(&(frame, band.map(f64::to_bits))).copied().unwrap_or(0.0);
-                frames.entry(frame).or_default().push(Part { value: row.value, weight });
+                let of = |values: &Weights| values.get(&(frame, band.map(f64::to_bits))).copied();
+                let (weight, mean) = (of(&weights).unwrap_or(0.0), of(&means).unwrap_or(0.0));
+                let parts = Parts::of_value(pooling, row.value.unwrap_or(0.0), weight, mean);
+                frames.entry(frame).or_default().push(Part { value: row.value, weight, parts });
             }
         }
         // Every band has its pixels, whatever else it lacks.
@@ -245,21 +242,25 @@ impl Values {
         Ok(frames)
     }
 
-    /// The weight of each band of each frame: its pixels or, of the wavelet, its coefficients, of SSIM
-    /// those of its pixels that have a value in the map.
-    fn weights(&self, quantity: &Quantity) -> Result<BTreeMap<(i64, [u64; 2]), f64>, Lacking> {
-        let pair = |metric: &str, statistic: &str, level| {
-            (metric.to_owned(), statistic.to_owned(), "pair".to_owned(), level)
-        };
-        let kind = match quantity.level {
-            Some(level) if quantity.metric == Metric::Haar.key() => {
-                pair(Metric::Haar.key(), "coefficients", Some(level))
-            }
-            _ if quantity.metric == Metric::Ssim.key() => {
-                pair(Metric::Ssim.key(), SSIM_MAP_PIXELS, None)
-            }
-            _ => pair("pixels", "", None),
-        };
+    /// What each band of each frame weighs and, of deviations, the mean there.
+    fn weights(&self, quantity: &Quantity) -> Result<(Weights, Weights), Lacking> {
+        let of =
+            |statistic: &str| self.by_band(quantity, (&quantity.metric, statistic, quantity.level));
+        let pixels = || self.by_band(quantity, (Subject::Pixels.name(), "", None));
+        match statistic(quantity).map_or(Weight::Pixels, |statistic| statistic.weight) {
+            Weight::Pixels => Ok((pixels()?, Weights::new())),
+            Weight::Statistic(name) => Ok((of(name)?, Weights::new())),
+            Weight::Moments { count, mean } => Ok((of(count)?, of(mean)?)),
+        }
+    }
+
+    /// The values of a statistic of the pair by frame and band.
+    fn by_band(
+        &self,
+        quantity: &Quantity,
+        (metric, statistic, level): (&str, &str, Option<usize>),
+    ) -> Result<Weights, Lacking> {
+        let kind = (metric.to_owned(), statistic.to_owned(), "pair".to_owned(), level);
         let none = Vec::new();
         let scored = self.rows.contains_key(&self::kind(quantity));
         let Some(rows) = self.rows.get(&kind).or(Some(&none).filter(|_| !scored)) else {
@@ -275,6 +276,15 @@ impl Values {
     }
 }
 
+/// Values by frame and band.
+type Weights = BTreeMap<(i64, [u64; 2]), f64>;
+
+/// How the statistic of a quantity is pooled.
+fn statistic(quantity: &Quantity) -> Option<&'static Statistic> {
+    let subject = Subject::Metric(Metric::find(&quantity.metric)?);
+    Some(Key::named(subject, &quantity.statistic)?.statistic())
+}
+
 fn kind(quantity: &Quantity) -> Kind {
     let Quantity { metric, statistic, image, level, .. } = quantity;
     (metric.clone(), statistic.clone(), image.clone(), *level)
@@ -285,32 +295,7 @@ fn kind(quantity: &Quantity) -> Kind {
 struct Part {
     value: Option<f64>,
     weight: f64,
-}
-
-/// The value of several bands together: errors and structure by their pixels, wavelet coefficients by their
-/// number, the largest of maxima, shares as they add up. `None` without a value, or where several cannot
-/// be put together.
-fn united(metric: Option<Metric>, statistic: &str, parts: &[Part]) -> Option<f64> {
-    let scored: Vec<(f64, f64)> =
-        parts.iter().filter_map(|part| Some((part.value?, part.weight))).collect();
-    if let [(value, _)] = scored.as_slice() {
-        return Some(*value);
-    }
-    let weighed = |of: &dyn Fn(f64) -> f64| {
-        let sum: f64 = scored.iter().map(|(value, weight)| of(*value) * weight).sum();
-        let weights: f64 = scored.iter().map(|(_, weight)| weight).sum();
-        (weights > 0.0).then(|| sum / weights)
-    };
-    match metric? {
-        Metric::Psnr => weighed(&mse_of_db).map(psnr_db),
-        Metric::Mse | Metric::Ssim => weighed(&|value| value),
-        Metric::Haar if statistic.starts_with("max_abs") => {
-            scored.iter().map(|(value, _)| *value).reduce(f64::max)
-        }
-        Metric::Haar => weighed(&|value| value),
-        Metric::Fvvdp => (!scored.is_empty()).then(|| scored.iter().map(|(value, _)| value).sum()),
-        _ => None,
-    }
+    parts: Parts,
 }
 
 fn known_bands(quantity: &Quantity, edges: &[[f64; 2]]) -> String {
