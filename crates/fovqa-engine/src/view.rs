@@ -13,10 +13,10 @@ use fovqa_vision::BandEdges;
 
 use crate::events::Warnings;
 use crate::find::FoundView;
-use crate::light::{FvvdpMaps, Light, Lit};
 use crate::load::{Fault, Loaded, Loader, Side, Step, comparable};
+use crate::meters::light::{FvvdpMaps, Light, Lit};
+use crate::meters::temporal::{Counted, Present, Temporal};
 use crate::setup::{Inputs, Setup};
-use crate::temporal::{Counted, Present, Temporal};
 
 /// The state of a view while its frames are scored.
 pub(crate) struct ViewRun<'a> {

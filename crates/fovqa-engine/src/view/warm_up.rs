@@ -10,7 +10,7 @@ use fovqa_results::Failure;
 use super::{Measuring, ViewRun, unscored};
 use crate::events::Warnings;
 use crate::load::{Fault, Loaded, Side, Step};
-use crate::temporal::Present;
+use crate::meters::temporal::Present;
 use crate::work::Work;
 
 impl ViewRun<'_> {

@@ -1,0 +1,6 @@
+//! What runs over the frames of a view.
+
+pub(crate) mod light;
+pub(crate) mod temporal;
+
+pub use light::FvvdpMaps;
