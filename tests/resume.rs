@@ -47,10 +47,10 @@ fn cuts(lines: &[String], of: &str) -> Vec<(String, String)> {
 fn marked(lines: &[String]) -> Vec<String> {
     let mark = |line: &String| {
         let mut value: Value = serde_json::from_str(line).unwrap();
-        if value.get("scores").is_none() {
-            return line.clone();
-        }
-        value["scores"]["mse"] = 123.5.into();
+        let Some(rows) = value.get_mut("rows") else { return line.clone() };
+        let rows = rows.as_array_mut().unwrap();
+        let mse = rows.iter_mut().find(|row| row[0] == "mse" && row[4].is_null()).unwrap();
+        mse[5] = 123.5.into();
         format!("{value}\n")
     };
     lines.iter().map(mark).collect()
@@ -164,7 +164,7 @@ fn finished_frames_are_not_scored_again() {
     let folder = two_scenes();
     folder.run(&["run", "e.toml", "--output", "whole"]).ok();
     let lines = marked(&journal(&folder, "whole"));
-    let frames = |lines: &[String]| lines.iter().filter(|l| l.contains("\"scores\"")).count();
+    let frames = |lines: &[String]| lines.iter().filter(|l| l.contains("\"rows\"")).count();
     assert_eq!(frames(&lines), 36);
     for end in [lines.len() / 5, lines.len() / 2, lines.len() - 2, lines.len()] {
         folder.write("out/journal.jsonl", lines[..end].concat());
@@ -331,7 +331,7 @@ fn where_nothing_is_there_a_run_begins() {
     lines.insert(half, "\0\0\0\n".to_owned());
     folder.write("new/journal.jsonl", lines.concat());
     folder.run(&["run", "e.toml", "--resume", "--output", "new"]).ok();
-    let before = lines[..half].iter().filter(|line| line.contains("\"scores\"")).count();
+    let before = lines[..half].iter().filter(|line| line.contains("\"rows\"")).count();
     let kept = marks(&folder, "new").iter().filter(|(_, marked)| *marked).count();
     assert_eq!(kept, before);
 }
@@ -386,7 +386,7 @@ fn a_full_disk_loses_nothing() {
     let run = ["run", "e.toml", "--resume", "--output", "disk/out"];
     let frames = || {
         let journal = fs::read_to_string(folder.path("disk/out/journal.jsonl"));
-        journal.unwrap_or_default().matches("\"scores\"").count()
+        journal.unwrap_or_default().matches("\"rows\"").count()
     };
     folder.run(&run).fails(3, &["the journal cannot be written", "--resume goes on"]);
     let finished = frames();

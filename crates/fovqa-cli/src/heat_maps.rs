@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use fovqa_engine::{EngineError, Entry, Finished, FvvdpMaps, Named};
 use fovqa_io::{exr_gray, png_rgb8};
+use fovqa_metrics::Metric;
 use fovqa_results::{FileError, FrameResult, write_whole};
 
 /// A folder for heat maps.
@@ -33,7 +34,7 @@ impl HeatMaps {
     /// Whether those of a frame are there, where it has some.
     pub(crate) fn has(&self, named: Named<'_>, frame: &FrameResult) -> bool {
         let raw = self.folder(named).join(raw(frame.frame));
-        frame.fvvdp.is_none() || raw.is_file()
+        !frame.rows.has(Metric::Fvvdp) || raw.is_file()
     }
 
     /// Writes those of a pair, where it has some.

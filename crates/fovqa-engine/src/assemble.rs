@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use fovqa_config::{Eye, Plan};
+use fovqa_metrics::Metric;
 use fovqa_results::{Comparison, Failure, RunResults, ScoreReport, both_eyes};
 
 use crate::events::Events;
@@ -48,7 +49,7 @@ fn report_view(
         let report = reports.entry((scene, method, eye)).or_default();
         match result {
             Ok(frame) => {
-                if frame.atd.is_some() {
+                if frame.rows.has(Metric::Atd) {
                     report.atd_guides = guides;
                 }
                 report.frames.push(frame);

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use fovqa_config::Plan;
+use fovqa_metrics::Metric;
 use thiserror::Error;
 
 use crate::findings::{Findings, Outcome, Settled, ViewFindings};
@@ -25,6 +26,14 @@ pub enum MergeError {
         path: PathBuf,
         /// The reason.
         error: std::io::Error,
+    },
+    /// One in the format of another version.
+    #[error("{}: the shard is of another version of fovqa, in its format {format}", path.display())]
+    Format {
+        /// The folder.
+        path: PathBuf,
+        /// The name of the format.
+        format: String,
     },
     /// One that is not done.
     #[error("{}: shard {shard} is not finished", path.display())]
@@ -99,7 +108,7 @@ impl MergeError {
             }
             Self::Whole(_) => "it needs no merging; `fovqa report` draws it again",
             Self::Unfinished { .. } => "go on with it: `fovqa run --shard I/N --resume`",
-            Self::Differ { .. } | Self::Version { .. } => {
+            Self::Differ { .. } | Self::Version { .. } | Self::Format { .. } => {
                 "score all shards with one version, of one experiment file, with the same --frames"
             }
             Self::Twice { .. } => "give each shard once",
@@ -197,6 +206,9 @@ fn text(path: &Path) -> Result<Text, MergeError> {
     let text = match journal::read(path) {
         Ok(Found::Journal(text)) => *text,
         Ok(Found::Nothing | Found::Other) => return Err(none()),
+        Ok(Found::OtherFormat(format)) => {
+            return Err(MergeError::Format { path: path.to_owned(), format });
+        }
         Err(error) if error.kind() == std::io::ErrorKind::NotADirectory => return Err(none()),
         Err(error) => return Err(MergeError::Io { path: path.to_owned(), error }),
     };
@@ -250,7 +262,7 @@ fn join(all: &mut ViewFindings, mut next: ViewFindings) {
     let broken = |outcome: &&mut Outcome| missing.contains_key(&outcome.method);
     for outcome in next.pairs.values_mut().filter(broken) {
         if let Ok(frame) = &mut outcome.result {
-            frame.fvvdp = None;
+            frame.rows.retain(|row| row.key.metric() != Some(Metric::Fvvdp));
         }
     }
     all.pairs.append(&mut next.pairs);

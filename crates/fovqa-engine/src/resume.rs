@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use fovqa_config::{Eye, Gaze, Plan};
-use fovqa_metrics::{LeadIn, Metric};
+use fovqa_metrics::{LeadIn, Metric, Needs};
 
 use crate::error::EngineError;
 use crate::find::{Found, FoundView};
@@ -39,6 +39,11 @@ pub fn resume(
         Ok(journal::Found::Nothing) => return Ok(Resumed::default()),
         Ok(journal::Found::Other) => {
             return changed(vec![format!("{JOURNAL} is not in the format of this version")]);
+        }
+        Ok(journal::Found::OtherFormat(format)) => {
+            return changed(vec![format!(
+                "{JOURNAL} is of another version of fovqa, in its format {format}"
+            )]);
         }
         Ok(journal::Found::Journal(text)) => text,
         Err(error) => return Err(EngineError::JournalRead { path: folder.join(JOURNAL), error }),
@@ -162,14 +167,14 @@ fn of_view(
         return Ok(ViewFindings::default());
     }
     let fvvdp = metrics.contains(&Metric::Fvvdp);
-    if metrics.iter().any(|metric| metric.info().needs.lead_in > LeadIn::None) {
+    if Needs::of(&metrics).lead_in > LeadIn::None {
         let timings = timings(view, plan.scenes[view.scene].fps, &plan.params.fvvdp);
         let timings = timings.unwrap_or_default();
         let good = |index: &usize| {
             let Some(outcome) = known.pairs.get(index) else { return false };
             let Ok(frame) = &outcome.result else { return false };
             let timed = timings.get(&outcome.method).is_some_and(|timing| timing.time.is_ok());
-            !(fvvdp && timed && frame.fvvdp.is_none())
+            !(fvvdp && timed && !frame.rows.has(Metric::Fvvdp))
         };
         // Each pair has seen those before it.
         let first = range.clone().find(|index| !good(index)).unwrap_or(range.end);

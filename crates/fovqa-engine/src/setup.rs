@@ -6,7 +6,7 @@ use std::sync::Arc;
 use fovqa_config::{Gaze, MetricChoice, Plan, Settings};
 use fovqa_frame::Mask;
 use fovqa_metrics::fvvdp::{Fvvdp, Geometry, SMALLEST_SIDE};
-use fovqa_metrics::{Metric, Profiler, Scorer, WeightField};
+use fovqa_metrics::{Metric, Profiler, ScoreError, Scorer, WeightField};
 use fovqa_results::ViewResult;
 use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind, GazeAt, View, ViewSpec};
 
@@ -53,8 +53,7 @@ impl<'a> Setup<'a> {
         let mask = inputs.mask.map(|mask| fit_mask(inputs, mask, size)).transpose()?;
         let mut metrics = inputs.metrics.to_vec();
         if plan.metrics == MetricChoice::Default {
-            let scorer = Scorer::new(metrics.clone(), plan.params.clone());
-            for (metric, error) in scorer.unfit(size.0, size.1) {
+            for (metric, error) in ScoreError::unfit(&metrics, &plan.params, size) {
                 let message = format!("{} is left out: {error}", metric.info().label);
                 warnings.once_a_view(metric.key(), &message);
                 metrics.retain(|m| *m != metric);
@@ -148,6 +147,11 @@ impl<'a> Setup<'a> {
     /// What depends on the present gaze.
     pub(crate) fn retina(&self) -> Arc<Retina> {
         Arc::clone(&self.retina)
+    }
+
+    /// How many bands there are.
+    pub(crate) fn bands(&self) -> usize {
+        self.view.as_ref().map_or(0, |view| view.bands_deg.len())
     }
 
     /// FovVideoVDP for these frames, where it is asked for.

@@ -6,9 +6,9 @@ use fovqa_config::{EyeView, Plan};
 use fovqa_frame::{Mask, PairSignal, SignalTables};
 use fovqa_metrics::temporal::KeptPlane;
 use fovqa_metrics::{
-    BlockRegions, Metric, MetricKind, PairScores, Profile, Profiler, Regions, ScoreError,
+    BlockRegions, Image, Key, Metric, MetricKind, Profiler, Regions, Rows, ScoreError,
 };
-use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, Sides, ViewResult};
+use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, ViewResult};
 use fovqa_vision::BandEdges;
 
 use crate::events::Warnings;
@@ -30,7 +30,7 @@ pub(crate) struct ViewRun<'a> {
     setup: Option<Setup<'a>>,
     /// The reference of the present frame, and its profile, where that is the same for all tests.
     reference: Option<Result<Side, Fault>>,
-    profile: Option<Profile>,
+    profile: Option<Rows>,
     temporal: Option<Temporal>,
     light: Option<Light>,
     loader: &'a Loader<'a>,
@@ -75,8 +75,7 @@ impl<'a> ViewRun<'a> {
 
     /// How FovVideoVDP sees the sequence of a method, where it is asked for and a pair could be compared.
     pub(crate) fn fvvdp(&self, method: usize) -> Option<FvvdpSight> {
-        let geometry = self.setup.as_ref()?.fvvdp()?.geometry();
-        self.light.as_ref()?.sight(method, geometry.pixels_per_degree)
+        self.light.as_ref()?.sight(method, self.setup.as_ref()?.fvvdp()?)
     }
 
     /// Why FovVideoVDP has no value for the sequence of a method, as far as it goes here.
@@ -228,7 +227,7 @@ impl<'a> ViewRun<'a> {
         };
         let signal = PairSignal::new(&reference.frame, &test.frame, &self.tables);
         let scores = setup.scorer.score(&signal, &regions, retina.weight.as_ref());
-        let mut scores = scores.map_err(|error| unscored(&test.file, &error))?;
+        let mut rows = scores.map_err(|error| unscored(&test.file, &error))?;
         let lit = Lit {
             frame: step.frame,
             method: step.method,
@@ -238,6 +237,7 @@ impl<'a> ViewRun<'a> {
             regions: &regions,
             fvvdp: setup.fvvdp().zip(retina.fvvdp.as_ref()),
             tests: view.frames[step.frame].tests.len(),
+            bands: setup.bands(),
         };
         let of_light = self.light.as_mut().map(|light| {
             if light.is_dim(step.frame, &reference.frame) {
@@ -246,9 +246,7 @@ impl<'a> ViewRun<'a> {
             light.measure(&lit, &|frame, method| self.loader.pair(&view.frames[frame], method))
         });
         let of_light = of_light.unwrap_or_default();
-        if let Some(pu_psnr) = of_light.pu_psnr_db {
-            scores.scores.insert(Metric::PuPsnr, pu_psnr);
-        }
+        rows.extend(&of_light.rows);
         let measured = Measuring {
             profiler: &setup.profiler,
             tables: &self.tables,
@@ -257,8 +255,12 @@ impl<'a> ViewRun<'a> {
         };
         let known = self.profile.take().filter(|_| finite.is_none());
         let profiles = measured.both(&present, known, self.temporal.as_mut());
+        if let Some([of_reference, of_test]) = &profiles {
+            rows.extend(of_reference);
+            rows.extend(of_test);
+        }
         if finite.is_none() {
-            self.profile = profiles.as_ref().map(|profiles| profiles.reference.clone());
+            self.profile = profiles.map(|[of_reference, _]| of_reference);
         }
         let counted = Counted { regions: &regions, finite, mask: setup.mask() };
         let atd = self.temporal.as_mut().and_then(|temporal| {
@@ -268,23 +270,25 @@ impl<'a> ViewRun<'a> {
             }
             Some(found)
         });
+        if let Some([of_reference, of_test]) = atd {
+            of_reference.rows(Image::Reference, &mut rows);
+            of_test.rows(Image::Test, &mut rows);
+        }
+        rows.sort();
         let follows = step.frame > 0 && view.frames[step.frame - 1].position + 1 == position;
         let gaze_step_deg =
             view.trace.as_ref().filter(|_| follows).and_then(|trace| {
                 setup.gaze_step_deg(trace[step.frame - 1].px, trace[step.frame].px)
             });
         let number = view.frames[step.frame].number;
-        warn_of_left_out(setup.scorer.metrics(), &scores, number, warnings);
+        warn_of_left_out(setup.scorer.metrics(), &rows, number, warnings);
         let result = FrameResult {
             frame: number,
             reference: reference.file.clone(),
             test: test.file.clone(),
             gaze_px,
             gaze_step_deg,
-            scores,
-            profiles,
-            atd,
-            fvvdp: of_light.fvvdp,
+            rows,
         };
         Ok((result, of_light.maps))
     }
@@ -312,40 +316,35 @@ impl Measuring<'_> {
     fn both(
         &self,
         present: &Present<'_>,
-        known: Option<Profile>,
+        known: Option<Rows>,
         mut temporal: Option<&mut Temporal>,
-    ) -> Option<Sides<Profile>> {
+    ) -> Option<[Rows; 2]> {
         if self.profiler.is_idle() && temporal.is_none() {
             return None;
         }
         let plane = temporal.as_deref_mut().and_then(|t| t.reference_luma(present.position));
         let reference = match known {
             Some(known) => known,
-            None => self.one(present.reference, plane),
+            None => self.one(present.reference, Image::Reference, plane),
         };
-        let test = self.one(present.test, temporal.map(Temporal::test_luma));
-        (!self.profiler.is_idle()).then_some(Sides { reference, test })
+        let test = self.one(present.test, Image::Test, temporal.map(Temporal::test_luma));
+        (!self.profiler.is_idle()).then_some([reference, test])
     }
 
-    fn one(&self, side: &Side, plane: Option<&mut KeptPlane>) -> Profile {
+    fn one(&self, side: &Side, image: Image, plane: Option<&mut KeptPlane>) -> Rows {
         if self.profiler.is_idle() && plane.is_none() {
-            return Profile::default();
+            return Rows::default();
         }
-        self.profiler.measure(&side.frame, self.tables, self.regions, self.blocks, plane)
+        self.profiler.measure(&side.frame, self.tables, self.regions, self.blocks, image, plane)
     }
 }
 
 /// Says which metrics a mask leaves no window for.
-fn warn_of_left_out(
-    metrics: &[Metric],
-    scores: &PairScores,
-    frame: i64,
-    warnings: &mut Warnings<'_>,
-) {
+fn warn_of_left_out(metrics: &[Metric], rows: &Rows, frame: i64, warnings: &mut Warnings<'_>) {
     let left_out = |metric: &&Metric| {
         metric.is(MetricKind::Fidelity)
             && **metric != Metric::Fvvdp
-            && !scores.scores.contains_key(metric)
+            && rows.get(Key::of(**metric)).is_none()
     };
     for metric in metrics.iter().filter(left_out) {
         let label = metric.info().label;

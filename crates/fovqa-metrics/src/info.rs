@@ -3,7 +3,7 @@
 use fovqa_params::{ParamError, ParamInfo, ParamValue};
 
 use crate::pooling::Statistic;
-use crate::registry::Params;
+use crate::registry::{Metric, Params};
 
 /// What there is to say about a metric.
 #[derive(Debug, Clone, Copy)]
@@ -113,6 +113,24 @@ impl Needs {
         lead_in: LeadIn::None,
         every_pixel: false,
     };
+
+    /// What either of two metrics needs.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            view: self.view || other.view,
+            luminance: self.luminance || other.luminance,
+            foveal_weight: self.foveal_weight || other.foveal_weight,
+            guides: self.guides || other.guides,
+            lead_in: self.lead_in.max(other.lead_in),
+            every_pixel: self.every_pixel || other.every_pixel,
+        }
+    }
+
+    /// What any of some metrics needs.
+    pub fn of(metrics: &[Metric]) -> Self {
+        metrics.iter().map(|metric| metric.info().needs).fold(Self::NOTHING, Self::and)
+    }
 }
 
 /// How many frames of its sequence a metric has to have seen before the one it measures.

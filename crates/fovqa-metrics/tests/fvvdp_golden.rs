@@ -8,11 +8,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use fovqa_frame::{LightTables, SignalParams, Transfer};
-use fovqa_metrics::Regions;
 use fovqa_metrics::fvvdp::{
     ColorSpace, Fvvdp, FvvdpFrame, Geometry, Grid, Padding, Params, Photometry, Stream, Time, jod,
 };
-use fovqa_metrics::pu_psnr::pu_psnr_db;
+use fovqa_metrics::{Key, Metric, Regions, Rows, pu_psnr};
 use fovqa_testkit::fvvdp_golden::{FvvdpCase, Golden};
 use fovqa_vision::{
     BandEdges, BandMap, Display, Eccentricity, EccentricityKind, Eotf, Luminance, View, ViewSpec,
@@ -131,7 +130,9 @@ fn found(golden: &Golden, case: &FvvdpCase, keep: bool) -> Found {
     }
     let bands = BandMap::without_bands(case.width, case.height);
     let pu = |(reference, test): (&Arc<Grid>, &Arc<Grid>)| {
-        pu_psnr_db(reference, test, &Regions::unmasked(&bands)).unwrap()
+        let mut rows = Rows::default();
+        pu_psnr::rows(reference, test, &Regions::unmasked(&bands), &mut rows);
+        rows.value(Key::of(Metric::PuPsnr)).unwrap()
     };
     let q = frames.iter().map(|frame| frame.q).sum::<f64>() / frames.len() as f64;
     Found { jod: jod(q), frames, pu_psnr_db: reference.iter().zip(&test).map(pu).collect() }

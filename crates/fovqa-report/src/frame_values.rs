@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use fovqa_metrics::{Image, Metric};
-use fovqa_results::{FileError, GAZE_STEP, TableRow, read_results_csv};
+use fovqa_results::{FileError, GAZE_STEP, TableRow, Value, read_results_csv};
 
 /// Whole-frame values by scene, method and eye, in the order of the frames.
 #[derive(Debug, Default)]
@@ -39,7 +39,7 @@ impl FrameValues {
             "fvvdp" => row.statistic == "frame_jod",
             _ => row.statistic.is_empty(),
         };
-        let (Some(frame), Some(value)) = (row.frame, row.value) else { return };
+        let (Some(frame), Some(value)) = (row.frame, row.value.map(Value::number)) else { return };
         if row.band.is_some() || !plain || row.image == Image::Ratio {
             return;
         }

@@ -2,10 +2,8 @@
 
 use std::fmt::Write;
 
-use fovqa_metrics::{Metric, MetricKind, PairScores};
-use fovqa_results::{
-    AtdSummary, FvvdpSummary, GuideSource, Measure, ScoreReport, Statistics, Summary,
-};
+use fovqa_metrics::{Image, Key, Metric, MetricKind, Subject};
+use fovqa_results::{AtdSummary, FvvdpSummary, GuideSource, ScoreReport, Statistics, Summary};
 
 use crate::text_table::{aligned, plain_table, printable};
 
@@ -46,13 +44,12 @@ pub fn score_table(report: &ScoreReport) -> String {
     }
     text.push_str(&band_table(report, &summary));
     text.push_str(&haar_table(&summary));
-    let count = |pixels: fn(&PairScores) -> u64| -> u64 {
-        report.frames.iter().map(|frame| pixels(&frame.scores)).sum()
-    };
-    let outside = if summary.bands.is_empty() { 0 } else { count(|s| s.outside_bands) };
-    for (pixels, where_they_are) in
-        [(outside, "lie outside all bands"), (count(|s| s.left_out), "are left out by a mask")]
-    {
+    for (subject, where_they_are) in [
+        (Subject::PixelsOutsideBands, "lie outside all bands"),
+        (Subject::PixelsLeftOut, "are left out by a mask"),
+    ] {
+        let counted = report.frames.iter().map(|frame| frame.rows.number(Key::pixels(subject)));
+        let pixels: u64 = counted.sum();
         if pixels > 0 {
             let in_all = if one { "" } else { ", in all frames together" };
             let _ = writeln!(text, "{pixels} pixels {where_they_are}{in_all}");
@@ -91,9 +88,8 @@ fn band_table(report: &ScoreReport, summary: &Summary) -> String {
             statistics.map(|s| number(*metric, s.mean))
         };
         let beside = |metric: &Metric| {
-            let measure =
-                Measure { metric: *metric, level: None, band: Some(index), statistic: None };
-            let statistics = summary.compared.get(&measure)?;
+            let key = Key::of(*metric).of_image(Image::Ratio).in_band(index);
+            let statistics = summary.compared.get(&key)?;
             let test = number(*metric, statistics.test?.mean);
             Some(format!("{test} ({})", percent(statistics.ratio)))
         };
@@ -114,7 +110,12 @@ fn band_table(report: &ScoreReport, summary: &Summary) -> String {
 
 /// What is left of the energy of each level in each band.
 fn haar_table(summary: &Summary) -> String {
-    let levels = summary.coefficients.keys().map(|(level, _)| *level).max().unwrap_or(0);
+    let haar = Subject::Metric(Metric::Haar);
+    let Some(energy) = Key::named(haar, "energy").map(|key| key.of_image(Image::Ratio)) else {
+        return String::new();
+    };
+    let of_haar = summary.compared.keys().filter(|key| key.subject == haar);
+    let levels = of_haar.filter_map(|key| key.level).max().map_or(0, usize::from);
     if levels == 0 {
         return String::new();
     }
@@ -124,14 +125,8 @@ fn haar_table(summary: &Summary) -> String {
         plain_table(&header.chain(names.iter().map(String::as_str)).collect::<Vec<_>>());
     for (index, band) in summary.bands.iter().enumerate() {
         let ratio = |level: usize| {
-            let of_level = |measure: &&Measure| {
-                let energy = measure
-                    .statistic
-                    .is_some_and(|s| s.orientation().is_none() && s.statistic() == "energy");
-                energy && measure.level == Some(level) && measure.band == Some(index)
-            };
-            let found = summary.compared.keys().find(of_level);
-            percent(found.and_then(|measure| summary.compared[measure].ratio))
+            let found = summary.compared.get(&energy.on_level(level).in_band(index));
+            percent(found.and_then(|statistics| statistics.ratio))
         };
         let label = format!("{}° to {}°", band.from_deg, band.to_deg);
         table.add_row([label].into_iter().chain((1..=levels).map(ratio)));

@@ -1,10 +1,11 @@
 //! FovVideoVDP of a sequence: JOD of the mean Q, and what that is made of.
 
-use fovqa_metrics::fvvdp::{FvvdpBand, FvvdpFrame, jod};
+use fovqa_metrics::fvvdp::jod;
+use fovqa_metrics::{Key, Metric, Subject, pool};
 use serde::{Deserialize, Serialize};
 
-use crate::report::{FvvdpSight, ScoreReport};
-use crate::summary::Spread;
+use crate::report::{FrameResult, FvvdpSight, ScoreReport};
+use crate::summary::{Gathered, Spread};
 
 /// FovVideoVDP of a sequence; of a still, a sequence of one frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -53,12 +54,6 @@ pub struct SpatialBand {
     pub transient: Option<f64>,
 }
 
-impl From<&FvvdpBand> for SpatialBand {
-    fn from(band: &FvvdpBand) -> Self {
-        Self { cpd: band.cpd, sustained: band.sustained, transient: band.transient }
-    }
-}
-
 /// What a band of eccentricity has in Q.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EccentricityShare {
@@ -74,41 +69,32 @@ impl FvvdpSummary {
     /// That of a report; `None` where it is not asked for.
     pub fn of(report: &ScoreReport) -> Option<Self> {
         let sight = report.fvvdp.as_ref()?;
-        let frames: Vec<&FvvdpFrame> =
-            report.frames.iter().filter_map(|frame| frame.fvvdp.as_ref()).collect();
-        let mean = |of: &dyn Fn(&FvvdpFrame) -> f64| {
-            let sum = frames.iter().map(|frame| of(frame)).sum::<f64>();
-            (!frames.is_empty()).then(|| sum / frames.len() as f64)
-        };
-        let q = mean(&|frame| frame.q);
+        let [frame_jod, q, share, outside] = ["frame_jod", "q", "share", "share_outside_bands"]
+            .map(|statistic| Key::named(Subject::Metric(Metric::Fvvdp), statistic));
+        let frames = || report.frames.iter().map(|frame| &frame.rows);
+        let values = |key: Option<Key>| frames().filter_map(move |rows| rows.value(key?));
+        let q = spread(values(q));
         let whole = q.filter(|_| sight.missing.is_none());
-        let jods = frames.iter().map(|frame| frame.frame_jod);
-        let frame_jod = mean(&|frame| frame.frame_jod).map(|mean| Spread {
-            mean,
-            min: jods.clone().fold(f64::INFINITY, f64::min),
-            max: jods.fold(f64::NEG_INFINITY, f64::max),
+        let pooled = |key: Option<Key>| {
+            let key = key?;
+            let rows = frames().filter_map(|rows| rows.get(key));
+            pool(key.statistic().frames, rows.map(|row| (row.value, row.parts))).0
+        };
+        let shares = report.edges().iter().enumerate().map(|(band, &(from_deg, to_deg))| {
+            let share = pooled(share.map(|key| key.in_band(band)));
+            EccentricityShare { from_deg, to_deg, share }
         });
-        let edges = report.view.as_ref().map(|view| view.bands_deg.clone()).unwrap_or_default();
-        let share = |index: usize| shared(&frames, index);
         Some(Self {
             jod: match sight.eyes_jod {
                 Some([left, right]) => Some(f64::midpoint(left, right)),
-                None => whole.map(jod),
+                None => whole.map(|q| jod(q.mean)),
             },
-            q,
-            frames: frames.len(),
-            frame_jod,
-            spatial_bands: spatial_bands(&frames),
-            shares: edges
-                .iter()
-                .enumerate()
-                .map(|(index, &(from_deg, to_deg))| EccentricityShare {
-                    from_deg,
-                    to_deg,
-                    share: share(index),
-                })
-                .collect(),
-            share_outside_bands: share(edges.len()).filter(|share| *share > 0.0),
+            q: q.map(|q| q.mean),
+            frames: values(frame_jod).count(),
+            frame_jod: spread(values(frame_jod)),
+            spatial_bands: spatial_bands(sight, report.frames.iter()),
+            shares: shares.collect(),
+            share_outside_bands: pooled(outside).filter(|share| *share > 0.0),
             pixels_per_degree: sight.pixels_per_degree,
             peak_cd_m2: sight.peak_cd_m2,
             black_cd_m2: sight.black_cd_m2,
@@ -119,47 +105,36 @@ impl FvvdpSummary {
     }
 }
 
-/// What a band of eccentricity has in the Q of all frames together; `None` where that is 0.
-fn shared(frames: &[&FvvdpFrame], index: usize) -> Option<f64> {
-    let q: f64 = frames.iter().map(|frame| frame.q).sum();
-    let of = |frame: &&FvvdpFrame| Some(frame.shares.as_ref()?.get(index)? * frame.q);
-    (q > 0.0).then(|| frames.iter().filter_map(of).sum::<f64>() / q)
+/// Mean and extremes; `None` without a value.
+fn spread(values: impl Iterator<Item = f64>) -> Option<Spread> {
+    let mut gathered = Gathered::default();
+    values.for_each(|value| gathered.add(Some(value)));
+    gathered.spread()
 }
 
-fn spatial_bands(frames: &[&FvvdpFrame]) -> Vec<SpatialBand> {
-    let count = frames.len() as f64;
-    let bands = frames.first().map(|frame| frame.bands.as_slice()).unwrap_or_default().iter();
-    let mean = |index: usize, of: &dyn Fn(&FvvdpBand) -> Option<f64>| {
-        let values = frames.iter().map(|frame| of(frame.bands.get(index)?));
-        values.sum::<Option<f64>>().map(|sum| sum / count)
+/// Q by spatial frequency, means over frames; without bands where frames have none in common.
+pub(crate) fn spatial_bands<'a>(
+    sight: &FvvdpSight,
+    frames: impl Iterator<Item = &'a FrameResult> + Clone,
+) -> Vec<SpatialBand> {
+    let mean = |statistic: &str, level: usize| {
+        let key = Key::named(Subject::Metric(Metric::Fvvdp), statistic)?.on_level(level);
+        spread(frames.clone().filter_map(|frame| frame.rows.value(key))).map(|q| q.mean)
     };
-    let band = |(index, band): (usize, &FvvdpBand)| SpatialBand {
-        cpd: band.cpd,
-        sustained: mean(index, &|band| Some(band.sustained)).unwrap_or(band.sustained),
-        transient: mean(index, &|band| band.transient),
-    };
-    bands.enumerate().map(band).collect()
-}
-
-/// A frame of both eyes: means of the two, and of shares what each has of the Q of both.
-pub(crate) fn of_both(left: &FvvdpFrame, right: &FvvdpFrame) -> FvvdpFrame {
-    let bands = left.bands.iter().zip(&right.bands).map(|(l, r)| FvvdpBand {
-        cpd: l.cpd,
-        sustained: f64::midpoint(l.sustained, r.sustained),
-        transient: l.transient.zip(r.transient).map(|(l, r)| f64::midpoint(l, r)),
+    let bands = (1..).zip(&sight.frequencies_cpd).map_while(|(level, &cpd)| {
+        let sustained = mean("q_sustained", level)?;
+        Some(SpatialBand { cpd, sustained, transient: mean("q_transient", level) })
     });
-    // Eyes of different sizes have bands of their own.
-    let alike = left.bands.len() == right.bands.len()
-        && left.bands.iter().zip(&right.bands).all(|(l, r)| l.cpd.to_bits() == r.cpd.to_bits());
-    let outside = |frame: &FvvdpFrame| frame.shares.as_ref().map_or(0, Vec::len);
-    let shares = (0..outside(left).max(outside(right))).map(|index| shared(&[left, right], index));
-    let shares: Option<Vec<f64>> = shares.collect();
-    FvvdpFrame {
-        q: f64::midpoint(left.q, right.q),
-        frame_jod: f64::midpoint(left.frame_jod, right.frame_jod),
-        bands: if alike { bands.collect() } else { Vec::new() },
-        shares: shares.filter(|shares| !shares.is_empty()),
-    }
+    bands.collect()
+}
+
+/// Whether the bands of spatial frequency of two eyes are the same: eyes of different sizes have their own.
+pub(crate) fn same_frequencies(left: &ScoreReport, right: &ScoreReport) -> bool {
+    let bits = |report: &ScoreReport| {
+        let sight = report.fvvdp.iter();
+        sight.flat_map(|sight| &sight.frequencies_cpd).map(|cpd| cpd.to_bits()).collect::<Vec<_>>()
+    };
+    bits(left) == bits(right)
 }
 
 /// How both eyes see: as each does, where they see alike.
@@ -176,30 +151,23 @@ pub(crate) fn sight_of_both(left: &ScoreReport, right: &ScoreReport) -> Option<F
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{FrameResult, ViewResult};
-    use fovqa_metrics::PairScores;
-    use std::collections::BTreeMap;
+    use crate::both_eyes::both_eyes;
+    use crate::report::ViewResult;
+    use fovqa_metrics::Rows;
+    use fovqa_metrics::fvvdp::{FvvdpBand, FvvdpFrame};
 
     fn frame(number: i64, q: f64, shares: Option<Vec<f64>>) -> FrameResult {
         let band = FvvdpBand { cpd: 8.0, sustained: q, transient: Some(2.0 * q) };
+        let mut rows = Rows::default();
+        FvvdpFrame { q, frame_jod: jod(q), bands: vec![band], shares }.rows(2, &mut rows);
+        rows.sort();
         FrameResult {
             frame: number,
             reference: String::new(),
             test: String::new(),
             gaze_px: None,
             gaze_step_deg: None,
-            scores: PairScores {
-                scores: BTreeMap::new(),
-                bands: Vec::new(),
-                pixels: 1,
-                outside_bands: 0,
-                left_out: 0,
-                mse: None,
-                weighted_squared_error: None,
-            },
-            profiles: None,
-            atd: None,
-            fvvdp: Some(FvvdpFrame { q, frame_jod: jod(q), bands: vec![band], shares }),
+            rows,
         }
     }
 
@@ -218,6 +186,7 @@ mod tests {
                 peak_cd_m2: 100.0,
                 black_cd_m2: 0.1,
                 foveated: true,
+                frequencies_cpd: vec![8.0],
                 fps: Some(30.0),
                 missing: None,
                 eyes_jod: None,
@@ -258,16 +227,14 @@ mod tests {
 
     #[test]
     fn both_eyes_are_the_mean_of_their_scores() {
-        let [left, right] =
-            [100.0, 300.0].map(|q| report(vec![frame(0, q, Some(vec![1.0, 0.0, 0.0]))]));
-        let sight = sight_of_both(&left, &right).unwrap();
-        assert_eq!(sight.eyes_jod, Some([jod(100.0), jod(300.0)]));
-        let frames = [&left, &right].map(|report| report.frames[0].fvvdp.clone().unwrap());
-        let both = of_both(&frames[0], &frames[1]);
-        assert_eq!((both.q, both.frame_jod), (200.0, f64::midpoint(jod(100.0), jod(300.0))));
-        assert_eq!(both.shares, Some(vec![1.0, 0.0, 0.0]));
-        let both = ScoreReport { fvvdp: Some(sight), ..report(Vec::new()) };
+        let [left, right] = [(100.0, 1.0), (300.0, 0.0)]
+            .map(|(q, inner)| report(vec![frame(0, q, Some(vec![inner, 1.0 - inner, 0.0]))]));
+        let both = both_eyes(&left, &right);
+        let summary = FvvdpSummary::of(&both).unwrap();
         let wanted = f64::midpoint(jod(100.0), jod(300.0));
-        assert_eq!(FvvdpSummary::of(&both).unwrap().jod, Some(wanted));
+        assert_eq!((summary.jod, summary.q), (Some(wanted), Some(200.0)));
+        assert_eq!(summary.frame_jod.unwrap().mean, wanted);
+        let shares: Vec<_> = summary.shares.iter().map(|share| share.share).collect();
+        assert_eq!(shares, [Some(0.25), Some(0.75)], "of the Q of both");
     }
 }

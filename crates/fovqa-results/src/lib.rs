@@ -3,7 +3,6 @@
 mod baseline;
 mod both_eyes;
 mod compared;
-mod csv_table;
 mod curves;
 mod files;
 mod fvvdp;
@@ -17,8 +16,7 @@ pub use baseline::{
     BASELINE_SCHEMA, Baseline, BaselineComparison, Difference, InputGroup, MetricRecord,
 };
 pub use both_eyes::both_eyes;
-pub use compared::{Compared, HaarStatistic, Measure, Sides};
-pub use csv_table::{write_csv, write_results_csv};
+pub use compared::Sides;
 pub use curves::{CurveRecord, CurvesRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
     CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RUN_JSON,
@@ -39,4 +37,6 @@ pub use report::{
     ScoreReport, ViewResult,
 };
 pub use summary::{AtdSummary, BandSummary, SideStatistics, Spread, Statistics, Summary};
-pub use table::{COLUMNS, ERROR, GAZE_STEP, TableRow, read_results_csv};
+pub use table::{
+    COLUMNS, ERROR, GAZE_STEP, TableRow, Value, read_results_csv, write_csv, write_results_csv,
+};

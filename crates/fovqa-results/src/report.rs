@@ -1,11 +1,7 @@
 //! What a run of `score` found.
 
-use fovqa_metrics::fvvdp::FvvdpFrame;
-use fovqa_metrics::temporal::AtdFrame;
-use fovqa_metrics::{Metric, PairScores, Profile};
+use fovqa_metrics::{Metric, Rows};
 use serde::{Deserialize, Serialize};
-
-use crate::compared::Sides;
 
 /// The view the frames were scored under.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,14 +31,8 @@ pub struct FrameResult {
     pub gaze_px: Option<[f64; 2]>,
     /// How far the gaze has moved since the frame before, degrees, where it comes from a trace.
     pub gaze_step_deg: Option<f64>,
-    /// The scores.
-    pub scores: PairScores,
-    /// Profiles of each picture, where some are asked for.
-    pub profiles: Option<Sides<Profile>>,
-    /// Differences to the frame before, where there is one.
-    pub atd: Option<Sides<AtdFrame>>,
-    /// FovVideoVDP, where it is asked for.
-    pub fvvdp: Option<FvvdpFrame>,
+    /// The values.
+    pub rows: Rows,
 }
 
 /// Whose motion or depth a sequence was compared along.
@@ -59,7 +49,7 @@ pub enum GuideSource {
 }
 
 /// What differences over time were taken along.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct AtdGuides {
     /// Motion vectors.
     pub motion: GuideSource,
@@ -78,6 +68,8 @@ pub struct FvvdpSight {
     pub black_cd_m2: f64,
     /// Whether sensitivity falls off with eccentricity.
     pub foveated: bool,
+    /// Frequencies of its bands at the centre of the display, cycles per degree, the finest first.
+    pub frequencies_cpd: Vec<f64>,
     /// Frames a second; `None` for a still.
     pub fps: Option<f64>,
     /// Why the sequence has no value.
@@ -118,6 +110,13 @@ pub struct ScoreReport {
     pub atd_guides: AtdGuides,
     /// How FovVideoVDP sees it, where it is asked for.
     pub fvvdp: Option<FvvdpSight>,
+}
+
+impl ScoreReport {
+    /// Edges of the bands, degrees; none without a view.
+    pub fn edges(&self) -> &[(f64, f64)] {
+        self.view.as_ref().map(|view| view.bands_deg.as_slice()).unwrap_or_default()
+    }
 }
 
 /// A comparison of a run: one method in one scene, for one eye or both.

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::temporal::AtdFrame;
-use fovqa_metrics::{Metric, MetricKind, PairScores, mse_of_db, psnr_db};
+use fovqa_metrics::{Image, Key, Metric, MetricKind, Subject, pool};
 
-use crate::compared::{HaarStatistic, Measure, Sides};
+use crate::compared::Sides;
 use crate::fvvdp::FvvdpSummary;
 use crate::report::{FrameResult, GuideSource, ScoreReport};
 
@@ -21,7 +20,7 @@ pub struct Statistics {
     pub max: f64,
     /// For decibels: frames without any error.
     pub identical_frames: Option<usize>,
-    /// For PSNR and FPSNR: the decibels of the error pooled over all frames.
+    /// Of metrics that pool their frames (the decibels of all errors): the value of all together.
     pub pooled: Option<f64>,
 }
 
@@ -92,10 +91,10 @@ pub struct Summary {
     pub statistics: BTreeMap<Metric, Statistics>,
     /// Bands.
     pub bands: Vec<BandSummary>,
-    /// Measures of reference and test alike.
-    pub compared: BTreeMap<Measure, SideStatistics>,
-    /// Coefficients of each level and band of the wavelet, in all frames together.
-    pub coefficients: BTreeMap<(usize, usize), u64>,
+    /// What is measured of each picture, by the key of its ratio, in the order of results.
+    pub compared: BTreeMap<Key, SideStatistics>,
+    /// How many values there are in all frames together, where a metric counts them.
+    pub counts: BTreeMap<Key, u64>,
     /// Differences over time, where they are asked for.
     pub atd: Option<AtdSummary>,
     /// FovVideoVDP, where it is asked for.
@@ -106,80 +105,68 @@ impl Summary {
     /// Summarises the scored frames of a report.
     pub fn of(report: &ScoreReport) -> Self {
         let frames = &report.frames;
-        let statistics = report
-            .metrics
-            .iter()
-            .filter_map(|&metric| {
-                let values = frames.iter().filter_map(|f| f.scores.scores.get(&metric).copied());
-                let statistics = Statistics::of(metric, values)?;
-                Some((metric, Statistics { pooled: pooled(metric, frames), ..statistics }))
-            })
-            .collect();
-        let edges = report.view.iter().flat_map(|view| &view.bands_deg).enumerate();
-        let bands = edges
-            .map(|(index, &(from_deg, to_deg))| {
-                let scores = |f: &FrameResult| f.scores.bands[index].clone();
-                let bands: Vec<_> = frames.iter().map(scores).collect();
-                // FovVideoVDP's shares of a whole are no scores.
-                let scored = |m: &&Metric| {
-                    m.info().per_band && m.is(MetricKind::Fidelity) && **m != Metric::Fvvdp
-                };
-                let per_band = report.metrics.iter().filter(scored);
-                let statistics = per_band.map(|&metric| {
-                    let values = bands.iter().filter_map(|b| b.scores.get(&metric).copied()?);
-                    let errors = bands.iter().map(|b| (b.mse, b.pixels));
-                    let pooled = pooled_psnr(errors).filter(|_| metric == Metric::Psnr);
-                    (metric, Statistics::of(metric, values).map(|s| Statistics { pooled, ..s }))
-                });
-                BandSummary {
-                    from_deg,
-                    to_deg,
-                    pixels: bands.iter().map(|b| b.pixels).sum(),
-                    statistics: statistics.collect(),
-                }
-            })
-            .collect();
-        let mut coefficients = BTreeMap::new();
-        let bands_of = |frame: &FrameResult| frame.scores.bands.len();
-        for frame in frames {
-            for level in 1..=frame.haar_levels() {
-                for band in 0..bands_of(frame) {
-                    *coefficients.entry((level, band)).or_default() +=
-                        frame.coefficients(level, band);
-                }
+        let scored = || report.metrics.iter().copied().filter(|metric| Key::of(*metric).is_score());
+        let whole = scored().filter_map(|m| Some((m, Statistics::over(frames, Key::of(m))?)));
+        let bands = report.edges().iter().enumerate().map(|(index, &(from_deg, to_deg))| {
+            let pixels = Key::pixels(Subject::Pixels).in_band(index);
+            let per_band = scored().filter(|m| m.info().per_band && m.is(MetricKind::Fidelity));
+            let statistics =
+                per_band.map(|m| (m, Statistics::over(frames, Key::of(m).in_band(index))));
+            BandSummary {
+                from_deg,
+                to_deg,
+                pixels: frames.iter().map(|frame| frame.rows.number(pixels)).sum(),
+                statistics: statistics.collect(),
+            }
+        });
+        let mut counts = BTreeMap::new();
+        for row in frames.iter().flat_map(|frame| &frame.rows) {
+            if row.key.metric().is_some() && row.key.statistic().is_count {
+                *counts.entry(row.key).or_default() += row.value.unwrap_or_default() as u64;
             }
         }
-        let atd = report.metrics.contains(&Metric::Atd).then(|| AtdSummary::of(report));
-        let fvvdp = FvvdpSummary::of(report);
-        Self { statistics, bands, compared: compared(frames), coefficients, atd, fvvdp }
+        Self {
+            statistics: whole.collect(),
+            bands: bands.collect(),
+            compared: compared(frames),
+            counts,
+            atd: report.metrics.contains(&Metric::Atd).then(|| AtdSummary::of(report)),
+            fvvdp: FvvdpSummary::of(report),
+        }
+    }
+
+    /// What is measured of each picture, metric by metric, level by level, band by band.
+    pub(crate) fn compared_by_metric(&self) -> Vec<(Key, &SideStatistics)> {
+        let mut compared: Vec<_> = self.compared.iter().map(|(key, of)| (*key, of)).collect();
+        compared.sort_by_key(|(key, _)| (key.subject, key.level, key.band));
+        compared
     }
 }
 
-/// Each measure of reference and test alike over the frames.
-fn compared(frames: &[FrameResult]) -> BTreeMap<Measure, SideStatistics> {
-    let mut values: BTreeMap<Measure, Sides<Gathered>> = BTreeMap::new();
-    for (measure, sides) in frames.iter().flat_map(FrameResult::all_compared) {
-        let entry = values.entry(measure).or_default();
+/// What is measured of each picture, over the frames.
+fn compared(frames: &[FrameResult]) -> BTreeMap<Key, SideStatistics> {
+    let mut values: BTreeMap<Key, Sides<Gathered>> = BTreeMap::new();
+    for (key, sides) in frames.iter().flat_map(FrameResult::compared) {
+        let entry = values.entry(key).or_default();
         entry.reference.add(sides.reference);
         entry.test.add(sides.test);
     }
-    let statistics = values.into_iter().map(|(measure, values)| {
-        let maximum = measure.statistic.is_some_and(HaarStatistic::is_maximum);
-        (measure, SideStatistics::of(&values, maximum))
-    });
+    let statistics = values
+        .into_iter()
+        .map(|(key, values)| (key, SideStatistics::of(&values, key.statistic().is_maximum())));
     statistics.collect()
 }
 
 /// Values on their way to a [`Spread`].
 #[derive(Debug, Clone, Copy, Default)]
-struct Gathered {
+pub(crate) struct Gathered {
     sum: f64,
     count: usize,
     extremes: Option<(f64, f64)>,
 }
 
 impl Gathered {
-    fn add(&mut self, value: Option<f64>) {
+    pub(crate) fn add(&mut self, value: Option<f64>) {
         let Some(value) = value else { return };
         let (min, max) = self.extremes.unwrap_or((value, value));
         self.extremes = Some((min.min(value), max.max(value)));
@@ -188,7 +175,7 @@ impl Gathered {
     }
 
     /// `None` without a value.
-    fn spread(&self) -> Option<Spread> {
+    pub(crate) fn spread(&self) -> Option<Spread> {
         self.extremes.map(|(min, max)| Spread { mean: self.sum / self.count as f64, min, max })
     }
 }
@@ -209,20 +196,23 @@ impl SideStatistics {
 
 impl AtdSummary {
     fn of(report: &ScoreReport) -> Self {
-        let found = || report.frames.iter().filter_map(|frame| frame.atd.as_ref());
+        let key = Key::of(Metric::Atd);
+        let [of_reference, of_test] =
+            [Image::Reference, Image::Test].map(|image| key.of_image(image));
+        let found = || report.frames.iter().map(|f| &f.rows).filter(|rows| rows.has(Metric::Atd));
         let mut gathered: Sides<Gathered> = Sides::default();
-        for atd in found() {
-            if let (Some(reference), Some(test)) = (atd.reference.whole.mean, atd.test.whole.mean) {
+        for rows in found() {
+            if let (Some(reference), Some(test)) = (rows.value(of_reference), rows.value(of_test)) {
                 gathered.reference.add(Some(reference));
                 gathered.test.add(Some(test));
             }
         }
         let frames = gathered.test.count;
         let sides = gathered.map(|values| values.spread().map(|spread| spread.mean));
-        let left_out = |side: fn(&Sides<AtdFrame>) -> &AtdFrame| {
-            let sum = |of: fn(&AtdFrame) -> u64| found().map(|atd| of(side(atd))).sum::<u64>();
-            let pixels = sum(|atd| atd.pixels);
-            (pixels > 0).then(|| sum(AtdFrame::left_out) as f64 / pixels as f64)
+        let left_out = |image: Image| {
+            let key = Key::named(Subject::Metric(Metric::Atd), "left_out")?.of_image(image);
+            let rows = found().filter_map(|rows| rows.get(key));
+            pool(key.statistic().frames, rows.map(|row| (row.value, row.parts))).0
         };
         let guides = report.atd_guides;
         let own = [guides.motion, guides.depth].contains(&GuideSource::Test);
@@ -236,8 +226,8 @@ impl AtdSummary {
             reference: sides.reference,
             test: sides.test,
             ratio: sides.ratio(),
-            left_out: left_out(|atd| &atd.reference),
-            left_out_test: left_out(|atd| &atd.test).filter(|_| own),
+            left_out: left_out(Image::Reference),
+            left_out_test: left_out(Image::Test).filter(|_| own),
             frames,
             motion: guides.motion,
             depth: guides.depth,
@@ -246,37 +236,17 @@ impl AtdSummary {
     }
 }
 
-fn pooled(metric: Metric, frames: &[FrameResult]) -> Option<f64> {
-    match metric {
-        Metric::Psnr => pooled_psnr(frames.iter().map(|f| (f.scores.mse, f.scores.pixels))),
-        Metric::PuPsnr => pooled_psnr(frames.iter().map(|f| {
-            let error = f.scores.scores.get(&metric).map(|db| mse_of_db(*db));
-            (error, f.scores.pixels)
-        })),
-        Metric::Fpsnr => {
-            let sums = |f: &FrameResult| -> Option<(f64, f64)> {
-                let scores: &PairScores = &f.scores;
-                scores.weighted_squared_error
-            };
-            let (squared, weight) = frames
-                .iter()
-                .filter_map(sums)
-                .fold((0.0, 0.0), |(a, b), (squared, weight)| (a + squared, b + weight));
-            (weight > 0.0).then(|| psnr_db(squared / weight))
-        }
-        _ => None,
-    }
-}
-
-/// PSNR of the error pooled over frames of `(mse, pixels)`.
-fn pooled_psnr(frames: impl Iterator<Item = (Option<f64>, u64)>) -> Option<f64> {
-    let (squared, pixels) = frames
-        .filter_map(|(mse, pixels)| Some((mse? * pixels as f64, pixels)))
-        .fold((0.0, 0u64), |(a, b), (squared, pixels)| (a + squared, b + pixels));
-    (pixels > 0).then(|| psnr_db(squared / pixels as f64))
-}
-
 impl Statistics {
+    /// Of the values of a key; `None` where no frame has one.
+    fn over(frames: &[FrameResult], key: Key) -> Option<Self> {
+        let rows = || frames.iter().filter_map(|frame| frame.rows.get(key));
+        let values = rows().filter_map(|row| row.value);
+        let statistics = Self::of(key.metric()?, values)?;
+        let statistic = key.statistic();
+        let pooled = || pool(statistic.frames, rows().map(|row| (row.value, row.parts))).0;
+        Some(Self { pooled: statistic.pools_frames().then(pooled).flatten(), ..statistics })
+    }
+
     /// `None` without a value.
     fn of(metric: Metric, values: impl Iterator<Item = f64>) -> Option<Self> {
         let values: Vec<f64> = values.collect();
@@ -304,12 +274,5 @@ mod tests {
         let all = Statistics::of(Metric::Psnr, [f64::INFINITY; 2].into_iter()).unwrap();
         assert!(all.mean.is_infinite());
         assert!(Statistics::of(Metric::Ssim, std::iter::empty()).is_none());
-    }
-
-    #[test]
-    fn pooled_is_of_the_error_not_of_the_decibels() {
-        let frames = [(Some(0.01), 100), (Some(0.0), 300), (None, 7)].into_iter();
-        let pooled = pooled_psnr(frames).unwrap();
-        assert!((pooled - psnr_db(0.0025)).abs() < 1e-12);
     }
 }

@@ -1,12 +1,18 @@
-//! One long, tidy table, a row a value: what `score --format csv` prints, and results.csv, read
+//! One long, tidy table, a row a value: what `score --format csv` prints, and results.csv, written and read
 //! here alone. Empty cells where a column does not apply. Measured values and edges keep their point
 //! (`5.0`): readers that guess a column's type from its first rows are not misled. Counts are whole.
 
+use std::fmt;
+use std::io::{self, Write};
 use std::path::Path;
 
-use fovqa_metrics::Image;
+use fovqa_metrics::{Image, Metric, Row, Subject};
 
+use crate::compared::Sides;
 use crate::files::{FileError, RESULTS_CSV, open_result_file};
+use crate::fvvdp::{FvvdpSummary, SpatialBand};
+use crate::report::{Comparison, FrameResult, RunResults, ScoreReport};
+use crate::summary::{Statistics, Summary};
 
 /// The columns, in order.
 pub const COLUMNS: [&str; 12] = [
@@ -30,6 +36,8 @@ pub const ERROR: &str = "error";
 /// The metric of rows that say how far the gaze has moved since the frame before, degrees.
 pub const GAZE_STEP: &str = "gaze_step_deg";
 
+const FVVDP: &str = "fvvdp";
+
 /// A row of the table; `parameters` belongs to sweeps to come.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
 pub struct TableRow<'a> {
@@ -52,7 +60,71 @@ pub struct TableRow<'a> {
     /// Edges of the band, degrees; `None`: the whole frame.
     pub band: Option<[f64; 2]>,
     /// The value; `None` where there is nothing to have one of.
-    pub value: Option<f64>,
+    pub value: Option<Value>,
+}
+
+/// A cell of the last column.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// Measured: it keeps its point.
+    Measured(f64),
+    /// Counted: whole.
+    Count(u64),
+}
+
+impl Value {
+    /// The number.
+    pub fn number(self) -> f64 {
+        match self {
+            Value::Measured(value) => value,
+            Value::Count(count) => count as f64,
+        }
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            // As readers of CSV know it.
+            Value::Measured(value) if value.is_nan() => f.write_str("nan"),
+            Value::Measured(value) => write!(f, "{value:?}"),
+            Value::Count(count) => write!(f, "{count}"),
+        }
+    }
+}
+
+/// Writes a report as CSV: each frame's values and then, without a frame, the statistics over
+/// all of them.
+///
+/// # Errors
+/// When the writer refuses.
+pub fn write_csv(report: &ScoreReport, out: impl Write) -> io::Result<()> {
+    let mut table = Table::new(out)?;
+    table.frames(&TableRow::default(), report)?;
+    table.statistics(report)?;
+    table.0.flush()
+}
+
+/// Writes the values of a run as results.csv: each frame's values, comparison by comparison; behind
+/// those of a comparison, a row [`ERROR`] with the value `nan` for each frame that could not be scored,
+/// or one without a frame where the whole could not be. Without a frame stands FovVideoVDP of a sequence.
+///
+/// # Errors
+/// When the writer refuses.
+pub fn write_results_csv(results: &RunResults, out: impl Write) -> io::Result<()> {
+    let mut table = Table::new(out)?;
+    for Comparison { scene, method, eye, report } in &results.comparisons {
+        let row = TableRow { scene, method, eye, ..TableRow::default() };
+        table.frames(&row, report)?;
+        if let Some(summary) = FvvdpSummary::of(report) {
+            table.fvvdp_sequence(&row, &summary)?;
+        }
+        for failure in &report.failures {
+            let value = Some(Value::Measured(f64::NAN));
+            table.write(&TableRow { frame: failure.frame, metric: ERROR, value, ..row })?;
+        }
+    }
+    table.0.flush()
 }
 
 /// Reads results.csv of a folder, row by row.
@@ -99,7 +171,7 @@ fn row_of(record: &csv::StringRecord) -> Result<TableRow<'_>, String> {
         statistic: cell(7),
         level: whole(cell(8))?,
         band: number(cell(9))?.zip(number(cell(10))?).map(Into::into),
-        value,
+        value: value.map(Value::Measured),
     })
 }
 
@@ -130,4 +202,229 @@ fn whole<T: std::str::FromStr>(cell: &str) -> Result<Option<T>, String> {
         return Ok(None);
     }
     cell.parse().map(Some).map_err(|_| format!("{cell:?} is no whole number"))
+}
+
+/// Whether a number of pixels is of interest where it is 0.
+fn is_seldom(subject: Subject) -> bool {
+    matches!(subject, Subject::PixelsOutsideBands | Subject::PixelsLeftOut)
+}
+
+struct Table<W: Write>(csv::Writer<W>);
+
+impl<W: Write> Table<W> {
+    fn new(out: W) -> io::Result<Self> {
+        let mut writer = csv::Writer::from_writer(out);
+        writer.write_record(COLUMNS).map_err(io_error)?;
+        Ok(Self(writer))
+    }
+
+    fn frames(&mut self, row: &TableRow<'_>, report: &ScoreReport) -> io::Result<()> {
+        let edges = report.edges();
+        for frame in &report.frames {
+            let row = TableRow { frame: Some(frame.frame), ..*row };
+            self.gaze(&row, frame)?;
+            let mut reference = None;
+            for measured in frame.rows.iter().filter(|row| row.key.statistic().has_row) {
+                self.measured(&row, measured, edges, &mut reference)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A measured value; behind those of both pictures, their ratio.
+    fn measured(
+        &mut self,
+        row: &TableRow<'_>,
+        &Row { key, value, .. }: &Row,
+        edges: &[(f64, f64)],
+        reference: &mut Option<f64>,
+    ) -> io::Result<()> {
+        let band = match key.band {
+            None => None,
+            Some(index) => match edges.get(usize::from(index)) {
+                Some(&(from, to)) => Some([from, to]),
+                None => return Ok(()),
+            },
+        };
+        if is_seldom(key.subject) && value == Some(0.0) {
+            return Ok(());
+        }
+        let statistic = key.statistic();
+        let cell = |value: f64| {
+            if statistic.is_count { Value::Count(value as u64) } else { Value::Measured(value) }
+        };
+        let row = TableRow {
+            image: key.image,
+            metric: key.subject.name(),
+            statistic: statistic.name,
+            level: key.level.map(usize::from),
+            band,
+            value: value.map(cell),
+            ..*row
+        };
+        self.write(&row)?;
+        match key.image {
+            Image::Reference => *reference = value,
+            Image::Test if statistic.has_ratio => {
+                let ratio = Sides { reference: *reference, test: value }.ratio();
+                let value = ratio.map(Value::Measured);
+                self.write(&TableRow { image: Image::Ratio, value, ..row })?;
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Where the eye looks, where that moves.
+    fn gaze(&mut self, row: &TableRow<'_>, frame: &FrameResult) -> io::Result<()> {
+        let [x, y] = frame.gaze_px.map_or([None; 2], |px| px.map(Some));
+        for (metric, value) in
+            [("gaze_x_px", x), ("gaze_y_px", y), (GAZE_STEP, frame.gaze_step_deg)]
+        {
+            if value.is_some() {
+                self.write(&TableRow { metric, value: value.map(Value::Measured), ..*row })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn spatial_band(
+        &mut self,
+        row: &TableRow<'_>,
+        index: usize,
+        band: &SpatialBand,
+    ) -> io::Result<()> {
+        let row = TableRow { level: Some(index + 1), ..*row };
+        let values =
+            [("q_sustained", Some(band.sustained)), ("q_transient", band.transient)].into_iter();
+        for (statistic, value) in values {
+            if value.is_some() {
+                self.write(&TableRow { statistic, value: value.map(Value::Measured), ..row })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// FovVideoVDP of a sequence.
+    fn fvvdp_sequence(&mut self, row: &TableRow<'_>, summary: &FvvdpSummary) -> io::Result<()> {
+        let row = TableRow { metric: FVVDP, ..*row };
+        let value = summary.jod.map(Value::Measured);
+        self.write(&TableRow { statistic: "jod", value, ..row })
+    }
+
+    fn statistics(&mut self, report: &ScoreReport) -> io::Result<()> {
+        let summary = Summary::of(report);
+        for (metric, statistics) in &summary.statistics {
+            self.statistics_of(*metric, None, statistics)?;
+        }
+        for band in &summary.bands {
+            for (metric, statistics) in &band.statistics {
+                if let Some(statistics) = statistics {
+                    let edges = Some([band.from_deg, band.to_deg]);
+                    self.statistics_of(*metric, edges, statistics)?;
+                }
+            }
+        }
+        if let Some(fvvdp) = &summary.fvvdp {
+            self.fvvdp_statistics(fvvdp)?;
+        }
+        self.compared_statistics(&summary)
+    }
+
+    fn fvvdp_statistics(&mut self, summary: &FvvdpSummary) -> io::Result<()> {
+        let row = TableRow { metric: FVVDP, ..TableRow::default() };
+        self.fvvdp_sequence(&row, summary)?;
+        let value = summary.q.map(Value::Measured);
+        self.write(&TableRow { statistic: "q", value, ..row })?;
+        for (index, band) in summary.spatial_bands.iter().enumerate() {
+            self.spatial_band(&row, index, band)?;
+        }
+        for share in &summary.shares {
+            let (band, value) = (Some([share.from_deg, share.to_deg]), share.share);
+            let value = value.map(Value::Measured);
+            self.write(&TableRow { statistic: "share", band, value, ..row })?;
+        }
+        Ok(())
+    }
+
+    /// What is measured of each picture, over the frames.
+    fn compared_statistics(&mut self, summary: &Summary) -> io::Result<()> {
+        for (key, statistics) in summary.compared_by_metric() {
+            let band = key.band.and_then(|index| summary.bands.get(usize::from(index)));
+            let of = match key.statistic().name {
+                "" => String::new(),
+                name => format!("{name}_"),
+            };
+            let row = TableRow {
+                metric: key.subject.name(),
+                level: key.level.map(usize::from),
+                band: band.map(|band| [band.from_deg, band.to_deg]),
+                ..TableRow::default()
+            };
+            for (image, spread) in
+                [(Image::Reference, statistics.reference), (Image::Test, statistics.test)]
+            {
+                let Some(spread) = spread else { continue };
+                for (statistic, value) in
+                    [("mean", spread.mean), ("min", spread.min), ("max", spread.max)]
+                {
+                    let (statistic, value) = (format!("{of}{statistic}"), Value::Measured(value));
+                    let value = Some(value);
+                    self.write(&TableRow { image, statistic: &statistic, value, ..row })?;
+                }
+            }
+            if let Some(ratio) = statistics.ratio {
+                let maximum = key.statistic().is_maximum();
+                let statistic = format!("{of}{}", if maximum { "max" } else { "mean" });
+                let (image, value) = (Image::Ratio, Some(Value::Measured(ratio)));
+                self.write(&TableRow { image, statistic: &statistic, value, ..row })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn statistics_of(
+        &mut self,
+        metric: Metric,
+        band: Option<[f64; 2]>,
+        statistics: &Statistics,
+    ) -> io::Result<()> {
+        let identical = statistics.identical_frames.map(|n| Value::Count(n as u64));
+        let measured = |value| Some(Value::Measured(value));
+        for (statistic, value) in [
+            ("mean", measured(statistics.mean)),
+            ("min", measured(statistics.min)),
+            ("max", measured(statistics.max)),
+            ("identical_frames", identical),
+            ("pooled", statistics.pooled.map(Value::Measured)),
+        ] {
+            if value.is_some() {
+                let metric = metric.key();
+                self.write(&TableRow { metric, statistic, band, value, ..TableRow::default() })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn write(&mut self, row: &TableRow<'_>) -> io::Result<()> {
+        let text = |value: Option<Value>| value.map(|v| v.to_string()).unwrap_or_default();
+        let edge = |edge: Option<f64>| text(edge.map(Value::Measured));
+        let frame = row.frame.map(|f| f.to_string()).unwrap_or_default();
+        let [from, to] = [0, 1].map(|side: usize| edge(row.band.map(|band| band[side])));
+        let value = text(row.value);
+        let level = row.level.map(|level| level.to_string()).unwrap_or_default();
+        let TableRow { scene, method, eye, metric, statistic, .. } = *row;
+        let image = row.image.name();
+        let cells =
+            [scene, method, "", eye, &frame, image, metric, statistic, &level, &from, &to, &value];
+        self.0.write_record(cells).map_err(io_error)
+    }
+}
+
+/// The reason itself, whose kind (a closed pipe, say) csv's own conversion would hide.
+fn io_error(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
 }

@@ -16,7 +16,7 @@ use crate::scoring::scene_bands;
 use crate::share::Shard;
 
 /// Name and version of the format.
-const SCHEMA: &str = "fovqa.journal/1";
+const SCHEMA: &str = "fovqa.journal/2";
 
 /// What a run is of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -98,6 +98,13 @@ impl Header {
         let header: Self = serde_json::from_slice(line).ok()?;
         let whole = sha256(header.experiment_text.as_bytes()) == header.experiment_sha256;
         (header.schema == SCHEMA && whole).then_some(header)
+    }
+
+    /// The format of a line that is the first of a journal of another version.
+    pub(super) fn other_format(line: &[u8]) -> Option<String> {
+        let header: serde_json::Value = serde_json::from_slice(line).ok()?;
+        let schema = header.get("schema")?.as_str()?;
+        (schema.starts_with("fovqa.journal/") && schema != SCHEMA).then(|| schema.to_owned())
     }
 }
 

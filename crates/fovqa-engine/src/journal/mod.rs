@@ -5,7 +5,6 @@
 //! of a line. Numbers are written so that they are read again to the last bit.
 
 mod header;
-mod measures;
 mod number;
 mod read;
 mod records;

@@ -22,6 +22,8 @@ pub(crate) enum Found {
     Nothing,
     /// Something that is none of this format.
     Other,
+    /// One in the format of another version, by its name.
+    OtherFormat(String),
     /// One.
     Journal(Box<Text>),
 }
@@ -64,7 +66,10 @@ pub(crate) fn read(folder: &Path) -> io::Result<Found> {
         return Ok(Found::Nothing);
     }
     let end = bytes.iter().position(|byte| *byte == b'\n').unwrap_or(bytes.len());
-    let Some(header) = Header::parse(&bytes[..end]) else { return Ok(Found::Other) };
+    let Some(header) = Header::parse(&bytes[..end]) else {
+        let other = Header::other_format(&bytes[..end]);
+        return Ok(other.map_or(Found::Other, Found::OtherFormat));
+    };
     let rest = bytes[(end + 1).min(bytes.len())..].to_vec();
     let pairs: Vec<usize> = header.views.iter().map(|view| view.pairs).collect();
     let shares = shares(header.shard, &pairs);
@@ -99,7 +104,7 @@ impl Text {
                 said.twice.get_or_insert_with(|| path.clone());
             }
             findings.inputs.add(&path, &id);
-        } else if has("scores") {
+        } else if has("rows") {
             let record: FrameRecord = from(value)?;
             let method = method(plan, &record.method)?;
             let step = record.step;

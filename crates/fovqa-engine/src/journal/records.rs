@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 
 use fovqa_config::Eye;
-use fovqa_metrics::{BandScores, Metric, PairScores, Profile};
+use fovqa_metrics::{Image, Key, Metric, Parts, Row, Subject};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, ViewResult};
 use serde::{Deserialize, Serialize};
 
-use super::measures::{AtdRecord, FvvdpRecord, ProfileRecord, SidesRecord};
 use super::number::{Number, maybe, read};
 use crate::findings::{Finished, Named, Settled};
 
@@ -23,41 +22,56 @@ pub(super) struct FrameRecord {
     test: String,
     gaze_px: Option<[f64; 2]>,
     gaze_step_deg: Option<Number>,
-    scores: BTreeMap<String, Number>,
-    bands: Vec<BandRecord>,
-    pixels: u64,
-    pixels_outside_bands: u64,
-    pixels_left_out: u64,
-    squared_error: Option<Number>,
-    weighted_squared_error: Option<(Number, Number)>,
+    rows: Vec<RowRecord>,
+    /// What differences over time were taken along, where there are some.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    profiles: Option<SidesRecord<ProfileRecord>>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    atd: Option<AtdRecord>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    fvvdp: Option<FvvdpRecord>,
+    atd: Option<AtdGuides>,
 }
 
+/// A row as a list: what is measured, statistic, picture, level, band, value, and the parts of that.
 #[derive(Serialize, Deserialize)]
-struct BandRecord {
-    pixels: u64,
-    squared_error: Option<Number>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    ssim_map_pixels: Option<u64>,
-    #[serde(flatten)]
-    scores: BTreeMap<String, Option<Number>>,
+struct RowRecord(String, String, String, Option<usize>, Option<usize>, Option<Number>, Vec<Number>);
+
+impl From<&Row> for RowRecord {
+    fn from(Row { key, value, parts }: &Row) -> Self {
+        let parts = match *parts {
+            Parts::Value => Vec::new(),
+            Parts::Mean { sum, weight } => vec![sum, weight],
+            Parts::Deviation { count, sum, squares } => vec![count, sum, squares],
+        };
+        Self(
+            key.subject.name().to_owned(),
+            key.statistic().name.to_owned(),
+            key.image.name().to_owned(),
+            key.level.map(usize::from),
+            key.band.map(usize::from),
+            maybe(*value),
+            parts.into_iter().map(Number).collect(),
+        )
+    }
+}
+
+impl RowRecord {
+    /// `None` where it names something that there is not.
+    fn read(self) -> Option<Row> {
+        let Self(subject, statistic, image, level, band, value, parts) = self;
+        let key = Key::named(Subject::find(&subject)?, &statistic)?;
+        let key = level.map_or(key, |level| key.on_level(level));
+        let key = band.map_or(key, |band| key.in_band(band)).of_image(Image::find(&image)?);
+        let parts = match parts.as_slice() {
+            [] => Parts::Value,
+            [Number(sum), Number(weight)] => Parts::Mean { sum: *sum, weight: *weight },
+            [Number(count), Number(sum), Number(squares)] => {
+                Parts::Deviation { count: *count, sum: *sum, squares: *squares }
+            }
+            _ => return None,
+        };
+        Some(Row { key, value: read(value), parts })
+    }
 }
 
 impl FrameRecord {
     pub(super) fn of(finished: &Finished<'_>, result: &FrameResult) -> Self {
-        let scores = &result.scores;
-        let key = |metric: &Metric| metric.key().to_owned();
-        let bands = scores.bands.iter().map(|band| BandRecord {
-            pixels: band.pixels,
-            squared_error: maybe(band.mse),
-            ssim_map_pixels: band.ssim_map_pixels,
-            scores: band.scores.iter().map(|(m, value)| (key(m), maybe(*value))).collect(),
-        });
         Self {
             scene: finished.named.scene.to_owned(),
             method: finished.named.method.to_owned(),
@@ -68,53 +82,24 @@ impl FrameRecord {
             test: result.test.clone(),
             gaze_px: result.gaze_px,
             gaze_step_deg: maybe(result.gaze_step_deg),
-            scores: scores.scores.iter().map(|(m, value)| (key(m), Number(*value))).collect(),
-            bands: bands.collect(),
-            pixels: scores.pixels,
-            pixels_outside_bands: scores.outside_bands,
-            pixels_left_out: scores.left_out,
-            squared_error: maybe(scores.mse),
-            weighted_squared_error: scores
-                .weighted_squared_error
-                .map(|(a, b)| (Number(a), Number(b))),
-            profiles: result.profiles.as_ref().map(|p| SidesRecord::of(p, |side| side.into())),
-            atd: result.atd.as_ref().map(|atd| AtdRecord::of(atd, finished.guides)),
-            fvvdp: result.fvvdp.as_ref().map(FvvdpRecord::from),
+            rows: result.rows.iter().map(RowRecord::from).collect(),
+            atd: result.rows.has(Metric::Atd).then_some(finished.guides),
         }
     }
 
     /// The result, and what its differences over time were taken along; `None` where it names a metric
     /// that there is not.
     pub(super) fn read(self) -> Option<(FrameResult, AtdGuides)> {
-        let metric = |(key, value): (String, Number)| Some((Metric::find(&key)?, value.0));
-        let in_band =
-            |(key, value): (String, Option<Number>)| Some((Metric::find(&key)?, read(value)));
-        let bands = self.bands.into_iter().map(|band| {
-            let scores = band.scores.into_iter().map(in_band).collect::<Option<_>>()?;
-            let (pixels, ssim_map_pixels) = (band.pixels, band.ssim_map_pixels);
-            Some(BandScores { pixels, mse: read(band.squared_error), ssim_map_pixels, scores })
-        });
-        let (atd, guides) = self.atd.map(AtdRecord::read).unzip();
+        let rows = self.rows.into_iter().map(RowRecord::read);
         let result = FrameResult {
             frame: self.frame,
             reference: self.reference,
             test: self.test,
             gaze_px: self.gaze_px,
             gaze_step_deg: read(self.gaze_step_deg),
-            scores: PairScores {
-                scores: self.scores.into_iter().map(metric).collect::<Option<_>>()?,
-                bands: bands.collect::<Option<_>>()?,
-                pixels: self.pixels,
-                outside_bands: self.pixels_outside_bands,
-                left_out: self.pixels_left_out,
-                mse: read(self.squared_error),
-                weighted_squared_error: self.weighted_squared_error.map(|(a, b)| (a.0, b.0)),
-            },
-            profiles: self.profiles.map(|profiles| profiles.read(Profile::from)),
-            atd,
-            fvvdp: self.fvvdp.map(Into::into),
+            rows: rows.collect::<Option<_>>()?,
         };
-        Some((result, guides.unwrap_or_default()))
+        Some((result, self.atd.unwrap_or_default()))
     }
 }
 

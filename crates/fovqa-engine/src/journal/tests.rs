@@ -5,10 +5,8 @@ use std::path::Path;
 
 use fovqa_config::{Experiment, Eye, EyeView, Plan, Scene};
 use fovqa_io::FileId;
-use fovqa_metrics::fvvdp::{FvvdpBand, FvvdpFrame};
-use fovqa_metrics::temporal::{AtdBand, AtdFrame};
-use fovqa_metrics::{BandScores, HaarBand, HaarStatistics, Metric, PairScores, Profile};
-use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, Sides, ViewResult};
+use fovqa_metrics::{Image, Key, Metric, Parts, Rows, Subject};
+use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, ViewResult};
 
 use super::read::Said;
 use super::write::line_of;
@@ -29,87 +27,44 @@ fn plan() -> Plan {
 
 /// A frame with everything that a frame can have.
 fn frame() -> FrameResult {
-    let statistics = |at: f64| HaarStatistics::from([at, 0.1 + 0.2, f64::MIN_POSITIVE]);
-    let band = |coefficients, statistics, orientations| HaarBand {
-        coefficients,
-        statistics,
-        orientations,
-    };
-    let three = || Box::new([statistics(1.0), statistics(2.0), statistics(3.0)]);
-    let profile = |at: f64| Profile {
-        rms_contrast: Some(vec![Some(at), None, Some(-0.0)]),
-        haar: Some(vec![
-            vec![band(900, Some(statistics(at)), None), band(0, None, None)],
-            vec![band(9, Some(statistics(at)), Some(three())), band(1, None, Some(three()))],
-        ]),
-    };
-    let atd = |at: f64| AtdFrame {
-        whole: AtdBand { mean: Some(at), valid: 7 },
-        pixels: 9,
-        bands: vec![AtdBand { mean: None, valid: 0 }, AtdBand { mean: Some(1.0 / 3.0), valid: 1 }],
-    };
+    let values = [0.1 + 0.2, f64::INFINITY, f64::NEG_INFINITY, -0.0, f64::MIN_POSITIVE, 1e22];
+    let parts = [
+        Parts::Value,
+        Parts::Mean { sum: 1.0 / 3.0, weight: 1e22 },
+        Parts::Deviation { count: 3.0, sum: f64::MAX, squares: 0.1 + 0.7 },
+    ];
+    let mut rows = Rows::default();
+    for (index, metric) in Metric::ALL.into_iter().enumerate() {
+        for (nth, statistic) in metric.info().statistics.iter().enumerate() {
+            let key = Key::named(Subject::Metric(metric), statistic.name).unwrap();
+            let image = Image::ALL[nth % 3];
+            let value = Some(values[(index + nth) % values.len()]);
+            rows.push(key.of_image(image), value, parts[nth % parts.len()]);
+            rows.push(key.in_band(index), None, Parts::Value);
+            rows.score(key.on_level(nth + 1).in_band(0), 1.0 / 7.0);
+        }
+    }
+    rows.count(Key::pixels(Subject::Pixels).in_band(1), 3);
+    rows.count(Key::pixels(Subject::PixelsOutsideBands), 0);
+    rows.count(Key::pixels(Subject::PixelsLeftOut), 1 << 40);
+    rows.sort();
     FrameResult {
         frame: i64::MIN,
         reference: "gt/ä \u{1}.png".to_owned(),
         test: "a".to_owned(),
         gaze_px: Some([0.1, -7.25]),
         gaze_step_deg: Some(1e-300),
-        scores: PairScores {
-            scores: BTreeMap::from([
-                (Metric::Psnr, f64::INFINITY),
-                (Metric::Fpsnr, f64::NEG_INFINITY),
-                (Metric::Ssim, 0.1 + 0.7),
-                (Metric::Mse, 5.0),
-            ]),
-            bands: vec![
-                BandScores {
-                    pixels: 3,
-                    mse: Some(1.0 / 7.0),
-                    ssim_map_pixels: Some(2),
-                    scores: BTreeMap::from([
-                        (Metric::Psnr, Some(f64::INFINITY)),
-                        (Metric::Ssim, None),
-                    ]),
-                },
-                BandScores { pixels: 0, mse: None, ssim_map_pixels: None, scores: BTreeMap::new() },
-            ],
-            pixels: 10,
-            outside_bands: 2,
-            left_out: 1,
-            mse: Some(2.0_f64.sqrt()),
-            weighted_squared_error: Some((1.0 / 3.0, 1e22)),
-        },
-        profiles: Some(Sides { reference: profile(0.3), test: profile(f64::MAX) }),
-        atd: Some(Sides { reference: atd(0.25), test: atd(1e-17) }),
-        fvvdp: Some(FvvdpFrame {
-            q: 123.4,
-            frame_jod: 9.99,
-            bands: vec![
-                FvvdpBand { cpd: 6.5, sustained: 0.7, transient: Some(f64::INFINITY) },
-                FvvdpBand { cpd: 3.25, sustained: 0.1, transient: None },
-            ],
-            shares: Some(vec![0.1, 0.2, 0.7]),
-        }),
+        rows,
     }
 }
 
 /// A frame with nothing that it need not have.
 fn bare_frame() -> FrameResult {
-    let whole = frame();
-    FrameResult {
-        gaze_px: None,
-        gaze_step_deg: None,
-        scores: PairScores {
-            mse: None,
-            weighted_squared_error: None,
-            bands: vec![],
-            ..whole.scores
-        },
-        profiles: Some(Sides::default()),
-        atd: None,
-        fvvdp: Some(FvvdpFrame { shares: None, bands: vec![], ..whole.fvvdp.unwrap() }),
-        ..whole
-    }
+    let mut rows = Rows::default();
+    rows.score(Key::of(Metric::Psnr), f64::INFINITY);
+    rows.score(Key::of(Metric::Mse), 5.0);
+    rows.sort();
+    FrameResult { gaze_px: None, gaze_step_deg: None, rows, ..frame() }
 }
 
 fn failure(frame: Option<i64>) -> Failure {
@@ -135,6 +90,7 @@ fn findings() -> Findings {
         peak_cd_m2: 100.1,
         black_cd_m2: 0.1,
         foveated: true,
+        frequencies_cpd: vec![6.5, 0.1 + 0.2],
         fps: Some(23.976),
         missing: None,
         eyes_jod: None,
@@ -221,7 +177,8 @@ fn everything_is_read_again_to_the_last_bit() {
 #[test]
 fn what_is_no_number_is_read_again() {
     let mut result = bare_frame();
-    result.scores.scores.insert(Metric::Ssim, f64::NAN);
+    result.rows.score(Key::of(Metric::Ssim), f64::NAN);
+    result.rows.sort();
     result.gaze_step_deg = Some(f64::NAN);
     let finished = crate::findings::Finished {
         named: crate::findings::Named { scene: "one", method: "A", eye: None },
@@ -292,8 +249,9 @@ fn lines_of_something_else_are_not_understood() {
         line(named("two", "A", Some(Eye::Left)), 0),
         line(named("one", "A", None), 4),
         good.replace("\"mse\"", "\"msf\""),
+        good.replace("\"pair\"", "\"pear\""),
         good.replace("\"inf\"", "\"much\""),
-        good.replace("\"pixels\":10", "\"pixels\":\"10\""),
+        good.replace("5.0,[]", "5.0,[1.0]"),
         "[]\n".to_owned(),
         "{}\n".to_owned(),
         "{\"done\":1}\n".to_owned(),

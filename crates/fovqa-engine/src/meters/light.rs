@@ -12,8 +12,7 @@ use fovqa_metrics::fvvdp::{
     DifferenceMap, Fvvdp, FvvdpFrame, FvvdpReference, FvvdpRegions, Grid, MapColors, MapContext,
     Params, Photometry, Stream, colored,
 };
-use fovqa_metrics::pu_psnr::pu_psnr_db;
-use fovqa_metrics::{Metric, Regions};
+use fovqa_metrics::{Metric, Regions, Rows, pu_psnr};
 use fovqa_results::FvvdpSight;
 
 use crate::find::FoundView;
@@ -63,13 +62,14 @@ pub(crate) struct Lit<'a> {
     pub(crate) fvvdp: Option<(&'a Fvvdp, &'a FvvdpRegions)>,
     /// How many tests the frame has.
     pub(crate) tests: usize,
+    /// How many bands there are.
+    pub(crate) bands: usize,
 }
 
 /// What was measured of it.
 #[derive(Default)]
 pub(crate) struct Measured {
-    pub(crate) pu_psnr_db: Option<f64>,
-    pub(crate) fvvdp: Option<FvvdpFrame>,
+    pub(crate) rows: Rows,
     pub(crate) maps: Option<FvvdpMaps>,
 }
 
@@ -155,13 +155,15 @@ impl Light {
     pub(crate) fn measure(&mut self, pair: &Lit<'_>, load: &LoadPair<'_>) -> Measured {
         let reference = self.luminance_of_reference(pair.frame, pair.reference);
         let test = self.luminance(pair.test);
-        let pu_psnr = self.pu_psnr.then(|| pu_psnr_db(&reference, &test, pair.regions));
-        let mut measured = Measured { pu_psnr_db: pu_psnr.flatten(), ..Measured::default() };
+        let mut measured = Measured::default();
+        if self.pu_psnr {
+            pu_psnr::rows(&reference, &test, pair.regions, &mut measured.rows);
+        }
         if let Some((metric, regions)) = pair.fvvdp
             && self.step(pair.frame, pair.method, &reference, &test, load)
         {
             let (frame, maps) = self.score(pair, metric, regions);
-            measured.fvvdp = Some(frame);
+            frame.rows(pair.bands, &mut measured.rows);
             measured.maps = maps;
         }
         measured
@@ -290,13 +292,14 @@ impl Light {
     }
 
     /// How a method's sequence is seen.
-    pub(crate) fn sight(&self, method: usize, pixels_per_degree: f64) -> Option<FvvdpSight> {
+    pub(crate) fn sight(&self, method: usize, metric: &Fvvdp) -> Option<FvvdpSight> {
         let sequence = self.sequences.get(&method)?;
         Some(FvvdpSight {
-            pixels_per_degree,
+            pixels_per_degree: metric.geometry().pixels_per_degree,
             peak_cd_m2: self.photometry.peak_cd_m2(),
             black_cd_m2: self.photometry.black_cd_m2(),
             foveated: self.params.foveated,
+            frequencies_cpd: metric.frequencies_cpd().collect(),
             fps: sequence.timing.fps,
             missing: None,
             eyes_jod: None,

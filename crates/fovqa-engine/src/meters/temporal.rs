@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use fovqa_frame::{Guides, Mask, Plane};
 use fovqa_metrics::Regions;
 use fovqa_metrics::temporal::{AtdFrame, KeptPlane, Link, atd, differences};
-use fovqa_results::{AtdGuides, GuideSource, Sides};
+use fovqa_results::{AtdGuides, GuideSource};
 
 use crate::load::{Fault, Side};
 
@@ -174,7 +174,7 @@ impl Temporal {
         &mut self,
         present: &Present<'_>,
         counted: Counted<'_>,
-    ) -> Option<Sides<AtdFrame>> {
+    ) -> Option<[AtdFrame; 2]> {
         let found = self.compare(present, &counted);
         self.keep(present, counted.finite);
         found
@@ -191,7 +191,7 @@ impl Temporal {
         }
     }
 
-    fn compare(&mut self, present: &Present<'_>, counted: &Counted<'_>) -> Option<Sides<AtdFrame>> {
+    fn compare(&mut self, present: &Present<'_>, counted: &Counted<'_>) -> Option<[AtdFrame; 2]> {
         let before = present.position.checked_sub(1)?;
         let test = self.tests.entry(present.method).or_default();
         let reference = &mut self.reference;
@@ -253,7 +253,7 @@ impl Temporal {
         if shared {
             reference.differences.clone_from(&of_reference);
         }
-        Some(Sides { reference: of_reference?, test: of_test? })
+        Some([of_reference?, of_test?])
     }
 }
 

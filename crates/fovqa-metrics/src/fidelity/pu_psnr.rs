@@ -10,8 +10,10 @@ use fovqa_frame::transfer::pu21;
 use super::fvvdp::Grid;
 use super::psnr::psnr_db;
 use crate::info::{MetricInfo, Needs};
-use crate::pooling::{Pooling, Statistic};
+use crate::pooling::{Parts, Pooling, Statistic};
 use crate::regions::Regions;
+use crate::registry::Metric;
+use crate::row::{Key, Rows};
 use crate::sums::add_by_band;
 
 /// What there is to say about it.
@@ -28,12 +30,24 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
 
 pub(crate) use crate::info::NoParams as Params;
 
-/// PU-PSNR of a test in dB, both given as luminance in cd/m², over the pixels that count; `None` where
-/// none does.
+/// Adds PU-PSNR of a test in dB, both given as luminance in cd/m², over the pixels that count; nothing
+/// where none does.
 ///
 /// # Panics
 /// When planes and regions are not of one height.
-pub fn pu_psnr_db(reference: &Grid, test: &Grid, regions: &Regions<'_>) -> Option<f64> {
+pub fn rows(reference: &Grid, test: &Grid, regions: &Regions<'_>, rows: &mut Rows) {
+    let squared = squared_error(reference, test, regions);
+    let pixels = regions.pixels().iter().sum::<u64>() as f64;
+    let peak = pu21::encode(pu21::PEAK_CD_M2);
+    if pixels > 0.0 {
+        let value = psnr_db(squared / pixels / (peak * peak));
+        let parts = Parts::Mean { sum: squared / (peak * peak), weight: pixels };
+        rows.push(Key::of(Metric::PuPsnr), Some(value), parts);
+    }
+}
+
+/// The squared error of perceptually uniform values, over the pixels that count.
+fn squared_error(reference: &Grid, test: &Grid, regions: &Regions<'_>) -> f64 {
     assert_eq!(reference.height(), test.height(), "planes of one size");
     assert_eq!(regions.rows(), test.height(), "regions of these planes");
     let encoder = pu21::Encoder::new();
@@ -50,10 +64,7 @@ pub fn pu_psnr_db(reference: &Grid, test: &Grid, regions: &Regions<'_>) -> Optio
         }
         sums.iter().sum::<f64>()
     });
-    let pixels: u64 = regions.pixels().iter().sum();
-    let mean = (pixels > 0).then(|| blocks.iter().sum::<f64>() / pixels as f64)?;
-    let peak = pu21::encode(pu21::PEAK_CD_M2);
-    Some(psnr_db(mean / (peak * peak)))
+    blocks.iter().sum()
 }
 
 #[cfg(test)]
@@ -63,6 +74,13 @@ mod tests {
     use fovqa_vision::BandMap;
 
     use super::*;
+
+    /// PU-PSNR in dB.
+    fn pu_psnr_db(reference: &Grid, test: &Grid, regions: &Regions<'_>) -> Option<f64> {
+        let mut found = Rows::default();
+        rows(reference, test, regions, &mut found);
+        found.value(Key::of(Metric::PuPsnr))
+    }
 
     const W: usize = 70;
     const H: usize = 130;

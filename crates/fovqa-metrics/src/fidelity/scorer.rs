@@ -1,7 +1,5 @@
 //! All metrics of one pair, from one pass (and, for MS-SSIM, one a scale).
 
-use std::collections::BTreeMap;
-
 use fovqa_frame::PairSignal;
 use fovqa_vision::BandMap;
 use thiserror::Error;
@@ -11,9 +9,11 @@ use super::ms_ssim::{EXPONENTS, PairRows, combine};
 use super::pass::{Scales, Sums, Wanted, run};
 use super::psnr::psnr_db;
 use super::ssim::rows::Constants;
+use super::weighted_mean::WeightedMean;
+use crate::pooling::Parts;
 use crate::regions::Regions;
-use crate::registry::Metric;
-use crate::registry::Params;
+use crate::registry::{Metric, Params};
+use crate::row::{Key, Rows, Subject};
 
 /// A pair that a metric cannot score.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -53,37 +53,20 @@ pub enum ScoreError {
     },
 }
 
-/// Scores of one band.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BandScores {
-    /// Pixels in the band.
-    pub pixels: u64,
-    /// Mean squared error, peak 1, where MSE or PSNR is asked for: sequences pool it.
-    pub mse: Option<f64>,
-    /// Its pixels that have a value in the SSIM map, where SSIM is asked for: several bands are pooled
-    /// by them.
-    pub ssim_map_pixels: Option<u64>,
-    /// Its scores; `None` where no pixel, or no window, is in it.
-    pub scores: BTreeMap<Metric, Option<f64>>,
-}
-
-/// Scores of one pair of frames.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PairScores {
-    /// Whole-frame scores.
-    pub scores: BTreeMap<Metric, f64>,
-    /// One entry a band.
-    pub bands: Vec<BandScores>,
-    /// Pixels that count, in all.
-    pub pixels: u64,
-    /// Pixels that count but lie outside all bands.
-    pub outside_bands: u64,
-    /// Pixels a mask left out.
-    pub left_out: u64,
-    /// Mean squared error, peak 1, where MSE or PSNR is asked for: sequences pool it.
-    pub mse: Option<f64>,
-    /// Σ f² d² and Σ f² of FPSNR, peak 1: sequences pool it.
-    pub weighted_squared_error: Option<(f64, f64)>,
+impl ScoreError {
+    /// The metrics that do not fit frames of a size, and why.
+    pub fn unfit(
+        metrics: &[Metric],
+        params: &Params,
+        (width, height): (usize, usize),
+    ) -> Vec<(Metric, ScoreError)> {
+        let too_small = metrics.iter().filter_map(|&metric| {
+            let needed = (metric.info().smallest_side)(params);
+            let error = ScoreError::TooSmall { metric, width, height, needed };
+            (width.min(height) < needed).then_some((metric, error))
+        });
+        too_small.collect()
+    }
 }
 
 /// Computes a set of metrics.
@@ -121,19 +104,6 @@ impl Scorer {
         self.metrics.contains(&metric)
     }
 
-    /// The metrics that do not fit frames of this size, and why.
-    pub fn unfit(&self, width: usize, height: usize) -> Vec<(Metric, ScoreError)> {
-        let needed = |metric: Metric| (metric.info().smallest_side)(&self.params);
-        self.metrics
-            .iter()
-            .filter(|metric| width.min(height) < needed(**metric))
-            .map(|&metric| {
-                let needed = needed(metric);
-                (metric, ScoreError::TooSmall { metric, width, height, needed })
-            })
-            .collect()
-    }
-
     /// Scores a pair. `weight` is needed by FPSNR and foveated SSIM alone.
     ///
     /// # Errors
@@ -146,8 +116,9 @@ impl Scorer {
         pair: &PairSignal<'_>,
         regions: &Regions<'_>,
         weight: Option<&WeightField>,
-    ) -> Result<PairScores, ScoreError> {
-        if let Some((_, error)) = self.unfit(pair.width(), pair.height()).into_iter().next() {
+    ) -> Result<Rows, ScoreError> {
+        let unfit = ScoreError::unfit(&self.metrics, &self.params, (pair.width(), pair.height()));
+        if let Some((_, error)) = unfit.into_iter().next() {
             return Err(error);
         }
         assert_eq!(regions.rows(), pair.height(), "regions of these frames");
@@ -186,7 +157,7 @@ impl Scorer {
         regions: &Regions<'_>,
         sums: &Sums,
         ms_ssim: Option<f64>,
-    ) -> Result<PairScores, ScoreError> {
+    ) -> Result<Rows, ScoreError> {
         let pixels = regions.pixels();
         let all: u64 = pixels.iter().sum();
         if all == 0 {
@@ -201,68 +172,77 @@ impl Scorer {
         let frame_mse = mse(sums.squared.iter().sum(), all);
         let fmse = sums.weighted_squared.mean().map(|m| m / (planes * peak * peak));
 
-        let mut scores = BTreeMap::new();
+        let mut rows = Rows::default();
+        let bands = pixels.len() - 1;
+        count_pixels(&pixels, regions.left_out(), &mut rows);
+        let squared = |squared: f64, pixels: u64| Parts::Mean {
+            sum: squared / (planes * peak * peak),
+            weight: pixels as f64,
+        };
+        let map =
+            |sum: f64, windows: u64| Parts::Mean { sum: sum / planes, weight: windows as f64 };
         for &metric in &self.metrics {
-            let no_window = ScoreError::NoWindow { metric };
-            let value = match metric {
-                Metric::Mse => frame_mse,
-                Metric::Psnr => psnr_db(frame_mse),
-                Metric::Fpsnr => psnr_db(fmse.ok_or(ScoreError::NothingLeft)?),
-                Metric::Ssim if windows == 0 && self.lenient => continue,
-                Metric::Ssim if windows == 0 => return Err(no_window),
-                Metric::Ssim => ssim(sums.ssim.iter().sum(), windows),
-                Metric::MsSsim => ms_ssim.ok_or(no_window)?,
-                Metric::Fssim => sums.weighted_ssim.mean().ok_or(no_window)? / planes,
-                // Of light, of one picture, or of two frames: measured elsewhere.
-                Metric::Fvvdp
-                | Metric::PuPsnr
-                | Metric::RmsContrast
-                | Metric::Haar
-                | Metric::Atd => continue,
-            };
-            scores.insert(metric, value);
-        }
-        let asks_mse = [Metric::Mse, Metric::Psnr].iter().any(|m| self.wants(*m));
-        let bands = (0..regions.bands())
-            .map(|band| {
-                let mse = (pixels[band] > 0).then(|| mse(sums.squared[band], pixels[band]));
-                let windows = sums.windows[band];
-                let ssim = (windows > 0).then(|| ssim(sums.ssim[band], windows));
-                let scores = self.metrics.iter().filter_map(|&metric| match metric {
-                    Metric::Mse => Some((metric, mse)),
-                    Metric::Psnr => Some((metric, mse.map(psnr_db))),
-                    Metric::Ssim => Some((metric, ssim)),
-                    Metric::MsSsim
-                    | Metric::Fpsnr
-                    | Metric::Fssim
-                    | Metric::Fvvdp
-                    | Metric::PuPsnr
-                    | Metric::RmsContrast
-                    | Metric::Haar
-                    | Metric::Atd => None,
-                });
-                let pooled = mse.filter(|_| asks_mse);
-                BandScores {
-                    pixels: pixels[band],
-                    mse: pooled,
-                    ssim_map_pixels: self.wants(Metric::Ssim).then_some(windows),
-                    scores: scores.collect(),
+            let (key, no_window) = (Key::of(metric), ScoreError::NoWindow { metric });
+            let mut add = |key: Key, value: Option<f64>, parts| rows.push(key, value, parts);
+            match metric {
+                Metric::Mse | Metric::Psnr => {
+                    let of = |mse| if metric == Metric::Psnr { psnr_db(mse) } else { mse };
+                    add(key, Some(of(frame_mse)), squared(sums.squared.iter().sum(), all));
+                    for (band, (&sum, &pixels)) in
+                        sums.squared.iter().zip(&pixels).take(bands).enumerate()
+                    {
+                        let value = (pixels > 0).then(|| of(mse(sum, pixels)));
+                        add(key.in_band(band), value, squared(sum, pixels));
+                    }
                 }
-            })
-            .collect();
-        let scale = planes * peak * peak;
-        Ok(PairScores {
-            scores,
-            bands,
-            pixels: all,
-            outside_bands: pixels[regions.bands()],
-            left_out: regions.left_out(),
-            mse: asks_mse.then_some(frame_mse),
-            weighted_squared_error: self
-                .wants(Metric::Fpsnr)
-                .then(|| (sums.weighted_squared.weighted / scale, sums.weighted_squared.weight)),
-        })
+                Metric::Fpsnr => {
+                    let WeightedMean { weighted, weight } = sums.weighted_squared;
+                    let parts = Parts::Mean { sum: weighted / (planes * peak * peak), weight };
+                    add(key, Some(psnr_db(fmse.ok_or(ScoreError::NothingLeft)?)), parts);
+                }
+                Metric::Ssim => {
+                    match windows {
+                        0 if self.lenient => {}
+                        0 => return Err(no_window),
+                        _ => add(
+                            key,
+                            Some(ssim(sums.ssim.iter().sum(), windows)),
+                            map(sums.ssim.iter().sum(), windows),
+                        ),
+                    }
+                    for (band, (&sum, &windows)) in
+                        sums.ssim.iter().zip(&sums.windows).take(bands).enumerate()
+                    {
+                        let value = (windows > 0).then(|| ssim(sum, windows));
+                        add(key.in_band(band), value, map(sum, windows));
+                        add(key.nth(1).in_band(band), Some(windows as f64), Parts::Value);
+                    }
+                }
+                Metric::MsSsim => add(key, Some(ms_ssim.ok_or(no_window)?), Parts::Value),
+                Metric::Fssim => {
+                    let mean = sums.weighted_ssim.mean().ok_or(no_window)?;
+                    add(key, Some(mean / planes), Parts::Value);
+                }
+                // Measured elsewhere.
+                _ => {}
+            }
+        }
+        rows.sort();
+        Ok(rows)
     }
+}
+
+/// The pixels that count: of each band, outside of all bands, and those that a mask leaves out.
+fn count_pixels(pixels: &[u64], left_out: u64, rows: &mut Rows) {
+    if let [bands @ .., outside] = pixels
+        && !bands.is_empty()
+    {
+        for (band, pixels) in bands.iter().enumerate() {
+            rows.count(Key::pixels(Subject::Pixels).in_band(band), *pixels);
+        }
+        rows.count(Key::pixels(Subject::PixelsOutsideBands), *outside);
+    }
+    rows.count(Key::pixels(Subject::PixelsLeftOut), left_out);
 }
 
 /// MS-SSIM from the finest scale's sums and the next scale.

@@ -9,7 +9,7 @@ use fovqa_testkit::synthetic::{codes, disturbed, rgb8};
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, View, ViewSpec};
 
 use super::*;
-use crate::{Metric, Params, Regions, WeightField};
+use crate::{Key, Metric, Params, Parts, Regions, Rows, Subject, WeightField};
 use fovqa_params::ParamValue;
 
 mod flat_regions;
@@ -43,7 +43,7 @@ impl Setup {
         }
     }
 
-    fn score(&self, metrics: &[Metric], a: &Frame, b: &Frame) -> Result<PairScores, ScoreError> {
+    fn score(&self, metrics: &[Metric], a: &Frame, b: &Frame) -> Result<Rows, ScoreError> {
         let params = SignalParams { channels: self.channels, ..SignalParams::default() };
         let tables = SignalTables::new(params);
         let scorer = Scorer::new(metrics.to_vec(), self.params.clone());
@@ -67,6 +67,11 @@ impl Setup {
         let cutoff = self.params.fpsnr.lee2002.cutoff_cpd(deg);
         cutoff.min(self.eccentricity.view().nyquist_cpd()).powi(2)
     }
+}
+
+/// The score of a whole frame.
+fn score(rows: &Rows, metric: Metric) -> f64 {
+    rows.value(Key::of(metric)).unwrap()
 }
 
 /// Planes of a frame in [0, 1].
@@ -194,7 +199,7 @@ fn all_metrics_follow_their_formulas() {
             };
             let mse = mean((0..w * h).map(squared));
             let near = |metric: Metric, want: f64, tolerance: f64| {
-                let got = found.scores[&metric];
+                let got = score(&found, metric);
                 assert!((got - want).abs() <= tolerance, "{metric:?} {w}x{h}: {got} for {want}");
             };
             near(Metric::Mse, mse, 1e-9);
@@ -207,15 +212,16 @@ fn all_metrics_follow_their_formulas() {
                     pa.iter().zip(&pb).map(|(a, b)| literal_ms_ssim(a.clone(), b.clone(), w, h));
                 near(Metric::MsSsim, scores.sum::<f64>() / n, 1e-6);
             }
-            for (index, band) in found.bands.iter().enumerate() {
+            for index in 0..3 {
                 let inside = |i: &usize| setup.band(i % w, i / w) == Some(index);
-                assert_eq!(band.pixels, (0..w * h).filter(inside).count() as u64);
+                let pixels = found.number(Key::pixels(Subject::Pixels).in_band(index));
+                assert_eq!(pixels, (0..w * h).filter(inside).count() as u64);
                 let of_band =
                     |value: &dyn Fn(usize) -> f64| mean((0..w * h).filter(inside).map(value));
                 for (metric, want) in
                     [(Metric::Mse, of_band(&squared)), (Metric::Ssim, of_band(&map))]
                 {
-                    match band.scores[&metric] {
+                    match found.value(Key::of(metric).in_band(index)) {
                         Some(got) => assert!((got - want).abs() < 2e-6, "{metric:?} band {index}"),
                         None => assert!(want.is_nan()),
                     }
@@ -235,7 +241,7 @@ fn equal_pictures_are_equal_to_the_last_bit() {
             Metric::Psnr | Metric::Fpsnr => f64::INFINITY,
             _ => 1.0,
         };
-        assert_eq!(found.scores[&metric], want, "{metric:?}");
+        assert_eq!(score(&found, metric), want, "{metric:?}");
     }
 }
 
@@ -245,7 +251,7 @@ fn eight_bit_errors_are_exact() {
     let found = Setup::new(300, 130, [150.0, 65.0]).score(&[Metric::Mse], &a, &b).unwrap();
     let (Samples::U8(a), Samples::U8(b)) = (a.samples(), b.samples()) else { unreachable!() };
     let squared: i64 = a.iter().zip(b).map(|(a, b)| (i64::from(*a) - i64::from(*b)).pow(2)).sum();
-    assert_eq!(found.scores[&Metric::Mse], squared as f64 / (3.0 * 300.0 * 130.0 * 255.0 * 255.0));
+    assert_eq!(score(&found, Metric::Mse), squared as f64 / (3.0 * 300.0 * 130.0 * 255.0 * 255.0));
 }
 
 /// A constant error weighs the same everywhere; one at the gaze weighs more than one far off.
@@ -260,11 +266,11 @@ fn foveal_psnr_knows_where_the_error_is() {
     setup.eccentricity = Eccentricity::new(view, [40.0, 50.0], EccentricityKind::Angular);
     let both = [Metric::Psnr, Metric::Fpsnr];
     let constant = setup.score(&both, &gray(100), &gray(110)).unwrap();
-    assert!((constant.scores[&Metric::Psnr] - constant.scores[&Metric::Fpsnr]).abs() < 1e-6);
+    assert!((score(&constant, Metric::Psnr) - score(&constant, Metric::Fpsnr)).abs() < 1e-6);
     let spot = |x: usize, y: usize| {
         let mut codes = vec![100; 3 * w * h];
         codes[3 * (y * w + x)] = 200;
-        setup.score(&both, &gray(100), &rgb8(w, h, codes)).unwrap().scores[&Metric::Fpsnr]
+        score(&setup.score(&both, &gray(100), &rgb8(w, h, codes)).unwrap(), Metric::Fpsnr)
     };
     assert!((spot(40, 50) - spot(150, 20)).abs() < 1e-6, "the weight is flat near the gaze");
     assert!(spot(40, 50) < spot(350, 50) - 1.0);
@@ -288,15 +294,17 @@ fn masked_pixels_are_in_no_number() {
     }
     let after = setup.score(&metrics, &a, &rgb8(w, h, codes)).unwrap();
     assert_eq!(before, after);
-    assert_eq!(before.left_out, (w * h - 60 * 67) as u64);
-    assert_eq!(before.pixels, 60 * 67);
+    let left_out = before.number(Key::pixels(Subject::PixelsLeftOut));
+    assert_eq!(left_out, (w * h - 60 * 67) as u64);
+    let parts = before.get(Key::of(Metric::Mse)).unwrap().parts;
+    assert!(matches!(parts, Parts::Mean { weight: 4020.0, .. }), "60 x 67 pixels: {parts:?}");
     // The cropped pictures, without a mask, have the same windows.
     let crop = fovqa_frame::Crop { x: 10, y: 8, width: 60, height: 67 };
     let cropped = Setup::new(60, 67, [35.0, 32.0]);
     let (a, b) = (a.cropped(crop).unwrap(), b.cropped(crop).unwrap());
     let found = cropped.score(&[Metric::Mse, Metric::Ssim], &a, &b).unwrap();
-    assert_eq!(found.scores[&Metric::Mse], before.scores[&Metric::Mse]);
-    assert!((found.scores[&Metric::Ssim] - before.scores[&Metric::Ssim]).abs() < 1e-9);
+    assert_eq!(score(&found, Metric::Mse), score(&before, Metric::Mse));
+    assert!((score(&found, Metric::Ssim) - score(&before, Metric::Ssim)).abs() < 1e-9);
     let (a, b) = pair(180, 180, 40.0);
     let mut large = Setup::new(180, 180, [90.0, 90.0]);
     assert!(large.score(&[Metric::MsSsim], &a, &b).is_ok());
@@ -336,7 +344,7 @@ fn the_window_may_have_any_size() {
     let (a, b) = pair(w, h, 40.0);
     let mut setup = Setup::new(w, h, [30.0, 20.0]);
     setup.params.set(Metric::Ssim, "sigma", &ParamValue::Number(2.0)).unwrap();
-    let found = setup.score(&[Metric::Ssim], &a, &b).unwrap().scores[&Metric::Ssim];
+    let found = score(&setup.score(&[Metric::Ssim], &a, &b).unwrap(), Metric::Ssim);
     let maps = planes(&a, false)
         .iter()
         .zip(planes(&b, false))
@@ -371,7 +379,7 @@ fn one_picture_scores_alike_in_every_type() {
         for of_test in makers {
             let found = setup.score(&metrics, &of_reference(&a), &of_test(&b)).unwrap();
             for metric in metrics {
-                let (got, want) = (found.scores[&metric], want.scores[&metric]);
+                let (got, want) = (score(&found, metric), score(&want, metric));
                 assert!((got - want).abs() < 2e-5, "{metric:?}: {got} for {want}");
             }
         }

@@ -15,7 +15,8 @@ use multiversion::multiversion;
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::info::{MetricInfo, MetricParams};
-use crate::pooling::{Pooling, Statistic, Weight};
+use crate::pooling::{Parts, Pooling, Statistic, Weight};
+use crate::row::{Image, Key, Rows};
 
 /// Of all coefficients, then of each orientation, and how many there are.
 const STATISTICS: [Statistic; 13] = [
@@ -105,69 +106,6 @@ impl Params {
     }
 }
 
-/// Which way a coefficient looks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Orientation {
-    /// Low in x, high in y: horizontal edges.
-    Lh,
-    /// High in x, low in y: vertical edges.
-    Hl,
-    /// High in both: diagonals.
-    Hh,
-}
-
-impl Orientation {
-    /// All, in the order of results.
-    pub const ALL: [Orientation; 3] = [Orientation::Lh, Orientation::Hl, Orientation::Hh];
-
-    /// Its name in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Orientation::Lh => "lh",
-            Orientation::Hl => "hl",
-            Orientation::Hh => "hh",
-        }
-    }
-}
-
-/// What is said of some coefficients.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HaarStatistics {
-    /// Mean |c|.
-    pub mean_abs: f64,
-    /// Max |c|.
-    pub max_abs: f64,
-    /// Mean c².
-    pub energy: f64,
-}
-
-impl HaarStatistics {
-    /// The names of the three, in the order of [`HaarStatistics::values`].
-    pub const NAMES: [&'static str; 3] = ["mean_abs", "max_abs", "energy"];
-
-    /// The three in order.
-    pub fn values(&self) -> [f64; 3] {
-        [self.mean_abs, self.max_abs, self.energy]
-    }
-}
-
-impl From<[f64; 3]> for HaarStatistics {
-    fn from([mean_abs, max_abs, energy]: [f64; 3]) -> Self {
-        Self { mean_abs, max_abs, energy }
-    }
-}
-
-/// One level in one band.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HaarBand {
-    /// How many coefficients: three a block.
-    pub coefficients: u64,
-    /// Over all of them; `None` where there is none.
-    pub statistics: Option<HaarStatistics>,
-    /// Of LH, HL and HH, where that is asked for, which is seldom.
-    pub orientations: Option<Box<[HaarStatistics; 3]>>,
-}
-
 /// Sums over coefficients of one orientation.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Sums {
@@ -182,30 +120,36 @@ impl Sums {
         self.max = self.max.max(other.max);
         self.square += other.square;
     }
-
-    fn statistics(&self, coefficients: u64) -> HaarStatistics {
-        let count = coefficients as f64;
-        HaarStatistics {
-            mean_abs: self.abs / count,
-            max_abs: self.max,
-            energy: self.square / count,
-        }
-    }
 }
 
-/// The result of `blocks` blocks with these sums of LH, HL and HH.
-pub(crate) fn band(sums: &[Sums; 3], blocks: u64, orientations: bool) -> HaarBand {
+/// Adds the rows of `blocks` blocks with these sums of LH, HL and HH; `key` has picture, level and band.
+pub(crate) fn rows(key: Key, sums: &[Sums; 3], blocks: u64, orientations: bool, rows: &mut Rows) {
     let mut all = Sums::default();
     for one in sums {
         all.merge(one);
     }
-    let some = blocks > 0;
-    HaarBand {
-        coefficients: 3 * blocks,
-        statistics: some.then(|| all.statistics(3 * blocks)),
-        orientations: (some && orientations)
-            .then(|| Box::new(sums.map(|sums| sums.statistics(blocks)))),
+    let parts = orientations.then(|| sums.iter().map(|sums| (*sums, blocks)));
+    let of = [(all, 3 * blocks)].into_iter().chain(parts.into_iter().flatten());
+    for (of, (sums, coefficients)) in of.enumerate() {
+        let count = coefficients as f64;
+        let of_sum = |sum: f64| {
+            let value = (coefficients > 0).then(|| sum / count);
+            (value, Parts::Mean { sum, weight: count })
+        };
+        let max = (coefficients > 0).then_some(sums.max);
+        let values = [of_sum(sums.abs), (max, Parts::Value), of_sum(sums.square)];
+        for (statistic, (value, parts)) in values.into_iter().enumerate() {
+            rows.push(key.nth(PER_ORIENTATION * of + statistic), value, parts);
+        }
     }
+}
+
+/// Statistics of the coefficients of one orientation, or of all.
+const PER_ORIENTATION: usize = 3;
+
+/// The key of the number of coefficients, of both pictures, where `key` has level and band.
+pub(crate) fn coefficients(key: Key) -> Key {
+    key.of_image(Image::Pair).nth(STATISTICS.len() - 1)
 }
 
 /// One level of one pair of rows: `ll` and the details LH, HL, HH, each half as long as the rows.

@@ -7,5 +7,4 @@ pub mod rms_contrast;
 #[cfg(test)]
 mod tests;
 
-pub use haar::{HaarBand, HaarStatistics, Orientation};
-pub use profiler::{Profile, Profiler};
+pub use profiler::Profiler;

@@ -2,23 +2,14 @@
 
 use fovqa_frame::{Frame, LumaKind, LumaSignal, SignalTables};
 
-use super::haar::{self, HaarBand};
+use super::haar;
 use super::pass::{Contrast, Wanted, run};
 use super::rms_contrast;
+use crate::pooling::Parts;
 use crate::regions::{BlockRegions, Regions};
-use crate::registry::Metric;
-use crate::registry::Params;
+use crate::registry::{Metric, Params};
+use crate::row::{Image, Key, Rows};
 use crate::temporal::KeptPlane;
-
-/// What there is to say of one picture.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Profile {
-    /// RMS contrast of each band, where it is asked for; `None` in a band without pixels, or without a
-    /// mean to divide by.
-    pub rms_contrast: Option<Vec<Option<f64>>>,
-    /// The wavelet level by level from 1 on, band by band, where it is asked for.
-    pub haar: Option<Vec<Vec<HaarBand>>>,
-}
 
 /// Measures pictures one by one.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +38,8 @@ impl Profiler {
         self.rms_contrast.is_none() && self.haar.is_none()
     }
 
-    /// Measures a picture. `plane` takes its luma, for [`crate::temporal`].
+    /// Measures a picture, the reference or the test as `image` has it. `plane` takes its luma, for
+    /// [`crate::temporal`].
     ///
     /// # Panics
     /// When regions, blocks or plane are not of pictures of this size.
@@ -57,8 +49,9 @@ impl Profiler {
         tables: &SignalTables,
         regions: &Regions<'_>,
         blocks: &BlockRegions<'_>,
+        image: Image,
         plane: Option<&mut KeptPlane>,
-    ) -> Profile {
+    ) -> Rows {
         assert_eq!(regions.rows(), frame.height(), "regions of this picture");
         let plane = plane.map(|plane| plane.resized(frame.width(), frame.height()));
         let luma = LumaSignal::new(frame, tables, LumaKind::Luma);
@@ -74,17 +67,28 @@ impl Profiler {
         });
         let sums = run(&Wanted { luma: &luma, contrast, regions, blocks }, plane);
         let bands = regions.bands();
-        let rms_contrast = self.rms_contrast.map(|params| {
-            sums.moments[..bands].iter().map(|m| m.contrast(params.normalise)).collect()
-        });
-        let haar = self.haar.zip(blocks).map(|(params, blocks)| {
-            let levels = sums.haar.iter().enumerate().map(|(index, level)| {
-                let counts = blocks.counts(index + 1);
-                let bands = level[..bands].iter().zip(counts);
-                bands.map(|(sums, blocks)| haar::band(sums, blocks, params.orientations)).collect()
-            });
-            levels.collect()
-        });
-        Profile { rms_contrast, haar }
+        let mut rows = Rows::default();
+        if let Some(params) = self.rms_contrast {
+            let key = Key::of(Metric::RmsContrast).of_image(image);
+            for (band, moments) in sums.moments[..bands].iter().enumerate() {
+                let value = moments.contrast(params.normalise);
+                rows.push(key.in_band(band), value, Parts::Value);
+            }
+        }
+        if let Some((params, blocks)) = self.haar.zip(blocks) {
+            for (level, of_level) in (1..).zip(&sums.haar) {
+                let counts = blocks.counts(level);
+                for (band, (sums, blocks)) in of_level[..bands].iter().zip(counts).enumerate() {
+                    let key = Key::of(Metric::Haar).of_image(image).on_level(level).in_band(band);
+                    haar::rows(key, sums, blocks, params.orientations, &mut rows);
+                    // Of both pictures alike, and so of the pair.
+                    if image == Image::Reference {
+                        rows.count(haar::coefficients(key), 3 * blocks);
+                    }
+                }
+            }
+        }
+        rows.sort();
+        rows
     }
 }

@@ -8,7 +8,7 @@ use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, ViewSpec}
 
 use super::*;
 use crate::temporal::KeptPlane;
-use crate::{BlockRegions, Metric, Params, Regions};
+use crate::{BlockRegions, Image, Key, Metric, Params, Regions, Rows, Subject};
 use fovqa_params::ParamValue;
 
 const EDGES_DEG: [f64; 4] = [0.0, 10.0, 20.0, 35.0];
@@ -55,7 +55,7 @@ impl Setup {
         rows.collect()
     }
 
-    fn measure(&self, plane: Option<&mut KeptPlane>) -> Profile {
+    fn measure(&self, plane: Option<&mut KeptPlane>) -> Rows {
         let profiler = Profiler::new(&[Metric::RmsContrast, Metric::Haar], &self.params);
         let edges = BandEdges::new(EDGES_DEG.to_vec()).unwrap();
         let bands = BandMap::new(&self.eccentricity, &edges);
@@ -66,7 +66,7 @@ impl Setup {
             Some(mask) => (Regions::masked(&bands, mask, 5), BlockRegions::masked(&maps, mask)),
         };
         let tables = SignalTables::new(SignalParams::default());
-        profiler.measure(&self.frame, &tables, &regions, &blocks, plane)
+        profiler.measure(&self.frame, &tables, &regions, &blocks, Image::Reference, plane)
     }
 
     fn band_at(&self, x_px: f64, y_px: f64) -> Option<usize> {
@@ -112,35 +112,49 @@ impl Setup {
     }
 
     fn check_haar(&self) {
-        let found = self.measure(None).haar.unwrap();
-        let want = self.coefficients();
-        assert_eq!(found.len(), want.len());
+        let found = self.measure(None);
         let mut some = 0;
-        for (level, (found, want)) in found.iter().zip(&want).enumerate() {
-            assert_eq!(found.len(), 3);
-            for (found, blocks) in found.iter().zip(want) {
-                assert_eq!(found.coefficients, 3 * blocks.len() as u64, "level {}", level + 1);
+        for (level, want) in (1..).zip(&self.coefficients()) {
+            for (band, blocks) in want.iter().enumerate() {
+                let value = |statistic: &str| found.value(haar(statistic, level, band));
+                let count = Key::named(Subject::Metric(Metric::Haar), "coefficients").unwrap();
+                let count = found.number(count.on_level(level).in_band(band));
+                assert_eq!(count, 3 * blocks.len() as u64, "level {level}");
                 let all: Vec<f64> = blocks.iter().flatten().copied().collect();
-                near(found.statistics, &all);
+                near(STATISTICS.map(value), &all);
                 some += blocks.len();
-                for (index, orientation) in Orientation::ALL.into_iter().enumerate() {
-                    let of = found.orientations.as_ref().map(|of| of[index]);
+                for (index, orientation) in ["lh", "hl", "hh"].into_iter().enumerate() {
+                    let of = STATISTICS.map(|name| value(&format!("{name}_{orientation}")));
                     let one: Vec<f64> = blocks.iter().map(|block| block[index]).collect();
                     if self.params.haar.orientations {
                         near(of, &one);
                     } else {
-                        assert!(of.is_none(), "{}", orientation.name());
+                        assert!(of.iter().all(Option::is_none), "{orientation}");
                     }
                 }
             }
         }
         assert!(some > 0);
     }
+
+    /// RMS contrast of each band.
+    fn contrasts(&self) -> Vec<Option<f64>> {
+        let key = Key::of(Metric::RmsContrast).of_image(Image::Reference);
+        let found = self.measure(None);
+        (0..3).map(|band| found.get(key.in_band(band)).unwrap().value).collect()
+    }
+}
+
+const STATISTICS: [&str; 3] = ["mean_abs", "max_abs", "energy"];
+
+fn haar(statistic: &str, level: usize, band: usize) -> Key {
+    let key = Key::named(Subject::Metric(Metric::Haar), statistic).unwrap();
+    key.of_image(Image::Reference).on_level(level).in_band(band)
 }
 
 #[track_caller]
-fn near(found: Option<HaarStatistics>, coefficients: &[f64]) {
-    let Some(found) = found else {
+fn near(found: [Option<f64>; 3], coefficients: &[f64]) {
+    let [Some(_), ..] = found else {
         assert!(coefficients.is_empty());
         return;
     };
@@ -150,7 +164,8 @@ fn near(found: Option<HaarStatistics>, coefficients: &[f64]) {
         coefficients.iter().fold(0.0, |max: f64, c| max.max(c.abs())),
         coefficients.iter().map(|c| c * c).sum::<f64>() / count,
     ];
-    for (found, want) in found.values().into_iter().zip(want) {
+    for (found, want) in found.into_iter().zip(want) {
+        let found = found.unwrap();
         assert!((found - want).abs() <= 1e-11 * want.max(1e-3), "{found} for {want}");
     }
 }
@@ -180,9 +195,10 @@ fn orientations_are_told_apart() {
     let mut setup = Setup::new(64, 64).set(Metric::Haar, "orientations", &ParamValue::Flag(true));
     let stripes = (0..64 * 64).flat_map(|i| [if i / 64 % 2 == 0 { 255 } else { 0 }; 3]);
     setup.frame = rgb8(64, 64, stripes.collect());
-    let level = &setup.measure(None).haar.unwrap()[0];
-    let [lh, hl, hh] = **level[0].orientations.as_ref().unwrap();
-    assert!((lh.mean_abs - 1.0).abs() < 1e-12 && hl.max_abs == 0.0 && hh.max_abs == 0.0);
+    let found = setup.measure(None);
+    let value = |statistic| found.value(haar(statistic, 1, 0)).unwrap();
+    assert!((value("mean_abs_lh") - 1.0).abs() < 1e-12);
+    assert!(value("max_abs_hl") == 0.0 && value("mean_abs_hh") == 0.0);
 }
 
 fn holes(width: usize, height: usize) -> Mask {
@@ -209,7 +225,7 @@ fn rms_contrast_is_the_standard_deviation_of_a_band() {
     for mask in [false, true] {
         let mut setup = Setup::new(1030, 131);
         setup.mask = mask.then(|| holes(1030, 131));
-        let found = setup.measure(None).rms_contrast.unwrap();
+        let found = setup.contrasts();
         let luma = setup.luma();
         for (band, found) in found.iter().enumerate() {
             let mut values = Vec::new();
@@ -233,11 +249,13 @@ fn rms_contrast_is_the_standard_deviation_of_a_band() {
 fn a_flat_picture_has_neither_contrast_nor_wavelets() {
     let mut setup = Setup::new(97, 71);
     setup.frame = rgb8(97, 71, [13, 77, 201].repeat(97 * 71));
-    let Profile { rms_contrast, haar } = setup.measure(None);
-    assert!(rms_contrast.unwrap().iter().all(|contrast| *contrast == Some(0.0)));
-    for band in haar.unwrap().iter().flatten() {
-        assert!(band.statistics.is_none_or(|s| s.values() == [0.0; 3]));
-    }
+    assert!(setup.contrasts().iter().all(|contrast| *contrast == Some(0.0)));
+    let found = setup.measure(None);
+    assert!(
+        found.of(Metric::Haar).all(|row| {
+            row.key.statistic().is_count || row.value.is_none_or(|value| value == 0.0)
+        })
+    );
 }
 
 #[test]
@@ -245,8 +263,8 @@ fn parameters_of_contrast() {
     let setup = |name, value: &str| {
         Setup::new(60, 40).set(Metric::RmsContrast, name, &ParamValue::Text(value.to_owned()))
     };
-    let plain = Setup::new(60, 40).measure(None).rms_contrast.unwrap()[0].unwrap();
-    let by_mean = setup("normalise", "mean").measure(None).rms_contrast.unwrap()[0].unwrap();
+    let plain = Setup::new(60, 40).contrasts()[0].unwrap();
+    let by_mean = setup("normalise", "mean").contrasts()[0].unwrap();
     let luma = Setup::new(60, 40).luma();
     let s = Setup::new(60, 40);
     let inside: Vec<f64> = (0..40 * 60)
@@ -255,7 +273,7 @@ fn parameters_of_contrast() {
         .collect();
     let mean = inside.iter().sum::<f64>() / inside.len() as f64;
     assert!((by_mean - plain / mean).abs() < 1e-12);
-    let linear = setup("signal", "luminance").measure(None).rms_contrast.unwrap()[0].unwrap();
+    let linear = setup("signal", "luminance").contrasts()[0].unwrap();
     assert!((linear - plain).abs() > 1e-3, "linear light is another signal");
 }
 

@@ -13,8 +13,10 @@ use multiversion::multiversion;
 use super::kept_plane::KeptPlane;
 use super::source::{Link, Sources, Stretch};
 use crate::info::{Better, LeadIn, MetricInfo, MetricKind, MetricParams, Needs};
-use crate::pooling::{Pooling, Statistic};
+use crate::pooling::{Parts, Pooling, Statistic};
 use crate::regions::{Regions, clipped};
+use crate::registry::Metric;
+use crate::row::{Image, Key, Rows};
 use crate::sums::add_by_band;
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
@@ -67,30 +69,53 @@ impl MetricParams for Params {
     }
 }
 
-/// The difference of one band.
+/// The difference of one frame to the one before it: sums and valid pixels, band by band.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct AtdFrame {
+    /// Pixels that could have been valid: all that count.
+    pub pixels: u64,
+    /// Over the whole frame.
+    pub whole: AtdSum,
+    /// Band by band.
+    pub bands: Vec<AtdSum>,
+}
+
+/// The differences of some pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct AtdBand {
-    /// The mean over valid pixels; `None` where there is none.
-    pub mean: Option<f64>,
-    /// Valid pixels.
+pub struct AtdSum {
+    /// Their sum.
+    pub sum: f64,
+    /// Pixels that can be compared.
     pub valid: u64,
 }
 
-/// The difference of one frame to the one before it.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct AtdFrame {
-    /// Over the whole frame.
-    pub whole: AtdBand,
-    /// Pixels that could have been valid: all that count.
-    pub pixels: u64,
-    /// Band by band.
-    pub bands: Vec<AtdBand>,
+impl AtdSum {
+    /// The mean over valid pixels; `None` where there is none.
+    pub fn mean(&self) -> Option<f64> {
+        (self.valid > 0).then(|| self.sum / self.valid as f64)
+    }
 }
 
 impl AtdFrame {
     /// Pixels left out.
     pub fn left_out(&self) -> u64 {
         self.pixels - self.whole.valid
+    }
+
+    /// The values, of one picture: of the whole frame, with the share that was left out, and of each
+    /// band.
+    pub fn rows(&self, image: Image, rows: &mut Rows) {
+        let key = Key::of(Metric::Atd).of_image(image);
+        let mut add = |key: Key, difference: &AtdSum| {
+            let AtdSum { sum, valid } = *difference;
+            rows.push(key, difference.mean(), Parts::Mean { sum, weight: valid as f64 });
+        };
+        add(key, &self.whole);
+        for (band, difference) in self.bands.iter().enumerate() {
+            add(key.in_band(band), difference);
+        }
+        let (sum, weight) = (self.left_out() as f64, self.pixels as f64);
+        rows.push(key.nth(1), Some(sum / weight.max(1.0)), Parts::Mean { sum, weight });
     }
 }
 
@@ -137,13 +162,11 @@ pub fn differences(
 }
 
 fn frame(regions: &Regions<'_>, sums: &[f64], valid: &[u64], counts: &[u64]) -> AtdFrame {
-    let band =
-        |sum: f64, valid: u64| AtdBand { mean: (valid > 0).then(|| sum / valid as f64), valid };
     let bands = sums.iter().zip(valid).take(regions.bands());
     AtdFrame {
-        whole: band(sums.iter().sum(), valid.iter().sum()),
         pixels: counts.iter().sum(),
-        bands: bands.map(|(&sum, &valid)| band(sum, valid)).collect(),
+        whole: AtdSum { sum: sums.iter().sum(), valid: valid.iter().sum() },
+        bands: bands.map(|(&sum, &valid)| AtdSum { sum, valid }).collect(),
     }
 }
 

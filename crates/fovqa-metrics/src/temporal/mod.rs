@@ -6,6 +6,6 @@ mod source;
 #[cfg(test)]
 mod tests;
 
-pub use atd::{AtdBand, AtdFrame, differences};
+pub use atd::{AtdFrame, AtdSum, differences};
 pub use kept_plane::KeptPlane;
 pub use source::Link;

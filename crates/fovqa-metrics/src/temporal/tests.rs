@@ -67,14 +67,14 @@ fn a_pattern_moved_by_whole_pixels_with_its_motion_does_not_differ() {
     let now = plane(W, H, |x, y| pattern(x as i64 - 7, y as i64 + 3));
     let motion = uniform(W, H, [-7.0, 3.0]);
     let found = only(&link(&regions, Some(&motion)), &now, &before);
-    assert_eq!(found.whole.mean, Some(0.0));
+    assert_eq!(found.whole.mean(), Some(0.0));
     // Seven columns at the left and three rows at the bottom come from outside.
     assert_eq!(found.whole.valid, ((W - 7) * (H - 3)) as u64);
     assert_eq!(found.left_out(), (W * H - (W - 7) * (H - 3)) as u64);
     let wrong = uniform(W, H, [7.0, -3.0]);
-    assert!(only(&link(&regions, Some(&wrong)), &now, &before).whole.mean.unwrap() > 0.1);
+    assert!(only(&link(&regions, Some(&wrong)), &now, &before).whole.mean().unwrap() > 0.1);
     let still = only(&link(&regions, None), &before, &before);
-    assert_eq!((still.whole.mean, still.left_out()), (Some(0.0), 0));
+    assert_eq!((still.whole.mean(), still.left_out()), (Some(0.0), 0));
 }
 
 #[test]
@@ -87,12 +87,12 @@ fn half_a_pixel_fetches_the_bilinear_value() {
     let found = only(&link(&regions, Some(&motion)), &ramp, &ramp);
     // The last column's source, on the border, is outside; 63 columns differ by half a step.
     assert_eq!(found.whole.valid, 63 * 8);
-    assert_eq!(found.whole.mean, Some(0.5 / 1024.0));
+    assert_eq!(found.whole.mean(), Some(0.5 / 1024.0));
     // Half a pixel back, the first column's source holds the border: its taps are one pixel twice.
     let back = uniform(64, 8, [-0.5, 0.0]);
     let found = only(&link(&regions, Some(&back)), &ramp, &ramp);
     assert_eq!(found.whole.valid, 64 * 8);
-    assert_eq!(found.whole.mean, Some(63.0 * 0.5 / 1024.0 / 64.0));
+    assert_eq!(found.whole.mean(), Some(63.0 * 0.5 / 1024.0 / 64.0));
 }
 
 #[test]
@@ -233,10 +233,10 @@ fn any_motion_depth_bands_and_masks_follow_the_formula() {
     let near = |found: Option<f64>, want: f64| {
         assert!((found.unwrap() - want).abs() < 1e-7, "{found:?} for {want}");
     };
-    near(found.whole.mean, want.sums.iter().sum::<f64>() / found.whole.valid as f64);
+    near(found.whole.mean(), want.sums.iter().sum::<f64>() / found.whole.valid as f64);
     for (band, found) in found.bands.iter().enumerate() {
         assert_eq!(found.valid, want.valid[band], "band {band}");
-        near(found.mean, want.sums[band] / want.valid[band] as f64);
+        near(found.mean(), want.sums[band] / want.valid[band] as f64);
     }
     let both = differences(&link, &[(&before, &before), (&now, &before)], &Params::default());
     assert_eq!(both[1], found, "several pictures share their motion");
@@ -249,5 +249,5 @@ fn a_band_without_a_valid_pixel_has_no_value() {
     let nothing = Regions::masked(&bands, &mask, 1);
     let gray = plane(8, 8, |_, _| 0.5);
     let found = only(&link(&nothing, None), &gray, &gray);
-    assert_eq!((found.whole, found.pixels), (AtdBand { mean: None, valid: 0 }, 0));
+    assert_eq!((found.whole, found.pixels), (AtdSum { sum: 0.0, valid: 0 }, 0));
 }

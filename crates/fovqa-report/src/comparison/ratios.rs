@@ -1,7 +1,7 @@
 //! What is left of the reference in each eccentricity band: test / reference, in percent.
 
 use fovqa_config::Plot;
-use fovqa_metrics::{Better, HaarStatistics, Metric};
+use fovqa_metrics::{Better, Metric};
 use fovqa_results::{ComparisonSummary, HaarRecord, RunRecord, Spread, SummaryRecord};
 
 use super::group::Group;
@@ -39,9 +39,9 @@ pub(crate) fn statistic_in_words(statistic: &str) -> &'static str {
 /// A ratio of the wavelet.
 pub(crate) fn haar_ratio(record: &HaarRecord<Spread>, statistic: &str) -> Option<f64> {
     let ratio = &record.all.ratio;
-    match HaarStatistics::NAMES.iter().position(|name| *name == statistic) {
-        Some(0) => ratio.mean_abs,
-        Some(1) => ratio.max_abs,
+    match statistic {
+        "mean_abs" => ratio.mean_abs,
+        "max_abs" => ratio.max_abs,
         _ => ratio.energy,
     }
 }

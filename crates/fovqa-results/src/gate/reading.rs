@@ -7,7 +7,7 @@ use std::path::Path;
 use super::values::{Place, Row, RunValues, Values};
 use crate::files::{FileError, RESULTS_CSV, SUMMARY_JSON, read_json_file};
 use crate::json::{ComparisonSummary, SUMMARY_SCHEMA, SummaryRecord};
-use crate::table::{ERROR, not_results, read_results_csv};
+use crate::table::{ERROR, Value, not_results, read_results_csv};
 
 impl RunValues {
     /// Reads those of a folder of results.
@@ -55,7 +55,7 @@ impl RunValues {
             if row.metric != ERROR {
                 let (metric, statistic) = (row.metric.to_owned(), row.statistic.to_owned());
                 let kind = (metric, statistic, row.image.name().to_owned(), row.level);
-                let value = row.value;
+                let value = row.value.map(Value::number);
                 let (frame, band) = (row.frame, row.band);
                 values.rows.entry(kind).or_default().push(Row { frame, band, value });
             }

@@ -3,11 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::profile::Orientation;
-use fovqa_metrics::{HaarStatistics, Metric};
+use fovqa_metrics::{Key, Metric, Subject};
 use serde::{Deserialize, Serialize};
 
-use crate::compared::{HaarStatistic, Measure, Sides};
+use crate::compared::Sides;
 use crate::report::{FrameResult, ViewResult};
 use crate::summary::{SideStatistics, Spread, Summary};
 
@@ -91,8 +90,8 @@ impl SideValues<Spread> {
 
 /// What is compared in a band, by metric.
 pub(crate) fn in_band(frame: &FrameResult, band: usize) -> Vec<(Metric, SideValues<f64>)> {
-    let compared = frame.compared_in(band).into_iter();
-    compared.map(|(measure, sides)| (measure.metric, sides.into())).collect()
+    let compared = frame.compared().filter(|(key, _)| is_in_band(key, band));
+    compared.filter_map(|(key, sides)| Some((key.metric()?, sides.into()))).collect()
 }
 
 /// The same over the frames.
@@ -100,67 +99,76 @@ pub(crate) fn in_summary_band(
     summary: &Summary,
     band: usize,
 ) -> BTreeMap<Metric, SideValues<Spread>> {
-    let of_band = |(measure, statistics): (&Measure, &SideStatistics)| {
-        let wanted = measure.band == Some(band) && measure.level.is_none();
-        wanted.then(|| (measure.metric, SideValues::of(statistics, false)))
+    let compared = summary.compared.iter().filter(|(key, _)| is_in_band(key, band));
+    let of_band = |(key, statistics): (&Key, &SideStatistics)| {
+        Some((key.metric()?, SideValues::of(statistics, false)))
     };
-    summary.compared.iter().filter_map(of_band).collect()
+    compared.filter_map(of_band).collect()
+}
+
+fn is_in_band(key: &Key, band: usize) -> bool {
+    key.band.map(usize::from) == Some(band) && key.level.is_none()
 }
 
 /// The wavelet of a frame, level by level.
 pub(crate) fn haar(frame: &FrameResult, view: Option<&ViewResult>) -> Vec<HaarRecord<f64>> {
     let edges = view.map(|view| view.bands_deg.as_slice()).unwrap_or_default();
-    let places = (1..=frame.haar_levels())
-        .flat_map(|level| edges.iter().enumerate().map(move |(band, edges)| (level, band, *edges)));
-    let record = |(level, band, edges): (usize, usize, (f64, f64))| {
-        let values = frame.compared_haar(level, band).into_iter();
-        let values = values.filter_map(|(measure, sides)| Some((measure.statistic?, sides.into())));
-        haar_record(level, edges, frame.coefficients(level, band), values.collect())
-    };
-    places.map(record).collect()
+    let values = frame.compared().map(|(key, sides)| (key, sides.into()));
+    haar_records(values, edges, |key| frame.rows.number(key))
 }
 
 /// The wavelet over the frames.
 pub(crate) fn summary_haar(summary: &Summary) -> Vec<HaarRecord<Spread>> {
-    let mut by_place: BTreeMap<(usize, usize), Vec<Named<Spread>>> = BTreeMap::new();
-    for (measure, statistics) in &summary.compared {
-        if let (Some(level), Some(band), Some(statistic)) =
-            (measure.level, measure.band, measure.statistic)
-        {
-            let values = SideValues::of(statistics, statistic.is_maximum());
-            by_place.entry((level, band)).or_default().push((statistic, values));
-        }
+    let edges: Vec<(f64, f64)> =
+        summary.bands.iter().map(|band| (band.from_deg, band.to_deg)).collect();
+    let values = summary
+        .compared
+        .iter()
+        .map(|(key, statistics)| (*key, SideValues::of(statistics, key.statistic().is_maximum())));
+    haar_records(values, &edges, |key| summary.counts.get(&key).copied().unwrap_or_default())
+}
+
+/// The statistics of a level in a band, all of them together or of an orientation, by its name.
+type Grouped<T> = BTreeMap<Option<&'static str>, Vec<SideValues<T>>>;
+
+fn haar_records<T: Clone>(
+    values: impl Iterator<Item = (Key, SideValues<T>)>,
+    edges: &[(f64, f64)],
+    count: impl Fn(Key) -> u64,
+) -> Vec<HaarRecord<T>> {
+    let mut places: BTreeMap<(usize, usize), Grouped<T>> = BTreeMap::new();
+    for (key, sides) in values.filter(|(key, _)| key.metric() == Some(Metric::Haar)) {
+        let (Some(level), Some(band)) = (key.level, key.band) else { continue };
+        let place = places.entry((level.into(), band.into())).or_default();
+        place.entry(orientation(key.statistic().name)).or_default().push(sides);
     }
-    let record = |((level, band), values): ((usize, usize), Vec<_>)| {
-        let edges = summary.bands.get(band).map(|band| (band.from_deg, band.to_deg))?;
-        let coefficients = summary.coefficients.get(&(level, band)).copied().unwrap_or_default();
-        Some(haar_record(level, edges, coefficients, values))
+    let record = |((level, band), mut of): ((usize, usize), Grouped<T>)| {
+        let &(from_deg, to_deg) = edges.get(band)?;
+        let coefficients = Key::named(Subject::Metric(Metric::Haar), "coefficients")?;
+        let coefficients = count(coefficients.on_level(level).in_band(band));
+        let all = sides(of.remove(&None).unwrap_or_default());
+        let orientations =
+            of.into_iter().filter_map(|(name, values)| Some((name?.to_owned(), sides(values))));
+        let orientations = orientations.collect();
+        Some(HaarRecord { level, from_deg, to_deg, coefficients, all, orientations })
     };
-    by_place.into_iter().filter_map(record).collect()
+    places.into_iter().filter_map(record).collect()
 }
 
-/// A statistic with its values.
-type Named<T> = (HaarStatistic, SideValues<T>);
-
-fn haar_record<T: Clone>(
-    level: usize,
-    (from_deg, to_deg): (f64, f64),
-    coefficients: u64,
-    values: Vec<Named<T>>,
-) -> HaarRecord<T> {
-    let mut of: BTreeMap<Option<&str>, Vec<SideValues<T>>> = BTreeMap::new();
-    for (statistic, sides) in values {
-        of.entry(statistic.orientation().map(Orientation::name)).or_default().push(sides);
-    }
-    let all = sides(of.remove(&None).unwrap_or_default());
-    let orientations =
-        of.into_iter().filter_map(|(name, values)| Some((name?.to_owned(), sides(values))));
-    HaarRecord { level, from_deg, to_deg, coefficients, all, orientations: orientations.collect() }
+/// The orientation that a statistic of the wavelet is of; `None`: of all.
+fn orientation(statistic: &str) -> Option<&'static str> {
+    ORIENTATIONS.into_iter().find(|name| statistic.ends_with(&format!("_{name}")))
 }
+
+/// Low in x and high in y, high in x and low in y, high in both.
+const ORIENTATIONS: [&str; 3] = ["lh", "hl", "hh"];
+
+/// Statistics of an orientation: `mean_abs`, `max_abs` and `energy`.
+const PER_ORIENTATION: usize = 3;
 
 /// The three statistics, in their order, as the three fields.
 fn sides<T: Clone>(values: Vec<SideValues<T>>) -> HaarSides<T> {
-    debug_assert!(values.len() <= HaarStatistics::NAMES.len(), "one a statistic");
+    debug_assert!(values.len() <= PER_ORIENTATION, "one a statistic");
     HaarSides {
         reference: three(&values, |sides| sides.reference.clone()),
         test: three(&values, |sides| sides.test.clone()),

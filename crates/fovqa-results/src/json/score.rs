@@ -2,14 +2,14 @@
 
 use std::io::{self, Write};
 
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Image, Key, Metric, Row, Subject};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::compared::{HaarRecord, SideValues, haar, in_band, summary_haar};
 use super::summary::{BandStatistics, ViewRecord, stats};
 use super::values::{MetricMap, Number, Stats};
-use crate::fvvdp::{FvvdpSummary, SpatialBand};
-use crate::report::{FrameResult, ScoreReport, ViewResult};
+use crate::fvvdp::{FvvdpSummary, SpatialBand, spatial_bands};
+use crate::report::{FrameResult, ScoreReport};
 use crate::summary::{AtdSummary, Spread, Summary};
 
 /// Name and version of the format.
@@ -25,7 +25,7 @@ pub fn write_json(report: &ScoreReport, mut out: impl Write) -> io::Result<()> {
         schema: SCORE_SCHEMA,
         version: env!("CARGO_PKG_VERSION"),
         view: report.view.as_ref().map(ViewRecord::of),
-        frames: report.frames.iter().map(|f| Frame::of(f, report.view.as_ref())).collect(),
+        frames: report.frames.iter().map(|f| Frame::of(f, report)).collect(),
         sequence: Sequence { atd: summary.atd.clone(), fvvdp: summary.fvvdp.clone() },
         summary: stats(&summary.statistics),
         summary_haar: summary_haar(&summary),
@@ -120,44 +120,54 @@ fn is_zero(count: &u64) -> bool {
 }
 
 impl<'a> Frame<'a> {
-    fn of(frame: &'a FrameResult, view: Option<&ViewResult>) -> Self {
-        let scores = &frame.scores;
-        let edges = view.map(|v| v.bands_deg.as_slice()).unwrap_or_default();
+    fn of(frame: &'a FrameResult, report: &ScoreReport) -> Self {
+        let rows = &frame.rows;
+        let whole = rows.iter().filter(|row| row.key.band.is_none() && row.key.is_score());
+        let scores = whole.filter_map(|row| Some((row.key.metric()?, Number(row.value?))));
+        let bands = report.edges().iter().enumerate();
         Self {
             frame: frame.frame,
             reference: &frame.reference,
             test: &frame.test,
             gaze_px: frame.gaze_px,
             gaze_step_deg: frame.gaze_step_deg,
-            metrics: MetricMap(scores.scores.iter().map(|(m, v)| (*m, Number(*v))).collect()),
-            bands: edges
-                .iter()
-                .zip(&scores.bands)
-                .enumerate()
-                .map(|(index, (&(from_deg, to_deg), band))| Band {
-                    from_deg,
-                    to_deg,
-                    pixels: band.pixels,
-                    ssim_map_pixels: band.ssim_map_pixels,
-                    scores: band.scores.iter().map(|(m, v)| (*m, v.map(Number))).collect(),
-                    compared: in_band(frame, index),
-                    fvvdp_share: frame.fvvdp.iter().map(|fvvdp| fvvdp.share(index)).collect(),
-                })
-                .collect(),
-            haar: haar(frame, view),
-            atd: frame.atd.as_ref().zip(frame.compared()).map(|(atd, (_, sides))| {
-                let share = atd.map(|side| side.left_out() as f64 / (side.pixels as f64).max(1.0));
-                Atd { sides: sides.into(), left_out: share.reference, left_out_test: share.test }
-            }),
-            fvvdp: frame.fvvdp.as_ref().map(|fvvdp| Fvvdp {
-                q: fvvdp.q,
-                frame_jod: fvvdp.frame_jod,
-                spatial_bands: fvvdp.bands.iter().map(SpatialBand::from).collect(),
-            }),
+            metrics: MetricMap(scores.collect()),
+            bands: bands.map(|(index, edges)| Band::of(frame, index, *edges)).collect(),
+            haar: haar(frame, report.view.as_ref()),
+            atd: Atd::of(frame),
+            fvvdp: Fvvdp::of(frame, report),
             // Without a view there are no bands to be outside of.
-            pixels_outside_bands: if view.is_some() { scores.outside_bands } else { 0 },
-            pixels_left_out: scores.left_out,
+            pixels_outside_bands: rows.number(Key::pixels(Subject::PixelsOutsideBands)),
+            pixels_left_out: rows.number(Key::pixels(Subject::PixelsLeftOut)),
         }
+    }
+}
+
+impl Atd {
+    fn of(frame: &FrameResult) -> Option<Self> {
+        let key = Key::of(Metric::Atd).of_image(Image::Ratio);
+        let (_, sides) = frame.compared().find(|(of, _)| *of == key)?;
+        let left_out = Key::named(Subject::Metric(Metric::Atd), "left_out")?;
+        let share = |image| frame.rows.value(left_out.of_image(image)).unwrap_or_default();
+        Some(Self {
+            sides: sides.into(),
+            left_out: share(Image::Reference),
+            left_out_test: share(Image::Test),
+        })
+    }
+}
+
+impl Fvvdp {
+    fn of(frame: &FrameResult, report: &ScoreReport) -> Option<Self> {
+        let key = |statistic| Key::named(Subject::Metric(Metric::Fvvdp), statistic);
+        let value = |statistic| frame.rows.value(key(statistic)?);
+        let bands = report.fvvdp.as_ref();
+        let bands = bands.map(|sight| spatial_bands(sight, std::iter::once(frame)));
+        Some(Self {
+            q: value("q")?,
+            frame_jod: value("frame_jod")?,
+            spatial_bands: bands.unwrap_or_default(),
+        })
     }
 }
 
@@ -165,11 +175,36 @@ struct Band {
     from_deg: f64,
     to_deg: f64,
     pixels: u64,
-    ssim_map_pixels: Option<u64>,
+    /// What scores of the band are pooled by.
+    counts: Vec<(String, u64)>,
     scores: Vec<(Metric, Option<Number>)>,
     compared: Vec<(Metric, SideValues<f64>)>,
-    /// What of FovVideoVDP's Q lies in the band: one value where that is asked for, else none.
-    fvvdp_share: Vec<Option<f64>>,
+    /// Other statistics of a pair.
+    others: Vec<(String, Option<Number>)>,
+}
+
+impl Band {
+    fn of(frame: &FrameResult, index: usize, (from_deg, to_deg): (f64, f64)) -> Self {
+        let of_pair = |row: &&Row| {
+            let Key { image, level, band, .. } = row.key;
+            let here = band.map(usize::from) == Some(index) && level.is_none();
+            here && image == Image::Pair && row.key.metric().is_some()
+        };
+        let (mut counts, mut scores, mut others) = (Vec::new(), Vec::new(), Vec::new());
+        for Row { key, value, .. } in frame.rows.iter().filter(of_pair) {
+            let name = format!("{}_{}", key.subject.name(), key.statistic().name);
+            match key.metric() {
+                _ if key.statistic().is_count => {
+                    counts.push((name, value.unwrap_or_default() as u64));
+                }
+                Some(metric) if key.is_score() => scores.push((metric, value.map(Number))),
+                _ => others.push((name, value.map(Number))),
+            }
+        }
+        let pixels = frame.rows.number(Key::pixels(Subject::Pixels).in_band(index));
+        let compared = in_band(frame, index);
+        Self { from_deg, to_deg, pixels, counts, scores, compared, others }
+    }
 }
 
 impl Serialize for Band {
@@ -178,8 +213,8 @@ impl Serialize for Band {
         map.serialize_entry("from_deg", &self.from_deg)?;
         map.serialize_entry("to_deg", &self.to_deg)?;
         map.serialize_entry("pixels", &self.pixels)?;
-        if let Some(pixels) = self.ssim_map_pixels {
-            map.serialize_entry("ssim_map_pixels", &pixels)?;
+        for (name, count) in &self.counts {
+            map.serialize_entry(name, count)?;
         }
         for (metric, value) in &self.scores {
             map.serialize_entry(metric.key(), value)?;
@@ -187,8 +222,8 @@ impl Serialize for Band {
         for (metric, sides) in &self.compared {
             map.serialize_entry(metric.key(), sides)?;
         }
-        for share in &self.fvvdp_share {
-            map.serialize_entry("fvvdp_share", share)?;
+        for (name, value) in &self.others {
+            map.serialize_entry(name, value)?;
         }
         map.end()
     }

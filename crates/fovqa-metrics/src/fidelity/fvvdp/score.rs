@@ -16,6 +16,9 @@ use super::masking::powers;
 use super::params::Params;
 use super::pooling::{jod, over_bands, over_channels, over_pixels, shares_of_channels};
 use super::pyramid::{RightEdge, reduce};
+use crate::pooling::Parts;
+use crate::registry::Metric;
+use crate::row::{Key, Rows};
 use crate::sums::add_by_band;
 
 /// Smallest side of a frame, pixels.
@@ -47,6 +50,30 @@ pub struct FvvdpFrame {
 }
 
 impl FvvdpFrame {
+    /// The values: JOD and Q of the frame, Q by spatial frequency (a level each), and what each band of
+    /// eccentricity, of which there are `bands`, has in it.
+    pub fn rows(&self, bands: usize, rows: &mut Rows) {
+        let [frame_jod, q, sustained, transient, share, outside] =
+            std::array::from_fn(|statistic| Key::of(Metric::Fvvdp).nth(statistic));
+        rows.score(frame_jod, self.frame_jod);
+        rows.score(q, self.q);
+        for (level, band) in (1..).zip(&self.bands) {
+            rows.score(sustained.on_level(level), band.sustained);
+            if let Some(value) = band.transient {
+                rows.score(transient.on_level(level), value);
+            }
+        }
+        let mut shared = |key: Key, band: usize| {
+            let value = self.share(band);
+            let sum = value.unwrap_or(0.0) * self.q;
+            rows.push(key, value, Parts::Mean { sum, weight: self.q });
+        };
+        for band in 0..bands {
+            shared(share.in_band(band), band);
+        }
+        shared(outside, bands);
+    }
+
     /// What a band of eccentricity has in Q; `None` where there is no difference at all.
     pub fn share(&self, band: usize) -> Option<f64> {
         self.shares.as_ref()?.get(band).copied()
