@@ -8,7 +8,7 @@ use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, Input, ViewResu
 
 use crate::error::EngineError;
 use crate::inputs::Inputs;
-use crate::meters::light::FvvdpMaps;
+use crate::meters::FvvdpMaps;
 
 /// What was found: of a whole run, of one of its shards, or of one that was broken off.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -5,7 +5,7 @@ use std::ops::{ControlFlow, Range};
 use fovqa_config::{EyeView, Gaze, Plan, Scene};
 use fovqa_frame::Mask;
 use fovqa_io::{FileId, frame_size, read_mask};
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Metric, Needs};
 use fovqa_vision::{BandEdges, GazeAt};
 
 use crate::assemble::whole;
@@ -86,7 +86,7 @@ impl<'a> Scoring<'a> {
         if work.todo.is_empty() && known.settled.is_some() {
             return Ok(known);
         }
-        let guides = metrics.iter().any(|metric| metric.info().needs.guides);
+        let guides = Needs::of(&metrics).guides;
         let loader =
             Loader { plan, settings: &eye.settings, test_layers: &eye.test_layers, guides };
         let sequence = (self.bands, self.scene.fps);
@@ -119,7 +119,7 @@ impl<'a> Scoring<'a> {
             frame = Some(step.frame);
             let loaded = loader.load(&step);
             down.inputs_of(&loaded)?;
-            if let Err(failure) = run.warm_up(&step, loaded, kept, down.warnings) {
+            if let Err(failure) = run.take_in(&step, loaded, kept, down.warnings) {
                 (down.record)(Entry::Before(self.named(step.method), &failure))?;
             }
         }

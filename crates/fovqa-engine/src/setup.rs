@@ -6,7 +6,7 @@ use std::sync::Arc;
 use fovqa_config::{Gaze, MetricChoice, Plan, Settings};
 use fovqa_frame::Mask;
 use fovqa_metrics::fvvdp::{Fvvdp, Geometry, SMALLEST_SIDE};
-use fovqa_metrics::{Metric, Profiler, ScoreError, Scorer, WeightField};
+use fovqa_metrics::{Metric, Needs, ScoreError, WeightField};
 use fovqa_results::ViewResult;
 use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind, GazeAt, View, ViewSpec};
 
@@ -19,8 +19,8 @@ pub(crate) struct Setup<'a> {
     pub(crate) size: (usize, usize),
     /// The file whose size it is.
     pub(crate) first_file: String,
-    pub(crate) scorer: Scorer,
-    pub(crate) profiler: Profiler,
+    /// Those that fit the frames.
+    pub(crate) metrics: Vec<Metric>,
     pub(crate) view: Option<ViewResult>,
     retinas: Retinas<'a>,
     /// That of the present gaze.
@@ -60,12 +60,8 @@ impl<'a> Setup<'a> {
             }
         }
         let wants_fvvdp = metrics.contains(&Metric::Fvvdp);
-        let foveal = metrics.iter().any(|metric| metric.info().needs.foveal_weight);
-        let profiler = Profiler::new(&metrics, &plan.params);
-        let mut scorer = Scorer::new(metrics, plan.params.clone());
-        if plan.metrics == MetricChoice::Default {
-            scorer = scorer.lenient();
-        }
+        let foveal = Needs::of(&metrics).foveal_weight;
+        let wants_haar = metrics.contains(&Metric::Haar);
         let seen = inputs.settings.view.as_ref().map(|spec| look(inputs, spec, size, warnings));
         let (sight, view) = seen.transpose()?.unzip();
         let fvvdp = sight.as_ref().filter(|_| wants_fvvdp && fits_fvvdp(size)).map(|sight| {
@@ -94,10 +90,10 @@ impl<'a> Setup<'a> {
             size,
             params: &plan.params,
             foveal,
-            haar_levels: profiler.haar_levels(),
+            haar_levels: wants_haar.then_some(plan.params.haar.levels as usize),
             fvvdp,
             mask,
-            window_radius: scorer.window_radius(),
+            window_radius: plan.params.ssim.window_radius(),
             uses: uses(inputs, gaze_px),
         });
         let retina = retinas.at(gaze_px);
@@ -111,7 +107,7 @@ impl<'a> Setup<'a> {
             );
             warnings.once_a_view("flat weight", &message);
         }
-        Ok(Self { size, first_file, scorer, profiler, view, retinas, retina })
+        Ok(Self { size, first_file, metrics, view, retinas, retina })
     }
 
     /// Whether a file may be seen so: where it declares that its pixels are not square, the view has to
@@ -147,6 +143,11 @@ impl<'a> Setup<'a> {
     /// What depends on the present gaze.
     pub(crate) fn retina(&self) -> Arc<Retina> {
         Arc::clone(&self.retina)
+    }
+
+    /// Radius of the windows whose every pixel has to count.
+    pub(crate) fn window_radius(&self) -> usize {
+        self.retinas.maker.window_radius
     }
 
     /// How many bands there are.

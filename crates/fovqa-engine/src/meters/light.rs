@@ -12,13 +12,19 @@ use fovqa_metrics::fvvdp::{
     DifferenceMap, Fvvdp, FvvdpFrame, FvvdpReference, FvvdpRegions, Grid, MapColors, MapContext,
     Params, Photometry, Stream, colored,
 };
-use fovqa_metrics::{Metric, Regions, Rows, pu_psnr};
+use fovqa_metrics::{Metric, pu_psnr};
 use fovqa_results::FvvdpSight;
 
+use super::{Measured, Pair};
+use crate::events::Warnings;
 use crate::find::FoundView;
 use crate::load::Fault;
 use crate::timing::timings;
 use sequence::{Missing, Sequence, State};
+
+/// Said where linear files are shown in cd/m² and none of their values is above 1.
+const CANDELA: &str = "no pixel of the reference is brighter than 1 cd/m², as linear values are taken for cd/m² on this display: \
+     where 1 stands for white or for another amount of light, say how much with fvvdp.cd_m2_per_unit";
 
 /// A frame's heat maps.
 #[derive(Debug)]
@@ -30,7 +36,7 @@ pub struct FvvdpMaps {
 }
 
 /// The light of a view's frames, as long as it is needed.
-pub(crate) struct Light {
+pub(super) struct Light {
     params: Params,
     photometry: Photometry,
     tables: LightTables,
@@ -48,37 +54,12 @@ pub(crate) struct Light {
 #[derive(Debug, PartialEq)]
 struct Seen(Vec<usize>, [u64; 2]);
 
-/// A pair to be measured.
-pub(crate) struct Lit<'a> {
-    /// Index of the frame in the view.
-    pub(crate) frame: usize,
-    /// Index of the method.
-    pub(crate) method: usize,
-    pub(crate) reference: &'a Frame,
-    pub(crate) test: &'a Frame,
-    pub(crate) gaze_px: [f64; 2],
-    pub(crate) regions: &'a Regions<'a>,
-    /// The metric for these frames, and their bands of eccentricity.
-    pub(crate) fvvdp: Option<(&'a Fvvdp, &'a FvvdpRegions)>,
-    /// How many tests the frame has.
-    pub(crate) tests: usize,
-    /// How many bands there are.
-    pub(crate) bands: usize,
-}
-
-/// What was measured of it.
-#[derive(Default)]
-pub(crate) struct Measured {
-    pub(crate) rows: Rows,
-    pub(crate) maps: Option<FvvdpMaps>,
-}
-
 /// Loads the reference and the test of a method for another frame of the view, by its index.
 pub(crate) type LoadPair<'a> = dyn Fn(usize, usize) -> Result<[Frame; 2], Fault> + 'a;
 
 impl Light {
     /// `None` where no metric is of light.
-    pub(crate) fn new(
+    pub(super) fn new(
         plan: &Plan,
         settings: &Settings,
         metrics: &[Metric],
@@ -108,27 +89,22 @@ impl Light {
 
     /// Goes on with a method's sequence where `done` of its frames are through, up to `end`: those of
     /// them that have to come once more, without being scored.
-    pub(crate) fn go_on(&mut self, method: usize, done: usize, end: usize) -> Range<usize> {
+    pub(super) fn go_on(&mut self, method: usize, done: usize, end: usize) -> Range<usize> {
         let sequence = self.sequences.get_mut(&method);
         sequence.map_or(done..done, |sequence| sequence.go_on(done, end))
     }
 
-    /// Takes a pair in without scoring it.
-    pub(crate) fn warm_up(
-        &mut self,
-        (frame, method): (usize, usize),
-        [reference, test]: [&Frame; 2],
-        load: &LoadPair<'_>,
-    ) {
-        if self.sequences.contains_key(&method) {
-            let reference = self.luminance_of_reference(frame, reference);
-            self.step(frame, method, &reference, &self.luminance(test), load);
+    /// Takes a pair in without measuring it.
+    pub(super) fn take_in(&mut self, pair: &Pair<'_>) {
+        if self.sequences.contains_key(&pair.method) && pair.setup.fvvdp().is_some() {
+            let reference = self.luminance_of_reference(pair.frame, &pair.reference.frame);
+            self.step(pair, &reference, &self.luminance(&pair.test.frame));
         }
     }
 
     /// Whether a frame's values are taken for cd/m² without anybody having said so, and none is brighter
     /// than 1: a scene's light in other units, most likely.
-    pub(crate) fn is_dim(&mut self, frame: usize, reference: &Frame) -> bool {
+    fn is_dim(&mut self, frame: usize, reference: &Frame) -> bool {
         let unsaid = self.params.cd_m2_per_unit.is_none() && self.tables.is_absolute(reference);
         unsaid && {
             let brightest = self.luminance_of_reference(frame, reference).max();
@@ -152,32 +128,32 @@ impl Light {
     }
 
     /// Measures a pair. Frames of a sequence come in order; one that is left out ends it.
-    pub(crate) fn measure(&mut self, pair: &Lit<'_>, load: &LoadPair<'_>) -> Measured {
-        let reference = self.luminance_of_reference(pair.frame, pair.reference);
-        let test = self.luminance(pair.test);
-        let mut measured = Measured::default();
+    pub(super) fn measure(
+        &mut self,
+        pair: &Pair<'_>,
+        measured: &mut Measured,
+        warnings: &mut Warnings<'_>,
+    ) {
+        if self.is_dim(pair.frame, &pair.reference.frame) {
+            warnings.once_a_view("candela", CANDELA);
+        }
+        let reference = self.luminance_of_reference(pair.frame, &pair.reference.frame);
+        let test = self.luminance(&pair.test.frame);
         if self.pu_psnr {
             pu_psnr::rows(&reference, &test, pair.regions, &mut measured.rows);
         }
-        if let Some((metric, regions)) = pair.fvvdp
-            && self.step(pair.frame, pair.method, &reference, &test, load)
+        if let Some((metric, regions)) = pair.setup.fvvdp().zip(pair.retina.fvvdp.as_ref())
+            && self.step(pair, &reference, &test)
         {
             let (frame, maps) = self.score(pair, metric, regions);
-            frame.rows(pair.bands, &mut measured.rows);
+            frame.rows(pair.setup.bands(), &mut measured.rows);
             measured.maps = maps;
         }
-        measured
     }
 
     /// Takes a frame into its sequence; whether that still goes on.
-    fn step(
-        &mut self,
-        frame: usize,
-        method: usize,
-        reference: &Arc<Grid>,
-        test: &Arc<Grid>,
-        load: &LoadPair<'_>,
-    ) -> bool {
+    fn step(&mut self, pair: &Pair<'_>, reference: &Arc<Grid>, test: &Arc<Grid>) -> bool {
+        let &Pair { frame, method, load, .. } = pair;
         let Some(mut sequence) = self.sequences.remove(&method) else { return false };
         let place = sequence.timing.frames.binary_search(&frame).unwrap_or(usize::MAX);
         match &mut sequence.state {
@@ -243,7 +219,7 @@ impl Light {
 
     fn score(
         &mut self,
-        pair: &Lit<'_>,
+        pair: &Pair<'_>,
         metric: &Fvvdp,
         regions: &FvvdpRegions,
     ) -> (FvvdpFrame, Option<FvvdpMaps>) {
@@ -283,7 +259,7 @@ impl Light {
     }
 
     /// Why a method's sequence has no value, as far as it goes here; `number` names its frames.
-    pub(crate) fn missing(
+    pub(super) fn missing(
         &self,
         method: usize,
         number: impl Fn(usize) -> String,
@@ -292,7 +268,7 @@ impl Light {
     }
 
     /// How a method's sequence is seen.
-    pub(crate) fn sight(&self, method: usize, metric: &Fvvdp) -> Option<FvvdpSight> {
+    pub(super) fn sight(&self, method: usize, metric: &Fvvdp) -> Option<FvvdpSight> {
         let sequence = self.sequences.get(&method)?;
         Some(FvvdpSight {
             pixels_per_degree: metric.geometry().pixels_per_degree,

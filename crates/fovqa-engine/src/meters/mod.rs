@@ -1,6 +1,238 @@
-//! What runs over the frames of a view.
+//! What runs over the frames of a view: one meter for the metrics that share a pass over the pixels.
+//!
+//! Each meter says what its metrics need, takes pairs in by their order, and gives rows. A meter of what is
+//! measured over time has a *lead-in*: pairs before the one it measures that it has to have seen.
 
-pub(crate) mod light;
-pub(crate) mod temporal;
+mod fidelity;
+mod light;
+mod lumas;
+mod profiles;
+mod temporal;
 
+use std::collections::BTreeSet;
+
+use fovqa_config::{Plan, Settings};
+use fovqa_frame::{Mask, SignalTables};
+use fovqa_metrics::{BlockRegions, Metric, Regions, Rows};
+use fovqa_results::{AtdGuides, FvvdpSight};
+
+use crate::events::Warnings;
+use crate::find::FoundView;
+use crate::load::{Fault, Side};
+use crate::retina::Retina;
+use crate::setup::Setup;
+use crate::work::Work;
+use fidelity::Fidelity;
 pub use light::FvvdpMaps;
+use light::Light;
+pub(crate) use light::LoadPair;
+use lumas::Lumas;
+use profiles::Profiles;
+use temporal::Temporal;
+
+/// A meter.
+enum Meter {
+    /// What compares the signals of test and reference: one fused pass.
+    Fidelity(Fidelity),
+    /// What is of the light that the display shows.
+    Light(Box<Light>),
+    /// What is measured of each picture by itself.
+    Profiles(Profiles),
+    /// What is measured of each picture and the one before it.
+    Temporal(Box<Temporal>),
+}
+
+/// A pair of frames to be measured.
+pub(crate) struct Pair<'a> {
+    /// Index of the frame in the view.
+    pub(crate) frame: usize,
+    /// Its position in the sequence.
+    pub(crate) position: usize,
+    /// Index of the method.
+    pub(crate) method: usize,
+    /// How many tests the frame has.
+    pub(crate) tests: usize,
+    pub(crate) reference: &'a Side,
+    pub(crate) test: &'a Side,
+    pub(crate) gaze_px: [f64; 2],
+    pub(crate) tables: &'a SignalTables,
+    pub(crate) setup: &'a Setup<'a>,
+    pub(crate) retina: &'a Retina,
+    /// Which pixels count, and into which band.
+    pub(crate) regions: &'a Regions<'a>,
+    /// The same of the blocks of the wavelet.
+    pub(crate) blocks: &'a BlockRegions<'a>,
+    /// Where both pictures are finite; `None`: everywhere.
+    pub(crate) finite: Option<&'a Mask>,
+    pub(crate) load: &'a LoadPair<'a>,
+}
+
+/// What was measured of a pair.
+#[derive(Default)]
+pub(crate) struct Measured {
+    pub(crate) rows: Rows,
+    pub(crate) maps: Option<FvvdpMaps>,
+}
+
+/// All meters of a view.
+pub(crate) struct Meters {
+    meters: Vec<Meter>,
+    lumas: Lumas,
+}
+
+impl Meters {
+    /// The meters of some metrics.
+    pub(crate) fn new(
+        plan: &Plan,
+        settings: &Settings,
+        metrics: &[Metric],
+        view: &FoundView,
+        fps: Option<f64>,
+    ) -> Self {
+        let temporal = Temporal::new(plan, metrics);
+        let lumas = Lumas::new(temporal.is_some());
+        let meters = [
+            Some(Meter::Fidelity(Fidelity::new(plan, metrics))),
+            Light::new(plan, settings, metrics, view, fps).map(|light| Meter::Light(light.into())),
+            Some(Meter::Profiles(Profiles::new(plan, metrics))),
+            temporal.map(|temporal| Meter::Temporal(temporal.into())),
+        ];
+        Self { meters: meters.into_iter().flatten().collect(), lumas }
+    }
+
+    /// Goes on without the metrics that do not fit the frames.
+    pub(crate) fn settle(&mut self, plan: &Plan, metrics: &[Metric]) {
+        for meter in &mut self.meters {
+            match meter {
+                Meter::Fidelity(fidelity) => *fidelity = Fidelity::new(plan, metrics),
+                Meter::Profiles(profiles) => *profiles = Profiles::new(plan, metrics),
+                Meter::Light(_) | Meter::Temporal(_) => {}
+            }
+        }
+    }
+
+    /// The pairs before the first that is to be scored that have to be taken in: those of each method
+    /// that a meter's lead-in reaches back to.
+    pub(crate) fn lead_in(&mut self, work: &Work<'_>) -> BTreeSet<usize> {
+        let mut pairs = BTreeSet::new();
+        for method in work.methods() {
+            let before = work.before(work.first(), method);
+            let end = work.before(work.end(), method).len();
+            for meter in &mut self.meters {
+                let range = match meter {
+                    Meter::Light(light) => light.go_on(method, before.len(), end),
+                    Meter::Temporal(_) if work.is_of(method) => {
+                        before.len().saturating_sub(1)..before.len()
+                    }
+                    _ => continue,
+                };
+                pairs.extend(&before[range]);
+            }
+        }
+        pairs
+    }
+
+    /// Whether a pair tells what the frames of the reference carry; or those of its method's tests.
+    pub(crate) fn lacks(&self, method: usize, first: bool) -> [bool; 2] {
+        self.temporal().map_or([false; 2], |temporal| temporal.lacks(method, first))
+    }
+
+    /// Checks that a pair carries what those before it did.
+    pub(crate) fn check(
+        &mut self,
+        method: usize,
+        sides: [&Side; 2],
+        first: bool,
+    ) -> Result<(), Fault> {
+        let temporal = self.meters.iter_mut().find_map(|meter| match meter {
+            Meter::Temporal(temporal) => Some(temporal),
+            _ => None,
+        });
+        temporal.map_or(Ok(()), |temporal| temporal.check(method, sides, first))
+    }
+
+    /// Takes what the next frame needs of a reference that goes.
+    pub(crate) fn leave(&mut self, reference: &Side, position: usize) {
+        for meter in &mut self.meters {
+            match meter {
+                Meter::Profiles(profiles) => profiles.leave(),
+                Meter::Temporal(temporal) => temporal.leave(reference, position),
+                Meter::Fidelity(_) | Meter::Light(_) => {}
+            }
+        }
+    }
+
+    /// Measures a pair.
+    pub(crate) fn measure(
+        &mut self,
+        pair: &Pair<'_>,
+        warnings: &mut Warnings<'_>,
+    ) -> Result<Measured, Fault> {
+        let mut measured = Measured::default();
+        for meter in &mut self.meters {
+            match meter {
+                Meter::Fidelity(fidelity) => measured.rows.extend(&fidelity.measure(pair)?),
+                Meter::Light(light) => light.measure(pair, &mut measured, warnings),
+                Meter::Profiles(profiles) => {
+                    profiles.measure(pair, &mut self.lumas, &mut measured.rows);
+                }
+                Meter::Temporal(temporal) => {
+                    temporal.measure(pair, &mut self.lumas, &mut measured.rows, warnings);
+                }
+            }
+        }
+        measured.rows.sort();
+        Ok(measured)
+    }
+
+    /// Takes a pair in without measuring it: for those after it.
+    pub(crate) fn take_in(&mut self, pair: &Pair<'_>) -> Result<(), Fault> {
+        for meter in &mut self.meters {
+            match meter {
+                // Whether too much is left out is a matter of this pair alone, and costs those after
+                // it too.
+                Meter::Fidelity(fidelity) if pair.finite.is_some() => {
+                    fidelity.measure(pair)?;
+                }
+                Meter::Fidelity(_) => {}
+                Meter::Light(light) => light.take_in(pair),
+                Meter::Profiles(_) => profiles::take_in(pair, &mut self.lumas),
+                Meter::Temporal(temporal) => temporal.take_in(pair, &mut self.lumas),
+            }
+        }
+        Ok(())
+    }
+
+    /// What the differences over time of a method were taken along.
+    pub(crate) fn atd_guides(&self, method: usize) -> AtdGuides {
+        self.temporal().map(|temporal| temporal.guides(method)).unwrap_or_default()
+    }
+
+    /// How FovVideoVDP sees the sequence of a method, where it is asked for.
+    pub(crate) fn fvvdp(&self, method: usize, setup: &Setup<'_>) -> Option<FvvdpSight> {
+        self.light()?.sight(method, setup.fvvdp()?)
+    }
+
+    /// Why FovVideoVDP has no value for the sequence of a method, as far as it goes here.
+    pub(crate) fn missing(
+        &self,
+        method: usize,
+        number: impl Fn(usize) -> String,
+    ) -> Option<String> {
+        self.light()?.missing(method, number)
+    }
+
+    fn light(&self) -> Option<&Light> {
+        self.meters.iter().find_map(|meter| match meter {
+            Meter::Light(light) => Some(&**light),
+            _ => None,
+        })
+    }
+
+    fn temporal(&self) -> Option<&Temporal> {
+        self.meters.iter().find_map(|meter| match meter {
+            Meter::Temporal(temporal) => Some(&**temporal),
+            _ => None,
+        })
+    }
+}

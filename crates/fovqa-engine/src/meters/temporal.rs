@@ -2,30 +2,30 @@
 
 use std::collections::BTreeMap;
 
+use fovqa_config::Plan;
 use fovqa_frame::{Guides, Mask, Plane};
-use fovqa_metrics::Regions;
 use fovqa_metrics::temporal::{AtdFrame, KeptPlane, Link, atd, differences};
+use fovqa_metrics::{Image, Metric, Rows};
 use fovqa_results::{AtdGuides, GuideSource};
 
+use super::{Lumas, Pair};
+use crate::events::Warnings;
 use crate::load::{Fault, Side};
 
+/// Said where differences over time are taken without motion vectors.
+const NO_MOTION: &str =
+    "ATD is taken without motion vectors: whatever moves counts as a difference";
+
 /// The frames before the present one: of the reference, and of each test.
-pub(crate) struct Temporal {
+pub(super) struct Temporal {
     params: atd::Params,
     reference: Reference,
     tests: BTreeMap<usize, Test>,
-    /// The luma of the test at hand.
-    test_luma: KeptPlane,
 }
 
-/// The reference, now and before.
+/// The reference, before.
 #[derive(Default)]
 struct Reference {
-    now: KeptPlane,
-    before: KeptPlane,
-    /// Positions of the frames the two are of.
-    at: Option<usize>,
-    before_at: Option<usize>,
     depth: Depth,
     carries: Carries,
     /// Its differences, where they are the same for all tests.
@@ -100,105 +100,83 @@ fn agree(all: &mut Option<bool>, here: bool, file: &str, what: &str) -> Result<(
     Err(Fault { message, help })
 }
 
-/// Which pixels of a pair count now, and counted in the frame before.
-pub(crate) struct Counted<'a> {
-    pub(crate) regions: &'a Regions<'a>,
-    /// Where both are finite; `None`: everywhere.
-    pub(crate) finite: Option<Mask>,
-    /// The lens mask.
-    pub(crate) mask: Option<&'a Mask>,
-}
-
-/// A pair and its place in the sequence.
-pub(crate) struct Present<'a> {
-    pub(crate) reference: &'a Side,
-    pub(crate) test: &'a Side,
-    pub(crate) method: usize,
-    pub(crate) position: usize,
-}
-
 impl Temporal {
-    pub(crate) fn new(params: atd::Params) -> Self {
-        Self {
-            params,
+    /// `None` where no metric is of frames in time.
+    pub(super) fn new(plan: &Plan, metrics: &[Metric]) -> Option<Self> {
+        metrics.contains(&Metric::Atd).then(|| Self {
+            params: plan.params.atd,
             reference: Reference::default(),
             tests: BTreeMap::new(),
-            test_luma: KeptPlane::default(),
-        }
+        })
     }
 
     /// Whether a pair tells what the frames of the reference carry; or those of its method's tests.
-    pub(crate) fn lacks(&self, method: usize, first: bool) -> [bool; 2] {
+    pub(super) fn lacks(&self, method: usize, first: bool) -> [bool; 2] {
         let test = self.tests.get(&method).is_none_or(|test| test.carries.lacks(first));
         [self.reference.carries.lacks(first), test]
     }
 
-    /// Checks that frames carry what those before them did.
-    pub(crate) fn check(&mut self, present: &Present<'_>, first: bool) -> Result<(), Fault> {
-        self.reference.carries.check(present.reference, first)?;
-        self.tests.entry(present.method).or_default().carries.check(present.test, first)
-    }
-
-    /// Where the reference's luma goes; `None` where it is there already.
-    pub(crate) fn reference_luma(&mut self, position: usize) -> Option<&mut KeptPlane> {
-        let reference = &mut self.reference;
-        if reference.at == Some(position) {
-            return None;
-        }
-        std::mem::swap(&mut reference.now, &mut reference.before);
-        reference.before_at = reference.at.replace(position);
-        reference.differences = None;
-        Some(&mut reference.now)
-    }
-
-    /// Where the test's luma goes.
-    pub(crate) fn test_luma(&mut self) -> &mut KeptPlane {
-        &mut self.test_luma
+    /// Checks that the reference and the test of a method carry what those before them did.
+    pub(super) fn check(
+        &mut self,
+        method: usize,
+        [reference, test]: [&Side; 2],
+        first: bool,
+    ) -> Result<(), Fault> {
+        self.reference.carries.check(reference, first)?;
+        self.tests.entry(method).or_default().carries.check(test, first)
     }
 
     /// Takes what the next frame needs of a reference that goes.
-    pub(crate) fn leave(&mut self, reference: &Side, position: usize) {
+    pub(super) fn leave(&mut self, reference: &Side, position: usize) {
+        self.reference.differences = None;
         if self.params.depth_tolerance.is_some() {
             self.reference.depth.take(reference.guides.depth.as_ref(), position);
         }
     }
 
     /// What the differences of a test were taken along.
-    pub(crate) fn guides(&self, method: usize) -> AtdGuides {
+    pub(super) fn guides(&self, method: usize) -> AtdGuides {
         self.tests.get(&method).map(|test| test.guides).unwrap_or_default()
     }
 
-    /// The differences of a pair to the one before it, once both lumas are there; `None` where there is
-    /// none before it. The present one is kept for the next.
-    pub(crate) fn differences(
+    /// The differences of a pair to the one before it, once the lumas of both are there; none where there
+    /// is none before it. The present one is kept for the next.
+    pub(super) fn measure(
         &mut self,
-        present: &Present<'_>,
-        counted: Counted<'_>,
-    ) -> Option<[AtdFrame; 2]> {
-        let found = self.compare(present, &counted);
-        self.keep(present, counted.finite);
-        found
+        pair: &Pair<'_>,
+        lumas: &mut Lumas,
+        rows: &mut Rows,
+        warnings: &mut Warnings<'_>,
+    ) {
+        if let Some([of_reference, of_test]) = self.compare(pair, lumas) {
+            if self.guides(pair.method).motion == GuideSource::None {
+                warnings.once_a_view("no motion", NO_MOTION);
+            }
+            of_reference.rows(Image::Reference, rows);
+            of_test.rows(Image::Test, rows);
+        }
+        self.take_in(pair, lumas);
     }
 
-    /// Keeps a pair for the next one, once both lumas are there.
-    pub(crate) fn keep(&mut self, present: &Present<'_>, finite: Option<Mask>) {
-        let test = self.tests.entry(present.method).or_default();
-        std::mem::swap(&mut test.luma, &mut self.test_luma);
-        test.at = Some(present.position);
-        test.finite = finite;
+    /// Keeps a pair for the next one, once the lumas of both are there.
+    pub(super) fn take_in(&mut self, pair: &Pair<'_>, lumas: &mut Lumas) {
+        let test = self.tests.entry(pair.method).or_default();
+        lumas.swap_test(&mut test.luma);
+        test.at = Some(pair.position);
+        test.finite = pair.finite.cloned();
         if self.params.depth_tolerance.is_some() {
-            test.depth.take(present.test.guides.depth.as_ref(), present.position);
+            test.depth.take(pair.test.guides.depth.as_ref(), pair.position);
         }
     }
 
-    fn compare(&mut self, present: &Present<'_>, counted: &Counted<'_>) -> Option<[AtdFrame; 2]> {
-        let before = present.position.checked_sub(1)?;
-        let test = self.tests.entry(present.method).or_default();
+    fn compare(&mut self, pair: &Pair<'_>, lumas: &Lumas) -> Option<[AtdFrame; 2]> {
+        let before = pair.position.checked_sub(1)?;
+        let test = self.tests.entry(pair.method).or_default();
         let reference = &mut self.reference;
-        if test.at != Some(before) || reference.before_at != Some(before) {
-            return None;
-        }
-        let mask_before = match (&test.finite, counted.mask) {
+        let of_reference = lumas.references(before).filter(|_| test.at == Some(before))?;
+        let mask = pair.setup.mask();
+        let mask_before = match (&test.finite, mask) {
             (Some(finite), Some(mask)) => {
                 let mut both = finite.clone();
                 both.intersect(mask);
@@ -207,37 +185,35 @@ impl Temporal {
             (Some(finite), None) => Some(finite.clone()),
             (None, _) => None,
         };
-        let mask_before = mask_before.as_ref().or(counted.mask);
+        let mask_before = mask_before.as_ref().or(mask);
         let wants_depth = self.params.depth_tolerance.is_some();
         let depth = |side: &'_ Side, kept: &'_ Depth| -> bool {
             wants_depth && side.guides.depth.is_some() && kept.of(before).is_some()
         };
-        let own_depth = depth(present.test, &test.depth);
-        let shared_depth = depth(present.reference, &reference.depth);
-        let own_motion = present.test.guides.motion.is_some();
+        let own_depth = depth(pair.test, &test.depth);
+        let shared_depth = depth(pair.reference, &reference.depth);
+        let own_motion = pair.test.guides.motion.is_some();
         test.guides = AtdGuides {
-            motion: source(own_motion, present.reference.guides.motion.is_some()),
+            motion: source(own_motion, pair.reference.guides.motion.is_some()),
             depth: source(own_depth, shared_depth),
         };
-        let reference_depth =
-            present.reference.guides.depth.as_ref().zip(reference.depth.of(before));
+        let reference_depth = pair.reference.guides.depth.as_ref().zip(reference.depth.of(before));
         let reference_depth = reference_depth.filter(|_| shared_depth);
         let link = Link {
-            motion: present.reference.guides.motion.as_ref(),
+            motion: pair.reference.guides.motion.as_ref(),
             depth: reference_depth,
-            regions: counted.regions,
+            regions: pair.regions,
             mask_before,
         };
-        let of_test = (&self.test_luma, &test.luma);
-        let of_reference = (&reference.now, &reference.before);
+        let of_test = (lumas.test(), &test.luma);
         let params = &self.params;
         // What is not finite is so in a pair: the reference's differences are not those of the next.
-        let shared = counted.finite.is_none() && test.finite.is_none();
+        let shared = pair.finite.is_none() && test.finite.is_none();
         let known = reference.differences.clone().filter(|_| shared);
         let (of_reference, of_test) = if own_motion || own_depth {
-            let test_depth = present.test.guides.depth.as_ref().zip(test.depth.of(before));
+            let test_depth = pair.test.guides.depth.as_ref().zip(test.depth.of(before));
             let own = Link {
-                motion: present.test.guides.motion.as_ref().or(link.motion),
+                motion: pair.test.guides.motion.as_ref().or(link.motion),
                 depth: if own_depth { test_depth } else { reference_depth },
                 ..link
             };

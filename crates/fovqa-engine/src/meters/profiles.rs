@@ -1,0 +1,55 @@
+//! What is measured of each picture by itself; the luma of both is left where what is measured over time
+//! finds it.
+
+use fovqa_config::Plan;
+use fovqa_metrics::temporal::KeptPlane;
+use fovqa_metrics::{Image, Metric, Profiler, Rows};
+
+use super::{Lumas, Pair};
+
+/// Profiles of the pictures of a pair.
+pub(super) struct Profiles {
+    profiler: Profiler,
+    /// Those of the present reference, where they are the same for all tests.
+    reference: Option<Rows>,
+}
+
+impl Profiles {
+    pub(super) fn new(plan: &Plan, metrics: &[Metric]) -> Self {
+        Self { profiler: Profiler::new(metrics, &plan.params), reference: None }
+    }
+
+    /// Forgets the reference.
+    pub(super) fn leave(&mut self) {
+        self.reference = None;
+    }
+
+    pub(super) fn measure(&mut self, pair: &Pair<'_>, lumas: &mut Lumas, rows: &mut Rows) {
+        if self.profiler.is_idle() && !lumas.are_wanted() {
+            return;
+        }
+        let known = self.reference.take().filter(|_| pair.finite.is_none());
+        let plane = lumas.reference_to_fill(pair.position);
+        let reference = known.unwrap_or_else(|| one(&self.profiler, pair, Image::Reference, plane));
+        rows.extend(&reference);
+        if pair.finite.is_none() {
+            self.reference = Some(reference);
+        }
+        rows.extend(&one(&self.profiler, pair, Image::Test, lumas.test_to_fill()));
+    }
+}
+
+/// Leaves the luma of a pair.
+pub(super) fn take_in(pair: &Pair<'_>, lumas: &mut Lumas) {
+    let nothing = Profiler::new(&[], &Default::default());
+    one(&nothing, pair, Image::Reference, lumas.reference_to_fill(pair.position));
+    one(&nothing, pair, Image::Test, lumas.test_to_fill());
+}
+
+fn one(profiler: &Profiler, pair: &Pair<'_>, image: Image, plane: Option<&mut KeptPlane>) -> Rows {
+    if profiler.is_idle() && plane.is_none() {
+        return Rows::default();
+    }
+    let side = if image == Image::Reference { pair.reference } else { pair.test };
+    profiler.measure(&side.frame, pair.tables, pair.regions, pair.blocks, image, plane)
+}
