@@ -262,7 +262,7 @@ fn join(all: &mut ViewFindings, mut next: ViewFindings) {
     let broken = |outcome: &&mut Outcome| missing.contains_key(&outcome.method);
     for outcome in next.pairs.values_mut().filter(broken) {
         if let Ok(frame) = &mut outcome.result {
-            frame.rows.retain(|row| row.key.metric() != Some(Metric::Fvvdp));
+            frame.rows = frame.rows.without(|row| row.key.metric() == Some(Metric::Fvvdp));
         }
     }
     all.pairs.append(&mut next.pairs);

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use fovqa_config::{EyeView, Plan};
 use fovqa_frame::{Mask, SignalTables};
-use fovqa_metrics::{Key, Metric, MetricKind, Rows};
+use fovqa_metrics::{Key, Layouts, Metric, MetricKind, Rows};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, ViewResult};
 use fovqa_vision::BandEdges;
 
@@ -29,6 +29,7 @@ pub(crate) struct ViewRun<'a> {
     /// The reference of the present frame.
     reference: Option<Result<Side, Fault>>,
     meters: Meters,
+    layouts: Layouts,
     loader: &'a Loader<'a>,
     /// Position of the reference's frame.
     position: usize,
@@ -54,6 +55,7 @@ impl<'a> ViewRun<'a> {
             setup: None,
             reference: None,
             meters: Meters::new(plan, &eye.settings, &metrics, view, fps),
+            layouts: Layouts::default(),
             metrics,
             loader,
             position: 0,
@@ -252,7 +254,7 @@ impl<'a> ViewRun<'a> {
             test: test.file.clone(),
             gaze_px,
             gaze_step_deg,
-            rows,
+            rows: self.layouts.pack(rows),
         };
         Ok((result, maps))
     }

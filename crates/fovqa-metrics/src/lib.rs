@@ -6,6 +6,7 @@
 //! it. Each metric's formula stands in a file of its own under `fidelity/`, `profile/` or `temporal/`.
 
 mod fidelity;
+mod frame_rows;
 mod info;
 mod pooling;
 pub mod profile;
@@ -20,6 +21,7 @@ pub use fidelity::fvvdp;
 pub use fidelity::pu_psnr;
 pub use fidelity::ssim;
 pub use fidelity::{ScoreError, Scorer, mse_of_db, psnr_db};
+pub use frame_rows::{FrameRows, Layouts};
 pub use info::{Better, LeadIn, MetricInfo, MetricKind, Needs, NoParams};
 pub use pooling::{Parts, Pooling, Statistic, Weight, pool};
 pub use profile::Profiler;

@@ -6,7 +6,7 @@
 use std::cmp::Ordering;
 
 use crate::info::MetricKind;
-use crate::pooling::{Parts, Pooling, Statistic, pool};
+use crate::pooling::{Parts, Statistic};
 use crate::registry::Metric;
 
 /// What a value is of, apart from eye and frame.
@@ -213,7 +213,7 @@ pub struct Row {
     pub parts: Parts,
 }
 
-/// The values of a frame, in the order of results.
+/// Values of a frame on their way from where they are measured.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Rows(Vec<Row>);
 
@@ -241,18 +241,11 @@ impl Rows {
     /// Puts them into the order of results, in which they are looked up.
     pub fn sort(&mut self) {
         self.0.sort_by_key(|row| row.key);
-        // Vectors grow by halves; frames are many.
-        self.0.shrink_to_fit();
     }
 
     /// All of them.
     pub fn iter(&self) -> std::slice::Iter<'_, Row> {
         self.0.iter()
-    }
-
-    /// Keeps some of them.
-    pub fn retain(&mut self, keep: impl Fn(&Row) -> bool) {
-        self.0.retain(keep);
     }
 
     /// The row of a key.
@@ -271,35 +264,9 @@ impl Rows {
         self.value(key).map_or(0, |value| value as u64)
     }
 
-    /// Whether there is a row of a metric.
-    pub fn has(&self, metric: Metric) -> bool {
-        self.0.iter().any(|row| row.key.metric() == Some(metric))
-    }
-
     /// Those of a metric.
     pub fn of(&self, metric: Metric) -> impl Iterator<Item = &Row> {
         self.0.iter().filter(move |row| row.key.metric() == Some(metric))
-    }
-
-    /// The values of both eyes: of what both have, pooled as each statistic says. Where an eye has
-    /// nothing to have a value of, it is the other's.
-    #[must_use]
-    pub fn of_both_eyes(left: &Rows, right: &Rows) -> Rows {
-        let both = left.iter().filter_map(|l| {
-            let r = right.get(l.key)?;
-            let pooling = l.key.statistic().eyes;
-            let (value, parts) = pool(pooling, [(l.value, l.parts), (r.value, r.parts)]);
-            (pooling != Pooling::None).then_some(Row { key: l.key, value, parts })
-        });
-        Rows(both.collect())
-    }
-}
-
-impl<'a> IntoIterator for &'a Rows {
-    type Item = &'a Row;
-    type IntoIter = std::slice::Iter<'a, Row>;
-    fn into_iter(self) -> Self::IntoIter {
-        self.0.iter()
     }
 }
 
@@ -368,26 +335,5 @@ mod tests {
             mixed.iter().map(|&key| Row { key, value: None, parts: Parts::Value }).collect();
         assert!(order.iter().all(|key| rows.get(*key).is_some()));
         assert!(rows.get(psnr.in_band(2)).is_none());
-    }
-
-    #[test]
-    fn what_one_eye_has_not_is_the_others_and_what_it_was_not_asked_for_is_nobodys() {
-        let key = Key::of(Metric::Ssim);
-        let mut left = Rows::default();
-        left.score(key, 0.5);
-        left.push(key.in_band(0), Some(0.25), Parts::Value);
-        left.push(key.in_band(1), None, Parts::Value);
-        left.score(Key::of(Metric::MsSsim), 0.1);
-        let mut right = Rows::default();
-        right.score(key, 1.0);
-        right.push(key.in_band(0), None, Parts::Value);
-        right.push(key.in_band(1), None, Parts::Value);
-        left.sort();
-        right.sort();
-        let both = Rows::of_both_eyes(&left, &right);
-        assert_eq!(both.value(key), Some(0.75));
-        assert_eq!(both.value(key.in_band(0)), Some(0.25));
-        assert_eq!(both.get(key.in_band(1)).map(|row| row.value), Some(None));
-        assert!(!both.has(Metric::MsSsim));
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::{Metric, Row, Rows, Subject};
+use fovqa_metrics::{FrameRows, Layouts, Metric, Row, Rows, Subject};
 
 use crate::fvvdp;
 use crate::report::{AtdGuides, FrameResult, GuideSource, ScoreReport};
@@ -21,17 +21,18 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
     };
     let right_frames: BTreeMap<i64, &FrameResult> =
         right.frames.iter().map(|frame| (frame.frame, frame)).collect();
+    let mut layouts = Layouts::default();
     let frames = left.frames.iter().filter_map(|l| {
         let r = right_frames.get(&l.frame)?;
-        let mut rows = Rows::of_both_eyes(&l.rows, &r.rows);
-        rows.retain(in_common);
+        let both = FrameRows::of_both_eyes(&l.rows, &r.rows);
+        let both = both.iter().copied().filter(in_common).collect::<Rows>();
         Some(FrameResult {
             frame: l.frame,
             reference: l.reference.clone(),
             test: l.test.clone(),
             gaze_px: None,
             gaze_step_deg: None,
-            rows,
+            rows: layouts.pack(both),
         })
     });
     ScoreReport {
@@ -88,14 +89,13 @@ mod tests {
         rows.score(Key::of(Metric::Ssim), 0.5);
         rows.score(Key::of(Metric::Ssim).in_band(0), 0.5);
         rows.count(Key::pixels(Subject::PixelsOutsideBands), 3);
-        rows.sort();
         FrameResult {
             frame,
             reference: String::new(),
             test: String::new(),
             gaze_px: None,
             gaze_step_deg: None,
-            rows,
+            rows: rows.into(),
         }
     }
 

@@ -42,7 +42,7 @@ impl FrameResult {
     /// What is measured of each picture and compared, in the order of results, by the key of its ratio.
     pub fn compared(&self) -> impl Iterator<Item = (Key, Sides<Option<f64>>)> {
         let of_reference =
-            |row: &&Row| row.key.image == Image::Reference && row.key.statistic().has_ratio;
+            |row: &Row| row.key.image == Image::Reference && row.key.statistic().has_ratio;
         self.rows.iter().filter(of_reference).map(|row| {
             let test = self.rows.value(row.key.of_image(Image::Test));
             (row.key.of_image(Image::Ratio), Sides { reference: row.value, test })

@@ -160,14 +160,13 @@ mod tests {
         let band = FvvdpBand { cpd: 8.0, sustained: q, transient: Some(2.0 * q) };
         let mut rows = Rows::default();
         FvvdpFrame { q, frame_jod: jod(q), bands: vec![band], shares }.rows(2, &mut rows);
-        rows.sort();
         FrameResult {
             frame: number,
             reference: String::new(),
             test: String::new(),
             gaze_px: None,
             gaze_step_deg: None,
-            rows,
+            rows: rows.into(),
         }
     }
 

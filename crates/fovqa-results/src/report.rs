@@ -1,6 +1,6 @@
 //! What a run of `score` found.
 
-use fovqa_metrics::{Metric, Rows};
+use fovqa_metrics::{FrameRows, Metric};
 use serde::{Deserialize, Serialize};
 
 /// The view the frames were scored under.
@@ -32,7 +32,7 @@ pub struct FrameResult {
     /// How far the gaze has moved since the frame before, degrees, where it comes from a trace.
     pub gaze_step_deg: Option<f64>,
     /// The values.
-    pub rows: Rows,
+    pub rows: FrameRows,
 }
 
 /// Whose motion or depth a sequence was compared along.

@@ -120,7 +120,7 @@ impl Summary {
             }
         });
         let mut counts = BTreeMap::new();
-        for row in frames.iter().flat_map(|frame| &frame.rows) {
+        for row in frames.iter().flat_map(|frame| frame.rows.iter()) {
             if row.key.metric().is_some() && row.key.statistic().is_count {
                 *counts.entry(row.key).or_default() += row.value.unwrap_or_default() as u64;
             }

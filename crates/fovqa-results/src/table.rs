@@ -235,7 +235,7 @@ impl<W: Write> Table<W> {
     fn measured(
         &mut self,
         row: &TableRow<'_>,
-        &Row { key, value, .. }: &Row,
+        Row { key, value, .. }: Row,
         edges: &[(f64, f64)],
         reference: &mut Option<f64>,
     ) -> io::Result<()> {

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use fovqa_config::{Eye, Plan};
 use fovqa_io::{FileId, read_small_file};
+use fovqa_metrics::Layouts;
 use fovqa_results::Input;
 use serde::Deserialize;
 use serde_json::Value;
@@ -81,10 +82,11 @@ impl Text {
     pub(crate) fn said(&self, plan: &Plan) -> Said {
         let mut said =
             Said { findings: Findings::default(), done: false, torn: false, twice: None };
+        let mut layouts = Layouts::default();
         for line in self.rest.split_inclusive(|byte| *byte == b'\n') {
             let whole = line.last() == Some(&b'\n');
             // Nothing comes behind the last line.
-            if said.done || !whole || self.line(plan, line, &mut said).is_none() {
+            if said.done || !whole || self.line(plan, line, &mut said, &mut layouts).is_none() {
                 (said.torn, said.done) = (true, false);
                 break;
             }
@@ -93,7 +95,7 @@ impl Text {
     }
 
     /// Takes a line in; `None` where it is not understood.
-    fn line(&self, plan: &Plan, line: &[u8], said: &mut Said) -> Option<()> {
+    fn line(&self, plan: &Plan, line: &[u8], said: &mut Said, layouts: &mut Layouts) -> Option<()> {
         let value: Value = serde_json::from_slice(line).ok()?;
         let has = |key: &str| value.get(key).is_some();
         let findings = &mut said.findings;
@@ -109,7 +111,7 @@ impl Text {
             let method = method(plan, &record.method)?;
             let step = record.step;
             let view = self.view(plan, findings, &record.scene, record.eye, Some(step))?;
-            let (frame, guides) = record.read()?;
+            let (frame, guides) = record.read(layouts)?;
             view.pairs.insert(step, Outcome { method, result: Ok(frame), guides });
         } else if has("error") {
             self.error(plan, findings, from(value)?)?;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use fovqa_config::Eye;
-use fovqa_metrics::{Image, Key, Metric, Parts, Row, Subject};
+use fovqa_metrics::{Image, Key, Layouts, Metric, Parts, Row, Rows, Subject};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, ViewResult};
 use serde::{Deserialize, Serialize};
 
@@ -32,9 +32,9 @@ pub(super) struct FrameRecord {
 #[derive(Serialize, Deserialize)]
 struct RowRecord(String, String, String, Option<usize>, Option<usize>, Option<Number>, Vec<Number>);
 
-impl From<&Row> for RowRecord {
-    fn from(Row { key, value, parts }: &Row) -> Self {
-        let parts = match *parts {
+impl From<Row> for RowRecord {
+    fn from(Row { key, value, parts }: Row) -> Self {
+        let parts = match parts {
             Parts::Value => Vec::new(),
             Parts::Mean { sum, weight } => vec![sum, weight],
             Parts::Deviation { count, sum, squares } => vec![count, sum, squares],
@@ -45,7 +45,7 @@ impl From<&Row> for RowRecord {
             key.image.name().to_owned(),
             key.level.map(usize::from),
             key.band.map(usize::from),
-            maybe(*value),
+            maybe(value),
             parts.into_iter().map(Number).collect(),
         )
     }
@@ -89,7 +89,7 @@ impl FrameRecord {
 
     /// The result, and what its differences over time were taken along; `None` where it names a metric
     /// that there is not.
-    pub(super) fn read(self) -> Option<(FrameResult, AtdGuides)> {
+    pub(super) fn read(self, layouts: &mut Layouts) -> Option<(FrameResult, AtdGuides)> {
         let rows = self.rows.into_iter().map(RowRecord::read);
         let result = FrameResult {
             frame: self.frame,
@@ -97,7 +97,7 @@ impl FrameRecord {
             test: self.test,
             gaze_px: self.gaze_px,
             gaze_step_deg: read(self.gaze_step_deg),
-            rows: rows.collect::<Option<_>>()?,
+            rows: layouts.pack(rows.collect::<Option<Rows>>()?),
         };
         Some((result, self.atd.unwrap_or_default()))
     }

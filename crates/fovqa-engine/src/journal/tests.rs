@@ -5,7 +5,7 @@ use std::path::Path;
 
 use fovqa_config::{Experiment, Eye, EyeView, Plan, Scene};
 use fovqa_io::FileId;
-use fovqa_metrics::{Image, Key, Metric, Parts, Rows, Subject};
+use fovqa_metrics::{Image, Key, Layouts, Metric, Parts, Rows, Subject};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, ViewResult};
 
 use super::read::Said;
@@ -47,14 +47,13 @@ fn frame() -> FrameResult {
     rows.count(Key::pixels(Subject::Pixels).in_band(1), 3);
     rows.count(Key::pixels(Subject::PixelsOutsideBands), 0);
     rows.count(Key::pixels(Subject::PixelsLeftOut), 1 << 40);
-    rows.sort();
     FrameResult {
         frame: i64::MIN,
         reference: "gt/ä \u{1}.png".to_owned(),
         test: "a".to_owned(),
         gaze_px: Some([0.1, -7.25]),
         gaze_step_deg: Some(1e-300),
-        rows,
+        rows: rows.into(),
     }
 }
 
@@ -63,8 +62,7 @@ fn bare_frame() -> FrameResult {
     let mut rows = Rows::default();
     rows.score(Key::of(Metric::Psnr), f64::INFINITY);
     rows.score(Key::of(Metric::Mse), 5.0);
-    rows.sort();
-    FrameResult { gaze_px: None, gaze_step_deg: None, rows, ..frame() }
+    FrameResult { gaze_px: None, gaze_step_deg: None, rows: rows.into(), ..frame() }
 }
 
 fn failure(frame: Option<i64>) -> Failure {
@@ -177,8 +175,9 @@ fn everything_is_read_again_to_the_last_bit() {
 #[test]
 fn what_is_no_number_is_read_again() {
     let mut result = bare_frame();
-    result.rows.score(Key::of(Metric::Ssim), f64::NAN);
-    result.rows.sort();
+    let mut rows: Rows = result.rows.iter().collect();
+    rows.score(Key::of(Metric::Ssim), f64::NAN);
+    result.rows = rows.into();
     result.gaze_step_deg = Some(f64::NAN);
     let finished = crate::findings::Finished {
         named: crate::findings::Named { scene: "one", method: "A", eye: None },
@@ -189,7 +188,7 @@ fn what_is_no_number_is_read_again() {
     };
     let line = line_of(Entry::Pair(finished));
     let record: super::records::FrameRecord = serde_json::from_slice(&line).unwrap();
-    let (again, _) = record.read().unwrap();
+    let (again, _) = record.read(&mut Layouts::default()).unwrap();
     assert_eq!(format!("{again:?}"), format!("{result:?}"));
 }
 

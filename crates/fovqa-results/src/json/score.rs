@@ -185,7 +185,7 @@ struct Band {
 
 impl Band {
     fn of(frame: &FrameResult, index: usize, (from_deg, to_deg): (f64, f64)) -> Self {
-        let of_pair = |row: &&Row| {
+        let of_pair = |row: &Row| {
             let Key { image, level, band, .. } = row.key;
             let here = band.map(usize::from) == Some(index) && level.is_none();
             here && image == Image::Pair && row.key.metric().is_some()
