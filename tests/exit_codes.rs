@@ -103,7 +103,7 @@ const SCORE: &[Case] = &[
     ("score a.png b.png --metrics pnsr", 2, "did you mean psnr?"),
     ("score a.png b.png --metrics fpsnr", 2, "needs a view"),
     ("score a.png b.png --metrics fvvdp", 2, "needs a view"),
-    ("score a.png b.png --metrics psnr --maps m", 2, "--maps"),
+    ("score a.png b.png --metrics ms-ssim --maps m", 2, "--maps"),
     ("score a.png b.png --set ssim.sigma=0", 2, "cannot be 0"),
     ("score a.png b.png --fov-vertical 180", 2, "180"),
     ("score a.png b.png --gaze 1", 2, "X,Y"),

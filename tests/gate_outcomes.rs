@@ -366,6 +366,6 @@ fn heat_maps_of_a_gate_are_those_of_a_run() {
     folder
         .run(&["gate", "reports/e", "--maps", "more"])
         .fails(2, &["--maps is of scoring", "give the experiment file"]);
-    folder.write("e.toml", text.replace("fvvdp", "psnr"));
-    folder.run(&["gate", "e.toml", "--maps", "more"]).fails(2, &["--maps are of FovVideoVDP"]);
+    folder.write("e.toml", text.replace("fvvdp", "fpsnr"));
+    folder.run(&["gate", "e.toml", "--maps", "more"]).fails(2, &["none of the metrics has a map"]);
 }

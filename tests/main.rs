@@ -27,6 +27,7 @@ mod gate_verdicts;
 mod gaze_files;
 mod golden;
 mod jpeg;
+mod maps;
 mod motion_and_depth;
 mod moving_frames;
 mod output;

@@ -235,7 +235,11 @@ fn what_has_changed_is_said_and_all_is_scored() {
     resumed(&cut, &["--shard", "1/2"], &["it is of a whole run, and this is shard 1/2"]);
     let older = cut.replace("\"version\":\"0.1.0\"", "\"version\":\"0.0.9\"");
     resumed(&older, &[], &["it is of fovqa 0.0.9, and this is 0.1.0"]);
-    resumed("{\"schema\":\"fovqa.journal/9\"}\n", &[], &["journal.jsonl is not in the format"]);
+    resumed(
+        "{\"schema\":\"fovqa.journal/9\"}\n",
+        &[],
+        &["journal.jsonl is of another version of fovqa, in its format fovqa.journal/9"],
+    );
     for (file, bytes) in [
         ("room/a/0001.png", fs::read(folder.path("room/a/0000.png")).unwrap()),
         ("hall/gt/0000.png", fs::read(folder.path("room/gt/0000.png")).unwrap()),
@@ -336,13 +340,14 @@ fn where_nothing_is_there_a_run_begins() {
     assert_eq!(kept, before);
 }
 
-/// Heat maps are written before their frame is finished; elsewhere they have to be made again.
+/// Maps are written before their frame is finished; elsewhere they have to be made again.
 #[test]
-fn heat_maps_are_all_there() {
+fn maps_are_all_there() {
     let folder = sequence("replicate");
     folder.run(&["run", "e.toml", "--output", "whole", "--maps", "maps"]).ok();
     let wanted = bytes(&folder.path("maps"));
-    assert_eq!(wanted.len(), 24 * 3);
+    // Three of FovVideoVDP, two each of the squared error and SSIM.
+    assert_eq!(wanted.len(), 24 * 7);
     let lines = journal(&folder, "whole");
     let cut = lines[..lines.len() / 2].concat();
     let run = ["run", "e.toml", "--resume", "--output", "out", "--maps"];
@@ -351,7 +356,7 @@ fn heat_maps_are_all_there() {
     assert_eq!(bytes(&folder.path("maps")), wanted);
     folder.write("out/journal.jsonl", &cut);
     let run = folder.run(&[&run[..], &["others"]].concat()).ok();
-    run.says(&["heat maps of finished frames are not in the folder of --maps", "all is scored"]);
+    run.says(&["maps of finished frames are not in the folder of --maps", "all is scored"]);
     assert_eq!(bytes(&folder.path("others")), wanted);
 }
 

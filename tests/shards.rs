@@ -300,8 +300,12 @@ fn shards_that_do_not_belong_together_are_told() {
     fails(&["all"], &["all: it has a whole run, not a shard of one"]);
     folder.run(&["merge", one, two, three, "--output", one]).fails(2, &["one of the shards"]);
     folder.run(&["merge", "--output", "none"]).fails(2, &[]);
-    // Not finished, in several ways.
+    // Of the version before values had one form.
     let lines = journal(&folder, three);
+    let old = lines.concat().replace("fovqa.journal/2", "fovqa.journal/1");
+    folder.write("s-3-of-3/journal.jsonl", old);
+    fails(&[one, two, three], &["of another version of fovqa, in its format fovqa.journal/1"]);
+    // Not finished, in several ways.
     let write = |lines: &[String]| folder.write("s-3-of-3/journal.jsonl", lines.concat());
     let unfinished = ["s-3-of-3: shard 3/3 is not finished", "--resume"];
     let mut without = lines.clone();

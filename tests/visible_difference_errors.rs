@@ -161,11 +161,11 @@ fn a_trace_that_is_too_short_and_pixels_that_are_left_out() {
 fn heat_maps_need_the_metric_and_a_folder() {
     let folder = sequence(1, (48, 40));
     folder
-        .score(&["gt", "test", "--maps", "maps"])
-        .fails(2, &["--maps are of FovVideoVDP", "--metrics fvvdp"]);
+        .score(&["gt", "test", "--metrics", "fpsnr", "--maps", "maps"])
+        .fails(2, &["none of the metrics has a map", "mse, psnr, ssim, fvvdp"]);
     folder.write("file", "in the way");
     let run = folder.score(&[&["gt", "test", "--maps", "file"][..], &HEADSET].concat());
-    run.fails(3, &["file", "the heat map cannot be written", "--maps"]);
+    run.fails(3, &["file", "the map cannot be written", "--maps"]);
 }
 
 #[test]
@@ -243,8 +243,8 @@ fn an_experiment_shows_the_place() {
     );
     assert_eq!(run.code, 0, "{}", run.stderr);
     folder.run(&["run", "e.toml", "--maps", "maps", "--output", "out"]).ok();
-    check(fov, "fps = 30", "psnr = {}");
+    check(fov, "fps = 30", "ms_ssim = {}");
     folder
         .run(&["run", "e.toml", "--maps", "maps"])
-        .fails(2, &["--maps are of FovVideoVDP", "add fvvdp = {}"]);
+        .fails(2, &["none of the metrics has a map", "such as ssim = {}"]);
 }

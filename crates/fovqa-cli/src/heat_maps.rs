@@ -1,14 +1,14 @@
-//! `--maps DIR`: heat maps of each frame, as files.
+//! `--maps DIR`: maps of each frame, as files: the values, and their pictures in colours.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
-use fovqa_engine::{EngineError, Entry, Finished, FvvdpMaps, Named};
-use fovqa_io::{exr_gray, png_rgb8};
-use fovqa_metrics::Metric;
+use fovqa_engine::{EngineError, Entry, Finished, Named};
+use fovqa_io::{exr_gray, exr_gray_half, png_rgb8};
+use fovqa_metrics::{Map, Metric};
 use fovqa_results::{FileError, FrameResult, write_whole};
 
-/// A folder for heat maps.
+/// A folder for maps.
 #[derive(Debug)]
 pub(crate) struct HeatMaps {
     folder: PathBuf,
@@ -31,22 +31,26 @@ impl HeatMaps {
         folder
     }
 
-    /// Whether those of a frame are there, where it has some.
+    /// Whether those of a frame are there, of the metrics that it has and that have some.
     pub(crate) fn has(&self, named: Named<'_>, frame: &FrameResult) -> bool {
-        let raw = self.folder(named).join(raw(frame.frame));
-        !frame.rows.has(Metric::Fvvdp) || raw.is_file()
+        let folder = self.folder(named);
+        let scored = Metric::ALL.into_iter().filter(|metric| frame.rows.has(*metric));
+        let mut maps = scored.filter_map(|metric| metric.info().map);
+        maps.all(|map| folder.join(values_file(map.name, frame.frame)).is_file())
     }
 
     /// Writes those of a pair, where it has some.
     pub(crate) fn write(&self, entry: &Entry<'_>) -> Result<(), EngineError> {
-        let Entry::Pair(Finished { named, maps: Some(maps), result: Ok(frame), .. }) = *entry
-        else {
+        let Entry::Pair(Finished { named, maps, result: Ok(frame), .. }) = *entry else {
             return Ok(());
         };
+        if maps.is_empty() {
+            return Ok(());
+        }
         let folder = self.folder(named);
         let at = |path: &Path, error| EngineError::Map { path: path.to_owned(), error };
         std::fs::create_dir_all(&folder).map_err(|error| at(&folder, error))?;
-        for (name, bytes) in files(maps, frame.frame) {
+        for (name, bytes) in maps.iter().flat_map(|map| files(map, frame.frame)) {
             let path = folder.join(name);
             let bytes = bytes.map_err(|error| at(&path, error))?;
             write_whole(&path, &bytes).map_err(|error| match error {
@@ -62,21 +66,38 @@ impl HeatMaps {
     }
 }
 
-fn files(maps: &FvvdpMaps, frame: i64) -> Vec<(String, io::Result<Vec<u8>>)> {
-    let (width, height) = (maps.raw.width(), maps.raw.height());
-    let values = (0..height).flat_map(|y| maps.raw.row(y)).copied();
-    let raw_map = (raw(frame), exr_gray(width, height, values));
-    let colored = maps.colored.iter().map(|(colors, codes)| {
-        let name = format!("fvvdp-{}-{}.png", colors.name(), padded(frame));
-        (name, png_rgb8(width, height, codes))
-    });
-    // The raw one last: where it is there, all are.
-    colored.chain([raw_map]).collect()
+/// Why maps cannot be asked for: none of the metrics has one.
+pub(crate) fn lacking(metrics: &[Metric]) -> Option<String> {
+    let has = |metric: &Metric| metric.info().map.is_some();
+    (!metrics.iter().any(has)).then(|| {
+        let all = Metric::ALL.into_iter().filter(has).map(Metric::key);
+        format!(
+            "--maps: none of the metrics has a map; these have one: {}",
+            all.collect::<Vec<_>>().join(", ")
+        )
+    })
 }
 
-/// The name of a frame's raw map.
-fn raw(frame: i64) -> String {
-    format!("fvvdp-{}.exr", padded(frame))
+/// The files of a map, by their names.
+fn files(map: &Map, frame: i64) -> Vec<(String, io::Result<Vec<u8>>)> {
+    let Map { name, width, height, values, .. } = map;
+    let values = if map.is_half {
+        exr_gray_half(*width, *height, values)
+    } else {
+        exr_gray(*width, *height, values)
+    };
+    let pictures = map.pictures.iter().map(|picture| {
+        let name = picture.name.map_or((*name).to_owned(), |of| format!("{name}-{of}"));
+        let bytes = png_rgb8(*width, *height, &picture.codes);
+        (format!("{name}-{}.png", padded(frame)), bytes)
+    });
+    // The values last: where they are there, all are.
+    pictures.chain([(values_file(name, frame), values)]).collect()
+}
+
+/// The name of the file with the values of a map.
+fn values_file(map: &str, frame: i64) -> String {
+    format!("{map}-{}.exr", padded(frame))
 }
 
 /// A frame's number with four digits at least, behind the minus sign of a negative one.

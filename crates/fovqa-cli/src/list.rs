@@ -47,6 +47,9 @@ fn metrics() -> String {
         let _ = writeln!(text, "    {}", info.about);
         let light = if info.needs.luminance { ", needs the display's photometry" } else { "" };
         let _ = writeln!(text, "    {better}{bands}{view}{light}{default}");
+        if let Some(map) = info.map {
+            let _ = writeln!(text, "    --maps: {}", map.about);
+        }
         let _ = writeln!(text, "    source: {}", info.source);
         parameters(&mut text, &format!("{}.", info.key), info.params);
     }

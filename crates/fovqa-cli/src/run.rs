@@ -6,13 +6,12 @@ use fovqa_config::{Experiment, Eye};
 use fovqa_engine::{
     EngineError, Findings, Found, Header, Journal, ResultsFolder, Shard, results, resume,
 };
-use fovqa_metrics::Metric;
 
 use crate::args::RunArgs;
 use crate::diagnostic;
 use crate::dialect::Dialect;
 use crate::exit::Exit;
-use crate::heat_maps::HeatMaps;
+use crate::heat_maps::{self, HeatMaps};
 use crate::progress::Terminal;
 use crate::results::{Shown, clear, failed, finish, say_failures_of_shard};
 use crate::{experiment, threads};
@@ -46,9 +45,9 @@ fn into_folder(args: &RunArgs, shown: Shown) -> Result<(PathBuf, Exit), Exit> {
     let mut experiment = experiment::read(&args.experiment)?;
     experiment.plan.frames = args.frames;
     experiment.plan.maps = args.maps.is_some();
-    if args.maps.is_some() && !experiment.plan.metrics.metrics().contains(&Metric::Fvvdp) {
-        let message = "--maps are of FovVideoVDP, and the experiment does not score it";
-        diagnostic::error(message, "add fvvdp = {} to [metrics]");
+    let lacking = heat_maps::lacking(experiment.plan.metrics.metrics());
+    if let Some(message) = lacking.filter(|_| args.maps.is_some()) {
+        diagnostic::error(&message, "add one of them to [metrics], such as ssim = {}");
         return Err(Exit::Usage);
     }
     let folder = args.output.clone().unwrap_or_else(|| default_folder(&experiment, args.shard));
@@ -114,7 +113,7 @@ impl Run<'_> {
             scored.any(|(named, frame)| !maps.has(named, frame))
         });
         if lacks {
-            changes.push("heat maps of finished frames are not in the folder of --maps".to_owned());
+            changes.push("maps of finished frames are not in the folder of --maps".to_owned());
         }
         let shown = folder.display();
         if changes.is_empty() {

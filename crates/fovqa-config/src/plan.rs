@@ -199,7 +199,7 @@ pub struct Plan {
     pub frames: Option<FrameRange>,
     /// Whether size and hash of every input are taken.
     pub hash_inputs: bool,
-    /// Whether heat maps are made of the metrics that have some.
+    /// Whether maps are made of the metrics that have some.
     pub maps: bool,
 }
 

@@ -67,8 +67,8 @@ pub enum EngineError {
     /// A sequence that cannot be filtered over time.
     #[error(transparent)]
     Time(#[from] TimeError),
-    /// A heat map that cannot be written.
-    #[error("{}: the heat map cannot be written: {error}", path.display())]
+    /// A map that cannot be written.
+    #[error("{}: the map cannot be written: {error}", path.display())]
     Map {
         /// The file.
         path: PathBuf,

@@ -3,12 +3,11 @@
 use std::collections::BTreeMap;
 
 use fovqa_config::{Eye, Plan};
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Map, Metric};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, Input, ViewResult};
 
 use crate::error::EngineError;
 use crate::inputs::Inputs;
-use crate::meters::FvvdpMaps;
 
 /// What was found: of a whole run, of one of its shards, or of one that was broken off.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -91,8 +90,8 @@ pub struct Finished<'a> {
     pub result: Result<&'a FrameResult, &'a Failure>,
     /// What its differences over time were taken along, where it has some.
     pub guides: AtdGuides,
-    /// Its heat maps, where they are asked for.
-    pub maps: Option<&'a FvvdpMaps>,
+    /// Its maps, where they are asked for.
+    pub maps: &'a [Map],
 }
 
 /// Something that is to be taken down.
@@ -166,7 +165,7 @@ impl Findings {
                     step,
                     result: outcome.result.as_ref(),
                     guides: outcome.guides,
-                    maps: None,
+                    maps: &[],
                 }))?;
             }
             let (scene, eye) = (&plan.scenes[scene].name, plan.scenes[scene].eyes[eye].eye);

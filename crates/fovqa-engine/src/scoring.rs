@@ -154,7 +154,7 @@ impl<'a> Scoring<'a> {
                     step: *index,
                     result: result.as_ref().map(|(frame, _)| frame),
                     guides,
-                    maps: result.as_ref().ok().and_then(|(_, maps)| maps.as_ref()),
+                    maps: result.as_ref().map_or(&[][..], |(_, maps)| maps.as_slice()),
                 }));
                 let result = result.map(|(frame, _)| frame);
                 findings.pairs.insert(*index, Outcome { method: step.method, result, guides });

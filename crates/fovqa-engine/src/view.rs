@@ -5,14 +5,14 @@ use std::collections::BTreeSet;
 
 use fovqa_config::{EyeView, Plan};
 use fovqa_frame::{Mask, SignalTables};
-use fovqa_metrics::{Key, Layouts, Metric, MetricKind, Rows};
+use fovqa_metrics::{Key, Layouts, Map, Metric, MetricKind, Rows};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, ViewResult};
 use fovqa_vision::BandEdges;
 
 use crate::events::Warnings;
 use crate::find::FoundView;
 use crate::load::{Fault, Loaded, Loader, Side, Step, comparable};
-use crate::meters::{FvvdpMaps, Measured, Meters, Pair};
+use crate::meters::{Measured, Meters, Pair};
 use crate::setup::{Inputs, Setup};
 use crate::work::Work;
 
@@ -124,7 +124,7 @@ impl<'a> ViewRun<'a> {
         step: &Step<'_>,
         loaded: Loaded,
         warnings: &mut Warnings<'_>,
-    ) -> Result<(FrameResult, Option<FvvdpMaps>), Failure> {
+    ) -> Result<(FrameResult, Vec<Map>), Failure> {
         self.take(step, loaded, |run, reference, test| {
             let finite = run.enter(step, reference, test, warnings)?;
             run.score(step, (reference, test), finite.as_ref(), warnings)
@@ -229,7 +229,7 @@ impl<'a> ViewRun<'a> {
         (reference, test): (&Side, &Side),
         finite: Option<&Mask>,
         warnings: &mut Warnings<'_>,
-    ) -> Result<(FrameResult, Option<FvvdpMaps>), Fault> {
+    ) -> Result<(FrameResult, Vec<Map>), Fault> {
         let (view, frame) = (self.view, &self.view.frames[step.frame]);
         let gaze_px = view.trace.as_ref().map(|trace| trace[step.frame].px);
         let setup = self.setup.as_ref();

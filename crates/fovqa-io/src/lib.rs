@@ -31,4 +31,4 @@ pub use guides::{
 };
 pub use jpeg::JpegKind;
 pub use small_file::{open_regular_file, read_head, read_small_file};
-pub use write::{exr_gray, png_rgb8};
+pub use write::{exr_gray, exr_gray_half, png_rgb8};

@@ -24,21 +24,28 @@ pub fn png_rgb8(width: usize, height: usize, codes: &[u8]) -> io::Result<Vec<u8>
     Ok(file)
 }
 
-/// An OpenEXR file of one channel `Y`, row by row, rounded to half floats.
+/// An OpenEXR file of one channel `Y`, row by row.
 ///
 /// # Errors
-/// When the values are not `width * height`.
-pub fn exr_gray(
-    width: usize,
-    height: usize,
-    values: impl Iterator<Item = f32>,
-) -> io::Result<Vec<u8>> {
-    let values: Vec<f16> = values.map(f16::from_f32).collect();
+/// When there are not `width * height` values.
+pub fn exr_gray(width: usize, height: usize, values: &[f32]) -> io::Result<Vec<u8>> {
+    exr_of((width, height), FlatSamples::F32(values.to_vec()))
+}
+
+/// The same, rounded to half floats.
+///
+/// # Errors
+/// When there are not `width * height` values.
+pub fn exr_gray_half(width: usize, height: usize, values: &[f32]) -> io::Result<Vec<u8>> {
+    let values = values.iter().map(|value| f16::from_f32(*value)).collect();
+    exr_of((width, height), FlatSamples::F16(values))
+}
+
+fn exr_of((width, height): (usize, usize), values: FlatSamples) -> io::Result<Vec<u8>> {
     if values.len() != width * height {
         return Err(io::Error::other("not one value a pixel"));
     }
-    let channel = AnyChannel::new("Y", FlatSamples::F16(values));
-    let channels = AnyChannels::sort(std::iter::once(channel).collect());
+    let channels = AnyChannels::sort(std::iter::once(AnyChannel::new("Y", values)).collect());
     let encoding = Encoding::SMALL_FAST_LOSSLESS;
     let layer = Layer::new((width, height), LayerAttributes::default(), encoding, channels);
     let mut file = Cursor::new(Vec::new());
@@ -67,10 +74,12 @@ mod tests {
         let codes: Vec<u8> = (0..5 * 3 * 3).map(|code| code * 5).collect();
         let frame = read("a.png", png_rgb8(5, 3, &codes).unwrap());
         assert_eq!(frame.samples(), &Samples::U8(codes));
-        let values = (0..15).map(|v| v as f32 / 7.0);
-        let frame = read("a.exr", exr_gray(5, 3, values.clone()).unwrap());
-        let values = values.map(f16::from_f32).collect();
-        assert_eq!((frame.channels(), frame.samples()), (Channels::Gray, &Samples::F16(values)));
-        assert!(png_rgb8(5, 3, &[0; 4]).is_err() && exr_gray(2, 2, std::iter::empty()).is_err());
+        let values: Vec<f32> = (0..15).map(|v| v as f32 / 7.0).collect();
+        let frame = read("a.exr", exr_gray_half(5, 3, &values).unwrap());
+        let halves = values.iter().map(|value| f16::from_f32(*value)).collect();
+        assert_eq!((frame.channels(), frame.samples()), (Channels::Gray, &Samples::F16(halves)));
+        let frame = read("a.exr", exr_gray(5, 3, &values).unwrap());
+        assert_eq!(frame.samples(), &Samples::F32(values));
+        assert!(png_rgb8(5, 3, &[0; 4]).is_err() && exr_gray(2, 2, &[]).is_err());
     }
 }

@@ -2,6 +2,7 @@
 
 use fovqa_params::{ParamError, ParamInfo, ParamValue};
 
+use crate::map::MapInfo;
 use crate::pooling::Statistic;
 use crate::registry::{Metric, Params};
 
@@ -26,6 +27,8 @@ pub struct MetricInfo {
     pub needs: Needs,
     /// Its statistics, and how each is pooled.
     pub statistics: &'static [Statistic],
+    /// The map it has of a pair.
+    pub map: Option<&'static MapInfo>,
     /// The smallest side that a frame may have, pixels.
     pub smallest_side: fn(&Params) -> usize,
     /// One line on what it is.
@@ -48,6 +51,7 @@ impl MetricInfo {
         per_band: false,
         needs: Needs::NOTHING,
         statistics: &[Statistic::VALUE],
+        map: None,
         smallest_side: |_| 1,
         about: "",
         source: "",

@@ -79,7 +79,7 @@ pub(crate) struct GateArgs {
     /// Only these of each scene's frames, from A up to, but without, B
     #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP")]
     pub(crate) frames: Option<FrameRange>,
-    /// Write heat maps of the frames of an experiment into a folder, as `fovqa run --maps` does
+    /// Write maps of the frames of an experiment into a folder, as `fovqa run --maps` does
     #[arg(long, value_name = "DIR")]
     pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]

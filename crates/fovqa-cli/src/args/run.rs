@@ -53,8 +53,8 @@ pub(crate) struct RunArgs {
     /// Only these of each scene's frames, from A up to, but without, B
     #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP")]
     pub(crate) frames: Option<FrameRange>,
-    /// Write a heat map of FovVideoVDP for each frame into a folder, SCENE/METHOD in it: raw (OpenEXR, in
-    /// units like JOD), and coloured for differences at the threshold and above it (PNG)
+    /// Write the maps of each frame into a folder, SCENE/METHOD in it, of the metrics that have one (squared
+    /// error, SSIM, FovVideoVDP): the value of every pixel (OpenEXR), and a picture in colours (PNG)
     #[arg(long, value_name = "DIR")]
     pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]

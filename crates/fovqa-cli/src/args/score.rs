@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use fovqa_config::{EyeView, Plan, Scene, Settings};
 use fovqa_io::sequence::FrameRange;
-use fovqa_metrics::Metric;
 
 use super::guides::GuideArgs;
 use super::metrics::MetricArgs;
@@ -64,8 +63,8 @@ pub(crate) struct ScoreArgs {
     /// Pass over frames without a partner
     #[arg(long, help_heading = "Sequence")]
     allow_missing: bool,
-    /// Write a heat map of FovVideoVDP for each frame into a folder: raw (OpenEXR, in units like JOD), and
-    /// coloured for differences at the threshold and above it (PNG)
+    /// Write the maps of each frame into a folder, of the metrics that have one (squared error, SSIM,
+    /// FovVideoVDP): the value of every pixel (OpenEXR), and a picture in colours (PNG)
     #[arg(long, value_name = "DIR")]
     pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
@@ -76,8 +75,9 @@ pub(crate) struct ScoreArgs {
 impl ScoreArgs {
     /// The plan; the error is a wrong command line.
     pub(crate) fn plan(self) -> Result<Plan, String> {
-        if self.maps.is_some() && !self.metrics.choice().metrics().contains(&Metric::Fvvdp) {
-            return Err("--maps are of FovVideoVDP: name it with --metrics fvvdp".to_owned());
+        let lacking = crate::heat_maps::lacking(self.metrics.choice().metrics());
+        if let Some(message) = lacking.filter(|_| self.maps.is_some()) {
+            return Err(message);
         }
         let (motion_files, depth_files) = self.guides.files();
         let settings = Settings {

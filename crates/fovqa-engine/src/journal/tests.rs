@@ -163,7 +163,7 @@ fn everything_is_read_again_to_the_last_bit() {
         step: 2,
         result: mended.result.as_ref(),
         guides: mended.guides,
-        maps: None,
+        maps: &[],
     };
     journal.write(Entry::Pair(finished)).unwrap();
     journal.done().unwrap();
@@ -184,7 +184,7 @@ fn what_is_no_number_is_read_again() {
         step: 0,
         result: Ok(&result),
         guides: AtdGuides::default(),
-        maps: None,
+        maps: &[],
     };
     let line = line_of(Entry::Pair(finished));
     let record: super::records::FrameRecord = serde_json::from_slice(&line).unwrap();
@@ -229,7 +229,7 @@ fn lines_of_something_else_are_not_understood() {
         let result = bare_frame();
         let guides = AtdGuides::default();
         let finished =
-            crate::findings::Finished { named, step, result: Ok(&result), guides, maps: None };
+            crate::findings::Finished { named, step, result: Ok(&result), guides, maps: &[] };
         String::from_utf8(line_of(Entry::Pair(finished))).unwrap()
     };
     let named = |scene, method, eye| crate::findings::Named { scene, method, eye };

@@ -2,7 +2,7 @@
 
 use fovqa_config::{MetricChoice, Plan};
 use fovqa_frame::PairSignal;
-use fovqa_metrics::{Metric, Rows, ScoreError, Scorer};
+use fovqa_metrics::{Metric, ScoreError, Scored, Scorer};
 
 use super::Pair;
 use crate::load::Fault;
@@ -12,11 +12,11 @@ pub(super) struct Fidelity(Scorer);
 
 impl Fidelity {
     pub(super) fn new(plan: &Plan, metrics: &[Metric]) -> Self {
-        let scorer = Scorer::new(metrics.to_vec(), plan.params.clone());
+        let scorer = Scorer::new(metrics.to_vec(), plan.params.clone()).with_maps(plan.maps);
         Self(if plan.metrics == MetricChoice::Default { scorer.lenient() } else { scorer })
     }
 
-    pub(super) fn measure(&self, pair: &Pair<'_>) -> Result<Rows, Fault> {
+    pub(super) fn measure(&self, pair: &Pair<'_>) -> Result<Scored, Fault> {
         let signal = PairSignal::new(&pair.reference.frame, &pair.test.frame, pair.tables);
         let scores = self.0.score(&signal, pair.regions, pair.retina.weight.as_ref());
         scores.map_err(|error| unscored(&pair.test.file, &error))

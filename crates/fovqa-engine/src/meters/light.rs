@@ -9,10 +9,10 @@ use std::sync::Arc;
 use fovqa_config::{Plan, Settings};
 use fovqa_frame::{Frame, LightTables};
 use fovqa_metrics::fvvdp::{
-    DifferenceMap, Fvvdp, FvvdpFrame, FvvdpReference, FvvdpRegions, Grid, MapColors, MapContext,
-    Params, Photometry, Stream, colored,
+    DifferenceMap, Fvvdp, FvvdpFrame, FvvdpReference, FvvdpRegions, Grid, MapContext, Params,
+    Photometry, Stream,
 };
-use fovqa_metrics::{Metric, pu_psnr};
+use fovqa_metrics::{Map, Metric, pu_psnr};
 use fovqa_results::FvvdpSight;
 
 use super::{Measured, Pair};
@@ -25,15 +25,6 @@ use sequence::{Missing, Sequence, State};
 /// Said where linear files are shown in cd/m² and none of their values is above 1.
 const CANDELA: &str = "no pixel of the reference is brighter than 1 cd/m², as linear values are taken for cd/m² on this display: \
      where 1 stands for white or for another amount of light, say how much with fvvdp.cd_m2_per_unit";
-
-/// A frame's heat maps.
-#[derive(Debug)]
-pub struct FvvdpMaps {
-    /// In units like JOD, 0 and above.
-    pub raw: Grid,
-    /// Coloured: interleaved 8-bit codes of red, green and blue.
-    pub colored: Vec<(MapColors, Vec<u8>)>,
-}
 
 /// The light of a view's frames, as long as it is needed.
 pub(super) struct Light {
@@ -145,9 +136,9 @@ impl Light {
         if let Some((metric, regions)) = pair.setup.fvvdp().zip(pair.retina.fvvdp.as_ref())
             && self.step(pair, &reference, &test)
         {
-            let (frame, maps) = self.score(pair, metric, regions);
+            let (frame, map) = self.score(pair, metric, regions);
             frame.rows(pair.setup.bands(), &mut measured.rows);
-            measured.maps = maps;
+            measured.maps.extend(map);
         }
     }
 
@@ -222,7 +213,7 @@ impl Light {
         pair: &Pair<'_>,
         metric: &Fvvdp,
         regions: &FvvdpRegions,
-    ) -> (FvvdpFrame, Option<FvvdpMaps>) {
+    ) -> (FvvdpFrame, Option<Map>) {
         let Some(Sequence { timing, state: State::Going { reference, test, .. }, .. }) =
             self.sequences.get(&pair.method)
         else {
@@ -242,20 +233,17 @@ impl Light {
         let channels = test.channels(time);
         let mut differences = self.maps.then(DifferenceMap::default);
         let frame = metric.score(prepared, &channels, regions, differences.as_mut());
-        let maps = differences.map(|differences| {
-            let raw = differences.raw();
+        let map = differences.map(|differences| {
             let context = match self.params.map_context {
                 MapContext::Test => &channels[0],
                 MapContext::Reference => prepared.sustained(),
             };
-            let color = |colors| (colors, colored(&raw, context, colors));
-            let colored = MapColors::ALL.map(color).into();
-            FvvdpMaps { raw, colored }
+            differences.map(context)
         });
         if pair.tests == 1 {
             self.prepared = None;
         }
-        (frame, maps)
+        (frame, map)
     }
 
     /// Why a method's sequence has no value, as far as it goes here; `number` names its frames.

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 
 use fovqa_config::{Plan, Settings};
 use fovqa_frame::{Mask, SignalTables};
-use fovqa_metrics::{BlockRegions, Metric, Regions, Rows};
+use fovqa_metrics::{BlockRegions, Map, Metric, Regions, Rows, Scored};
 use fovqa_results::{AtdGuides, FvvdpSight};
 
 use crate::events::Warnings;
@@ -23,7 +23,6 @@ use crate::retina::Retina;
 use crate::setup::Setup;
 use crate::work::Work;
 use fidelity::Fidelity;
-pub use light::FvvdpMaps;
 use light::Light;
 pub(crate) use light::LoadPair;
 use lumas::Lumas;
@@ -71,7 +70,7 @@ pub(crate) struct Pair<'a> {
 #[derive(Default)]
 pub(crate) struct Measured {
     pub(crate) rows: Rows,
-    pub(crate) maps: Option<FvvdpMaps>,
+    pub(crate) maps: Vec<Map>,
 }
 
 /// All meters of a view.
@@ -171,7 +170,11 @@ impl Meters {
         let mut measured = Measured::default();
         for meter in &mut self.meters {
             match meter {
-                Meter::Fidelity(fidelity) => measured.rows.extend(&fidelity.measure(pair)?),
+                Meter::Fidelity(fidelity) => {
+                    let Scored { rows, maps } = fidelity.measure(pair)?;
+                    measured.rows.extend(&rows);
+                    measured.maps.extend(maps);
+                }
                 Meter::Light(light) => light.measure(pair, &mut measured, warnings),
                 Meter::Profiles(profiles) => {
                     profiles.measure(pair, &mut self.lumas, &mut measured.rows);

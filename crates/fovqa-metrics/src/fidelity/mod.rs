@@ -15,4 +15,4 @@ mod tests;
 mod weighted_mean;
 
 pub use psnr::{mse_of_db, psnr_db};
-pub use scorer::{ScoreError, Scorer};
+pub use scorer::{ScoreError, Scored, Scorer};

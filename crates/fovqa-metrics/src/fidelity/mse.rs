@@ -5,7 +5,15 @@
 use multiversion::multiversion;
 
 use crate::info::{Better, MetricInfo};
+use crate::map::{MapInfo, MapScale};
 use crate::pooling::{Pooling, Statistic};
+
+/// The squared error of each pixel: the mean over its channels.
+pub(crate) const MAP: MapInfo = MapInfo {
+    name: "mse",
+    about: "squared error with peak 1, mean over channels; coloured from 1e-6 (60 dB) to 1",
+    scale: MapScale::Logarithmic { none: 1e-6, most: 1.0 },
+};
 
 /// What there is to say about it.
 pub(crate) const INFO: MetricInfo = MetricInfo {
@@ -14,6 +22,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     better: Better::Lower,
     per_band: true,
     statistics: &[Statistic::VALUE.pooled(Pooling::Mean)],
+    map: Some(&MAP),
     about: "mean squared error of the encoded signal, peak 1",
     source: "the squared error of all channels, pooled",
     ..MetricInfo::FIDELITY

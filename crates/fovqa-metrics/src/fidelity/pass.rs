@@ -7,12 +7,14 @@
 use std::ops::Range;
 
 use fovqa_frame::{BLOCK_ROWS, PairTile, Part, map_row_blocks};
+use fovqa_vision::Run;
 
 use super::fpsnr::WeightField;
 use super::ms_ssim::{HalvedRows, PairRows, Scale, unit_below};
 use super::mse::squared_row;
 use super::ssim::rows::{Constants, MapRow, Scratch, map_row};
 use super::weighted_mean::WeightedMean;
+use crate::map::scaled;
 use crate::regions::{Regions, clipped};
 use crate::sums::{add_by_band, sum, weighted};
 
@@ -31,6 +33,31 @@ pub(crate) struct Wanted<'a> {
     pub(crate) ssim: Option<Constants>,
     /// What MS-SSIM needs.
     pub(crate) scales: Scales,
+    /// Which values of single pixels are kept.
+    pub(crate) maps: WantedMaps,
+}
+
+/// Which values of single pixels are kept.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct WantedMaps {
+    /// The squared error.
+    pub(crate) squared_error: bool,
+    /// SSIM.
+    pub(crate) ssim: bool,
+}
+
+/// Values of single pixels, row by row; NaN where a pixel is left out. Empty where they are not wanted.
+#[derive(Debug, Default)]
+pub(crate) struct PixelMaps {
+    pub(crate) squared_error: Vec<f32>,
+    pub(crate) ssim: Vec<f32>,
+}
+
+impl PixelMaps {
+    fn new(wanted: WantedMaps, pixels: usize) -> Self {
+        let map = |wanted: bool| vec![f32::NAN; if wanted { pixels } else { 0 }];
+        Self { squared_error: map(wanted.squared_error), ssim: map(wanted.ssim) }
+    }
 }
 
 /// What MS-SSIM needs of a pass.
@@ -96,20 +123,23 @@ pub(crate) fn run(
     rows: &impl PairRows,
     regions: &Regions<'_>,
     wanted: &Wanted<'_>,
-) -> (Sums, Option<Scale>) {
+) -> (Sums, Option<Scale>, PixelMaps) {
     let (width, height) = rows.size();
     let blocks = map_row_blocks(height, |range| {
         let mut block = Block::new(rows, regions, wanted, range);
         for x in (0..width).step_by(TILE_COLUMNS) {
             block.tile(x..(x + TILE_COLUMNS).min(width));
         }
-        (block.sums, block.halved)
+        (block.sums, block.halved, block.maps)
     });
     let mut sums = Sums::new(regions.bands());
     let mut halved = Vec::new();
-    for (block, rows) in blocks {
+    let mut maps = PixelMaps::default();
+    for (block, rows, of_block) in blocks {
         sums.merge(&block);
         halved.extend(rows);
+        maps.squared_error.extend(of_block.squared_error);
+        maps.ssim.extend(of_block.ssim);
     }
     let scale = (wanted.scales == Scales::AndNext).then(|| Scale {
         width: width / 2,
@@ -119,7 +149,7 @@ pub(crate) fn run(
         unit: unit_below(rows.unit()),
         blocks: halved,
     });
-    (sums, scale)
+    (sums, scale, maps)
 }
 
 struct Block<'a, R> {
@@ -139,6 +169,8 @@ struct Block<'a, R> {
     map: Vec<f32>,
     sums: Sums,
     halved: Option<HalvedRows>,
+    /// Of the block's rows.
+    maps: PixelMaps,
 }
 
 /// A tile: its own columns, and those read for the windows around them.
@@ -178,6 +210,7 @@ impl<'a, R: PairRows> Block<'a, R> {
             map: vec![0.0; map_rows * TILE_COLUMNS],
             sums: Sums::new(regions.bands()),
             halved: (wanted.scales == Scales::AndNext).then(|| HalvedRows::of(source, rows.len())),
+            maps: PixelMaps::new(wanted.maps, width * rows.len()),
             rows,
         }
     }
@@ -256,6 +289,12 @@ impl<'a, R: PairRows> Block<'a, R> {
         squared_row(&rows[..planes], squared);
         let runs = self.regions.pixel_runs(y);
         add_by_band(squared, tile.xs.start, runs, &mut self.sums.squared);
+        if self.wanted.maps.squared_error {
+            let peak = self.source.peak();
+            let start = (y - self.rows.start) * self.source.size().0;
+            let row = &mut self.maps.squared_error[start..];
+            keep(squared, 1.0 / (planes as f32 * peak * peak), tile.xs.start, runs, row);
+        }
         if self.wanted.weight.is_some() {
             let weights = &self.weights[..n];
             self.sums.weighted_squared.add(weighted(squared, weights, tile.xs.start, runs));
@@ -271,6 +310,11 @@ impl<'a, R: PairRows> Block<'a, R> {
             self.sums.windows[usize::from(band)] += (to - from) as u64;
         }
         add_by_band(map, xs.start, runs, &mut self.sums.ssim);
+        if self.wanted.maps.ssim {
+            let start = (y - self.rows.start) * self.source.size().0;
+            let row = &mut self.maps.ssim[start..];
+            keep(map, 1.0 / self.source.planes() as f32, xs.start, runs, row);
+        }
         if self.wanted.weight.is_some() {
             let weights = &self.weights[xs.start - tile.xs.start..xs.end - tile.xs.start];
             self.sums.weighted_ssim.add(weighted(map, weights, xs.start, runs));
@@ -290,5 +334,12 @@ impl<'a, R: PairRows> Block<'a, R> {
                 halved.put((plane, part), below, tile.xs.start, row(y - 1), row(y));
             }
         }
+    }
+}
+
+/// Keeps the values of a stretch of a row, scaled, whose first stands in column `x`, where pixels count.
+fn keep(values: &[f32], scale: f32, x: usize, runs: &[Run], row: &mut [f32]) {
+    for (from, to, _) in clipped(runs, x..x + values.len()) {
+        scaled(&values[from - x..to - x], scale, &mut row[from..to]);
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! Decibels are never averaged over channels. In [0, ∞], higher is better; infinite for identical pictures.
 
+use super::mse;
 use crate::info::MetricInfo;
 use crate::pooling::{Pooling, Statistic};
 
@@ -12,6 +13,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     unit: "dB",
     per_band: true,
     statistics: &[Statistic::VALUE.pooled(Pooling::Decibels).over_frames(Pooling::Decibels)],
+    map: Some(&mse::MAP),
     about: "peak signal-to-noise ratio, -10 log10 MSE",
     source: "as scikit-image's peak_signal_noise_ratio",
     ..MetricInfo::FIDELITY

@@ -6,10 +6,12 @@ use thiserror::Error;
 
 use super::fpsnr::WeightField;
 use super::ms_ssim::{EXPONENTS, PairRows, combine};
-use super::pass::{Scales, Sums, Wanted, run};
+use super::pass::{PixelMaps, Scales, Sums, Wanted, WantedMaps, run};
 use super::psnr::psnr_db;
 use super::ssim::rows::Constants;
 use super::weighted_mean::WeightedMean;
+use super::{mse, ssim};
+use crate::map::{Map, MapInfo};
 use crate::pooling::Parts;
 use crate::regions::Regions;
 use crate::registry::{Metric, Params};
@@ -75,12 +77,22 @@ pub struct Scorer {
     metrics: Vec<Metric>,
     params: Params,
     lenient: bool,
+    maps: bool,
+}
+
+/// What was found of a pair.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scored {
+    /// The values.
+    pub rows: Rows,
+    /// The maps of metrics that have some, where they are asked for.
+    pub maps: Vec<Map>,
 }
 
 impl Scorer {
     /// A scorer for these metrics.
     pub fn new(metrics: Vec<Metric>, params: Params) -> Self {
-        Self { metrics, params, lenient: false }
+        Self { metrics, params, lenient: false, maps: false }
     }
 
     /// The same, but where a mask leaves no window, SSIM is left out of the scores instead of being
@@ -88,6 +100,12 @@ impl Scorer {
     #[must_use]
     pub fn lenient(self) -> Self {
         Self { lenient: true, ..self }
+    }
+
+    /// The same, with maps.
+    #[must_use]
+    pub fn with_maps(self, maps: bool) -> Self {
+        Self { maps, ..self }
     }
 
     /// The metrics.
@@ -104,7 +122,7 @@ impl Scorer {
         self.metrics.contains(&metric)
     }
 
-    /// Scores a pair. `weight` is needed by FPSNR and foveated SSIM alone.
+    /// Scores a pair, block by block. `weight` is needed by FPSNR and foveated SSIM alone.
     ///
     /// # Errors
     /// When a metric does not fit the frames or the mask, or has no weight.
@@ -116,7 +134,7 @@ impl Scorer {
         pair: &PairSignal<'_>,
         regions: &Regions<'_>,
         weight: Option<&WeightField>,
-    ) -> Result<Rows, ScoreError> {
+    ) -> Result<Scored, ScoreError> {
         let unfit = ScoreError::unfit(&self.metrics, &self.params, (pair.width(), pair.height()));
         if let Some((_, error)) = unfit.into_iter().next() {
             return Err(error);
@@ -138,17 +156,32 @@ impl Scorer {
             weight: weight.filter(|_| foveal.is_some()),
             ssim: map.then(|| Constants::new(&self.params.ssim, pair.peak())),
             scales: if self.wants(Metric::MsSsim) { Scales::AndNext } else { Scales::None },
+            maps: WantedMaps {
+                squared_error: self.has_map(&mse::MAP),
+                ssim: self.has_map(&ssim::MAP),
+            },
         };
-        let (sums, scale) = if squared_error || map {
+        let (sums, scale, maps) = if squared_error || map {
             run(pair, regions, &wanted)
         } else {
-            (Sums::new(regions.bands()), None)
+            (Sums::new(regions.bands()), None, PixelMaps::default())
         };
         let ms_ssim = scale.map(|scale| {
             let radius = wanted.ssim.as_ref().map_or(0, Constants::radius);
             coarser_scales(&sums, scale, (pair.width(), pair.height()), radius, &wanted)
         });
-        self.finish(pair, regions, &sums, ms_ssim)
+        let rows = self.finish(pair, regions, &sums, ms_ssim)?;
+        let size = (pair.width(), pair.height());
+        let maps = [(&mse::MAP, maps.squared_error), (&ssim::MAP, maps.ssim)].into_iter();
+        let maps = maps.filter(|(_, values)| !values.is_empty());
+        let maps = maps.map(|(map, values)| map.colored(size, values)).collect();
+        Ok(Scored { rows, maps })
+    }
+
+    /// Whether a map is asked for.
+    fn has_map(&self, map: &MapInfo) -> bool {
+        let has = |metric: &Metric| metric.info().map.is_some_and(|of| of.name == map.name);
+        self.maps && self.metrics.iter().any(has)
     }
 
     fn finish(
@@ -265,8 +298,9 @@ fn coarser_scales(
             weight: None,
             ssim: wanted.ssim.clone(),
             scales: if last { Scales::Last } else { Scales::AndNext },
+            maps: WantedMaps::default(),
         };
-        let (sums, next) = run(&scale, &Regions::unmasked(&bands), &wanted);
+        let (sums, next, _) = run(&scale, &Regions::unmasked(&bands), &wanted);
         means.push(sums.channels.map(|s| s / windows(w, h)));
         match next {
             Some(next) => scale = next,

@@ -52,7 +52,12 @@ impl Setup {
             None => Regions::unmasked(&self.bands),
         };
         let weight = WeightField::new(self.eccentricity, &self.params.fpsnr);
-        scorer.score(&PairSignal::new(a, b, &tables), &regions, Some(&weight))
+        let pair = PairSignal::new(a, b, &tables);
+        let scored = scorer.score(&pair, &regions, Some(&weight))?;
+        // Whoever wants maps too has the same values.
+        let with_maps = scorer.with_maps(true).score(&pair, &regions, Some(&weight))?;
+        assert_eq!(with_maps.rows, scored.rows);
+        Ok(scored.rows)
     }
 
     /// The band of a pixel, or `None`.

@@ -11,8 +11,10 @@ use super::grid::Grid;
 use super::level::DifferenceRows;
 use super::log_exp::{exp2, log2};
 use super::masking::powers;
+use super::params::MAP;
 use super::pooling::jod_exponent;
 use super::pyramid::expand;
+use crate::map::{Map, MapPicture};
 
 /// The differences of a frame, level by level.
 #[derive(Debug, Clone, Default)]
@@ -49,8 +51,25 @@ impl DifferenceMap {
         self.levels.push(level);
     }
 
+    /// The map, coloured over a picture's luminance: in units like JOD, 0 and above.
+    pub fn map(self, luminance: &Grid) -> Map {
+        let raw = self.raw();
+        let picture = |colors: MapColors| MapPicture {
+            name: Some(colors.name()),
+            codes: colored(&raw, luminance, colors),
+        };
+        Map {
+            name: MAP.name,
+            width: raw.width(),
+            height: raw.height(),
+            values: (0..raw.height()).flat_map(|y| raw.row(y)).copied().collect(),
+            is_half: true,
+            pictures: MapColors::ALL.map(picture).into(),
+        }
+    }
+
     /// The raw map: JOD-like units, 0 and above, row by row.
-    pub fn raw(mut self) -> Grid {
+    pub(crate) fn raw(mut self) -> Grid {
         let Some(mut image) = self.levels.pop() else { return Grid::new(1, 1) };
         while let Some(level) = self.levels.pop() {
             let mut finer = expand(&image, level.size());

@@ -5,6 +5,7 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 use super::color_space::ColorSpace;
 use super::score::SMALLEST_SIDE;
 use crate::info::{LeadIn, MetricInfo, MetricParams, Needs};
+use crate::map::{MapInfo, MapScale};
 use crate::pooling::{Pooling, Statistic};
 
 /// Of a frame: its JOD, and Q in all, by band of spatial frequency (the level) and channel, and by what
@@ -25,6 +26,13 @@ const STATISTICS: [Statistic; 6] = [
         .without_row(),
 ];
 
+/// Where a frame differs visibly.
+pub(crate) const MAP: MapInfo = MapInfo {
+    name: "fvvdp",
+    about: "visible difference, in units like JOD; coloured over a gray picture of the frame",
+    scale: MapScale::Own,
+};
+
 /// What there is to say about it.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "fvvdp",
@@ -40,6 +48,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     },
     smallest_side: |_| SMALLEST_SIDE,
     statistics: &STATISTICS,
+    map: Some(&MAP),
     about: "visible difference by eccentricity, over space and time: 10 for none, 1 less where 75 % prefer the reference; of bands, their share of the difference Q",
     source: "Mantiuk et al. 2021, version 1.2",
     params: &[

@@ -17,10 +17,18 @@ pub(crate) mod rows;
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::info::{MetricInfo, MetricParams};
+use crate::map::{MapInfo, MapScale};
 use crate::pooling::{Pooling, Statistic, Weight};
 
 /// The statistic by which bands are pooled: pixels of the band that have a value in the map.
 pub(crate) const MAP_PIXELS: &str = "map_pixels";
+
+/// SSIM around each pixel where the window fits: the mean over channels.
+pub(crate) const MAP: MapInfo = MapInfo {
+    name: "ssim",
+    about: "SSIM around each pixel, mean over channels; coloured from 1 (alike) to 0",
+    scale: MapScale::Linear { none: 1.0, most: 0.0 },
+};
 
 /// What there is to say about it.
 pub(crate) const INFO: MetricInfo = MetricInfo {
@@ -32,6 +40,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
         Statistic::VALUE.over_bands(Pooling::Mean).weighed_by(Weight::Statistic(MAP_PIXELS)),
         Statistic::count(MAP_PIXELS),
     ],
+    map: Some(&MAP),
     about: "structural similarity, the mean of its map where the window fits",
     source: "Wang, Bovik, Sheikh, Simoncelli 2004",
     params: &[

@@ -17,7 +17,7 @@ fn ssim(params: &Params, tables: &SignalTables, a: &Frame, b: &Frame) -> f64 {
     let bands = BandMap::without_bands(a.width(), a.height());
     let pair = PairSignal::new(a, b, tables);
     let scores = scorer.score(&pair, &Regions::unmasked(&bands), None).unwrap();
-    score(&scores, Metric::Ssim)
+    score(&scores.rows, Metric::Ssim)
 }
 
 /// Without structure SSIM is (2 a b + C1) / (a² + b² + C1).
