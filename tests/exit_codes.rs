@@ -148,7 +148,7 @@ const RUN: &[Case] = &[
     ("run c.toml", 2, "curve"),
     ("run e.toml --frames x", 2, "A..B"),
     ("run e.toml --threads 300", 2, "300"),
-    ("run e.toml --maps m", 2, "--maps"),
+    ("run e.toml --output r --maps file", 3, "file"),
     ("run gone.toml --output r", 3, "gone"),
     ("run trace.toml --output r", 3, "no.csv"),
     ("run onebad.toml --output r", 3, "11 frames scored all the same"),

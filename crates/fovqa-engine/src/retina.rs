@@ -2,7 +2,7 @@
 //! come back to where they were.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use fovqa_frame::Mask;
@@ -23,26 +23,30 @@ const USES_OF_A_FIELD: usize = 3;
 #[derive(Debug)]
 pub(crate) struct Retina {
     pub(crate) bands: BandMap,
-    /// Bands of the blocks of each level of the wavelet.
-    pub(crate) blocks: Vec<BandMap>,
+    /// Bands of blocks, by how many levels of them a metric needs.
+    blocks: BTreeMap<usize, Vec<BandMap>>,
     pub(crate) weight: Option<WeightField>,
     /// Bands of the levels of FovVideoVDP.
     pub(crate) fvvdp: Option<FvvdpRegions>,
     /// What the mask leaves of the bands.
-    masked: Option<(Regions<'static>, BlockRegions<'static>)>,
+    masked: Option<(Regions<'static>, Blocks<'static>)>,
     /// Memory it takes, without what the mask leaves, which is of the same size.
     bytes: usize,
 }
 
+/// Bands of blocks, less what a mask leaves out, by how many levels of them a metric needs.
+pub(crate) type Blocks<'a> = BTreeMap<usize, BlockRegions<'a>>;
+
 impl Retina {
     /// The regions of a frame: bands, less what the mask leaves out.
-    pub(crate) fn regions(&self) -> (Cow<'_, Regions<'_>>, Cow<'_, BlockRegions<'_>>) {
+    pub(crate) fn regions(&self) -> (Cow<'_, Regions<'_>>, Cow<'_, Blocks<'_>>) {
         match &self.masked {
             Some((regions, blocks)) => (Cow::Borrowed(regions), Cow::Borrowed(blocks)),
-            None => (
-                Cow::Owned(Regions::unmasked(&self.bands)),
-                Cow::Owned(BlockRegions::unmasked(&self.blocks)),
-            ),
+            None => {
+                let blocks = self.blocks.iter();
+                let blocks = blocks.map(|(levels, maps)| (*levels, BlockRegions::unmasked(maps)));
+                (Cow::Owned(Regions::unmasked(&self.bands)), Cow::Owned(blocks.collect()))
+            }
         }
     }
 
@@ -51,10 +55,15 @@ impl Retina {
         &self,
         mask: &Mask,
         window_radius: usize,
-    ) -> (Cow<'_, Regions<'_>>, Cow<'_, BlockRegions<'_>>) {
+    ) -> (Cow<'_, Regions<'_>>, Cow<'_, Blocks<'_>>) {
         let regions = Regions::masked(&self.bands, mask, window_radius);
-        (Cow::Owned(regions), Cow::Owned(BlockRegions::masked(&self.blocks, mask)))
+        (Cow::Owned(regions), Cow::Owned(masked(&self.blocks, mask)))
     }
+}
+
+fn masked(blocks: &BTreeMap<usize, Vec<BandMap>>, mask: &Mask) -> Blocks<'static> {
+    let masked = blocks.iter().map(|(levels, maps)| (*levels, BlockRegions::masked(maps, mask)));
+    masked.collect()
 }
 
 /// How an eye sees the frames.
@@ -73,7 +82,8 @@ pub(crate) struct RetinaMaker<'a> {
     pub(crate) size: (usize, usize),
     pub(crate) params: &'a Params,
     pub(crate) foveal: bool,
-    pub(crate) haar_levels: Option<usize>,
+    /// How many levels of blocks metrics need, each its own.
+    pub(crate) block_levels: BTreeSet<usize>,
     pub(crate) fvvdp: Option<Fvvdp>,
     pub(crate) mask: Option<Mask>,
     /// Radius of the windows whose every pixel has to count.
@@ -92,18 +102,25 @@ pub(crate) fn key(gaze_px: [f64; 2]) -> Key {
 impl RetinaMaker<'_> {
     fn make(&self, gaze_px: [f64; 2]) -> Retina {
         let (bands, blocks, weight) = match &self.sight {
-            None => (BandMap::without_bands(self.size.0, self.size.1), Vec::new(), None),
+            None => {
+                let levels = self.block_levels.iter();
+                let maps = |levels: &usize| {
+                    (*levels, BlockRegions::maps_without_bands(self.size, *levels))
+                };
+                let bands = BandMap::without_bands(self.size.0, self.size.1);
+                (bands, levels.map(maps).collect(), None)
+            }
             Some(sight) => self.seen(sight, gaze_px),
         };
         let masked = self.mask.as_ref().map(|mask| {
             let regions = Regions::masked(&bands, mask, self.window_radius);
-            (regions, BlockRegions::masked(&blocks, mask))
+            (regions, masked(&blocks, mask))
         });
         let fvvdp = self.sight.as_ref().zip(self.fvvdp.as_ref()).map(|(sight, fvvdp)| {
             let eccentricity = Eccentricity::new(sight.view, gaze_px, sight.kind);
             fvvdp.regions(&eccentricity, &sight.edges)
         });
-        let maps = blocks.iter().chain([&bands]).map(BandMap::bytes).sum::<usize>();
+        let maps = blocks.values().flatten().chain([&bands]).map(BandMap::bytes).sum::<usize>();
         let bytes = maps
             + weight.as_ref().map_or(0, WeightField::bytes)
             + fvvdp.as_ref().map_or(0, FvvdpRegions::bytes);
@@ -114,7 +131,7 @@ impl RetinaMaker<'_> {
         &self,
         sight: &Sight,
         gaze_px: [f64; 2],
-    ) -> (BandMap, Vec<BandMap>, Option<WeightField>) {
+    ) -> (BandMap, BTreeMap<usize, Vec<BandMap>>, Option<WeightField>) {
         let eccentricity = Eccentricity::new(sight.view, gaze_px, sight.kind);
         let fits = self.size.0 * self.size.1 * size_of::<f32>() <= MAX_FIELD_BYTES;
         let often = self.uses.get(&key(gaze_px)).is_some_and(|uses| *uses >= USES_OF_A_FIELD);
@@ -122,8 +139,9 @@ impl RetinaMaker<'_> {
             let field = WeightField::new(eccentricity, &self.params.fpsnr);
             if often && fits { field.precomputed() } else { field }
         });
-        let levels = self.haar_levels.unwrap_or(0);
-        let blocks = BlockRegions::maps(&eccentricity, &sight.edges, levels);
+        let maps =
+            |levels: &usize| (*levels, BlockRegions::maps(&eccentricity, &sight.edges, *levels));
+        let blocks = self.block_levels.iter().map(maps).collect();
         (BandMap::new(&eccentricity, &sight.edges), blocks, weight)
     }
 }
@@ -191,7 +209,7 @@ mod tests {
             size: (64, 48),
             params,
             foveal: true,
-            haar_levels: Some(3),
+            block_levels: BTreeSet::from([3]),
             fvvdp: None,
             mask: None,
             window_radius: 5,
@@ -207,7 +225,7 @@ mod tests {
         let other = retinas.at([2.0, 2.0]);
         assert!(!Arc::ptr_eq(&first, &other));
         assert!(Arc::ptr_eq(&first, &retinas.at([1.0, 1.0])));
-        assert_eq!(first.blocks.len(), 3);
+        assert_eq!(first.blocks[&3].len(), 3);
         assert!(first.bytes > other.bytes + 64 * 48 * 4 - 1000, "its weights are written down");
     }
 

@@ -61,7 +61,8 @@ impl<'a> Setup<'a> {
         }
         let wants_fvvdp = metrics.contains(&Metric::Fvvdp);
         let foveal = Needs::of(&metrics).foveal_weight;
-        let wants_haar = metrics.contains(&Metric::Haar);
+        let levels = |metric: &Metric| (metric.info().needs.block_levels)(&plan.params);
+        let block_levels = metrics.iter().map(levels).filter(|levels| *levels > 0).collect();
         let seen = inputs.settings.view.as_ref().map(|spec| look(inputs, spec, size, warnings));
         let (sight, view) = seen.transpose()?.unzip();
         let fvvdp = sight.as_ref().filter(|_| wants_fvvdp && fits_fvvdp(size)).map(|sight| {
@@ -90,7 +91,7 @@ impl<'a> Setup<'a> {
             size,
             params: &plan.params,
             foveal,
-            haar_levels: wants_haar.then_some(plan.params.haar.levels as usize),
+            block_levels,
             fvvdp,
             mask,
             window_radius: plan.params.ssim.window_radius(),

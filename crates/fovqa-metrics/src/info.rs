@@ -3,6 +3,7 @@
 use fovqa_params::{ParamError, ParamInfo, ParamValue};
 
 use crate::map::MapInfo;
+use crate::pair_pass::PairPass;
 use crate::pooling::Statistic;
 use crate::registry::{Metric, Params};
 
@@ -27,6 +28,8 @@ pub struct MetricInfo {
     pub needs: Needs,
     /// Its statistics, and how each is pooled.
     pub statistics: &'static [Statistic],
+    /// How a pair is measured, where the metric has a pass of its own.
+    pub pass: Option<PairPass>,
     /// The map it has of a pair.
     pub map: Option<&'static MapInfo>,
     /// The smallest side that a frame may have, pixels.
@@ -51,6 +54,7 @@ impl MetricInfo {
         per_band: false,
         needs: Needs::NOTHING,
         statistics: &[Statistic::VALUE],
+        pass: None,
         map: None,
         smallest_side: |_| 1,
         about: "",
@@ -91,7 +95,7 @@ pub enum Better {
 }
 
 /// What a metric needs beside the two frames of a pair.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Needs {
     /// A view, even without bands.
     pub view: bool,
@@ -103,6 +107,8 @@ pub struct Needs {
     pub guides: bool,
     /// Frames before the present one.
     pub lead_in: LeadIn,
+    /// Bands of blocks of 2x2 pixels and, level by level, of 2x2 of those: so many levels; 0: none.
+    pub block_levels: fn(&Params) -> usize,
     /// Every pixel: it is not defined where some are left out.
     pub every_pixel: bool,
 }
@@ -115,25 +121,22 @@ impl Needs {
         foveal_weight: false,
         guides: false,
         lead_in: LeadIn::None,
+        block_levels: |_| 0,
         every_pixel: false,
     };
 
-    /// What either of two metrics needs.
-    #[must_use]
-    pub fn and(self, other: Self) -> Self {
-        Self {
-            view: self.view || other.view,
-            luminance: self.luminance || other.luminance,
-            foveal_weight: self.foveal_weight || other.foveal_weight,
-            guides: self.guides || other.guides,
-            lead_in: self.lead_in.max(other.lead_in),
-            every_pixel: self.every_pixel || other.every_pixel,
-        }
-    }
-
-    /// What any of some metrics needs.
+    /// What any of some metrics needs; the blocks of each are its own.
     pub fn of(metrics: &[Metric]) -> Self {
-        metrics.iter().map(|metric| metric.info().needs).fold(Self::NOTHING, Self::and)
+        let needs = || metrics.iter().map(|metric| metric.info().needs);
+        Self {
+            view: needs().any(|needs| needs.view),
+            luminance: needs().any(|needs| needs.luminance),
+            foveal_weight: needs().any(|needs| needs.foveal_weight),
+            guides: needs().any(|needs| needs.guides),
+            lead_in: needs().map(|needs| needs.lead_in).max().unwrap_or(LeadIn::None),
+            block_levels: Self::NOTHING.block_levels,
+            every_pixel: needs().any(|needs| needs.every_pixel),
+        }
     }
 }
 

@@ -101,6 +101,13 @@ impl<'a> BlockRegions<'a> {
         maps.collect()
     }
 
+    /// The same without bands: every block is outside.
+    pub fn maps_without_bands((width, height): (usize, usize), levels: usize) -> Vec<BandMap> {
+        let side = |side: usize, level: usize| (side >> levels) << (levels - level);
+        let map = |level| BandMap::without_bands(side(width, level), side(height, level));
+        (1..=levels).map(map).collect()
+    }
+
     pub(crate) fn levels(&self) -> usize {
         self.0.len()
     }

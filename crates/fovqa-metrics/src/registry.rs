@@ -3,6 +3,7 @@
 use fovqa_params::{ParamError, ParamValue, find};
 
 use crate::info::{MetricInfo, MetricKind, MetricParams};
+use crate::pooling::Statistic;
 use crate::{fidelity, profile, temporal};
 
 /// Metrics in the order of tables: the name here, the name of its parameters, its file.
@@ -105,6 +106,12 @@ impl Metric {
     /// Whether it is of one kind.
     pub fn is(self, kind: MetricKind) -> bool {
         self.info().kind == kind
+    }
+
+    /// Whether the frames of a sequence have a value together that is not made of theirs, beside means.
+    pub fn pools_frames(self) -> bool {
+        let own = |statistic: &&Statistic| statistic.name.is_empty();
+        self.info().statistics.iter().find(own).is_some_and(Statistic::pools_frames)
     }
 
     /// Whether its value is a number of decibels, infinite for identical pictures.

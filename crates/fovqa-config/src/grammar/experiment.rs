@@ -307,7 +307,7 @@ static GATE_TABLE: [Key; 14] = [
     key(
         "statistic",
         Kind::Text,
-        "of haar: mean_abs, max_abs, energy; of fvvdp: jod (of the sequence, the default), frame_jod, q, share, q_sustained, q_transient; of psnr, fpsnr, pu_psnr: pooled (of the sequence)",
+        "of haar: mean_abs, max_abs, energy; of fvvdp: jod (of the sequence, the default), frame_jod, q, share, q_sustained, q_transient; of metrics that pool their frames, such as psnr: pooled (of the sequence)",
     ),
     key("image", Kind::Word(&["pair", "test", "reference", "ratio"]), "of which picture"),
     key("level", Kind::Whole(1, 32), "level of the wavelet, or spatial band of fvvdp"),

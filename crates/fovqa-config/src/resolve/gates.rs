@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fovqa_metrics::{Better, Metric, MetricKind};
+use fovqa_metrics::{Better, Key, Metric, MetricKind, Pooling, Subject};
 
 use super::plots::Known;
 use super::scenes::Resolved;
@@ -52,7 +52,8 @@ fn rule(
         let message = "the rule is of an eye, and none of its scenes has two";
         faults.push(Fault::new(table.span("eye"), message));
     }
-    bands(table, metric, &known.scenes.iter().filter(of).collect::<Vec<_>>(), faults);
+    let of_scenes = known.scenes.iter().filter(of).collect::<Vec<_>>();
+    bands(table, metric, &quantity.statistic, &of_scenes, faults);
     let rule = GateRule {
         line: text.get(..span.start).unwrap_or_default().matches('\n').count() + 1,
         name: table.text("name").map(str::to_owned),
@@ -131,7 +132,7 @@ fn statistic(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fa
             let split = if known.params.haar.orientations { &ORIENTATIONS[..] } else { &[] };
             plain.chain(split.iter().flat_map(of)).collect()
         }
-        Metric::Psnr | Metric::Fpsnr | Metric::PuPsnr => vec!["pooled".to_owned()],
+        metric if metric.pools_frames() => vec!["pooled".to_owned()],
         _ => Vec::new(),
     };
     let Some(word) = table.text("statistic") else {
@@ -218,7 +219,13 @@ fn level(
 
 /// Whether a rule's band is one, or several, of those that are scored, as far as that can be told before
 /// frames are read.
-fn bands(table: Node<'_>, metric: Metric, scenes: &[&Resolved], faults: &mut Faults) {
+fn bands(
+    table: Node<'_>,
+    metric: Metric,
+    statistic: &str,
+    scenes: &[&Resolved],
+    faults: &mut Faults,
+) {
     let span = table.span("band_deg");
     let Some([from, to]) = table.array::<2>("band_deg") else {
         let of_bands = metric.is(MetricKind::Profile)
@@ -275,7 +282,11 @@ fn bands(table: Node<'_>, metric: Metric, scenes: &[&Resolved], faults: &mut Fau
             return;
         }
     }
-    if inside > 1 && matches!(metric, Metric::RmsContrast | Metric::Atd) {
+    // The pooled value of all frames is made of the metric's own.
+    let statistic = if statistic == "pooled" { "" } else { statistic };
+    let key = Key::named(Subject::Metric(metric), statistic);
+    let apart = key.is_some_and(|key| key.statistic().bands == Pooling::None);
+    if inside > 1 && apart {
         let message = format!("{} of several bands cannot be put together", metric.key());
         faults.push(Fault::new(span, message).help("name one band"));
     }

@@ -23,7 +23,7 @@ impl Fidelity {
     }
 }
 
-fn unscored(file: &str, error: &ScoreError) -> Fault {
+pub(super) fn unscored(file: &str, error: &ScoreError) -> Fault {
     Fault {
         message: format!("{file}: {error}"),
         help: format!("leave it out of {{metrics}}, or {}", score_help(error)),

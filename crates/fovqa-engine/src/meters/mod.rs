@@ -6,26 +6,29 @@
 mod fidelity;
 mod light;
 mod lumas;
+mod own;
 mod profiles;
 mod temporal;
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use fovqa_config::{Plan, Settings};
 use fovqa_frame::{Mask, SignalTables};
-use fovqa_metrics::{BlockRegions, Map, Metric, Regions, Rows, Scored};
+use fovqa_metrics::{Map, Metric, Regions, Rows, Scored};
 use fovqa_results::{AtdGuides, FvvdpSight};
 
 use crate::events::Warnings;
 use crate::find::FoundView;
 use crate::load::{Fault, Side};
-use crate::retina::Retina;
+use crate::retina::{Blocks, Retina};
 use crate::setup::Setup;
 use crate::work::Work;
 use fidelity::Fidelity;
 use light::Light;
 pub(crate) use light::LoadPair;
 use lumas::Lumas;
+use own::Own;
 use profiles::Profiles;
 use temporal::Temporal;
 
@@ -33,6 +36,8 @@ use temporal::Temporal;
 enum Meter {
     /// What compares the signals of test and reference: one fused pass.
     Fidelity(Fidelity),
+    /// What compares them too, each metric in a pass of its own.
+    Own(Own),
     /// What is of the light that the display shows.
     Light(Box<Light>),
     /// What is measured of each picture by itself.
@@ -59,11 +64,37 @@ pub(crate) struct Pair<'a> {
     pub(crate) retina: &'a Retina,
     /// Which pixels count, and into which band.
     pub(crate) regions: &'a Regions<'a>,
-    /// The same of the blocks of the wavelet.
-    pub(crate) blocks: &'a BlockRegions<'a>,
+    /// The same of blocks, by how many levels of them a metric needs.
+    pub(crate) blocks: &'a Blocks<'a>,
     /// Where both pictures are finite; `None`: everywhere.
     pub(crate) finite: Option<&'a Mask>,
     pub(crate) load: &'a LoadPair<'a>,
+}
+
+/// How far the pairs of a method are through.
+struct Sequence {
+    /// Index of the method.
+    method: usize,
+    /// How many are.
+    done: usize,
+    /// The place behind the last that comes.
+    end: usize,
+    /// Whether some are to be scored.
+    goes_on: bool,
+}
+
+impl Meter {
+    /// Goes on with a method's pairs where some are through: those of them that it has to have seen.
+    fn lead_in(&mut self, sequence: &Sequence) -> Range<usize> {
+        let &Sequence { method, done, end, goes_on } = sequence;
+        match self {
+            Meter::Light(light) => light.go_on(method, done, end),
+            Meter::Temporal(_) if goes_on => done.saturating_sub(1)..done,
+            Meter::Temporal(_) | Meter::Fidelity(_) | Meter::Own(_) | Meter::Profiles(_) => {
+                done..done
+            }
+        }
+    }
 }
 
 /// What was measured of a pair.
@@ -71,6 +102,13 @@ pub(crate) struct Pair<'a> {
 pub(crate) struct Measured {
     pub(crate) rows: Rows,
     pub(crate) maps: Vec<Map>,
+}
+
+impl Measured {
+    fn add(&mut self, Scored { rows, maps }: Scored) {
+        self.rows.extend(&rows);
+        self.maps.extend(maps);
+    }
 }
 
 /// All meters of a view.
@@ -92,6 +130,7 @@ impl Meters {
         let lumas = Lumas::new(temporal.is_some());
         let meters = [
             Some(Meter::Fidelity(Fidelity::new(plan, metrics))),
+            Some(Meter::Own(Own::new(plan, metrics))),
             Light::new(plan, settings, metrics, view, fps).map(|light| Meter::Light(light.into())),
             Some(Meter::Profiles(Profiles::new(plan, metrics))),
             temporal.map(|temporal| Meter::Temporal(temporal.into())),
@@ -104,6 +143,7 @@ impl Meters {
         for meter in &mut self.meters {
             match meter {
                 Meter::Fidelity(fidelity) => *fidelity = Fidelity::new(plan, metrics),
+                Meter::Own(own) => *own = Own::new(plan, metrics),
                 Meter::Profiles(profiles) => *profiles = Profiles::new(plan, metrics),
                 Meter::Light(_) | Meter::Temporal(_) => {}
             }
@@ -117,15 +157,10 @@ impl Meters {
         for method in work.methods() {
             let before = work.before(work.first(), method);
             let end = work.before(work.end(), method).len();
+            let sequence =
+                Sequence { method, done: before.len(), end, goes_on: work.is_of(method) };
             for meter in &mut self.meters {
-                let range = match meter {
-                    Meter::Light(light) => light.go_on(method, before.len(), end),
-                    Meter::Temporal(_) if work.is_of(method) => {
-                        before.len().saturating_sub(1)..before.len()
-                    }
-                    _ => continue,
-                };
-                pairs.extend(&before[range]);
+                pairs.extend(&before[meter.lead_in(&sequence)]);
             }
         }
         pairs
@@ -156,7 +191,7 @@ impl Meters {
             match meter {
                 Meter::Profiles(profiles) => profiles.leave(),
                 Meter::Temporal(temporal) => temporal.leave(reference, position),
-                Meter::Fidelity(_) | Meter::Light(_) => {}
+                Meter::Fidelity(_) | Meter::Own(_) | Meter::Light(_) => {}
             }
         }
     }
@@ -170,10 +205,11 @@ impl Meters {
         let mut measured = Measured::default();
         for meter in &mut self.meters {
             match meter {
-                Meter::Fidelity(fidelity) => {
-                    let Scored { rows, maps } = fidelity.measure(pair)?;
-                    measured.rows.extend(&rows);
-                    measured.maps.extend(maps);
+                Meter::Fidelity(fidelity) => measured.add(fidelity.measure(pair)?),
+                Meter::Own(own) => {
+                    for scored in own.measure(pair) {
+                        measured.add(scored?);
+                    }
                 }
                 Meter::Light(light) => light.measure(pair, &mut measured, warnings),
                 Meter::Profiles(profiles) => {
@@ -197,7 +233,10 @@ impl Meters {
                 Meter::Fidelity(fidelity) if pair.finite.is_some() => {
                     fidelity.measure(pair)?;
                 }
-                Meter::Fidelity(_) => {}
+                Meter::Own(own) if pair.finite.is_some() => {
+                    own.measure(pair).try_for_each(|scored| scored.map(|_| ()))?;
+                }
+                Meter::Fidelity(_) | Meter::Own(_) => {}
                 Meter::Light(light) => light.take_in(pair),
                 Meter::Profiles(_) => profiles::take_in(pair, &mut self.lumas),
                 Meter::Temporal(temporal) => temporal.take_in(pair, &mut self.lumas),

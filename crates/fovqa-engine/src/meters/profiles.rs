@@ -3,7 +3,7 @@
 
 use fovqa_config::Plan;
 use fovqa_metrics::temporal::KeptPlane;
-use fovqa_metrics::{Image, Metric, Profiler, Rows};
+use fovqa_metrics::{BlockRegions, Image, Metric, Profiler, Rows};
 
 use super::{Lumas, Pair};
 
@@ -51,5 +51,8 @@ fn one(profiler: &Profiler, pair: &Pair<'_>, image: Image, plane: Option<&mut Ke
         return Rows::default();
     }
     let side = if image == Image::Reference { pair.reference } else { pair.test };
-    profiler.measure(&side.frame, pair.tables, pair.regions, pair.blocks, image, plane)
+    let none = BlockRegions::default();
+    let levels = profiler.haar_levels().unwrap_or(0);
+    let blocks = pair.blocks.get(&levels).unwrap_or(&none);
+    profiler.measure(&side.frame, pair.tables, pair.regions, blocks, image, plane)
 }

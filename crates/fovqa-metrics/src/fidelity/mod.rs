@@ -8,11 +8,14 @@ pub(crate) mod mse;
 mod pass;
 pub(crate) mod psnr;
 pub mod pu_psnr;
+mod score_error;
 mod scorer;
 pub mod ssim;
 #[cfg(test)]
 mod tests;
+mod totals;
 mod weighted_mean;
 
 pub use psnr::{mse_of_db, psnr_db};
-pub use scorer::{ScoreError, Scored, Scorer};
+pub use score_error::ScoreError;
+pub use scorer::{Scored, Scorer};

@@ -2,74 +2,19 @@
 
 use fovqa_frame::PairSignal;
 use fovqa_vision::BandMap;
-use thiserror::Error;
 
 use super::fpsnr::WeightField;
 use super::ms_ssim::{EXPONENTS, PairRows, combine};
 use super::pass::{PixelMaps, Scales, Sums, Wanted, WantedMaps, run};
 use super::psnr::psnr_db;
+use super::score_error::ScoreError;
 use super::ssim::rows::Constants;
-use super::weighted_mean::WeightedMean;
+use super::totals::Totals;
 use super::{mse, ssim};
 use crate::map::{Map, MapInfo};
-use crate::pooling::Parts;
 use crate::regions::Regions;
 use crate::registry::{Metric, Params};
-use crate::row::{Key, Rows, Subject};
-
-/// A pair that a metric cannot score.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum ScoreError {
-    /// A picture smaller than the metric's window.
-    #[error("{} needs {needed} pixels on each side; the frame has {width}x{height}", metric.info().label)]
-    TooSmall {
-        /// The metric.
-        metric: Metric,
-        /// Width of the frame.
-        width: usize,
-        /// Height of the frame.
-        height: usize,
-        /// Smallest side.
-        needed: usize,
-    },
-    /// A metric that is not defined where pixels are left out.
-    #[error("{} is not defined where pixels are left out", metric.info().label)]
-    Masked {
-        /// The metric.
-        metric: Metric,
-    },
-    /// A mask without a pixel.
-    #[error("the mask leaves no pixel to score")]
-    NothingLeft,
-    /// A mask without a whole window.
-    #[error("the mask leaves no whole window for {}", metric.info().label)]
-    NoWindow {
-        /// The metric.
-        metric: Metric,
-    },
-    /// A foveal metric without a weight.
-    #[error("{} needs a view", metric.info().label)]
-    NoView {
-        /// The metric.
-        metric: Metric,
-    },
-}
-
-impl ScoreError {
-    /// The metrics that do not fit frames of a size, and why.
-    pub fn unfit(
-        metrics: &[Metric],
-        params: &Params,
-        (width, height): (usize, usize),
-    ) -> Vec<(Metric, ScoreError)> {
-        let too_small = metrics.iter().filter_map(|&metric| {
-            let needed = (metric.info().smallest_side)(params);
-            let error = ScoreError::TooSmall { metric, width, height, needed };
-            (width.min(height) < needed).then_some((metric, error))
-        });
-        too_small.collect()
-    }
-}
+use crate::row::{Key, Rows};
 
 /// Computes a set of metrics.
 #[derive(Debug, Clone)]
@@ -192,70 +137,30 @@ impl Scorer {
         ms_ssim: Option<f64>,
     ) -> Result<Rows, ScoreError> {
         let pixels = regions.pixels();
-        let all: u64 = pixels.iter().sum();
-        if all == 0 {
+        if pixels.iter().sum::<u64>() == 0 {
             return Err(ScoreError::NothingLeft);
         }
-        let planes = pair.planes() as f64;
-        let peak = f64::from(pair.peak());
-        // One rounding: sums of integer codes, and what divides them, are exact.
-        let mse = |squared: f64, pixels: u64| squared / (planes * pixels as f64 * peak * peak);
-        let ssim = |sum: f64, windows: u64| sum / (planes * windows as f64);
-        let windows: u64 = sums.windows.iter().sum();
-        let frame_mse = mse(sums.squared.iter().sum(), all);
-        let fmse = sums.weighted_squared.mean().map(|m| m / (planes * peak * peak));
-
-        let mut rows = Rows::default();
-        let bands = pixels.len() - 1;
-        count_pixels(&pixels, regions.left_out(), &mut rows);
-        let squared = |squared: f64, pixels: u64| Parts::Mean {
-            sum: squared / (planes * peak * peak),
-            weight: pixels as f64,
+        let totals = Totals {
+            sums,
+            pixels: &pixels,
+            planes: pair.planes() as f64,
+            peak: f64::from(pair.peak()),
         };
-        let map =
-            |sum: f64, windows: u64| Parts::Mean { sum: sum / planes, weight: windows as f64 };
+        let mut rows = Rows::default();
+        totals.count(regions.left_out(), &mut rows);
         for &metric in &self.metrics {
             let (key, no_window) = (Key::of(metric), ScoreError::NoWindow { metric });
-            let mut add = |key: Key, value: Option<f64>, parts| rows.push(key, value, parts);
             match metric {
-                Metric::Mse | Metric::Psnr => {
-                    let of = |mse| if metric == Metric::Psnr { psnr_db(mse) } else { mse };
-                    add(key, Some(of(frame_mse)), squared(sums.squared.iter().sum(), all));
-                    for (band, (&sum, &pixels)) in
-                        sums.squared.iter().zip(&pixels).take(bands).enumerate()
-                    {
-                        let value = (pixels > 0).then(|| of(mse(sum, pixels)));
-                        add(key.in_band(band), value, squared(sum, pixels));
-                    }
-                }
+                Metric::Mse => totals.squared_error(key, |mse| mse, &mut rows),
+                Metric::Psnr => totals.squared_error(key, psnr_db, &mut rows),
                 Metric::Fpsnr => {
-                    let WeightedMean { weighted, weight } = sums.weighted_squared;
-                    let parts = Parts::Mean { sum: weighted / (planes * peak * peak), weight };
-                    add(key, Some(psnr_db(fmse.ok_or(ScoreError::NothingLeft)?)), parts);
+                    let scored = totals.weighted_squared_error(key, &mut rows);
+                    scored.ok_or(ScoreError::NothingLeft)?;
                 }
-                Metric::Ssim => {
-                    match windows {
-                        0 if self.lenient => {}
-                        0 => return Err(no_window),
-                        _ => add(
-                            key,
-                            Some(ssim(sums.ssim.iter().sum(), windows)),
-                            map(sums.ssim.iter().sum(), windows),
-                        ),
-                    }
-                    for (band, (&sum, &windows)) in
-                        sums.ssim.iter().zip(&sums.windows).take(bands).enumerate()
-                    {
-                        let value = (windows > 0).then(|| ssim(sum, windows));
-                        add(key.in_band(band), value, map(sum, windows));
-                        add(key.nth(1).in_band(band), Some(windows as f64), Parts::Value);
-                    }
-                }
-                Metric::MsSsim => add(key, Some(ms_ssim.ok_or(no_window)?), Parts::Value),
-                Metric::Fssim => {
-                    let mean = sums.weighted_ssim.mean().ok_or(no_window)?;
-                    add(key, Some(mean / planes), Parts::Value);
-                }
+                Metric::Ssim if totals.ssim(key, &mut rows) || self.lenient => {}
+                Metric::Ssim => return Err(no_window),
+                Metric::MsSsim => rows.score(key, ms_ssim.ok_or(no_window)?),
+                Metric::Fssim => totals.weighted_ssim(key, &mut rows).ok_or(no_window)?,
                 // Measured elsewhere.
                 _ => {}
             }
@@ -263,19 +168,6 @@ impl Scorer {
         rows.sort();
         Ok(rows)
     }
-}
-
-/// The pixels that count: of each band, outside of all bands, and those that a mask leaves out.
-fn count_pixels(pixels: &[u64], left_out: u64, rows: &mut Rows) {
-    if let [bands @ .., outside] = pixels
-        && !bands.is_empty()
-    {
-        for (band, pixels) in bands.iter().enumerate() {
-            rows.count(Key::pixels(Subject::Pixels).in_band(band), *pixels);
-        }
-        rows.count(Key::pixels(Subject::PixelsOutsideBands), *outside);
-    }
-    rows.count(Key::pixels(Subject::PixelsLeftOut), left_out);
 }
 
 /// MS-SSIM from the finest scale's sums and the next scale.

@@ -14,7 +14,7 @@ use multiversion::multiversion;
 
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
-use crate::info::{MetricInfo, MetricParams};
+use crate::info::{MetricInfo, MetricParams, Needs};
 use crate::pooling::{Parts, Pooling, Statistic, Weight};
 use crate::row::{Image, Key, Rows};
 
@@ -50,6 +50,11 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "haar",
     label: "Haar wavelet",
     smallest_side: |params| params.haar.block_side(),
+    needs: Needs {
+        view: true,
+        block_levels: |params| params.haar.levels as usize,
+        ..Needs::NOTHING
+    },
     statistics: &STATISTICS,
     about: "wavelet coefficients of luma by level and band (mean_abs, max_abs, energy), of reference and test, and their ratios",
     source: "Patney et al. 2016, 4.4.2, Fig. 10",

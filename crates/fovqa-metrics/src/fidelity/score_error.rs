@@ -1,0 +1,59 @@
+//! Why a pair has no score.
+
+use thiserror::Error;
+
+use crate::registry::{Metric, Params};
+
+/// A pair that a metric cannot score.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ScoreError {
+    /// A picture smaller than the metric's window.
+    #[error("{} needs {needed} pixels on each side; the frame has {width}x{height}", metric.info().label)]
+    TooSmall {
+        /// The metric.
+        metric: Metric,
+        /// Width of the frame.
+        width: usize,
+        /// Height of the frame.
+        height: usize,
+        /// Smallest side.
+        needed: usize,
+    },
+    /// A metric that is not defined where pixels are left out.
+    #[error("{} is not defined where pixels are left out", metric.info().label)]
+    Masked {
+        /// The metric.
+        metric: Metric,
+    },
+    /// A mask without a pixel.
+    #[error("the mask leaves no pixel to score")]
+    NothingLeft,
+    /// A mask without a whole window.
+    #[error("the mask leaves no whole window for {}", metric.info().label)]
+    NoWindow {
+        /// The metric.
+        metric: Metric,
+    },
+    /// A foveal metric without a weight.
+    #[error("{} needs a view", metric.info().label)]
+    NoView {
+        /// The metric.
+        metric: Metric,
+    },
+}
+
+impl ScoreError {
+    /// The metrics that do not fit frames of a size, and why.
+    pub fn unfit(
+        metrics: &[Metric],
+        params: &Params,
+        (width, height): (usize, usize),
+    ) -> Vec<(Metric, ScoreError)> {
+        let too_small = metrics.iter().filter_map(|&metric| {
+            let needed = (metric.info().smallest_side)(params);
+            let error = ScoreError::TooSmall { metric, width, height, needed };
+            (width.min(height) < needed).then_some((metric, error))
+        });
+        too_small.collect()
+    }
+}
