@@ -40,14 +40,12 @@ pub(crate) type Blocks<'a> = BTreeMap<usize, BlockRegions<'a>>;
 impl Retina {
     /// The regions of a frame: bands, less what the mask leaves out.
     pub(crate) fn regions(&self) -> (Cow<'_, Regions<'_>>, Cow<'_, Blocks<'_>>) {
-        match &self.masked {
-            Some((regions, blocks)) => (Cow::Borrowed(regions), Cow::Borrowed(blocks)),
-            None => {
-                let blocks = self.blocks.iter();
-                let blocks = blocks.map(|(levels, maps)| (*levels, BlockRegions::unmasked(maps)));
-                (Cow::Owned(Regions::unmasked(&self.bands)), Cow::Owned(blocks.collect()))
-            }
+        if let Some((regions, blocks)) = &self.masked {
+            return (Cow::Borrowed(regions), Cow::Borrowed(blocks));
         }
+        let blocks = self.blocks.iter();
+        let blocks = blocks.map(|(levels, maps)| (*levels, BlockRegions::unmasked(maps)));
+        (Cow::Owned(Regions::unmasked(&self.bands)), Cow::Owned(blocks.collect()))
     }
 
     /// The same for a frame of which only these pixels count.

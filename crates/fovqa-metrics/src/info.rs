@@ -96,6 +96,7 @@ pub enum Better {
 
 /// What a metric needs beside the two frames of a pair.
 #[derive(Debug, Clone, Copy)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a need of its own")]
 pub struct Needs {
     /// A view, even without bands.
     pub view: bool,

@@ -244,7 +244,7 @@ impl Rows {
     }
 
     /// All of them.
-    pub fn iter(&self) -> std::slice::Iter<'_, Row> {
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Row> {
         self.0.iter()
     }
 

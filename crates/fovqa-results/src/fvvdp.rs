@@ -92,7 +92,7 @@ impl FvvdpSummary {
             q: q.map(|q| q.mean),
             frames: values(frame_jod).count(),
             frame_jod: spread(values(frame_jod)),
-            spatial_bands: spatial_bands(sight, report.frames.iter()),
+            spatial_bands: spatial_bands(sight, &report.frames),
             shares: shares.collect(),
             share_outside_bands: pooled(outside).filter(|share| *share > 0.0),
             pixels_per_degree: sight.pixels_per_degree,
@@ -113,13 +113,10 @@ fn spread(values: impl Iterator<Item = f64>) -> Option<Spread> {
 }
 
 /// Q by spatial frequency, means over frames; without bands where frames have none in common.
-pub(crate) fn spatial_bands<'a>(
-    sight: &FvvdpSight,
-    frames: impl Iterator<Item = &'a FrameResult> + Clone,
-) -> Vec<SpatialBand> {
+pub(crate) fn spatial_bands(sight: &FvvdpSight, frames: &[FrameResult]) -> Vec<SpatialBand> {
     let mean = |statistic: &str, level: usize| {
         let key = Key::named(Subject::Metric(Metric::Fvvdp), statistic)?.on_level(level);
-        spread(frames.clone().filter_map(|frame| frame.rows.value(key))).map(|q| q.mean)
+        spread(frames.iter().filter_map(|frame| frame.rows.value(key))).map(|q| q.mean)
     };
     let bands = (1..).zip(&sight.frequencies_cpd).map_while(|(level, &cpd)| {
         let sustained = mean("q_sustained", level)?;
@@ -232,7 +229,7 @@ mod tests {
         let summary = FvvdpSummary::of(&both).unwrap();
         let wanted = f64::midpoint(jod(100.0), jod(300.0));
         assert_eq!((summary.jod, summary.q), (Some(wanted), Some(200.0)));
-        assert_eq!(summary.frame_jod.unwrap().mean, wanted);
+        assert_eq!(summary.frame_jod.map(|spread| spread.mean), Some(wanted));
         let shares: Vec<_> = summary.shares.iter().map(|share| share.share).collect();
         assert_eq!(shares, [Some(0.25), Some(0.75)], "of the Q of both");
     }

@@ -3,7 +3,7 @@
 
 use fovqa_config::Plan;
 use fovqa_metrics::temporal::KeptPlane;
-use fovqa_metrics::{BlockRegions, Image, Metric, Profiler, Rows};
+use fovqa_metrics::{BlockRegions, Image, Metric, Params, Profiler, Rows};
 
 use super::{Lumas, Pair};
 
@@ -41,7 +41,7 @@ impl Profiles {
 
 /// Leaves the luma of a pair.
 pub(super) fn take_in(pair: &Pair<'_>, lumas: &mut Lumas) {
-    let nothing = Profiler::new(&[], &Default::default());
+    let nothing = Profiler::new(&[], &Params::default());
     one(&nothing, pair, Image::Reference, lumas.reference_to_fill(pair.position));
     one(&nothing, pair, Image::Test, lumas.test_to_fill());
 }

@@ -162,7 +162,7 @@ impl Fvvdp {
         let key = |statistic| Key::named(Subject::Metric(Metric::Fvvdp), statistic);
         let value = |statistic| frame.rows.value(key(statistic)?);
         let bands = report.fvvdp.as_ref();
-        let bands = bands.map(|sight| spatial_bands(sight, std::iter::once(frame)));
+        let bands = bands.map(|sight| spatial_bands(sight, std::slice::from_ref(frame)));
         Some(Self {
             q: value("q")?,
             frame_jod: value("frame_jod")?,
