@@ -56,6 +56,20 @@ fn ssim_where_the_window_fits() {
     let inside: Vec<f64> = map.iter().filter(|v| !v.is_nan()).map(|v| f64::from(*v)).collect();
     let mean = inside.iter().sum::<f64>() / inside.len() as f64;
     assert!((mean - ssim).abs() < 1e-6, "{mean} for {ssim}");
+    // Each value is the SSIM of the window alone, also at the borders of tiles and blocks of rows.
+    let (reference, test) =
+        (codes(SIZE.0, SIZE.1, 3, 1), disturbed(&codes(SIZE.0, SIZE.1, 3, 1), 40.0, 2));
+    for (x, y) in [(5, 5), (255, 63), (256, 64), (257, 60), (294, 64)] {
+        let window = |picture: &[u8]| -> Vec<u8> {
+            let row = |y: usize| &picture[3 * (y * SIZE.0 + x - 5)..3 * (y * SIZE.0 + x + 6)];
+            (y - 5..y + 6).flat_map(row).copied().collect()
+        };
+        folder.png("wa.png", 11, 11, &window(&reference));
+        folder.png("wb.png", 11, 11, &window(&test));
+        let alone = folder.metric("ssim", &["wa.png", "wb.png"]);
+        let found = f64::from(map[y * SIZE.0 + x]);
+        assert!((found - alone).abs() < 1e-6, "({x}, {y}): {found} for {alone}");
+    }
     let picture = folder.path("maps/ssim-0000.png");
     let picture = read_frame(&picture, &ReadOptions::default()).unwrap().frame;
     assert!((picture.sample(0, 0, 0) - 128.0).abs() < 1e-6, "gray where there is no value");

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use fovqa_metrics::{Better, Metric};
+use fovqa_metrics::{Better, Key, Metric, Subject};
 use serde::{Deserialize, Serialize};
 
 /// One rule. It holds where it holds in every comparison it is of.
@@ -104,11 +104,9 @@ impl Quantity {
 /// Which way a statistic of a metric is better.
 pub(crate) fn better(metric: Option<Metric>, statistic: &str, image: &str) -> Better {
     let Some(metric) = metric.filter(|_| image != "reference") else { return Better::Neither };
-    match (metric, statistic) {
-        (Metric::Fvvdp, "q" | "q_sustained" | "q_transient") => Better::Lower,
-        (Metric::Fvvdp, "share") => Better::Neither,
-        (metric, _) => metric.info().better,
-    }
+    let key = Key::named(Subject::Metric(metric), statistic);
+    let own = key.and_then(|key| key.statistic().better);
+    own.unwrap_or(metric.info().better)
 }
 
 impl fmt::Display for Quantity {

@@ -11,10 +11,12 @@
 //! | FovVideoVDP of several methods | 16/3 n, and 32/3 n for each channel of the reference |
 //! | FovVideoVDP's pyramids | 5/4 n for each channel of reference and test: two levels at a time |
 //! | ATD | luma, 4 n for this frame and the one before: of the reference, and of each method |
+//! | maps | 7 n for the values and the picture of each, of GMSD for a quarter of the pixels |
 //! | MS-SSIM | its second level: 3 n for both pictures |
 //!
 //! What is kept row by row or in bands of rows does not count.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
@@ -71,6 +73,8 @@ struct Amount<'a> {
     metrics: &'a [Metric],
     /// Frames that FovVideoVDP's filters reach over; 1 for stills.
     window: u64,
+    /// Whether maps are asked for.
+    maps: bool,
 }
 
 impl Amount<'_> {
@@ -93,8 +97,14 @@ impl Amount<'_> {
         let of = |metric, bytes| if has(metric) { bytes } else { 0 };
         let pu_psnr = if has(Metric::Fvvdp) { 0 } else { of(Metric::PuPsnr, planes(2)) };
         let atd = if self.frames > 1 { of(Metric::Atd, planes(3 + self.methods)) } else { 0 };
+        // Metrics of one map share it.
+        let maps = self.metrics.iter().filter_map(|metric| metric.info().map);
+        let maps: BTreeMap<&str, u64> =
+            maps.map(|map| (map.name, pixels / (map.block * map.block) * 7)).collect();
+        let maps = if self.maps { maps.into_values().sum() } else { 0 };
         Needed(vec![
             ("decoded frames", decoded),
+            ("maps", maps),
             (FVVDP, fvvdp),
             ("PU-PSNR", pu_psnr),
             ("ATD", atd),
@@ -133,6 +143,7 @@ pub(crate) fn check(
         methods: timings.len().max(1) as u64,
         metrics,
         window: windows.max().unwrap_or(1) as u64,
+        maps: plan.maps,
     };
     let needed = amount.needed();
     match available_bytes() {
@@ -166,6 +177,7 @@ mod tests {
             methods: 1,
             metrics,
             window: 23,
+            maps: false,
         }
     }
 
@@ -189,6 +201,9 @@ mod tests {
         assert_eq!(of(&[Metric::PuPsnr]) - frames, 8);
         assert_eq!(of(&[Metric::MsSsim]) - frames, 3);
         assert_eq!(of(&[Metric::Fvvdp, Metric::PuPsnr]), of(&[Metric::Fvvdp]));
+        let metrics = [Metric::Mse, Metric::Psnr, Metric::Ssim];
+        let maps = Amount { maps: true, ..amount(&metrics) }.needed().bytes() / RETINAL;
+        assert_eq!(maps - of(&metrics), 14, "MSE and PSNR have one map");
         let crop = Amount { pixels: [RETINAL, 1000], ..amount(&[Metric::Fvvdp]) }.needed();
         assert!(crop.bytes() < RETINAL * 12 + 1_000_000, "{crop}");
         let several = Amount { methods: 3, ..amount(&[Metric::Fvvdp]) }.needed();

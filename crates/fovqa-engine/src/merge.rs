@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use fovqa_config::Plan;
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Layouts, Metric};
 use thiserror::Error;
 
 use crate::findings::{Findings, Outcome, Settled, ViewFindings};
@@ -260,9 +260,11 @@ fn join(all: &mut ViewFindings, mut next: ViewFindings) {
     let Settled { fvvdp, missing, .. } = all.settled.take().unwrap_or_default();
     // A sequence that has not come through up to here has no values from here on.
     let broken = |outcome: &&mut Outcome| missing.contains_key(&outcome.method);
+    let mut layouts = Layouts::default();
     for outcome in next.pairs.values_mut().filter(broken) {
         if let Ok(frame) = &mut outcome.result {
-            frame.rows = frame.rows.without(|row| row.key.metric() == Some(Metric::Fvvdp));
+            let of_others = frame.rows.iter().filter(|row| row.key.metric() != Some(Metric::Fvvdp));
+            frame.rows = layouts.pack(of_others.collect());
         }
     }
     all.pairs.append(&mut next.pairs);

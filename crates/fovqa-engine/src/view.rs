@@ -305,7 +305,7 @@ impl<'a> ViewRun<'a> {
 fn warn_of_left_out(metrics: &[Metric], rows: &Rows, frame: i64, warnings: &mut Warnings<'_>) {
     let left_out = |metric: &&Metric| {
         metric.is(MetricKind::Fidelity)
-            && **metric != Metric::Fvvdp
+            && Key::of(**metric).is_score()
             && rows.get(Key::of(**metric)).is_none()
     };
     for metric in metrics.iter().filter(left_out) {

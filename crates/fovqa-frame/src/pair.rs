@@ -94,23 +94,6 @@ impl<'a> PairSignal<'a> {
     /// # Panics
     /// When their sizes differ: whoever pairs frames has to have said so before.
     pub fn new(reference: &'a Frame, test: &'a Frame, tables: &'a SignalTables) -> Self {
-        Self::of(reference, test, tables, tables.params().channels)
-    }
-
-    /// The same as one plane, its luma, whatever channels the signal has.
-    ///
-    /// # Panics
-    /// As [`PairSignal::new`].
-    pub fn luma(reference: &'a Frame, test: &'a Frame, tables: &'a SignalTables) -> Self {
-        Self::of(reference, test, tables, SignalChannels::Luma)
-    }
-
-    fn of(
-        reference: &'a Frame,
-        test: &'a Frame,
-        tables: &'a SignalTables,
-        channels: SignalChannels,
-    ) -> Self {
         let (width, height) = (reference.width(), reference.height());
         assert_eq!((width, height), (test.width(), test.height()), "frames of one size");
         let exact = tables.codes_are_signal(reference) && tables.codes_are_signal(test);
@@ -126,7 +109,7 @@ impl<'a> PairSignal<'a> {
             Side::new(frame, codes.unwrap_or_else(|| tables.unit(frame)))
         };
         let gray = [reference, test].iter().all(|f| f.channels() == Channels::Gray);
-        let luma = channels == SignalChannels::Luma;
+        let luma = tables.params().channels == SignalChannels::Luma;
         Self {
             reference: side(reference),
             test: side(test),

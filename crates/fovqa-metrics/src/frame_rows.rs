@@ -1,5 +1,5 @@
-//! The values of a frame as they are kept until the end of a run: packed, as frames are many and what their
-//! values are of is the same for all.
+//! The values of a frame in packed form. A run keeps them to its end, and frames with the same keys share one
+//! list of these.
 
 use std::sync::Arc;
 
@@ -8,16 +8,22 @@ use crate::registry::Metric;
 use crate::row::{Key, Row, Rows};
 
 /// The values of a frame, in the order of results.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct FrameRows {
-    layout: Arc<[Place]>,
-    /// Values, each with its parts behind it.
-    numbers: Box<[f64]>,
+    layout: Layout,
+    /// Values, each with its parts behind it, as bits.
+    numbers: Box<[u64]>,
 }
 
+/// The keys of a frame's values, with the parts that each has. Frames share it.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Layout(Arc<[Place]>);
+
 /// Where a value stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Place {
+    /// Where the key stands among others.
+    order: u64,
     key: Key,
     shape: Shape,
     /// Of its first number.
@@ -25,10 +31,8 @@ struct Place {
 }
 
 /// What numbers there are of a value.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Shape {
-    /// None.
-    Nothing,
     /// The value alone.
     Value,
     /// The value, sum and weight.
@@ -37,50 +41,120 @@ enum Shape {
     Deviation,
 }
 
-/// What the values of the last frames were of, for those after them.
+impl Shape {
+    const ALL: [Shape; 3] = [Shape::Value, Shape::Mean, Shape::Deviation];
+
+    fn of(parts: Parts) -> Self {
+        match parts {
+            Parts::Value => Shape::Value,
+            Parts::Mean { .. } => Shape::Mean,
+            Parts::Deviation { .. } => Shape::Deviation,
+        }
+    }
+
+    /// How many numbers the parts are.
+    fn parts(self) -> usize {
+        match self {
+            Shape::Value => 0,
+            Shape::Mean => 2,
+            Shape::Deviation => 3,
+        }
+    }
+}
+
+impl Layout {
+    /// The layout of keys in the order of results, each with how many numbers its parts are; `None`
+    /// where there is no such order, or there are no such parts.
+    pub fn new(keys: impl IntoIterator<Item = (Key, usize)>) -> Option<Self> {
+        let mut at = 0;
+        let place = |(key, parts): (Key, usize)| {
+            let shape = Shape::ALL.into_iter().find(|shape| shape.parts() == parts)?;
+            let place = Place { order: key.order(), key, shape, at };
+            at += 1 + parts as u32;
+            Some(place)
+        };
+        let places: Vec<Place> = keys.into_iter().map(place).collect::<Option<_>>()?;
+        places.is_sorted_by(|a, b| a.order < b.order).then(|| Self(places.into()))
+    }
+
+    /// Its keys, each with how many numbers its parts are.
+    pub fn keys(&self) -> impl Iterator<Item = (Key, usize)> + '_ {
+        self.0.iter().map(|place| (place.key, place.shape.parts()))
+    }
+
+    /// Whether it is another one, or the same.
+    pub fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0) || self == other
+    }
+}
+
+/// The bits of no value: those of a NaN that no arithmetic gives.
+const NOTHING: u64 = 0x7ff8_0000_6e6f_6e65;
+
+/// The lists of keys of the last frames, to be shared by those after them.
 #[derive(Debug, Clone, Default)]
-pub struct Layouts(Vec<Arc<[Place]>>);
+pub struct Layouts(Vec<Known>);
+
+/// A list of keys as it came, and in the order of results.
+#[derive(Debug, Clone)]
+struct Known {
+    came: Vec<(Key, Shape)>,
+    /// The places of the sorted keys among those that came.
+    order: Vec<u32>,
+    layout: Layout,
+}
 
 impl Layouts {
-    /// First frames have no differences over time, and some no SSIM: a few kinds take turns.
+    /// A few kinds of frames take turns: the first has no differences over time, others have no SSIM.
     const KEPT: usize = 4;
 
     /// Packs the values of a frame.
-    pub fn pack(&mut self, mut rows: Rows) -> FrameRows {
-        rows.sort();
-        let mut numbers = Vec::new();
-        let mut places = Vec::with_capacity(rows.iter().len());
-        for Row { key, value, parts } in rows.iter().copied() {
-            let at = numbers.len() as u32;
-            let shape = match (value, parts) {
-                (None, _) => Shape::Nothing,
-                (Some(value), Parts::Value) => {
-                    numbers.push(value);
-                    Shape::Value
+    pub fn pack(&mut self, rows: Rows) -> FrameRows {
+        let known = self.known(&rows);
+        let mut numbers = Vec::with_capacity(3 * known.order.len());
+        let rows = rows.as_slice();
+        for &came in &known.order {
+            let Row { value, parts, .. } = rows[came as usize];
+            numbers.push(value.map_or(NOTHING, f64::to_bits));
+            match parts {
+                Parts::Value => {}
+                Parts::Mean { sum, weight } => numbers.extend([sum, weight].map(f64::to_bits)),
+                Parts::Deviation { count, sum, squares } => {
+                    numbers.extend([count, sum, squares].map(f64::to_bits));
                 }
-                (Some(value), Parts::Mean { sum, weight }) => {
-                    numbers.extend([value, sum, weight]);
-                    Shape::Mean
-                }
-                (Some(value), Parts::Deviation { count, sum, squares }) => {
-                    numbers.extend([value, count, sum, squares]);
-                    Shape::Deviation
-                }
-            };
-            places.push(Place { key, shape, at });
+            }
         }
-        FrameRows { layout: self.shared(places), numbers: numbers.into() }
+        FrameRows { layout: known.layout.clone(), numbers: numbers.into() }
     }
 
-    fn shared(&mut self, places: Vec<Place>) -> Arc<[Place]> {
-        let known = self.0.iter().position(|known| **known == *places);
-        let layout = match known {
+    /// The list of keys of these rows. Most often it is that of the frame before.
+    fn known(&mut self, rows: &Rows) -> &Known {
+        let came = || rows.iter().map(|row| (row.key, Shape::of(row.parts)));
+        let index = self.0.iter().position(|known| came().eq(known.came.iter().copied()));
+        let known = match index {
             Some(index) => self.0.remove(index),
-            None => places.into(),
+            None => Known::new(came().collect()),
         };
-        self.0.insert(0, Arc::clone(&layout));
-        self.0.truncate(Self::KEPT);
-        layout
+        self.0.truncate(Self::KEPT - 1);
+        self.0.insert(0, known);
+        &self.0[0]
+    }
+}
+
+impl Known {
+    fn new(came: Vec<(Key, Shape)>) -> Self {
+        let mut order: Vec<u32> = (0..came.len() as u32).collect();
+        order.sort_by_cached_key(|at| came[*at as usize].0.order());
+        let sorted = order.iter().map(|at| came[*at as usize]);
+        let mut at = 0;
+        let place = |(key, shape): (Key, Shape)| {
+            let place = Place { order: key.order(), key, shape, at };
+            at += 1 + shape.parts() as u32;
+            place
+        };
+        let places: Vec<Place> = sorted.map(place).collect();
+        debug_assert!(places.is_sorted_by(|a, b| a.order < b.order), "one row per key");
+        Self { layout: Layout(places.into()), came, order }
     }
 }
 
@@ -91,20 +165,41 @@ impl From<Rows> for FrameRows {
 }
 
 impl FrameRows {
-    /// All of them.
-    pub fn iter(&self) -> impl Iterator<Item = Row> + Clone + '_ {
-        self.layout.iter().map(|place| self.row(place))
+    /// The values of a layout: each value, or `None`, with its parts behind it. `None` where there are
+    /// more or fewer numbers, or parts are missing.
+    pub fn of(layout: &Layout, numbers: &[Option<f64>]) -> Option<Self> {
+        let mut bits = Vec::with_capacity(numbers.len());
+        let mut rest = numbers;
+        for (_, parts) in layout.keys() {
+            let (value, of_value) = rest.split_at_checked(1 + parts)?.0.split_first()?;
+            bits.push(value.map_or(NOTHING, f64::to_bits));
+            for part in of_value {
+                bits.push((*part)?.to_bits());
+            }
+            rest = &rest[1 + parts..];
+        }
+        rest.is_empty().then(|| Self { layout: layout.clone(), numbers: bits.into() })
     }
 
-    fn row(&self, &Place { key, shape, at }: &Place) -> Row {
+    /// What its values are of.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = Row> + Clone + '_ {
+        self.layout.0.iter().map(|place| self.row(place))
+    }
+
+    fn row(&self, &Place { key, shape, at, .. }: &Place) -> Row {
         let numbers = &self.numbers[at as usize..];
-        let (value, parts) = match shape {
-            Shape::Nothing => (None, Parts::Value),
-            Shape::Value => (Some(numbers[0]), Parts::Value),
-            Shape::Mean => (Some(numbers[0]), Parts::Mean { sum: numbers[1], weight: numbers[2] }),
+        let value = (numbers[0] != NOTHING).then(|| f64::from_bits(numbers[0]));
+        let number = |index: usize| f64::from_bits(numbers[index]);
+        let parts = match shape {
+            Shape::Value => Parts::Value,
+            Shape::Mean => Parts::Mean { sum: number(1), weight: number(2) },
             Shape::Deviation => {
-                let [count, sum, squares] = [numbers[1], numbers[2], numbers[3]];
-                (Some(numbers[0]), Parts::Deviation { count, sum, squares })
+                Parts::Deviation { count: number(1), sum: number(2), squares: number(3) }
             }
         };
         Row { key, value, parts }
@@ -112,8 +207,8 @@ impl FrameRows {
 
     /// The row of a key.
     pub fn get(&self, key: Key) -> Option<Row> {
-        let found = self.layout.binary_search_by(|place| place.key.cmp(&key)).ok()?;
-        Some(self.row(&self.layout[found]))
+        let found = self.layout.0.binary_search_by_key(&key.order(), |place| place.order).ok()?;
+        Some(self.row(&self.layout.0[found]))
     }
 
     /// The value of a key; `None` where there is no row, or nothing to have a value of.
@@ -128,17 +223,11 @@ impl FrameRows {
 
     /// Whether there is a row of a metric.
     pub fn has(&self, metric: Metric) -> bool {
-        self.layout.iter().any(|place| place.key.metric() == Some(metric))
+        self.layout.0.iter().any(|place| place.key.metric() == Some(metric))
     }
 
-    /// The same without some of them.
-    #[must_use]
-    pub fn without(&self, leave_out: impl Fn(&Row) -> bool) -> Self {
-        self.iter().filter(|row| !leave_out(row)).collect::<Rows>().into()
-    }
-
-    /// The values of both eyes: of what both have, pooled as each statistic says. Where an eye has
-    /// nothing to have a value of, it is the other's.
+    /// Combines the values that both eyes have, as each statistic declares. Where one eye has no value,
+    /// the other eye's is used.
     pub fn of_both_eyes(left: &Self, right: &Self) -> Rows {
         let both = left.iter().filter_map(|l| {
             let r = right.get(l.key)?;
@@ -151,13 +240,15 @@ impl FrameRows {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "fractions of two are exact")]
 mod tests {
     use super::*;
+    use crate::fidelity::psnr_db;
 
     fn rows(offset: f64) -> Rows {
         let mut rows = Rows::default();
         rows.push(Key::of(Metric::Ssim), Some(0.1 + offset), Parts::Mean { sum: 0.3, weight: 3.0 });
-        rows.push(Key::of(Metric::Mse), None, Parts::Value);
+        rows.push(Key::of(Metric::Mse), None, Parts::Mean { sum: 0.0, weight: 0.0 });
         let parts = Parts::Deviation { count: 3.0, sum: offset, squares: f64::MAX };
         rows.push(Key::of(Metric::Psnr), Some(f64::INFINITY), parts);
         rows.score(Key::of(Metric::MsSsim), -0.0);
@@ -168,36 +259,87 @@ mod tests {
     fn what_is_packed_is_the_same() {
         let mut layouts = Layouts::default();
         let packed = layouts.pack(rows(0.5));
-        let mut sorted = rows(0.5);
-        sorted.sort();
+        let mut sorted: Vec<Row> = rows(0.5).iter().copied().collect();
+        sorted.sort_by_key(|row| row.key);
         let again: Vec<Row> = packed.iter().collect();
-        assert_eq!(format!("{again:?}"), format!("{:?}", sorted.iter().collect::<Vec<_>>()));
+        assert_eq!(format!("{again:?}"), format!("{sorted:?}"));
         assert_eq!(packed.value(Key::of(Metric::Psnr)), Some(f64::INFINITY));
         assert_eq!(packed.get(Key::of(Metric::Mse)).map(|row| row.value), Some(None));
         assert!(packed.get(Key::of(Metric::Fssim)).is_none() && packed.has(Metric::Mse));
+        let numbers: Vec<Option<f64>> = packed.iter().flat_map(|row| row.numbers()).collect();
+        let read = FrameRows::of(&Layout::new(packed.layout.keys()).unwrap(), &numbers);
+        assert_eq!(read.as_ref(), Some(&packed));
+        assert!(FrameRows::of(&packed.layout, &numbers[1..]).is_none());
+        assert!(FrameRows::of(&packed.layout, &[&numbers[..], &[None]].concat()).is_none());
+        let twice = packed.layout.keys().chain(packed.layout.keys());
+        assert!(Layout::new(twice).is_none() && Layout::new([(Key::of(Metric::Mse), 1)]).is_none());
         let other = layouts.pack(rows(0.25));
-        assert!(Arc::ptr_eq(&packed.layout, &other.layout), "what they are of is kept once");
-        let fewer = packed.without(|row| row.key.metric() == Some(Metric::Ssim));
-        assert!(!fewer.has(Metric::Ssim) && fewer.iter().count() == 3);
+        assert!(Arc::ptr_eq(&packed.layout.0, &other.layout.0), "what they are of is kept once");
+        // Also where another frame has no value, and behind frames of other kinds.
+        for metric in [Metric::Psnr, Metric::Fssim, Metric::Fpsnr] {
+            let mut alone = Rows::default();
+            alone.push(Key::of(metric), Some(1.0), Parts::Mean { sum: 1.0, weight: 1.0 });
+            layouts.pack(alone);
+        }
+        let mut nothing = rows(0.5);
+        nothing = nothing.iter().map(|row| Row { value: None, ..*row }).collect();
+        assert!(Arc::ptr_eq(&packed.layout.0, &layouts.pack(nothing).layout.0));
+    }
+
+    fn of_one_eye(values: &[(Key, Option<f64>, Parts)]) -> FrameRows {
+        let rows = values.iter().map(|&(key, value, parts)| Row { key, value, parts });
+        rows.collect::<Rows>().into()
     }
 
     #[test]
-    fn what_one_eye_has_not_is_the_others_and_what_it_was_not_asked_for_is_nobodys() {
+    fn a_value_missing_in_one_eye_is_the_other_eyes() {
         let key = Key::of(Metric::Ssim);
-        let mut left = Rows::default();
-        left.score(key, 0.5);
-        left.push(key.in_band(0), Some(0.25), Parts::Value);
-        left.push(key.in_band(1), None, Parts::Value);
-        left.score(Key::of(Metric::MsSsim), 0.1);
-        let mut right = Rows::default();
-        right.score(key, 1.0);
-        right.push(key.in_band(0), None, Parts::Value);
-        right.push(key.in_band(1), None, Parts::Value);
-        let both = FrameRows::of_both_eyes(&left.into(), &right.into());
-        let both = FrameRows::from(both);
+        let left = of_one_eye(&[
+            (key, Some(0.5), Parts::Value),
+            (key.in_band(0), Some(0.25), Parts::Value),
+            (key.in_band(1), None, Parts::Value),
+            (Key::of(Metric::MsSsim), Some(0.1), Parts::Value),
+        ]);
+        let right = of_one_eye(&[
+            (key, Some(1.0), Parts::Value),
+            (key.in_band(0), None, Parts::Value),
+            (key.in_band(1), None, Parts::Value),
+        ]);
+        let both = FrameRows::from(FrameRows::of_both_eyes(&left, &right));
         assert_eq!(both.value(key), Some(0.75));
         assert_eq!(both.value(key.in_band(0)), Some(0.25));
         assert_eq!(both.get(key.in_band(1)).map(|row| row.value), Some(None));
-        assert!(!both.has(Metric::MsSsim));
+        assert!(!both.has(Metric::MsSsim), "the other eye was not asked for it");
+    }
+
+    /// Errors by pixels, wavelets by coefficients, FPSNR by its weight; other scores are averaged.
+    #[test]
+    fn both_eyes_are_pooled_as_each_statistic_says() {
+        let haar = |statistic: &str| {
+            let key = Key::named(crate::row::Subject::Metric(Metric::Haar), statistic).unwrap();
+            key.of_image(crate::row::Image::Test).on_level(1).in_band(0)
+        };
+        let atd = Key::of(Metric::Atd).of_image(crate::row::Image::Test);
+        let of = |mse: f64, pixels: f64, weight: f64| {
+            let mean = |value: f64, weight: f64| Parts::Mean { sum: value * weight, weight };
+            of_one_eye(&[
+                (Key::of(Metric::Mse), Some(mse), mean(mse, pixels)),
+                (Key::of(Metric::Psnr), Some(psnr_db(mse)), mean(mse, pixels)),
+                (Key::of(Metric::Fpsnr), Some(psnr_db(mse)), mean(mse, weight)),
+                (Key::of(Metric::Ssim), Some(mse), mean(mse, pixels)),
+                (haar("energy"), Some(mse), mean(mse, pixels)),
+                (haar("max_abs"), Some(mse), Parts::Value),
+                (atd, Some(mse), mean(mse, pixels)),
+            ])
+        };
+        let both = FrameRows::of_both_eyes(&of(0.25, 100.0, 8.0), &of(0.5, 300.0, 8.0));
+        let both = FrameRows::from(both);
+        assert_eq!(both.value(Key::of(Metric::Mse)), Some(0.4375));
+        assert_eq!(both.value(Key::of(Metric::Psnr)), Some(psnr_db(0.4375)));
+        assert_eq!(both.value(Key::of(Metric::Fpsnr)), Some(psnr_db(0.375)), "by weight");
+        assert_eq!(both.value(Key::of(Metric::Ssim)), Some(0.375));
+        assert_eq!(both.value(haar("energy")), Some(0.4375));
+        assert_eq!(both.value(haar("max_abs")), Some(0.5));
+        assert_eq!(both.value(atd), Some(0.4375));
     }
 }

@@ -1,4 +1,4 @@
-//! What a metric says about itself, in its own file: names, direction, what it needs, parameters.
+//! The description that each metric has in its own file: names, direction, needs, statistics, parameters.
 
 use fovqa_params::{ParamError, ParamInfo, ParamValue};
 
@@ -7,7 +7,7 @@ use crate::pair_pass::PairPass;
 use crate::pooling::Statistic;
 use crate::registry::{Metric, Params};
 
-/// What there is to say about a metric.
+/// The description of a metric.
 #[derive(Debug, Clone, Copy)]
 pub struct MetricInfo {
     /// Its name in results and, with `-` for `_` if one likes, on the command line.

@@ -33,6 +33,8 @@ pub struct MapPicture {
 pub struct MapInfo {
     /// What it is called, in the names of files.
     pub name: &'static str,
+    /// Side of the block of pixels that a value is of.
+    pub block: u64,
     /// One line on its values.
     pub about: &'static str,
     /// How they are coloured.

@@ -2,8 +2,9 @@
 
 use fovqa_frame::{Frame, SignalTables};
 
+use crate::fidelity::fpsnr::WeightField;
 use crate::fidelity::{ScoreError, Scored};
-use crate::regions::BlockRegions;
+use crate::regions::{BlockRegions, Regions};
 use crate::registry::Params;
 
 /// A pair for a pass of its own.
@@ -15,6 +16,10 @@ pub struct PairInput<'a> {
     pub test: &'a Frame,
     /// From samples to the signal.
     pub tables: &'a SignalTables,
+    /// Which pixels count, and into which band.
+    pub regions: &'a Regions<'a>,
+    /// The foveal weight of every pixel, where the metric needs it.
+    pub weight: Option<&'a WeightField>,
     /// Bands of the blocks of each level that the metric needs ([`crate::Needs::block_levels`]), less
     /// those that a mask leaves out.
     pub blocks: &'a BlockRegions<'a>,

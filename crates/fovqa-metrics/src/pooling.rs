@@ -1,42 +1,47 @@
-//! How values are put together: bands of a frame, the two eyes, the frames of a sequence. A metric says
-//! once, beside its code, how each of its statistics pools ([`Statistic`]); this is the one place where it is
-//! done ([`pool`]).
+//! How values are pooled over the bands of a frame, the two eyes, and the frames of a sequence. Each metric
+//! declares once, beside its code, how its statistics pool ([`Statistic`]); [`pool`] does it, for everybody.
 
 use crate::fidelity::{mse_of_db, psnr_db};
+use crate::info::Better;
 
 /// A statistic of a metric: one of the numbers it gives of a frame, a band or a level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub struct Statistic {
     /// Its name in results; empty for the metric's own value.
     pub name: &'static str,
-    /// How the bands of a frame are pooled.
+    /// How the values of several bands of a frame are combined.
     pub bands: Pooling,
-    /// How the two eyes are.
+    /// How the values of both eyes are combined.
     pub eyes: Pooling,
-    /// How frames are, beside mean, smallest and largest value.
+    /// How the values of several frames are combined, besides their mean, minimum and maximum.
     pub frames: Pooling,
-    /// What a band weighs where only results are at hand, which have no sums.
+    /// The weight of a band, where only results.csv is at hand, which has no sums.
     pub weight: Weight,
     /// Whether it is a whole number: how many of something there are.
     pub is_count: bool,
-    /// Whether the ratio of test to reference is of interest, in what is measured of each picture.
+    /// Whether results have the ratio of test to reference; of statistics that each picture has.
     pub has_ratio: bool,
-    /// Whether it has a row in results; what has none is shown otherwise, or serves pooling alone.
+    /// Whether higher or lower is better, where that differs from the metric.
+    pub better: Option<Better>,
+    /// Whether it describes the whole frame and yet depends on the edges of the bands.
+    pub is_of_bands: bool,
+    /// Whether it has a row in results.csv.
     pub has_row: bool,
 }
 
-/// A way to put values together.
+/// A way to combine values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pooling {
-    /// They cannot be.
+    /// The values cannot be combined.
     None,
-    /// The plain mean.
+    /// The mean of the values, each with the same weight.
     Average,
-    /// What was summed in all, over all that it was summed over.
+    /// The weighted mean: the sum of all sums, divided by the sum of all weights.
     Mean,
-    /// The same of squared errors with peak 1, in decibels.
+    /// The weighted mean of the squared errors (peak 1), converted to decibels.
     Decibels,
-    /// The standard deviation of all that was measured, N - 1 in the divisor.
+    /// The standard deviation of all samples together, with the divisor N - 1.
     Deviation,
     /// The largest.
     Max,
@@ -44,14 +49,14 @@ pub enum Pooling {
     Sum,
 }
 
-/// What a band weighs, by rows that results have beside a value.
+/// Where results.csv has the weight of a band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
-    /// Its pixels.
+    /// Its number of pixels.
     Pixels,
     /// Another statistic of the metric, of the same level.
     Statistic(&'static str),
-    /// Of a deviation, how many values it is of and their mean.
+    /// For a deviation: the number of samples, and their mean.
     Moments {
         /// Statistic of the number.
         count: &'static str,
@@ -61,10 +66,10 @@ pub enum Weight {
 }
 
 impl Statistic {
-    /// The metric's own value: a score, of which means are taken.
+    /// The metric's own value: a score, which is averaged.
     pub(crate) const VALUE: Self = Self::named("");
 
-    /// A score of a name.
+    /// A score with a name.
     pub(crate) const fn named(name: &'static str) -> Self {
         Self {
             name,
@@ -74,6 +79,8 @@ impl Statistic {
             weight: Weight::Pixels,
             is_count: false,
             has_ratio: true,
+            better: None,
+            is_of_bands: false,
             has_row: true,
         }
     }
@@ -84,29 +91,39 @@ impl Statistic {
         of.pooled(Pooling::Sum).over_frames(Pooling::Sum)
     }
 
-    /// Pooled so over bands and eyes.
+    /// Pooled in this way over bands and eyes.
     pub(crate) const fn pooled(self, pooling: Pooling) -> Self {
         Self { bands: pooling, eyes: pooling, ..self }
     }
 
-    /// Pooled so over bands.
+    /// Pooled in this way over bands.
     pub(crate) const fn over_bands(self, pooling: Pooling) -> Self {
         Self { bands: pooling, ..self }
     }
 
-    /// Pooled so over eyes.
+    /// Pooled in this way over eyes.
     pub(crate) const fn over_eyes(self, pooling: Pooling) -> Self {
         Self { eyes: pooling, ..self }
     }
 
-    /// Pooled so over frames.
+    /// Pooled in this way over frames.
     pub(crate) const fn over_frames(self, pooling: Pooling) -> Self {
         Self { frames: pooling, ..self }
     }
 
-    /// Weighed so where only results are at hand.
-    pub(crate) const fn weighed_by(self, weight: Weight) -> Self {
+    /// With this weight in results.csv.
+    pub(crate) const fn weighted_by(self, weight: Weight) -> Self {
         Self { weight, ..self }
+    }
+
+    /// With its own direction: higher or lower is better.
+    pub(crate) const fn pointing(self, better: Better) -> Self {
+        Self { better: Some(better), ..self }
+    }
+
+    /// Dependent on the edges of the bands.
+    pub(crate) const fn of_bands(self) -> Self {
+        Self { is_of_bands: true, ..self }
     }
 
     /// Without a ratio of test to reference.
@@ -119,24 +136,24 @@ impl Statistic {
         Self { has_row: false, ..self }
     }
 
-    /// Whether frames have a value of all of them together that is not made of theirs.
+    /// Whether a sequence has a pooled value besides the mean of its frames.
     pub fn pools_frames(&self) -> bool {
         matches!(self.frames, Pooling::Mean | Pooling::Decibels | Pooling::Deviation)
     }
 
-    /// Whether the largest of all frames stands for them.
+    /// Whether the largest value of all frames represents the sequence.
     pub fn is_maximum(&self) -> bool {
         self.frames == Pooling::Max
     }
 }
 
-/// What it takes to pool a value without loss.
+/// What is needed to pool a value without loss.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Parts {
-    /// Nothing but the value.
+    /// The value alone.
     #[default]
     Value,
-    /// Of a mean: what was summed, and over how much.
+    /// Of a mean: its sum and its weight.
     Mean {
         /// The sum.
         sum: f64,
@@ -155,32 +172,47 @@ pub enum Parts {
 }
 
 impl Parts {
-    /// The parts of a value as far as results tell: of a value and its weight or, of a deviation, how
-    /// many values it is of and their mean.
-    pub fn of_value(pooling: Pooling, value: f64, weight: f64, mean: f64) -> Self {
-        match pooling {
-            Pooling::Mean => Self::Mean { sum: value * weight, weight },
-            Pooling::Decibels => Self::Mean { sum: mse_of_db(value) * weight, weight },
-            Pooling::Deviation => {
-                let squared = value * value * (weight - 1.0).max(0.0);
+    /// The parts of a value from results.csv, by its weight; `mean` is that of the samples of a
+    /// deviation.
+    pub fn of_value(pooling: Pooling, value: Option<f64>, weight: f64, mean: f64) -> Self {
+        match (pooling, value) {
+            (Pooling::Mean, Some(value)) => Self::Mean { sum: value * weight, weight },
+            (Pooling::Decibels, Some(value)) => {
+                Self::Mean { sum: mse_of_db(value) * weight, weight }
+            }
+            // A single sample has no deviation, but it counts when several bands are combined.
+            (Pooling::Deviation, value) => {
+                let deviation = value.unwrap_or(0.0);
+                let squared = deviation * deviation * (weight - 1.0).max(0.0);
                 let sum = mean * weight;
                 Self::Deviation { count: weight, sum, squares: squared + mean * sum }
             }
-            Pooling::None | Pooling::Average | Pooling::Max | Pooling::Sum => Self::Value,
+            _ => Self::Value,
         }
     }
 
-    fn add(&mut self, other: &Self) {
-        *self = match (*self, *other) {
-            (Self::Mean { sum, weight }, Self::Mean { sum: other_sum, weight: other_weight }) => {
-                Self::Mean { sum: sum + other_sum, weight: weight + other_weight }
+    /// Adds the parts of another value; `None` where the two are of different kinds.
+    fn and(self, other: Self) -> Option<Self> {
+        match (self, other) {
+            (Self::Value, Self::Value) => Some(Self::Value),
+            (Self::Mean { sum, weight }, Self::Mean { sum: s, weight: w }) => {
+                Some(Self::Mean { sum: sum + s, weight: weight + w })
             }
             (
                 Self::Deviation { count, sum, squares },
                 Self::Deviation { count: n, sum: s, squares: q },
-            ) => Self::Deviation { count: count + n, sum: sum + s, squares: squares + q },
-            _ => Self::Value,
-        };
+            ) => Some(Self::Deviation { count: count + n, sum: sum + s, squares: squares + q }),
+            _ => None,
+        }
+    }
+
+    /// Whether nothing was measured.
+    fn is_empty(&self) -> bool {
+        match *self {
+            Self::Value => true,
+            Self::Mean { weight, .. } => weight <= 0.0,
+            Self::Deviation { count, .. } => count <= 0.0,
+        }
     }
 
     /// The value that they make; `None` where there is nothing to make it of.
@@ -203,30 +235,40 @@ pub(crate) fn deviation(count: f64, sum: f64, squares: f64) -> Option<f64> {
     (count >= 2.0).then(|| (squared.max(0.0) / (count - 1.0)).sqrt())
 }
 
-/// Puts values, each with its parts, together in the order they come. `None` for the value where there is
-/// nothing to have one of, or where several cannot be put together. One alone stays what it is.
+/// Combines values, each with its parts, in the order they come. The value is `None` if there is none, or if
+/// several cannot be combined. A single value is returned as it is, to the last bit.
 pub fn pool(
     pooling: Pooling,
     values: impl IntoIterator<Item = (Option<f64>, Parts)>,
 ) -> (Option<f64>, Parts) {
-    let mut scored = values.into_iter().filter_map(|(value, parts)| Some((value?, parts)));
-    let Some((first, mut parts)) = scored.next() else { return (None, Parts::Value) };
-    let (mut count, mut sum, mut max) = (1.0, first, first);
-    for (value, more) in scored {
-        count += 1.0;
-        sum += value;
-        max = f64::max(max, value);
-        parts.add(&more);
+    let (mut scored, mut sum, mut max) = (0usize, 0.0, f64::NEG_INFINITY);
+    let mut parts: Option<Parts> = None;
+    let (mut measured, mut last) = (0usize, 0.0);
+    for (value, more) in values {
+        if let Some(value) = value {
+            sum += value;
+            max = f64::max(max, value);
+            (scored, last) = (scored + 1, value);
+        }
+        // What has no value of its own may still have samples.
+        if value.is_some() || !more.is_empty() {
+            measured += 1;
+            parts = match parts {
+                None => Some(more),
+                Some(parts) => Some(parts.and(more).unwrap_or_default()),
+            };
+        }
     }
-    if count < 2.0 {
-        return (Some(first), parts);
-    }
-    match pooling {
-        Pooling::None => (None, Parts::Value),
-        Pooling::Average => (Some(sum / count), Parts::Value),
-        Pooling::Max => (Some(max), Parts::Value),
-        Pooling::Sum => (Some(sum), Parts::Value),
-        Pooling::Mean | Pooling::Decibels | Pooling::Deviation => (parts.value(pooling), parts),
+    let parts = parts.unwrap_or_default();
+    match (pooling, scored) {
+        (_, 1) if measured == 1 => (Some(last), parts),
+        (Pooling::Mean | Pooling::Decibels | Pooling::Deviation, _) => {
+            (parts.value(pooling), parts)
+        }
+        (_, 0) | (Pooling::None, _) => (None, Parts::Value),
+        (Pooling::Average, count) => (Some(sum / count as f64), Parts::Value),
+        (Pooling::Max, _) => (Some(max), Parts::Value),
+        (Pooling::Sum, _) => (Some(sum), Parts::Value),
     }
 }
 
@@ -262,7 +304,7 @@ mod tests {
         // As well of results, which have the decibels and a weight.
         let read = |mse: f64, pixels: f64| {
             let value = psnr_db(mse);
-            (Some(value), Parts::of_value(Pooling::Decibels, value, pixels, 0.0))
+            (Some(value), Parts::of_value(Pooling::Decibels, Some(value), pixels, 0.0))
         };
         let (value, _) = pool(Pooling::Decibels, [read(0.01, 100.0), read(0.0, 300.0)]);
         assert!((value.unwrap() - psnr_db(0.0025)).abs() < 1e-12);
@@ -287,10 +329,19 @@ mod tests {
         let read = |values: &[f64]| {
             let (value, count) = (parts(values).0.unwrap(), values.len() as f64);
             let mean = values.iter().sum::<f64>() / count;
-            (Some(value), Parts::of_value(Pooling::Deviation, value, count, mean))
+            (Some(value), Parts::of_value(Pooling::Deviation, Some(value), count, mean))
         };
         let (pooled, _) = pool(Pooling::Deviation, [read(left), read(right)]);
         assert!((pooled.unwrap() - whole).abs() < 1e-12);
+        // One value has no deviation, and counts among others.
+        let (one, rest) = values.split_at(1);
+        let alone = || (None, Parts::of_value(Pooling::Deviation, None, 1.0, one[0]));
+        let (pooled, _) = pool(Pooling::Deviation, [alone(), read(rest)]);
+        assert!((pooled.unwrap() - whole).abs() < 1e-12);
+        assert_eq!(pool(Pooling::Deviation, [alone()]).0, None);
+        let two = [alone(), (None, Parts::Deviation { count: 1.0, sum: 2.0, squares: 4.0 })];
+        let wanted = (one[0] - 2.0).abs() / 2f64.sqrt();
+        assert!((pool(Pooling::Deviation, two).0.unwrap() - wanted).abs() < 1e-12);
         assert_eq!(deviation(1.0, 3.0, 9.0), None);
         assert_eq!(deviation(3.0, 3.0, 3.0), Some(0.0));
     }

@@ -108,7 +108,8 @@ impl Metric {
         self.info().kind == kind
     }
 
-    /// Whether the frames of a sequence have a value together that is not made of theirs, beside means.
+    /// Whether a sequence has a pooled value besides the mean of its frames, such as the PSNR of the mean
+    /// squared error.
     pub fn pools_frames(self) -> bool {
         let own = |statistic: &&Statistic| statistic.name.is_empty();
         self.info().statistics.iter().find(own).is_some_and(Statistic::pools_frames)

@@ -1,7 +1,7 @@
-//! The one form of every measured value: what it is of, the value, and what it takes to pool it.
+//! The one form of every measured value: its key, the value, and what is needed to pool it.
 //!
-//! A row is of a frame, which has the frame's number; whose frame it is, of which eye, stands with the
-//! sequence that it is part of.
+//! Rows belong to one frame. The frame's number is stored with the frame; scene, method and eye are stored
+//! with the sequence.
 
 use std::cmp::Ordering;
 
@@ -9,7 +9,7 @@ use crate::info::MetricKind;
 use crate::pooling::{Parts, Statistic};
 use crate::registry::Metric;
 
-/// What a value is of, apart from eye and frame.
+/// What a value measures, without its eye and frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Key {
     /// What is measured, or counted.
@@ -37,7 +37,7 @@ pub enum Subject {
     Metric(Metric),
 }
 
-/// Of which picture a value is.
+/// Which picture a value describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub enum Image {
     /// Of test and reference together.
@@ -111,7 +111,7 @@ impl Subject {
 }
 
 impl Key {
-    /// The value of a metric for a pair: of the whole frame, its own statistic.
+    /// The metric's first statistic, for the whole frame and the pair.
     pub fn of(metric: Metric) -> Self {
         Self::pixels(Subject::Metric(metric))
     }
@@ -136,12 +136,14 @@ impl Key {
     /// The same in a band.
     #[must_use]
     pub fn in_band(self, band: usize) -> Self {
+        debug_assert!(band < usize::from(u16::MAX), "as many bands as a map of them may have");
         Self { band: Some(band as u16), ..self }
     }
 
     /// The same on a level.
     #[must_use]
     pub fn on_level(self, level: usize) -> Self {
+        debug_assert!(u8::try_from(level).is_ok(), "a level halves the frame");
         Self { level: Some(level as u8), ..self }
     }
 
@@ -166,27 +168,45 @@ impl Key {
         self.image == Image::Pair && self.statistic().name.is_empty() && self.metric().is_some()
     }
 
-    /// Where it stands among the rows of a frame: first the whole frame, then bands, then levels of
-    /// bands; in each, numbers of pixels and of values, scores, other statistics, what each picture has.
-    fn place(&self) -> impl Ord + use<> {
-        let counted = matches!(self.subject, Subject::PixelsOutsideBands | Subject::PixelsLeftOut);
+    /// The position among the rows of a frame: the whole frame, then bands, then levels with bands; in
+    /// each of these pixel counts, other counts, scores, other statistics of the pair, and statistics of
+    /// each picture. One number, as rows are sorted and looked up by it.
+    pub(crate) fn order(&self) -> u64 {
+        let (subject, counted) = match self.subject {
+            Subject::Pixels => (0, false),
+            Subject::PixelsOutsideBands => (1, true),
+            Subject::PixelsLeftOut => (2, true),
+            Subject::Metric(metric) => (3 + metric as u64, false),
+        };
         let area = match (self.band, self.level) {
             (None, _) if counted => 1,
             (None, _) => 0,
             (Some(_), None) => 2,
             (Some(_), Some(_)) => 3,
         };
-        let outer_level = self.level.filter(|_| area == 3);
         let of_picture = self.metric().is_some_and(|metric| !metric.is(MetricKind::Fidelity));
+        let statistic = self.statistic();
         let kind = match () {
             () if self.subject == Subject::Pixels => 0,
-            () if self.statistic().is_count => 1,
+            () if statistic.is_count => 1,
             () if of_picture => 4,
-            () if self.statistic().name.is_empty() => 2,
+            () if statistic.name.is_empty() => 2,
             () => 3,
         };
-        let inner = (self.subject, self.level, self.statistic, self.image);
-        (area, outer_level, self.band, kind, inner)
+        let level = self.level.map_or(0, u64::from);
+        let outer_level = if area == 3 { level } else { 0 };
+        // Each in as many bits as it has.
+        let parts = [
+            (area, 2),
+            (outer_level, 8),
+            (self.band.map_or(0, u64::from), 16),
+            (kind, 3),
+            (subject, 8),
+            (level, 8),
+            (u64::from(self.statistic), 8),
+            (self.image as u64, 2),
+        ];
+        parts.into_iter().fold(0, |order, (part, bits)| order << bits | part)
     }
 }
 
@@ -198,7 +218,7 @@ impl PartialOrd for Key {
 
 impl Ord for Key {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.place().cmp(&other.place())
+        self.order().cmp(&other.order())
     }
 }
 
@@ -209,11 +229,23 @@ pub struct Row {
     pub key: Key,
     /// The value; `None` where there is nothing to have one of.
     pub value: Option<f64>,
-    /// What it takes to pool it.
+    /// What is needed to pool it.
     pub parts: Parts,
 }
 
-/// Values of a frame on their way from where they are measured.
+impl Row {
+    /// The value, and the numbers of its parts behind it.
+    pub fn numbers(&self) -> impl Iterator<Item = Option<f64>> + use<> {
+        let parts = match self.parts {
+            Parts::Value => [None; 3],
+            Parts::Mean { sum, weight } => [Some(sum), Some(weight), None],
+            Parts::Deviation { count, sum, squares } => [Some(count), Some(sum), Some(squares)],
+        };
+        std::iter::once(self.value).chain(parts.into_iter().flatten().map(Some))
+    }
+}
+
+/// Values of a frame, in the order in which they are measured.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Rows(Vec<Row>);
 
@@ -223,7 +255,7 @@ impl Rows {
         self.0.push(Row { key, value, parts });
     }
 
-    /// Adds a value that is pooled by itself.
+    /// Adds a value without parts.
     pub fn score(&mut self, key: Key, value: f64) {
         self.push(key, Some(value), Parts::Value);
     }
@@ -238,9 +270,9 @@ impl Rows {
         self.0.extend_from_slice(&other.0);
     }
 
-    /// Puts them into the order of results, in which they are looked up.
-    pub fn sort(&mut self) {
-        self.0.sort_by_key(|row| row.key);
+    /// All of them.
+    pub(crate) fn as_slice(&self) -> &[Row] {
+        &self.0
     }
 
     /// All of them.
@@ -250,8 +282,7 @@ impl Rows {
 
     /// The row of a key.
     pub fn get(&self, key: Key) -> Option<&Row> {
-        let found = self.0.binary_search_by(|row| row.key.cmp(&key)).ok()?;
-        self.0.get(found)
+        self.0.iter().find(|row| row.key == key)
     }
 
     /// The value of a key; `None` where there is no row, or nothing to have a value of.
@@ -263,18 +294,11 @@ impl Rows {
     pub fn number(&self, key: Key) -> u64 {
         self.value(key).map_or(0, |value| value as u64)
     }
-
-    /// Those of a metric.
-    pub fn of(&self, metric: Metric) -> impl Iterator<Item = &Row> {
-        self.0.iter().filter(move |row| row.key.metric() == Some(metric))
-    }
 }
 
 impl FromIterator<Row> for Rows {
     fn from_iter<I: IntoIterator<Item = Row>>(rows: I) -> Self {
-        let mut rows = Rows(rows.into_iter().collect());
-        rows.sort();
-        rows
+        Self(rows.into_iter().collect())
     }
 }
 
@@ -311,16 +335,29 @@ mod tests {
     #[test]
     fn whole_frames_come_before_bands_and_bands_before_levels() {
         let (psnr, haar) = (Key::of(Metric::Psnr), Key::of(Metric::Haar).on_level(1));
+        let named = |metric, statistic| Key::named(Subject::Metric(metric), statistic).unwrap();
+        let [sustained, transient] =
+            ["q_sustained", "q_transient"].map(|name| named(Metric::Fvvdp, name));
         let left_out = Key::pixels(Subject::PixelsLeftOut);
         let atd = Key::of(Metric::Atd).of_image(Image::Reference);
         let pixels = Key::pixels(Subject::Pixels);
         let order = [
             psnr,
-            Key::named(Subject::Metric(Metric::Fvvdp), "q").unwrap(),
+            // Scores before statistics, whatever the order of metrics.
+            Key::of(Metric::PuPsnr),
+            named(Metric::Fvvdp, "q"),
+            sustained.on_level(1),
+            transient.on_level(1),
+            sustained.on_level(2),
+            transient.on_level(2),
             atd,
+            atd.of_image(Image::Test),
+            named(Metric::Atd, "left_out").of_image(Image::Reference),
             left_out,
             pixels.in_band(0),
+            named(Metric::Ssim, "map_pixels").in_band(0),
             psnr.in_band(0),
+            named(Metric::Fvvdp, "share").in_band(0),
             Key::of(Metric::RmsContrast).of_image(Image::Reference).in_band(0),
             pixels.in_band(1),
             psnr.in_band(1),
@@ -331,9 +368,5 @@ mod tests {
         let mut mixed: Vec<Key> = order.iter().rev().copied().collect();
         mixed.sort();
         assert_eq!(mixed, order);
-        let rows: Rows =
-            mixed.iter().map(|&key| Row { key, value: None, parts: Parts::Value }).collect();
-        assert!(order.iter().all(|key| rows.get(*key).is_some()));
-        assert!(rows.get(psnr.in_band(2)).is_none());
     }
 }

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use fovqa_metrics::{Image, Metric};
-use fovqa_results::{FileError, GAZE_STEP, TableRow, Value, read_results_csv};
+use fovqa_metrics::{Image, Key, Metric};
+use fovqa_results::{FileError, GAZE_STEP, TableRow, Value, Which, read_results_csv};
 
 /// Whole-frame values by scene, method and eye, in the order of the frames.
 #[derive(Debug, Default)]
@@ -26,7 +26,7 @@ impl FrameValues {
     /// Reads them from a folder of results.
     pub(crate) fn read(folder: &Path) -> Result<Self, FileError> {
         let mut values = Self::default();
-        read_results_csv(folder, |row| {
+        read_results_csv(folder, Which::WholeFrames, |row| {
             values.take(row);
             Ok(())
         })?;
@@ -34,16 +34,14 @@ impl FrameValues {
     }
 
     fn take(&mut self, row: &TableRow<'_>) {
-        // Of what has several statistics a frame, this one stands for it.
-        let plain = match row.metric {
-            "fvvdp" => row.statistic == "frame_jod",
-            _ => row.statistic.is_empty(),
-        };
         let (Some(frame), Some(value)) = (row.frame, row.value.map(Value::number)) else { return };
+        let known = Metric::ALL.into_iter().find(|m| m.key() == row.metric);
+        // Of what has several statistics a frame, the first stands for it.
+        let first = known.map_or("", |metric| Key::of(metric).statistic().name);
+        let plain = row.statistic == first && row.level.is_none();
         if row.band.is_some() || !plain || row.image == Image::Ratio {
             return;
         }
-        let known = Metric::ALL.into_iter().find(|m| m.key() == row.metric);
         if known.is_none() && row.metric != GAZE_STEP {
             return;
         }

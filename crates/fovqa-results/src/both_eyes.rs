@@ -14,10 +14,11 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
     let same_frequencies = fvvdp::same_frequencies(left, right);
     // Bands of other edges, or frequencies, have nothing in common.
     let in_common = |row: &Row| {
-        let of_bands = row.key.band.is_some() || row.key.subject == Subject::PixelsOutsideBands;
+        let of_bands = row.key.band.is_some()
+            || row.key.statistic().is_of_bands
+            || row.key.subject == Subject::PixelsOutsideBands;
         let of_frequencies = row.key.metric() == Some(Metric::Fvvdp) && row.key.level.is_some();
-        let shares = row.key.metric() == Some(Metric::Fvvdp) && !row.key.statistic().has_row;
-        (alike || !(of_bands || shares)) && (same_frequencies || !of_frequencies)
+        (alike || !of_bands) && (same_frequencies || !of_frequencies)
     };
     let right_frames: BTreeMap<i64, &FrameResult> =
         right.frames.iter().map(|frame| (frame.frame, frame)).collect();

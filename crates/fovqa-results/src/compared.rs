@@ -41,11 +41,15 @@ impl Sides<Option<f64>> {
 impl FrameResult {
     /// What is measured of each picture and compared, in the order of results, by the key of its ratio.
     pub fn compared(&self) -> impl Iterator<Item = (Key, Sides<Option<f64>>)> {
-        let of_reference =
-            |row: &Row| row.key.image == Image::Reference && row.key.statistic().has_ratio;
-        self.rows.iter().filter(of_reference).map(|row| {
-            let test = self.rows.value(row.key.of_image(Image::Test));
-            (row.key.of_image(Image::Ratio), Sides { reference: row.value, test })
+        let mut rows = self.rows.iter().peekable();
+        std::iter::from_fn(move || {
+            let of_reference =
+                |row: &Row| row.key.image == Image::Reference && row.key.statistic().has_ratio;
+            let Row { key, value: reference, .. } = rows.by_ref().find(of_reference)?;
+            // The test's row is the next.
+            let test = rows.peek().filter(|row| row.key == key.of_image(Image::Test));
+            let test = test.and_then(|row| row.value);
+            Some((key.of_image(Image::Ratio), Sides { reference, test }))
         })
     }
 }

@@ -15,7 +15,7 @@ use crate::report::{Comparison, FrameResult, RunResults, ScoreReport};
 use crate::summary::{Statistics, Summary};
 
 /// The columns, in order.
-pub const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 12] = [
     "scene",
     "method",
     "parameters",
@@ -29,6 +29,9 @@ pub const COLUMNS: [&str; 12] = [
     "to_deg",
     "value",
 ];
+
+/// The column of the lower edge of a band.
+const FROM: usize = 9;
 
 /// The metric of a row that stands for something that could not be scored.
 pub const ERROR: &str = "error";
@@ -127,6 +130,15 @@ pub fn write_results_csv(results: &RunResults, out: impl Write) -> io::Result<()
     table.0.flush()
 }
 
+/// Which rows of results.csv are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Which {
+    /// All.
+    All,
+    /// Those of whole frames.
+    WholeFrames,
+}
+
 /// Reads results.csv of a folder, row by row.
 ///
 /// # Errors
@@ -134,16 +146,27 @@ pub fn write_results_csv(results: &RunResults, out: impl Write) -> io::Result<()
 /// the line is named.
 pub fn read_results_csv(
     folder: &Path,
+    which: Which,
     mut take: impl FnMut(&TableRow<'_>) -> Result<(), String>,
 ) -> Result<(), FileError> {
     let path = folder.join(RESULTS_CSV);
     let mut reader = csv::Reader::from_reader(open_result_file(&path)?);
     let headers = reader.headers().map_err(|error| unreadable(&path, error))?.clone();
     if !headers.iter().eq(COLUMNS) {
-        return Err(not_results(&path, "its columns are others".to_owned()));
+        let missing = COLUMNS.into_iter().find(|column| !headers.iter().any(|of| of == *column));
+        let detail = match missing {
+            Some(column) => format!("it has no column {column}"),
+            None => format!("its columns are not these: {}", COLUMNS.join(", ")),
+        };
+        return Err(not_results(&path, detail));
     }
     let mut record = csv::StringRecord::new();
     while reader.read_record(&mut record).map_err(|error| unreadable(&path, error))? {
+        // Most rows are of bands; to whom they are of no interest they need not be numbers.
+        let is_of_band = record.get(FROM).is_some_and(|cell| !cell.is_empty());
+        if which == Which::WholeFrames && is_of_band {
+            continue;
+        }
         let line = record.position().map_or(0, csv::Position::line);
         let taken = row_of(&record).and_then(|row| take(&row));
         taken.map_err(|detail| not_results(&path, format!("line {line}: {detail}")))?;
@@ -170,7 +193,7 @@ fn row_of(record: &csv::StringRecord) -> Result<TableRow<'_>, String> {
         metric: cell(6),
         statistic: cell(7),
         level: whole(cell(8))?,
-        band: number(cell(9))?.zip(number(cell(10))?).map(Into::into),
+        band: number(cell(FROM))?.zip(number(cell(10))?).map(Into::into),
         value: value.map(Value::Measured),
     })
 }
@@ -223,9 +246,10 @@ impl<W: Write> Table<W> {
         for frame in &report.frames {
             let row = TableRow { frame: Some(frame.frame), ..*row };
             self.gaze(&row, frame)?;
-            let mut reference = None;
+            let mut before = None;
             for measured in frame.rows.iter().filter(|row| row.key.statistic().has_row) {
-                self.measured(&row, measured, edges, &mut reference)?;
+                self.measured(&row, measured, edges, before)?;
+                before = Some(measured);
             }
         }
         Ok(())
@@ -237,7 +261,7 @@ impl<W: Write> Table<W> {
         row: &TableRow<'_>,
         Row { key, value, .. }: Row,
         edges: &[(f64, f64)],
-        reference: &mut Option<f64>,
+        before: Option<Row>,
     ) -> io::Result<()> {
         let band = match key.band {
             None => None,
@@ -263,14 +287,12 @@ impl<W: Write> Table<W> {
             ..*row
         };
         self.write(&row)?;
-        match key.image {
-            Image::Reference => *reference = value,
-            Image::Test if statistic.has_ratio => {
-                let ratio = Sides { reference: *reference, test: value }.ratio();
-                let value = ratio.map(Value::Measured);
-                self.write(&TableRow { image: Image::Ratio, value, ..row })?;
-            }
-            _ => {}
+        if key.image == Image::Test && statistic.has_ratio {
+            // The reference's row is the one before.
+            let of_reference = |row: &Row| row.key == key.of_image(Image::Reference);
+            let reference = before.filter(of_reference).and_then(|row| row.value);
+            let value = Sides { reference, test: value }.ratio().map(Value::Measured);
+            self.write(&TableRow { image: Image::Ratio, value, ..row })?;
         }
         Ok(())
     }

@@ -53,8 +53,8 @@ pub(crate) struct RunArgs {
     /// Only these of each scene's frames, from A up to, but without, B
     #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP")]
     pub(crate) frames: Option<FrameRange>,
-    /// Write the maps of each frame into a folder, SCENE/METHOD in it, of the metrics that have one (squared
-    /// error, SSIM, FovVideoVDP): the value of every pixel (OpenEXR), and a picture in colours (PNG)
+    /// Write the maps of each frame into a folder, SCENE/METHOD in it, one for each metric that has one
+    /// (`fovqa list metrics`): the values (OpenEXR), and a picture in colours (PNG)
     #[arg(long, value_name = "DIR")]
     pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]

@@ -63,8 +63,8 @@ pub(crate) struct ScoreArgs {
     /// Pass over frames without a partner
     #[arg(long, help_heading = "Sequence")]
     allow_missing: bool,
-    /// Write the maps of each frame into a folder, of the metrics that have one (squared error, SSIM,
-    /// FovVideoVDP): the value of every pixel (OpenEXR), and a picture in colours (PNG)
+    /// Write the maps of each frame into a folder, one for each metric that has one (`fovqa list metrics`):
+    /// the values (OpenEXR), and a picture in colours (PNG)
     #[arg(long, value_name = "DIR")]
     pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]

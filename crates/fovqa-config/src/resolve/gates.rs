@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fovqa_metrics::{Better, Key, Metric, MetricKind, Pooling, Subject};
+use fovqa_metrics::{Better, Key, Metric, MetricKind, Pooling, Statistic, Subject};
 
 use super::plots::Known;
 use super::scenes::Resolved;
@@ -13,11 +13,6 @@ use crate::grammar::quoted;
 use crate::nearest::nearest;
 use crate::node::Node;
 
-/// Statistics of single frames, by metric; those of others are empty.
-const FVVDP_STATISTICS: [&str; 6] =
-    ["jod", "frame_jod", "q", "share", "q_sustained", "q_transient"];
-const HAAR_STATISTICS: [&str; 3] = ["mean_abs", MAX_ABS, "energy"];
-const MAX_ABS: &str = "max_abs";
 const ORIENTATIONS: [&str; 3] = ["lh", "hl", "hh"];
 
 /// The rules; mistakes go to `faults`.
@@ -113,7 +108,7 @@ fn quantity(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fau
         }
         None if whole => None,
         // Of largest values the largest. A ratio is that of the largest already.
-        None if statistic.starts_with(MAX_ABS) && image != "ratio" => Some(Aggregate::Max),
+        None if is_maximum(metric, &statistic) && image != "ratio" => Some(Aggregate::Max),
         None => Some(Aggregate::Mean),
     };
     let level = level(table, metric, &statistic, known, faults);
@@ -122,34 +117,23 @@ fn quantity(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fau
 }
 
 fn statistic(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Faults) -> String {
-    let allowed: Vec<String> = match metric {
-        Metric::Fvvdp => FVVDP_STATISTICS.map(str::to_owned).into(),
-        Metric::Haar => {
-            let plain = HAAR_STATISTICS.map(str::to_owned).into_iter();
-            let of = |orientation: &&str| {
-                HAAR_STATISTICS.map(|statistic| format!("{statistic}_{orientation}"))
-            };
-            let split = if known.params.haar.orientations { &ORIENTATIONS[..] } else { &[] };
-            plain.chain(split.iter().flat_map(of)).collect()
-        }
-        metric if metric.pools_frames() => vec!["pooled".to_owned()],
-        _ => Vec::new(),
-    };
+    let orientations = known.params.haar.orientations;
+    let allowed = allowed(metric, orientations);
     let Some(word) = table.text("statistic") else {
         if metric == Metric::Haar {
             let fault = Fault::new(table.span("metric"), "a gate on haar names its statistic");
-            faults.push(fault.help(format!("it is one of {}", quoted(HAAR_STATISTICS))));
+            faults.push(fault.help(format!("it is one of {}", quoted(allowed.iter().copied()))));
         }
         return if metric == Metric::Fvvdp { "jod".to_owned() } else { String::new() };
     };
-    if !allowed.iter().any(|known| known == word) {
+    if !allowed.contains(&word) {
         let message = format!("{} has no statistic \"{word}\"", metric.key());
         let help = if allowed.is_empty() {
             "leave statistic out: aggregate says how frames become one value".to_owned()
         } else {
-            let words = quoted(allowed.iter().map(String::as_str));
+            let words = quoted(allowed.iter().copied());
             let split = ORIENTATIONS.iter().any(|of| word.ends_with(&format!("_{of}")));
-            let more = if metric == Metric::Haar && split && !known.params.haar.orientations {
+            let more = if metric == Metric::Haar && split && !orientations {
                 "; those of an orientation need haar = { orientations = true }"
             } else {
                 ""
@@ -159,6 +143,27 @@ fn statistic(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fa
         faults.push(Fault::new(table.span("statistic"), message).help(help));
     }
     word.to_owned()
+}
+
+fn is_maximum(metric: Metric, statistic: &str) -> bool {
+    let key = Key::named(Subject::Metric(metric), statistic);
+    key.is_some_and(|key| key.statistic().is_maximum())
+}
+
+/// The statistics that a gate may be of: those of single frames, and that of the whole sequence.
+fn allowed(metric: Metric, orientations: bool) -> Vec<&'static str> {
+    let of_orientation =
+        |name: &str| ORIENTATIONS.iter().any(|of| name.ends_with(&format!("_{of}")));
+    let shown = |statistic: &&Statistic| {
+        let named = !statistic.name.is_empty() && !statistic.is_count && statistic.has_row;
+        named && (orientations || !of_orientation(statistic.name))
+    };
+    let of_sequence = match metric {
+        Metric::Fvvdp => Some("jod"),
+        metric => metric.pools_frames().then_some("pooled"),
+    };
+    let of_frames = metric.info().statistics.iter().filter(shown).map(|statistic| statistic.name);
+    of_sequence.into_iter().chain(of_frames).collect()
 }
 
 fn image(table: Node<'_>, metric: Metric, faults: &mut Faults) -> String {

@@ -8,19 +8,32 @@ use super::Pair;
 use crate::load::Fault;
 
 /// Scores pairs, each by itself.
-pub(super) struct Fidelity(Scorer);
+pub(super) struct Fidelity {
+    scorer: Scorer,
+}
 
 impl Fidelity {
     pub(super) fn new(plan: &Plan, metrics: &[Metric]) -> Self {
         let scorer = Scorer::new(metrics.to_vec(), plan.params.clone()).with_maps(plan.maps);
-        Self(if plan.metrics == MetricChoice::Default { scorer.lenient() } else { scorer })
+        let lenient = plan.metrics == MetricChoice::Default;
+        Self { scorer: if lenient { scorer.lenient() } else { scorer } }
     }
 
+    /// Measures a pair.
     pub(super) fn measure(&self, pair: &Pair<'_>) -> Result<Scored, Fault> {
-        let signal = PairSignal::new(&pair.reference.frame, &pair.test.frame, pair.tables);
-        let scores = self.0.score(&signal, pair.regions, pair.retina.weight.as_ref());
-        scores.map_err(|error| unscored(&pair.test.file, &error))
+        score(&self.scorer, pair)
     }
+
+    /// Whether a pair can be measured.
+    pub(super) fn check(&self, pair: &Pair<'_>) -> Result<(), Fault> {
+        score(&self.scorer.clone().with_maps(false), pair).map(|_| ())
+    }
+}
+
+fn score(scorer: &Scorer, pair: &Pair<'_>) -> Result<Scored, Fault> {
+    let signal = PairSignal::new(&pair.reference.frame, &pair.test.frame, pair.tables);
+    let scores = scorer.score(&signal, pair.regions, pair.retina.weight.as_ref());
+    scores.map_err(|error| unscored(&pair.test.file, &error))
 }
 
 pub(super) fn unscored(file: &str, error: &ScoreError) -> Fault {
@@ -34,7 +47,9 @@ fn score_help(error: &ScoreError) -> &'static str {
     match error {
         ScoreError::TooSmall { .. } => "render larger frames",
         ScoreError::Masked { .. } => "score without a mask",
-        ScoreError::NothingLeft | ScoreError::NoWindow { .. } => "check the mask: white is visible",
+        ScoreError::NothingLeft | ScoreError::NoWindow { .. } | ScoreError::TooFew { .. } => {
+            "check the mask: white is visible"
+        }
         ScoreError::NoView { .. } => "give a view",
     }
 }

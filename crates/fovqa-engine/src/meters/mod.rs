@@ -15,7 +15,7 @@ use std::ops::Range;
 
 use fovqa_config::{Plan, Settings};
 use fovqa_frame::{Mask, SignalTables};
-use fovqa_metrics::{Map, Metric, Regions, Rows, Scored};
+use fovqa_metrics::{BlockRegions, Map, Metric, Regions, Rows, Scored};
 use fovqa_results::{AtdGuides, FvvdpSight};
 
 use crate::events::Warnings;
@@ -94,6 +94,15 @@ impl Meter {
                 done..done
             }
         }
+    }
+}
+
+impl Pair<'_> {
+    /// Bands of so many levels of blocks; `None` of no level.
+    fn blocks_of(&self, levels: usize) -> Option<&BlockRegions<'_>> {
+        let blocks = self.blocks.get(&levels);
+        debug_assert!(levels == 0 || blocks.is_some(), "the blocks of every metric are made");
+        blocks
     }
 }
 
@@ -207,7 +216,7 @@ impl Meters {
             match meter {
                 Meter::Fidelity(fidelity) => measured.add(fidelity.measure(pair)?),
                 Meter::Own(own) => {
-                    for scored in own.measure(pair) {
+                    for scored in own.measure(pair, true) {
                         measured.add(scored?);
                     }
                 }
@@ -220,7 +229,6 @@ impl Meters {
                 }
             }
         }
-        measured.rows.sort();
         Ok(measured)
     }
 
@@ -230,11 +238,9 @@ impl Meters {
             match meter {
                 // Whether too much is left out is a matter of this pair alone, and costs those after
                 // it too.
-                Meter::Fidelity(fidelity) if pair.finite.is_some() => {
-                    fidelity.measure(pair)?;
-                }
+                Meter::Fidelity(fidelity) if pair.finite.is_some() => fidelity.check(pair)?,
                 Meter::Own(own) if pair.finite.is_some() => {
-                    own.measure(pair).try_for_each(|scored| scored.map(|_| ()))?;
+                    own.measure(pair, false).try_for_each(|scored| scored.map(|_| ()))?;
                 }
                 Meter::Fidelity(_) | Meter::Own(_) => {}
                 Meter::Light(light) => light.take_in(pair),

@@ -20,17 +20,24 @@ impl Own {
         Self { passes: passes.collect(), params: plan.params.clone(), maps: plan.maps }
     }
 
-    pub(super) fn measure(&self, pair: &Pair<'_>) -> impl Iterator<Item = Result<Scored, Fault>> {
-        self.passes.iter().map(|(metric, pass)| {
-            let levels = (metric.info().needs.block_levels)(&self.params);
+    /// Measures a pair, metric by metric; with its maps, where they are wanted and asked for.
+    pub(super) fn measure(
+        &self,
+        pair: &Pair<'_>,
+        maps: bool,
+    ) -> impl Iterator<Item = Result<Scored, Fault>> {
+        self.passes.iter().map(move |(metric, pass)| {
+            let needs = metric.info().needs;
             let none = BlockRegions::default();
             let scored = pass(&PairInput {
                 reference: &pair.reference.frame,
                 test: &pair.test.frame,
                 tables: pair.tables,
-                blocks: pair.blocks.get(&levels).unwrap_or(&none),
+                regions: pair.regions,
+                weight: pair.retina.weight.as_ref().filter(|_| needs.foveal_weight),
+                blocks: pair.blocks_of((needs.block_levels)(&self.params)).unwrap_or(&none),
                 params: &self.params,
-                map: self.maps,
+                map: self.maps && maps,
             });
             scored.map_err(|error| unscored(&pair.test.file, &error))
         })

@@ -53,6 +53,6 @@ fn one(profiler: &Profiler, pair: &Pair<'_>, image: Image, plane: Option<&mut Ke
     let side = if image == Image::Reference { pair.reference } else { pair.test };
     let none = BlockRegions::default();
     let levels = profiler.haar_levels().unwrap_or(0);
-    let blocks = pair.blocks.get(&levels).unwrap_or(&none);
+    let blocks = pair.blocks_of(levels).unwrap_or(&none);
     profiler.measure(&side.frame, pair.tables, pair.regions, blocks, image, plane)
 }

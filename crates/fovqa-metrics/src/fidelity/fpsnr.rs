@@ -18,7 +18,7 @@ use fovqa_params::{ParamError, ParamInfo, ParamValue, ParamValues};
 use crate::info::{MetricInfo, MetricParams, Needs};
 use crate::pooling::{Pooling, Statistic};
 
-/// What there is to say about it.
+/// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "fpsnr",
     label: "FPSNR",

@@ -3,7 +3,7 @@
 
 use crate::info::{MetricInfo, Needs};
 
-/// What there is to say about it.
+/// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "fssim",
     label: "FSSIM",

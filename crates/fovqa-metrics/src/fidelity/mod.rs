@@ -16,6 +16,6 @@ mod tests;
 mod totals;
 mod weighted_mean;
 
-pub use psnr::{mse_of_db, psnr_db};
+pub(crate) use psnr::{mse_of_db, psnr_db};
 pub use score_error::ScoreError;
 pub use scorer::{Scored, Scorer};

@@ -12,7 +12,7 @@ use multiversion::multiversion;
 
 use crate::info::{MetricInfo, Needs};
 
-/// What there is to say about it.
+/// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "ms_ssim",
     label: "MS-SSIM",

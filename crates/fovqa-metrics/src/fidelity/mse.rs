@@ -11,11 +11,12 @@ use crate::pooling::{Pooling, Statistic};
 /// The squared error of each pixel: the mean over its channels.
 pub(crate) const MAP: MapInfo = MapInfo {
     name: "mse",
+    block: 1,
     about: "squared error with peak 1, mean over channels; coloured from 1e-6 (60 dB) to 1",
     scale: MapScale::Logarithmic { none: 1e-6, most: 1.0 },
 };
 
-/// What there is to say about it.
+/// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "mse",
     label: "MSE",

@@ -135,6 +135,9 @@ pub(crate) fn run(
     let mut sums = Sums::new(regions.bands());
     let mut halved = Vec::new();
     let mut maps = PixelMaps::default();
+    let pixels = |wanted: bool| if wanted { width * height } else { 0 };
+    maps.squared_error.reserve_exact(pixels(wanted.maps.squared_error));
+    maps.ssim.reserve_exact(pixels(wanted.maps.ssim));
     for (block, rows, of_block) in blocks {
         sums.merge(&block);
         halved.extend(rows);

@@ -6,7 +6,7 @@ use super::mse;
 use crate::info::MetricInfo;
 use crate::pooling::{Pooling, Statistic};
 
-/// What there is to say about it.
+/// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "psnr",
     label: "PSNR",
@@ -22,12 +22,12 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
 pub(crate) use crate::info::NoParams as Params;
 
 /// PSNR in dB of a mean squared error with peak 1; infinite for 0.
-pub fn psnr_db(mse: f64) -> f64 {
+pub(crate) fn psnr_db(mse: f64) -> f64 {
     // Subtracted from 0, so that an error of 1 gives 0 dB and not -0.
     if mse == 0.0 { f64::INFINITY } else { 0.0 - 10.0 * libm::log10(mse) }
 }
 
 /// The mean squared error, with peak 1, that has a PSNR.
-pub fn mse_of_db(psnr_db: f64) -> f64 {
+pub(crate) fn mse_of_db(psnr_db: f64) -> f64 {
     libm::pow(10.0, -psnr_db / 10.0)
 }

@@ -16,7 +16,7 @@ use crate::registry::Metric;
 use crate::row::{Key, Rows};
 use crate::sums::add_by_band;
 
-/// What there is to say about it.
+/// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "pu_psnr",
     label: "PU-PSNR",

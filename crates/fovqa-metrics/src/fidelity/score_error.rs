@@ -34,6 +34,14 @@ pub enum ScoreError {
         /// The metric.
         metric: Metric,
     },
+    /// A mask that leaves fewer than two values.
+    #[error("the mask leaves fewer than two whole {what} for {}", metric.info().label)]
+    TooFew {
+        /// The metric.
+        metric: Metric,
+        /// What its values are of, in words.
+        what: &'static str,
+    },
     /// A foveal metric without a weight.
     #[error("{} needs a view", metric.info().label)]
     NoView {

@@ -11,6 +11,7 @@ use super::score_error::ScoreError;
 use super::ssim::rows::Constants;
 use super::totals::Totals;
 use super::{mse, ssim};
+use crate::info::MetricKind;
 use crate::map::{Map, MapInfo};
 use crate::regions::Regions;
 use crate::registry::{Metric, Params};
@@ -51,16 +52,6 @@ impl Scorer {
     #[must_use]
     pub fn with_maps(self, maps: bool) -> Self {
         Self { maps, ..self }
-    }
-
-    /// The metrics.
-    pub fn metrics(&self) -> &[Metric] {
-        &self.metrics
-    }
-
-    /// Radius of the windows whose every pixel has to count.
-    pub fn window_radius(&self) -> usize {
-        self.params.ssim.window_radius()
     }
 
     fn wants(&self, metric: Metric) -> bool {
@@ -157,17 +148,27 @@ impl Scorer {
                     let scored = totals.weighted_squared_error(key, &mut rows);
                     scored.ok_or(ScoreError::NothingLeft)?;
                 }
-                Metric::Ssim if totals.ssim(key, &mut rows) || self.lenient => {}
-                Metric::Ssim => return Err(no_window),
+                Metric::Ssim => {
+                    let any = totals.ssim(key, &mut rows);
+                    if !any && !self.lenient {
+                        return Err(no_window);
+                    }
+                }
                 Metric::MsSsim => rows.score(key, ms_ssim.ok_or(no_window)?),
                 Metric::Fssim => totals.weighted_ssim(key, &mut rows).ok_or(no_window)?,
-                // Measured elsewhere.
-                _ => {}
+                // Measured by others.
+                _ => debug_assert!(!is_of_this_pass(metric), "{metric:?} is measured here"),
             }
         }
-        rows.sort();
         Ok(rows)
     }
+}
+
+/// Whether nobody else measures a metric: neither a pass of its own, nor who has luminance, one picture or
+/// the frames before.
+fn is_of_this_pass(metric: Metric) -> bool {
+    let info = metric.info();
+    info.kind == MetricKind::Fidelity && info.pass.is_none() && !info.needs.luminance
 }
 
 /// MS-SSIM from the finest scale's sums and the next scale.

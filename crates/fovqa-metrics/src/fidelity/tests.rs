@@ -48,7 +48,7 @@ impl Setup {
         let tables = SignalTables::new(params);
         let scorer = Scorer::new(metrics.to_vec(), self.params.clone());
         let regions = match &self.mask {
-            Some(mask) => Regions::masked(&self.bands, mask, scorer.window_radius()),
+            Some(mask) => Regions::masked(&self.bands, mask, self.params.ssim.window_radius()),
             None => Regions::unmasked(&self.bands),
         };
         let weight = WeightField::new(self.eccentricity, &self.params.fpsnr);

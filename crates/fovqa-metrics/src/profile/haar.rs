@@ -42,10 +42,10 @@ const MAX_ABS: Statistic =
     Statistic::named("max_abs").pooled(Pooling::Max).over_frames(Pooling::Max);
 
 const fn mean(name: &'static str) -> Statistic {
-    Statistic::named(name).pooled(Pooling::Mean).weighed_by(Weight::Statistic(COEFFICIENTS))
+    Statistic::named(name).pooled(Pooling::Mean).weighted_by(Weight::Statistic(COEFFICIENTS))
 }
 
-/// What there is to say about it.
+/// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "haar",
     label: "Haar wavelet",

@@ -88,7 +88,6 @@ impl Profiler {
                 }
             }
         }
-        rows.sort();
         rows
     }
 }

@@ -12,7 +12,7 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::info::{MetricInfo, MetricParams};
 
-/// What there is to say about it.
+/// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "rms_contrast",
     label: "RMS contrast",

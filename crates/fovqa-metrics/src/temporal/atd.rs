@@ -20,7 +20,7 @@ use crate::row::{Image, Key, Rows};
 use crate::sums::add_by_band;
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
-/// What there is to say about it.
+/// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "atd",
     label: "ATD",

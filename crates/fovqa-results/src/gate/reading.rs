@@ -1,13 +1,15 @@
 //! The values of a finished run, from results.csv and summary.json. A file that lacks rows, or has others
 //! than were written, must not pass for a run: the two files have to agree.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+
+use fovqa_metrics::Subject;
 
 use super::values::{Place, Row, RunValues, Values};
 use crate::files::{FileError, RESULTS_CSV, SUMMARY_JSON, read_json_file};
 use crate::json::{ComparisonSummary, SUMMARY_SCHEMA, SummaryRecord};
-use crate::table::{ERROR, Value, not_results, read_results_csv};
+use crate::table::{ERROR, Value, Which, not_results, read_results_csv};
 
 impl RunValues {
     /// Reads those of a folder of results.
@@ -49,7 +51,7 @@ impl RunValues {
     }
 
     fn read_csv(&mut self, folder: &Path) -> Result<(), FileError> {
-        read_results_csv(folder, |row| {
+        read_results_csv(folder, Which::All, |row| {
             let place = (row.scene.to_owned(), row.method.to_owned(), row.eye.to_owned());
             let values = self.places.entry(place).or_default();
             if row.metric != ERROR {
@@ -100,11 +102,31 @@ fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String>
         }
     }
     let bands = comparison.bands.len();
-    let every_band = ["coefficients", "mean_abs", "max_abs", "energy"];
-    let short = values.rows.iter().find(|((metric, statistic, _, _), rows)| {
-        metric == "haar"
-            && every_band.contains(&statistic.as_str())
-            && rows.len() != frames.len() * bands
-    });
-    if short.is_some() { Err(lacks("values of haar")) } else { Ok(()) }
+    for ((metric, statistic, ..), rows) in &values.rows {
+        if is_double(rows) {
+            return Err(format!("it has a row of {metric} of {scene}, {method} twice"));
+        }
+        // Of one orientation of the wavelet there used to be no rows of bands without a block.
+        let seldom = ["_lh", "_hl", "_hh"].iter().any(|of| statistic.ends_with(of));
+        if Subject::find(metric).is_some() && !seldom && lacks_bands(rows, bands) {
+            return Err(lacks(&format!("values of {metric}")));
+        }
+    }
+    Ok(())
+}
+
+/// Whether a frame has two values of one statistic, for the whole of it or for a band.
+fn is_double(rows: &[Row]) -> bool {
+    let mut seen = BTreeSet::new();
+    !rows.iter().all(|row| seen.insert((row.frame, row.band.map(|band| band.map(f64::to_bits)))))
+}
+
+/// Whether a frame has some bands of a statistic, but not all.
+fn lacks_bands(rows: &[Row], bands: usize) -> bool {
+    let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
+    let banded = rows.iter().filter(|row| row.band.is_some());
+    for frame in banded.filter_map(|row| row.frame) {
+        *counts.entry(frame).or_default() += 1;
+    }
+    counts.into_values().any(|count| count != bands)
 }

@@ -178,8 +178,14 @@ impl Values {
                 frames.push((frame, value));
             }
         }
-        if frames.is_empty() && quantity.band_deg.is_some() && pixels == 0.0 {
-            return Err(Lacking::Nothing(format!("{quantity}: no pixel is in the band")));
+        if frames.is_empty() && quantity.band_deg.is_some() {
+            if pooling == Pooling::Deviation {
+                let why = "fewer than two of its values are in the band";
+                return Err(Lacking::Nothing(format!("{quantity}: {why}")));
+            }
+            if pixels == 0.0 {
+                return Err(Lacking::Nothing(format!("{quantity}: no pixel is in the band")));
+            }
         }
         match quantity.image.as_str() {
             _ if !frames.is_empty() => Ok(frames),
@@ -224,8 +230,12 @@ impl Values {
             let (Some(frame), Some(band)) = (row.frame, row.band) else { continue };
             if from <= band[0] && band[1] <= to {
                 let of = |values: &Weights| values.get(&(frame, band.map(f64::to_bits))).copied();
-                let (weight, mean) = (of(&weights).unwrap_or(0.0), of(&means).unwrap_or(0.0));
-                let parts = Parts::of_value(pooling, row.value.unwrap_or(0.0), weight, mean);
+                let weight = of(&weights);
+                if weight.is_none() && row.value.is_some() {
+                    return Err(unweighted(quantity));
+                }
+                let (weight, mean) = (weight.unwrap_or(0.0), of(&means).unwrap_or(0.0));
+                let parts = Parts::of_value(pooling, row.value, weight, mean);
                 frames.entry(frame).or_default().push(Part { value: row.value, weight, parts });
             }
         }
@@ -264,11 +274,7 @@ impl Values {
         let none = Vec::new();
         let scored = self.rows.contains_key(&self::kind(quantity));
         let Some(rows) = self.rows.get(&kind).or(Some(&none).filter(|_| !scored)) else {
-            // Results of a version that did not write them: bands' pixels would be a wrong weight.
-            let why = format!(
-                "{quantity}: the results do not say how many pixels of each band have a value; score them again"
-            );
-            return Err(Lacking::NotScored(why));
+            return Err(unweighted(quantity));
         };
         let weight =
             |row: &Row| Some(((row.frame?, row.band?.map(f64::to_bits)), row.value.unwrap_or(0.0)));
@@ -307,6 +313,13 @@ fn known_bands(quantity: &Quantity, edges: &[[f64; 2]]) -> String {
         "{quantity}: the band does not begin and end with bands that are scored: {}",
         known.join(", ")
     )
+}
+
+/// Results of a version that did not write them: bands' pixels would be a wrong weight.
+fn unweighted(quantity: &Quantity) -> Lacking {
+    Lacking::NotScored(format!(
+        "{quantity}: the results do not say how many pixels of each band have a value; score them again"
+    ))
 }
 
 fn no_ratio(quantity: &Quantity) -> Lacking {

@@ -88,22 +88,31 @@ impl SideValues<Spread> {
     }
 }
 
-/// What is compared in a band, by metric.
-pub(crate) fn in_band(frame: &FrameResult, band: usize) -> Vec<(Metric, SideValues<f64>)> {
+/// What is compared in a band, by its name.
+pub(crate) fn in_band(frame: &FrameResult, band: usize) -> Vec<(String, SideValues<f64>)> {
     let compared = frame.compared().filter(|(key, _)| is_in_band(key, band));
-    compared.filter_map(|(key, sides)| Some((key.metric()?, sides.into()))).collect()
+    compared.map(|(key, sides)| (name(&key), sides.into())).collect()
 }
 
-/// The same over the frames.
+/// The same over the frames: of the metrics' own values.
 pub(crate) fn in_summary_band(
     summary: &Summary,
     band: usize,
 ) -> BTreeMap<Metric, SideValues<Spread>> {
-    let compared = summary.compared.iter().filter(|(key, _)| is_in_band(key, band));
     let of_band = |(key, statistics): (&Key, &SideStatistics)| {
-        Some((key.metric()?, SideValues::of(statistics, false)))
+        let wanted = is_in_band(key, band) && key.statistic().name.is_empty();
+        let sides = || SideValues::of(statistics, key.statistic().is_maximum());
+        key.metric().filter(|_| wanted).map(|metric| (metric, sides()))
     };
-    compared.filter_map(of_band).collect()
+    summary.compared.iter().filter_map(of_band).collect()
+}
+
+/// The name of a value: the metric and, where it is not its own value, the statistic.
+pub(crate) fn name(key: &Key) -> String {
+    match key.statistic().name {
+        "" => key.subject.name().to_owned(),
+        statistic => format!("{}_{statistic}", key.subject.name()),
+    }
 }
 
 fn is_in_band(key: &Key, band: usize) -> bool {

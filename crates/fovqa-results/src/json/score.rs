@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use fovqa_metrics::{Image, Key, Metric, Row, Subject};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-use super::compared::{HaarRecord, SideValues, haar, in_band, summary_haar};
+use super::compared::{HaarRecord, SideValues, haar, in_band, name, summary_haar};
 use super::summary::{BandStatistics, ViewRecord, stats};
 use super::values::{MetricMap, Number, Stats};
 use crate::fvvdp::{FvvdpSummary, SpatialBand, spatial_bands};
@@ -100,7 +100,7 @@ struct Frame<'a> {
     gaze_px: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     gaze_step_deg: Option<f64>,
-    metrics: MetricMap<Number>,
+    metrics: NamedValues,
     bands: Vec<Band>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     haar: Vec<HaarRecord<f64>>,
@@ -122,8 +122,15 @@ fn is_zero(count: &u64) -> bool {
 impl<'a> Frame<'a> {
     fn of(frame: &'a FrameResult, report: &ScoreReport) -> Self {
         let rows = &frame.rows;
-        let whole = rows.iter().filter(|row| row.key.band.is_none() && row.key.is_score());
-        let scores = whole.filter_map(|row| Some((row.key.metric()?, Number(row.value?))));
+        // FovVideoVDP has an entry of its own.
+        let of_pair = |row: &Row| {
+            let Key { image, level, band, .. } = row.key;
+            let fvvdp = row.key.metric() == Some(Metric::Fvvdp);
+            image == Image::Pair && level.is_none() && band.is_none() && !fvvdp
+        };
+        let measured = |row: &Row| row.key.metric().is_some() && row.key.statistic().has_row;
+        let scores = rows.iter().filter(|row| of_pair(row) && measured(row));
+        let scores = scores.filter_map(|row| Some((name(&row.key), Number(row.value?))));
         let bands = report.edges().iter().enumerate();
         Self {
             frame: frame.frame,
@@ -131,7 +138,7 @@ impl<'a> Frame<'a> {
             test: &frame.test,
             gaze_px: frame.gaze_px,
             gaze_step_deg: frame.gaze_step_deg,
-            metrics: MetricMap(scores.collect()),
+            metrics: NamedValues(scores.collect()),
             bands: bands.map(|(index, edges)| Band::of(frame, index, *edges)).collect(),
             haar: haar(frame, report.view.as_ref()),
             atd: Atd::of(frame),
@@ -171,14 +178,23 @@ impl Fvvdp {
     }
 }
 
+/// Values by their names, in the order of results.
+struct NamedValues(Vec<(String, Number)>);
+
+impl Serialize for NamedValues {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
 struct Band {
     from_deg: f64,
     to_deg: f64,
     pixels: u64,
     /// What scores of the band are pooled by.
     counts: Vec<(String, u64)>,
-    scores: Vec<(Metric, Option<Number>)>,
-    compared: Vec<(Metric, SideValues<f64>)>,
+    scores: Vec<(String, Option<Number>)>,
+    compared: Vec<(String, SideValues<f64>)>,
     /// Other statistics of a pair.
     others: Vec<(String, Option<Number>)>,
 }
@@ -192,13 +208,12 @@ impl Band {
         };
         let (mut counts, mut scores, mut others) = (Vec::new(), Vec::new(), Vec::new());
         for Row { key, value, .. } in frame.rows.iter().filter(of_pair) {
-            let name = format!("{}_{}", key.subject.name(), key.statistic().name);
-            match key.metric() {
-                _ if key.statistic().is_count => {
-                    counts.push((name, value.unwrap_or_default() as u64));
+            match key {
+                key if key.statistic().is_count => {
+                    counts.push((name(&key), value.unwrap_or_default() as u64));
                 }
-                Some(metric) if key.is_score() => scores.push((metric, value.map(Number))),
-                _ => others.push((name, value.map(Number))),
+                key if key.is_score() => scores.push((name(&key), value.map(Number))),
+                key => others.push((name(&key), value.map(Number))),
             }
         }
         let pixels = frame.rows.number(Key::pixels(Subject::Pixels).in_band(index));
@@ -216,11 +231,11 @@ impl Serialize for Band {
         for (name, count) in &self.counts {
             map.serialize_entry(name, count)?;
         }
-        for (metric, value) in &self.scores {
-            map.serialize_entry(metric.key(), value)?;
+        for (name, value) in &self.scores {
+            map.serialize_entry(name, value)?;
         }
-        for (metric, sides) in &self.compared {
-            map.serialize_entry(metric.key(), sides)?;
+        for (name, sides) in &self.compared {
+            map.serialize_entry(name, sides)?;
         }
         for (name, value) in &self.others {
             map.serialize_entry(name, value)?;

@@ -99,7 +99,7 @@ fn to_jod(row: &mut [f32], exponent: f32) {
 
 /// How a map is coloured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MapColors {
+pub(crate) enum MapColors {
     /// Blue, cyan, green, yellow, red from 0 to 1: what is visible at all.
     Threshold,
     /// Cyan, white, yellow from 0 to 1.
@@ -110,10 +110,10 @@ type Rgb = [f64; 3];
 
 impl MapColors {
     /// Both.
-    pub const ALL: [MapColors; 2] = [Self::Threshold, Self::SupraThreshold];
+    pub(crate) const ALL: [MapColors; 2] = [Self::Threshold, Self::SupraThreshold];
 
     /// Its name in file names.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Threshold => "threshold",
             Self::SupraThreshold => "supra-threshold",
@@ -150,7 +150,7 @@ impl MapColors {
 }
 
 /// A raw map in colours over a picture's luminance: interleaved 8-bit sRGB codes.
-pub fn colored(raw: &Grid, luminance: &Grid, colors: MapColors) -> Vec<u8> {
+pub(crate) fn colored(raw: &Grid, luminance: &Grid, colors: MapColors) -> Vec<u8> {
     let context = context(luminance);
     let values = (0..raw.height()).flat_map(|y| raw.row(y));
     let pixels = values.zip(context).flat_map(|(value, gray)| {

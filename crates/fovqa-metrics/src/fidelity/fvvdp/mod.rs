@@ -51,7 +51,7 @@ pub use color_space::ColorSpace;
 pub use csf::sensitivity;
 pub use geometry::Geometry;
 pub use grid::Grid;
-pub use heat_map::{DifferenceMap, MapColors, colored};
+pub use heat_map::DifferenceMap;
 pub(crate) use params::INFO;
 pub use params::{MapContext, Padding, Params};
 pub use photometry::Photometry;

@@ -4,7 +4,7 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use super::color_space::ColorSpace;
 use super::score::SMALLEST_SIDE;
-use crate::info::{LeadIn, MetricInfo, MetricParams, Needs};
+use crate::info::{Better, LeadIn, MetricInfo, MetricParams, Needs};
 use crate::map::{MapInfo, MapScale};
 use crate::pooling::{Pooling, Statistic};
 
@@ -12,28 +12,31 @@ use crate::pooling::{Pooling, Statistic};
 /// each band of eccentricity has in it.
 const STATISTICS: [Statistic; 6] = [
     Statistic::named("frame_jod"),
-    Statistic::named("q"),
-    Statistic::named("q_sustained"),
-    Statistic::named("q_transient"),
+    Statistic::named("q").pointing(Better::Lower),
+    Statistic::named("q_sustained").pointing(Better::Lower),
+    Statistic::named("q_transient").pointing(Better::Lower),
     // Of the Q of both eyes, or of all frames.
     Statistic::named("share")
         .over_bands(Pooling::Sum)
         .over_eyes(Pooling::Mean)
-        .over_frames(Pooling::Mean),
+        .over_frames(Pooling::Mean)
+        .pointing(Better::Neither),
     Statistic::named("share_outside_bands")
         .over_eyes(Pooling::Mean)
         .over_frames(Pooling::Mean)
+        .of_bands()
         .without_row(),
 ];
 
 /// Where a frame differs visibly.
 pub(crate) const MAP: MapInfo = MapInfo {
     name: "fvvdp",
+    block: 1,
     about: "visible difference, in units like JOD; coloured over a gray picture of the frame",
     scale: MapScale::Own,
 };
 
-/// What there is to say about it.
+/// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "fvvdp",
     label: "FovVideoVDP",

@@ -26,18 +26,19 @@ pub(crate) const MAP_PIXELS: &str = "map_pixels";
 /// SSIM around each pixel where the window fits: the mean over channels.
 pub(crate) const MAP: MapInfo = MapInfo {
     name: "ssim",
+    block: 1,
     about: "SSIM around each pixel, mean over channels; coloured from 1 (alike) to 0",
     scale: MapScale::Linear { none: 1.0, most: 0.0 },
 };
 
-/// What there is to say about it.
+/// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "ssim",
     label: "SSIM",
     per_band: true,
     smallest_side: |params| params.ssim.window_side(),
     statistics: &[
-        Statistic::VALUE.over_bands(Pooling::Mean).weighed_by(Weight::Statistic(MAP_PIXELS)),
+        Statistic::VALUE.over_bands(Pooling::Mean).weighted_by(Weight::Statistic(MAP_PIXELS)),
         Statistic::count(MAP_PIXELS),
     ],
     map: Some(&MAP),

@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::*;
+use crate::fidelity::fvvdp::heat_map::{MapColors, colored};
 
 fn raw(golden: &Golden, id: &str) -> (Grid, Arc<Grid>) {
     let [reference, test] = luminance(golden, id);
