@@ -105,7 +105,7 @@ fn negative_numbers_resume_and_gate() {
     assert!(results.contains("s,m,,,-2,pair,psnr"), "{results}");
     // Two of the three frames are finished.
     let journal = fs::read_to_string(folder.path("r/journal.jsonl")).unwrap();
-    let third = journal.match_indices("\"rows\"").nth(2).unwrap().0;
+    let third = journal.match_indices("\"values\"").nth(2).unwrap().0;
     let end = journal[..third].rfind('\n').unwrap() + 1;
     folder.write("r/journal.jsonl", &journal[..end]);
     folder

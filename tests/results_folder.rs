@@ -128,7 +128,7 @@ fn long() -> Folder {
 fn wait_for_frames(journal: &Path) -> String {
     for _ in 0..3000 {
         let text = fs::read_to_string(journal).unwrap_or_default();
-        if text.matches("\"rows\"").count() > 3 {
+        if text.matches("\"values\"").count() > 3 {
             return text;
         }
         std::thread::sleep(std::time::Duration::from_millis(10));
@@ -164,9 +164,12 @@ fn one_run_at_a_time_and_a_killed_one_leaves_its_journal() {
     assert_eq!(inputs.count(), 1, "an input is taken down once");
     let frame = lines.iter().find(|line| line["frame"] == 0).unwrap();
     let row = rows(&folder, "other").into_iter().find(|row| row["metric"] == "psnr").unwrap();
-    let mut of_frame = frame["rows"].as_array().unwrap().iter();
-    let psnr = of_frame.find(|row| row[0] == "psnr" && row[4].is_null()).unwrap();
-    assert_eq!(psnr[5].as_f64(), row["value"].parse().ok());
+    // As many numbers stand before PSNR as the keys before it have: each its value and its parts.
+    let keys = lines.iter().find(|line| !line["keys"]["layout"].is_null()).unwrap();
+    let keys = keys["keys"]["layout"].as_array().unwrap();
+    let before = keys.iter().take_while(|key| key[0] != "psnr");
+    let before: u64 = before.map(|key| 1 + key[5].as_u64().unwrap()).sum();
+    assert_eq!(frame["values"][before as usize].as_f64(), row["value"].parse().ok());
     // The lock went with the process; nothing looks like finished results.
     assert!(!folder.path("reports/e/results.csv").exists());
     folder.run(&["report", "reports/e"]).fails(3, &["no finished run"]);

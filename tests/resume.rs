@@ -47,10 +47,9 @@ fn cuts(lines: &[String], of: &str) -> Vec<(String, String)> {
 fn marked(lines: &[String]) -> Vec<String> {
     let mark = |line: &String| {
         let mut value: Value = serde_json::from_str(line).unwrap();
-        let Some(rows) = value.get_mut("rows") else { return line.clone() };
-        let rows = rows.as_array_mut().unwrap();
-        let mse = rows.iter_mut().find(|row| row[0] == "mse" && row[4].is_null()).unwrap();
-        mse[5] = 123.5.into();
+        let Some(values) = value.get_mut("values") else { return line.clone() };
+        // MSE comes first.
+        values[0] = 123.5.into();
         format!("{value}\n")
     };
     lines.iter().map(mark).collect()
@@ -164,7 +163,7 @@ fn finished_frames_are_not_scored_again() {
     let folder = two_scenes();
     folder.run(&["run", "e.toml", "--output", "whole"]).ok();
     let lines = marked(&journal(&folder, "whole"));
-    let frames = |lines: &[String]| lines.iter().filter(|l| l.contains("\"rows\"")).count();
+    let frames = |lines: &[String]| lines.iter().filter(|l| l.contains("\"values\"")).count();
     assert_eq!(frames(&lines), 36);
     for end in [lines.len() / 5, lines.len() / 2, lines.len() - 2, lines.len()] {
         folder.write("out/journal.jsonl", lines[..end].concat());
@@ -238,7 +237,9 @@ fn what_has_changed_is_said_and_all_is_scored() {
     resumed(
         "{\"schema\":\"fovqa.journal/9\"}\n",
         &[],
-        &["journal.jsonl is of another version of fovqa, in its format fovqa.journal/9"],
+        &[
+            "of another version of fovqa, in its format fovqa.journal/9; it is kept as journal.jsonl.old",
+        ],
     );
     for (file, bytes) in [
         ("room/a/0001.png", fs::read(folder.path("room/a/0000.png")).unwrap()),
@@ -335,7 +336,7 @@ fn where_nothing_is_there_a_run_begins() {
     lines.insert(half, "\0\0\0\n".to_owned());
     folder.write("new/journal.jsonl", lines.concat());
     folder.run(&["run", "e.toml", "--resume", "--output", "new"]).ok();
-    let before = lines[..half].iter().filter(|line| line.contains("\"rows\"")).count();
+    let before = lines[..half].iter().filter(|line| line.contains("\"values\"")).count();
     let kept = marks(&folder, "new").iter().filter(|(_, marked)| *marked).count();
     assert_eq!(kept, before);
 }
@@ -358,6 +359,27 @@ fn maps_are_all_there() {
     let run = folder.run(&[&run[..], &["others"]].concat()).ok();
     run.says(&["maps of finished frames are not in the folder of --maps", "all is scored"]);
     assert_eq!(bytes(&folder.path("others")), wanted);
+}
+
+/// Maps of other pictures are never taken for those of finished frames.
+#[test]
+fn maps_of_an_earlier_run_are_made_again() {
+    let folder = Folder::new();
+    folder.png_pair("a.png", "b.png", 48, 40);
+    folder.write(
+        "e.toml",
+        "name = \"e\"\n[[scene]]\nname = \"s\"\nreference = \"a.png\"\n\
+         [[method]]\nname = \"m\"\ntest = \"b.png\"\n[metrics]\nssim = {}\n",
+    );
+    folder.run(&["run", "e.toml", "--maps", "maps"]).ok();
+    folder.png_pair("other.png", "b.png", 48, 41);
+    folder.png_pair("a.png", "c.png", 48, 41);
+    folder.run(&["run", "e.toml"]).ok();
+    let run = folder.run(&["run", "e.toml", "--resume", "--maps", "maps"]).ok();
+    run.says(&["maps of finished frames are not in the folder of --maps"]);
+    let kept = bytes(&folder.path("maps"));
+    folder.run(&["run", "e.toml", "--maps", "fresh"]).ok();
+    assert_eq!(kept, bytes(&folder.path("fresh")));
 }
 
 /// A disk that is full, or cannot be written to any more, costs nothing that was finished.
@@ -391,7 +413,7 @@ fn a_full_disk_loses_nothing() {
     let run = ["run", "e.toml", "--resume", "--output", "disk/out"];
     let frames = || {
         let journal = fs::read_to_string(folder.path("disk/out/journal.jsonl"));
-        journal.unwrap_or_default().matches("\"rows\"").count()
+        journal.unwrap_or_default().matches("\"values\"").count()
     };
     folder.run(&run).fails(3, &["the journal cannot be written", "--resume goes on"]);
     let finished = frames();

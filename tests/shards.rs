@@ -309,7 +309,7 @@ fn shards_that_do_not_belong_together_are_told() {
     let write = |lines: &[String]| folder.write("s-3-of-3/journal.jsonl", lines.concat());
     let unfinished = ["s-3-of-3: shard 3/3 is not finished", "--resume"];
     let mut without = lines.clone();
-    without.remove(lines.iter().position(|line| line.contains("\"rows\"")).unwrap());
+    without.remove(lines.iter().position(|line| line.contains("\"values\"")).unwrap());
     let mut behind = lines.clone();
     behind.push(lines[2].clone());
     for other in [&lines[..lines.len() - 1], &lines[..4], &without, &behind] {

@@ -36,7 +36,9 @@ impl HeatMaps {
         let folder = self.folder(named);
         let scored = Metric::ALL.into_iter().filter(|metric| frame.rows.has(*metric));
         let mut maps = scored.filter_map(|metric| metric.info().map);
-        maps.all(|map| folder.join(values_file(map.name, frame.frame)).is_file())
+        let there =
+            |path: PathBuf| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0);
+        maps.all(|map| there(folder.join(values_file(map.name, frame.frame))))
     }
 
     /// Writes those of a pair, where it has some.

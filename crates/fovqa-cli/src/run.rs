@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use fovqa_config::{Experiment, Eye};
 use fovqa_engine::{
-    EngineError, Findings, Found, Header, Journal, ResultsFolder, Shard, results, resume,
+    EngineError, Findings, Found, Header, Journal, NO_MAPS, ResultsFolder, Shard, results, resume,
 };
 
 use crate::args::RunArgs;
@@ -66,7 +66,7 @@ fn into_folder(args: &RunArgs, shown: Shown) -> Result<(PathBuf, Exit), Exit> {
         shard: args.shard,
         maps: args.maps.clone().map(|folder| HeatMaps::new(folder, true)),
     };
-    let header = Header::new(&experiment, &found, args.shard);
+    let header = Header::new(&experiment, &found, args.shard).with_maps(args.maps.as_deref());
     let known = if args.resume { run.known(&header)? } else { Findings::default() };
     let terminal = Terminal::speaking(Dialect::Experiment);
     let findings = run.score(&header, known, &terminal)?;
@@ -113,7 +113,7 @@ impl Run<'_> {
             scored.any(|(named, frame)| !maps.has(named, frame))
         });
         if lacks {
-            changes.push("maps of finished frames are not in the folder of --maps".to_owned());
+            changes.push(NO_MAPS.to_owned());
         }
         let shown = folder.display();
         if changes.is_empty() {

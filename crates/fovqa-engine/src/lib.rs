@@ -41,6 +41,6 @@ pub use foresee::foresee;
 pub use journal::{Header, JOURNAL, Journal, shard_in};
 pub use memory::Needed;
 pub use merge::{MergeError, Shards};
-pub use resume::{Resumed, resume};
+pub use resume::{NO_MAPS, Resumed, resume};
 pub use run::{check, run, score};
 pub use share::{Shard, ShardError};

@@ -41,8 +41,12 @@ pub fn resume(
             return changed(vec![format!("{JOURNAL} is not in the format of this version")]);
         }
         Ok(journal::Found::OtherFormat(format)) => {
+            let kept = format!("{JOURNAL}.old");
+            std::fs::rename(folder.join(JOURNAL), folder.join(&kept))
+                .map_err(|error| EngineError::JournalRead { path: folder.join(JOURNAL), error })?;
             return changed(vec![format!(
-                "{JOURNAL} is of another version of fovqa, in its format {format}"
+                "{JOURNAL} is of another version of fovqa, in its format {format}; it is kept as {kept}, and \
+                 that version can go on with it under its own name"
             )]);
         }
         Ok(journal::Found::Journal(text)) => text,
@@ -79,6 +83,9 @@ fn paths(plan: &Plan, found: &Found) -> BTreeMap<String, PathBuf> {
     beside.chain(frames).map(|path| (plan.shown(path), path.clone())).collect()
 }
 
+/// Said where maps are asked for that finished frames do not have.
+pub const NO_MAPS: &str = "maps of finished frames are not in the folder of --maps";
+
 /// What keeps one run from going on with what another has found.
 fn differences(then: &Header, now: &Header) -> Vec<String> {
     let mut differences = Vec::new();
@@ -94,6 +101,10 @@ fn differences(then: &Header, now: &Header) -> Vec<String> {
             Some(frames) => format!("--frames {frames}"),
         };
         differences.push(format!("it is of {}, and this is of {}", frames(then), frames(now)));
+    }
+    // What is finished has no maps, or has them elsewhere.
+    if now.maps.is_some() && then.maps != now.maps {
+        differences.push(NO_MAPS.to_owned());
     }
     if then.shard != now.shard {
         let shard = |header: &Header| match header.shard {

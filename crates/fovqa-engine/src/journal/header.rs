@@ -30,6 +30,9 @@ pub struct Header {
     pub(crate) experiment_text: String,
     /// Only these of each scene's frames.
     pub(crate) frames: Option<String>,
+    /// The folder of maps, where some are made.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) maps: Option<String>,
     /// `None`: all of it.
     pub(crate) shard: Option<Shard>,
     pub(crate) views: Vec<ViewFiles>,
@@ -67,9 +70,16 @@ impl Header {
             experiment_file: file.to_string_lossy().into_owned(),
             experiment_text: experiment.text.clone(),
             frames: plan.frames.map(|frames| frames.to_string()),
+            maps: None,
             shard,
             views: views.collect(),
         }
+    }
+
+    /// The same of a run that writes maps into a folder.
+    #[must_use]
+    pub fn with_maps(self, maps: Option<&Path>) -> Self {
+        Self { maps: maps.map(|folder| folder.to_string_lossy().into_owned()), ..self }
     }
 
     /// The name of the experiment's file.
@@ -90,7 +100,7 @@ impl Header {
     /// That of the whole run of which this is of a shard.
     #[must_use]
     pub(crate) fn of_all(&self) -> Self {
-        Self { shard: None, ..self.clone() }
+        Self { shard: None, maps: None, ..self.clone() }
     }
 
     /// A line of a journal as its first; `None` where it is something else.

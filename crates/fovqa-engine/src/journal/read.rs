@@ -1,19 +1,20 @@
 //! Reading a journal again.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::ops::Range;
 use std::path::Path;
 
 use fovqa_config::{Eye, Plan};
 use fovqa_io::{FileId, read_small_file};
-use fovqa_metrics::Layouts;
+use fovqa_metrics::Layout;
 use fovqa_results::Input;
 use serde::Deserialize;
 use serde_json::Value;
 
 use super::JOURNAL;
 use super::header::Header;
-use super::records::{ErrorRecord, FrameRecord, SettledRecord};
+use super::records::{ErrorRecord, FrameRecord, KeysRecord, SettledRecord};
 use crate::findings::{Findings, Outcome, ViewFindings, ViewPlace};
 use crate::share::shares;
 
@@ -82,7 +83,7 @@ impl Text {
     pub(crate) fn said(&self, plan: &Plan) -> Said {
         let mut said =
             Said { findings: Findings::default(), done: false, torn: false, twice: None };
-        let mut layouts = Layouts::default();
+        let mut layouts = BTreeMap::new();
         for line in self.rest.split_inclusive(|byte| *byte == b'\n') {
             let whole = line.last() == Some(&b'\n');
             // Nothing comes behind the last line.
@@ -95,7 +96,13 @@ impl Text {
     }
 
     /// Takes a line in; `None` where it is not understood.
-    fn line(&self, plan: &Plan, line: &[u8], said: &mut Said, layouts: &mut Layouts) -> Option<()> {
+    fn line(
+        &self,
+        plan: &Plan,
+        line: &[u8],
+        said: &mut Said,
+        layouts: &mut BTreeMap<usize, Layout>,
+    ) -> Option<()> {
         let value: Value = serde_json::from_slice(line).ok()?;
         let has = |key: &str| value.get(key).is_some();
         let findings = &mut said.findings;
@@ -106,13 +113,16 @@ impl Text {
                 said.twice.get_or_insert_with(|| path.clone());
             }
             findings.inputs.add(&path, &id);
-        } else if has("rows") {
+        } else if has("values") {
             let record: FrameRecord = from(value)?;
             let method = method(plan, &record.method)?;
             let step = record.step;
             let view = self.view(plan, findings, &record.scene, record.eye, Some(step))?;
             let (frame, guides) = record.read(layouts)?;
             view.pairs.insert(step, Outcome { method, result: Ok(frame), guides });
+        } else if let Some(keys) = value.get("keys") {
+            let record: KeysRecord = from(keys.clone())?;
+            layouts.insert(record.number, record.read()?);
         } else if has("error") {
             self.error(plan, findings, from(value)?)?;
         } else if has("settled") {

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use fovqa_config::Eye;
-use fovqa_metrics::{Image, Key, Layouts, Metric, Parts, Row, Rows, Subject};
+use fovqa_metrics::{FrameRows, Image, Key, Layout, Metric, Parts, Subject};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, ViewResult};
 use serde::{Deserialize, Serialize};
 
-use super::number::{Number, maybe, read};
+use super::number::{Number, Token, maybe, read};
 use crate::findings::{Finished, Named, Settled};
 
 /// A pair that was scored.
@@ -22,56 +22,86 @@ pub(super) struct FrameRecord {
     test: String,
     gaze_px: Option<[f64; 2]>,
     gaze_step_deg: Option<Number>,
-    rows: Vec<RowRecord>,
+    /// Number of the line of keys that its values are of.
+    keys: usize,
+    values: Vec<Token>,
     /// What differences over time were taken along, where there are some.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     atd: Option<AtdGuides>,
 }
 
-/// A row as a list: what is measured, statistic, picture, level, band, value, and the parts of that.
+/// What the values of frames behind it are of.
 #[derive(Serialize, Deserialize)]
-struct RowRecord(String, String, String, Option<usize>, Option<usize>, Option<Number>, Vec<Number>);
+pub(super) struct KeysRecord {
+    pub(super) number: usize,
+    layout: Vec<KeyRecord>,
+}
 
-impl From<Row> for RowRecord {
-    fn from(Row { key, value, parts }: Row) -> Self {
-        let parts = match parts {
-            Parts::Value => Vec::new(),
-            Parts::Mean { sum, weight } => vec![sum, weight],
-            Parts::Deviation { count, sum, squares } => vec![count, sum, squares],
+/// A key as a list: what is measured, statistic, picture, level, band, and how many numbers its parts are.
+#[derive(Serialize, Deserialize)]
+struct KeyRecord(String, String, String, Option<u8>, Option<u16>, usize);
+
+impl KeysRecord {
+    pub(super) fn of(number: usize, layout: &Layout) -> Self {
+        let record = |(key, parts): (Key, usize)| {
+            let [subject, statistic, image] =
+                [key.subject.name(), key.statistic().name, key.image.name()].map(str::to_owned);
+            KeyRecord(subject, statistic, image, key.level, key.band, parts)
         };
-        Self(
-            key.subject.name().to_owned(),
-            key.statistic().name.to_owned(),
-            key.image.name().to_owned(),
-            key.level.map(usize::from),
-            key.band.map(usize::from),
-            maybe(value),
-            parts.into_iter().map(Number).collect(),
-        )
+        Self { number, layout: layout.keys().map(record).collect() }
+    }
+
+    /// `None` where it names something that there is not.
+    pub(super) fn read(self) -> Option<Layout> {
+        let key = |KeyRecord(subject, statistic, image, level, band, parts): KeyRecord| {
+            let mut key = Key::named(Subject::find(&subject)?, &statistic)?;
+            (key.level, key.band, key.image) = (level, band, Image::find(&image)?);
+            Some((key, parts))
+        };
+        Layout::new(self.layout.into_iter().map(key).collect::<Option<Vec<_>>>()?)
     }
 }
 
-impl RowRecord {
-    /// `None` where it names something that there is not.
-    fn read(self) -> Option<Row> {
-        let Self(subject, statistic, image, level, band, value, parts) = self;
-        let key = Key::named(Subject::find(&subject)?, &statistic)?;
-        let key = level.map_or(key, |level| key.on_level(level));
-        let key = band.map_or(key, |band| key.in_band(band)).of_image(Image::find(&image)?);
-        let parts = match parts.as_slice() {
-            [] => Parts::Value,
-            [Number(sum), Number(weight)] => Parts::Mean { sum: *sum, weight: *weight },
-            [Number(count), Number(sum), Number(squares)] => {
-                Parts::Deviation { count: *count, sum: *sum, squares: *squares }
-            }
-            _ => return None,
-        };
-        Some(Row { key, value: read(value), parts })
+/// A frame's values, each with its parts behind it; those that are the mean of their parts, as most are, are
+/// said to be.
+fn tokens(rows: &FrameRows) -> Vec<Token> {
+    let mut tokens = Vec::new();
+    for row in rows.iter() {
+        let mut numbers = row.numbers();
+        let value = numbers.next().flatten();
+        tokens.push(match (value, row.parts) {
+            (None, _) => Token::Nothing,
+            (Some(value), Parts::Mean { sum, weight }) if same(value, sum / weight) => Token::Mean,
+            (Some(value), _) => Token::Number(value),
+        });
+        tokens.extend(numbers.flatten().map(Token::Number));
     }
+    tokens
+}
+
+fn same(a: f64, b: f64) -> bool {
+    a.to_bits() == b.to_bits()
+}
+
+/// The same, read again.
+fn numbers(tokens: &[Token]) -> Option<Vec<Option<f64>>> {
+    let number = |token: Option<&Token>| match token {
+        Some(Token::Number(number)) => Some(*number),
+        _ => None,
+    };
+    let read = |(index, token): (usize, &Token)| match token {
+        Token::Nothing => Some(None),
+        Token::Number(number) => Some(Some(*number)),
+        Token::Mean => {
+            let [sum, weight] = [1, 2].map(|behind| number(tokens.get(index + behind)));
+            Some(Some(sum? / weight?))
+        }
+    };
+    tokens.iter().enumerate().map(read).collect()
 }
 
 impl FrameRecord {
-    pub(super) fn of(finished: &Finished<'_>, result: &FrameResult) -> Self {
+    pub(super) fn of(finished: &Finished<'_>, result: &FrameResult, keys: usize) -> Self {
         Self {
             scene: finished.named.scene.to_owned(),
             method: finished.named.method.to_owned(),
@@ -82,22 +112,25 @@ impl FrameRecord {
             test: result.test.clone(),
             gaze_px: result.gaze_px,
             gaze_step_deg: maybe(result.gaze_step_deg),
-            rows: result.rows.iter().map(RowRecord::from).collect(),
+            keys,
+            values: tokens(&result.rows),
             atd: result.rows.has(Metric::Atd).then_some(finished.guides),
         }
     }
 
     /// The result, and what its differences over time were taken along; `None` where it names a metric
     /// that there is not.
-    pub(super) fn read(self, layouts: &mut Layouts) -> Option<(FrameResult, AtdGuides)> {
-        let rows = self.rows.into_iter().map(RowRecord::read);
+    pub(super) fn read(
+        self,
+        layouts: &BTreeMap<usize, Layout>,
+    ) -> Option<(FrameResult, AtdGuides)> {
         let result = FrameResult {
             frame: self.frame,
             reference: self.reference,
             test: self.test,
             gaze_px: self.gaze_px,
             gaze_step_deg: read(self.gaze_step_deg),
-            rows: layouts.pack(rows.collect::<Option<Rows>>()?),
+            rows: FrameRows::of(layouts.get(&self.keys)?, &numbers(&self.values)?)?,
         };
         Some((result, self.atd.unwrap_or_default()))
     }

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use fovqa_config::{Experiment, Eye, EyeView, Plan, Scene};
 use fovqa_io::FileId;
-use fovqa_metrics::{Image, Key, Layouts, Metric, Parts, Rows, Subject};
+use fovqa_metrics::{Image, Key, Metric, Parts, Pooling, Rows, Subject};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, ViewResult};
 
 use super::read::Said;
-use super::write::line_of;
+use super::write::Lines;
 use super::*;
 use crate::findings::{Entry, Findings, Outcome, Settled, ViewFindings};
 
@@ -39,9 +39,14 @@ fn frame() -> FrameResult {
             let key = Key::named(Subject::Metric(metric), statistic.name).unwrap();
             let image = Image::ALL[nth % 3];
             let value = Some(values[(index + nth) % values.len()]);
-            rows.push(key.of_image(image), value, parts[nth % parts.len()]);
+            let parts = match statistic.frames {
+                Pooling::Mean | Pooling::Decibels => parts[1],
+                Pooling::Deviation => parts[2],
+                _ => parts[nth % parts.len()],
+            };
+            rows.push(key.of_image(image), value, parts);
             rows.push(key.in_band(index), None, Parts::Value);
-            rows.score(key.on_level(nth + 1).in_band(0), 1.0 / 7.0);
+            rows.push(key.on_level(nth + 1).in_band(0), Some(1.0 / 7.0), parts);
         }
     }
     rows.count(Key::pixels(Subject::Pixels).in_band(1), 3);
@@ -60,7 +65,8 @@ fn frame() -> FrameResult {
 /// A frame with nothing that it need not have.
 fn bare_frame() -> FrameResult {
     let mut rows = Rows::default();
-    rows.score(Key::of(Metric::Psnr), f64::INFINITY);
+    let parts = Parts::Mean { sum: 0.0, weight: 1.0 };
+    rows.push(Key::of(Metric::Psnr), Some(f64::INFINITY), parts);
     rows.score(Key::of(Metric::Mse), 5.0);
     FrameResult { gaze_px: None, gaze_step_deg: None, rows: rows.into(), ..frame() }
 }
@@ -186,9 +192,12 @@ fn what_is_no_number_is_read_again() {
         guides: AtdGuides::default(),
         maps: &[],
     };
-    let line = line_of(Entry::Pair(finished));
-    let record: super::records::FrameRecord = serde_json::from_slice(&line).unwrap();
-    let (again, _) = record.read(&mut Layouts::default()).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    Journal::begin(folder.path(), &header(&plan(), None), &plan(), &Findings::default()).unwrap();
+    let head = std::fs::read(folder.path().join(JOURNAL)).unwrap();
+    let lines = Lines::default().of(Entry::Pair(finished));
+    let said = said(folder.path(), &[head, lines].concat());
+    let again = said.findings.views[&(0, 0)].pairs[&0].result.as_ref().unwrap();
     assert_eq!(format!("{again:?}"), format!("{result:?}"));
 }
 
@@ -230,7 +239,7 @@ fn lines_of_something_else_are_not_understood() {
         let guides = AtdGuides::default();
         let finished =
             crate::findings::Finished { named, step, result: Ok(&result), guides, maps: &[] };
-        String::from_utf8(line_of(Entry::Pair(finished))).unwrap()
+        String::from_utf8(Lines::default().of(Entry::Pair(finished))).unwrap()
     };
     let named = |scene, method, eye| crate::findings::Named { scene, method, eye };
     let good = line(named("one", "A", None), 3);
@@ -250,7 +259,18 @@ fn lines_of_something_else_are_not_understood() {
         good.replace("\"mse\"", "\"msf\""),
         good.replace("\"pair\"", "\"pear\""),
         good.replace("\"inf\"", "\"much\""),
-        good.replace("5.0,[]", "5.0,[1.0]"),
+        // A number too many, one too few, and parts that are none.
+        good.replace("[5.0,", "[5.0,1.0,"),
+        good.replace("[5.0,", "["),
+        good.replace("0.0,1.0]", "0.0,null]"),
+        good.replace("\"inf\"", "false"),
+        // A band, and a level, that no frame has.
+        good.replacen("\"pair\",null,null,0", "\"pair\",null,65536,0", 1),
+        good.replacen("\"pair\",null,null,0", "\"pair\",257,null,0", 1),
+        // Keys in another order, one of them twice, and none of that number.
+        good.replace("\"mse\"", "\"ssim\""),
+        good.replace("\"mse\"", "\"psnr\""),
+        good.replace("\"keys\":0", "\"keys\":7"),
         "[]\n".to_owned(),
         "{}\n".to_owned(),
         "{\"done\":1}\n".to_owned(),

@@ -5,13 +5,14 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use fovqa_config::Plan;
+use fovqa_metrics::Layout;
 use fovqa_results::{FileError, Input, write_whole_with};
 use serde::Serialize;
 use serde_json::json;
 
 use super::JOURNAL;
 use super::header::Header;
-use super::records::{ErrorRecord, FrameRecord, SettledRecord};
+use super::records::{ErrorRecord, FrameRecord, KeysRecord, SettledRecord};
 use crate::error::EngineError;
 use crate::findings::{Entry, Findings, Finished, Named};
 
@@ -20,6 +21,7 @@ use crate::findings::{Entry, Findings, Finished, Named};
 pub struct Journal {
     path: PathBuf,
     file: File,
+    lines: Lines,
 }
 
 impl Journal {
@@ -36,10 +38,11 @@ impl Journal {
     ) -> Result<Self, EngineError> {
         let path = folder.join(JOURNAL);
         let failed = |error| EngineError::Journal { path: path.clone(), error };
+        let mut lines = Lines::default();
         let written = write_whole_with(&path, |out| {
             out.write_all(&line(header))?;
             let written = known.record(plan, &mut |entry| {
-                let written = out.write_all(&line_of(entry));
+                let written = out.write_all(&lines.of(entry));
                 written.map_err(|error| EngineError::Journal { path: PathBuf::new(), error })
             });
             written.map_err(|error| match error {
@@ -52,7 +55,7 @@ impl Journal {
             FileError::Format { detail, .. } => failed(std::io::Error::other(detail)),
         })?;
         let file = File::options().append(true).open(&path).map_err(failed)?;
-        Ok(Self { path, file })
+        Ok(Self { path, file, lines })
     }
 
     /// Takes something down.
@@ -60,7 +63,8 @@ impl Journal {
     /// # Errors
     /// When the file cannot be written.
     pub fn write(&mut self, entry: Entry<'_>) -> Result<(), EngineError> {
-        self.append(&line_of(entry))
+        let line = self.lines.of(entry);
+        self.append(&line)
     }
 
     /// Says that a shard is done.
@@ -77,33 +81,50 @@ impl Journal {
     }
 }
 
-pub(super) fn line_of(entry: Entry<'_>) -> Vec<u8> {
-    match entry {
-        Entry::Input(Input { path, bytes, sha256 }) => {
-            line(&json!({ "input": path, "bytes": bytes, "sha256": sha256 }))
-        }
-        Entry::Pair(finished) => pair(&finished),
-        Entry::Before(named, failure) => {
-            line(&ErrorRecord { before: true, ..ErrorRecord::of(named, failure) })
-        }
-        Entry::Problem(named, failure) => line(&ErrorRecord::of(named, failure)),
-        Entry::ViewFailed(scene, eye, failure) => {
-            let named = Named { scene, method: "", eye };
-            line(&ErrorRecord { method: None, ..ErrorRecord::of(named, failure) })
-        }
-        Entry::Settled(scene, eye, settled, methods) => {
-            line(&json!({ "settled": SettledRecord::of(scene, eye, settled, methods) }))
+/// The lines of a journal, and which keys those before have named.
+#[derive(Debug, Default)]
+pub(super) struct Lines(Vec<Layout>);
+
+impl Lines {
+    /// The line of an entry, behind a line of keys where its values are of others than any before.
+    pub(super) fn of(&mut self, entry: Entry<'_>) -> Vec<u8> {
+        match entry {
+            Entry::Input(Input { path, bytes, sha256 }) => {
+                line(&json!({ "input": path, "bytes": bytes, "sha256": sha256 }))
+            }
+            Entry::Pair(finished) => self.pair(&finished),
+            Entry::Before(named, failure) => {
+                line(&ErrorRecord { before: true, ..ErrorRecord::of(named, failure) })
+            }
+            Entry::Problem(named, failure) => line(&ErrorRecord::of(named, failure)),
+            Entry::ViewFailed(scene, eye, failure) => {
+                let named = Named { scene, method: "", eye };
+                line(&ErrorRecord { method: None, ..ErrorRecord::of(named, failure) })
+            }
+            Entry::Settled(scene, eye, settled, methods) => {
+                line(&json!({ "settled": SettledRecord::of(scene, eye, settled, methods) }))
+            }
         }
     }
-}
 
-fn pair(finished: &Finished<'_>) -> Vec<u8> {
-    match finished.result {
-        Ok(result) => line(&FrameRecord::of(finished, result)),
-        Err(failure) => {
-            let step = Some(finished.step);
-            line(&ErrorRecord { step, ..ErrorRecord::of(finished.named, failure) })
+    fn pair(&mut self, finished: &Finished<'_>) -> Vec<u8> {
+        let result = match finished.result {
+            Ok(result) => result,
+            Err(failure) => {
+                let step = Some(finished.step);
+                return line(&ErrorRecord { step, ..ErrorRecord::of(finished.named, failure) });
+            }
+        };
+        let layout = result.rows.layout();
+        let known = self.0.iter().position(|known| known.is(layout));
+        let number = known.unwrap_or(self.0.len());
+        let mut lines = Vec::new();
+        if known.is_none() {
+            self.0.push(layout.clone());
+            lines = line(&json!({ "keys": KeysRecord::of(number, layout) }));
         }
+        lines.extend(line(&FrameRecord::of(finished, result, number)));
+        lines
     }
 }
 
