@@ -25,6 +25,7 @@ mod gate_reports;
 mod gate_rules;
 mod gate_verdicts;
 mod gaze_files;
+mod gmsd;
 mod golden;
 mod jpeg;
 mod maps;

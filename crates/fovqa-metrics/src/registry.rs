@@ -6,6 +6,10 @@ use crate::info::{MetricInfo, MetricKind, MetricParams};
 use crate::pooling::Statistic;
 use crate::{fidelity, profile, temporal};
 
+// A metric that shares a pass with no other is named in this file alone.
+#[path = "fidelity/gmsd.rs"]
+mod gmsd;
+
 /// Metrics in the order of tables: the name here, the name of its parameters, its file.
 macro_rules! metrics {
     ($($(#[$about:meta])* $metric:ident, $params:ident: $($file:ident)::+;)*) => {
@@ -68,6 +72,8 @@ metrics! {
     Fpsnr, fpsnr: fidelity::fpsnr;
     /// Structural similarity under the foveal weight.
     Fssim, fssim: fidelity::fssim;
+    /// Gradient magnitude similarity deviation.
+    Gmsd, gmsd: gmsd;
     /// FovVideoVDP; PU-PSNR sees light as it does.
     Fvvdp, fvvdp: fidelity::fvvdp;
     /// Peak signal-to-noise ratio of perceptually uniform luminance.
