@@ -191,6 +191,11 @@ impl FrameRows {
         self.layout.0.iter().map(|place| self.row(place))
     }
 
+    /// Those of some keys.
+    pub fn of_keys(&self, wanted: impl Fn(&Key) -> bool) -> impl Iterator<Item = Row> {
+        self.layout.0.iter().filter(move |place| wanted(&place.key)).map(|place| self.row(place))
+    }
+
     fn row(&self, &Place { key, shape, at, .. }: &Place) -> Row {
         let numbers = &self.numbers[at as usize..];
         let value = (numbers[0] != NOTHING).then(|| f64::from_bits(numbers[0]));
@@ -207,8 +212,21 @@ impl FrameRows {
 
     /// The row of a key.
     pub fn get(&self, key: Key) -> Option<Row> {
-        let found = self.layout.0.binary_search_by_key(&key.order(), |place| place.order).ok()?;
+        self.find(key.order())
+    }
+
+    fn find(&self, order: u64) -> Option<Row> {
+        let found = self.layout.0.binary_search_by_key(&order, |place| place.order).ok()?;
         Some(self.row(&self.layout.0[found]))
+    }
+
+    /// The rows of a key in several frames.
+    pub fn of_frames<'a>(
+        frames: impl Iterator<Item = &'a Self>,
+        key: Key,
+    ) -> impl Iterator<Item = Row> {
+        let order = key.order();
+        frames.filter_map(move |rows| rows.find(order))
     }
 
     /// The value of a key; `None` where there is no row, or nothing to have a value of.

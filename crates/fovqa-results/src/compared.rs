@@ -41,10 +41,10 @@ impl Sides<Option<f64>> {
 impl FrameResult {
     /// What is measured of each picture and compared, in the order of results, by the key of its ratio.
     pub fn compared(&self) -> impl Iterator<Item = (Key, Sides<Option<f64>>)> {
-        let mut rows = self.rows.iter().peekable();
+        let of_picture = |key: &Key| key.image != Image::Pair && key.statistic().has_ratio;
+        let mut rows = self.rows.of_keys(of_picture).peekable();
         std::iter::from_fn(move || {
-            let of_reference =
-                |row: &Row| row.key.image == Image::Reference && row.key.statistic().has_ratio;
+            let of_reference = |row: &Row| row.key.image == Image::Reference;
             let Row { key, value: reference, .. } = rows.by_ref().find(of_reference)?;
             // The test's row is the next.
             let test = rows.peek().filter(|row| row.key == key.of_image(Image::Test));

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::{Image, Key, Metric, MetricKind, Subject, pool};
+use fovqa_metrics::{FrameRows, Image, Key, Metric, MetricKind, Subject, pool};
 
 use crate::compared::Sides;
 use crate::fvvdp::FvvdpSummary;
@@ -120,10 +120,9 @@ impl Summary {
             }
         });
         let mut counts = BTreeMap::new();
-        for row in frames.iter().flat_map(|frame| frame.rows.iter()) {
-            if row.key.metric().is_some() && row.key.statistic().is_count {
-                *counts.entry(row.key).or_default() += row.value.unwrap_or_default() as u64;
-            }
+        let is_count = |key: &Key| key.metric().is_some() && key.statistic().is_count;
+        for row in frames.iter().flat_map(|frame| frame.rows.of_keys(is_count)) {
+            *counts.entry(row.key).or_default() += row.value.unwrap_or_default() as u64;
         }
         Self {
             statistics: whole.collect(),
@@ -239,7 +238,7 @@ impl AtdSummary {
 impl Statistics {
     /// Of the values of a key; `None` where no frame has one.
     fn over(frames: &[FrameResult], key: Key) -> Option<Self> {
-        let rows = || frames.iter().filter_map(|frame| frame.rows.get(key));
+        let rows = || FrameRows::of_frames(frames.iter().map(|frame| &frame.rows), key);
         let values = rows().filter_map(|row| row.value);
         let statistics = Self::of(key.metric()?, values)?;
         let statistic = key.statistic();
