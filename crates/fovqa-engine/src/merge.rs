@@ -264,7 +264,7 @@ fn join(all: &mut ViewFindings, mut next: ViewFindings) {
     for outcome in next.pairs.values_mut().filter(broken) {
         if let Ok(frame) = &mut outcome.result {
             let of_others = frame.rows.iter().filter(|row| row.key.metric() != Some(Metric::Fvvdp));
-            frame.rows = layouts.pack(of_others.collect());
+            frame.rows = layouts.pack(&of_others.collect());
         }
     }
     all.pairs.append(&mut next.pairs);

@@ -254,7 +254,7 @@ impl<'a> ViewRun<'a> {
             test: test.file.clone(),
             gaze_px,
             gaze_step_deg,
-            rows: self.layouts.pack(rows),
+            rows: self.layouts.pack(&rows),
         };
         Ok((result, maps))
     }

@@ -109,8 +109,8 @@ impl Layouts {
     const KEPT: usize = 4;
 
     /// Packs the values of a frame.
-    pub fn pack(&mut self, rows: Rows) -> FrameRows {
-        let known = self.known(&rows);
+    pub fn pack(&mut self, rows: &Rows) -> FrameRows {
+        let known = self.known(rows);
         let mut numbers = Vec::with_capacity(3 * known.order.len());
         let rows = rows.as_slice();
         for &came in &known.order {
@@ -160,7 +160,7 @@ impl Known {
 
 impl From<Rows> for FrameRows {
     fn from(rows: Rows) -> Self {
-        Layouts::default().pack(rows)
+        Layouts::default().pack(&rows)
     }
 }
 
@@ -276,7 +276,7 @@ mod tests {
     #[test]
     fn what_is_packed_is_the_same() {
         let mut layouts = Layouts::default();
-        let packed = layouts.pack(rows(0.5));
+        let packed = layouts.pack(&rows(0.5));
         let mut sorted: Vec<Row> = rows(0.5).iter().copied().collect();
         sorted.sort_by_key(|row| row.key);
         let again: Vec<Row> = packed.iter().collect();
@@ -291,17 +291,17 @@ mod tests {
         assert!(FrameRows::of(&packed.layout, &[&numbers[..], &[None]].concat()).is_none());
         let twice = packed.layout.keys().chain(packed.layout.keys());
         assert!(Layout::new(twice).is_none() && Layout::new([(Key::of(Metric::Mse), 1)]).is_none());
-        let other = layouts.pack(rows(0.25));
+        let other = layouts.pack(&rows(0.25));
         assert!(Arc::ptr_eq(&packed.layout.0, &other.layout.0), "what they are of is kept once");
         // Also where another frame has no value, and behind frames of other kinds.
         for metric in [Metric::Psnr, Metric::Fssim, Metric::Fpsnr] {
             let mut alone = Rows::default();
             alone.push(Key::of(metric), Some(1.0), Parts::Mean { sum: 1.0, weight: 1.0 });
-            layouts.pack(alone);
+            layouts.pack(&alone);
         }
         let mut nothing = rows(0.5);
         nothing = nothing.iter().map(|row| Row { value: None, ..*row }).collect();
-        assert!(Arc::ptr_eq(&packed.layout.0, &layouts.pack(nothing).layout.0));
+        assert!(Arc::ptr_eq(&packed.layout.0, &layouts.pack(&nothing).layout.0));
     }
 
     fn of_one_eye(values: &[(Key, Option<f64>, Parts)]) -> FrameRows {

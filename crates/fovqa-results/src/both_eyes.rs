@@ -33,7 +33,7 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
             test: l.test.clone(),
             gaze_px: None,
             gaze_step_deg: None,
-            rows: layouts.pack(both),
+            rows: layouts.pack(&both),
         })
     });
     ScoreReport {
