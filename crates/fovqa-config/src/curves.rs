@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use fovqa_methods::{BudgetOf, Method, MethodError, Setting};
+use fovqa_params::words;
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::{EccentricityKind, Tangential, View};
 
@@ -186,56 +187,64 @@ pub struct CurvePlot {
     pub f: Vec<f64>,
 }
 
-/// What a figure of curves shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum CurvePlotKind {
-    /// Rates and acuity against eccentricity.
-    #[default]
-    Rates,
-    /// Samples per pixel over the field, as a picture.
-    Density,
-    /// DEAMP: shaded pixels within a layer's angle (Fig. 5b).
-    Accumulated,
-    /// RMFR: where a half axis goes (Fig. 3).
-    HalfAxis,
+words! {
+    /// What a figure of curves shows.
+    #[derive(Default)]
+    pub enum CurvePlotKind {
+        /// Rates and acuity against eccentricity.
+        #[default]
+        Rates "rates" "Rates and acuity against eccentricity";
+        /// Samples per pixel over the field, as a picture.
+        Density "density" "Samples per pixel over the field, as a picture";
+        /// DEAMP: shaded pixels within a layer's angle (Fig. 5b).
+        Accumulated "accumulated" "DEAMP: shaded pixels within a layer's angle";
+        /// RMFR: where a half axis goes (Fig. 3).
+        HalfAxis "half_axis" "RMFR: where a half axis goes";
+    }
 }
 
-/// Which rate a figure shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum RateKind {
-    /// Along the line from the gaze.
-    #[default]
-    Radial,
-    /// Across it.
-    Tangential,
-    /// Both, side by side.
-    Both,
+words! {
+    /// Which rate a figure shows.
+    #[derive(Default)]
+    pub enum RateKind {
+        /// Along the line from the gaze.
+        #[default]
+        Radial "radial" "Along the line from the gaze";
+        /// Across it.
+        Tangential "tangential" "Across it";
+        /// Both, side by side.
+        Both "both" "Both, side by side";
+    }
 }
 
-/// The unit of rates in a figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum RateUnit {
-    /// Cycles per degree.
-    #[default]
-    Cpd,
-    /// Samples per pixel along the direction: the display's own rate is 1.
-    PerPixel,
+words! {
+    /// The unit of rates in a figure.
+    #[derive(Default)]
+    pub enum RateUnit {
+        /// Cycles per degree.
+        #[default]
+        Cpd "cpd" "Cycles per degree";
+        /// Samples per pixel along the direction: the display's own rate is 1.
+        PerPixel "per_pixel" "Samples per pixel along the direction";
+    }
 }
 
-/// What has a panel of its own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum PanelOf {
-    /// Nothing: all curves in one.
-    One,
-    /// Each curve with its settings.
-    #[default]
-    Curve,
-    /// Each resolution.
-    Resolution,
-    /// Each gaze.
-    Gaze,
-    /// Each direction.
-    Direction,
+words! {
+    /// What has a panel of its own.
+    #[derive(Default)]
+    pub enum PanelOf {
+        /// Nothing: all curves in one.
+        One "one" "Nothing: all curves in one";
+        /// Each curve with its settings.
+        #[default]
+        Curve "curve" "Each curve with its settings";
+        /// Each resolution.
+        Resolution "resolution" "Each resolution";
+        /// Each gaze.
+        Gaze "gaze" "Each gaze";
+        /// Each direction.
+        Direction "direction" "Each direction";
+    }
 }
 
 /// A table.
@@ -247,15 +256,16 @@ pub struct CurveTable {
     pub curves: Option<Vec<String>>,
 }
 
-/// What a table of curves shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CurveTableKind {
-    /// Samples per frame and load, curves against resolutions (VaFR, Table 1).
-    Samples,
-    /// Buffer, samples, share of pixels and theoretical speed-up.
-    SpeedUp,
-    /// The share of the field below acuity, and the samples spent above it.
-    Acuity,
+words! {
+    /// What a table of curves shows.
+    pub enum CurveTableKind {
+        /// Samples per frame and load, curves against resolutions (VaFR, Table 1).
+        Samples "samples" "Samples per frame and load, curves against resolutions";
+        /// Buffer, samples, share of pixels and theoretical speed-up.
+        SpeedUp "speed_up" "Buffer, samples, share of pixels and theoretical speed-up";
+        /// The share of the field below acuity, and the samples spent above it.
+        Acuity "acuity" "The share of the field below acuity, and the samples spent above it";
+    }
 }
 
 impl CurvesFile {

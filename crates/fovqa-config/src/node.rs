@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use fovqa_params::Words;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -31,6 +32,11 @@ impl<'a> Node<'a> {
 
     pub(crate) fn text(self, key: &str) -> Option<&'a str> {
         text(self.value(key)?)
+    }
+
+    /// The value of a word.
+    pub(crate) fn word<T: Words>(self, key: &str) -> Option<T> {
+        T::find(self.text(key)?)
     }
 
     pub(crate) fn flag(self, key: &str) -> Option<bool> {

@@ -8,8 +8,8 @@ use fovqa_frame::{Crop, SignalParams, Transfer};
 use fovqa_io::sequence::FrameRange;
 use fovqa_io::{GuideOptions, ReadOptions};
 use fovqa_metrics::{Metric, Params};
+use fovqa_params::{Words, words};
 use fovqa_vision::{BandEdges, EccentricityKind, Eotf, Luminance, ViewSpec};
-use serde::{Deserialize, Serialize};
 
 /// Where the eye looks.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -28,14 +28,16 @@ pub enum Gaze {
     },
 }
 
-/// What to do about NaN and infinity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Nonfinite {
-    /// An error that names the first.
-    #[default]
-    Error,
-    /// Leave the pixels out, in both pictures.
-    Mask,
+words! {
+    /// What to do about NaN and infinity.
+    #[derive(Default)]
+    pub enum Nonfinite {
+        /// An error that names the first.
+        #[default]
+        Error "error" "An error that names the first such pixel";
+        /// Leave the pixels out, in both pictures.
+        Mask "mask" "Such pixels are left out of every number";
+    }
 }
 
 /// Which metrics.
@@ -58,14 +60,14 @@ impl MetricChoice {
     }
 }
 
-/// One eye of a scene with two.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Eye {
-    /// The left eye.
-    Left,
-    /// The right eye.
-    Right,
+words! {
+    /// One eye of a scene with two.
+    pub enum Eye {
+        /// The left eye.
+        Left "left" "The left eye";
+        /// The right eye.
+        Right "right" "The right eye";
+    }
 }
 
 impl Eye {
@@ -74,10 +76,7 @@ impl Eye {
 
     /// Its name in files: what `{eye}` stands for.
     pub fn name(self) -> &'static str {
-        match self {
-            Eye::Left => "left",
-            Eye::Right => "right",
-        }
+        self.word()
     }
 }
 

@@ -1,23 +1,24 @@
 //! Tables and figures an experiment asks for.
 
+use fovqa_params::words;
 use serde::{Deserialize, Serialize};
 
-/// What a table or figure shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum PlotKind {
-    /// Scenes against metrics and methods, the best of each row marked.
-    Table,
-    /// A metric against eccentricity.
-    Profile,
-    /// A metric per scene and method.
-    Bars,
-    /// A metric's spread over the frames.
-    Frames,
-    /// A metric frame by frame, with saccades marked.
-    Sequence,
-    /// Test / reference by eccentricity, as a table.
-    Ratios,
+words! {
+    /// What a table or figure shows.
+    pub enum PlotKind {
+        /// Scenes against metrics and methods, the best of each row marked.
+        Table "table" "Scenes against metrics and methods, the best of each row marked";
+        /// A metric against eccentricity.
+        Profile "profile" "A metric against eccentricity";
+        /// A metric per scene and method.
+        Bars "bars" "A metric per scene and method";
+        /// A metric's spread over the frames.
+        Frames "frames" "A metric's spread over the frames";
+        /// A metric frame by frame, with saccades marked.
+        Sequence "sequence" "A metric frame by frame, with saccades marked";
+        /// Test / reference by eccentricity, as a table.
+        Ratios "ratios" "Test / reference by eccentricity, as a table";
+    }
 }
 
 /// One table or figure, or one for each metric.

@@ -3,17 +3,16 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use fovqa_frame::{SignalChannels, ToneMap, Transfer};
-use fovqa_io::{AlphaPolicy, DepthChannels, MotionChannels, MotionUnit, NamedMotion};
+use fovqa_io::{DepthChannels, MotionChannels, NamedMotion};
 use fovqa_metrics::Metric;
-use fovqa_params::ParamValue;
-use fovqa_vision::{EccentricityKind, Eotf, Luminance, ViewSpec};
+use fovqa_params::{ParamValue, Words};
+use fovqa_vision::{Eotf, Luminance, ViewSpec};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use crate::experiment::Experiment;
 use crate::gates::GateRule;
-use crate::plan::{Eye, EyeView, Gaze, MetricChoice, Nonfinite, Plan, Settings};
+use crate::plan::{Eye, EyeView, Gaze, MetricChoice, Plan, Settings};
 use crate::plots::Plot;
 
 /// A resolved experiment. Paths are relative to its file, where they begin below it.
@@ -227,10 +226,7 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
         Gaze::Point(point) => json!(point),
         Gaze::Trace { path, hold } => json!({ "trace": plan.shown(path), "hold": hold }),
     };
-    view["eccentricity"] = json!(match settings.eccentricity {
-        EccentricityKind::Angular => "angular",
-        EccentricityKind::Planar => "planar",
-    });
+    view["eccentricity"] = json!(settings.eccentricity);
     let edges = settings.bands.as_ref().map(|bands| {
         let last = bands.iter().last().map(|(_, to)| to);
         bands.iter().map(|(from, _)| from).chain(last).collect::<Vec<f64>>()
@@ -240,33 +236,13 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
     let (signal, read) = (&settings.signal, &settings.read);
     let crop = settings.crop.map(|crop| [crop.x, crop.y, crop.width, crop.height]);
     let signal = json!({
-        "channels": match signal.channels {
-            SignalChannels::Rgb => "rgb",
-            SignalChannels::Luma => "luma",
-        },
+        "channels": signal.channels,
         "exposure_stops": signal.exposure_stops,
-        "tonemap": match signal.tonemap {
-            ToneMap::Clamp => "clamp",
-            ToneMap::Reinhard => "reinhard",
-            ToneMap::Aces => "aces",
-        },
-        "transfer": match signal.transfer {
-            None => "auto",
-            Some(Transfer::Srgb) => "srgb",
-            Some(Transfer::Linear) => "linear",
-            Some(Transfer::Pq) => "pq",
-            Some(Transfer::Gamma22) => "gamma2.2",
-        },
+        "tonemap": signal.tonemap,
+        "transfer": signal.transfer.word(),
         "layer": read.layer,
-        "nonfinite": match settings.nonfinite {
-            Nonfinite::Error => "error",
-            Nonfinite::Mask => "mask",
-        },
-        "alpha": match read.alpha {
-            AlphaPolicy::Error => "error",
-            AlphaPolicy::Ignore => "ignore",
-            AlphaPolicy::OverBlack => "over-black",
-        },
+        "nonfinite": settings.nonfinite,
+        "alpha": read.alpha,
         "mask": settings.mask.as_ref().map(|path| plan.shown(path)),
         "crop": crop,
         "max_megapixels": read.max_megapixels,
@@ -294,19 +270,15 @@ fn motion_keys(plan: &Plan, settings: &Settings) -> Value {
     let mut keys = match &settings.guides.motion {
         MotionChannels::None => json!("none"),
         MotionChannels::Auto => json!("auto"),
-        MotionChannels::Preset(preset) => json!(preset.name()),
+        MotionChannels::Preset(preset) => json!(preset),
         MotionChannels::NamedAs(preset, channels) => {
-            json!({ "channels": channels, "encoding": preset.name() })
+            json!({ "channels": channels, "encoding": preset })
         }
         MotionChannels::Named(NamedMotion { channels, sign, scale, unit }) => json!({
             "channels": channels,
             "sign": sign,
             "scale": scale,
-            "unit": match unit {
-                MotionUnit::Pixels => "pixels",
-                MotionUnit::Frame => "frame",
-                MotionUnit::Ndc => "ndc",
-            },
+            "unit": unit,
         }),
     };
     with_files(&mut keys, plan, settings.motion_files.as_deref());
@@ -317,7 +289,7 @@ fn depth_keys(plan: &Plan, settings: &Settings) -> Value {
     let mut keys = match &settings.guides.depth {
         DepthChannels::None => json!("none"),
         DepthChannels::Auto => json!("auto"),
-        DepthChannels::Preset(preset) => json!(preset.name()),
+        DepthChannels::Preset(preset) => json!(preset),
         DepthChannels::Named(channel) => json!({ "channel": channel }),
     };
     with_files(&mut keys, plan, settings.depth_files.as_deref());
@@ -343,7 +315,7 @@ fn luminance_keys(luminance: &Luminance) -> Value {
         "peak_cd_m2": peak_cd_m2,
         "ambient_lux": ambient_lux,
         "reflectivity": reflectivity,
-        "eotf": eotf.name(),
+        "eotf": eotf,
     });
     // Black in the dark goes before contrast.
     match min_cd_m2 {

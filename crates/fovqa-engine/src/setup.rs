@@ -232,10 +232,7 @@ fn look(
         size: [w, h],
         focal_px: view.focal_px,
         gaze_px: first_gaze(inputs.settings, inputs.trace, &view),
-        eccentricity: match kind {
-            EccentricityKind::Angular => "angular",
-            EccentricityKind::Planar => "planar",
-        },
+        eccentricity: kind,
         bands_deg: edges.iter().collect(),
     };
     Ok((Sight { view, kind, edges }, result))

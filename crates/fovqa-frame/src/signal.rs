@@ -7,6 +7,7 @@
 
 use std::sync::OnceLock;
 
+use fovqa_params::{OrAuto, words};
 use half::f16;
 
 use crate::frame::{Frame, Samples};
@@ -14,27 +15,34 @@ use crate::light::{Curve, ShownLight};
 use crate::tonemap::ToneMap;
 use crate::transfer::srgb;
 
-/// How the values of a file are encoded.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Transfer {
-    /// sRGB: used as they are.
-    Srgb,
-    /// Linear light: exposure, tone map and sRGB encoding follow.
-    Linear,
-    /// SMPTE ST 2084 codes: used as they are.
-    Pq,
-    /// A power of 2.2: used as they are.
-    Gamma22,
+words! {
+    /// How the values of a file are encoded.
+    pub enum Transfer {
+        /// sRGB: used as they are.
+        Srgb "srgb" "sRGB-encoded";
+        /// Linear light: exposure, tone map and sRGB encoding follow.
+        Linear "linear" "Linear light: exposure, tone map and sRGB encoding follow";
+        /// SMPTE ST 2084 codes: used as they are.
+        Pq "pq" "SMPTE ST 2084 codes, used as they are";
+        /// A power of 2.2: used as they are.
+        Gamma22 "gamma2.2" "A power of 2.2, used as it is";
+    }
 }
 
-/// What metrics see of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum SignalChannels {
-    /// Three channels; a gray picture stands for three equal ones.
-    #[default]
-    Rgb,
-    /// One: [`Luma`].
-    Luma,
+impl OrAuto for Transfer {
+    const AUTO: &'static str = "sRGB for PNG and JPEG, linear for OpenEXR";
+}
+
+words! {
+    /// What metrics see of a picture.
+    #[derive(Default)]
+    pub enum SignalChannels {
+        /// Three channels; a gray picture stands for three equal ones.
+        #[default]
+        Rgb "rgb" "Red, green and blue";
+        /// One: [`Luma`].
+        Luma "luma" "0.2126 R + 0.7152 G + 0.0722 B of the encoded signal";
+    }
 }
 
 /// Weights of luma, `Y = 0.2126 R + 0.7152 G + 0.0722 B` of the encoded signal (Rec. ITU-R BT.709).

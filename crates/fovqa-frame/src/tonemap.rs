@@ -1,15 +1,19 @@
 //! Tone maps: linear light of any height to `[0, 1]`, each channel on its own.
 
-/// How linear input is brought into the range of a display.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ToneMap {
-    /// `min(max(x, 0), 1)`.
-    #[default]
-    Clamp,
-    /// `max(x, 0) / (1 + max(x, 0))` (Reinhard et al. 2002, Eq. 3).
-    Reinhard,
-    /// Narkowicz 2015, a fit to the ACES reference rendering transform.
-    Aces,
+use fovqa_params::words;
+
+words! {
+    /// How linear input is brought into the range of a display.
+    #[derive(Default)]
+    pub enum ToneMap {
+        /// `min(max(x, 0), 1)`.
+        #[default]
+        Clamp "clamp" "min(max(x, 0), 1)";
+        /// `max(x, 0) / (1 + max(x, 0))` (Reinhard et al. 2002, Eq. 3).
+        Reinhard "reinhard" "x / (1 + x)";
+        /// Narkowicz 2015, a fit to the ACES reference rendering transform.
+        Aces "aces" "Narkowicz 2015";
+    }
 }
 
 impl ToneMap {

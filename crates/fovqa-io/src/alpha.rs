@@ -1,18 +1,22 @@
 //! Alpha: what to do with pixels that are not opaque.
 
+use fovqa_params::words;
+
 use crate::error::ReadErrorKind;
 
-/// What to do with alpha that is not 1 everywhere.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum AlphaPolicy {
-    /// An error that names the first such pixel.
-    #[default]
-    Error,
-    /// Take the colours as they are.
-    Ignore,
-    /// Lay the picture over black: PNG colours are multiplied by alpha (as encoded, like a
-    /// viewer does), OpenEXR colours are premultiplied already.
-    OverBlack,
+words! {
+    /// What to do with alpha that is not 1 everywhere.
+    #[derive(Default)]
+    pub enum AlphaPolicy {
+        /// An error that names the first such pixel.
+        #[default]
+        Error "error" "An error that names the first pixel that is not opaque";
+        /// Take the colours as they are.
+        Ignore "ignore" "Colours are taken as they are";
+        /// Lay the picture over black: PNG colours are multiplied by alpha (as encoded, like a
+        /// viewer does), OpenEXR colours are premultiplied already.
+        OverBlack "over-black" "The picture is laid over black";
+    }
 }
 
 /// Looks through alpha values (row by row, 1 = opaque) for any that is not 1.

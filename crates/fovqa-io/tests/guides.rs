@@ -13,6 +13,7 @@ use fovqa_io::{
     GuideSearch, MotionChannels, MotionUnit, NamedMotion, Note, ReadErrorKind, ReadOptions,
     read_frame, read_frame_and_hash, read_guides, read_guides_and_hash,
 };
+use fovqa_params::Words;
 use fovqa_testkit::exr_files::{
     File, Part, Values, block_starts, deep, with_block_as, with_deep_part, with_subsampled,
 };
@@ -516,7 +517,7 @@ fn presets_mean_what_their_renderers_write() {
         for ours in [preset(given), auto()] {
             let guides = frame_of(parts.clone(), &ours).unwrap().guides;
             let motion = guides.motion.unwrap();
-            assert_eq!(motion.scale(), scale, "{}", given.name());
+            assert_eq!(motion.scale(), scale, "{}", given.word());
             for (x, y) in [(0, 0), (13, 20)] {
                 let at = [value(3, x, y), value(4, x, y)].map(|v| f64::from(v) - offset);
                 assert_eq!(motion.at(x, y), [at[0] * scale[0], at[1] * scale[1]]);
@@ -527,7 +528,7 @@ fn presets_mean_what_their_renderers_write() {
             is_seed(guides.depth.as_ref().unwrap(), 5);
         }
     }
-    let names = GuidePreset::ALL.map(GuidePreset::name);
+    let names = GuidePreset::ALL.map(Words::word);
     assert_eq!(names, ["blender", "falcor", "unreal", "mitsuba"]);
 }
 

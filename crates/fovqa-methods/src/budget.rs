@@ -1,5 +1,6 @@
 //! A method at a budget: its free parameter solved for a share of samples.
 
+use fovqa_params::words;
 use thiserror::Error;
 
 use crate::error::MethodError;
@@ -7,14 +8,16 @@ use crate::guenter::{Fit, Guenter};
 use crate::registry::Method;
 use crate::setting::Setting;
 
-/// Which samples a budget counts, over the frame's pixels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum BudgetOf {
-    /// All of the buffer, with what VaFR has beyond 60°.
-    #[default]
-    Buffer,
-    /// Those that fall into the frame.
-    OnScreen,
+words! {
+    /// Which samples a budget counts, over the frame's pixels.
+    #[derive(Default)]
+    pub enum BudgetOf {
+        /// All of the buffer, with what VaFR has beyond 60°.
+        #[default]
+        Buffer "buffer" "All that are shaded";
+        /// Those that fall into the frame.
+        OnScreen "on_screen" "Those that fall into the frame";
+    }
 }
 
 /// A method at a budget.

@@ -5,7 +5,13 @@
 mod error;
 mod info;
 mod value;
+mod words;
 
 pub use error::ParamError;
 pub use info::{ParamInfo, ParamValues, find};
 pub use value::ParamValue;
+pub use words::{OrAuto, Words, words_of};
+
+// For [`words!`].
+#[doc(hidden)]
+pub use serde;

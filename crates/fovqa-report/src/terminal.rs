@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use fovqa_metrics::{Image, Key, Metric, MetricKind, Subject};
+use fovqa_params::Words;
 use fovqa_results::{AtdSummary, FvvdpSummary, GuideSource, ScoreReport, Statistics, Summary};
 
 use crate::text_table::{aligned, plain_table, printable};
@@ -213,7 +214,7 @@ fn heading(report: &ScoreReport) -> String {
         let _ = writeln!(
             text,
             "view {w}x{h} px, focal length {focal} px, gaze {gaze}, {} eccentricity",
-            view.eccentricity
+            view.eccentricity.word()
         );
     }
     text

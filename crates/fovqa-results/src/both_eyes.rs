@@ -106,7 +106,7 @@ mod tests {
             size: [1, 1],
             focal_px: [1.0; 2],
             gaze_px: [0.5; 2],
-            eccentricity: "angular",
+            eccentricity: fovqa_vision::EccentricityKind::Angular,
             bands_deg: vec![(0.0, to_deg)],
         };
         let report = |frames: &[i64], to_deg: f64| ScoreReport {

@@ -1,6 +1,7 @@
 //! What a run of `score` found.
 
 use fovqa_metrics::{FrameRows, Metric};
+use fovqa_vision::EccentricityKind;
 use serde::{Deserialize, Serialize};
 
 /// The view the frames were scored under.
@@ -13,7 +14,7 @@ pub struct ViewResult {
     /// Gaze in pixels; of the first frame where it moves.
     pub gaze_px: [f64; 2],
     /// `angular` or `planar`.
-    pub eccentricity: &'static str,
+    pub eccentricity: EccentricityKind,
     /// Edges of the bands, `(from_deg, to_deg)` each.
     pub bands_deg: Vec<(f64, f64)>,
 }

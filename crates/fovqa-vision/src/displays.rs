@@ -3,40 +3,27 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
+use fovqa_params::words;
 use serde::Deserialize;
 use thiserror::Error;
 
-/// How a display turns the values it is given into light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Eotf {
-    /// IEC 61966-2-1.
-    Srgb,
-    /// A power, [`Luminance::gamma`].
-    Gamma,
-    /// SMPTE ST 2084: values are luminance, encoded.
-    Pq,
-    /// Values are light already, in cd/m².
-    Linear,
-    /// The same, with nothing added to it: light that was measured, not shown.
-    Absolute,
+words! {
+    /// How a display turns the values it is given into light.
+    pub enum Eotf {
+        /// IEC 61966-2-1.
+        Srgb "srgb" "IEC 61966-2-1";
+        /// A power, [`Luminance::gamma`].
+        Gamma "gamma" "A power";
+        /// SMPTE ST 2084: values are luminance, encoded.
+        Pq "pq" "SMPTE ST 2084";
+        /// Values are light already, in cd/m².
+        Linear "linear" "Light already, in cd/m²";
+        /// The same, with nothing added to it: light that was measured, not shown.
+        Absolute "absolute" "Light that was measured, in cd/m²";
+    }
 }
 
 impl Eotf {
-    /// All of them.
-    pub const ALL: [Eotf; 5] = [Self::Srgb, Self::Gamma, Self::Pq, Self::Linear, Self::Absolute];
-
-    /// Its name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Srgb => "srgb",
-            Self::Gamma => "gamma",
-            Self::Pq => "pq",
-            Self::Linear => "linear",
-            Self::Absolute => "absolute",
-        }
-    }
-
     /// Whether a value stands for a share of the display's white, rather than for an amount of light.
     pub fn is_relative(self) -> bool {
         matches!(self, Self::Srgb | Self::Gamma)

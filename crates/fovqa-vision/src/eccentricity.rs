@@ -5,17 +5,21 @@ use std::ops::Range;
 
 use multiversion::multiversion;
 
+use fovqa_params::words;
+
 use crate::view::View;
 
-/// How eccentricity is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum EccentricityKind {
-    /// The angle between the ray through the pixel and the ray through the gaze.
-    #[default]
-    Angular,
-    /// The papers' shortcut `atan(r / focal_px)`, `r` the distance to the gaze in pixels. Exact
-    /// only for a gaze at the principal point.
-    Planar,
+words! {
+    /// How eccentricity is measured.
+    #[derive(Default)]
+    pub enum EccentricityKind {
+        /// The angle between the ray through the pixel and the ray through the gaze.
+        #[default]
+        Angular "angular" "The angle between the rays to the pixel and to the gaze";
+        /// The papers' shortcut `atan(r / focal_px)`, `r` the distance to the gaze in pixels. Exact
+        /// only for a gaze at the principal point.
+        Planar "planar" "The papers' shortcut, atan(distance in pixels / focal length)";
+    }
 }
 
 /// Eccentricity over one view and one gaze.

@@ -2,17 +2,21 @@
 
 use std::f64::consts::PI;
 
+use fovqa_params::words;
+
 use crate::eccentricity::EccentricityKind;
 use crate::view::View;
 
-/// What a degree across the line from the gaze is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Tangential {
-    /// As along that line (VaFR divides its Eq. 6 and 20 by the radial dr/de).
-    #[default]
-    Paper,
-    /// A degree of visual angle.
-    Angle,
+words! {
+    /// What a degree across the line from the gaze is.
+    #[derive(Default)]
+    pub enum Tangential {
+        /// As along that line (VaFR divides its Eq. 6 and 20 by the radial dr/de).
+        #[default]
+        Paper "paper" "As along it, the papers' convention";
+        /// A degree of visual angle.
+        Angle "angle" "A degree of visual angle";
+    }
 }
 
 /// A place on the screen, and how large a degree is there.

@@ -7,14 +7,14 @@ use fovqa_config::{
     CurveBudget, CurveRange, CurveSetting, CurveSource, CurveSpec, resolution as parse_resolution,
 };
 use fovqa_methods::{BudgetOf, Method};
-use fovqa_params::ParamValue;
+use fovqa_params::{ParamValue, Words};
 use fovqa_vision::acuity::AcuityModel;
-use fovqa_vision::{Tangential, ViewSpec};
+use fovqa_vision::{EccentricityKind, Tangential, ViewSpec};
 
 use super::lock::LockArgs;
 use super::no_such::no_such;
-use super::values::{finite, literal, numbers};
-use super::view::{EccentricityArg, FAR, ViewSpecArgs, near};
+use super::values::{finite, literal, numbers, words};
+use super::view::{FAR, ViewSpecArgs, near};
 use crate::diagnostic;
 
 pub(crate) const EXAMPLES: &str = "\
@@ -31,24 +31,6 @@ DEAMP end with the frame. docs/curves.md shows every key of a file of curves, an
 
 Exit codes: 0 done; 2 the command line or the file is wrong; 3 the output cannot be written; 70 a
 bug in fovqa; 130 interrupted.";
-
-/// What a degree across the curve is.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(crate) enum TangentialArg {
-    /// As along it, the papers' convention.
-    Paper,
-    /// A degree of visual angle.
-    Angle,
-}
-
-/// Which samples a budget counts.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(crate) enum BudgetOfArg {
-    /// All that are shaded.
-    Buffer,
-    /// Those that fall into the frame.
-    OnScreen,
-}
 
 /// How curves are printed.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -97,8 +79,8 @@ pub(crate) struct CurvesArgs {
     #[arg(long, value_name = "SHARE", value_parser = finite, requires = "method")]
     budget: Option<f64>,
     /// Which samples the budget counts
-    #[arg(long, value_name = "WHICH", default_value = "buffer", requires = "budget")]
-    budget_of: BudgetOfArg,
+    #[arg(long, value_name = "WHICH", default_value = BudgetOf::default().word(), value_parser = words::<BudgetOf>(), requires = "budget")]
+    budget_of: BudgetOf,
     /// Size of the frame [default: that of --display]
     #[arg(long, value_name = "WxH", value_parser = resolution)]
     resolution: Option<[usize; 2]>,
@@ -111,11 +93,11 @@ pub(crate) struct CurvesArgs {
     #[arg(long, value_name = "DEG", default_value = "0", value_parser = finite, allow_negative_numbers = true)]
     direction: f64,
     /// What a degree across the curve is
-    #[arg(long, value_name = "KIND", default_value = "paper")]
-    tangential: TangentialArg,
+    #[arg(long, value_name = "KIND", default_value = Tangential::default().word(), value_parser = words::<Tangential>())]
+    tangential: Tangential,
     /// How eccentricity is measured
-    #[arg(long, value_name = "KIND", default_value = "planar")]
-    eccentricity: EccentricityArg,
+    #[arg(long, value_name = "KIND", default_value = EccentricityKind::Planar.word(), value_parser = words::<EccentricityKind>())]
+    eccentricity: EccentricityKind,
     /// From one eccentricity to the next, degrees
     #[arg(long, value_name = "DEG", default_value = "0.25", value_parser = step)]
     step: f64,
@@ -206,13 +188,7 @@ impl CurvesArgs {
         for (name, value) in &self.set {
             method.set(name, value).map_err(|error| error.to_string())?;
         }
-        let budget = self.budget.map(|share| CurveBudget {
-            share,
-            of: match self.budget_of {
-                BudgetOfArg::Buffer => BudgetOf::Buffer,
-                BudgetOfArg::OnScreen => BudgetOf::OnScreen,
-            },
-        });
+        let budget = self.budget.map(|share| CurveBudget { share, of: self.budget_of });
         let name = method.info().label.to_owned();
         CurveSpec::of_method(name, method, parameters, self.setting()?, budget)
     }
@@ -239,11 +215,8 @@ impl CurvesArgs {
             view,
             gaze_px,
             direction_deg: self.direction,
-            tangential: match self.tangential {
-                TangentialArg::Paper => Tangential::Paper,
-                TangentialArg::Angle => Tangential::Angle,
-            },
-            eccentricity: self.eccentricity.into(),
+            tangential: self.tangential,
+            eccentricity: self.eccentricity,
         })
     }
 

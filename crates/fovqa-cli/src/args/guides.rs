@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use fovqa_io::{DepthChannels, GuideOptions, GuidePreset, MotionChannels, MotionUnit, NamedMotion};
+use fovqa_params::Words;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Sequence")]
@@ -25,7 +26,7 @@ pub(crate) struct GuideArgs {
 }
 
 fn preset(word: &str) -> Option<GuidePreset> {
-    GuidePreset::ALL.into_iter().find(|preset| preset.name() == word.to_lowercase())
+    GuidePreset::find(&word.to_lowercase())
 }
 
 fn motion(text: &str) -> Result<MotionChannels, String> {
@@ -84,7 +85,7 @@ fn check_plain(channels: &[String; 2]) -> Result<(), String> {
     match GuidePreset::of_motion(channels).filter(|preset| !preset.is_plain()) {
         None => Ok(()),
         Some(preset) => {
-            let ([x, y], renderer) = (channels, preset.name());
+            let ([x, y], renderer) = (channels, preset.word());
             Err(format!(
                 "these are channels as {renderer} writes them, which are not pixels to the right and down: \
                  write --motion {renderer}, or --motion {renderer}:{x},{y} for exactly these; \

@@ -1,5 +1,6 @@
 //! `--luminance`.
 
+use fovqa_params::{Words, words_of};
 use fovqa_vision::{Eotf, Luminance};
 
 use super::no_such::no_such;
@@ -19,8 +20,8 @@ pub(super) fn luminance(text: &str) -> Result<Luminance, String> {
         let (key, value) = part.split_once('=').ok_or("write KEY=VALUE with commas between")?;
         let (key, value) = (key.trim().replace('-', "_"), value.trim());
         if key == "eotf" {
-            let names = Eotf::ALL.map(|eotf| eotf.name().to_owned());
-            let found = Eotf::ALL.into_iter().find(|eotf| eotf.name() == value.to_lowercase());
+            let names: Vec<String> = words_of::<Eotf>().into_iter().map(str::to_owned).collect();
+            let found = Eotf::find(&value.to_lowercase());
             given.eotf = found.ok_or_else(|| no_such("eotf", value, &names))?;
             continue;
         }

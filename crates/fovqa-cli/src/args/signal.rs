@@ -3,79 +3,32 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use fovqa_config::Nonfinite;
 use fovqa_frame::{Crop, SignalChannels, SignalParams, ToneMap, Transfer};
 use fovqa_io::{AlphaPolicy, ReadOptions};
+use fovqa_params::Words;
 
-use super::values::{crop, finite};
+use super::values::{crop, finite, words};
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(crate) enum ChannelsArg {
-    /// Red, green and blue.
-    Rgb,
-    /// 0.2126 R + 0.7152 G + 0.0722 B of the encoded signal.
-    Luma,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(crate) enum ToneMapArg {
-    /// min(max(x, 0), 1).
-    Clamp,
-    /// x / (1 + x).
-    Reinhard,
-    /// Narkowicz 2015.
-    Aces,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(crate) enum TransferArg {
-    /// sRGB for PNG and JPEG, linear for OpenEXR.
-    Auto,
-    /// sRGB-encoded.
-    Srgb,
-    /// Linear light: exposure, tone map and sRGB encoding follow.
-    Linear,
-    /// SMPTE ST 2084 codes, used as they are.
-    Pq,
-    /// A power of 2.2, used as it is.
-    #[value(name = "gamma2.2")]
-    Gamma22,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(crate) enum NonfiniteArg {
-    /// An error that names the first such pixel.
-    Error,
-    /// Such pixels are left out of every number.
-    Mask,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(crate) enum AlphaArg {
-    /// An error that names the first pixel that is not opaque.
-    Error,
-    /// Colours are taken as they are.
-    Ignore,
-    /// The picture is laid over black.
-    OverBlack,
-}
+/// Otherwise the parser would take `Option` for an option that need not be given.
+type TransferOrAuto = Option<Transfer>;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Signal")]
 pub(crate) struct SignalArgs {
     /// What is compared
-    #[arg(long, value_name = "WHAT", default_value = "rgb")]
-    channels: ChannelsArg,
+    #[arg(long, value_name = "WHAT", default_value = SignalChannels::default().word(), value_parser = words::<SignalChannels>())]
+    channels: SignalChannels,
     /// Exposure of linear input, stops
     #[arg(long, value_name = "STOPS", default_value = "0", allow_negative_numbers = true, value_parser = finite)]
     exposure: f64,
     /// Tone map of linear input
-    #[arg(long, value_name = "NAME", default_value = "clamp")]
-    tonemap: ToneMapArg,
+    #[arg(long, value_name = "NAME", default_value = ToneMap::default().word(), value_parser = words::<ToneMap>())]
+    tonemap: ToneMap,
     /// How values in the files are encoded
-    #[arg(long, value_name = "NAME", default_value = "auto")]
-    transfer: TransferArg,
+    #[arg(long, value_name = "NAME", default_value = TransferOrAuto::default().word(), value_parser = words::<TransferOrAuto>())]
+    transfer: TransferOrAuto,
     /// Colour layer of OpenEXR files that have several, in reference and test; "root" for R, G, B without
     /// a prefix
     #[arg(long, value_name = "NAME")]
@@ -84,11 +37,11 @@ pub(crate) struct SignalArgs {
     #[arg(long, value_name = "NAME")]
     test_layer: Option<String>,
     /// What to do about NaN and infinity
-    #[arg(long, value_name = "POLICY", default_value = "error")]
-    nonfinite: NonfiniteArg,
+    #[arg(long, value_name = "POLICY", default_value = Nonfinite::default().word(), value_parser = words::<Nonfinite>())]
+    nonfinite: Nonfinite,
     /// What to do about alpha that is not 1 everywhere
-    #[arg(long, value_name = "POLICY", default_value = "error")]
-    alpha: AlphaArg,
+    #[arg(long, value_name = "POLICY", default_value = AlphaPolicy::default().word(), value_parser = words::<AlphaPolicy>())]
+    alpha: AlphaPolicy,
     /// Picture that is white where pixels count, such as a lens's visible area
     #[arg(long, value_name = "FILE")]
     mask: Option<PathBuf>,
@@ -103,34 +56,17 @@ pub(crate) struct SignalArgs {
 impl SignalArgs {
     pub(crate) fn signal(&self) -> SignalParams {
         SignalParams {
-            transfer: match self.transfer {
-                TransferArg::Auto => None,
-                TransferArg::Srgb => Some(Transfer::Srgb),
-                TransferArg::Linear => Some(Transfer::Linear),
-                TransferArg::Pq => Some(Transfer::Pq),
-                TransferArg::Gamma22 => Some(Transfer::Gamma22),
-            },
+            transfer: self.transfer,
             exposure_stops: self.exposure,
-            tonemap: match self.tonemap {
-                ToneMapArg::Clamp => ToneMap::Clamp,
-                ToneMapArg::Reinhard => ToneMap::Reinhard,
-                ToneMapArg::Aces => ToneMap::Aces,
-            },
-            channels: match self.channels {
-                ChannelsArg::Rgb => SignalChannels::Rgb,
-                ChannelsArg::Luma => SignalChannels::Luma,
-            },
+            tonemap: self.tonemap,
+            channels: self.channels,
         }
     }
 
     pub(crate) fn read(&self) -> ReadOptions {
         ReadOptions {
             layer: self.layer.clone(),
-            alpha: match self.alpha {
-                AlphaArg::Error => AlphaPolicy::Error,
-                AlphaArg::Ignore => AlphaPolicy::Ignore,
-                AlphaArg::OverBlack => AlphaPolicy::OverBlack,
-            },
+            alpha: self.alpha,
             max_megapixels: self.max_megapixels,
             ..ReadOptions::default()
         }
@@ -141,10 +77,7 @@ impl SignalArgs {
     }
 
     pub(crate) fn nonfinite(&self) -> Nonfinite {
-        match self.nonfinite {
-            NonfiniteArg::Error => Nonfinite::Error,
-            NonfiniteArg::Mask => Nonfinite::Mask,
-        }
+        self.nonfinite
     }
 
     pub(crate) fn mask(&self) -> Option<PathBuf> {

@@ -2,8 +2,21 @@
 
 use std::str::FromStr;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use fovqa_frame::Crop;
-use fovqa_params::ParamValue;
+use fovqa_params::{ParamValue, Words};
+
+/// One of the words of a type, with `-` between the parts of a word.
+pub(crate) fn words<T: Words>() -> impl TypedValueParser<Value = T> {
+    let option = |value: T| value.word().replace('_', "-");
+    let value =
+        move |value: T| PossibleValue::new(option(value)).alias(value.word()).help(value.about());
+    let values = PossibleValuesParser::new(T::all().into_iter().map(value));
+    values.map(move |word| {
+        let is_it = |value: &T| word == value.word() || word == option(*value);
+        T::all().into_iter().find(is_it).unwrap_or_else(|| unreachable!("it is one of them"))
+    })
+}
 
 /// `N` numbers with commas between them.
 pub(crate) fn numbers<const N: usize>(text: &str, form: &str) -> Result<[f64; N], String> {

@@ -2,22 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use fovqa_config::Gaze;
+use fovqa_params::Words;
 use fovqa_vision::{BandEdges, EccentricityKind, Luminance, ViewSpec, displays, find_display};
 
 use super::luminance::luminance;
 use super::no_such::no_such;
-use super::values::{finite, numbers};
-
-/// How eccentricity is measured.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(crate) enum EccentricityArg {
-    /// The angle between the rays to the pixel and to the gaze.
-    Angular,
-    /// The papers' shortcut, atan(distance in pixels / focal length).
-    Planar,
-}
+use super::values::{finite, numbers, words};
 
 /// The ways to give a view.
 #[derive(Debug, Args)]
@@ -64,8 +56,8 @@ pub(crate) struct ViewArgs {
     #[arg(long, requires = "gaze")]
     gaze_hold: bool,
     /// How eccentricity is measured
-    #[arg(long, value_name = "KIND", default_value = "angular")]
-    eccentricity: EccentricityArg,
+    #[arg(long, value_name = "KIND", default_value = EccentricityKind::default().word(), value_parser = words::<EccentricityKind>())]
+    eccentricity: EccentricityKind,
     /// Edges of the eccentricity bands, degrees [default: 0,5,10,… as far as the frame reaches]
     #[arg(long, value_name = "DEG,DEG,…", value_parser = bands)]
     bands: Option<BandEdges>,
@@ -110,15 +102,6 @@ pub(super) fn display(name: &str) -> Result<fovqa_vision::Display, String> {
         let names: Vec<String> = displays().iter().map(|d| d.name.replace('_', "-")).collect();
         no_such("display", name, &names)
     })
-}
-
-impl From<EccentricityArg> for EccentricityKind {
-    fn from(kind: EccentricityArg) -> Self {
-        match kind {
-            EccentricityArg::Angular => Self::Angular,
-            EccentricityArg::Planar => Self::Planar,
-        }
-    }
 }
 
 impl ViewSpecArgs {
@@ -167,6 +150,6 @@ impl ViewArgs {
     }
 
     pub(crate) fn eccentricity(&self) -> EccentricityKind {
-        self.eccentricity.into()
+        self.eccentricity
     }
 }

@@ -177,6 +177,7 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
             one_of(&[word], text, place, span, faults);
         }
         (Kind::Word(words), DeValue::String(text)) => one_of(words, text, place, span, faults),
+        (Kind::Words(words), DeValue::String(text)) => one_of(&words(), text, place, span, faults),
         (Kind::Frames, DeValue::String(text)) => {
             if let Err(error) = text.parse::<FrameRange>() {
                 faults.push(Fault::new(span, format!("{place}: {error}")));
@@ -264,6 +265,7 @@ fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
                 | Kind::NumberOr(..)
                 | Kind::WholeOr(..)
                 | Kind::Word(_)
+                | Kind::Words(_)
                 | Kind::Frames
                 | Kind::Display
                 | Kind::Metric

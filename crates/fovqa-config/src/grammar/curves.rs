@@ -1,7 +1,12 @@
 //! The keys of a file of curves.
 
+use fovqa_methods::BudgetOf;
+use fovqa_params::words_of;
+use fovqa_vision::{EccentricityKind, Tangential};
+
 use super::experiment::{POSITION_PAIR, VIEW, joined, key, required};
 use super::{Key, Kind};
+use crate::curves::{CurvePlotKind, CurveTableKind, PanelOf, RateKind, RateUnit};
 
 /// More are no longer told apart.
 pub(crate) const MOST_CURVES: usize = 200;
@@ -29,10 +34,10 @@ const SCREENS: &[Key] = &[
     ),
     key(
         "tangential",
-        Kind::Word(&["paper", "angle"]),
+        Kind::Words(words_of::<Tangential>),
         "what a degree across the curve is: as along it, or of visual angle",
     ),
-    key("eccentricity", Kind::Word(&["planar", "angular"]), "how eccentricity is measured"),
+    key("eccentricity", Kind::Words(words_of::<EccentricityKind>), "how eccentricity is measured"),
 ];
 
 static VIEW_TABLE: [Key; VIEW.len() + SCREENS.len()] = joined(&[VIEW, SCREENS]);
@@ -49,7 +54,7 @@ static CURVE_TABLE: [Key; 5 + VIEW.len() + SCREENS.len()] = joined(&[
         ),
         key(
             "budget_of",
-            Kind::Word(&["buffer", "on_screen"]),
+            Kind::Words(words_of::<BudgetOf>),
             "which samples a budget counts: all, or those that fall into the frame",
         ),
     ],
@@ -70,7 +75,7 @@ static MARK: [Key; 2] = [
 static PLOT_TABLE: [Key; 14] = [
     required(
         "kind",
-        Kind::Word(&["rates", "density", "accumulated", "half_axis"]),
+        Kind::Words(words_of::<CurvePlotKind>),
         "rates: rates and acuity against eccentricity; density: samples per pixel over the field, a picture; accumulated: DEAMP's shaded pixels within an angle (Fig. 5b); half_axis: RMFR's mapping of a half axis (Fig. 3)",
     ),
     key("name", Kind::Name, "name of its files; if it is not given, the kind"),
@@ -78,17 +83,17 @@ static PLOT_TABLE: [Key; 14] = [
     key("curves", NAMES, "only these curves"),
     key(
         "rate",
-        Kind::Word(&["radial", "tangential", "both"]),
+        Kind::Words(words_of::<RateKind>),
         "along the line from the gaze, across it, or both side by side",
     ),
     key(
         "unit",
-        Kind::Word(&["cpd", "per_pixel"]),
+        Kind::Words(words_of::<RateUnit>),
         "cycles per degree, or samples per pixel: the display's own rate is 1",
     ),
     key(
         "panels",
-        Kind::Word(&["one", "curve", "resolution", "gaze", "direction"]),
+        Kind::Words(words_of::<PanelOf>),
         "what has a panel of its own; if it is not given, each curve with its settings",
     ),
     key(
@@ -119,7 +124,7 @@ static PLOT_TABLE: [Key; 14] = [
 static TABLE_TABLE: [Key; 2] = [
     required(
         "kind",
-        Kind::Word(&["samples", "speed_up", "acuity"]),
+        Kind::Words(words_of::<CurveTableKind>),
         "samples: samples and load, curves against resolutions; speed_up: buffer, samples, share of the pixels, theoretical speed-up; acuity: share of the field below acuity, samples spent above it",
     ),
     key("curves", NAMES, "only these curves"),

@@ -1,8 +1,13 @@
 //! The keys of an experiment file.
 
-use fovqa_vision::BandEdges;
+use fovqa_frame::{SignalChannels, ToneMap, Transfer};
+use fovqa_io::{AlphaPolicy, GuidePreset, MotionUnit};
+use fovqa_params::words_of;
+use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
 
 use super::{Key, Kind};
+use crate::plan::Nonfinite;
+use crate::plots::PlotKind;
 
 pub(super) const fn key(name: &'static str, kind: Kind, about: &'static str) -> Key {
     Key { name, required: false, kind, about }
@@ -86,12 +91,12 @@ pub(super) const VIEW: &[Key] = &[
 
 /// How frames are read.
 const SIGNAL: &[Key] = &[
-    key("channels", Kind::Word(&["rgb", "luma"]), "what is compared"),
+    key("channels", Kind::Words(words_of::<SignalChannels>), "what is compared"),
     key("exposure_stops", Kind::Number(-100.0, 100.0), "exposure of linear input, stops"),
-    key("tonemap", Kind::Word(&["clamp", "reinhard", "aces"]), "tone map of linear input"),
+    key("tonemap", Kind::Words(words_of::<ToneMap>), "tone map of linear input"),
     key(
         "transfer",
-        Kind::Word(&["auto", "srgb", "linear", "pq", "gamma2.2"]),
+        Kind::Words(words_of::<Option<Transfer>>),
         "how values in the files are encoded",
     ),
     key(
@@ -99,10 +104,10 @@ const SIGNAL: &[Key] = &[
         Kind::Text,
         "colour layer of OpenEXR files that have several, of reference and tests alike",
     ),
-    key("nonfinite", Kind::Word(&["error", "mask"]), "what to do about NaN and infinity"),
+    key("nonfinite", Kind::Words(words_of::<Nonfinite>), "what to do about NaN and infinity"),
     key(
         "alpha",
-        Kind::Word(&["error", "ignore", "over-black"]),
+        Kind::Words(words_of::<AlphaPolicy>),
         "what to do about alpha that is not 1 everywhere",
     ),
     key("mask", Kind::Text, "picture that is white where pixels count"),
@@ -125,8 +130,12 @@ const SIGNAL: &[Key] = &[
 ];
 
 /// How motion or depth is found by itself, or by whom it was rendered.
-const GUIDES: Kind = Kind::Word(&["auto", "none", "blender", "falcor", "unreal", "mitsuba"]);
-const PRESET: Kind = Kind::Word(&["blender", "falcor", "unreal", "mitsuba"]);
+const GUIDES: Kind = Kind::Words(guides);
+const PRESET: Kind = Kind::Words(words_of::<GuidePreset>);
+
+fn guides() -> Vec<&'static str> {
+    ["auto", "none"].into_iter().chain(words_of::<GuidePreset>()).collect()
+}
 const CHANNEL_SCALE: Kind = Kind::Number(-1e9, 1e9);
 
 const MOTION: &[Key] = &[
@@ -149,7 +158,7 @@ const MOTION: &[Key] = &[
     ),
     key(
         "unit",
-        Kind::Word(&["pixels", "frame", "ndc"]),
+        Kind::Words(words_of::<MotionUnit>),
         "pixels, widths and heights of the frame, or halves of these (-1 to 1 across)",
     ),
     key("files", Kind::Text, "OpenEXR files of their own, which pair with the reference frames"),
@@ -168,13 +177,15 @@ const LUMINANCE: &[Key] = &[
     key("min_cd_m2", Kind::Number(0.0, 1e6), "black in the dark, cd/m², instead of contrast"),
     key("ambient_lux", Kind::Number(0.0, 1e6), "light falling on the screen, lux (0)"),
     key("reflectivity", Kind::Number(0.0, 1.0), "share of that which the screen reflects (0.005)"),
-    key("eotf", Kind::Word(&EOTFS), "what the display is given; linear and absolute: cd/m² (srgb)"),
+    key(
+        "eotf",
+        Kind::Words(words_of::<Eotf>),
+        "what the display is given; linear and absolute: cd/m² (srgb)",
+    ),
     key("gamma", Kind::Number(0.1, 10.0), "the power of eotf = \"gamma\" (2.2)"),
 ];
 
 /// Names of [`fovqa_vision::Eotf`].
-static EOTFS: [&str; 5] = ["srgb", "gamma", "pq", "linear", "absolute"];
-
 /// What both eyes share.
 const SHARED: &[Key] = &[
     key(
@@ -182,7 +193,7 @@ const SHARED: &[Key] = &[
         Kind::Either(&[Kind::Display, Kind::Table(LUMINANCE)]),
         "photometry of the display, for FovVideoVDP and PU-PSNR: that of a preset, or { peak_cd_m2 = 100, contrast = 1000, … }; if it is not given, that of display",
     ),
-    key("eccentricity", Kind::Word(&["angular", "planar"]), "how eccentricity is measured"),
+    key("eccentricity", Kind::Words(words_of::<EccentricityKind>), "how eccentricity is measured"),
     key(
         "bands_deg",
         Kind::List(&BAND_EDGE, 2, BandEdges::MAX_BANDS + 1),
@@ -279,7 +290,7 @@ static METHOD_TABLE: [Key; 4] = [
 static PLOT_TABLE: [Key; 6] = [
     required(
         "kind",
-        Kind::Word(&["table", "profile", "bars", "frames", "sequence", "ratios"]),
+        Kind::Words(words_of::<PlotKind>),
         "table: scenes against metrics and methods; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames; sequence: frame by frame, saccades marked; ratios: table of test / reference by eccentricity",
     ),
     key("metric", Kind::Metric, "the metric; if it is not given, a figure for each"),

@@ -45,6 +45,8 @@ pub(crate) enum Kind {
     WholeOr(u64, u64, &'static str),
     /// One of these words.
     Word(&'static [&'static str]),
+    /// One of the words of a type.
+    Words(fn() -> Vec<&'static str>),
     /// A range of frames, `A..B:STEP`.
     Frames,
     /// The name of a display preset.
@@ -89,6 +91,7 @@ impl Kind {
                 format!("{}; or \"{word}\"", Kind::Whole(*min, *max).in_words())
             }
             Kind::Word(words) => format!("one of {}", quoted(words.iter().copied())),
+            Kind::Words(words) => format!("one of {}", quoted(words())),
             Kind::Frames => "a range of frames such as \"0..100\" or \"0..100:5\"".to_owned(),
             Kind::Display => "the name of a display (`fovqa list displays`)".to_owned(),
             Kind::Metric => "the name of a metric".to_owned(),

@@ -74,6 +74,7 @@ fn kind(kind: &Kind) -> Value {
         Kind::NumberOr(min, max, word) => either(&Kind::Number(*min, *max), word),
         Kind::WholeOr(min, max, word) => either(&Kind::Whole(*min, *max), word),
         Kind::Word(words) => json!({ "enum": words }),
+        Kind::Words(words) => json!({ "enum": words() }),
         Kind::Frames => json!({
             "type": "string",
             "pattern": r"^(-?[0-9]{1,18})?\.\.(=?-?[0-9]{1,18})?(:0{0,9}[1-9][0-9]{0,8})?$"

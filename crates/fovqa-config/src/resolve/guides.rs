@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use fovqa_io::{DepthChannels, GuideOptions, GuidePreset, MotionChannels, MotionUnit, NamedMotion};
+use fovqa_io::{DepthChannels, GuideOptions, GuidePreset, MotionChannels, NamedMotion};
+use fovqa_params::Words;
 
 use super::Placeholders;
 use super::settings::path;
@@ -39,7 +40,7 @@ pub(super) fn guides(
                 (Some(table), _) => named_motion(table, faults),
                 (None, Some("none")) => MotionChannels::None,
                 (None, Some(word)) => {
-                    preset(word).map_or(MotionChannels::Auto, MotionChannels::Preset)
+                    GuidePreset::find(word).map_or(MotionChannels::Auto, MotionChannels::Preset)
                 }
                 (None, None) => MotionChannels::Auto,
             },
@@ -47,16 +48,12 @@ pub(super) fn guides(
                 (Some(table), _) => named_depth(table, faults),
                 (None, Some("none")) => DepthChannels::None,
                 (None, Some(word)) => {
-                    preset(word).map_or(DepthChannels::Auto, DepthChannels::Preset)
+                    GuidePreset::find(word).map_or(DepthChannels::Auto, DepthChannels::Preset)
                 }
                 (None, None) => DepthChannels::Auto,
             },
         },
     }
-}
-
-fn preset(word: &str) -> Option<GuidePreset> {
-    GuidePreset::ALL.into_iter().find(|preset| preset.name() == word)
 }
 
 fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
@@ -67,13 +64,13 @@ fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
             let fault = Fault::new(table.span(key), message);
             faults.push(fault.help("add channels = [\"…\", \"…\"]: a preset has its own"));
         }
-        let named = table.text("preset").and_then(preset);
+        let named = table.word("preset");
         return named.map_or(MotionChannels::Auto, MotionChannels::Preset);
     };
     let Ok([x, y]) = <[(&str, _); 2]>::try_from(names) else { return MotionChannels::Auto };
     let channels = [x.0.to_owned(), y.0.to_owned()];
     let own = ["sign", "scale", "unit"].into_iter().find(|key| table.has(key));
-    if let Some(preset) = table.text("encoding").and_then(preset) {
+    if let Some(preset) = table.word("encoding") {
         if let Some(key) = own {
             let message = format!("both {key} and an encoding that has its own are given");
             let fault = Fault::new(table.span(key), message);
@@ -84,7 +81,7 @@ fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
     let known = GuidePreset::of_motion(&channels).filter(|preset| !preset.is_plain());
     if let Some(preset) = known.filter(|_| own.is_none()) {
         // Nothing says that they are otherwise than their renderer writes them.
-        let renderer = preset.name();
+        let renderer = preset.word();
         let message = format!(
             "these are channels as {renderer} writes them, which are not pixels to the right and down"
         );
@@ -107,17 +104,13 @@ fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
         channels,
         sign,
         scale,
-        unit: match table.text("unit") {
-            Some("frame") => MotionUnit::Frame,
-            Some("ndc") => MotionUnit::Ndc,
-            _ => MotionUnit::Pixels,
-        },
+        unit: table.word("unit").unwrap_or_default(),
     })
 }
 
 fn named_depth(table: Node<'_>, faults: &mut Faults) -> DepthChannels {
     either(table, "channel", faults);
-    match (table.text("channel"), table.text("preset").and_then(preset)) {
+    match (table.text("channel"), table.word("preset")) {
         (Some(name), _) => DepthChannels::Named(name.to_owned()),
         (None, Some(preset)) => DepthChannels::Preset(preset),
         (None, None) => DepthChannels::Auto,

@@ -22,14 +22,7 @@ pub(super) struct Known<'a> {
 pub(super) fn plots(root: Node<'_>, known: &Known<'_>, faults: &mut Faults) -> Vec<Plot> {
     let tables = root.tables("plot").into_iter();
     let plots = tables.map(|(table, _)| {
-        let kind = match table.text("kind") {
-            Some("profile") => PlotKind::Profile,
-            Some("bars") => PlotKind::Bars,
-            Some("frames") => PlotKind::Frames,
-            Some("sequence") => PlotKind::Sequence,
-            Some("ratios") => PlotKind::Ratios,
-            _ => PlotKind::Table,
-        };
+        let kind = table.word("kind").unwrap_or(PlotKind::Table);
         let metric = table.text("metric");
         if let Some(metric) = metric {
             scored(table, metric, kind, known, faults);

@@ -3,9 +3,10 @@
 use std::ops::Range;
 use std::path::Path;
 
-use fovqa_frame::{Crop, SignalChannels, SignalParams, ToneMap, Transfer};
-use fovqa_io::{AlphaPolicy, ReadOptions};
-use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec};
+use fovqa_frame::{Crop, SignalParams};
+use fovqa_io::ReadOptions;
+use fovqa_params::Words;
+use fovqa_vision::{BandEdges, ViewSpec};
 use serde_spanned::Spanned;
 use toml::de::DeValue;
 
@@ -14,7 +15,7 @@ use super::guides::guides;
 use super::view::{VIEW_HELP, gives_view, luminance, view};
 use crate::fault::{Fault, Faults};
 use crate::node::{Node, numbers, table};
-use crate::plan::{Eye, Gaze, Nonfinite, Settings};
+use crate::plan::{Eye, Gaze, Settings};
 
 /// Tables that say how one eye sees a scene, from the most general to the most special.
 pub(super) struct Layers<'a> {
@@ -42,6 +43,11 @@ impl<'a> Layers<'a> {
 
     fn text(&self, key: &str) -> Option<&'a str> {
         self.having(key)?.text(key)
+    }
+
+    /// The value of a word; its default where none is given.
+    fn word<T: Words + Default>(&self, key: &str) -> T {
+        self.having(key).and_then(|table| table.word(key)).unwrap_or_default()
     }
 
     fn span(&self, key: &str) -> Range<usize> {
@@ -77,17 +83,11 @@ impl<'a> Layers<'a> {
             crop,
             mask,
             signal: self.signal(),
-            nonfinite: match self.text("nonfinite") {
-                Some("mask") => Nonfinite::Mask,
-                _ => Nonfinite::Error,
-            },
+            nonfinite: self.word("nonfinite"),
             view: self.view(faults),
             luminance: self.having("luminance").and_then(|table| luminance(table, faults)),
             gaze: self.gaze(base, placeholders, faults),
-            eccentricity: match self.text("eccentricity") {
-                Some("planar") => EccentricityKind::Planar,
-                _ => EccentricityKind::Angular,
-            },
+            eccentricity: self.word("eccentricity"),
             bands: self.bands(faults),
         };
         if settings.view.is_none() && self.having("eccentricity").is_some() {
@@ -108,11 +108,7 @@ impl<'a> Layers<'a> {
         let megapixels = self.having("max_megapixels").and_then(|t| t.number("max_megapixels"));
         ReadOptions {
             layer: self.text("layer").map(str::to_owned),
-            alpha: match self.text("alpha") {
-                Some("ignore") => AlphaPolicy::Ignore,
-                Some("over-black") => AlphaPolicy::OverBlack,
-                _ => AlphaPolicy::Error,
-            },
+            alpha: self.word("alpha"),
             max_megapixels: megapixels.map_or(default.max_megapixels, |n| n as u64),
             ..default
         }
@@ -121,23 +117,10 @@ impl<'a> Layers<'a> {
     fn signal(&self) -> SignalParams {
         let stops = self.having("exposure_stops").and_then(|t| t.number("exposure_stops"));
         SignalParams {
-            transfer: match self.text("transfer") {
-                Some("srgb") => Some(Transfer::Srgb),
-                Some("linear") => Some(Transfer::Linear),
-                Some("pq") => Some(Transfer::Pq),
-                Some("gamma2.2") => Some(Transfer::Gamma22),
-                _ => None,
-            },
+            transfer: self.word("transfer"),
             exposure_stops: stops.unwrap_or(0.0),
-            tonemap: match self.text("tonemap") {
-                Some("reinhard") => ToneMap::Reinhard,
-                Some("aces") => ToneMap::Aces,
-                _ => ToneMap::Clamp,
-            },
-            channels: match self.text("channels") {
-                Some("luma") => SignalChannels::Luma,
-                _ => SignalChannels::Rgb,
-            },
+            tonemap: self.word("tonemap"),
+            channels: self.word("channels"),
         }
     }
 

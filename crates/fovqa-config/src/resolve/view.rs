@@ -90,13 +90,12 @@ pub(super) fn luminance(table: Node<'_>, faults: &mut Faults) -> Option<Luminanc
     }
     let given = table.table(KEY)?;
     let number = |key| given.number(key);
-    let eotf = given.text("eotf").and_then(|name| Eotf::ALL.into_iter().find(|e| e.name() == name));
     let luminance = Luminance {
         contrast: number("contrast"),
         min_cd_m2: number("min_cd_m2"),
         ambient_lux: number("ambient_lux").unwrap_or(0.0),
         reflectivity: number("reflectivity").unwrap_or(Luminance::REFLECTIVITY),
-        eotf: eotf.unwrap_or(Eotf::Srgb),
+        eotf: given.word("eotf").unwrap_or(Eotf::Srgb),
         gamma: number("gamma").unwrap_or(Luminance::GAMMA),
         ..Luminance::of_peak(number("peak_cd_m2")?)
     };

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use fovqa_config::Eye;
 use fovqa_metrics::{FrameRows, Image, Key, Layout, Metric, Parts, Subject};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, ViewResult};
+use fovqa_vision::EccentricityKind;
 use serde::{Deserialize, Serialize};
 
 use super::number::{Number, Token, maybe, read};
@@ -196,7 +197,7 @@ struct ViewRecord {
     size: [usize; 2],
     focal_px: [f64; 2],
     gaze_px: [f64; 2],
-    eccentricity: String,
+    eccentricity: EccentricityKind,
     bands_deg: Vec<(f64, f64)>,
 }
 
@@ -206,7 +207,7 @@ impl SettledRecord {
             size: view.size,
             focal_px: view.focal_px,
             gaze_px: view.gaze_px,
-            eccentricity: view.eccentricity.to_owned(),
+            eccentricity: view.eccentricity,
             bands_deg: view.bands_deg,
         });
         let name = |method: &usize| methods[*method].clone();
@@ -225,15 +226,9 @@ impl SettledRecord {
     /// `None` where it names a metric or a method that there is not.
     pub(super) fn read(self, method: impl Fn(&str) -> Option<usize>) -> Option<Settled> {
         let view = self.view.map(|view| {
-            let eccentricity =
-                ["angular", "planar"].into_iter().find(|kind| *kind == view.eccentricity)?;
-            let ViewRecord { size, focal_px, gaze_px, bands_deg, .. } = view;
-            Some(ViewResult { size, focal_px, gaze_px, eccentricity, bands_deg })
+            let ViewRecord { size, focal_px, gaze_px, eccentricity, bands_deg } = view;
+            ViewResult { size, focal_px, gaze_px, eccentricity, bands_deg }
         });
-        let view = match view {
-            Some(view) => Some(view?),
-            None => None,
-        };
         let metrics = self.metrics.iter().map(|key| Metric::find(key));
         let fvvdp = self.fvvdp.into_iter();
         let fvvdp = fvvdp.map(|(name, sight)| Some((method(&name)?, sight)));

@@ -105,7 +105,7 @@ fn findings() -> Findings {
             size: [3, 4],
             focal_px: [1.1, 2.2],
             gaze_px: [0.1 + 0.2, 0.25],
-            eccentricity: "planar",
+            eccentricity: fovqa_vision::EccentricityKind::Planar,
             bands_deg: vec![(0.0, 5.0), (5.0, 10.1)],
         }),
         metrics: vec![Metric::Psnr, Metric::MsSsim, Metric::Atd],

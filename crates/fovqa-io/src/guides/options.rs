@@ -1,5 +1,7 @@
 //! What to look for beside the colour.
 
+use fovqa_params::words;
+
 use super::preset::GuidePreset;
 
 /// Which channels hold the motion and the depth of a frame. By default neither is looked for.
@@ -57,16 +59,18 @@ pub struct NamedMotion {
     pub unit: MotionUnit,
 }
 
-/// What motion is counted in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum MotionUnit {
-    /// Pixels.
-    #[default]
-    Pixels,
-    /// Widths and heights of the display window.
-    Frame,
-    /// Halves of them: coordinates that go from -1 to 1 across the display window.
-    Ndc,
+words! {
+    /// What motion is counted in.
+    #[derive(Default)]
+    pub enum MotionUnit {
+        /// Pixels.
+        #[default]
+        Pixels "pixels" "Pixels";
+        /// Widths and heights of the display window.
+        Frame "frame" "Widths and heights of the frame";
+        /// Halves of them: coordinates that go from -1 to 1 across the display window.
+        Ndc "ndc" "Halves of them: coordinates from -1 to 1";
+    }
 }
 
 /// The channel of depth.

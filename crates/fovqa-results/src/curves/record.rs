@@ -1,10 +1,10 @@
 //! What was computed, as JSON: curves with their settings, counts and fields.
 
 use fovqa_config::{CurveSource, CurvesFile};
+use fovqa_params::Words;
 use fovqa_shading::{Curve, Field};
 use serde::{Deserialize, Serialize};
 
-use super::tidy::{eccentricity, tangential};
 use crate::files::CURVES_SCHEMA;
 
 /// A file of curves as it was computed.
@@ -123,8 +123,8 @@ impl CurveRecord {
                 focal_px: screen.view.focal_px,
                 gaze_px: screen.gaze_px,
                 direction_deg: screen.direction_deg,
-                tangential: tangential(screen.tangential).to_owned(),
-                eccentricity: eccentricity(screen.eccentricity).to_owned(),
+                tangential: screen.tangential.word().to_owned(),
+                eccentricity: screen.eccentricity.word().to_owned(),
             }),
             shading: curve.counts.as_ref().map(|counts| ShadingRecord {
                 buffers: counts.buffers.clone(),

@@ -1,8 +1,8 @@
 //! All values of all curves as one long, tidy table.
 
 use fovqa_config::{CurvePlan, CurveSource};
+use fovqa_params::Words;
 use fovqa_shading::Curve;
-use fovqa_vision::{EccentricityKind, Tangential};
 
 const HEADER: [&str; 16] = [
     "curve",
@@ -45,8 +45,8 @@ pub fn curves_csv(plan: &CurvePlan, curves: &[Curve]) -> String {
                 format!("{:?}", screen.gaze_px[0]),
                 format!("{:?}", screen.gaze_px[1]),
                 format!("{:?}", screen.direction_deg),
-                tangential(screen.tangential).to_owned(),
-                eccentricity(screen.eccentricity).to_owned(),
+                screen.tangential.word().to_owned(),
+                screen.eccentricity.word().to_owned(),
             ],
         });
         for row in &curve.rows {
@@ -66,18 +66,4 @@ pub fn curves_csv(plan: &CurvePlan, curves: &[Curve]) -> String {
         }
     }
     String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
-}
-
-pub(super) fn tangential(kind: Tangential) -> &'static str {
-    match kind {
-        Tangential::Paper => "paper",
-        Tangential::Angle => "angle",
-    }
-}
-
-pub(super) fn eccentricity(kind: EccentricityKind) -> &'static str {
-    match kind {
-        EccentricityKind::Angular => "angular",
-        EccentricityKind::Planar => "planar",
-    }
 }

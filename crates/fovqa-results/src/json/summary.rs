@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use fovqa_metrics::Metric;
+use fovqa_vision::EccentricityKind;
 use serde::de::{Deserialize, Deserializer, Error};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -75,7 +76,7 @@ pub struct ViewRecord {
     /// Gaze in pixels; of the first frame where it moves.
     pub gaze_px: [f64; 2],
     /// `angular` or `planar`.
-    pub eccentricity: String,
+    pub eccentricity: EccentricityKind,
 }
 
 /// One band over the frames.
@@ -175,7 +176,7 @@ impl ViewRecord {
             height: view.size[1],
             focal_px: view.focal_px,
             gaze_px: view.gaze_px,
-            eccentricity: view.eccentricity.to_owned(),
+            eccentricity: view.eccentricity,
         }
     }
 }
@@ -330,7 +331,7 @@ mod tests {
                     height: 4,
                     focal_px: [1.1, 2.2],
                     gaze_px: [0.5, 0.25],
-                    eccentricity: "angular".to_owned(),
+                    eccentricity: EccentricityKind::Angular,
                 }),
                 metrics: BTreeMap::from([(Metric::Psnr, statistics), (Metric::Ssim, ssim)]),
                 bands: vec![BandStatistics {

@@ -6,7 +6,7 @@ mod screens;
 
 use std::ops::Range;
 
-use fovqa_methods::{BudgetOf, Method};
+use fovqa_methods::Method;
 use fovqa_params::{ParamError, ParamValue};
 use fovqa_vision::acuity::AcuityModel;
 
@@ -143,11 +143,7 @@ fn curve(
                 Screens { tables: [root.table("view"), Some(table)] }.settings(&span, faults);
             let budget = table.number("budget").map(|share| CurveBudget {
                 share,
-                of: if table.text("budget_of") == Some("on_screen") {
-                    BudgetOf::OnScreen
-                } else {
-                    BudgetOf::Buffer
-                },
+                of: table.word("budget_of").unwrap_or_default(),
             });
             if table.has("budget_of") && budget.is_none() {
                 let message = "budget_of says of what a budget is, and there is none";

@@ -76,31 +76,15 @@ pub(super) fn plot(
     plan: &CurvePlan,
     faults: &mut Faults,
 ) -> CurvePlot {
-    let word = |key| table.text(key).unwrap_or_default();
     let flag = |key| table.flag(key).unwrap_or(false);
     let plot = CurvePlot {
-        kind: match word("kind") {
-            "density" => CurvePlotKind::Density,
-            "accumulated" => CurvePlotKind::Accumulated,
-            "half_axis" => CurvePlotKind::HalfAxis,
-            _ => CurvePlotKind::Rates,
-        },
+        kind: table.word("kind").unwrap_or_default(),
         name: table.text("name").map(str::to_owned),
         title: table.text("title").map(str::to_owned),
         curves: subset(table, "curves", names, faults),
-        rate: match word("rate") {
-            "tangential" => RateKind::Tangential,
-            "both" => RateKind::Both,
-            _ => RateKind::Radial,
-        },
-        unit: if word("unit") == "per_pixel" { RateUnit::PerPixel } else { RateUnit::Cpd },
-        panels: match word("panels") {
-            "one" => PanelOf::One,
-            "resolution" => PanelOf::Resolution,
-            "gaze" => PanelOf::Gaze,
-            "direction" => PanelOf::Direction,
-            _ => PanelOf::Curve,
-        },
+        rate: table.word("rate").unwrap_or_default(),
+        unit: table.word("unit").unwrap_or_default(),
+        panels: table.word("panels").unwrap_or_default(),
         areas: table.flag("areas"),
         display: flag("display"),
         y_limits: table.array("y_limits"),
@@ -209,11 +193,7 @@ pub(super) fn table(
     plan: &CurvePlan,
     faults: &mut Faults,
 ) -> CurveTable {
-    let kind = match table.text("kind") {
-        Some("samples") => CurveTableKind::Samples,
-        Some("acuity") => CurveTableKind::Acuity,
-        _ => CurveTableKind::SpeedUp,
-    };
+    let kind = table.word("kind").unwrap_or(CurveTableKind::SpeedUp);
     let curves = subset(table, "curves", names, faults);
     let of_method = |spec: &CurveSpec| matches!(spec.source, CurveSource::Method { .. });
     if faults.is_empty() && !shown(plan, curves.as_deref()).any(of_method) {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fovqa_vision::{EccentricityKind, Tangential, View, ViewSpec};
+use fovqa_vision::{EccentricityKind, View, ViewSpec};
 use serde_spanned::Spanned;
 use toml::de::DeValue;
 
@@ -60,13 +60,11 @@ impl<'a> Screens<'a> {
         let gazes = if gazes.is_empty() { vec![None] } else { gazes };
         let directions = self.having("directions_deg").and_then(|t| t.numbers("directions_deg"));
         let directions = directions.unwrap_or_else(|| vec![0.0]);
-        let word = |key: &str| self.having(key).and_then(|table| table.text(key));
-        let tangential =
-            if word("tangential") == Some("angle") { Tangential::Angle } else { Tangential::Paper };
-        let eccentricity = match word("eccentricity") {
-            Some("angular") => EccentricityKind::Angular,
-            _ => EccentricityKind::Planar,
-        };
+        let having = |key: &str| self.having(key);
+        let tangential = having("tangential").and_then(|table| table.word("tangential"));
+        let tangential = tangential.unwrap_or_default();
+        let eccentricity = having("eccentricity").and_then(|table| table.word("eccentricity"));
+        let eccentricity = eccentricity.unwrap_or(EccentricityKind::Planar);
         let (sizes, gazes, directions) = (once(sizes), once(gazes), once(directions));
         let all = sizes.len() * gazes.len() * directions.len();
         if all > MOST_CURVES {
