@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fovqa_config::{CurveSource, CurvesFile, Experiment, EyeView, Gaze, MetricChoice};
 use fovqa_engine::{Events, Found, FoundFrame, FoundView};
 use fovqa_io::frame_size;
 use fovqa_metrics::Metric;
+use fovqa_plan::{CurveSource, Experiment, EyeView, Gaze, MetricChoice};
 
 use crate::args::CheckArgs;
 use crate::diagnostic;
@@ -18,7 +18,7 @@ use crate::progress::Terminal;
 use crate::{experiment, output};
 
 pub(crate) fn run(args: &CheckArgs) -> Exit {
-    if matches!(CurvesFile::is_one(&args.experiment), Ok(true)) {
+    if matches!(fovqa_config::is_curves(&args.experiment), Ok(true)) {
         return curves(args);
     }
     let experiment = match experiment::read(&args.experiment) {

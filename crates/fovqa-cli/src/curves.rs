@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use fovqa_config::CurvesFile;
 use fovqa_engine::{Locking, ResultsFolder};
+use fovqa_plan::CurvesFile;
 use fovqa_shading::{Curve, trace, trace_all};
 
 use crate::args::CurvesArgs;

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use fovqa_config::{CurvesFile, Experiment, ExperimentError, Fault};
+use fovqa_config::{ExperimentError, Fault};
+use fovqa_plan::{CurvesFile, Experiment};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
 };
@@ -18,17 +19,17 @@ const LONGEST_LINE: usize = 400;
 
 /// The experiment; what is wrong with it has been said otherwise.
 pub(crate) fn read(path: &Path) -> Result<Experiment, Exit> {
-    if matches!(CurvesFile::is_one(path), Ok(true)) {
+    if matches!(fovqa_config::is_curves(path), Ok(true)) {
         let message = format!("{}: this is a file of curves", path.display());
         diagnostic::error(&message, "`fovqa curves` draws it, and `fovqa check` checks it");
         return Err(Exit::Usage);
     }
-    said(Experiment::read(path))
+    said(fovqa_config::read_experiment(path))
 }
 
 /// A file of curves; what is wrong with it has been said otherwise.
 pub(crate) fn read_curves(path: &Path) -> Result<CurvesFile, Exit> {
-    said(CurvesFile::read(path))
+    said(fovqa_config::read_curves(path))
 }
 
 fn said<T>(read: Result<T, ExperimentError>) -> Result<T, Exit> {

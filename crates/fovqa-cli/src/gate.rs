@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fovqa_config::{GateRule, Resolved};
+use fovqa_plan::{GateRule, Resolved};
 use fovqa_report::{github_annotations, gitlab_report, junit, markdown, verdict_table};
 use fovqa_results::{
     Baseline, Lacking, State, Verdict, calibrate, write_verdict_json, write_whole,

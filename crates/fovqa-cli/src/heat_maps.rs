@@ -26,7 +26,7 @@ impl HeatMaps {
         let mut folder = self.folder.clone();
         if self.several {
             folder.extend([named.scene, named.method]);
-            folder.extend(named.eye.map(fovqa_config::Eye::name));
+            folder.extend(named.eye.map(fovqa_plan::Eye::name));
         }
         folder
     }

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use fovqa_config::Experiment;
 use fovqa_engine::{Header, Journal, ResultsFolder, Shards, results};
+use fovqa_plan::Experiment;
 
 use crate::args::MergeArgs;
 use crate::diagnostic;
@@ -53,7 +53,8 @@ pub(crate) fn run(args: &MergeArgs) -> Exit {
 /// The experiment whose text a journal has.
 fn experiment(header: &Header) -> Option<Experiment> {
     let path = Path::new(header.experiment_file());
-    let mut experiment = Experiment::parse(path, header.experiment_text().to_owned()).ok()?;
+    let mut experiment =
+        fovqa_config::parse_experiment(path, header.experiment_text().to_owned()).ok()?;
     experiment.plan.frames = header.frames().map(str::parse).transpose().ok()?;
     Some(experiment)
 }

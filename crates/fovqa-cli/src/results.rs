@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use fovqa_config::{Experiment, Eye};
 use fovqa_engine::{FolderError, Named, ResultsFolder};
 use fovqa_io::FileId;
+use fovqa_plan::{Experiment, Eye};
 use fovqa_report::Drawn;
 use fovqa_results::{
     ExperimentRecord, Failure, FileError, RESULTS_CSV, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,

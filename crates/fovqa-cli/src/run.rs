@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use fovqa_config::{Experiment, Eye};
 use fovqa_engine::{
     EngineError, Findings, Found, Header, Journal, NO_MAPS, ResultsFolder, Shard, results, resume,
 };
+use fovqa_plan::{Experiment, Eye};
 
 use crate::args::RunArgs;
 use crate::diagnostic;

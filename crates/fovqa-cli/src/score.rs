@@ -1,7 +1,7 @@
 //! `fovqa score`: plan, run, results.
 
-use fovqa_config::Plan;
 use fovqa_engine::EngineError;
+use fovqa_plan::Plan;
 use fovqa_results::{ScoreReport, write_csv, write_json};
 
 use crate::args::{Format, ScoreArgs};

@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use fovqa_config::{CurvesFile, Experiment, ExperimentError, Fault};
+use fovqa_config::{ExperimentError, Fault, parse_curves, parse_experiment};
 
 /// The mistakes of a text, found in a time that a person waits.
 #[track_caller]
@@ -42,13 +42,13 @@ fn every_resolution_with_every_gaze_and_direction() {
              [[plot]]\nkind = \"rates\"\npanels = \"one\"\n"
         )
     };
-    CurvesFile::parse(Path::new("e.toml"), text(5)).unwrap();
-    refused(CurvesFile::parse, &text(100), "these are 1000000 curves, and 200 at most");
+    parse_curves(Path::new("e.toml"), text(5)).unwrap();
+    refused(parse_curves, &text(100), "these are 1000000 curves, and 200 at most");
     // What is written twice is one curve; too many are too many of all tables together as well.
     let twice = text(5).replace("[0, 0], ", &"[0, 0], ".repeat(90));
-    CurvesFile::parse(Path::new("e.toml"), twice).unwrap();
+    parse_curves(Path::new("e.toml"), twice).unwrap();
     let more = "[[curve]]\nname = \"r\"\nmethod = { model = \"rmfr\" }\n";
-    refused(CurvesFile::parse, &(text(5) + more), "these are more than 200 curves");
+    refused(parse_curves, &(text(5) + more), "these are more than 200 curves");
 }
 
 #[test]
@@ -58,9 +58,9 @@ fn every_method_in_every_scene() {
         let methods = list(methods, |i| format!("{{ name = \"m{i}\", test = \"t\" }}"));
         format!("name = \"x\"\nscene = [{scenes}]\nmethod = [{methods}]\n")
     };
-    Experiment::parse(Path::new("e.toml"), text(100, 100)).unwrap();
-    refused(Experiment::parse, &text(1000, 1000), "1000 methods in 1000 scenes");
-    refused(Experiment::parse, &text(10_001, 1), "scene cannot be an array of 10001");
+    parse_experiment(Path::new("e.toml"), text(100, 100)).unwrap();
+    refused(parse_experiment, &text(1000, 1000), "1000 methods in 1000 scenes");
+    refused(parse_experiment, &text(10_001, 1), "scene cannot be an array of 10001");
 }
 
 #[test]
@@ -72,9 +72,9 @@ fn long_texts_and_paths_that_grow() {
              method = [{{ name = \"m\", test = \"{test}\" }}]\n"
         )
     };
-    Experiment::parse(Path::new("e.toml"), text(10, 10)).unwrap();
-    refused(Experiment::parse, &text(4097, 1), "longer than 4096 characters");
-    refused(Experiment::parse, &text(4096, 512), "the path becomes longer than");
+    parse_experiment(Path::new("e.toml"), text(10, 10)).unwrap();
+    refused(parse_experiment, &text(4097, 1), "longer than 4096 characters");
+    refused(parse_experiment, &text(4096, 512), "the path becomes longer than");
 }
 
 #[test]
@@ -83,14 +83,14 @@ fn mistakes_without_end() {
     let wrong = list(10_000, |i| format!("\"no{i}\""));
     let methods = list(10, |i| format!("{{ name = \"m{i}\", test = \"t\", scenes = [{wrong}] }}"));
     let text = format!("name = \"x\"\nscene = [{named}]\nmethod = [{methods}]\n");
-    refused(Experiment::parse, &text, "there is no scene \"no0\"");
+    refused(parse_experiment, &text, "there is no scene \"no0\"");
     let scenes = list(9000, |_| "{ a = 1, b = 1, c = 1, d = 1 }".to_owned());
     let text =
         format!("name = \"x\"\nscene = [{scenes}]\n[[method]]\nname = \"m\"\ntest = \"t\"\n");
-    refused(Experiment::parse, &text, "has no key `a`");
+    refused(parse_experiment, &text, "has no key `a`");
     // A name as long as the file, with a thousand mistakes in its table.
     let (name, keys) = ("n".repeat(1 << 21), list(2000, |i| format!("k{i} = 1")));
     let text = format!("name = \"x\"\nscene = [{{ name = \"{name}\", {keys} }}]\n");
-    let faults = refused(Experiment::parse, &text, "scene has no key `k0`");
+    let faults = refused(parse_experiment, &text, "scene has no key `k0`");
     assert!(faults.iter().all(|fault| fault.message.len() < 1000));
 }

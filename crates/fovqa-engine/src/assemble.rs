@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_config::{Eye, Plan};
 use fovqa_metrics::Metric;
+use fovqa_plan::{Eye, Plan};
 use fovqa_results::{Comparison, Failure, RunResults, ScoreReport, both_eyes};
 
 use crate::events::Events;

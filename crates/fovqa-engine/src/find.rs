@@ -4,9 +4,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use fovqa_config::{EyeView, Plan, Scene};
 use fovqa_io::sequence::{FramePair, Listing, PairingError, Pairs, Spacing, list_below, pair};
 use fovqa_metrics::Metric;
+use fovqa_plan::{EyeView, Plan, Scene};
 use fovqa_vision::GazeAt;
 
 use crate::error::EngineError;

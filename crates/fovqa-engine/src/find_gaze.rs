@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use fovqa_config::{EyeView, Gaze, Plan, Scene};
 use fovqa_io::read_small_file;
+use fovqa_plan::{EyeView, Gaze, Plan, Scene};
 use fovqa_vision::{FrameAt, GazeAt, GazeTrace};
 
 use crate::error::EngineError;

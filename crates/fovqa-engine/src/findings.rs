@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_config::{Eye, Plan};
 use fovqa_metrics::{Map, Metric};
+use fovqa_plan::{Eye, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, Input, ViewResult};
 
 use crate::error::EngineError;

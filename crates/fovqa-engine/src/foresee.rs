@@ -1,8 +1,8 @@
 //! What a run will warn of, as far as settings, frame numbers and the headers of files tell.
 
-use fovqa_config::Plan;
 use fovqa_io::frame_size;
 use fovqa_metrics::Metric;
+use fovqa_plan::Plan;
 use fovqa_vision::BandEdges;
 
 use crate::error::EngineError;

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use fovqa_config::Plan;
 use fovqa_io::FileId;
+use fovqa_plan::Plan;
 use fovqa_results::Input;
 use rayon::prelude::*;
 

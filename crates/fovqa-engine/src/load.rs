@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use fovqa_config::{Nonfinite, Plan, Settings};
 use fovqa_frame::{BadPixel, CropError, Frame, Guides, Mask, Motion, Plane, Transfer};
 use fovqa_io::{
     DepthChannels, FileId, GuideOptions, GuideSearch, MotionChannels, Note, ReadError,
     ReadErrorKind, ReadOptions, read_frame, read_frame_and_hash, read_guides, read_guides_and_hash,
 };
+use fovqa_plan::{Nonfinite, Plan, Settings};
 use thiserror::Error;
 
 use crate::find::{FoundFrame, GuideFiles};

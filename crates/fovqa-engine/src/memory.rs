@@ -20,9 +20,9 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
-use fovqa_config::Plan;
 use fovqa_io::{ReadOptions, frame_size};
 use fovqa_metrics::Metric;
+use fovqa_plan::Plan;
 
 use crate::available_memory::available_bytes;
 use crate::error::EngineError;

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use fovqa_config::Plan;
 use fovqa_metrics::{Layouts, Metric};
+use fovqa_plan::Plan;
 use thiserror::Error;
 
 use crate::findings::{Findings, Outcome, Settled, ViewFindings};

@@ -1,7 +1,7 @@
 //! What the user should know of the frames that were found, before a pixel is read.
 
-use fovqa_config::{EyeView, Gaze, Plan, Scene};
 use fovqa_io::sequence::{Numbering, Spacing};
+use fovqa_plan::{EyeView, Gaze, Plan, Scene};
 
 use crate::error::EngineError;
 use crate::find::is_wanted;

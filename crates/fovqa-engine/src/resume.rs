@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use fovqa_config::{Eye, Gaze, Plan};
 use fovqa_metrics::{LeadIn, Metric, Needs};
+use fovqa_plan::{Eye, Gaze, Plan};
 
 use crate::error::EngineError;
 use crate::find::{Found, FoundView};

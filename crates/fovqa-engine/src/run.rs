@@ -1,6 +1,6 @@
 //! A plan's frames to findings: one pass over the files of each view, all methods and all metrics.
 
-use fovqa_config::Plan;
+use fovqa_plan::Plan;
 use fovqa_results::RunResults;
 
 use crate::assemble::{results, whole};

@@ -2,10 +2,10 @@
 
 use std::ops::{ControlFlow, Range};
 
-use fovqa_config::{EyeView, Gaze, Plan, Scene};
 use fovqa_frame::Mask;
 use fovqa_io::{FileId, frame_size, read_mask};
 use fovqa_metrics::{Metric, Needs};
+use fovqa_plan::{EyeView, Gaze, Plan, Scene};
 use fovqa_vision::{BandEdges, GazeAt};
 
 use crate::assemble::whole;

@@ -1,7 +1,7 @@
 //! Which metrics a view allows, before a pixel is read.
 
-use fovqa_config::{MetricChoice, Plan, Settings};
 use fovqa_metrics::{Metric, MetricKind};
+use fovqa_plan::{MetricChoice, Plan, Settings};
 use fovqa_vision::ViewSpec;
 
 use crate::error::{EngineError, no_view};

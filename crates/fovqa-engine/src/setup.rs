@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use fovqa_config::{Gaze, MetricChoice, Plan, Settings};
 use fovqa_frame::Mask;
 use fovqa_metrics::fvvdp::{Fvvdp, Geometry, SMALLEST_SIDE};
 use fovqa_metrics::{Metric, Needs, ScoreError, WeightField};
+use fovqa_plan::{Gaze, MetricChoice, Plan, Settings};
 use fovqa_results::ViewResult;
 use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind, GazeAt, View, ViewSpec};
 

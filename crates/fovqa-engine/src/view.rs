@@ -3,9 +3,9 @@
 
 use std::collections::BTreeSet;
 
-use fovqa_config::{EyeView, Plan};
 use fovqa_frame::{Mask, SignalTables};
 use fovqa_metrics::{Key, Layouts, Map, Metric, MetricKind, Rows};
+use fovqa_plan::{EyeView, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, ViewResult};
 use fovqa_vision::BandEdges;
 

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use fovqa_config::{Plot, PlotKind};
+use fovqa_plan::{Plot, PlotKind};
 use fovqa_results::{
     RUN_JSON, RUN_SCHEMA, RunRecord, SUMMARY_JSON, SUMMARY_SCHEMA, SummaryRecord, read_json_file,
 };

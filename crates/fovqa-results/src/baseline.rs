@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use fovqa_config::{Aggregate, GateRule, Quantity, Resolved, other_parameter};
 use fovqa_metrics::{Better, Metric, MetricKind};
+use fovqa_plan::{Aggregate, GateRule, Quantity, Resolved, other_parameter};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

@@ -1,7 +1,7 @@
 //! A curve: rates at rising eccentricities in one direction.
 
-use fovqa_config::{CurvePlan, CurveRange, CurveSetting, CurveSource, CurveSpec};
 use fovqa_methods::{Counts, Foveation, Method, MethodError, Place, Reach};
+use fovqa_plan::{CurvePlan, CurveRange, CurveSetting, CurveSource, CurveSpec};
 use fovqa_vision::acuity::{AcuityModel, PiecewiseMarError};
 use fovqa_vision::{EccentricityKind, PixelScale};
 use rayon::prelude::*;

@@ -1,7 +1,7 @@
 //! Samples per pixel over the field, as a picture.
 
-use fovqa_config::CurveSetting;
 use fovqa_methods::{Method, Place};
+use fovqa_plan::CurveSetting;
 
 use crate::curve::CurveError;
 

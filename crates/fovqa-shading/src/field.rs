@@ -1,8 +1,8 @@
 //! The field of view against acuity: how much of it is shaded too sparsely, and how many samples
 //! are more than acuity asks for.
 
-use fovqa_config::CurveSetting;
 use fovqa_methods::{Method, Place};
+use fovqa_plan::CurveSetting;
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::{Eccentricity, PixelScale};
 use serde::{Deserialize, Serialize};

@@ -4,14 +4,14 @@
 
 use std::path::Path;
 
-use fovqa_config::{CurvesFile, Experiment, ExperimentError};
+use fovqa_config::{ExperimentError, parse_curves, parse_experiment};
 use fovqa_fuzz::abort_on_escaping_panics;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(init: abort_on_escaping_panics(), |text: &str| {
     let path = Path::new("experiments/it.toml");
-    says_where(Experiment::parse(path, text.to_owned()), text);
-    says_where(CurvesFile::parse(path, text.to_owned()), text);
+    says_where(parse_experiment(path, text.to_owned()), text);
+    says_where(parse_curves(path, text.to_owned()), text);
 });
 
 fn says_where<T>(parsed: Result<T, ExperimentError>, text: &str) {

@@ -1,9 +1,9 @@
 //! `--metrics` and `--set`.
 
 use clap::Args;
-use fovqa_config::MetricChoice;
 use fovqa_metrics::{Metric, Params};
 use fovqa_params::ParamValue;
+use fovqa_plan::MetricChoice;
 
 use super::no_such::no_such;
 use super::values::literal;

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use fovqa_config::{EyeView, Plan, Scene, Settings};
 use fovqa_io::sequence::FrameRange;
+use fovqa_plan::{EyeView, Plan, Scene, Settings};
 
 use super::guides::GuideArgs;
 use super::metrics::MetricArgs;

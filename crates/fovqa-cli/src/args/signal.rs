@@ -4,10 +4,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use fovqa_config::Nonfinite;
 use fovqa_frame::{Crop, SignalChannels, SignalParams, ToneMap, Transfer};
 use fovqa_io::{AlphaPolicy, ReadOptions};
 use fovqa_params::Words;
+use fovqa_plan::Nonfinite;
 
 use super::values::{crop, finite, words};
 

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use fovqa_config::Gaze;
 use fovqa_params::Words;
+use fovqa_plan::Gaze;
 use fovqa_vision::{BandEdges, EccentricityKind, Luminance, ViewSpec, displays, find_display};
 
 use super::luminance::luminance;

@@ -176,8 +176,9 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
         (Kind::NumberOr(_, _, word) | Kind::WholeOr(_, _, word), DeValue::String(text)) => {
             one_of(&[word], text, place, span, faults);
         }
-        (Kind::Word(words), DeValue::String(text)) => one_of(words, text, place, span, faults),
-        (Kind::Words(words), DeValue::String(text)) => one_of(&words(), text, place, span, faults),
+        (Kind::Word(_) | Kind::Words(_), DeValue::String(text)) => {
+            one_of(&kind.words(), text, place, span, faults);
+        }
         (Kind::Frames, DeValue::String(text)) => {
             if let Err(error) = text.parse::<FrameRange>() {
                 faults.push(Fault::new(span, format!("{place}: {error}")));

@@ -6,7 +6,7 @@ use fovqa_vision::{EccentricityKind, Tangential};
 
 use super::experiment::{POSITION_PAIR, VIEW, joined, key, required};
 use super::{Key, Kind};
-use crate::curves::{CurvePlotKind, CurveTableKind, PanelOf, RateKind, RateUnit};
+use fovqa_plan::{CurvePlotKind, CurveTableKind, PanelOf, RateKind, RateUnit};
 
 /// More are no longer told apart.
 pub(crate) const MOST_CURVES: usize = 200;

@@ -6,8 +6,8 @@ use fovqa_params::words_of;
 use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
 
 use super::{Key, Kind};
-use crate::plan::Nonfinite;
-use crate::plots::PlotKind;
+use fovqa_plan::Nonfinite;
+use fovqa_plan::PlotKind;
 
 pub(super) const fn key(name: &'static str, kind: Kind, about: &'static str) -> Key {
     Key { name, required: false, kind, about }

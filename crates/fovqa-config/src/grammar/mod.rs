@@ -90,8 +90,7 @@ impl Kind {
             Kind::WholeOr(min, max, word) => {
                 format!("{}; or \"{word}\"", Kind::Whole(*min, *max).in_words())
             }
-            Kind::Word(words) => format!("one of {}", quoted(words.iter().copied())),
-            Kind::Words(words) => format!("one of {}", quoted(words())),
+            Kind::Word(_) | Kind::Words(_) => format!("one of {}", quoted(self.words())),
             Kind::Frames => "a range of frames such as \"0..100\" or \"0..100:5\"".to_owned(),
             Kind::Display => "the name of a display (`fovqa list displays`)".to_owned(),
             Kind::Metric => "the name of a metric".to_owned(),
@@ -114,6 +113,17 @@ impl Kind {
             Kind::Either(kinds) => {
                 kinds.iter().map(Kind::in_words).collect::<Vec<_>>().join("; or ")
             }
+        }
+    }
+}
+
+impl Kind {
+    /// The words that a value of this kind may be.
+    pub(crate) fn words(&self) -> Vec<&'static str> {
+        match self {
+            Kind::Word(words) => words.to_vec(),
+            Kind::Words(words) => words(),
+            _ => Vec::new(),
         }
     }
 }

@@ -73,8 +73,7 @@ fn kind(kind: &Kind) -> Value {
         Kind::Whole(min, max) => json!({ "type": "integer", "minimum": min, "maximum": max }),
         Kind::NumberOr(min, max, word) => either(&Kind::Number(*min, *max), word),
         Kind::WholeOr(min, max, word) => either(&Kind::Whole(*min, *max), word),
-        Kind::Word(words) => json!({ "enum": words }),
-        Kind::Words(words) => json!({ "enum": words() }),
+        Kind::Word(_) | Kind::Words(_) => json!({ "enum": kind.words() }),
         Kind::Frames => json!({
             "type": "string",
             "pattern": r"^(-?[0-9]{1,18})?\.\.(=?-?[0-9]{1,18})?(:0{0,9}[1-9][0-9]{0,8})?$"

@@ -8,10 +8,10 @@ use super::plots::Known;
 use super::scenes::Resolved;
 use super::view::VIEW_HELP;
 use crate::fault::{Fault, Faults};
-use crate::gates::{Aggregate, Allowance, GateRule, Quantity, better};
 use crate::grammar::quoted;
 use crate::nearest::nearest;
 use crate::node::Node;
+use fovqa_plan::{Aggregate, Allowance, GateRule, Quantity, better};
 
 const ORIENTATIONS: [&str; 3] = ["lh", "hl", "hh"];
 

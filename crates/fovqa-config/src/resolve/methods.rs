@@ -9,7 +9,7 @@ use crate::fault::{Fault, Faults};
 use crate::grammar::first_quoted;
 use crate::nearest::nearest;
 use crate::node::Node;
-use crate::plan::Eye;
+use fovqa_plan::Eye;
 
 /// Far more than fit a table. Each has a path of its own, and what is wrong with it.
 const MOST_COMPARISONS: usize = 100_000;

@@ -10,7 +10,7 @@ use toml::de::DeValue;
 use crate::fault::{Fault, Faults};
 use crate::grammar::number;
 use crate::node::{Node, flag, numbers, pairs, table, text};
-use crate::plan::MetricChoice;
+use fovqa_plan::MetricChoice;
 
 /// Parameters an experiment sets.
 pub(super) type Set = BTreeMap<(Metric, &'static str), ParamValue>;

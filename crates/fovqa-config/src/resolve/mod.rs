@@ -16,10 +16,10 @@ use std::path::{Path, PathBuf};
 
 use fovqa_io::sequence::{is_glob, literal};
 
-use crate::experiment::Experiment;
 use crate::fault::Faults;
 use crate::node::Node;
-use crate::plan::Plan;
+use fovqa_plan::Experiment;
+use fovqa_plan::Plan;
 
 /// The experiment; mistakes go to `faults`.
 pub(crate) fn experiment(

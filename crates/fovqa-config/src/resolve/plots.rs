@@ -8,8 +8,8 @@ use crate::fault::{Fault, Faults};
 use crate::grammar::{first_quoted, quoted};
 use crate::nearest::nearest;
 use crate::node::Node;
-use crate::plan::MetricChoice;
-use crate::plots::{Plot, PlotKind};
+use fovqa_plan::MetricChoice;
+use fovqa_plan::{Plot, PlotKind};
 
 /// What plots may refer to.
 pub(super) struct Known<'a> {

@@ -11,7 +11,7 @@ use super::settings::{Layers, path};
 use super::view::{LUMINANCE_HELP, VIEW_HELP};
 use crate::fault::{Fault, Faults};
 use crate::node::Node;
-use crate::plan::{Eye, EyeView, MetricChoice, Scene};
+use fovqa_plan::{Eye, EyeView, MetricChoice, Scene};
 
 /// A scene, and what its methods need to know.
 pub(super) struct Resolved {

@@ -15,7 +15,7 @@ use super::guides::guides;
 use super::view::{VIEW_HELP, gives_view, luminance, view};
 use crate::fault::{Fault, Faults};
 use crate::node::{Node, numbers, table};
-use crate::plan::{Eye, Gaze, Settings};
+use fovqa_plan::{Eye, Gaze, Settings};
 
 /// Tables that say how one eye sees a scene, from the most general to the most special.
 pub(super) struct Layers<'a> {

@@ -4,8 +4,8 @@
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-use fovqa_config::{Experiment, Eye, Plan};
 use fovqa_io::{FileId, open_regular_file};
+use fovqa_plan::{Experiment, Eye, Plan};
 use fovqa_vision::BandEdges;
 use serde::{Deserialize, Serialize};
 use serde_json::json;

@@ -5,9 +5,9 @@ use std::io;
 use std::ops::Range;
 use std::path::Path;
 
-use fovqa_config::{Eye, Plan};
 use fovqa_io::{FileId, read_small_file};
 use fovqa_metrics::Layout;
+use fovqa_plan::{Eye, Plan};
 use fovqa_results::Input;
 use serde::Deserialize;
 use serde_json::Value;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_config::Eye;
 use fovqa_metrics::{FrameRows, Image, Key, Layout, Metric, Parts, Subject};
+use fovqa_plan::Eye;
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, ViewResult};
 use fovqa_vision::EccentricityKind;
 use serde::{Deserialize, Serialize};

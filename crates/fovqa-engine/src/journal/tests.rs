@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use fovqa_config::{Experiment, Eye, EyeView, Plan, Scene};
 use fovqa_io::FileId;
 use fovqa_metrics::{Image, Key, Metric, Parts, Pooling, Rows, Subject};
+use fovqa_plan::{Experiment, Eye, EyeView, Plan, Scene};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, ViewResult};
 
 use super::read::Said;

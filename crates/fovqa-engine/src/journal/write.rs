@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use fovqa_config::Plan;
 use fovqa_metrics::Layout;
+use fovqa_plan::Plan;
 use fovqa_results::{FileError, Input, write_whole_with};
 use serde::Serialize;
 use serde_json::json;

@@ -1,8 +1,8 @@
 //! The fused pass over the signals of test and reference.
 
-use fovqa_config::{MetricChoice, Plan};
 use fovqa_frame::PairSignal;
 use fovqa_metrics::{Metric, ScoreError, Scored, Scorer};
+use fovqa_plan::{MetricChoice, Plan};
 
 use super::Pair;
 use crate::load::Fault;

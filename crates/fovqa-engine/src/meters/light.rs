@@ -6,13 +6,13 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use fovqa_config::{Plan, Settings};
 use fovqa_frame::{Frame, LightTables};
 use fovqa_metrics::fvvdp::{
     DifferenceMap, Fvvdp, FvvdpFrame, FvvdpReference, FvvdpRegions, Grid, MapContext, Params,
     Photometry, Stream,
 };
 use fovqa_metrics::{Map, Metric, pu_psnr};
+use fovqa_plan::{Plan, Settings};
 use fovqa_results::FvvdpSight;
 
 use super::{Measured, Pair};

@@ -13,9 +13,9 @@ mod temporal;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use fovqa_config::{Plan, Settings};
 use fovqa_frame::{Mask, SignalTables};
 use fovqa_metrics::{BlockRegions, Map, Metric, Regions, Rows, Scored};
+use fovqa_plan::{Plan, Settings};
 use fovqa_results::{AtdGuides, FvvdpSight};
 
 use crate::events::Warnings;

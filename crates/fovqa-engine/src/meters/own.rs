@@ -1,7 +1,7 @@
 //! Metrics of fidelity that share a pass with no other.
 
-use fovqa_config::Plan;
 use fovqa_metrics::{BlockRegions, Metric, PairInput, PairPass, Params, Scored};
+use fovqa_plan::Plan;
 
 use super::Pair;
 use super::fidelity::unscored;

@@ -1,9 +1,9 @@
 //! What is measured of each picture by itself; the luma of both is left where what is measured over time
 //! finds it.
 
-use fovqa_config::Plan;
 use fovqa_metrics::temporal::KeptPlane;
 use fovqa_metrics::{BlockRegions, Image, Metric, Params, Profiler, Rows};
+use fovqa_plan::Plan;
 
 use super::{Lumas, Pair};
 

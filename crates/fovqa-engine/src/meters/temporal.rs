@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_config::Plan;
 use fovqa_frame::{Guides, Mask, Plane};
 use fovqa_metrics::temporal::{AtdFrame, KeptPlane, Link, atd, differences};
 use fovqa_metrics::{Image, Metric, Rows};
+use fovqa_plan::Plan;
 use fovqa_results::{AtdGuides, GuideSource};
 
 use super::{Lumas, Pair};

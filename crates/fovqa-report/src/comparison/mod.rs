@@ -10,8 +10,8 @@ mod markdown;
 mod ratios;
 mod terminal;
 
-use fovqa_config::Plot;
 use fovqa_metrics::{Better, Metric};
+use fovqa_plan::Plot;
 use fovqa_results::{ComparisonSummary, GuideSource, RunRecord, SummaryRecord};
 
 use group::Group;

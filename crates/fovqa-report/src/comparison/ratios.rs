@@ -1,7 +1,7 @@
 //! What is left of the reference in each eccentricity band: test / reference, in percent.
 
-use fovqa_config::Plot;
 use fovqa_metrics::{Better, Metric};
+use fovqa_plan::Plot;
 use fovqa_results::{ComparisonSummary, HaarRecord, RunRecord, Spread, SummaryRecord};
 
 use super::group::Group;

@@ -1,7 +1,7 @@
 //! What curves are called where several stand together: by what differs between them.
 
-use fovqa_config::{CurveSetting, CurveSource, PanelOf};
 use fovqa_methods::Method;
+use fovqa_plan::{CurveSetting, CurveSource, PanelOf};
 use fovqa_shading::Curve;
 
 /// What tells the curves of a figure or table apart.

@@ -10,7 +10,7 @@ mod tables;
 
 use std::path::Path;
 
-use fovqa_config::{CurvePlotKind, CurvesFile};
+use fovqa_plan::{CurvePlotKind, CurvesFile};
 use fovqa_results::{
     CURVES_CSV, CURVES_JSON, CurvesRecord, curves_csv, write_json_file, write_whole,
 };

@@ -1,10 +1,10 @@
 //! Figures of one method's own: DEAMP's shaded pixels within an angle (Fig. 5b), RMFR's mapping of a
 //! half axis (Fig. 3).
 
-use fovqa_config::{CurvePlot, CurveSource, PanelOf};
 use fovqa_methods::Method;
 use fovqa_methods::deamp::Deamp;
 use fovqa_methods::rmfr::half_axis as mapped;
+use fovqa_plan::{CurvePlot, CurveSource, PanelOf};
 use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look};
 
 use super::Source;

@@ -1,7 +1,7 @@
 //! Samples per pixel over the field of view, as a picture with rings of equal eccentricity.
 
-use fovqa_config::{CurvePlot, CurveSetting, CurveSource, PanelOf};
 use fovqa_methods::Place;
+use fovqa_plan::{CurvePlot, CurveSetting, CurveSource, PanelOf};
 use fovqa_plot::{Axis, Figure, RasterChart, RasterLine, RasterPanel};
 use fovqa_shading::density_map;
 use fovqa_vision::{PixelScale, Tangential};

@@ -1,6 +1,6 @@
 //! Rates and acuity against eccentricity, with what is over- and under-sampled.
 
-use fovqa_config::{CurvePlot, PanelOf, RateKind, RateUnit};
+use fovqa_plan::{CurvePlot, PanelOf, RateKind, RateUnit};
 use fovqa_plot::{Axis, Figure, Fill, FillKind, LineChart, LineSeries, Look, PanelChart};
 use fovqa_shading::{Curve, Row};
 

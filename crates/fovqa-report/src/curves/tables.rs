@@ -1,7 +1,7 @@
 //! Tables: samples and load, speed-up, the field against acuity.
 
-use fovqa_config::{CurveTable, CurveTableKind};
 use fovqa_methods::Counts;
+use fovqa_plan::{CurveTable, CurveTableKind};
 use fovqa_shading::Curve;
 
 use super::Source;

@@ -1,8 +1,8 @@
 //! What is measured of each picture, against eccentricity: a line a method, the reference dashed. The
 //! wavelet has a panel a level (Patney et al. 2016, Figs. 4 and 10).
 
-use fovqa_config::Plot;
 use fovqa_metrics::Metric;
+use fovqa_plan::Plot;
 use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look, PanelChart};
 use fovqa_results::{ComparisonSummary, HaarRecord, Spread};
 

@@ -4,8 +4,8 @@
 mod compared;
 mod sequence;
 
-use fovqa_config::{Plot, PlotKind};
 use fovqa_metrics::{Better, Image, Metric, MetricKind};
+use fovqa_plan::{Plot, PlotKind};
 use fovqa_plot::{
     Axis, BarChart, BarSeries, Figure, LineChart, LineSeries, Look, SpreadChart, SpreadSeries,
 };

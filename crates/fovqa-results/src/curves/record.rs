@@ -1,7 +1,7 @@
 //! What was computed, as JSON: curves with their settings, counts and fields.
 
-use fovqa_config::{CurveSource, CurvesFile};
 use fovqa_params::Words;
+use fovqa_plan::{CurveSource, CurvesFile};
 use fovqa_shading::{Curve, Field};
 use serde::{Deserialize, Serialize};
 

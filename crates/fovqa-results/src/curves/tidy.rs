@@ -1,7 +1,7 @@
 //! All values of all curves as one long, tidy table.
 
-use fovqa_config::{CurvePlan, CurveSource};
 use fovqa_params::Words;
+use fovqa_plan::{CurvePlan, CurveSource};
 use fovqa_shading::Curve;
 
 const HEADER: [&str; 16] = [

@@ -1,6 +1,6 @@
 //! Many values to one.
 
-use fovqa_config::Aggregate;
+use fovqa_plan::Aggregate;
 
 /// The aggregate of values; `None` without any. The mean of decibels is over those that are finite, and
 /// infinite where none is: an identical frame must not lift the mean of all.

@@ -3,8 +3,8 @@
 
 use std::fmt::Write as _;
 
-use fovqa_config::{GateRule, Quantity};
 use fovqa_metrics::Better;
+use fovqa_plan::{GateRule, Quantity};
 
 use super::values::{Lacking, Place, RunValues};
 use super::verdict::is_of;
@@ -209,7 +209,7 @@ mod tests {
     fn limits_keep_as_far_as_values_spread() {
         let proposal = Proposal {
             place: ("s".to_owned(), "m".to_owned(), String::new()),
-            quantity: Quantity::of(fovqa_metrics::Metric::Psnr, fovqa_config::Aggregate::Min),
+            quantity: Quantity::of(fovqa_metrics::Metric::Psnr, fovqa_plan::Aggregate::Min),
             relative: false,
             min: 28.613,
             max: 28.702,

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use fovqa_config::{Aggregate, Quantity};
 use fovqa_metrics::{Key, Metric, Parts, Pooling, Statistic, Subject, Weight, pool};
+use fovqa_plan::{Aggregate, Quantity};
 
 use super::aggregate::aggregate;
 use crate::json::ComparisonSummary;

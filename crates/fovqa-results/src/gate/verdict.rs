@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use fovqa_config::{Allowance, GateRule};
 use fovqa_metrics::Better;
+use fovqa_plan::{Allowance, GateRule};
 
 use super::values::{Found, Lacking, Place, RunValues};
 use crate::baseline::Baseline;

@@ -1,6 +1,6 @@
 //! run.json: what a run was of, so that it can be drawn again, repeated and trusted.
 
-use fovqa_config::Resolved;
+use fovqa_plan::Resolved;
 use serde::{Deserialize, Serialize};
 
 use crate::report::Input;

@@ -12,12 +12,12 @@ use fovqa_vision::acuity::AcuityModel;
 
 use super::metrics::param_value;
 use super::scenes::unique;
-use crate::curves::{
-    CurveBudget, CurvePlan, CurvePlot, CurvePlotKind, CurveRange, CurveSource, CurveSpec,
-};
 use crate::fault::{Fault, Faults};
 use crate::grammar::MOST_CURVES;
 use crate::node::Node;
+use fovqa_plan::{
+    CurveBudget, CurvePlan, CurvePlot, CurvePlotKind, CurveRange, CurveSource, CurveSpec,
+};
 use plots::{all_that_fit, few_panels, plot, table};
 use screens::Screens;
 

@@ -4,13 +4,13 @@ use std::ops::Range;
 
 use fovqa_methods::Method;
 
-use crate::curves::{
-    CurvePlan, CurvePlot, CurvePlotKind, CurveSource, CurveSpec, CurveTable, CurveTableKind,
-    PanelOf, RateKind, RateUnit,
-};
 use crate::fault::{Fault, Faults};
 use crate::node::Node;
 use crate::resolve::plots::subset;
+use fovqa_plan::{
+    CurvePlan, CurvePlot, CurvePlotKind, CurveSource, CurveSpec, CurveTable, CurveTableKind,
+    PanelOf, RateKind, RateUnit,
+};
 
 /// The curves a plot or table shows.
 fn shown<'a>(

@@ -6,11 +6,11 @@ use fovqa_vision::{EccentricityKind, View, ViewSpec};
 use serde_spanned::Spanned;
 use toml::de::DeValue;
 
-use crate::curves::CurveSetting;
 use crate::fault::{Fault, Faults};
 use crate::grammar::{MOST_CURVES, resolution};
 use crate::node::{Node, numbers, text};
 use crate::resolve::view::{gives_view, view};
+use fovqa_plan::CurveSetting;
 
 /// Tables that say on which screens a curve is, the more special one last.
 pub(super) struct Screens<'a> {

@@ -102,7 +102,7 @@ impl Quantity {
 }
 
 /// Which way a statistic of a metric is better.
-pub(crate) fn better(metric: Option<Metric>, statistic: &str, image: &str) -> Better {
+pub fn better(metric: Option<Metric>, statistic: &str, image: &str) -> Better {
     let Some(metric) = metric.filter(|_| image != "reference") else { return Better::Neither };
     let key = Key::named(Subject::Metric(metric), statistic);
     let own = key.and_then(|key| key.statistic().better);

@@ -12,8 +12,9 @@ use serde_json::{Value, json};
 
 use crate::experiment::Experiment;
 use crate::gates::GateRule;
-use crate::plan::{Eye, EyeView, Gaze, MetricChoice, Plan, Settings};
+use crate::plan::{Eye, EyeView, MetricChoice, Plan};
 use crate::plots::Plot;
+use crate::settings::{Gaze, Settings};
 
 /// A resolved experiment. Paths are relative to its file, where they begin below it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

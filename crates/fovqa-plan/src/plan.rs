@@ -4,41 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use fovqa_frame::{Crop, SignalParams, Transfer};
 use fovqa_io::sequence::FrameRange;
-use fovqa_io::{GuideOptions, ReadOptions};
 use fovqa_metrics::{Metric, Params};
 use fovqa_params::{Words, words};
-use fovqa_vision::{BandEdges, EccentricityKind, Eotf, Luminance, ViewSpec};
 
-/// Where the eye looks.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub enum Gaze {
-    /// At the principal point.
-    #[default]
-    Centre,
-    /// At a point in pixels.
-    Point([f64; 2]),
-    /// Along a trace.
-    Trace {
-        /// The CSV file.
-        path: PathBuf,
-        /// Whether frames beyond the trace keep its last gaze.
-        hold: bool,
-    },
-}
-
-words! {
-    /// What to do about NaN and infinity.
-    #[derive(Default)]
-    pub enum Nonfinite {
-        /// An error that names the first.
-        #[default]
-        Error "error" "An error that names the first such pixel";
-        /// Leave the pixels out, in both pictures.
-        Mask "mask" "Such pixels are left out of every number";
-    }
-}
+use crate::settings::Settings;
 
 /// Which metrics.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -77,76 +47,6 @@ impl Eye {
     /// Its name in files: what `{eye}` stands for.
     pub fn name(self) -> &'static str {
         self.word()
-    }
-}
-
-/// How frames are read and seen.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Settings {
-    /// How files are read.
-    pub read: ReadOptions,
-    /// The visible part of each frame.
-    pub crop: Option<Crop>,
-    /// A picture that is white where pixels count.
-    pub mask: Option<PathBuf>,
-    /// How samples become the signal.
-    pub signal: SignalParams,
-    /// What to do about NaN and infinity.
-    pub nonfinite: Nonfinite,
-    /// The view.
-    pub view: Option<ViewSpec>,
-    /// The photometry of the display, where it is not that of the view's preset.
-    pub luminance: Option<Luminance>,
-    /// The gaze.
-    pub gaze: Gaze,
-    /// How eccentricity is measured.
-    pub eccentricity: EccentricityKind,
-    /// The bands; `None`: the default ones.
-    pub bands: Option<BandEdges>,
-    /// Which channels hold motion and depth, for what compares frames over time. Those of `read` are
-    /// not looked at.
-    pub guides: GuideOptions,
-    /// Files of their own that hold the motion: file, folder, glob or printf pattern.
-    pub motion_files: Option<PathBuf>,
-    /// The same of the depth.
-    pub depth_files: Option<PathBuf>,
-}
-
-impl Settings {
-    /// What of these needs a view, where there is none.
-    pub fn lacks_view(&self) -> Option<&'static str> {
-        match self.gaze {
-            _ if self.view.is_some() => None,
-            _ if self.bands.is_some() => Some("eccentricity bands"),
-            Gaze::Point(_) | Gaze::Trace { .. } => Some("a gaze"),
-            Gaze::Centre => None,
-        }
-    }
-
-    /// The photometry of the display: its own, or that of the view's preset, where it has one.
-    pub fn photometry(&self) -> Option<Luminance> {
-        self.luminance.or(match &self.view {
-            Some(ViewSpec::Display(display)) => display.luminance,
-            _ => None,
-        })
-    }
-
-    /// Why a display cannot show the files as they are said to be encoded; `None` where it can.
-    pub fn shown_wrongly(&self) -> Option<String> {
-        let eotf = self.photometry()?.eotf;
-        let files = match self.signal.transfer? {
-            Transfer::Pq if eotf != Eotf::Pq => "PQ",
-            Transfer::Srgb if !eotf.is_relative() => "sRGB",
-            Transfer::Gamma22 if !eotf.is_relative() => "a power of 2.2",
-            _ => return None,
-        };
-        let display = match eotf {
-            Eotf::Srgb => "sRGB",
-            Eotf::Gamma => "a power of its own",
-            Eotf::Pq => "PQ",
-            Eotf::Linear | Eotf::Absolute => "light",
-        };
-        Some(format!("the files are encoded as {files}, and the display takes {display}"))
     }
 }
 

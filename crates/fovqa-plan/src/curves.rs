@@ -1,0 +1,264 @@
+//! A file of curves: foveation methods over eccentricity, and what is drawn and tabulated of them.
+
+use std::path::PathBuf;
+
+use fovqa_methods::{BudgetOf, Method, MethodError, Setting};
+use fovqa_params::words;
+use fovqa_vision::acuity::AcuityModel;
+use fovqa_vision::{EccentricityKind, Tangential, View};
+
+/// What a file of curves asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurvesFile {
+    /// Its name.
+    pub name: String,
+    /// What it shows, for its page; may be empty.
+    pub about: String,
+    /// Its file.
+    pub path: PathBuf,
+    /// The file's text.
+    pub text: String,
+    /// What is to be computed.
+    pub plan: CurvePlan,
+}
+
+/// Curves, figures and tables.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CurvePlan {
+    /// The curves, a method's for each of its settings one after the other.
+    pub curves: Vec<CurveSpec>,
+    /// What rates are held against.
+    pub acuity: AcuityModel,
+    /// Its parameters that are not at their defaults, as those of a curve.
+    pub acuity_parameters: String,
+    /// The eccentricities.
+    pub range: CurveRange,
+    /// Figures; all that fit, where a file names none and no table.
+    pub plots: Vec<CurvePlot>,
+    /// Tables; likewise.
+    pub tables: Vec<CurveTable>,
+}
+
+/// The eccentricities of curves: from 0 on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveRange {
+    /// From one to the next, degrees.
+    pub step_deg: f64,
+    /// The last one, degrees, for methods whose curves do not end with the frame.
+    pub to_deg: f64,
+}
+
+impl Default for CurveRange {
+    fn default() -> Self {
+        Self { step_deg: 0.25, to_deg: 60.0 }
+    }
+}
+
+impl CurveRange {
+    /// Steps finer than this are no longer told apart in a plot or a table.
+    pub const LEAST_STEP_DEG: f64 = 0.001;
+    /// Where eccentricity ends.
+    pub const MOST_DEG: f64 = 179.0;
+}
+
+/// One curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveSpec {
+    /// The name its file gives it: the same for every setting.
+    pub name: String,
+    /// What is drawn.
+    pub source: CurveSource,
+    /// Parameters that are not at their defaults, `name=value` with `;` between them.
+    pub parameters: String,
+}
+
+impl CurveSpec {
+    /// A curve of a method, its budget solved.
+    ///
+    /// # Errors
+    /// When the method cannot be applied there, or does not reach the budget; in words.
+    pub fn of_method(
+        name: String,
+        method: Method,
+        parameters: String,
+        setting: CurveSetting,
+        budget: Option<CurveBudget>,
+    ) -> Result<Self, String> {
+        let over = setting.setting().map_err(|error| error.to_string())?;
+        let (mut method, mut parameters) = (method, parameters);
+        if let Some(CurveBudget { share, of }) = budget {
+            let found = method.at_budget(&over, share, of).map_err(|error| error.to_string())?;
+            method = found.method;
+            // What is solved stands for what was given.
+            let given = parameters.split(';').filter(|given| {
+                !given.is_empty() && given.split('=').next() != Some(found.parameter)
+            });
+            let solved = format!("{}={}", found.parameter, found.value);
+            parameters = given.chain([solved.as_str()]).collect::<Vec<_>>().join(";");
+        }
+        method.over(&over).map_err(|error| error.to_string())?;
+        Ok(Self { name, source: CurveSource::Method { method, setting }, parameters })
+    }
+}
+
+/// What a curve is of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum CurveSource {
+    /// An acuity model, which is of no screen.
+    Acuity(AcuityModel),
+    /// A method on a screen.
+    Method {
+        /// The method, its budget solved.
+        method: Method,
+        /// The screen.
+        setting: CurveSetting,
+    },
+}
+
+/// A screen, a gaze, and how rates are measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveSetting {
+    /// The frame.
+    pub view: View,
+    /// The gaze in pixels; one outside of the frame is taken at its border.
+    pub gaze_px: [f64; 2],
+    /// Direction of the curve from the gaze, degrees from +x towards +y.
+    pub direction_deg: f64,
+    /// What a degree across the curve is.
+    pub tangential: Tangential,
+    /// How eccentricity is measured.
+    pub eccentricity: EccentricityKind,
+}
+
+impl CurveSetting {
+    /// What methods are applied to.
+    ///
+    /// # Errors
+    /// When the frame has no pixels or the gaze is no place.
+    pub fn setting(&self) -> Result<Setting, MethodError> {
+        Setting::new(&self.view, self.gaze_px)
+    }
+}
+
+/// A budget that a method is solved for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveBudget {
+    /// Samples over the frame's pixels.
+    pub share: f64,
+    /// Which samples.
+    pub of: BudgetOf,
+}
+
+/// A figure.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CurvePlot {
+    /// What it shows.
+    pub kind: CurvePlotKind,
+    /// Its file's name; the kind's without.
+    pub name: Option<String>,
+    /// What stands above it.
+    pub title: Option<String>,
+    /// Names of its curves; all without.
+    pub curves: Option<Vec<String>>,
+    /// Which rate.
+    pub rate: RateKind,
+    /// In which unit.
+    pub unit: RateUnit,
+    /// What has a panel of its own.
+    pub panels: PanelOf,
+    /// Whether over- and under-sampled areas are shaded; without, where a panel has one curve.
+    pub areas: Option<bool>,
+    /// Whether the display's own rate is drawn too.
+    pub display: bool,
+    /// Ends of the vertical axis.
+    pub y_limits: Option<[f64; 2]>,
+    /// Measured values: a name, an eccentricity in degrees and cycles per degree.
+    pub marks: Vec<(String, [f64; 2])>,
+    /// Whether values stand on a logarithmic axis.
+    pub log: bool,
+    /// Eccentricities whose rings are drawn over a picture, degrees.
+    pub rings_deg: Vec<f64>,
+    /// Values of f, of RMFR's half axis.
+    pub f: Vec<f64>,
+}
+
+words! {
+    /// What a figure of curves shows.
+    #[derive(Default)]
+    pub enum CurvePlotKind {
+        /// Rates and acuity against eccentricity.
+        #[default]
+        Rates "rates" "Rates and acuity against eccentricity";
+        /// Samples per pixel over the field, as a picture.
+        Density "density" "Samples per pixel over the field, as a picture";
+        /// DEAMP: shaded pixels within a layer's angle (Fig. 5b).
+        Accumulated "accumulated" "DEAMP: shaded pixels within a layer's angle";
+        /// RMFR: where a half axis goes (Fig. 3).
+        HalfAxis "half_axis" "RMFR: where a half axis goes";
+    }
+}
+
+words! {
+    /// Which rate a figure shows.
+    #[derive(Default)]
+    pub enum RateKind {
+        /// Along the line from the gaze.
+        #[default]
+        Radial "radial" "Along the line from the gaze";
+        /// Across it.
+        Tangential "tangential" "Across it";
+        /// Both, side by side.
+        Both "both" "Both, side by side";
+    }
+}
+
+words! {
+    /// The unit of rates in a figure.
+    #[derive(Default)]
+    pub enum RateUnit {
+        /// Cycles per degree.
+        #[default]
+        Cpd "cpd" "Cycles per degree";
+        /// Samples per pixel along the direction: the display's own rate is 1.
+        PerPixel "per_pixel" "Samples per pixel along the direction";
+    }
+}
+
+words! {
+    /// What has a panel of its own.
+    #[derive(Default)]
+    pub enum PanelOf {
+        /// Nothing: all curves in one.
+        One "one" "Nothing: all curves in one";
+        /// Each curve with its settings.
+        #[default]
+        Curve "curve" "Each curve with its settings";
+        /// Each resolution.
+        Resolution "resolution" "Each resolution";
+        /// Each gaze.
+        Gaze "gaze" "Each gaze";
+        /// Each direction.
+        Direction "direction" "Each direction";
+    }
+}
+
+/// A table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveTable {
+    /// What it shows.
+    pub kind: CurveTableKind,
+    /// Names of its curves; all without.
+    pub curves: Option<Vec<String>>,
+}
+
+words! {
+    /// What a table of curves shows.
+    pub enum CurveTableKind {
+        /// Samples per frame and load, curves against resolutions (VaFR, Table 1).
+        Samples "samples" "Samples per frame and load, curves against resolutions";
+        /// Buffer, samples, share of pixels and theoretical speed-up.
+        SpeedUp "speed_up" "Buffer, samples, share of pixels and theoretical speed-up";
+        /// The share of the field below acuity, and the samples spent above it.
+        Acuity "acuity" "The share of the field below acuity, and the samples spent above it";
+    }
+}

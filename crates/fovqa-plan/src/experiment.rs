@@ -1,0 +1,32 @@
+//! An experiment: a plan, and what is made of its results.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use fovqa_metrics::Metric;
+use fovqa_params::ParamValue;
+
+use crate::gates::GateRule;
+use crate::plan::Plan;
+use crate::plots::Plot;
+
+/// What an experiment file asks for.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Experiment {
+    /// Its name.
+    pub name: String,
+    /// What it shows.
+    pub about: Option<String>,
+    /// Its file.
+    pub path: PathBuf,
+    /// The file's text.
+    pub text: String,
+    /// What is to be scored.
+    pub plan: Plan,
+    /// Tables and figures; none: all that fit.
+    pub plots: Vec<Plot>,
+    /// The rules of its gate.
+    pub gates: Vec<GateRule>,
+    /// Parameters it sets; all others have their defaults.
+    pub params: BTreeMap<(Metric, &'static str), ParamValue>,
+}
