@@ -68,7 +68,7 @@ fn results_do_not_tell_where_they_were_made() {
     for name in ["hall/a/0000.png", "hall/gt/0002.png", "gaze.csv", "mask.png"] {
         let input = &inputs[paths.iter().position(|path| *path == name).unwrap()];
         let file = fs::read(folder.path(name)).unwrap();
-        let id = fovqa_io::FileId::of(file.as_slice()).unwrap();
+        let id = fovqa_io::id_of(file.as_slice()).unwrap();
         assert_eq!(
             (input["bytes"].as_u64(), input["sha256"].as_str()),
             (Some(id.bytes), Some(id.sha256.as_str()))

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use fovqa_engine::{Events, Found, FoundFrame, FoundView};
+use fovqa_frame::source::Origin;
 use fovqa_io::frame_size;
 use fovqa_metrics::Metric;
 use fovqa_plan::{CurveSource, Experiment, EyeView, Gaze, MetricChoice};
@@ -25,7 +26,7 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
         Ok(experiment) => experiment,
         Err(exit) => return exit,
     };
-    let found = fovqa_engine::find(&experiment.plan);
+    let found = fovqa_engine::find(&experiment.plan, &fovqa_engine::Given::default());
     let terminal = Terminal::speaking(Dialect::Experiment);
     // The warnings come where those of a run do, after the plan.
     let warnings = Later::default();
@@ -39,7 +40,7 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
         terminal.warn(&message);
     }
     crate::run::say_problems(&experiment, &found);
-    let masks = masks(&experiment) & frames(&experiment, &found);
+    let masks = masks(&experiment) & frames(&found);
     if found.problems.iter().any(|problem| problem.error.is_usage()) {
         Exit::Usage
     } else if found.problems.is_empty() && masks {
@@ -106,16 +107,18 @@ fn masks(experiment: &Experiment) -> bool {
 }
 
 /// Whether every frame is an existing file. Reports the first missing file of each view.
-fn frames(experiment: &Experiment, found: &Found) -> bool {
+fn frames(found: &Found) -> bool {
     let mut there = true;
     for view in &found.views {
-        let files = view
-            .frames
-            .iter()
-            .flat_map(|frame| frame.tests.iter().map(|(_, test)| test).chain([&frame.reference]));
-        let mut missing = files.filter(|file| !file.is_file());
-        if let Some(first) = missing.next() {
-            let (file, more) = (experiment.plan.shown(first), missing.count());
+        let origins = view.frames.iter().flat_map(|frame| view.sources.of_frame(frame));
+        let origins = origins.flat_map(|(source, at)| source.origins(at));
+        let is_missing = |(_, origin): &(String, Origin)| match origin {
+            Origin::File(path) => !path.is_file(),
+            Origin::Made(_) => false,
+        };
+        let mut missing = origins.filter(is_missing);
+        if let Some((file, _)) = missing.next() {
+            let more = missing.count();
             let more = if more > 0 { format!(" (nor are {more} more)") } else { String::new() };
             let message = format!("{file}: it is not a file that is there{more}");
             diagnostic::error(&message, "fetch it (git annex get, dvc pull), or render it again");
@@ -160,7 +163,8 @@ fn scene(text: &mut String, experiment: &Experiment, view: &FoundView) {
     let scene = &experiment.plan.scenes[view.scene];
     let eye = &scene.eyes[view.eye];
     let side = eye.eye.map(|eye| format!(", {} eye", eye.name())).unwrap_or_default();
-    let size = view.frames.iter().find_map(|frame| frame_size(&frame.reference).ok());
+    let reference = &view.sources.reference;
+    let size = view.frames.iter().find_map(|frame| reference.size(frame.reference).ok());
     let size = match (eye.settings.crop, size) {
         (Some(crop), _) => Some((crop.width, crop.height)),
         (None, size) => size,
@@ -172,7 +176,7 @@ fn scene(text: &mut String, experiment: &Experiment, view: &FoundView) {
         _ => String::new(),
     };
     let _ = writeln!(text, "\n{}{side}: {frames}{numbers}{pixels}", scene.name);
-    let mut lines = vec![("reference", experiment.plan.shown(&eye.reference))];
+    let mut lines = vec![("reference", experiment.plan.shown_source(&eye.reference))];
     for (method, path) in &eye.tests {
         let with = |frame: &&FoundFrame| frame.tests.iter().any(|(m, _)| m == method);
         let there = view.frames.iter().filter(with).count();
@@ -181,7 +185,7 @@ fn scene(text: &mut String, experiment: &Experiment, view: &FoundView) {
             (there, all) if there < all => format!(" ({there} of {})", count(all, "frame")),
             _ => String::new(),
         };
-        let path = experiment.plan.shown(path);
+        let path = experiment.plan.shown_source(path);
         lines.push((&experiment.plan.methods[*method], format!("{path}{missing}")));
     }
     if let Some(seen) = seen(eye, size) {

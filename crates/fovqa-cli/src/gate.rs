@@ -78,7 +78,10 @@ fn of_experiment(args: &GateArgs) -> Result<(FinishedRun, Option<Baseline>), Exi
     check(&experiment.gates, &args.target, args)?;
     let mut resolved = experiment.resolved();
     resolved.frames = args.frames.map(|frames| frames.to_string());
-    let found = args.baseline.as_ref().map(|_| fovqa_engine::find(&experiment.plan));
+    let found = args
+        .baseline
+        .as_ref()
+        .map(|_| fovqa_engine::find(&experiment.plan, &fovqa_engine::Given::default()));
     if let Some(found) = found.filter(|f| f.problems.iter().any(|p| p.error.is_usage())) {
         say_problems(&experiment, &found);
         return Err(Exit::Usage);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fovqa_engine::{FolderError, Named, ResultsFolder};
-use fovqa_io::FileId;
+use fovqa_io::id_of;
 use fovqa_plan::{Experiment, Eye};
 use fovqa_report::Drawn;
 use fovqa_results::{
@@ -68,7 +68,7 @@ pub(crate) fn finish(
 /// The SHA-256 of a text.
 pub(crate) fn text_hash(text: &str) -> String {
     // Reading from memory does not fail.
-    FileId::of(text.as_bytes()).map(|id| id.sha256).unwrap_or_default()
+    id_of(text.as_bytes()).map(|id| id.sha256).unwrap_or_default()
 }
 
 /// What is left to do when only the drawing failed.

@@ -54,7 +54,7 @@ fn into_folder(args: &RunArgs, shown: Shown) -> Result<(PathBuf, Exit), Exit> {
     // Before anything is read or scored: a folder that cannot be written to is found now.
     let folder = ResultsFolder::open(&folder, args.lock.locking())
         .map_err(|error| failed(&error, error.help()))?;
-    let found = fovqa_engine::find(&experiment.plan);
+    let found = fovqa_engine::find(&experiment.plan, &fovqa_engine::Given::default());
     if found.problems.iter().any(|problem| problem.error.is_usage()) {
         say_problems(&experiment, &found);
         return Err(Exit::Usage);

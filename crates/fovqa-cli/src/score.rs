@@ -69,7 +69,7 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
 /// One reference against one test: whatever is wrong with the whole of it ends the run.
 fn score(plan: &Plan, maps: Option<&HeatMaps>) -> Result<ScoreReport, EngineError> {
     fovqa_engine::check(plan)?;
-    let mut found = fovqa_engine::find(plan);
+    let mut found = fovqa_engine::find(plan, &fovqa_engine::Given::default());
     if let Some(problem) = found.problems.pop() {
         return Err(problem.error);
     }

@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use fovqa_frame::source::Doubt;
 use fovqa_io::ReadError;
-use fovqa_io::sequence::{Doubt, ListingError, PairingError};
+use fovqa_io::sequence::{ListingError, PairingError};
 use fovqa_metrics::Metric;
 use fovqa_metrics::fvvdp::TimeError;
 use fovqa_params::ParamError;
@@ -21,6 +22,12 @@ pub enum EngineError {
     /// Frames without partners.
     #[error(transparent)]
     Pairing(#[from] PairingError),
+    /// A source that was to be given and is not.
+    #[error("the plan has the source {name:?}, and it is not given")]
+    NotGiven {
+        /// What the plan calls it.
+        name: String,
+    },
     /// A selection without a frame.
     #[error("no frame is selected; there are frames {first} to {last}")]
     NoFrames {
@@ -30,10 +37,10 @@ pub enum EngineError {
         last: i64,
     },
     /// Frames that are asked for by number, where the names have none that tell them apart.
-    #[error("{}: {what} goes by the numbers of frames, and those in the names do not tell the frames apart: {}", path.display(), doubt.in_words())]
+    #[error("{argument}: {what} goes by the numbers of frames, and those in the names do not tell the frames apart: {}", doubt.in_words())]
     NoNumbers {
         /// The reference argument.
-        path: PathBuf,
+        argument: String,
         /// What goes by numbers.
         what: &'static str,
         /// Why they do not.
@@ -133,10 +140,6 @@ impl EngineError {
     pub(crate) fn with_paths(self, shown: &dyn Fn(&Path) -> PathBuf) -> Self {
         match self {
             Self::Listing(error) => Self::Listing(error.with_paths(shown)),
-            Self::Pairing(error) => Self::Pairing(error.with_paths(shown)),
-            Self::NoNumbers { path, what, doubt } => {
-                Self::NoNumbers { path: shown(&path), what, doubt }
-            }
             Self::GazeFile { path, error } => Self::GazeFile { path: shown(&path), error },
             Self::GazeTrace { path, error } => Self::GazeTrace { path: shown(&path), error },
             Self::Mask(ReadError { path, kind }) => {
@@ -150,6 +153,7 @@ impl EngineError {
     pub fn is_usage(&self) -> bool {
         match self {
             Self::View(_)
+            | Self::NotGiven { .. }
             | Self::NoView { .. }
             | Self::NoLuminance { .. }
             | Self::ShownWrongly { .. }
@@ -178,6 +182,7 @@ impl EngineError {
                 "give a pattern that has the number, such as 'renders/f_%04d.png', or rename the files"
                     .to_owned()
             }
+            Self::NotGiven { .. } => "give a source of that name beside the plan".to_owned(),
             Self::NoFrames { .. } => {
                 "{frames} selects by number, from A up to, but without, B".to_owned()
             }

@@ -2,16 +2,16 @@
 //! each.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
 
-use fovqa_io::sequence::{FramePair, Listing, PairingError, Pairs, Spacing, list_below, pair};
+use fovqa_io::sequence::{FramePair, PairingError, Pairs, Spacing, pair};
 use fovqa_metrics::Metric;
-use fovqa_plan::{EyeView, Plan, Scene};
+use fovqa_plan::{Plan, Scene};
 use fovqa_vision::GazeAt;
 
 use crate::error::EngineError;
 use crate::find_gaze::gaze;
 use crate::remarks::remarks;
+use crate::sources::{Given, Opener, ViewSources};
 use crate::timing::timings;
 
 /// The frames of a plan, and what is wrong with its inputs.
@@ -30,6 +30,8 @@ pub struct FoundView {
     pub scene: usize,
     /// Index of the eye's view in it.
     pub eye: usize,
+    /// Where the frames come from.
+    pub sources: ViewSources,
     /// The frames, in order.
     pub frames: Vec<FoundFrame>,
     /// The gaze of each frame, where it comes from a trace.
@@ -55,21 +57,21 @@ pub struct FoundFrame {
     /// Its place in the sequence, from 0: two frames follow each other where their positions differ by
     /// 1. Numbers that are missing on both sides have a position as well.
     pub position: usize,
-    /// The reference.
-    pub reference: PathBuf,
-    /// Files of their own for motion and depth.
-    pub guides: GuideFiles,
-    /// Tests, with the index of their method, which rises.
-    pub tests: Vec<(usize, PathBuf)>,
+    /// The reference: its place in its source.
+    pub reference: usize,
+    /// Motion and depth that have sources of their own.
+    pub guides: GuideFrames,
+    /// Tests: the index of their method, which rises, and their place in its source.
+    pub tests: Vec<(usize, usize)>,
 }
 
-/// Files that hold the motion or the depth of a frame and nothing else.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct GuideFiles {
+/// Places of the motion and the depth of a frame in sources of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct GuideFrames {
     /// The motion.
-    pub motion: Option<PathBuf>,
+    pub motion: Option<usize>,
     /// The depth.
-    pub depth: Option<PathBuf>,
+    pub depth: Option<usize>,
 }
 
 /// An input that cannot be scored.
@@ -85,8 +87,9 @@ pub struct Problem {
     pub error: EngineError,
 }
 
-/// Finds and pairs the frames of every scene. Reads names and gaze traces, no pixels.
-pub fn find(plan: &Plan) -> Found {
+/// Finds and pairs the frames of every scene. Reads names and gaze traces, no pixels. `given` are the sources
+/// that the plan names and does not have.
+pub fn find(plan: &Plan, given: &Given) -> Found {
     let mut found = Found { views: Vec::new(), problems: Vec::new() };
     for (scene_index, scene) in plan.scenes.iter().enumerate() {
         for (eye, view) in scene.eyes.iter().enumerate() {
@@ -94,19 +97,25 @@ pub fn find(plan: &Plan) -> Found {
                 let error = error.with_paths(&|path| plan.shown(path).into());
                 Problem { scene: scene_index, eye, method, error }
             };
-            let reference = match list_below(&plan.base, &view.reference) {
+            let opener = Opener { plan, view, given };
+            let reference = match opener.reference() {
                 Ok(reference) => reference,
                 Err(error) => {
-                    found.problems.push(problem(None, error.into()));
+                    found.problems.push(problem(None, error));
                     continue;
                 }
             };
+            let mut tests = BTreeMap::new();
             let mut pairings = Vec::new();
             let mut passed_over = 0;
             let mut numbers = BTreeSet::new();
             for (method, test) in &view.tests {
-                match paired(plan, &reference, test) {
-                    Ok(mut pairs) => {
+                let paired = opener
+                    .test(*method, test)
+                    .and_then(|test| Ok((pair(reference.listing(), test.listing())?, test)));
+                match paired {
+                    Ok((mut pairs, test)) => {
+                        tests.insert(*method, test);
                         let mut alone = std::mem::take(&mut pairs.alone);
                         numbers.extend(pairs.pairs.iter().map(|pair| pair.number));
                         let sides = alone.reference.iter().chain(&alone.test);
@@ -129,12 +138,20 @@ pub fn find(plan: &Plan) -> Found {
             let numbering = pairings[0].1.numbering.clone();
             let spacing = Spacing::of(&numbers);
             match select(plan, scene, merge(pairings, &spacing)).and_then(|mut frames| {
-                find_guides(plan, view, &reference, &mut frames)?;
-                let mut remarks = remarks(plan, scene, view, &numbering, &spacing)?;
+                let [motion, depth] = opener.guides(&*reference, &mut frames)?;
+                let sources = ViewSources { reference, tests, motion, depth };
+                let mut remarks = remarks(plan, scene, view, &sources, (&numbering, &spacing))?;
                 let (trace, of_gaze) = gaze(plan, view, scene, &frames)?;
                 remarks.extend(of_gaze);
-                let view =
-                    FoundView { scene: scene_index, eye, frames, trace, passed_over, remarks };
+                let view = FoundView {
+                    scene: scene_index,
+                    eye,
+                    sources,
+                    frames,
+                    trace,
+                    passed_over,
+                    remarks,
+                };
                 if plan.metrics.metrics().contains(&Metric::Fvvdp) {
                     timings(&view, scene.fps, &plan.params.fvvdp)?;
                 }
@@ -163,22 +180,18 @@ fn number_alike(views: &mut [FoundView], scene: usize) {
     }
 }
 
-fn paired(plan: &Plan, reference: &Listing, test: &Path) -> Result<Pairs, EngineError> {
-    Ok(pair(reference, &list_below(&plan.base, test)?)?)
-}
-
 /// The pairs of all methods, by number and reference. A reference that is one file can be of
 /// several numbers, where a test beside it carries its number and another does not.
 fn merge(pairings: Vec<(usize, Pairs)>, spacing: &Spacing) -> Vec<FoundFrame> {
-    let mut frames: BTreeMap<(i64, PathBuf), FoundFrame> = BTreeMap::new();
-    let mut order: Vec<(i64, PathBuf)> = Vec::new();
+    let mut frames: BTreeMap<(i64, usize), FoundFrame> = BTreeMap::new();
+    let mut order: Vec<(i64, usize)> = Vec::new();
     for (method, pairs) in pairings {
         for FramePair { number, reference, test } in pairs.pairs {
             let position = spacing.place(number);
-            let key = (number, reference.clone());
-            let frame = frames.entry(key.clone()).or_insert_with(|| {
+            let key = (number, reference);
+            let frame = frames.entry(key).or_insert_with(|| {
                 order.push(key);
-                let guides = GuideFiles::default();
+                let guides = GuideFrames::default();
                 FoundFrame { number, position, reference, guides, tests: Vec::new() }
             });
             frame.tests.push((method, test));
@@ -187,34 +200,6 @@ fn merge(pairings: Vec<(usize, Pairs)>, spacing: &Spacing) -> Vec<FoundFrame> {
     // A stable sort: what has one number stays as it was found.
     order.sort_by_key(|(number, _)| *number);
     order.into_iter().filter_map(|key| frames.remove(&key)).collect()
-}
-
-/// Finds the files of motion and depth that belong to the references, where there are such files and
-/// they are of any use. A frame without one has none: whether that is a mistake is seen along the whole
-/// sequence.
-fn find_guides(
-    plan: &Plan,
-    view: &EyeView,
-    reference: &Listing,
-    frames: &mut [FoundFrame],
-) -> Result<(), EngineError> {
-    if !plan.metrics.metrics().contains(&Metric::Atd) {
-        return Ok(());
-    }
-    let of = |files: &Option<PathBuf>| -> Result<BTreeMap<PathBuf, PathBuf>, EngineError> {
-        let Some(files) = files else { return Ok(BTreeMap::new()) };
-        let pairs = paired(plan, reference, files)?.pairs.into_iter();
-        Ok(pairs.map(|pair| (pair.reference, pair.test)).collect())
-    };
-    let motion = of(&view.settings.motion_files)?;
-    let depth = of(&view.settings.depth_files)?;
-    for frame in frames {
-        frame.guides = GuideFiles {
-            motion: motion.get(&frame.reference).cloned(),
-            depth: depth.get(&frame.reference).cloned(),
-        };
-    }
-    Ok(())
 }
 
 /// Whether both the plan and the scene ask for a frame.

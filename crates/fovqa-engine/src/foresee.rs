@@ -1,6 +1,5 @@
 //! What a run will warn of, as far as settings, frame numbers and the headers of files tell.
 
-use fovqa_io::frame_size;
 use fovqa_metrics::Metric;
 use fovqa_plan::Plan;
 use fovqa_vision::BandEdges;
@@ -49,7 +48,8 @@ fn settle(
 ) -> Vec<Metric> {
     let settings = &plan.scenes[view.scene].eyes[view.eye].settings;
     // What cannot be read now is an error of its frame.
-    let first = view.frames.iter().find_map(|f| Some((f, frame_size(&f.reference).ok()?)));
+    let reference = &view.sources.reference;
+    let first = view.frames.iter().find_map(|f| Some((f, reference.size(f.reference).ok()?)));
     let Some((first, file_size)) = first else { return metrics };
     let size = settings.crop.map_or(file_size, |crop| (crop.width, crop.height));
     let inputs = Inputs {
@@ -62,7 +62,8 @@ fn settle(
         pairs: &view.frames.iter().map(|frame| frame.tests.len()).collect::<Vec<_>>(),
         file_size,
     };
-    let Ok(setup) = Setup::new(&inputs, size, plan.shown(&first.reference), warnings) else {
+    let name = reference.listing().name(first.reference).to_owned();
+    let Ok(setup) = Setup::new(&inputs, size, name, warnings) else {
         return metrics;
     };
     if let Some(seen) = &setup.view {

@@ -1,20 +1,20 @@
 //! The files a run has read, each taken down once.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
-use fovqa_io::FileId;
+use fovqa_frame::source::{InputId, Origin};
+use fovqa_io::id_of_file;
 use fovqa_plan::Plan;
 use fovqa_results::Input;
 use rayon::prelude::*;
 
 /// Inputs by path.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Inputs(BTreeMap<String, FileId>);
+pub(crate) struct Inputs(BTreeMap<String, InputId>);
 
 impl Inputs {
     /// Takes a file down; the input, if it is a new one.
-    pub(crate) fn add(&mut self, path: &str, id: &FileId) -> Option<Input> {
+    pub(crate) fn add(&mut self, path: &str, id: &InputId) -> Option<Input> {
         if self.0.contains_key(path) {
             return None;
         }
@@ -23,12 +23,12 @@ impl Inputs {
     }
 
     /// What is known of a file.
-    pub(crate) fn get(&self, path: &str) -> Option<&FileId> {
+    pub(crate) fn get(&self, path: &str) -> Option<&InputId> {
         self.0.get(path)
     }
 
     /// All files, by path.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &FileId)> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &InputId)> {
         self.0.iter().map(|(path, id)| (path.as_str(), id))
     }
 
@@ -37,18 +37,23 @@ impl Inputs {
         self.0.iter().map(|(path, id)| input((path.as_str(), id))).collect()
     }
 
-    /// What is not as it was, by path, in words. `known` are paths of files by how they are shown, which
-    /// does not say them where names are not UTF-8.
-    pub(crate) fn changes(&self, plan: &Plan, known: &BTreeMap<String, PathBuf>) -> Vec<String> {
-        let files: Vec<(&String, &FileId)> = self.0.iter().collect();
-        let change = |(shown, id): &(&String, &FileId)| {
-            let path = known.get(*shown).cloned().unwrap_or_else(|| plan.base.join(shown));
+    /// What is not as it was, by name, in words. `known` says what the names stand for, which they do not
+    /// where names are not UTF-8.
+    pub(crate) fn changes(&self, plan: &Plan, known: &BTreeMap<String, Origin>) -> Vec<String> {
+        let files: Vec<(&String, &InputId)> = self.0.iter().collect();
+        let change = |(shown, id): &(&String, &InputId)| {
+            let path = match known.get(*shown) {
+                Some(Origin::File(path)) => path.clone(),
+                Some(Origin::Made(now)) if now == *id => return None,
+                Some(Origin::Made(_)) => return Some(format!("{shown} has changed")),
+                None => plan.base.join(shown),
+            };
             match std::fs::metadata(&path) {
                 Err(_) => return Some(format!("{shown} is not there any more")),
                 Ok(file) if file.is_file() && file.len() == id.bytes => {}
                 Ok(_) => return Some(format!("{shown} has changed")),
             }
-            match FileId::of_file(&path) {
+            match id_of_file(&path) {
                 Ok(now) if now == **id => None,
                 Ok(_) => Some(format!("{shown} has changed")),
                 Err(error) => Some(format!("{shown} cannot be read any more: {error}")),
@@ -58,7 +63,7 @@ impl Inputs {
     }
 }
 
-fn input((path, id): (&str, &FileId)) -> Input {
+fn input((path, id): (&str, &InputId)) -> Input {
     Input { path: path.to_owned(), bytes: id.bytes, sha256: id.sha256.clone() }
 }
 
@@ -68,7 +73,7 @@ mod tests {
 
     #[test]
     fn a_file_is_taken_down_once() {
-        let id = FileId { bytes: 1, sha256: "0".to_owned() };
+        let id = InputId { bytes: 1, sha256: "0".to_owned() };
         let mut inputs = Inputs::default();
         assert!(inputs.add("b", &id).is_some() && inputs.add("a", &id).is_some());
         assert!(inputs.add("b", &id).is_none());
@@ -83,7 +88,7 @@ mod tests {
         let mut inputs = Inputs::default();
         for (name, text) in [("same", "a"), ("longer", "a"), ("other", "a"), ("gone", "a")] {
             std::fs::write(folder.path().join(name), text).unwrap();
-            inputs.add(name, &FileId::of_file(&folder.path().join(name)).unwrap());
+            inputs.add(name, &id_of_file(&folder.path().join(name)).unwrap());
         }
         assert!(inputs.changes(&plan, &BTreeMap::new()).is_empty());
         std::fs::write(folder.path().join("longer"), "aa").unwrap();

@@ -1,23 +1,18 @@
-//! Files to frames, and frames to pairs that may be compared.
+//! Frames of sources, and pairs of them that may be compared.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-
+use fovqa_frame::source::{InputId, MissingGuides, Source, SourceError};
 use fovqa_frame::{BadPixel, CropError, Frame, Guides, Mask, Motion, Plane, Transfer};
-use fovqa_io::{
-    DepthChannels, FileId, GuideOptions, GuideSearch, MotionChannels, Note, ReadError,
-    ReadErrorKind, ReadOptions, read_frame, read_frame_and_hash, read_guides, read_guides_and_hash,
-};
-use fovqa_plan::{Nonfinite, Plan, Settings};
+use fovqa_plan::{Nonfinite, Settings};
 use thiserror::Error;
 
-use crate::find::{FoundFrame, GuideFiles};
+use crate::find::FoundFrame;
+use crate::sources::ViewSources;
 
 /// Why a pair cannot be compared.
 #[derive(Debug, Error)]
 pub(crate) enum LoadError {
     #[error(transparent)]
-    Read(#[from] ReadError),
+    Read(#[from] SourceError),
     #[error("{file}: {error}")]
     Crop { file: String, error: CropError },
     #[error("{reference} has {}x{} pixels and {test} has {}x{}", reference_size.0, reference_size.1, test_size.0, test_size.1)]
@@ -42,9 +37,9 @@ fn more(pixels: u64) -> String {
 }
 
 impl LoadError {
-    pub(crate) fn help(&self) -> &'static str {
+    pub(crate) fn help(&self) -> &str {
         match self {
-            Self::Read(error) => error.kind.help(),
+            Self::Read(error) => &error.help,
             Self::Crop { .. } => "{crop} is in pixels of the file",
             Self::Size { .. } => {
                 "nothing is resampled: render both at one size, or cut with {crop}"
@@ -72,17 +67,19 @@ impl From<LoadError> for Fault {
     }
 }
 
-/// One file to load: the reference of a frame with its first test, or another test of it.
+/// One test to load, with the reference of its frame where it is the first of it.
 #[derive(Debug)]
 pub(crate) struct Step<'a> {
     /// Index of the frame.
     pub(crate) frame: usize,
-    /// The reference, where this is the first test of its frame, and what has files of its own.
-    pub(crate) reference: Option<(&'a Path, &'a GuideFiles)>,
+    /// The frame.
+    pub(crate) found: &'a FoundFrame,
+    /// Whether the reference comes with it.
+    pub(crate) reference: bool,
     /// Index of the method.
     pub(crate) method: usize,
-    /// The test.
-    pub(crate) test: &'a Path,
+    /// Place of the test in the method's source.
+    pub(crate) test: usize,
 }
 
 /// What a step has brought.
@@ -110,12 +107,12 @@ pub(crate) struct Side {
     /// Motion and depth, where they are wanted and there.
     pub(crate) guides: Guides,
     /// The files read for it, where they are hashed.
-    pub(crate) ids: Vec<(String, FileId)>,
+    pub(crate) ids: Vec<(String, InputId)>,
     pub(crate) notes: Vec<String>,
     /// Width of a pixel over its height, as the file declares it.
     pub(crate) pixel_aspect: f32,
     bad: Option<BadPixel>,
-    missing: Missing,
+    missing: MissingGuides,
 }
 
 impl Side {
@@ -156,117 +153,84 @@ pub(crate) fn comparable(
 /// What loading depends on.
 #[derive(Debug)]
 pub(crate) struct Loader<'a> {
-    pub(crate) plan: &'a Plan,
     pub(crate) settings: &'a Settings,
-    /// Layers of the tests of methods that have their own.
-    pub(crate) test_layers: &'a BTreeMap<usize, String>,
+    pub(crate) sources: &'a ViewSources,
     /// Whether motion and depth are of any use.
     pub(crate) guides: bool,
 }
 
 impl Loader<'_> {
-    /// The files of a step, at the same time.
+    /// How many steps may be loaded at a time.
+    pub(crate) fn loaders(&self) -> usize {
+        let in_turn = self.sources.all().any(Source::is_read_once);
+        if in_turn { 1 } else { rayon::current_num_threads() }
+    }
+
+    /// The frames of a step, at the same time.
     pub(crate) fn load(&self, step: &Step<'_>) -> Loaded {
         let first = step.frame == 0;
         let (reference, test) = rayon::join(
-            || step.reference.map(|(path, guides)| self.reference(path, guides, first)),
-            || self.side(step.test, self.test_layer(step.method), &self.beside_colour()),
+            || step.reference.then(|| self.reference(step.found, first)),
+            || self.side(self.sources.test(step.method), step.test, self.guides),
         );
         Loaded { reference, test }
     }
 
     /// The frames of a pair by themselves: for what looks ahead in a sequence.
     pub(crate) fn pair(&self, frame: &FoundFrame, method: usize) -> Result<[Frame; 2], Fault> {
-        let test = frame.tests.iter().find(|(m, _)| *m == method).map(|(_, test)| test);
+        let test = frame.tests.iter().find(|(m, _)| *m == method).map(|(_, test)| *test);
         let Some(test) = test else { unreachable!("the frame is of the method's sequence") };
-        let nothing = GuideOptions::default();
         let (reference, test) = rayon::join(
-            || self.side(&frame.reference, self.layer(), &nothing),
-            || self.side(test, self.test_layer(method), &nothing),
+            || self.side(&*self.sources.reference, frame.reference, false),
+            || self.side(self.sources.test(method), test, false),
         );
         let (reference, test) = (reference?, test?);
         comparable(&reference, &test, Nonfinite::Error)?;
         Ok([reference.frame, test.frame])
     }
 
-    /// The colour layer of the reference.
-    fn layer(&self) -> Option<&str> {
-        self.settings.read.layer.as_deref()
-    }
-
-    /// The colour layer of a method's tests.
-    fn test_layer(&self, method: usize) -> Option<&str> {
-        self.test_layers.get(&method).map(String::as_str).or(self.layer())
-    }
-
-    /// What is looked for beside the colour: not the names a user has given channels of files of their
-    /// own, which may be those of colours here.
-    fn beside_colour(&self) -> GuideOptions {
-        let Settings { guides, motion_files, depth_files, .. } = self.settings;
-        let mut wanted = if self.guides { guides.clone() } else { GuideOptions::default() };
-        if motion_files.is_some() && is_named(&wanted.motion) {
-            wanted.motion = MotionChannels::None;
-        }
-        if depth_files.is_some() && matches!(wanted.depth, DepthChannels::Named(_)) {
-            wanted.depth = DepthChannels::None;
-        }
-        wanted
-    }
-
-    /// A reference with its motion and depth, from its own file or from others.
-    fn reference(&self, path: &Path, files: &GuideFiles, first: bool) -> Result<Side, LoadError> {
-        let mut side = self.side(path, self.layer(), &self.beside_colour())?;
+    /// A reference with its motion and depth, from its own source or from others.
+    fn reference(&self, found: &FoundFrame, first: bool) -> Result<Side, LoadError> {
+        let mut side = self.side(&*self.sources.reference, found.reference, self.guides)?;
         if !self.guides {
             return Ok(side);
         }
-        let named = &self.settings.guides;
-        let lacks =
-            |wanted: &Option<PathBuf>, file: &Option<PathBuf>| wanted.is_some() && file.is_none();
+        let own = found.guides;
         for (what, lacks) in [
-            ("motion", !first && lacks(&self.settings.motion_files, &files.motion)),
-            ("depth", lacks(&self.settings.depth_files, &files.depth)),
+            ("motion", !first && self.sources.motion.is_some() && own.motion.is_none()),
+            ("depth", self.sources.depth.is_some() && own.depth.is_none()),
         ] {
             if lacks {
                 return Err(LoadError::NoGuideFile { file: side.file, what });
             }
         }
-        if let Some(file) = &files.motion {
-            let motion = GuideOptions { motion: named.motion.clone(), ..GuideOptions::default() };
-            side.guides.motion = self.guides_of(file, &motion, &mut side)?.motion;
+        if let Some((source, at)) = self.sources.motion.as_ref().zip(own.motion) {
+            side.guides.motion = self.guides_of(&**source, at, &mut side)?.motion;
         }
-        if let Some(file) = &files.depth {
-            let depth = GuideOptions { depth: named.depth.clone(), ..GuideOptions::default() };
-            side.guides.depth = self.guides_of(file, &depth, &mut side)?.depth;
+        if let Some((source, at)) = self.sources.depth.as_ref().zip(own.depth) {
+            side.guides.depth = self.guides_of(&**source, at, &mut side)?.depth;
         }
         // What a user has named has to be there; what is only looked for need not.
-        let missing_motion =
-            side.missing.motion.take().filter(|_| !first && files.motion.is_none());
-        let missing_depth = side.missing.depth.take().filter(|_| files.depth.is_none());
+        let missing_motion = side.missing.motion.take().filter(|_| !first && own.motion.is_none());
+        let missing_depth = side.missing.depth.take().filter(|_| own.depth.is_none());
         match missing_motion.or(missing_depth) {
-            Some(kind) => Err(LoadError::Read(ReadError { path: PathBuf::from(&side.file), kind })),
+            Some(error) => Err(LoadError::Read(error)),
             None => Ok(side),
         }
     }
 
-    /// Motion or depth from a file of its own.
+    /// Motion or depth from a source of its own.
     fn guides_of(
         &self,
-        path: &Path,
-        wanted: &GuideOptions,
+        source: &dyn Source,
+        at: usize,
         side: &mut Side,
     ) -> Result<Guides, LoadError> {
-        let file = self.plan.shown(path);
-        let named = |error: ReadError| ReadError { path: PathBuf::from(&file), ..error };
-        let options = ReadOptions { guides: wanted.clone(), ..self.settings.read.clone() };
-        let decoded = if self.plan.hash_inputs {
-            let (decoded, id) = read_guides_and_hash(path, &options).map_err(named)?;
-            side.ids.push((file.clone(), id));
-            decoded
-        } else {
-            read_guides(path, &options).map_err(named)?
-        };
-        side.notes.extend(decoded.notes.iter().map(Note::in_words));
-        let guides = decoded.guides;
+        let file = source.listing().name(at).to_owned();
+        let read = source.read_guides(at)?;
+        side.ids.extend(read.inputs);
+        side.notes.extend(read.notes);
+        let guides = read.guides;
         let motion = guides.motion.as_ref().map(Motion::file_size);
         let size = motion.or(guides.depth.as_ref().map(Plane::file_size));
         if let Some(size) = size.filter(|size| *size != side.frame.file_size()) {
@@ -289,32 +253,18 @@ impl Loader<'_> {
         }
     }
 
-    fn side(
-        &self,
-        path: &Path,
-        layer: Option<&str>,
-        guides: &GuideOptions,
-    ) -> Result<Side, LoadError> {
+    fn side(&self, source: &dyn Source, at: usize, guides: bool) -> Result<Side, LoadError> {
         let Settings { signal, crop, .. } = self.settings;
-        let file = self.plan.shown(path);
-        let named = |error: ReadError| ReadError { path: PathBuf::from(&file), ..error };
-        let (guides, layer) = (guides.clone(), layer.map(str::to_owned));
-        let read = ReadOptions { guides, layer, ..self.settings.read.clone() };
-        let (decoded, ids) = if self.plan.hash_inputs {
-            let (decoded, id) = read_frame_and_hash(path, &read).map_err(named)?;
-            (decoded, vec![(file.clone(), id)])
-        } else {
-            (read_frame(path, &read).map_err(named)?, Vec::new())
-        };
-        let missing = Missing::of(&read.guides, &decoded.guide_search);
-        let mut notes: Vec<String> = decoded.notes.iter().map(Note::in_words).collect();
-        let guides = self.cropped(decoded.guides, &file)?;
+        let file = source.listing().name(at).to_owned();
+        let picture = source.read(at, guides)?;
+        let mut notes = picture.notes;
+        let guides = self.cropped(picture.guides, &file)?;
         let frame = match *crop {
-            Some(crop) => decoded
+            Some(crop) => picture
                 .frame
                 .cropped(crop)
                 .map_err(|error| LoadError::Crop { file: file.clone(), error })?,
-            None => decoded.frame,
+            None => picture.frame,
         };
         let encoded_floats =
             !frame.samples().is_integer() && signal.transfer_of(&frame) != Transfer::Linear;
@@ -327,30 +277,7 @@ impl Loader<'_> {
             }
         }
         let bad = frame.bad_pixel();
-        let pixel_aspect = decoded.pixel_aspect;
+        let (ids, pixel_aspect, missing) = (picture.inputs, picture.pixel_aspect, picture.missing);
         Ok(Side { file, frame, guides, ids, notes, pixel_aspect, bad, missing })
-    }
-}
-
-/// Whether a user has named the channels of the motion.
-fn is_named(motion: &MotionChannels) -> bool {
-    matches!(motion, MotionChannels::Named(_) | MotionChannels::NamedAs(..))
-}
-
-/// What a user has named and a file does not have.
-#[derive(Debug, Default)]
-struct Missing {
-    motion: Option<ReadErrorKind>,
-    depth: Option<ReadErrorKind>,
-}
-
-impl Missing {
-    fn of(wanted: &GuideOptions, search: &GuideSearch) -> Self {
-        let named_motion = !matches!(wanted.motion, MotionChannels::None | MotionChannels::Auto);
-        let named_depth = !matches!(wanted.depth, DepthChannels::None | DepthChannels::Auto);
-        Self {
-            motion: search.missing_motion().filter(|_| named_motion),
-            depth: search.missing_depth().filter(|_| named_depth),
-        }
     }
 }

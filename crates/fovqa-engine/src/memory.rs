@@ -18,9 +18,8 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::Path;
 
-use fovqa_io::{ReadOptions, frame_size};
+use fovqa_io::ReadOptions;
 use fovqa_metrics::Metric;
 use fovqa_plan::Plan;
 
@@ -125,10 +124,9 @@ pub(crate) fn check(
     metrics: &[Metric],
 ) -> Result<(), EngineError> {
     let settings = &plan.scenes[view.scene].eyes[view.eye].settings;
-    let Some(first) = view.frames.first().map(|frame| frame.reference.as_path()) else {
-        return Ok(());
-    };
-    let Ok((width, height)) = frame_size(first) else { return Ok(()) };
+    let Some(first) = view.frames.first() else { return Ok(()) };
+    let reference = &view.sources.reference;
+    let Ok((width, height)) = reference.size(first.reference) else { return Ok(()) };
     let file = (width as u64).saturating_mul(height as u64);
     if !is_read(&settings.read, file) {
         return Ok(());
@@ -138,7 +136,7 @@ pub(crate) fn check(
     let windows = timings.values().filter_map(|timing| Some(timing.time.as_ref().ok()?.reach()));
     let amount = Amount {
         pixels: [file, crop.unwrap_or(file).min(file)],
-        pixel_bytes: if is_exr(first) { 6 } else { 3 },
+        pixel_bytes: reference.bytes_per_pixel(),
         frames: view.frames.len() as u64,
         methods: timings.len().max(1) as u64,
         metrics,
@@ -157,10 +155,6 @@ pub(crate) fn check(
 /// Whether the limit on a file's size lets it be read at all.
 fn is_read(read: &ReadOptions, pixels: u64) -> bool {
     pixels <= read.max_megapixels.saturating_mul(1_000_000)
-}
-
-fn is_exr(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"))
 }
 
 #[cfg(test)]

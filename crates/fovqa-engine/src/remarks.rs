@@ -1,10 +1,12 @@
 //! What the user should know of the frames that were found, before a pixel is read.
 
-use fovqa_io::sequence::{Numbering, Spacing};
+use fovqa_frame::source::Numbering;
+use fovqa_io::sequence::Spacing;
 use fovqa_plan::{EyeView, Gaze, Plan, Scene};
 
 use crate::error::EngineError;
 use crate::find::is_wanted;
+use crate::sources::ViewSources;
 
 /// What the user should know of the frames of a view.
 ///
@@ -14,8 +16,8 @@ pub(crate) fn remarks(
     plan: &Plan,
     scene: &Scene,
     view: &EyeView,
-    numbering: &Numbering,
-    spacing: &Spacing,
+    sources: &ViewSources,
+    (numbering, spacing): (&Numbering, &Spacing),
 ) -> Result<Vec<String>, EngineError> {
     let by_number = if matches!(view.settings.gaze, Gaze::Trace { .. }) {
         Some("a gaze trace")
@@ -27,15 +29,15 @@ pub(crate) fn remarks(
     let mut remarks = Vec::new();
     match (numbering, by_number) {
         (Numbering::Doubtful(doubt), Some(what)) => {
-            let (path, doubt) = (view.reference.clone(), doubt.clone());
-            return Err(EngineError::NoNumbers { path, what, doubt });
+            let argument = sources.reference.listing().argument.clone();
+            return Err(EngineError::NoNumbers { argument, what, doubt: doubt.clone() });
         }
         (Numbering::Doubtful(doubt), None) => {
             let doubt = doubt.in_words();
             remarks.push(format!(
                 "{}: the numbers in the names do not tell the frames apart: {doubt}; frames count by \
                  their position from 0, and a pattern such as 'f_%04d.png' picks those of one sequence",
-                plan.shown(&view.reference)
+                sources.reference.listing().argument
             ));
         }
         (Numbering::LastOfSeveral(name), Some(what)) => remarks.push(format!(

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use fovqa_frame::source::Origin;
 use fovqa_metrics::{LeadIn, Metric, Needs};
 use fovqa_plan::{Eye, Gaze, Plan};
 
@@ -57,7 +58,7 @@ pub fn resume(
         return changed(changes);
     }
     let said = text.said(plan);
-    let changes = said.findings.inputs.changes(plan, &paths(plan, found));
+    let changes = said.findings.inputs.changes(plan, &origins(plan, found));
     if !changes.is_empty() {
         return changed(changes);
     }
@@ -65,8 +66,8 @@ pub fn resume(
     Ok(Resumed { known, changes: Vec::new() })
 }
 
-/// All files that a run reads, by how results show them.
-fn paths(plan: &Plan, found: &Found) -> BTreeMap<String, PathBuf> {
+/// All that a run reads, by how results show it.
+fn origins(plan: &Plan, found: &Found) -> BTreeMap<String, Origin> {
     let settings = plan.scenes.iter().flat_map(|scene| &scene.eyes).map(|eye| &eye.settings);
     let beside = settings.flat_map(|settings| {
         let trace = match &settings.gaze {
@@ -75,12 +76,12 @@ fn paths(plan: &Plan, found: &Found) -> BTreeMap<String, PathBuf> {
         };
         [settings.mask.as_ref(), trace].into_iter().flatten()
     });
-    let frames = found.views.iter().flat_map(|view| &view.frames).flat_map(|frame| {
-        let guides = [frame.guides.motion.as_ref(), frame.guides.depth.as_ref()];
-        let tests = frame.tests.iter().map(|(_, test)| test);
-        tests.chain([&frame.reference]).chain(guides.into_iter().flatten())
+    let beside = beside.map(|path| (plan.shown(path), Origin::File(path.clone())));
+    let frames = found.views.iter().flat_map(|view| {
+        let frames = view.frames.iter().flat_map(|frame| view.sources.of_frame(frame));
+        frames.flat_map(|(source, at)| source.origins(at))
     });
-    beside.chain(frames).map(|path| (plan.shown(path), path.clone())).collect()
+    beside.chain(frames).collect()
 }
 
 /// Said where maps are asked for that finished frames do not have.

@@ -3,7 +3,8 @@
 use std::ops::{ControlFlow, Range};
 
 use fovqa_frame::Mask;
-use fovqa_io::{FileId, frame_size, read_mask};
+use fovqa_frame::source::InputId;
+use fovqa_io::{id_of_file, read_mask};
 use fovqa_metrics::{Metric, Needs};
 use fovqa_plan::{EyeView, Gaze, Plan, Scene};
 use fovqa_vision::{BandEdges, GazeAt};
@@ -16,6 +17,7 @@ use crate::findings::{Entry, Finished, Named, Outcome, Record, Settled, ViewFind
 use crate::inputs::Inputs;
 use crate::load::{Loaded, Loader, Step};
 use crate::memory;
+use crate::open_ended::{Ended, OpenEnded};
 use crate::read_ahead::read_ahead;
 use crate::setup::farthest_deg;
 use crate::view::ViewRun;
@@ -41,7 +43,7 @@ pub(crate) struct TakenDown<'a, 'e, 'r> {
 }
 
 impl TakenDown<'_, '_, '_> {
-    fn input(&mut self, path: &str, id: &FileId) -> Result<(), EngineError> {
+    fn input(&mut self, path: &str, id: &InputId) -> Result<(), EngineError> {
         self.inputs.add(path, id).map_or(Ok(()), |input| (self.record)(Entry::Input(&input)))
     }
 
@@ -87,8 +89,7 @@ impl<'a> Scoring<'a> {
             return Ok(known);
         }
         let guides = Needs::of(&metrics).guides;
-        let loader =
-            Loader { plan, settings: &eye.settings, test_layers: &eye.test_layers, guides };
+        let loader = Loader { settings: &eye.settings, sources: &self.view.sources, guides };
         let sequence = (self.bands, self.scene.fps);
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
         let frame = self.take_up(&work, &mut run, &loader, down)?;
@@ -135,9 +136,10 @@ impl<'a> Scoring<'a> {
         down: &mut TakenDown<'_, '_, '_>,
     ) -> Result<(), EngineError> {
         let mut written = Ok(());
+        let mut ends = OpenEnded::new(self.plan, self.scene, self.view);
         read_ahead(
             steps,
-            rayon::current_num_threads(),
+            loader.loaders(),
             |(_, step)| loader.load(step),
             Loaded::bytes,
             |nth, loaded| {
@@ -147,7 +149,14 @@ impl<'a> Scoring<'a> {
                 if written.is_err() {
                     return ControlFlow::Break(());
                 }
-                let result = run.step(step, loaded, down.warnings);
+                let result = match ends.of_step(step, &loaded, down.warnings) {
+                    None => run.step(step, loaded, down.warnings),
+                    Some(Ended::Failed(failure)) => Err(failure),
+                    Some(Ended::PassedOver) => {
+                        down.progress.step(1);
+                        return ControlFlow::Continue(());
+                    }
+                };
                 let guides = run.atd_guides(step.method);
                 written = (down.record)(Entry::Pair(Finished {
                     named: self.named(step.method),
@@ -162,7 +171,14 @@ impl<'a> Scoring<'a> {
                 if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
         );
-        written
+        written?;
+        let (Some((last, step)), Some(left)) = (steps.last(), ends.left(down.warnings)) else {
+            return Ok(());
+        };
+        let outcome =
+            Outcome { method: step.method, result: Err(left), guides: run.atd_guides(step.method) };
+        findings.pairs.insert(last + 1, outcome);
+        Ok(())
     }
 
     fn settled(&self, run: &ViewRun<'_>, metrics: Vec<Metric>, work: &Work<'_>) -> Settled {
@@ -221,7 +237,7 @@ impl<'a> Scoring<'a> {
         let files = [settings.mask.as_ref(), trace].into_iter().flatten();
         for path in files.filter(|_| self.plan.hash_inputs) {
             // They have been read; one that has gone since is no input of another run either.
-            if let Ok(id) = FileId::of_file(path) {
+            if let Ok(id) = id_of_file(path) {
                 down.input(&self.plan.shown(path), &id)?;
             }
         }
@@ -237,7 +253,8 @@ pub(crate) fn scene_bands(scene: &Scene, found: &Found, index: usize) -> Option<
     }
     let farthest = found.views.iter().filter(|view| view.scene == index).filter_map(|view| {
         let settings = &scene.eyes[view.eye].settings;
-        let size = |frame: &FoundFrame| frame_size(&frame.reference).ok();
+        let reference = &view.sources.reference;
+        let size = |frame: &FoundFrame| reference.size(frame.reference).ok();
         let (w, h) = match settings.crop {
             Some(crop) => (crop.width, crop.height),
             None => view.frames.iter().find_map(size)?,

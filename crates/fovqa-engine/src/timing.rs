@@ -61,18 +61,27 @@ pub(crate) fn timings(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::find::{FoundFrame, GuideFiles};
+    use crate::find::{FoundFrame, GuideFrames};
+    use crate::sources::ViewSources;
 
     fn view(positions: &[usize]) -> FoundView {
         let frame = |position: &usize| FoundFrame {
             number: *position as i64 + 10,
             position: *position,
-            reference: "r".into(),
-            guides: GuideFiles::default(),
-            tests: vec![(0, "t".into())],
+            reference: *position,
+            guides: GuideFrames::default(),
+            tests: vec![(0, *position)],
         };
         let frames = positions.iter().map(frame).collect();
-        FoundView { scene: 0, eye: 0, frames, trace: None, passed_over: 0, remarks: Vec::new() }
+        FoundView {
+            scene: 0,
+            eye: 0,
+            sources: ViewSources::empty(),
+            frames,
+            trace: None,
+            passed_over: 0,
+            remarks: Vec::new(),
+        }
     }
 
     fn timing(positions: &[usize], fps: Option<f64>) -> Result<Timing, TimeError> {

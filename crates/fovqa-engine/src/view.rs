@@ -158,8 +158,8 @@ impl<'a> ViewRun<'a> {
             let frame = &self.view.frames[step.frame];
             Failure {
                 frame: Some(frame.number),
-                reference: self.plan.shown(&frame.reference),
-                test: self.plan.shown(step.test),
+                reference: self.view.sources.reference.listing().name(frame.reference).to_owned(),
+                test: self.view.sources.test(step.method).listing().name(step.test).to_owned(),
                 message,
                 help,
             }

@@ -70,9 +70,8 @@ impl<'a> Work<'a> {
     pub(crate) fn step(&self, index: usize, frame: Option<usize>) -> Step<'a> {
         let (of, nth) = self.pairs[index];
         let found = &self.view.frames[of];
-        let (method, test) = &found.tests[nth];
-        let reference = (frame != Some(of)).then_some((&*found.reference, &found.guides));
-        Step { frame: of, reference, method: *method, test }
+        let (method, test) = found.tests[nth];
+        Step { frame: of, found, reference: frame != Some(of), method, test }
     }
 
     /// All that is to be scored, behind `frame`, with their places.
@@ -89,19 +88,28 @@ impl<'a> Work<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::find::{FoundFrame, GuideFiles};
+    use crate::find::{FoundFrame, GuideFrames};
+    use crate::sources::ViewSources;
 
     /// Three frames, of which the second has one test.
     fn view() -> FoundView {
         let frame = |number: usize, methods: &[usize]| FoundFrame {
             number: number as i64,
             position: number,
-            reference: format!("gt/{number}").into(),
-            guides: GuideFiles::default(),
-            tests: methods.iter().map(|m| (*m, format!("{m}/{number}").into())).collect(),
+            reference: number,
+            guides: GuideFrames::default(),
+            tests: methods.iter().map(|method| (*method, number)).collect(),
         };
         let frames = vec![frame(0, &[0, 1]), frame(1, &[1]), frame(2, &[0, 1])];
-        FoundView { scene: 0, eye: 0, frames, trace: None, passed_over: 0, remarks: Vec::new() }
+        FoundView {
+            scene: 0,
+            eye: 0,
+            sources: ViewSources::empty(),
+            frames,
+            trace: None,
+            passed_over: 0,
+            remarks: Vec::new(),
+        }
     }
 
     #[test]
@@ -109,7 +117,7 @@ mod tests {
         let view = view();
         let work = Work::new(&view, 0..5, &BTreeMap::new());
         let brings = |steps: Vec<(usize, Step<'_>)>| -> Vec<bool> {
-            steps.iter().map(|(_, step)| step.reference.is_some()).collect()
+            steps.iter().map(|(_, step)| step.reference).collect()
         };
         assert_eq!(brings(work.steps(None)), [true, false, true, true, false]);
         // From within a frame that is there already, and from one that is not.

@@ -8,6 +8,7 @@
 //! | plane | one channel of the signal, `f32`, row by row |
 //! | mask | which pixels count |
 //! | guides | motion and depth of a frame, raw as decoded |
+//! | source | a sequence of frames, wherever they come from |
 
 mod blocks;
 mod chromaticities;
@@ -19,6 +20,7 @@ mod mask;
 mod pair;
 mod side;
 mod signal;
+pub mod source;
 mod tonemap;
 pub mod transfer;
 

@@ -4,13 +4,14 @@ use std::fs::File;
 use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
+use fovqa_frame::source::InputId;
 use fovqa_frame::{Frame, Guides, Mask};
 
 use crate::alpha::AlphaPolicy;
 use crate::contain::contained;
 use crate::error::{ReadError, ReadErrorKind};
-use crate::file_id::FileId;
 use crate::guides::{GuideOptions, GuideSearch};
+use crate::input_id::id_of;
 use crate::{exr, jpeg, png};
 
 /// How files are read.
@@ -172,7 +173,7 @@ pub fn read_frame(path: &Path, options: &ReadOptions) -> Result<Decoded, ReadErr
 pub fn read_frame_and_hash(
     path: &Path,
     options: &ReadOptions,
-) -> Result<(Decoded, FileId), ReadError> {
+) -> Result<(Decoded, InputId), ReadError> {
     hashed(path, |file| decode(file, options))
 }
 
@@ -180,13 +181,13 @@ pub fn read_frame_and_hash(
 pub(crate) fn hashed<T>(
     path: &Path,
     decode: impl FnOnce(File) -> Result<T, ReadErrorKind>,
-) -> Result<(T, FileId), ReadError> {
+) -> Result<(T, InputId), ReadError> {
     let read = || {
         let mut file = open(path)?;
         // One more pass over the file, whose pages are in memory from then on: no decoder reads all
         // of its bytes in order. The same open file, so that another one put in its place is not
         // taken for it.
-        let id = FileId::of(&mut file)?;
+        let id = id_of(&mut file)?;
         file.rewind()?;
         Ok((decode(file)?, id))
     };

@@ -10,12 +10,14 @@ mod decode;
 mod error;
 mod exif;
 mod exr;
-mod file_id;
+mod files;
 mod guides;
+mod input_id;
 mod jpeg;
 mod png;
 pub mod sequence;
 mod small_file;
+mod sources;
 mod write;
 
 pub use alpha::AlphaPolicy;
@@ -24,11 +26,13 @@ pub use decode::{
     Decoded, Note, ReadOptions, frame_size, read_frame, read_frame_and_hash, read_mask,
 };
 pub use error::{ReadError, ReadErrorKind};
-pub use file_id::FileId;
+pub use files::SourceOptions;
 pub use guides::{
     DecodedGuides, DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels,
     MotionUnit, NamedMotion, Sought, read_guides, read_guides_and_hash,
 };
+pub use input_id::{id_of, id_of_file};
 pub use jpeg::JpegKind;
 pub use small_file::{open_regular_file, read_head, read_small_file};
+pub use sources::open_source;
 pub use write::{exr_gray, exr_gray_half, png_rgb8};

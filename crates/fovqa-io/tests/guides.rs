@@ -9,8 +9,8 @@ use std::path::PathBuf;
 use exr::prelude::{Blocks, Compression, Encoding, LineOrder, Vec2};
 use fovqa_frame::{Crop, Guides, Motion, Plane};
 use fovqa_io::{
-    AlphaPolicy, Decoded, DecodedGuides, DepthChannels, FileId, GuideOptions, GuidePreset,
-    GuideSearch, MotionChannels, MotionUnit, NamedMotion, Note, ReadErrorKind, ReadOptions,
+    AlphaPolicy, Decoded, DecodedGuides, DepthChannels, GuideOptions, GuidePreset, GuideSearch,
+    MotionChannels, MotionUnit, NamedMotion, Note, ReadErrorKind, ReadOptions, id_of_file,
     read_frame, read_frame_and_hash, read_guides, read_guides_and_hash,
 };
 use fovqa_params::Words;
@@ -229,7 +229,7 @@ fn the_colour_is_the_same_with_guides() {
                     assert!(
                         chromaticities.is_some() || rich.frame.sample(1, 9, 8) == value(1, 9, 8)
                     );
-                    assert_eq!(id, FileId::of_file(&path).unwrap());
+                    assert_eq!(id, id_of_file(&path).unwrap());
                     is_motion(rich.guides.motion.as_ref().unwrap(), [0, 1], [1.0, 1.0]);
                     is_seed(rich.guides.depth.as_ref().unwrap(), 2);
                 }
@@ -633,7 +633,7 @@ fn a_file_of_guides_needs_no_colour() {
     let path = folder.file(vec![part(&["Z", "motion.X", "motion.Y"])]);
     let (decoded, id) = read_guides_and_hash(&path, &auto()).unwrap();
     assert_eq!(decoded, read_guides(&path, &auto()).unwrap());
-    assert_eq!(id, FileId::of_file(&path).unwrap());
+    assert_eq!(id, id_of_file(&path).unwrap());
     is_motion(decoded.guides.motion.as_ref().unwrap(), [1, 2], [1.0, 1.0]);
     is_seed(decoded.guides.depth.as_ref().unwrap(), 0);
     assert_eq!(found(decoded.search.depth.as_ref()), Some("Z"));

@@ -11,6 +11,7 @@ mod plan;
 mod plots;
 mod resolved;
 mod settings;
+mod source;
 
 pub use curves::{
     CurveBudget, CurvePlan, CurvePlot, CurvePlotKind, CurveRange, CurveSetting, CurveSource,
@@ -22,3 +23,4 @@ pub use plan::{Eye, EyeView, MetricChoice, Plan, Scene};
 pub use plots::{Plot, PlotKind};
 pub use resolved::{Resolved, ResolvedEye, ResolvedScene, other_parameter};
 pub use settings::{Gaze, Nonfinite, Settings};
+pub use source::SourceSpec;

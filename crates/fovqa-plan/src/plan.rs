@@ -1,14 +1,14 @@
 //! What is to be scored: scenes, methods, metrics, and how each eye sees.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use fovqa_io::sequence::FrameRange;
+use fovqa_io::sequence::{FrameRange, shown};
 use fovqa_metrics::{Metric, Params};
 use fovqa_params::{Words, words};
 
 use crate::settings::Settings;
+use crate::source::SourceSpec;
 
 /// Which metrics.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -55,10 +55,10 @@ impl Eye {
 pub struct EyeView {
     /// The eye; `None` in a scene with one picture a frame.
     pub eye: Option<Eye>,
-    /// File, folder, glob or printf pattern of the reference.
-    pub reference: PathBuf,
-    /// The same of each test, with the index of its method in [`Plan::methods`], which rises.
-    pub tests: Vec<(usize, PathBuf)>,
+    /// The reference.
+    pub reference: SourceSpec,
+    /// Each test, with the index of its method in [`Plan::methods`], which rises.
+    pub tests: Vec<(usize, SourceSpec)>,
     /// The colour layer of the tests of a method, by its index, where it is another than that of
     /// `settings.read`.
     pub test_layers: BTreeMap<usize, String>,
@@ -106,63 +106,14 @@ impl Plan {
     /// A path as results show it: from the experiment's folder where it begins there, else as it
     /// is; `/` between folders, and bytes that are not UTF-8 as `\\xff`.
     pub fn shown(&self, path: &Path) -> String {
-        slashed(path.strip_prefix(&self.base).unwrap_or(path))
+        shown(&self.base, path)
     }
-}
 
-/// A path with `/` between its folders and without `.`.
-fn slashed(path: &Path) -> String {
-    use std::path::Component;
-    let mut parts: Vec<String> = Vec::new();
-    for part in path.components() {
-        match part {
-            Component::RootDir => parts.push(String::new()),
-            Component::CurDir => {}
-            part => parts.push(text_of(part.as_os_str())),
+    /// A source as results show it.
+    pub fn shown_source(&self, source: &SourceSpec) -> String {
+        match source {
+            SourceSpec::Files(path) => self.shown(path),
+            SourceSpec::Given(name) => name.clone(),
         }
-    }
-    parts.join("/")
-}
-
-/// A name as text, each name another one: bytes that are not UTF-8 are written `\\xff`, and in a name
-/// with such, or with what looks like it, a backslash is written twice.
-fn text_of(name: &std::ffi::OsStr) -> String {
-    if let Some(text) = name.to_str().filter(|text| !text.contains("\\x")) {
-        return text.to_owned();
-    }
-    let mut text = String::new();
-    for chunk in name.as_encoded_bytes().utf8_chunks() {
-        text.push_str(&chunk.valid().replace('\\', "\\\\"));
-        for byte in chunk.invalid() {
-            // Writing to a string does not fail.
-            let _ = write!(text, "\\x{byte:02x}");
-        }
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[cfg(unix)]
-    #[test]
-    fn names_that_are_no_text_are_told_apart() {
-        use std::os::unix::ffi::OsStrExt;
-        let shown = |name: &[u8]| text_of(std::ffi::OsStr::from_bytes(name));
-        assert_eq!(shown(b"g\xfft"), r"g\xfft");
-        assert_eq!(shown(b"g\xfet"), r"g\xfet");
-        assert_eq!(shown(br"g\xfft"), r"g\\xfft");
-        assert_eq!(shown(br"a\b"), r"a\b");
-        assert_eq!(shown("g\u{fffd}t".as_bytes()), "g\u{fffd}t");
-    }
-
-    #[test]
-    fn paths_are_shown_from_the_experiment() {
-        let plan = Plan { base: PathBuf::from("configs"), ..Plan::default() };
-        assert_eq!(plan.shown(Path::new("configs/../data/./gt.png")), "../data/gt.png");
-        assert_eq!(plan.shown(Path::new("/data/gt.png")), "/data/gt.png");
-        let here = Plan::default();
-        assert_eq!(here.shown(Path::new("./gt/0.png")), "gt/0.png");
     }
 }

@@ -253,9 +253,9 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
     let tests = eye.tests.iter();
     ResolvedEye {
         eye: eye.eye,
-        reference: plan.shown(&eye.reference),
+        reference: plan.shown_source(&eye.reference),
         tests: tests
-            .map(|(index, path)| (plan.methods[*index].clone(), plan.shown(path)))
+            .map(|(index, test)| (plan.methods[*index].clone(), plan.shown_source(test)))
             .collect(),
         test_layers: eye
             .test_layers

@@ -97,8 +97,8 @@ impl ScoreArgs {
         };
         let eye = EyeView {
             eye: None,
-            reference: self.reference,
-            tests: vec![(0, self.test)],
+            reference: self.reference.into(),
+            tests: vec![(0, self.test.into())],
             test_layers: self.signal.test_layer().map(|layer| (0, layer)).into_iter().collect(),
             settings,
         };

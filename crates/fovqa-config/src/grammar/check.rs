@@ -173,12 +173,10 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
             Some(n) if n.fract() == 0.0 && (*min as f64..=*max as f64).contains(&n) => {}
             _ => out_of_range(&written(value.get_ref())),
         },
-        (Kind::NumberOr(_, _, word) | Kind::WholeOr(_, _, word), DeValue::String(text)) => {
-            one_of(&[word], text, place, span, faults);
-        }
-        (Kind::Word(_) | Kind::Words(_), DeValue::String(text)) => {
-            one_of(&kind.words(), text, place, span, faults);
-        }
+        (
+            Kind::NumberOr(..) | Kind::WholeOr(..) | Kind::Word(_) | Kind::Words(_),
+            DeValue::String(text),
+        ) => one_of(&kind.words(), text, place, span, faults),
         (Kind::Frames, DeValue::String(text)) => {
             if let Err(error) = text.parse::<FrameRange>() {
                 faults.push(Fault::new(span, format!("{place}: {error}")));

@@ -123,6 +123,7 @@ impl Kind {
         match self {
             Kind::Word(words) => words.to_vec(),
             Kind::Words(words) => words(),
+            Kind::NumberOr(_, _, word) | Kind::WholeOr(_, _, word) => vec![word],
             _ => Vec::new(),
         }
     }

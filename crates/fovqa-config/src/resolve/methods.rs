@@ -111,7 +111,7 @@ fn tests(table: Node<'_>, index: usize, base: &Path, scene: &mut Resolved, fault
             eye: view.eye.map(Eye::name),
         };
         if let Some(path) = path(placeholders, base, text.unwrap_or_default(), span, faults) {
-            view.tests.push((index, path));
+            view.tests.push((index, path.into()));
         }
         let layer = match (layers, view.eye) {
             (Some(layers), Some(eye)) => layers.text(eye.name()),

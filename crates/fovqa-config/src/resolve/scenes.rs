@@ -58,7 +58,9 @@ pub(super) fn scenes(
                 let layers = Layers::new(root, table, eye);
                 EyeView {
                     eye,
-                    reference: path(placeholders, base, text, span, faults).unwrap_or_default(),
+                    reference: path(placeholders, base, text, span, faults)
+                        .unwrap_or_default()
+                        .into(),
                     tests: Vec::new(),
                     test_layers: BTreeMap::new(),
                     settings: layers.settings(base, placeholders, faults),

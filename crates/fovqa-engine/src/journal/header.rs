@@ -2,10 +2,12 @@
 //! same files.
 
 use std::io::{BufRead, BufReader, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::Arc;
 
-use fovqa_io::{FileId, open_regular_file};
-use fovqa_plan::{Experiment, Eye, Plan};
+use fovqa_frame::source::Source;
+use fovqa_io::{id_of, open_regular_file};
+use fovqa_plan::{Experiment, Eye};
 use fovqa_vision::BandEdges;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -60,7 +62,7 @@ impl Header {
                 scene: scene.name.clone(),
                 eye: scene.eyes[view.eye].eye,
                 pairs: view.pairs(),
-                files: files(plan, view, scene_bands(scene, found, view.scene).as_ref()),
+                files: files(view, scene_bands(scene, found, view.scene).as_ref()),
             }
         });
         Self {
@@ -129,14 +131,22 @@ pub fn shard_in(folder: &Path) -> Option<Shard> {
     Header::parse(line)?.shard
 }
 
-fn files(plan: &Plan, view: &FoundView, bands: Option<&BandEdges>) -> String {
-    let shown = |path: &PathBuf| plan.shown(path);
+fn files(view: &FoundView, bands: Option<&BandEdges>) -> String {
+    let sources = &view.sources;
+    let label = |source: &dyn Source, at: usize| source.listing().label(at);
+    let guide = |source: &Option<Arc<dyn Source>>, at: Option<usize>| {
+        source.as_ref().zip(at).map(|(source, at)| label(&**source, at))
+    };
     let frames = view.frames.iter().map(|frame| {
-        let tests = frame.tests.iter().map(|(method, test)| json!([method, shown(test)]));
-        let guides = [&frame.guides.motion, &frame.guides.depth];
-        let guides = guides.map(|file| file.as_ref().map(shown));
-        let tests: Vec<_> = tests.collect();
-        json!([frame.number, frame.position, shown(&frame.reference), guides, tests])
+        let test =
+            |(method, at): &(usize, usize)| json!([method, label(sources.test(*method), *at)]);
+        let tests: Vec<_> = frame.tests.iter().map(test).collect();
+        let guides = [
+            guide(&sources.motion, frame.guides.motion),
+            guide(&sources.depth, frame.guides.depth),
+        ];
+        let reference = label(&*sources.reference, frame.reference);
+        json!([frame.number, frame.position, reference, guides, tests])
     });
     let frames: serde_json::Value = frames.collect();
     let bands: Option<Vec<(f64, f64)>> = bands.map(|bands| bands.iter().collect());
@@ -145,5 +155,5 @@ fn files(plan: &Plan, view: &FoundView, bands: Option<&BandEdges>) -> String {
 
 fn sha256(bytes: &[u8]) -> String {
     // Reading from memory does not fail.
-    FileId::of(bytes).map(|id| id.sha256).unwrap_or_default()
+    id_of(bytes).map(|id| id.sha256).unwrap_or_default()
 }

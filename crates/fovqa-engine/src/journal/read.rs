@@ -5,7 +5,8 @@ use std::io;
 use std::ops::Range;
 use std::path::Path;
 
-use fovqa_io::{FileId, read_small_file};
+use fovqa_frame::source::InputId;
+use fovqa_io::read_small_file;
 use fovqa_metrics::Layout;
 use fovqa_plan::{Eye, Plan};
 use fovqa_results::Input;
@@ -108,7 +109,7 @@ impl Text {
         let findings = &mut said.findings;
         if has("input") {
             let Input { path, bytes, sha256 } = input(&value)?;
-            let id = FileId { bytes, sha256 };
+            let id = InputId { bytes, sha256 };
             if findings.inputs.get(&path).is_some_and(|known| *known != id) {
                 said.twice.get_or_insert_with(|| path.clone());
             }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use fovqa_io::FileId;
+use fovqa_frame::source::InputId;
 use fovqa_metrics::{Image, Key, Metric, Parts, Pooling, Rows, Subject};
 use fovqa_plan::{Experiment, Eye, EyeView, Plan, Scene};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, ViewResult};
@@ -79,7 +79,7 @@ fn failure(frame: Option<i64>) -> Failure {
 
 fn findings() -> Findings {
     let mut findings = Findings::default();
-    let id = |sha256: &str| FileId { bytes: 1 << 60, sha256: sha256.to_owned() };
+    let id = |sha256: &str| InputId { bytes: 1 << 60, sha256: sha256.to_owned() };
     findings.inputs.add("gt/ä.png", &id("00"));
     findings.inputs.add("b", &id("11"));
     findings.problems.push(((0, 1, 0), failure(None)));

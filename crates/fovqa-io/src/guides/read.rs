@@ -4,13 +4,13 @@ use std::fs::File;
 use std::path::Path;
 
 use fovqa_frame::Guides;
+use fovqa_frame::source::InputId;
 
 use super::search::GuideSearch;
 use crate::contain::contained;
 use crate::decode::{EXR_MAGIC, Note, ReadOptions, buffered, hashed, open};
 use crate::error::{ReadError, ReadErrorKind};
 use crate::exr;
-use crate::file_id::FileId;
 
 /// The guides of a file and what there is to say about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,7 @@ pub fn read_guides(path: &Path, options: &ReadOptions) -> Result<DecodedGuides, 
 pub fn read_guides_and_hash(
     path: &Path,
     options: &ReadOptions,
-) -> Result<(DecodedGuides, FileId), ReadError> {
+) -> Result<(DecodedGuides, InputId), ReadError> {
     hashed(path, |file| decode(file, options))
 }
 

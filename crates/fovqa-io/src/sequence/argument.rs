@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::frame_pattern::FramePattern;
-use super::listing::Listing;
+use super::listing::FileListing;
 use super::listing_error::ListingError;
 use super::wildcards::{WildcardError, fitting, is_glob};
 
@@ -16,7 +16,7 @@ const ENDINGS: [&str; 4] = ["png", "jpg", "jpeg", "exr"];
 ///
 /// # Errors
 /// As [`list`].
-pub fn list_below(folder: &Path, argument: &Path) -> Result<Listing, ListingError> {
+pub fn list_below(folder: &Path, argument: &Path) -> Result<FileListing, ListingError> {
     match argument.strip_prefix(folder) {
         Ok(below) => listed(argument, folder, below),
         Err(_) => list(argument),
@@ -30,14 +30,14 @@ pub fn list_below(folder: &Path, argument: &Path) -> Result<Listing, ListingErro
 ///
 /// # Errors
 /// When nothing is there, it cannot be read, or two images share a stem.
-pub fn list(argument: &Path) -> Result<Listing, ListingError> {
+pub fn list(argument: &Path) -> Result<FileListing, ListingError> {
     listed(argument, Path::new(""), argument)
 }
 
 /// The files of an argument, which is `below` in `start`: only there, wildcards are some.
-fn listed(argument: &Path, start: &Path, below: &Path) -> Result<Listing, ListingError> {
+fn listed(argument: &Path, start: &Path, below: &Path) -> Result<FileListing, ListingError> {
     if argument.is_file() {
-        return Ok(Listing::of_file(argument));
+        return Ok(FileListing::of_file(argument));
     }
     if argument.is_dir() {
         return images(argument, entries(argument)?);
@@ -66,13 +66,13 @@ fn pattern_error(path: &Path, detail: &str) -> ListingError {
 }
 
 /// The images among the files that were found.
-fn images(argument: &Path, paths: Vec<PathBuf>) -> Result<Listing, ListingError> {
+fn images(argument: &Path, paths: Vec<PathBuf>) -> Result<FileListing, ListingError> {
     let (images, others): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| is_image(path));
     if images.is_empty() {
         let other_files = others.len();
         return Err(ListingError::Empty { path: argument.to_owned(), other_files });
     }
-    Listing::of_names(argument, images)
+    FileListing::of_names(argument, images)
 }
 
 fn is_image(path: &Path) -> bool {
@@ -106,7 +106,7 @@ fn is_folder(path: &Path) -> bool {
 }
 
 /// The files beside an argument whose names fit its pattern.
-fn numbered(argument: &Path, pattern: &FramePattern) -> Result<Listing, ListingError> {
+fn numbered(argument: &Path, pattern: &FramePattern) -> Result<FileListing, ListingError> {
     let parent = match argument.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
@@ -128,7 +128,7 @@ fn numbered(argument: &Path, pattern: &FramePattern) -> Result<Listing, ListingE
         let path = if here { Path::new(path.file_name().unwrap_or_default()) } else { path };
         (path.to_owned(), number)
     };
-    Listing::of_pattern(argument, fitting.into_iter().map(file).collect(), numbering)
+    FileListing::of_pattern(argument, fitting.into_iter().map(file).collect(), numbering)
 }
 
 #[cfg(test)]
@@ -143,7 +143,7 @@ mod tests {
         dir
     }
 
-    fn stems(listing: &Listing) -> Vec<&str> {
+    fn stems(listing: &FileListing) -> Vec<&str> {
         listing.files.iter().map(|f| f.stem.to_str().unwrap()).collect()
     }
 

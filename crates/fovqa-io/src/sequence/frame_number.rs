@@ -7,55 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How the names of a listing number its frames.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Numbering {
-    /// Each name has a number of its own.
-    ByName,
-    /// One name alone, with several numbers in it: the last one counts.
-    LastOfSeveral(String),
-    /// No name has a number: frames count by their position.
-    ByPosition,
-    /// The names have numbers that do not tell the frames apart; frames count by their position.
-    Doubtful(Doubt),
-}
-
-/// Why the numbers in names do not tell the frames apart.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Doubt {
-    /// A name without a number among others that have one.
-    Without(String),
-    /// Two names of one number.
-    Twice(i64, String, String),
-    /// A number that does not fit into 64 bits.
-    TooLarge(String),
-    /// Names of different wording, each with several numbers.
-    Wording(String, String),
-    /// Names of one wording in which several numbers change.
-    Several {
-        /// Two of the names.
-        names: [String; 2],
-        /// Patterns, one for each number that changes, `%d` in its place and `*` in those of the others.
-        patterns: Vec<String>,
-    },
-}
-
-impl Doubt {
-    /// The doubt in words, after "the numbers in the names do not tell the frames apart: ".
-    pub fn in_words(&self) -> String {
-        match self {
-            Self::Without(name) => format!("{name} has none"),
-            Self::Twice(number, a, b) => format!("{a} and {b} both have {number}"),
-            Self::TooLarge(name) => format!("that of {name} does not fit into 64 bits"),
-            Self::Wording(a, b) => {
-                format!("{a} and {b} have several each, and differ in more than numbers")
-            }
-            Self::Several { names: [a, b], .. } => {
-                format!("several change from name to name, as in {a} and {b}")
-            }
-        }
-    }
-}
+use fovqa_frame::source::{Doubt, Numbering};
 
 /// A run of digits in a name.
 #[derive(Debug, Clone, PartialEq, Eq)]

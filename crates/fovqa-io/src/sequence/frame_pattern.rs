@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use super::frame_number::{Doubt, Numbering};
+use fovqa_frame::source::{Doubt, Numbering};
 
 /// A file name with one number left open.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -5,9 +5,12 @@ use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use super::frame_number::{Numbering, frame_numbers};
+use fovqa_frame::source::{Entry, Frames, Listing, Numbering};
+
+use super::frame_number::frame_numbers;
 use super::listing_error::ListingError;
 use super::natural_order::natural_cmp;
+use super::shown::shown;
 
 /// An image file of a sequence.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,7 +25,7 @@ pub struct FrameFile {
 
 /// What a path argument stands for.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Listing {
+pub struct FileListing {
     /// The argument.
     pub argument: PathBuf,
     /// Whether it names one file outright.
@@ -33,10 +36,25 @@ pub struct Listing {
     pub numbering: Numbering,
 }
 
-impl Listing {
+impl FileListing {
     /// The listing of one file that is named outright.
     pub(super) fn of_file(path: &Path) -> Self {
         Self { is_file: true, ..Self::by_name(path, vec![path.to_owned()]) }
+    }
+
+    /// The frames of the files, named as results show them below a folder.
+    pub fn listing(&self, base: &Path) -> Listing {
+        let entry = |file: &FrameFile| Entry {
+            name: shown(base, &file.path),
+            stem: file.stem.clone(),
+            number: file.number,
+        };
+        Listing {
+            argument: shown(base, &self.argument),
+            is_single: self.is_file,
+            frames: Frames::Named(self.files.iter().map(entry).collect()),
+            numbering: self.numbering.clone(),
+        }
     }
 
     /// The listing of files whose names have the numbers.
@@ -106,13 +124,13 @@ fn in_natural_order(a: &Path, b: &Path) -> Ordering {
 mod tests {
     use super::*;
 
-    fn listing(names: &[&str]) -> Result<Listing, ListingError> {
-        Listing::of_names(Path::new("gt"), names.iter().map(PathBuf::from).collect())
+    fn listing(names: &[&str]) -> Result<FileListing, ListingError> {
+        FileListing::of_names(Path::new("gt"), names.iter().map(PathBuf::from).collect())
     }
 
     #[test]
     fn files_come_by_their_numbers() {
-        let names = |listing: &Listing| -> Vec<String> {
+        let names = |listing: &FileListing| -> Vec<String> {
             listing.files.iter().map(|f| f.path.display().to_string()).collect()
         };
         let negative = listing(&["f.-1.png", "f.-2.png", "f.0.png", "f.10.png", "f.9.png"]);

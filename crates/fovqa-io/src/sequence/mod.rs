@@ -8,15 +8,16 @@ mod listing;
 mod listing_error;
 mod natural_order;
 mod pairing;
+mod shown;
 mod spacing;
 mod wildcards;
 
 pub use argument::{list, list_below};
-pub use frame_number::{Doubt, Numbering};
 pub use frame_pattern::FramePattern;
 pub use frame_range::{FrameRange, FrameRangeError};
-pub use listing::{FrameFile, Listing};
+pub use listing::{FileListing, FrameFile};
 pub use listing_error::ListingError;
 pub use pairing::{Alone, FramePair, PairingError, Pairs, pair};
+pub use shown::shown;
 pub use spacing::{MissingFrames, Spacing};
 pub use wildcards::{is_glob, literal};

@@ -1,23 +1,22 @@
-//! Reference files and test files to pairs.
+//! Which frame of a test is which of the reference.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::collections::{BTreeMap, BTreeSet};
 
+use fovqa_frame::source::{Doubt, Entry, Frames, Listing, Numbering};
 use thiserror::Error;
 
-use super::frame_number::{Doubt, Numbering};
-use super::listing::{FrameFile, Listing};
+use super::spacing::Spacing;
 
-/// A reference file and the test file that shows the same frame.
+/// A frame of the reference and the frame of a test that shows the same: their places in the two sources.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FramePair {
     /// The frame's number: that of the reference's name, or its position among the references,
     /// from 0, where their names have none that tells them apart.
     pub number: i64,
-    /// Reference file.
-    pub reference: PathBuf,
-    /// Test file.
-    pub test: PathBuf,
+    /// Frame of the reference.
+    pub reference: usize,
+    /// Frame of the test.
+    pub test: usize,
 }
 
 /// The pairs of a sequence.
@@ -27,17 +26,17 @@ pub struct Pairs {
     pub pairs: Vec<FramePair>,
     /// How the frames are numbered.
     pub numbering: Numbering,
-    /// Files without a partner.
+    /// Frames without a partner.
     pub alone: Alone,
 }
 
-/// Files without a partner, with their frame number where they have one.
+/// Frames without a partner, by what messages call them, with their number where they have one.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Alone {
     /// References without a test.
-    pub reference: Vec<(Option<i64>, PathBuf)>,
+    pub reference: Vec<(Option<i64>, String)>,
     /// Tests without a reference.
-    pub test: Vec<(Option<i64>, PathBuf)>,
+    pub test: Vec<(Option<i64>, String)>,
 }
 
 impl Alone {
@@ -54,50 +53,41 @@ impl Alone {
     }
 }
 
-/// Files that do not pair.
+/// Frames that do not pair.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PairingError {
-    /// Files without a partner.
+    /// Frames without a partner.
     #[error("{}", unpaired(.0))]
     Unpaired(Alone),
     /// Names in which several numbers change.
-    #[error("{}: {}; either could be the number of the frame", argument.display(), .doubt.in_words())]
+    #[error("{argument}: {}; either could be the number of the frame", .doubt.in_words())]
     Ambiguous {
         /// The folder or glob.
-        argument: PathBuf,
+        argument: String,
         /// Which names.
         doubt: Doubt,
     },
     /// Not a single pair.
-    #[error("no file of {} has a partner in {}", .reference.display(), .test.display())]
+    #[error("no file of {reference} has a partner in {test}")]
     Nothing {
         /// The reference argument.
-        reference: PathBuf,
+        reference: String,
         /// The test argument.
-        test: PathBuf,
+        test: String,
+    },
+    /// Two sources of which nobody knows how long they are.
+    #[error(
+        "{reference} and {test} are both of unknown length, and one of them has to say how many frames there are"
+    )]
+    Endless {
+        /// The reference argument.
+        reference: String,
+        /// The test argument.
+        test: String,
     },
 }
 
 impl PairingError {
-    /// The same of other paths: as results show them.
-    #[must_use]
-    pub fn with_paths(self, shown: &dyn Fn(&Path) -> PathBuf) -> Self {
-        let all = |files: Vec<(Option<i64>, PathBuf)>| {
-            files.into_iter().map(|(number, path)| (number, shown(&path))).collect()
-        };
-        match self {
-            Self::Unpaired(Alone { reference, test }) => {
-                Self::Unpaired(Alone { reference: all(reference), test: all(test) })
-            }
-            Self::Nothing { reference, test } => {
-                Self::Nothing { reference: shown(&reference), test: shown(&test) }
-            }
-            Self::Ambiguous { argument, doubt } => {
-                Self::Ambiguous { argument: shown(&argument), doubt }
-            }
-        }
-    }
-
     /// How to mend it.
     pub fn help(&self) -> String {
         match self {
@@ -109,6 +99,7 @@ impl PairingError {
                  name to name; a pattern such as 'renders/f_%04d.png' says which that is"
                     .to_owned()
             }
+            Self::Endless { .. } => "give a file for one of them".to_owned(),
             Self::Ambiguous { doubt: Doubt::Several { patterns, .. }, .. } => {
                 let patterns: Vec<String> =
                     patterns.iter().map(|pattern| format!("'{pattern}.*'")).collect();
@@ -122,8 +113,8 @@ impl PairingError {
 
 fn unpaired(alone: &Alone) -> String {
     const SHOWN: usize = 5;
-    let side = |files: &[(Option<i64>, PathBuf)], of: &str, without: &str| {
-        let names = files.iter().take(SHOWN).map(|(_, path)| path.display().to_string());
+    let side = |files: &[(Option<i64>, String)], of: &str, without: &str| {
+        let names = files.iter().take(SHOWN).map(|(_, name)| name.as_str());
         let names: Vec<_> = names.collect();
         let more = files.len().saturating_sub(SHOWN);
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
@@ -139,26 +130,125 @@ fn unpaired(alone: &Alone) -> String {
     parts.join("; ")
 }
 
-/// Pairs files: two single files as they are, others by stem and then by number.
+/// Pairs the frames of two sources: two single ones as they are, others by stem and then by number. Those of
+/// a source without names, such as a video, count from the first frame of the other one on.
 ///
 /// # Errors
 /// When nothing pairs, or several numbers in the names could be those of the frames.
 pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> {
-    if reference.is_file && test.is_file {
-        let numbering = reference.numbering.clone();
-        let (reference, test) = (&reference.files[0], &test.files[0]);
+    let nothing = || {
+        let (reference, test) = (reference.argument.clone(), test.argument.clone());
+        PairingError::Nothing { reference, test }
+    };
+    match (&reference.frames, &test.frames) {
+        (Frames::Counted(None), Frames::Counted(None)) => {
+            let (reference, test) = (reference.argument.clone(), test.argument.clone());
+            Err(PairingError::Endless { reference, test })
+        }
+        (Frames::Counted(count), Frames::Counted(other)) => {
+            let [count, other] =
+                [count.or(*other), other.or(*count)].map(Option::unwrap_or_default);
+            let pair = |at: usize| FramePair { number: at as i64, reference: at, test: at };
+            let both = count.min(other);
+            let alone = |of: &Listing, count: usize| {
+                (both..count).map(|at| (Some(at as i64), of.label(at))).collect()
+            };
+            let alone = Alone { reference: alone(reference, count), test: alone(test, other) };
+            let numbering = Numbering::ByPosition;
+            let pairs: Vec<_> = (0..both).map(pair).collect();
+            if pairs.is_empty() { Err(nothing()) } else { Ok(Pairs { pairs, numbering, alone }) }
+        }
+        (Frames::Named(names), Frames::Counted(count)) => {
+            let counted = Counted { named: reference, names, count: *count, other: test };
+            let (pairs, [named, other]) = counted.pairs(|number, named, other| FramePair {
+                number,
+                reference: named,
+                test: other,
+            })?;
+            let alone = Alone { reference: named, test: other };
+            if pairs.is_empty() {
+                return Err(nothing());
+            }
+            Ok(Pairs { pairs, numbering: reference.numbering.clone(), alone })
+        }
+        (Frames::Counted(count), Frames::Named(names)) => {
+            let counted = Counted { named: test, names, count: *count, other: reference };
+            let (pairs, [named, other]) = counted.pairs(|number, named, other| FramePair {
+                number,
+                reference: other,
+                test: named,
+            })?;
+            let alone = Alone { reference: other, test: named };
+            if pairs.is_empty() {
+                return Err(nothing());
+            }
+            Ok(Pairs { pairs, numbering: test.numbering.clone(), alone })
+        }
+        (Frames::Named(names), Frames::Named(tests)) => by_names(reference, names, test, tests),
+    }
+}
+
+/// A source with names and one without.
+struct Counted<'a> {
+    named: &'a Listing,
+    names: &'a [Entry],
+    /// `None`: as many as the names ask for.
+    count: Option<usize>,
+    other: &'a Listing,
+}
+
+/// Frames without a partner.
+type WithoutPartner = Vec<(Option<i64>, String)>;
+
+impl Counted<'_> {
+    /// The pairs, and what is alone: of the names, and of the other source. A frame that is missing between
+    /// the names has its place in the other source.
+    fn pairs(
+        &self,
+        pair: impl Fn(i64, usize, usize) -> FramePair,
+    ) -> Result<(Vec<FramePair>, [WithoutPartner; 2]), PairingError> {
+        unambiguous(self.named)?;
+        let number = |at: usize| self.names[at].number.unwrap_or(at as i64);
+        let numbers: BTreeSet<i64> = (0..self.names.len()).map(number).collect();
+        let spacing = Spacing::of(&numbers);
+        let places: Vec<usize> =
+            (0..self.names.len()).map(|at| spacing.place(number(at))).collect();
+        let count = self.count.unwrap_or_else(|| places.last().map_or(0, |last| last + 1));
+        let (with, without): (Vec<usize>, Vec<usize>) =
+            (0..self.names.len()).partition(|at| places[*at] < count);
+        let taken: BTreeSet<usize> = with.iter().map(|at| places[*at]).collect();
+        let others = (0..count).filter(|at| !taken.contains(at) && self.count.is_some());
+        let alone = [
+            without.iter().map(|at| (Some(number(*at)), self.named.label(*at))).collect(),
+            others.map(|at| (None, self.other.label(at))).collect(),
+        ];
+        Ok((with.iter().map(|at| pair(number(*at), *at, places[*at])).collect(), alone))
+    }
+}
+
+/// Pairs by stem and then by number.
+fn by_names(
+    reference: &Listing,
+    references: &[Entry],
+    test: &Listing,
+    tests: &[Entry],
+) -> Result<Pairs, PairingError> {
+    if let ([one], [other]) = (references, tests)
+        && reference.is_single
+        && test.is_single
+    {
         // A number both names carry is the frame's.
-        let number = reference.number.filter(|n| test.number == Some(*n));
-        let numbering = if number.is_some() { numbering } else { Numbering::ByPosition };
-        let (reference, test) = (reference.path.clone(), test.path.clone());
-        let pairs = vec![FramePair { number: number.unwrap_or(0), reference, test }];
+        let number = one.number.filter(|n| other.number == Some(*n));
+        let numbering =
+            if number.is_some() { reference.numbering.clone() } else { Numbering::ByPosition };
+        let pairs = vec![FramePair { number: number.unwrap_or(0), reference: 0, test: 0 }];
         return Ok(Pairs { pairs, numbering, alone: Alone::default() });
     }
     unambiguous(reference)?;
-    let mut partner: Vec<Option<usize>> = vec![None; reference.files.len()];
-    let mut taken = vec![false; test.files.len()];
-    match_by(&reference.files, &test.files, &mut partner, &mut taken, |f| Some(f.stem.clone()));
-    match_by(&reference.files, &test.files, &mut partner, &mut taken, |f| f.number);
+    let mut partner: Vec<Option<usize>> = vec![None; references.len()];
+    let mut taken = vec![false; tests.len()];
+    match_by(references, tests, &mut partner, &mut taken, |f| Some(f.stem.clone()));
+    match_by(references, tests, &mut partner, &mut taken, |f| f.number);
     if partner.iter().any(Option::is_none) || taken.contains(&false) {
         unambiguous(test)?;
     }
@@ -167,20 +257,18 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
         return Err(PairingError::Nothing { reference, test });
     }
 
-    let numbered = reference.files.iter().all(|file| file.number.is_some());
-    let untaken = test.files.iter().zip(&taken).filter(|(_, taken)| !**taken);
-    let untaken = untaken.map(|(f, _)| (f.number.filter(|_| numbered), f.path.clone()));
+    let numbered = references.iter().all(|entry| entry.number.is_some());
+    let untaken = tests.iter().zip(&taken).filter(|(_, taken)| !**taken);
+    let untaken = untaken.map(|(f, _)| (f.number.filter(|_| numbered), f.name.clone()));
     let mut alone = Alone { reference: Vec::new(), test: untaken.collect() };
     let mut pairs = Vec::new();
     let mut numbering = reference.numbering.clone();
-    for (position, (file, partner)) in reference.files.iter().zip(partner).enumerate() {
-        let number = file.number.unwrap_or(position as i64);
-        let reference_file = file.path.clone();
+    for (position, (entry, partner)) in references.iter().zip(partner).enumerate() {
+        let number = entry.number.unwrap_or(position as i64);
         match partner {
             Some(index) => {
-                let other = &test.files[index];
                 // A file by itself does not tell which of its numbers changes; many tests do.
-                let number = match (&numbering, other.number) {
+                let number = match (&numbering, tests[index].number) {
                     (Numbering::LastOfSeveral(_), Some(of_test))
                         if test.numbering == Numbering::ByName =>
                     {
@@ -189,10 +277,9 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
                     }
                     _ => number,
                 };
-                let (reference, test) = (reference_file, other.path.clone());
-                pairs.push(FramePair { number, reference, test });
+                pairs.push(FramePair { number, reference: position, test: index });
             }
-            None => alone.reference.push((Some(number), reference_file)),
+            None => alone.reference.push((Some(number), entry.name.clone())),
         }
     }
     Ok(Pairs { pairs, numbering, alone })
@@ -211,13 +298,13 @@ fn unambiguous(listing: &Listing) -> Result<(), PairingError> {
 
 /// Pairs what is still alone and whose key is the only one of its side.
 fn match_by<K: Ord>(
-    reference: &[FrameFile],
-    test: &[FrameFile],
+    reference: &[Entry],
+    test: &[Entry],
     partner: &mut [Option<usize>],
     taken: &mut [bool],
-    key: impl Fn(&FrameFile) -> Option<K>,
+    key: impl Fn(&Entry) -> Option<K>,
 ) {
-    let alone = |files: &[FrameFile], is_alone: &dyn Fn(usize) -> bool| {
+    let alone = |files: &[Entry], is_alone: &dyn Fn(usize) -> bool| {
         let mut by_key: BTreeMap<K, Vec<usize>> = BTreeMap::new();
         for (index, file) in files.iter().enumerate().filter(|(i, _)| is_alone(*i)) {
             if let Some(key) = key(file) {
@@ -240,28 +327,56 @@ fn match_by<K: Ord>(
 mod tests {
     use super::*;
 
+    use crate::sequence::FileListing;
+    use std::path::{Path, PathBuf};
+
     fn listing(names: &[&str]) -> Listing {
-        Listing::of_names(Path::new("dir"), names.iter().map(PathBuf::from).collect()).unwrap()
+        let paths = names.iter().map(PathBuf::from).collect();
+        FileListing::of_names(Path::new("dir"), paths).unwrap().listing(Path::new(""))
+    }
+
+    /// The names of a pair.
+    fn names<'a>(pair: &FramePair, reference: &'a Listing, test: &'a Listing) -> [&'a str; 2] {
+        [reference.name(pair.reference), test.name(pair.test)]
     }
 
     #[test]
     fn by_stem_then_by_number() {
-        let pairs =
-            pair(&listing(&["a/0000.exr", "a/0001.exr"]), &listing(&["b/0000.png", "b/0001.png"]));
-        assert_eq!(pairs.unwrap().pairs[1].test, PathBuf::from("b/0001.png"));
-        let pairs = pair(
-            &listing(&["gt.0007.exr", "gt.0008.exr"]),
-            &listing(&["rmfr_8.png", "rmfr_7.png"]),
-        )
-        .unwrap()
-        .pairs;
-        assert_eq!((pairs[0].number, pairs[0].test.clone()), (7, PathBuf::from("rmfr_7.png")));
-        let pairs = pair(
-            &listing(&["gt_0001_1080p.exr", "gt_0002_1080p.exr"]),
-            &listing(&["rmfr_0002.png", "rmfr_0001.png"]),
-        );
-        let pairs = pairs.unwrap().pairs;
-        assert_eq!((pairs[1].number, pairs[1].test.clone()), (2, PathBuf::from("rmfr_0002.png")));
+        let paired = |reference: &[&str], test: &[&str], nth: usize| {
+            let (reference, test) = (listing(reference), listing(test));
+            let pair = pair(&reference, &test).unwrap().pairs[nth].clone();
+            (pair.number, names(&pair, &reference, &test).map(str::to_owned))
+        };
+        let pair = paired(&["a/0000.exr", "a/0001.exr"], &["b/0000.png", "b/0001.png"], 1);
+        assert_eq!(pair, (1, ["a/0001.exr", "b/0001.png"].map(str::to_owned)));
+        let pair = paired(&["gt.0007.exr", "gt.0008.exr"], &["rmfr_8.png", "rmfr_7.png"], 0);
+        assert_eq!(pair, (7, ["gt.0007.exr", "rmfr_7.png"].map(str::to_owned)));
+        let references = ["gt_0001_1080p.exr", "gt_0002_1080p.exr"];
+        let pair = paired(&references, &["rmfr_0002.png", "rmfr_0001.png"], 1);
+        assert_eq!(pair, (2, ["gt_0002_1080p.exr", "rmfr_0002.png"].map(str::to_owned)));
+    }
+
+    /// A video beside files whose numbers begin with 1 and lack the third.
+    #[test]
+    fn frames_without_names_count_from_the_first() {
+        let files = listing(&["f1.png", "f2.png", "f4.png"]);
+        let video = |frames| Listing::counted("v.y4m".to_owned(), frames);
+        let whole = pair(&files, &video(Some(4))).unwrap();
+        let places: Vec<_> = whole.pairs.iter().map(|p| (p.number, p.reference, p.test)).collect();
+        assert_eq!(places, [(1, 0, 0), (2, 1, 1), (4, 2, 3)]);
+        assert_eq!(whole.alone.test, [(None, "v.y4m, frame 2".to_owned())]);
+        let short = pair(&video(Some(2)), &files).unwrap();
+        let places: Vec<_> = short.pairs.iter().map(|p| (p.number, p.reference, p.test)).collect();
+        assert_eq!(places, [(1, 0, 0), (2, 1, 1)]);
+        assert_eq!(short.alone.test, [(Some(4), "f4.png".to_owned())]);
+        let endless = pair(&files, &video(None)).unwrap();
+        assert_eq!((endless.pairs.len(), endless.alone.count()), (3, 0));
+        let two = pair(&video(Some(2)), &video(Some(3))).unwrap();
+        assert_eq!((two.pairs.len(), two.alone.test.len()), (2, 1));
+        assert_eq!(pair(&video(None), &video(Some(3))).unwrap().pairs.len(), 3);
+        let both = pair(&video(None), &video(None)).unwrap_err();
+        assert!(matches!(both, PairingError::Endless { .. }));
+        assert!(pair(&video(Some(0)), &files).is_err());
     }
 
     #[test]
@@ -270,7 +385,7 @@ mod tests {
             (listing(&["1.png", "2.png", "4.png"]), listing(&["2.png", "3.png"]));
         let Pairs { pairs, alone, .. } = pair(&reference, &test).unwrap();
         assert_eq!((pairs.len(), pairs[0].number), (1, 2));
-        let file = |number, name: &str| (Some(number), PathBuf::from(name));
+        let file = |number, name: &str| (Some(number), name.to_owned());
         assert_eq!(alone.reference, [file(1, "1.png"), file(4, "4.png")]);
         assert_eq!(alone.test, [file(3, "3.png")]);
         assert!(matches!(
@@ -289,6 +404,7 @@ mod tests {
         assert_eq!(numbers(names.clone()), [0, 1]);
         assert_eq!(numbers(listing(&["red.png"])), [1], "the same whichever method is scored");
     }
+
     #[test]
     fn several_numbers_that_change_ask_for_a_pattern() {
         let twice = ["f0001_t0017.png", "f0002_t0033.png"];
@@ -299,14 +415,14 @@ mod tests {
         let once = listing(&["f0001_t0017.png", "f0001_t0018.png"]);
         assert!(pair(&once, &listing(&twice)).is_err());
         let mut reference = once.clone();
-        (reference.files[0].stem, reference.files[1].stem) =
-            ("f0001_t0017".into(), "f0002_t0033".into());
+        let Frames::Named(entries) = &mut reference.frames else { unreachable!() };
+        (entries[0].stem, entries[1].stem) = ("f0001_t0017".into(), "f0002_t0033".into());
         assert_eq!(pair(&reference, &listing(&twice)).unwrap().pairs.len(), 2);
     }
 
     #[test]
     fn one_file_of_many_has_the_number_it_has_among_them() {
-        let one = Listing::of_file(Path::new("gt_0002_1080p.png"));
+        let one = FileListing::of_file(Path::new("gt_0002_1080p.png")).listing(Path::new(""));
         let tests = listing(&["gt_0001_1080p.png", "gt_0002_1080p.png"]);
         assert_eq!(pair(&one, &tests).unwrap().pairs[0].number, 2);
         let doubtful = pair(&one, &one).unwrap();

@@ -1,0 +1,97 @@
+//! Sources whose length is not known before they end: what is alone there is found while they are read.
+
+use fovqa_frame::source::{Frames, Source, SourceError};
+use fovqa_plan::{Plan, Scene};
+use fovqa_results::Failure;
+
+use crate::events::Warnings;
+use crate::find::FoundView;
+use crate::load::{LoadError, Loaded, Step};
+
+/// What keeps frames without a partner from being an error.
+const HELP: &str =
+    "give both as many frames, or score those that have a partner with {allow_missing}";
+
+/// What has ended of a view.
+pub(crate) struct OpenEnded<'a> {
+    plan: &'a Plan,
+    scene: &'a Scene,
+    view: &'a FoundView,
+    /// Whether it has been said.
+    said: bool,
+}
+
+/// What becomes of a step whose source has ended.
+pub(crate) enum Ended {
+    /// It is passed over.
+    PassedOver,
+    /// It stands for all frames without a partner.
+    Failed(Failure),
+}
+
+impl<'a> OpenEnded<'a> {
+    pub(crate) fn new(plan: &'a Plan, scene: &'a Scene, view: &'a FoundView) -> Self {
+        Self { plan, scene, view, said: false }
+    }
+
+    /// What becomes of a step; `None`: its sources have not ended.
+    pub(crate) fn of_step(
+        &mut self,
+        step: &Step<'_>,
+        loaded: &Loaded,
+        warnings: &mut Warnings<'_>,
+    ) -> Option<Ended> {
+        let end = loaded.errors().find(|error| error.has_ended)?;
+        let frames = self.view.frames.len() - step.frame;
+        let frames = if frames == 1 { "1 frame" } else { &format!("{frames} frames") };
+        if self.scene.allow_missing {
+            let message = format!("{end}: {frames} without a partner are passed over");
+            warnings.once_a_view("ended", &message);
+            return Some(Ended::PassedOver);
+        }
+        if std::mem::replace(&mut self.said, true) {
+            return Some(Ended::PassedOver);
+        }
+        let message = format!("{end}, and {frames} of the other sequence have no partner");
+        Some(Ended::Failed(self.failure(Some(step.found.number), message)))
+    }
+
+    /// What is left of sources of which all was asked for.
+    pub(crate) fn left(&self, warnings: &mut Warnings<'_>) -> Option<Failure> {
+        if self.plan.frames.is_some() || self.scene.frames.is_some() {
+            return None;
+        }
+        let open = |source: &&dyn Source| source.listing().frames == Frames::Counted(None);
+        let mut open = self.view.sources.all().filter(open);
+        let source = open.find(|source| source.has_more() == Ok(true))?;
+        let frames = self.view.frames.len();
+        let message = format!(
+            "{}: it goes on behind its first {frames} frames, which are all that the other sequence has",
+            source.listing().argument
+        );
+        if self.scene.allow_missing {
+            warnings.once_a_view("goes on", &message);
+            return None;
+        }
+        Some(self.failure(None, message))
+    }
+
+    fn failure(&self, frame: Option<i64>, message: String) -> Failure {
+        let name = |source: &dyn Source| source.listing().argument.clone();
+        let sources = &self.view.sources;
+        let test = sources.tests.values().next().map(|test| name(&**test));
+        let (reference, test) = (name(&*sources.reference), test.unwrap_or_default());
+        Failure { frame, reference, test, message, help: HELP.to_owned() }
+    }
+}
+
+impl Loaded {
+    /// What sources had to say instead of a frame.
+    fn errors(&self) -> impl Iterator<Item = &SourceError> {
+        let sides = self.reference.iter().chain([&self.test]);
+        sides.filter_map(|side| match side {
+            Err(LoadError::Read(error)) => Some(error),
+            _ => None,
+        })
+    }
+}

@@ -1,0 +1,204 @@
+//! The sources of a view: opened once, before any frame is read.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use fovqa_frame::source::Source;
+#[cfg(test)]
+use fovqa_frame::source::{Listing, Origin, Picture, PictureGuides, SourceError};
+use fovqa_io::sequence::pair;
+use fovqa_io::{
+    DepthChannels, GuideOptions, MotionChannels, ReadOptions, SourceOptions, open_source,
+};
+use fovqa_metrics::Metric;
+use fovqa_plan::{EyeView, Plan, SourceSpec};
+
+use crate::error::EngineError;
+use crate::find::{FoundFrame, GuideFrames};
+
+/// Sources that a plan names and does not have ([`SourceSpec::Given`]), by their names.
+pub type Given = BTreeMap<String, Arc<dyn Source>>;
+
+/// Where the frames of a view come from.
+#[derive(Debug, Clone)]
+pub struct ViewSources {
+    /// The reference.
+    pub reference: Arc<dyn Source>,
+    /// The tests, by the index of their method.
+    pub tests: BTreeMap<usize, Arc<dyn Source>>,
+    /// The motion, where it has files of its own.
+    pub motion: Option<Arc<dyn Source>>,
+    /// The same of the depth.
+    pub depth: Option<Arc<dyn Source>>,
+}
+
+impl ViewSources {
+    /// The source of a method's tests.
+    pub(crate) fn test(&self, method: usize) -> &dyn Source {
+        let Some(source) = self.tests.get(&method) else {
+            unreachable!("a frame with a test has its source")
+        };
+        &**source
+    }
+
+    /// All of them.
+    pub fn all(&self) -> impl Iterator<Item = &dyn Source> {
+        let guides = self.motion.iter().chain(&self.depth);
+        [&self.reference].into_iter().chain(self.tests.values()).chain(guides).map(|s| &**s)
+    }
+
+    /// The places of a frame in all sources that it comes from.
+    pub fn of_frame<'a>(
+        &'a self,
+        frame: &'a FoundFrame,
+    ) -> impl Iterator<Item = (&'a dyn Source, usize)> {
+        let tests = frame.tests.iter().map(|(method, test)| (self.test(*method), *test));
+        let motion = self.motion.iter().zip(frame.guides.motion);
+        let depth = self.depth.iter().zip(frame.guides.depth);
+        let guides = motion.chain(depth).map(|(source, at)| (&**source, at));
+        tests.chain([(&*self.reference, frame.reference)]).chain(guides)
+    }
+}
+
+/// Opens the sources of a view.
+pub(crate) struct Opener<'a> {
+    pub(crate) plan: &'a Plan,
+    pub(crate) view: &'a EyeView,
+    pub(crate) given: &'a Given,
+}
+
+impl Opener<'_> {
+    /// The reference.
+    pub(crate) fn reference(&self) -> Result<Arc<dyn Source>, EngineError> {
+        self.open(&self.view.reference, self.view.settings.read.layer.as_deref())
+    }
+
+    /// The tests of a method.
+    pub(crate) fn test(
+        &self,
+        method: usize,
+        spec: &SourceSpec,
+    ) -> Result<Arc<dyn Source>, EngineError> {
+        let own = self.view.test_layers.get(&method).map(String::as_str);
+        self.open(spec, own.or(self.view.settings.read.layer.as_deref()))
+    }
+
+    fn open(&self, spec: &SourceSpec, layer: Option<&str>) -> Result<Arc<dyn Source>, EngineError> {
+        let read = ReadOptions {
+            layer: layer.map(str::to_owned),
+            guides: self.beside_colour(),
+            ..self.view.settings.read.clone()
+        };
+        match spec {
+            SourceSpec::Files(path) => Ok(open_source(path, self.options(read))?),
+            SourceSpec::Given(name) => {
+                let source = self.given.get(name);
+                source.cloned().ok_or_else(|| EngineError::NotGiven { name: name.clone() })
+            }
+        }
+    }
+
+    fn options(&self, read: ReadOptions) -> SourceOptions {
+        SourceOptions { base: self.plan.base.clone(), read, hash: self.plan.hash_inputs }
+    }
+
+    /// What is looked for beside the colour: not the names a user has given channels of files of their
+    /// own, which may be those of colours here.
+    fn beside_colour(&self) -> GuideOptions {
+        let settings = &self.view.settings;
+        let mut wanted = settings.guides.clone();
+        let is_named =
+            matches!(wanted.motion, MotionChannels::Named(_) | MotionChannels::NamedAs(..));
+        if settings.motion_files.is_some() && is_named {
+            wanted.motion = MotionChannels::None;
+        }
+        if settings.depth_files.is_some() && matches!(wanted.depth, DepthChannels::Named(_)) {
+            wanted.depth = DepthChannels::None;
+        }
+        wanted
+    }
+
+    /// Opens the files of motion and depth, where there are such files and they are of any use, and finds
+    /// those that belong to the references. A frame without one has none: whether that is a mistake is
+    /// seen along the whole sequence.
+    pub(crate) fn guides(
+        &self,
+        reference: &dyn Source,
+        frames: &mut [FoundFrame],
+    ) -> Result<[Option<Arc<dyn Source>>; 2], EngineError> {
+        if !self.plan.metrics.metrics().contains(&Metric::Atd) {
+            return Ok([None, None]);
+        }
+        let settings = &self.view.settings;
+        let (motion, depth) = (settings.guides.motion.clone(), settings.guides.depth.clone());
+        let motion = GuideOptions { motion, ..GuideOptions::default() };
+        let depth = GuideOptions { depth, ..GuideOptions::default() };
+        let motion = self.own_files(settings.motion_files.as_ref(), motion, reference)?;
+        let depth = self.own_files(settings.depth_files.as_ref(), depth, reference)?;
+        for frame in frames {
+            let of = |found: &Option<OwnFiles>| {
+                found.as_ref().and_then(|(_, places)| places.get(&frame.reference)).copied()
+            };
+            frame.guides = GuideFrames { motion: of(&motion), depth: of(&depth) };
+        }
+        Ok([motion, depth].map(|found| found.map(|(source, _)| source)))
+    }
+
+    fn own_files(
+        &self,
+        files: Option<&PathBuf>,
+        guides: GuideOptions,
+        reference: &dyn Source,
+    ) -> Result<Option<OwnFiles>, EngineError> {
+        let Some(files) = files else { return Ok(None) };
+        let read = ReadOptions { guides, ..self.view.settings.read.clone() };
+        let source = open_source(files, self.options(read))?;
+        let pairs = pair(reference.listing(), source.listing())?.pairs.into_iter();
+        Ok(Some((source, pairs.map(|pair| (pair.reference, pair.test)).collect())))
+    }
+}
+
+/// Files of motion or depth, and which of them belongs to which reference.
+type OwnFiles = (Arc<dyn Source>, BTreeMap<usize, usize>);
+
+#[cfg(test)]
+impl ViewSources {
+    /// Of frames that are never read.
+    pub(crate) fn empty() -> Self {
+        let listing = Listing::counted(String::new(), Some(0));
+        let (tests, reference) = (BTreeMap::new(), Arc::new(Never(listing)));
+        Self { reference, tests, motion: None, depth: None }
+    }
+}
+
+#[cfg(test)]
+#[derive(Debug)]
+struct Never(Listing);
+
+#[cfg(test)]
+impl Source for Never {
+    fn listing(&self) -> &Listing {
+        &self.0
+    }
+
+    fn size(&self, _frame: usize) -> Result<(usize, usize), SourceError> {
+        unreachable!()
+    }
+
+    fn bytes_per_pixel(&self) -> u64 {
+        unreachable!()
+    }
+
+    fn read(&self, _frame: usize, _guides: bool) -> Result<Picture, SourceError> {
+        unreachable!()
+    }
+
+    fn read_guides(&self, _frame: usize) -> Result<PictureGuides, SourceError> {
+        unreachable!()
+    }
+
+    fn origins(&self, _frame: usize) -> Vec<(String, Origin)> {
+        unreachable!()
+    }
+}

@@ -1,0 +1,59 @@
+//! What tells one version of an input from another: its size and its SHA-256.
+
+use std::fmt::Write;
+use std::io::{self, Read};
+use std::path::Path;
+
+use fovqa_frame::source::InputId;
+use sha2::{Digest, Sha256};
+
+use crate::small_file::open_regular_file;
+
+/// Size and hash of a file's bytes.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn id_of_file(path: &Path) -> io::Result<InputId> {
+    id_of(open_regular_file(path)?)
+}
+
+/// Size and hash of everything a reader still has.
+///
+/// # Errors
+/// When the reader has one.
+pub fn id_of(mut reader: impl Read) -> io::Result<InputId> {
+    /// Fits the second-level cache, and keeps system calls rare.
+    const CHUNK: usize = 128 << 10;
+    let mut chunk = vec![0; CHUNK];
+    let (mut hash, mut bytes) = (Sha256::new(), 0);
+    loop {
+        match reader.read(&mut chunk) {
+            Ok(0) => break,
+            Ok(read) => {
+                hash.update(&chunk[..read]);
+                bytes += read as u64;
+            }
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    let mut sha256 = String::new();
+    for byte in hash.finalize() {
+        // Writing to a string does not fail.
+        let _ = write!(sha256, "{byte:02x}");
+    }
+    Ok(InputId { bytes, sha256 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// FIPS 180-4's own example.
+    #[test]
+    fn the_hash_is_that_of_the_standard() {
+        let id = id_of(&b"abc"[..]).unwrap();
+        assert_eq!(id.bytes, 3);
+        assert_eq!(id.sha256, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    }
+}

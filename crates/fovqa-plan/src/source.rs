@@ -1,0 +1,30 @@
+//! Where frames come from.
+
+use std::path::PathBuf;
+
+/// Where the frames of a sequence come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SourceSpec {
+    /// A file, folder, glob or printf pattern.
+    Files(PathBuf),
+    /// What whoever runs the plan gives under this name, such as pictures in memory.
+    Given(String),
+}
+
+impl Default for SourceSpec {
+    fn default() -> Self {
+        Self::Files(PathBuf::new())
+    }
+}
+
+impl From<PathBuf> for SourceSpec {
+    fn from(path: PathBuf) -> Self {
+        Self::Files(path)
+    }
+}
+
+impl From<&str> for SourceSpec {
+    fn from(path: &str) -> Self {
+        Self::Files(path.into())
+    }
+}
