@@ -2,6 +2,7 @@
 
 use half::f16;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::mask::Mask;
@@ -72,7 +73,7 @@ impl Samples {
 }
 
 /// A rectangle in pixels of the file's own frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Crop {
     /// Left edge.
     pub x: usize,

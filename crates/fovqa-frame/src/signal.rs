@@ -9,6 +9,7 @@ use std::sync::OnceLock;
 
 use fovqa_params::{OrAuto, words};
 use half::f16;
+use serde::{Deserialize, Serialize};
 
 use crate::frame::{Frame, Samples};
 use crate::light::{Curve, ShownLight};
@@ -55,7 +56,7 @@ impl Luma {
 }
 
 /// How samples become the signal.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SignalParams {
     /// `None`: sRGB for encoded frames, linear for others.
     pub transfer: Option<Transfer>,

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use fovqa_frame::source::InputId;
 use fovqa_frame::{Frame, Guides, Mask};
+use serde::{Deserialize, Serialize};
 
 use crate::alpha::AlphaPolicy;
 use crate::contain::contained;
@@ -15,7 +16,7 @@ use crate::input_id::id_of;
 use crate::{exr, jpeg, png};
 
 /// How files are read.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReadOptions {
     /// The colour layer of OpenEXR files that have several.
     pub layer: Option<String>,

@@ -1,6 +1,7 @@
 //! What there is to measure: a list. Everything about a metric stands in its own file.
 
 use fovqa_params::{ParamError, ParamValue, find};
+use serde::{Deserialize, Serialize};
 
 use crate::info::{MetricInfo, MetricKind, MetricParams};
 use crate::pooling::Statistic;
@@ -13,8 +14,11 @@ mod gmsd;
 /// Metrics in the order of tables: the name here, the name of its parameters, its file.
 macro_rules! metrics {
     ($($(#[$about:meta])* $metric:ident, $params:ident: $($file:ident)::+;)*) => {
-        /// A metric.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        /// A metric; in JSON its key.
+        #[derive(
+            Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+        )]
+        #[serde(try_from = "String", into = "&'static str")]
         pub enum Metric {
             $($(#[$about])* $metric,)*
         }
@@ -127,6 +131,20 @@ impl Metric {
     }
 }
 
+impl TryFrom<String> for Metric {
+    type Error = String;
+
+    fn try_from(key: String) -> Result<Self, String> {
+        Self::find(&key).ok_or_else(|| format!("there is no metric {key:?}"))
+    }
+}
+
+impl From<Metric> for &'static str {
+    fn from(metric: Metric) -> Self {
+        metric.key()
+    }
+}
+
 impl Params {
     /// Sets one parameter.
     ///
@@ -144,6 +162,7 @@ impl Params {
         set.ok_or_else(|| known.refuses(info.key, &value))
     }
 }
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,10 @@
 //! A value as a user writes it.
 
+use serde::{Deserialize, Serialize};
+
 /// A value as a user writes it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
 pub enum ParamValue {
     /// A number.
     Number(f64),

@@ -1,10 +1,6 @@
 //! An experiment: a plan, and what is made of its results.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
-
-use fovqa_metrics::Metric;
-use fovqa_params::ParamValue;
 
 use crate::gates::GateRule;
 use crate::plan::Plan;
@@ -27,6 +23,4 @@ pub struct Experiment {
     pub plots: Vec<Plot>,
     /// The rules of its gate.
     pub gates: Vec<GateRule>,
-    /// Parameters it sets; all others have their defaults.
-    pub params: BTreeMap<(Metric, &'static str), ParamValue>,
 }

@@ -4,14 +4,16 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use fovqa_io::sequence::{FrameRange, shown};
-use fovqa_metrics::{Metric, Params};
+use fovqa_metrics::{Metric, ParamSet};
 use fovqa_params::{Words, words};
+use serde::{Deserialize, Serialize};
 
 use crate::settings::Settings;
 use crate::source::SourceSpec;
 
 /// Which metrics.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum MetricChoice {
     /// [`Metric::DEFAULT`], less what does not fit.
     #[default]
@@ -51,7 +53,7 @@ impl Eye {
 }
 
 /// What one eye sees of a scene: one reference, and the test of each method.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct EyeView {
     /// The eye; `None` in a scene with one picture a frame.
     pub eye: Option<Eye>,
@@ -67,7 +69,7 @@ pub struct EyeView {
 }
 
 /// A scene.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Scene {
     /// Its name; empty where there is but one.
     pub name: String,
@@ -82,7 +84,7 @@ pub struct Scene {
 }
 
 /// A comparison: each method of each scene, measured alike.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Plan {
     /// Folder in which relative paths of the experiment begin; results show paths from there.
     pub base: PathBuf,
@@ -93,7 +95,7 @@ pub struct Plan {
     /// The metrics.
     pub metrics: MetricChoice,
     /// Their parameters.
-    pub params: Params,
+    pub params: ParamSet,
     /// Only these of each scene's frames.
     pub frames: Option<FrameRange>,
     /// Whether size and hash of every input are taken.

@@ -179,7 +179,7 @@ impl Experiment {
         });
         let params = |&metric: &Metric| {
             let params = metric.info().params.iter().map(|param| {
-                let value = self.params.get(&(metric, param.name)).map(param_value);
+                let value = plan.params.value(metric, param.name).map(param_value);
                 (param.name.to_owned(), value.unwrap_or_else(|| literal(param.default)))
             });
             (metric.key().to_owned(), params.collect())

@@ -6,9 +6,11 @@ use fovqa_frame::{Crop, SignalParams, Transfer};
 use fovqa_io::{GuideOptions, ReadOptions};
 use fovqa_params::words;
 use fovqa_vision::{BandEdges, EccentricityKind, Eotf, Luminance, ViewSpec};
+use serde::{Deserialize, Serialize};
 
 /// Where the eye looks.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Gaze {
     /// At the principal point.
     #[default]
@@ -37,7 +39,7 @@ words! {
 }
 
 /// How frames are read and seen.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Settings {
     /// How files are read.
     pub read: ReadOptions,

@@ -1,5 +1,6 @@
 //! Eccentricity bands: half-open ranges in degrees, and which pixels fall into which.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::eccentricity::Eccentricity;
@@ -8,7 +9,8 @@ use crate::eccentricity::Eccentricity;
 pub const DEFAULT_BAND_DEG: f64 = 5.0;
 
 /// The edges of bands `[edge[i], edge[i + 1])`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
 pub struct BandEdges(Vec<f64>);
 
 /// Edges that make no bands.
@@ -37,6 +39,20 @@ pub enum BandEdgesError {
         /// The one before.
         before_deg: f64,
     },
+}
+
+impl TryFrom<Vec<f64>> for BandEdges {
+    type Error = BandEdgesError;
+
+    fn try_from(edges: Vec<f64>) -> Result<Self, BandEdgesError> {
+        Self::new(edges)
+    }
+}
+
+impl From<BandEdges> for Vec<f64> {
+    fn from(edges: BandEdges) -> Self {
+        edges.0
+    }
 }
 
 impl BandEdges {

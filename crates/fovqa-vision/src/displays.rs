@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 use fovqa_params::words;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 words! {
@@ -31,7 +31,7 @@ impl Eotf {
 }
 
 /// What a display shows, in light.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Luminance {
     /// White, in cd/m².
@@ -141,7 +141,7 @@ impl Luminance {
 }
 
 /// A display preset.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Display {
     /// Its name, with `_`.
@@ -157,7 +157,7 @@ pub struct Display {
 }
 
 /// Where the display stands in the visual field.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Geometry {
     /// A flat screen in front of the eye.

@@ -1,5 +1,6 @@
 //! The view: a pinhole eye buffer, and the ways to say which.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::displays::Display;
@@ -37,7 +38,8 @@ impl View {
 }
 
 /// The ways to give a view. Angles are full angles in degrees.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ViewSpec {
     /// Horizontal or vertical field of view, or both. One alone: square pixels.
     Fov {

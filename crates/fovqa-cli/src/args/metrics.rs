@@ -1,7 +1,7 @@
 //! `--metrics` and `--set`.
 
 use clap::Args;
-use fovqa_metrics::{Metric, Params};
+use fovqa_metrics::{Metric, ParamSet, Params};
 use fovqa_params::ParamValue;
 use fovqa_plan::MetricChoice;
 
@@ -52,8 +52,8 @@ impl MetricArgs {
         }
     }
 
-    pub(crate) fn params(&self) -> Result<Params, String> {
-        let mut params = Params::default();
+    pub(crate) fn params(&self) -> Result<ParamSet, String> {
+        let mut params = ParamSet::default();
         for Assignment { metric, param, value } in &self.set {
             params.set(*metric, param, value).map_err(|error| error.to_string())?;
         }

@@ -29,7 +29,7 @@ pub(crate) fn experiment(
     faults: &mut Faults,
 ) -> Experiment {
     let base = path.parent().map(Path::to_owned).unwrap_or_default();
-    let (choice, params, set) = metrics::metrics(root, faults);
+    let (choice, params) = metrics::metrics(root, faults);
     let mut scenes = scenes::scenes(root, &base, &choice, faults);
     let methods = methods::methods(root, &base, &mut scenes, faults);
     let known =
@@ -53,7 +53,6 @@ pub(crate) fn experiment(
             hash_inputs: true,
             maps: false,
         },
-        params: set,
     }
 }
 

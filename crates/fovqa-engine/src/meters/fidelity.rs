@@ -14,7 +14,7 @@ pub(super) struct Fidelity {
 
 impl Fidelity {
     pub(super) fn new(plan: &Plan, metrics: &[Metric]) -> Self {
-        let scorer = Scorer::new(metrics.to_vec(), plan.params.clone()).with_maps(plan.maps);
+        let scorer = Scorer::new(metrics.to_vec(), (*plan.params).clone()).with_maps(plan.maps);
         let lenient = plan.metrics == MetricChoice::Default;
         Self { scorer: if lenient { scorer.lenient() } else { scorer } }
     }

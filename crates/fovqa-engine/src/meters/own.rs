@@ -17,7 +17,7 @@ pub(super) struct Own {
 impl Own {
     pub(super) fn new(plan: &Plan, metrics: &[Metric]) -> Self {
         let passes = metrics.iter().filter_map(|metric| Some((*metric, metric.info().pass?)));
-        Self { passes: passes.collect(), params: plan.params.clone(), maps: plan.maps }
+        Self { passes: passes.collect(), params: (*plan.params).clone(), maps: plan.maps }
     }
 
     /// Measures a pair, metric by metric; with its maps, where they are wanted and asked for.

@@ -1,6 +1,7 @@
 //! What to look for beside the colour.
 
 use fovqa_params::words;
+use serde::{Deserialize, Serialize};
 
 use super::preset::GuidePreset;
 
@@ -10,7 +11,7 @@ use super::preset::GuidePreset;
 /// `ViewLayer.Vector.X`, and the name of a part counts like a layer in front. Of several such
 /// channels the one of the colour's view is meant (see the parts and views of Blender's Multi-View)
 /// and, among those, the one whose layer has most of its first names in common with the colour's.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct GuideOptions {
     /// The motion.
     pub motion: MotionChannels,
@@ -27,7 +28,8 @@ impl GuideOptions {
 
 /// The channels of backward motion: the position in the previous frame is the position in this
 /// one plus the motion.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum MotionChannels {
     /// Not read.
     #[default]
@@ -46,7 +48,7 @@ pub enum MotionChannels {
 
 /// Channels of motion and what their values mean: the motion in pixels is
 /// `sample * sign * scale`, times the size of the unit in pixels.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NamedMotion {
     /// The channels across and down.
     pub channels: [String; 2],
@@ -74,7 +76,8 @@ words! {
 }
 
 /// The channel of depth.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum DepthChannels {
     /// Not read.
     #[default]

@@ -3,11 +3,13 @@
 use std::fmt;
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// A selection of frames by their numbers: from A up to, but without, B, every STEP-th, counted from A
 /// or, without A, from 0. Numbers may be negative.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct FrameRange {
     from: Option<i64>,
     to: Option<i64>,
@@ -35,6 +37,20 @@ impl fmt::Display for FrameRange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let end = |end: Option<i64>| end.map(|end| end.to_string()).unwrap_or_default();
         write!(f, "{}..{}:{}", end(self.from), end(self.to), self.step)
+    }
+}
+
+impl TryFrom<String> for FrameRange {
+    type Error = FrameRangeError;
+
+    fn try_from(text: String) -> Result<Self, FrameRangeError> {
+        text.parse()
+    }
+}
+
+impl From<FrameRange> for String {
+    fn from(range: FrameRange) -> Self {
+        range.to_string()
     }
 }
 
