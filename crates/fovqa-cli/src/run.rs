@@ -142,6 +142,7 @@ impl Run<'_> {
     ) -> Result<Findings, Exit> {
         clear(self.folder).map_err(|error| failed(&error, error.help()))?;
         let plan = &self.experiment.plan;
+        let units = fovqa_engine::units(self.found, self.shard);
         let scored =
             Journal::begin(self.folder.path(), header, plan, &known).and_then(|mut journal| {
                 let record = &mut |entry: fovqa_engine::Entry<'_>| {
@@ -149,7 +150,7 @@ impl Run<'_> {
                     journal.write(entry)
                 };
                 let scored =
-                    fovqa_engine::score(plan, self.found, self.shard, known, terminal, record)?;
+                    fovqa_engine::score(plan, self.found, &units, known, terminal, record)?;
                 if self.shard.is_some() { journal.done().map(|()| scored) } else { Ok(scored) }
             });
         terminal.finish();

@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use fovqa_metrics::{Layouts, Metric};
 use fovqa_plan::Plan;
 use thiserror::Error;
 
-use crate::findings::{Findings, Outcome, Settled, ViewFindings};
+use crate::findings::Findings;
 use crate::journal::{self, Found, Header, Text, place};
 use crate::share::Shard;
 
@@ -189,13 +188,8 @@ impl Shards {
                 if all.inputs.get(file).is_some_and(|known| known != id) {
                     return Err(changed(file.to_owned()));
                 }
-                all.inputs.add(file, id);
             }
-            // All of them have all of these.
-            all.problems = said.findings.problems;
-            for (place, view) in said.findings.views {
-                join(all.views.entry(place).or_default(), view);
-            }
+            all.join(said.findings);
         }
         Ok(all)
     }
@@ -252,26 +246,4 @@ fn is_complete(plan: &Plan, text: &Text, findings: &Findings) -> bool {
                 found.failed.is_some() || through
             })
     })
-}
-
-/// Joins what the next shard has of a view to what those before it have.
-fn join(all: &mut ViewFindings, mut next: ViewFindings) {
-    all.failed = all.failed.take().or(next.failed);
-    let Settled { fvvdp, missing, .. } = all.settled.take().unwrap_or_default();
-    // A sequence that has not come through up to here has no values from here on.
-    let broken = |outcome: &&mut Outcome| missing.contains_key(&outcome.method);
-    let mut layouts = Layouts::default();
-    for outcome in next.pairs.values_mut().filter(broken) {
-        if let Ok(frame) = &mut outcome.result {
-            let of_others = frame.rows.iter().filter(|row| row.key.metric() != Some(Metric::Fvvdp));
-            frame.rows = layouts.pack(&of_others.collect());
-        }
-    }
-    all.pairs.append(&mut next.pairs);
-    // The later one has looked for a pair to settle it from the first one on.
-    all.settled = next.settled.map(|mut settled| {
-        settled.fvvdp.extend(fvvdp);
-        settled.missing.extend(missing);
-        settled
-    });
 }

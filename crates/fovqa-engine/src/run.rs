@@ -9,7 +9,7 @@ use crate::events::{Events, Progress, Warnings};
 use crate::find::{Found, FoundView, Problem};
 use crate::findings::{Entry, Findings, Named, Place, Record};
 use crate::scoring::{Scoring, TakenDown, scene_bands};
-use crate::share::{Shard, shares};
+use crate::unit::{Unit, units};
 
 /// Checks what needs no file: parameters, and that what needs a view has one.
 ///
@@ -30,27 +30,26 @@ pub fn run(
     events: &dyn Events,
     record: &mut Record<'_>,
 ) -> Result<RunResults, EngineError> {
-    let findings = score(plan, found, None, Findings::default(), events, record)?;
+    let findings = score(plan, found, &units(found, None), Findings::default(), events, record)?;
     Ok(results(plan, events, findings))
 }
 
-/// Scores the pairs of a shard, or all, that are not `known` (as [`crate::resume`] has it), and returns
-/// what is known then. Each step of it is taken down, but what was known before.
+/// Scores the pairs of some units that are not `known` (as [`crate::resume`] has it), and returns what is
+/// known then. Each step of it is taken down, but what was known before.
 ///
 /// # Errors
 /// As [`run`].
 pub fn score(
     plan: &Plan,
     found: &Found,
-    shard: Option<Shard>,
+    units: &[Unit],
     mut known: Findings,
     events: &dyn Events,
     record: &mut Record<'_>,
 ) -> Result<Findings, EngineError> {
     check(plan)?;
-    let pairs: Vec<usize> = found.views.iter().map(FoundView::pairs).collect();
-    let shares = shares(shard, &pairs);
-    let mut progress = Progress::new(events, shares.iter().map(ExactSizeIterator::len).sum());
+    let pairs = units.iter().map(|unit| unit.pairs.len()).sum();
+    let mut progress = Progress::new(events, pairs);
     let mut warnings = Warnings::new(events);
     let mut findings = Findings { inputs: known.inputs, ..Findings::default() };
     for problem in &found.problems {
@@ -60,10 +59,10 @@ pub fn score(
             findings.problems.push((place, failure.clone()));
         }
     }
-    for (view, range) in found.views.iter().zip(shares) {
-        if range.is_empty() {
-            continue;
-        }
+    for unit in units {
+        let is_it = |view: &&FoundView| (view.scene, view.eye) == (unit.scene, unit.eye);
+        let Some(view) = found.views.iter().find(is_it) else { continue };
+        let range = unit.pairs.clone();
         let scene = &plan.scenes[view.scene];
         let bands = scene_bands(scene, found, view.scene);
         let scoring = Scoring { plan, scene, view, bands: bands.as_ref(), range };
@@ -75,7 +74,8 @@ pub fn score(
         };
         let place = (view.scene, view.eye);
         let known = known.views.remove(&place).unwrap_or_default();
-        findings.views.insert(place, scoring.run(known, &mut taken_down)?);
+        let scored = scoring.run(known, &mut taken_down)?;
+        findings.join_view(place, scored);
     }
     Ok(findings)
 }

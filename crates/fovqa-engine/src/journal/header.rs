@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use fovqa_frame::source::Source;
 use fovqa_io::{id_of, open_regular_file};
-use fovqa_plan::{Experiment, Eye};
+use fovqa_plan::{Experiment, Eye, Plan};
 use fovqa_vision::BandEdges;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -51,20 +51,35 @@ pub(crate) struct ViewFiles {
     pub(crate) files: String,
 }
 
+impl ViewFiles {
+    fn of(plan: &Plan, found: &Found, view: &FoundView) -> Self {
+        let scene = &plan.scenes[view.scene];
+        Self {
+            scene: scene.name.clone(),
+            eye: scene.eyes[view.eye].eye,
+            pairs: view.pairs(),
+            files: files(view, scene_bands(scene, found, view.scene).as_ref()),
+        }
+    }
+}
+
+/// The files of an eye's view of a scene; `None` where none were found.
+pub(crate) fn view_files(
+    plan: &Plan,
+    found: &Found,
+    scene: usize,
+    eye: usize,
+) -> Option<ViewFiles> {
+    let view = found.views.iter().find(|view| (view.scene, view.eye) == (scene, eye))?;
+    Some(ViewFiles::of(plan, found, view))
+}
+
 impl Header {
     /// That of a run of an experiment, whose frames were found, or of a shard of it.
     pub fn new(experiment: &Experiment, found: &Found, shard: Option<Shard>) -> Self {
         let file = experiment.path.file_name().unwrap_or_default();
         let plan = &experiment.plan;
-        let views = found.views.iter().map(|view| {
-            let scene = &plan.scenes[view.scene];
-            ViewFiles {
-                scene: scene.name.clone(),
-                eye: scene.eyes[view.eye].eye,
-                pairs: view.pairs(),
-                files: files(view, scene_bands(scene, found, view.scene).as_ref()),
-            }
-        });
+        let views = found.views.iter().map(|view| ViewFiles::of(plan, found, view));
         Self {
             schema: SCHEMA.to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),

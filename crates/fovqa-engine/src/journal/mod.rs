@@ -10,10 +10,11 @@ mod read;
 mod records;
 mod write;
 
-pub(crate) use header::ViewFiles;
 pub use header::{Header, shard_in};
-pub(crate) use read::{Found, Text, place, read};
+pub(crate) use header::{ViewFiles, view_files};
+pub(crate) use read::{Found, Text, findings_of, place, read};
 pub use write::Journal;
+pub(crate) use write::lines_of;
 
 /// Its name in the folder of results.
 pub const JOURNAL: &str = "journal.jsonl";

@@ -82,13 +82,41 @@ pub(crate) fn read(folder: &Path) -> io::Result<Found> {
 impl Text {
     /// What it says of a plan, that of its experiment.
     pub(crate) fn said(&self, plan: &Plan) -> Said {
+        // What is of no view of this journal, or of no pair that it has, is not understood.
+        let own = |(scene, eye): ViewPlace, step: Option<usize>| {
+            let (scene, eye) = (&plan.scenes[scene].name, plan.scenes[scene].eyes[eye].eye);
+            let mut views = self.header.views.iter();
+            let index = views.position(|view| view.scene == *scene && view.eye == eye);
+            index.is_some_and(|index| step.is_none_or(|step| self.shares[index].contains(&step)))
+        };
+        Lines { plan, own: &own }.said(&self.rest)
+    }
+}
+
+/// The findings that lines have, of what is `own`; `None` where one is not understood.
+pub(crate) fn findings_of(plan: &Plan, lines: &str, own: &Own<'_>) -> Option<Findings> {
+    let said = Lines { plan, own }.said(lines.as_bytes());
+    (!said.torn && said.twice.is_none()).then_some(said.findings)
+}
+
+/// Whether a view, and a pair of it, may be there.
+pub(crate) type Own<'a> = dyn Fn(ViewPlace, Option<usize>) -> bool + 'a;
+
+/// What lines are of.
+struct Lines<'a> {
+    plan: &'a Plan,
+    own: &'a Own<'a>,
+}
+
+impl Lines<'_> {
+    fn said(&self, lines: &[u8]) -> Said {
         let mut said =
             Said { findings: Findings::default(), done: false, torn: false, twice: None };
         let mut layouts = BTreeMap::new();
-        for line in self.rest.split_inclusive(|byte| *byte == b'\n') {
+        for line in lines.split_inclusive(|byte| *byte == b'\n') {
             let whole = line.last() == Some(&b'\n');
             // Nothing comes behind the last line.
-            if said.done || !whole || self.line(plan, line, &mut said, &mut layouts).is_none() {
+            if said.done || !whole || self.line(line, &mut said, &mut layouts).is_none() {
                 (said.torn, said.done) = (true, false);
                 break;
             }
@@ -99,11 +127,11 @@ impl Text {
     /// Takes a line in; `None` where it is not understood.
     fn line(
         &self,
-        plan: &Plan,
         line: &[u8],
         said: &mut Said,
         layouts: &mut BTreeMap<usize, Layout>,
     ) -> Option<()> {
+        let plan = self.plan;
         let value: Value = serde_json::from_slice(line).ok()?;
         let has = |key: &str| value.get(key).is_some();
         let findings = &mut said.findings;
@@ -118,17 +146,17 @@ impl Text {
             let record: FrameRecord = from(value)?;
             let method = method(plan, &record.method)?;
             let step = record.step;
-            let view = self.view(plan, findings, &record.scene, record.eye, Some(step))?;
+            let view = self.view(findings, &record.scene, record.eye, Some(step))?;
             let (frame, guides) = record.read(layouts)?;
             view.pairs.insert(step, Outcome { method, result: Ok(frame), guides });
         } else if let Some(keys) = value.get("keys") {
             let record: KeysRecord = from(keys.clone())?;
             layouts.insert(record.number, record.read()?);
         } else if has("error") {
-            self.error(plan, findings, from(value)?)?;
+            self.error(findings, from(value)?)?;
         } else if has("settled") {
             let record: SettledRecord = from(value.get("settled")?.clone())?;
-            let view = self.view(plan, findings, &record.scene, record.eye, None)?;
+            let view = self.view(findings, &record.scene, record.eye, None)?;
             view.settled = Some(record.read(|name| method(plan, name))?);
         } else {
             said.done = value.get("done")?.as_bool()?;
@@ -136,19 +164,20 @@ impl Text {
         Some(())
     }
 
-    fn error(&self, plan: &Plan, findings: &mut Findings, record: ErrorRecord) -> Option<()> {
+    fn error(&self, findings: &mut Findings, record: ErrorRecord) -> Option<()> {
+        let plan = self.plan;
         let Some(name) = &record.method else {
-            let view = self.view(plan, findings, &record.scene, record.eye, None)?;
+            let view = self.view(findings, &record.scene, record.eye, None)?;
             view.failed = Some(record.read());
             return Some(());
         };
         let method = method(plan, name)?;
         if let Some(step) = record.step {
-            let view = self.view(plan, findings, &record.scene, record.eye, Some(step))?;
+            let view = self.view(findings, &record.scene, record.eye, Some(step))?;
             let (result, guides) = (Err(record.read()), fovqa_results::AtdGuides::default());
             view.pairs.insert(step, Outcome { method, result, guides });
         } else if record.before {
-            self.view(plan, findings, &record.scene, record.eye, None)?.unsound = true;
+            self.view(findings, &record.scene, record.eye, None)?.unsound = true;
         } else {
             let (scene, eye) = place(plan, &record.scene, record.eye)?;
             findings.problems.push(((scene, method, eye), record.read()));
@@ -156,19 +185,15 @@ impl Text {
         Some(())
     }
 
-    /// The findings of a view of this journal; `None` where it has none of that name, or no such pair.
+    /// The findings of a view; `None` where there is none of that name, or no such pair.
     fn view<'a>(
         &self,
-        plan: &Plan,
         findings: &'a mut Findings,
         scene: &str,
         eye: Option<Eye>,
         step: Option<usize>,
     ) -> Option<&'a mut ViewFindings> {
-        let views = &self.header.views;
-        let index = views.iter().position(|view| view.scene == scene && view.eye == eye)?;
-        let own = step.is_none_or(|step| self.shares[index].contains(&step));
-        let place = place(plan, scene, eye).filter(|_| own)?;
+        let place = place(self.plan, scene, eye).filter(|place| (self.own)(*place, step))?;
         Some(findings.views.entry(place).or_default())
     }
 }

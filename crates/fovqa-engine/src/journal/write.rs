@@ -81,6 +81,19 @@ impl Journal {
     }
 }
 
+/// The lines of a journal without its first, as text.
+pub(crate) fn lines_of(plan: &Plan, findings: &Findings) -> String {
+    let (mut lines, mut text) = (Lines::default(), Vec::new());
+    let written = findings.record(plan, &mut |entry| {
+        text.extend(lines.of(entry));
+        Ok(())
+    });
+    if let Err(error) = written {
+        unreachable!("writing to memory does not fail: {error}");
+    }
+    String::from_utf8_lossy(&text).into_owned()
+}
+
 /// The lines of a journal, and which keys those before have named.
 #[derive(Debug, Default)]
 pub(super) struct Lines(Vec<Layout>);

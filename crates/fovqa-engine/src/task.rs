@@ -1,0 +1,139 @@
+//! A unit of work as another process can do it: written down with its plan, and its findings written down
+//! in turn.
+
+use fovqa_plan::Plan;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::error::EngineError;
+use crate::events::Events;
+use crate::find::find;
+use crate::findings::Findings;
+use crate::journal::{ViewFiles, view_files};
+use crate::run::score;
+use crate::sources::Given;
+use crate::unit::Unit;
+
+/// Name and version of the format.
+const SCHEMA: &str = "fovqa.task/1";
+
+/// A unit of work with its plan. As JSON it can be given to another process, which sees the same files below
+/// the same paths.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Task {
+    schema: String,
+    version: String,
+    plan: Plan,
+    unit: Unit,
+    /// The files of the unit's view when it was cut: those of another process have to be the same.
+    files: ViewFiles,
+}
+
+/// A task that cannot be done.
+#[derive(Debug, Error)]
+pub enum TaskError {
+    /// Something that is no task.
+    #[error("this is no task: {0}")]
+    Format(String),
+    /// A task of another version.
+    #[error("the task is of fovqa {version}, and this is {}", env!("CARGO_PKG_VERSION"))]
+    Version {
+        /// Its version.
+        version: String,
+    },
+    /// Frames that are not there, or others than those the task was cut from.
+    #[error("scene {0:?}: the frames found here are others than those of the task")]
+    OtherFrames(String),
+    /// What keeps the plan from being run.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+}
+
+impl Task {
+    /// A unit of a plan whose frames were found.
+    pub fn new(plan: &Plan, found: &crate::find::Found, unit: Unit) -> Option<Self> {
+        let files = view_files(plan, found, unit.scene, unit.eye)?;
+        let (schema, version) = (SCHEMA.to_owned(), env!("CARGO_PKG_VERSION").to_owned());
+        Some(Self { schema, version, plan: plan.clone(), unit, files })
+    }
+
+    /// The task as JSON.
+    ///
+    /// # Errors
+    /// When a path of the plan is not UTF-8.
+    pub fn to_json(&self) -> Result<String, TaskError> {
+        serde_json::to_string(self).map_err(|error| TaskError::Format(error.to_string()))
+    }
+
+    /// A task that was written as JSON.
+    ///
+    /// # Errors
+    /// When it is none, or one of another version.
+    pub fn from_json(json: &str) -> Result<Self, TaskError> {
+        let task: Self =
+            serde_json::from_str(json).map_err(|error| TaskError::Format(error.to_string()))?;
+        let eyes = task.plan.scenes.get(task.unit.scene).map(|scene| scene.eyes.len());
+        if task.schema != SCHEMA || eyes.is_none_or(|eyes| task.unit.eye >= eyes) {
+            return Err(TaskError::Format("it is of another format, or damaged".to_owned()));
+        }
+        if task.version != env!("CARGO_PKG_VERSION") {
+            return Err(TaskError::Version { version: task.version });
+        }
+        Ok(task)
+    }
+
+    /// Finds the frames of the task and scores them.
+    ///
+    /// # Errors
+    /// When the frames are not those that the task was cut from, or the plan cannot be run. A frame that
+    /// cannot be scored is a failure among the findings.
+    pub fn run(&self, given: &Given, events: &dyn Events) -> Result<TaskFindings, TaskError> {
+        let found = find(&self.plan, given);
+        let files = view_files(&self.plan, &found, self.unit.scene, self.unit.eye);
+        if files.as_ref() != Some(&self.files) {
+            return Err(TaskError::OtherFrames(self.plan.scenes[self.unit.scene].name.clone()));
+        }
+        let units = std::slice::from_ref(&self.unit);
+        // Problems of other views are not the task's.
+        let found = crate::find::Found { problems: Vec::new(), ..found };
+        let nothing = &mut |_: crate::findings::Entry<'_>| Ok(());
+        let findings = score(&self.plan, &found, units, Findings::default(), events, nothing)?;
+        Ok(TaskFindings(findings))
+    }
+}
+
+/// What a task has found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TaskFindings(Findings);
+
+impl TaskFindings {
+    /// The findings as lines of JSON, those of a journal.
+    pub fn to_lines(&self, task: &Task) -> String {
+        crate::journal::lines_of(&task.plan, &self.0)
+    }
+
+    /// Findings that were written as lines.
+    ///
+    /// # Errors
+    /// When they are not those of the task, whole.
+    pub fn from_lines(task: &Task, lines: &str) -> Result<Self, TaskError> {
+        let Unit { scene, eye, pairs } = &task.unit;
+        let own = |place, step: Option<usize>| {
+            place == (*scene, *eye) && step.is_none_or(|step| pairs.contains(&step))
+        };
+        let findings = crate::journal::findings_of(&task.plan, lines, &own);
+        let findings = findings.filter(|findings| findings.has_all_of(&task.unit));
+        let other = || TaskError::Format("these are not the findings of the task".to_owned());
+        findings.map(Self).ok_or_else(other)
+    }
+
+    /// The findings of all tasks of a plan together, in the order of their units, as one run of it all would
+    /// have them.
+    pub fn merge(tasks: impl IntoIterator<Item = Self>) -> Findings {
+        let mut all = Findings::default();
+        for Self(findings) in tasks {
+            all.join(findings);
+        }
+        all
+    }
+}
