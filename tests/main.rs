@@ -28,6 +28,7 @@ mod gaze_files;
 mod gmsd;
 mod golden;
 mod jpeg;
+mod library;
 mod maps;
 mod motion_and_depth;
 mod moving_frames;

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fovqa_engine::{Events, Found, FoundFrame, FoundView};
+use fovqa::{Complaint, Events, Found, FoundView, Given};
+use fovqa_engine::FoundFrame;
 use fovqa_frame::source::Origin;
 use fovqa_io::frame_size;
 use fovqa_metrics::Metric;
@@ -26,20 +27,22 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
         Ok(experiment) => experiment,
         Err(exit) => return exit,
     };
-    let found = fovqa_engine::find(&experiment.plan, &fovqa_engine::Given::default());
+    let found = fovqa::find(&experiment.plan, &Given::default());
     let terminal = Terminal::speaking(Dialect::Experiment);
     // The warnings come where those of a run do, after the plan.
     let warnings = Later::default();
-    let metrics = match fovqa_engine::foresee(&experiment.plan, &found, &warnings) {
+    let metrics = match fovqa::foresee(&experiment.plan, &found, &warnings) {
         Ok(metrics) => metrics,
-        Err(error) => return crate::run::broken(error),
+        Err(error) => return experiment::failed(&error.into()),
     };
     let text = plan(&experiment, &metrics, &found);
     let printed = output::write(|out| out.write_all(text.as_bytes()));
     for message in warnings.0.take() {
         terminal.warn(&message);
     }
-    crate::run::say_problems(&experiment, &found);
+    for Complaint { message, help } in fovqa::problems(&experiment, &found) {
+        diagnostic::error(&message, &Dialect::Experiment.spell(&help));
+    }
     let masks = masks(&experiment) & frames(&found);
     if found.problems.iter().any(|problem| problem.error.is_usage()) {
         Exit::Usage

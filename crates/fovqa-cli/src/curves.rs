@@ -1,15 +1,15 @@
 //! `fovqa curves`: one curve as CSV, or the figures and tables of files.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use fovqa_engine::{Locking, ResultsFolder};
-use fovqa_plan::CurvesFile;
-use fovqa_shading::{Curve, trace, trace_all};
+use fovqa::{CurvesFile, Locking};
+use fovqa_shading::{Curve, trace};
 
 use crate::args::CurvesArgs;
 use crate::dialect::Dialect;
 use crate::exit::Exit;
+use crate::progress::Terminal;
 use crate::{diagnostic, experiment, output};
 
 pub(crate) fn run(args: &CurvesArgs) -> Exit {
@@ -78,43 +78,21 @@ fn files(args: &CurvesArgs) -> Exit {
     let alone = files.len() == 1;
     let mut outcome = Exit::Done;
     for file in &files {
-        let folder = match &args.output {
-            Some(folder) if alone => folder.clone(),
-            Some(folder) => folder.join(&file.name),
-            None => PathBuf::from("reports").join(&file.name),
-        };
+        let folder = args.output.as_ref();
+        let folder =
+            folder.map(|folder| if alone { folder.clone() } else { folder.join(&file.name) });
         // What is wrong with one folder is no reason to leave the others out.
-        if let Err(exit) = draw(file, &folder, args.lock.locking()) {
+        if let Err(exit) = draw(file, folder.as_deref(), args.lock.locking()) {
             outcome = exit;
         }
     }
     outcome
 }
 
-fn draw(file: &CurvesFile, folder: &Path, locking: Locking) -> Result<(), Exit> {
-    let failed = |message: &str, help: &str, exit: Exit| {
-        diagnostic::error(message, &Dialect::Options.spell(help));
-        exit
-    };
-    let curves = trace_all(&file.plan)
-        .map_err(|error| failed(&format!("{}: {error}", file.name), "", Exit::Usage))?;
-    let folder = ResultsFolder::open_for_curves(folder, locking)
-        .map_err(|error| failed(&error.to_string(), error.help(), Exit::Input))?;
-    folder.clear().map_err(|error| failed(&error.to_string(), error.help(), Exit::Input))?;
-    let drawn = fovqa_report::draw_curves(folder.path(), file, &curves).map_err(|error| {
-        failed(
-            &error.to_string(),
-            "free some space, or give another folder with {output}",
-            Exit::Input,
-        )
-    })?;
-    let mut notes: Vec<&String> = Vec::new();
-    for note in curves.iter().flat_map(|curve| &curve.notes) {
-        if !notes.contains(&note) {
-            notes.push(note);
-            diagnostic::note(note);
-        }
-    }
+fn draw(file: &CurvesFile, folder: Option<&Path>, locking: Locking) -> Result<(), Exit> {
+    let terminal = Terminal::speaking(Dialect::Options);
+    let (folder, drawn) = fovqa::curves(file, folder, locking, &terminal)
+        .map_err(|error| experiment::said(&error, Dialect::Options))?;
     let tables = drawn.tables.iter().fold(String::new(), |mut text, table| {
         let _ = writeln!(text, "{table}\n");
         text
@@ -122,7 +100,7 @@ fn draw(file: &CurvesFile, folder: &Path, locking: Locking) -> Result<(), Exit> 
     let printed = output::write(|out| out.write_all(tables.as_bytes()));
     let figures =
         if drawn.figures == 1 { "1 figure" } else { &format!("{} figures", drawn.figures) };
-    let shown = folder.path().display();
+    let shown = folder.display();
     diagnostic::note(&format!("{shown}: curves.csv, {figures}; look at {shown}/index.html"));
     if printed == Exit::Done { Ok(()) } else { Err(printed) }
 }

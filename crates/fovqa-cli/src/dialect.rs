@@ -13,10 +13,11 @@ pub(crate) enum Dialect {
 }
 
 /// Setting, option, key.
-const SETTINGS: [(&str, &str, &str); 20] = [
+const SETTINGS: [(&str, &str, &str); 21] = [
     ("allow_missing", "--allow-missing", "allow_missing = true"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),
     ("alpha=over-black", "--alpha over-black", "alpha = \"over-black\""),
+    ("baseline", "--baseline", "--baseline"),
     ("crop", "--crop X,Y,W,H", "crop = [X, Y, W, H]"),
     ("fps", "--fps", "fps"),
     ("frames", "--frames A..B", "frames = \"A..B\" (or --frames A..B)"),

@@ -1,14 +1,14 @@
-//! Reading an experiment file for a command; what is wrong with it is shown in its own lines.
+//! Reading an experiment file for a command, and saying what is wrong: with a file in its own lines.
 
 use std::path::Path;
 
-use fovqa_config::{ExperimentError, Fault};
-use fovqa_plan::{CurvesFile, Experiment};
+use fovqa::{Complaint, CurvesFile, Experiment, ExperimentError, Fault};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
 };
 
 use crate::diagnostic;
+use crate::dialect::Dialect;
 use crate::exit::Exit;
 
 /// Mistakes that are shown in full; the others are counted.
@@ -19,34 +19,45 @@ const LONGEST_LINE: usize = 400;
 
 /// The experiment; what is wrong with it has been said otherwise.
 pub(crate) fn read(path: &Path) -> Result<Experiment, Exit> {
-    if matches!(fovqa_config::is_curves(path), Ok(true)) {
-        let message = format!("{}: this is a file of curves", path.display());
-        diagnostic::error(&message, "`fovqa curves` draws it, and `fovqa check` checks it");
-        return Err(Exit::Usage);
-    }
-    said(fovqa_config::read_experiment(path))
+    fovqa::read_experiment(path).map_err(|error| failed(&error))
 }
 
 /// A file of curves; what is wrong with it has been said otherwise.
 pub(crate) fn read_curves(path: &Path) -> Result<CurvesFile, Exit> {
-    said(fovqa_config::read_curves(path))
+    fovqa::read_curves(path).map_err(|error| failed(&error))
 }
 
-fn said<T>(read: Result<T, ExperimentError>) -> Result<T, Exit> {
-    read.map_err(|error| {
-        match &error {
-            ExperimentError::Unreadable { .. } => {
-                diagnostic::error(&error.to_string(), "give a TOML file, in UTF-8");
-            }
-            ExperimentError::Faults { path, text, faults } => {
-                say(&diagnostic::shown(&path.display().to_string()), text, faults);
-                if faults.len() > 1 {
-                    diagnostic::error(&error.to_string(), "");
-                }
+/// Says why something cannot be done, to a user who writes experiment files.
+pub(crate) fn failed(error: &fovqa::Error) -> Exit {
+    said(error, Dialect::Experiment)
+}
+
+/// Says why something cannot be done, in a user's words.
+pub(crate) fn said(error: &fovqa::Error, dialect: Dialect) -> Exit {
+    match error {
+        fovqa::Error::Experiment(error) => of_file(error),
+        fovqa::Error::Usage(complaints) | fovqa::Error::Input(complaints) => {
+            for Complaint { message, help } in complaints {
+                diagnostic::error(&dialect.spell(message), &dialect.spell(help));
             }
         }
-        Exit::Usage
-    })
+        other => diagnostic::error(&other.to_string(), ""),
+    }
+    if error.is_usage() { Exit::Usage } else { Exit::Input }
+}
+
+fn of_file(error: &ExperimentError) {
+    match error {
+        ExperimentError::Unreadable { .. } => {
+            diagnostic::error(&error.to_string(), "give a TOML file, in UTF-8");
+        }
+        ExperimentError::Faults { path, text, faults } => {
+            say(&diagnostic::shown(&path.display().to_string()), text, faults);
+            if faults.len() > 1 {
+                diagnostic::error(&error.to_string(), "");
+            }
+        }
+    }
 }
 
 fn say(file: &str, text: &str, faults: &[Fault]) {

@@ -2,19 +2,15 @@
 
 use std::path::Path;
 
-use fovqa_plan::{GateRule, Resolved};
+use fovqa::{Given, RunOptions, Verdict, text_hash};
 use fovqa_report::{github_annotations, gitlab_report, junit, markdown, verdict_table};
-use fovqa_results::{
-    Baseline, Lacking, State, Verdict, calibrate, write_verdict_json, write_whole,
-};
+use fovqa_results::{State, write_verdict_json, write_whole};
 
-use crate::args::{Annotations, GateArgs, GateFormat, RunArgs};
-use crate::diagnostic;
+use crate::args::{Annotations, GateArgs, GateFormat};
+use crate::dialect::Dialect;
 use crate::exit::Exit;
-use crate::finished_run::FinishedRun;
-use crate::results::{Shown, text_hash};
-use crate::run::{say_problems, scored};
-use crate::{experiment, output};
+use crate::progress::Terminal;
+use crate::{diagnostic, experiment, output, threads};
 
 pub(crate) fn run(args: &GateArgs) -> Exit {
     let gated = if args.calibrate.is_empty() { gate(args) } else { propose(args) };
@@ -22,23 +18,7 @@ pub(crate) fn run(args: &GateArgs) -> Exit {
 }
 
 fn gate(args: &GateArgs) -> Result<Exit, Exit> {
-    let (finished, baseline) =
-        if args.target.is_dir() { of_folder(args)? } else { of_experiment(args)? };
-    let rules = &finished.record.resolved.gates;
-    let file = if args.target.is_dir() {
-        finished.record.experiment.file.clone()
-    } else {
-        args.target.display().to_string()
-    };
-    let names = (finished.record.resolved.name.as_str(), file.as_str());
-    let mut verdict = Verdict::of(names, rules, &finished.values, baseline.as_ref());
-    if let Some(baseline) = &baseline {
-        let other = baseline.other_inputs(&finished.record, &text_hash).into_iter();
-        verdict.notes.extend(other.map(|folder| {
-            let folder = if folder.is_empty() { ".".to_owned() } else { folder };
-            format!("the inputs in {folder} are others than those of the baseline")
-        }));
-    }
+    let verdict = if args.target.is_dir() { of_folder(args)? } else { of_experiment(args)? };
     let printed = print(args, &verdict);
     let written = write_files(args, &verdict);
     let judged = match verdict.state() {
@@ -50,8 +30,8 @@ fn gate(args: &GateArgs) -> Result<Exit, Exit> {
     Ok(judged.or_worse(printed).or_worse(written))
 }
 
-/// A run that is finished, and the baseline it is held against.
-fn of_folder(args: &GateArgs) -> Result<(FinishedRun, Option<Baseline>), Exit> {
+/// The verdict of a run that is finished.
+fn of_folder(args: &GateArgs) -> Result<Verdict, Exit> {
     let options = [
         ("--output", args.output.is_some()),
         ("--frames", args.frames.is_some()),
@@ -64,81 +44,26 @@ fn of_folder(args: &GateArgs) -> Result<(FinishedRun, Option<Baseline>), Exit> {
         diagnostic::error(&message, "leave it out, or give the experiment file");
         return Err(Exit::Usage);
     }
-    let finished = FinishedRun::read(&args.target)?;
-    let resolved = &finished.record.resolved;
-    let file = args.target.join(&finished.record.experiment.file);
-    check(&resolved.gates, &file, args)?;
-    let baseline = fitting(args, resolved)?;
-    Ok((finished, baseline))
+    fovqa::gate_folder(&args.target, args.baseline.as_deref())
+        .map_err(|error| experiment::failed(&error))
 }
 
-/// An experiment, scored. What is wrong with it comes before what cannot be read.
-fn of_experiment(args: &GateArgs) -> Result<(FinishedRun, Option<Baseline>), Exit> {
+/// The verdict of an experiment, which is scored.
+fn of_experiment(args: &GateArgs) -> Result<Verdict, Exit> {
     let experiment = experiment::read(&args.target)?;
-    check(&experiment.gates, &args.target, args)?;
-    let mut resolved = experiment.resolved();
-    resolved.frames = args.frames.map(|frames| frames.to_string());
-    let found = args
-        .baseline
-        .as_ref()
-        .map(|_| fovqa_engine::find(&experiment.plan, &fovqa_engine::Given::default()));
-    if let Some(found) = found.filter(|f| f.problems.iter().any(|p| p.error.is_usage())) {
-        say_problems(&experiment, &found);
-        return Err(Exit::Usage);
-    }
-    // Before anything is scored.
-    let baseline = fitting(args, &resolved)?;
-    Ok((score(args)?, baseline))
-}
-
-/// Whether there are rules, and what they need.
-fn check(rules: &[GateRule], file: &Path, args: &GateArgs) -> Result<(), Exit> {
-    let file = file.display();
-    if rules.is_empty() {
-        let message = format!("{file}: there is no [[gate]] in it, and no rule is no pass");
-        diagnostic::error(&message, "write a rule, such as metric = \"psnr\" with at_least = 30");
-        return Err(Exit::Usage);
-    }
-    if let Some(rule) = rules.iter().find(|rule| rule.needs_baseline())
-        && args.baseline.is_none()
-    {
-        let message = format!("{file}:{}: {} is held against a baseline", rule.line, rule.quantity);
-        diagnostic::error(&message, "give it with --baseline; `fovqa baseline save` makes one");
-        return Err(Exit::Usage);
-    }
-    Ok(())
-}
-
-/// The baseline, where one is given, if it is of what is scored.
-fn fitting(args: &GateArgs, run: &Resolved) -> Result<Option<Baseline>, Exit> {
-    let Some(path) = args.baseline.as_deref() else { return Ok(None) };
-    let baseline = Baseline::read(path).map_err(|error| {
-        diagnostic::error(&error.to_string(), "`fovqa baseline save` makes one of a run");
-        Exit::Input
-    })?;
-    let Some(why) = baseline.refuses(run) else { return Ok(Some(baseline)) };
-    let file = path.display();
-    let message = format!("{file}: the baseline is of values that were taken otherwise: {why}");
-    diagnostic::error(&message, "run the experiment, look at it, and `fovqa baseline accept` it");
-    Err(Exit::Input)
-}
-
-/// Scores the experiment.
-fn score(args: &GateArgs) -> Result<FinishedRun, Exit> {
-    let run = RunArgs {
-        experiment: args.target.clone(),
+    threads::started(args.threads)?;
+    let options = RunOptions {
         output: args.output.clone(),
         resume: args.resume,
         shard: None,
         frames: args.frames,
         maps: args.maps.clone(),
-        threads: args.threads,
-        lock: args.lock.clone(),
+        locking: args.lock.locking(),
     };
-    match scored(&run, Shown::Nothing) {
-        (Some(folder), Exit::Done | Exit::Input) => FinishedRun::read(&folder),
-        (_, exit) => Err(exit),
-    }
+    let terminal = Terminal::speaking(Dialect::Experiment);
+    let baseline = args.baseline.as_deref();
+    fovqa::gate(experiment, options, baseline, &Given::default(), &terminal)
+        .map_err(|error| experiment::failed(&error))
 }
 
 /// Each file that is asked for, whatever becomes of the others.
@@ -184,39 +109,10 @@ fn print(args: &GateArgs, verdict: &Verdict) -> Exit {
 
 /// Prints limits that come from repeated runs.
 fn propose(args: &GateArgs) -> Result<Exit, Exit> {
-    let experiment = experiment::read(&args.target)?;
-    if experiment.gates.is_empty() {
-        let message = format!("{}: there is no [[gate]] in it", args.target.display());
-        let help = "name what is to be limited: [[gate]] with a metric, and any limit";
-        diagnostic::error(&message, help);
-        return Err(Exit::Usage);
-    }
-    if args.calibrate.len() < 2 {
-        let message = "one run alone says nothing of how values vary";
-        diagnostic::error(message, "give the folders of several runs of one build");
-        return Err(Exit::Usage);
-    }
-    let mut resolved = experiment.resolved();
-    resolved.frames = args.frames.map(|frames| frames.to_string());
-    let mut runs = Vec::new();
-    for folder in &args.calibrate {
-        let run = FinishedRun::read(folder)?;
-        let other = run.record.resolved.differs(&resolved);
-        if let Some(why) = other.or_else(|| run.values.errors.first().cloned()) {
-            let message = format!("{}: no limits come of it: {why}", folder.display());
-            diagnostic::error(&message, "run the experiment again");
-            return Err(Exit::Input);
-        }
-        runs.push((folder.display().to_string(), run.values));
-    }
-    let calibration = calibrate(&experiment.gates, &runs).map_err(|lacking| {
-        diagnostic::error(&lacking.to_string(), "mend the rule, or run the experiment again");
-        if matches!(lacking, Lacking::Band(_)) { Exit::Usage } else { Exit::Input }
-    })?;
-    if calibration.proposals.is_empty() {
-        diagnostic::error("the runs have nothing that the rules are of", "check the rules");
-        return Err(Exit::Input);
-    }
+    let mut experiment = experiment::read(&args.target)?;
+    experiment.plan.frames = args.frames;
+    let calibration = fovqa::calibrate(&experiment, &args.calibrate)
+        .map_err(|error| experiment::failed(&error))?;
     if calibration.proposals.iter().all(|proposal| proposal.spread() == 0.0) {
         diagnostic::warning(
             "the runs are the same to the last digit, and say nothing of how values vary: calibrate with renders of other seeds",

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 use std::io::IsTerminal;
 
-use fovqa_engine::Events;
+use fovqa::Events;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::diagnostic;
@@ -20,13 +20,6 @@ impl Terminal {
     /// Speaks to a user in these words.
     pub(crate) fn speaking(dialect: Dialect) -> Self {
         Self { dialect, ..Self::default() }
-    }
-
-    /// Takes the bar off the screen.
-    pub(crate) fn finish(&self) {
-        if let Some(bar) = self.bar.get() {
-            bar.finish_and_clear();
-        }
     }
 }
 
@@ -49,5 +42,20 @@ impl Events for Terminal {
                 .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
         bar.set_position(done as u64);
+    }
+
+    /// Takes the bar off the screen.
+    fn finish(&self) {
+        if let Some(bar) = self.bar.get() {
+            bar.finish_and_clear();
+        }
+    }
+
+    fn failure(&self, message: &str, help: &str) {
+        diagnostic::error(&self.dialect.spell(message), &self.dialect.spell(help));
+    }
+
+    fn note(&self, message: &str) {
+        diagnostic::note(message);
     }
 }

@@ -1,27 +1,21 @@
 //! `fovqa score`: plan, run, results.
 
-use fovqa_engine::EngineError;
-use fovqa_plan::Plan;
-use fovqa_results::{ScoreReport, write_csv, write_json};
+use fovqa::{Given, write_csv, write_json};
 
 use crate::args::{Format, ScoreArgs};
 use crate::diagnostic;
 use crate::dialect::Dialect;
 use crate::exit::Exit;
-use crate::heat_maps::HeatMaps;
-use crate::output;
 use crate::progress::Terminal;
-use crate::threads;
+use crate::{experiment, output, threads};
 
 /// Of a great many failures, as many as a terminal holds.
 const FAILURES_SHOWN: usize = 20;
 
 pub(crate) fn run(args: ScoreArgs) -> Exit {
-    let format = args.format;
-    let maps = args.maps.clone().map(|folder| HeatMaps::new(folder, false));
-    if let Err(message) = threads::start(args.threads) {
-        diagnostic::error(&message, "ask for fewer");
-        return Exit::Usage;
+    let (format, maps) = (args.format, args.maps.clone());
+    if let Err(exit) = threads::started(args.threads) {
+        return exit;
     }
     let plan = match args.plan() {
         Ok(plan) => plan,
@@ -30,12 +24,10 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
             return Exit::Usage;
         }
     };
-    let report = match score(&plan, maps.as_ref()) {
+    let terminal = Terminal::default();
+    let report = match fovqa::score_files(&plan, &Given::default(), maps.as_deref(), &terminal) {
         Ok(report) => report,
-        Err(error) => {
-            diagnostic::error(&error.to_string(), &Dialect::Options.spell(&error.help()));
-            return if error.is_usage() { Exit::Usage } else { Exit::Input };
-        }
+        Err(error) => return experiment::said(&error, Dialect::Options),
     };
     for failure in report.failures.iter().take(FAILURES_SHOWN) {
         let frame = match failure.frame {
@@ -64,19 +56,4 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
         })
     };
     if report.failures.is_empty() { written } else { Exit::Input }
-}
-
-/// One reference against one test: whatever is wrong with the whole of it ends the run.
-fn score(plan: &Plan, maps: Option<&HeatMaps>) -> Result<ScoreReport, EngineError> {
-    fovqa_engine::check(plan)?;
-    let mut found = fovqa_engine::find(plan, &fovqa_engine::Given::default());
-    if let Some(problem) = found.problems.pop() {
-        return Err(problem.error);
-    }
-    let terminal = Terminal::default();
-    let results = fovqa_engine::run(plan, &found, &terminal, &mut |entry| {
-        maps.map_or(Ok(()), |maps| maps.write(&entry))
-    });
-    terminal.finish();
-    Ok(results?.comparisons.pop().map(|comparison| comparison.report).unwrap_or_default())
 }

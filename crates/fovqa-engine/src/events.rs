@@ -9,6 +9,15 @@ pub trait Events {
 
     /// `done` of `total` frames are through.
     fn progress(&self, done: usize, total: usize);
+
+    /// All frames are through.
+    fn finish(&self) {}
+
+    /// Something that could not be done, while the rest goes on: what, where, and how to mend it.
+    fn failure(&self, _message: &str, _help: &str) {}
+
+    /// Something worth knowing.
+    fn note(&self, _message: &str) {}
 }
 
 /// Warnings that are said once, whatever number of frames they are true of.

@@ -75,10 +75,6 @@ pub(crate) struct ScoreArgs {
 impl ScoreArgs {
     /// The plan; the error is a wrong command line.
     pub(crate) fn plan(self) -> Result<Plan, String> {
-        let lacking = crate::heat_maps::lacking(self.metrics.choice().metrics());
-        if let Some(message) = lacking.filter(|_| self.maps.is_some()) {
-            return Err(message);
-        }
         let (motion_files, depth_files) = self.guides.files();
         let settings = Settings {
             guides: self.guides.options(),

@@ -1,4 +1,4 @@
-//! `--maps DIR`: maps of each frame, as files: the values, and their pictures in colours.
+//! Maps of each frame, as files: the values, and their pictures in colours.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -10,13 +10,13 @@ use fovqa_results::{FileError, FrameResult, write_whole};
 
 /// A folder for maps.
 #[derive(Debug)]
-pub(crate) struct HeatMaps {
+pub(crate) struct MapsFolder {
     folder: PathBuf,
     /// Whether frames of several comparisons meet there, each in a folder of its own.
     several: bool,
 }
 
-impl HeatMaps {
+impl MapsFolder {
     pub(crate) fn new(folder: PathBuf, several: bool) -> Self {
         Self { folder, several }
     }
@@ -69,12 +69,12 @@ impl HeatMaps {
 }
 
 /// Why maps cannot be asked for: none of the metrics has one.
-pub(crate) fn lacking(metrics: &[Metric]) -> Option<String> {
+pub fn maps_lacking(metrics: &[Metric]) -> Option<String> {
     let has = |metric: &Metric| metric.info().map.is_some();
     (!metrics.iter().any(has)).then(|| {
         let all = Metric::ALL.into_iter().filter(has).map(Metric::key);
         format!(
-            "--maps: none of the metrics has a map; these have one: {}",
+            "{{maps}}: none of the metrics has a map; these have one: {}",
             all.collect::<Vec<_>>().join(", ")
         )
     })

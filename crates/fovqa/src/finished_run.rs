@@ -5,19 +5,23 @@ use std::path::Path;
 use fovqa_engine::shard_in;
 use fovqa_results::{FileError, RUN_JSON, RUN_SCHEMA, RunRecord, RunValues, read_json_file};
 
-use crate::diagnostic;
-use crate::exit::Exit;
+use crate::error::Error;
 
 /// What a run was of, and what it found.
 #[derive(Debug)]
-pub(crate) struct FinishedRun {
-    pub(crate) record: RunRecord,
-    pub(crate) values: RunValues,
+pub struct FinishedRun {
+    /// What it was of.
+    pub record: RunRecord,
+    /// Its values.
+    pub values: RunValues,
 }
 
 impl FinishedRun {
-    /// Reads a folder; what is wrong with it has been said otherwise.
-    pub(crate) fn read(folder: &Path) -> Result<Self, Exit> {
+    /// Reads the folder of a run.
+    ///
+    /// # Errors
+    /// When there is no finished run in it, or it is damaged.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
         if !folder.join(RUN_JSON).is_file() {
             let shown = folder.display();
             let (message, help) = match shard_in(folder) {
@@ -30,16 +34,12 @@ impl FinishedRun {
                     "give the folder that `fovqa run` wrote to",
                 ),
             };
-            diagnostic::error(&message, help);
-            return Err(Exit::Input);
+            return Err(Error::input(message, help));
         }
         let read = || -> Result<Self, FileError> {
             let record = read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
             Ok(Self { record, values: RunValues::read(folder)? })
         };
-        read().map_err(|error| {
-            diagnostic::error(&error.to_string(), "run the experiment again");
-            Exit::Input
-        })
+        read().map_err(|error| Error::input(error.to_string(), "run the experiment again"))
     }
 }

@@ -1,0 +1,87 @@
+//! Baselines: what a gate compares with.
+
+use std::path::Path;
+
+use fovqa_results::{Baseline, Difference, write_json_file};
+
+use crate::error::Error;
+use crate::finish::text_hash;
+use crate::finished_run::FinishedRun;
+
+/// Reads a baseline.
+///
+/// # Errors
+/// When there is none in the file.
+pub fn read_baseline(path: &Path) -> Result<Baseline, Error> {
+    Baseline::read(path).map_err(|error| {
+        Error::input(error.to_string(), "`fovqa baseline save` makes one of a run")
+    })
+}
+
+/// The baseline of a run in which everything was scored.
+fn of_run(results: &Path) -> Result<Baseline, Error> {
+    let finished = FinishedRun::read(results)?;
+    if let Some(error) = finished.values.errors.first() {
+        let message = format!("{}: not everything was scored: {error}", results.display());
+        let help = "a baseline is of a whole run: mend the inputs and run again";
+        return Err(Error::input(message, help));
+    }
+    let rules = &finished.record.resolved.gates;
+    Ok(Baseline::of(&finished.record, &finished.values, rules, &text_hash))
+}
+
+fn write(baseline: &Baseline, path: &Path) -> Result<(), Error> {
+    write_json_file(path, baseline)
+        .map_err(|error| Error::input(error.to_string(), "give another file"))
+}
+
+/// Saves the values of a run as a baseline, in a file that is not there yet.
+///
+/// # Errors
+/// When it is there, or not everything was scored.
+pub fn save_baseline(results: &Path, path: &Path) -> Result<Baseline, Error> {
+    if path.exists() {
+        let message = format!("{}: it is there already", path.display());
+        let help = "`fovqa baseline accept` shows what differs and renews it";
+        return Err(Error::input(message, help));
+    }
+    let baseline = of_run(results)?;
+    write(&baseline, path)?;
+    Ok(baseline)
+}
+
+/// A baseline renewed, and not written yet.
+#[derive(Debug)]
+pub struct Accepted {
+    baseline: Baseline,
+    /// What differs.
+    pub differences: Vec<Difference>,
+    /// Why the values of the run were taken otherwise than those before.
+    pub taken_otherwise: Option<String>,
+}
+
+/// What a baseline becomes with the values of a run: of all its scenes, or of some.
+///
+/// # Errors
+/// When one of them cannot be read, or the two do not fit.
+pub fn accept_baseline(results: &Path, path: &Path, scenes: &[String]) -> Result<Accepted, Error> {
+    let before = read_baseline(path)?;
+    let new = of_run(results)?;
+    let baseline = before.accepting(&new, scenes).map_err(|why| {
+        let message = format!("{}: {why}", path.display());
+        Error::input(message, "accept all of the run, without --scene")
+    })?;
+    let taken_otherwise = before.refuses(&new.resolved);
+    let differences = before.differences(&new, scenes);
+    Ok(Accepted { baseline, differences, taken_otherwise })
+}
+
+impl Accepted {
+    /// Writes it.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
+        write(&self.baseline, path)
+    }
+}

@@ -1,0 +1,41 @@
+//! Files of curves, drawn.
+
+use std::path::{Path, PathBuf};
+
+use fovqa_engine::{Events, Locking, ResultsFolder};
+use fovqa_plan::CurvesFile;
+use fovqa_report::DrawnCurves;
+use fovqa_shading::trace_all;
+
+use crate::error::Error;
+use crate::finish::in_folder;
+
+/// Traces the curves of a file, and writes its values, figures and tables into a folder: `output`, or
+/// `reports/NAME` below the working directory, NAME being the file's.
+///
+/// # Errors
+/// When a curve cannot be, or the folder cannot be written to.
+pub fn curves(
+    file: &CurvesFile,
+    output: Option<&Path>,
+    locking: Locking,
+    events: &dyn Events,
+) -> Result<(PathBuf, DrawnCurves), Error> {
+    let folder = output.map_or_else(|| Path::new("reports").join(&file.name), Path::to_owned);
+    let curves = trace_all(&file.plan)
+        .map_err(|error| Error::usage(format!("{}: {error}", file.name), ""))?;
+    let folder =
+        ResultsFolder::open_for_curves(&folder, locking).map_err(|error| in_folder(&error))?;
+    folder.clear().map_err(|error| in_folder(&error))?;
+    let drawn = fovqa_report::draw_curves(folder.path(), file, &curves).map_err(|error| {
+        Error::input(error.to_string(), "free some space, or give another folder with {output}")
+    })?;
+    let mut notes: Vec<&String> = Vec::new();
+    for note in curves.iter().flat_map(|curve| &curve.notes) {
+        if !notes.contains(&note) {
+            notes.push(note);
+            events.note(note);
+        }
+    }
+    Ok((folder.path().to_owned(), drawn))
+}

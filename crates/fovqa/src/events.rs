@@ -1,0 +1,27 @@
+//! Whoever listens to what is said on the way.
+
+use std::cell::RefCell;
+
+use fovqa_engine::Events;
+
+/// Nobody.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Silent;
+
+impl Events for Silent {
+    fn warn(&self, _message: &str) {}
+
+    fn progress(&self, _done: usize, _total: usize) {}
+}
+
+/// Keeps what is said.
+#[derive(Debug, Default)]
+pub(crate) struct Kept(pub(crate) RefCell<Vec<String>>);
+
+impl Events for Kept {
+    fn warn(&self, message: &str) {
+        self.0.borrow_mut().push(message.to_owned());
+    }
+
+    fn progress(&self, _done: usize, _total: usize) {}
+}

@@ -1,0 +1,28 @@
+//! Experiment files.
+
+use std::path::Path;
+
+use fovqa_plan::{CurvesFile, Experiment};
+
+use crate::error::Error;
+
+/// Reads an experiment file. No other file is looked at.
+///
+/// # Errors
+/// When it cannot be read, or has mistakes in it: all that can be told, in one go.
+pub fn read_experiment(path: &Path) -> Result<Experiment, Error> {
+    if matches!(fovqa_config::is_curves(path), Ok(true)) {
+        let message = format!("{}: this is a file of curves", path.display());
+        let help = "`fovqa curves` draws it, and `fovqa check` checks it";
+        return Err(Error::usage(message, help));
+    }
+    Ok(fovqa_config::read_experiment(path)?)
+}
+
+/// Reads a file of curves. No other file is looked at.
+///
+/// # Errors
+/// When it cannot be read, or has mistakes in it.
+pub fn read_curves(path: &Path) -> Result<CurvesFile, Error> {
+    Ok(fovqa_config::read_curves(path)?)
+}

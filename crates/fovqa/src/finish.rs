@@ -1,0 +1,115 @@
+//! What is left to do once everything is scored: files, tables, figures.
+
+use std::path::Path;
+
+use fovqa_engine::{Events, FolderError, Named, ResultsFolder};
+use fovqa_io::id_of;
+use fovqa_plan::{Experiment, Eye};
+use fovqa_report::Drawn;
+use fovqa_results::{
+    ExperimentRecord, Failure, FileError, RESULTS_CSV, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
+    SUMMARY_JSON, SummaryRecord, write_json_file, write_results_csv, write_whole_with,
+};
+
+use crate::error::Error;
+
+/// Takes away what an earlier run has left, so that it cannot be taken for this one's.
+pub(crate) fn clear(folder: &ResultsFolder) -> Result<(), Error> {
+    folder.clear().map_err(|error| in_folder(&error))?;
+    fovqa_report::clear(folder.path());
+    Ok(())
+}
+
+/// An error of a folder of results.
+pub(crate) fn in_folder(error: &FolderError) -> Error {
+    Error::input(error.to_string(), error.help())
+}
+
+/// Writes the results and draws them; how many errors there were, and what was drawn. What could not be
+/// scored is said.
+pub(crate) fn finish(
+    experiment: &Experiment,
+    results: &RunResults,
+    folder: &ResultsFolder,
+    events: &dyn Events,
+) -> Result<(usize, Drawn), Error> {
+    let summary = SummaryRecord::of(&experiment.name, results);
+    let failures = results.comparisons.iter().flat_map(|comparison| {
+        let eye = Some(comparison.eye).filter(|eye| !eye.is_empty());
+        let place = [Some(comparison.scene.as_str()), Some(&comparison.method), eye];
+        comparison.report.failures.iter().map(move |failure| (place, failure))
+    });
+    say_failures(failures, "summary.json", events);
+    if let Err(error) = write(experiment, results, &summary, folder.path()) {
+        let help = "free some space, or give another folder with {output}; {resume} goes on with what is scored";
+        return Err(Error::input(error.to_string(), help));
+    }
+    let drawn = fovqa_report::draw(folder.path())
+        .map_err(|error| Error::input(error.to_string(), DRAW_AGAIN))?;
+    Ok((summary.errors.len(), drawn))
+}
+
+/// The SHA-256 of a text.
+pub fn text_hash(text: &str) -> String {
+    // Reading from memory does not fail.
+    id_of(text.as_bytes()).map(|id| id.sha256).unwrap_or_default()
+}
+
+/// What is left to do when only the drawing failed.
+const DRAW_AGAIN: &str = "the results are written: mend this, and `fovqa report` draws them";
+
+/// Says what could not be scored of a shard, which has no results of its own.
+pub(crate) fn say_failures_of_shard(failures: &[(Named<'_>, &Failure)], events: &dyn Events) {
+    let place = |named: &Named<'_>| {
+        let (scene, method) = (named.scene.to_owned(), named.method.to_owned());
+        [Some(scene), Some(method), named.eye.map(|eye| Eye::name(eye).to_owned())]
+    };
+    let failures = failures.iter().map(|(named, failure)| (place(named), *failure));
+    say_failures(failures, "its journal", events);
+}
+
+/// Says what could not be scored; of a great many, the first.
+fn say_failures<'a, T: AsRef<str>>(
+    failures: impl Iterator<Item = ([Option<T>; 3], &'a Failure)>,
+    all: &str,
+    events: &dyn Events,
+) {
+    const SHOWN: usize = 20;
+    let mut more = 0;
+    for (nth, (place, failure)) in failures.enumerate() {
+        if nth >= SHOWN {
+            more += 1;
+            continue;
+        }
+        let place = place.iter().flatten().map(|name| name.as_ref().to_owned());
+        let frame = failure.frame.map(|frame| format!("frame {frame}"));
+        let place: Vec<String> = place.chain(frame).collect();
+        events.failure(&format!("{}: {}", place.join(", "), failure.message), &failure.help);
+    }
+    if more > 0 {
+        events.note(&format!("{more} more errors stand in {all}"));
+    }
+}
+
+fn write(
+    experiment: &Experiment,
+    results: &RunResults,
+    summary: &SummaryRecord,
+    folder: &Path,
+) -> Result<(), FileError> {
+    write_whole_with(&folder.join(RESULTS_CSV), |out| write_results_csv(results, out))?;
+    write_json_file(&folder.join(SUMMARY_JSON), summary)?;
+    let file = experiment.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let record = RunRecord {
+        schema: RUN_SCHEMA.to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        experiment: ExperimentRecord {
+            file,
+            sha256: text_hash(&experiment.text),
+            text: experiment.text.clone(),
+        },
+        resolved: experiment.resolved(),
+        inputs: results.inputs.clone(),
+    };
+    write_json_file(&folder.join(RUN_JSON), &record)
+}

@@ -1,0 +1,136 @@
+//! A gate: the rules of an experiment held against the values of a run.
+
+use std::path::{Path, PathBuf};
+
+use fovqa_engine::{Events, Given};
+use fovqa_plan::{Experiment, GateRule, Resolved};
+use fovqa_results::{Baseline, Calibration, Lacking, Verdict, calibrate as proposals};
+
+use crate::error::Error;
+use crate::finish::text_hash;
+use crate::finished_run::FinishedRun;
+use crate::run::{Run, RunOptions};
+
+/// Scores an experiment and holds its rules against what comes out, and that against a baseline where one is
+/// given. `file` is what the verdict calls the experiment's file.
+///
+/// # Errors
+/// When there is no rule, a rule lacks its baseline, the baseline is of values that were taken otherwise, or
+/// the run cannot be. Frames that could not be scored are said, and stand in the verdict.
+pub fn gate(
+    experiment: Experiment,
+    options: RunOptions,
+    baseline: Option<&Path>,
+    given: &Given,
+    events: &dyn Events,
+) -> Result<Verdict, Error> {
+    let file = experiment.path.clone();
+    check(&experiment.gates, &file, baseline)?;
+    let run = Run::new(experiment, options, given)?;
+    // Before anything is scored.
+    let baseline = fitting(baseline, &run.experiment().resolved())?;
+    let scored = run.start(events)?;
+    events.note(&scored.in_words());
+    if let Some(errors) = scored.errors_in_words() {
+        events.failure(&errors, "");
+    }
+    let finished = FinishedRun::read(&scored.folder)?;
+    Ok(judge(&finished, &file.display().to_string(), baseline.as_ref()))
+}
+
+/// Holds the rules of a finished run against its values.
+///
+/// # Errors
+/// As [`gate`], and when there is no finished run in the folder.
+pub fn gate_folder(folder: &Path, baseline: Option<&Path>) -> Result<Verdict, Error> {
+    let finished = FinishedRun::read(folder)?;
+    let resolved = &finished.record.resolved;
+    let file = folder.join(&finished.record.experiment.file);
+    check(&resolved.gates, &file, baseline)?;
+    let baseline = fitting(baseline, resolved)?;
+    Ok(judge(&finished, &finished.record.experiment.file, baseline.as_ref()))
+}
+
+fn judge(finished: &FinishedRun, file: &str, baseline: Option<&Baseline>) -> Verdict {
+    let resolved = &finished.record.resolved;
+    let names = (resolved.name.as_str(), file);
+    let mut verdict = Verdict::of(names, &resolved.gates, &finished.values, baseline);
+    if let Some(baseline) = baseline {
+        let other = baseline.other_inputs(&finished.record, &text_hash).into_iter();
+        verdict.notes.extend(other.map(|folder| {
+            let folder = if folder.is_empty() { ".".to_owned() } else { folder };
+            format!("the inputs in {folder} are others than those of the baseline")
+        }));
+    }
+    verdict
+}
+
+/// Whether there are rules, and what they need.
+fn check(rules: &[GateRule], file: &Path, baseline: Option<&Path>) -> Result<(), Error> {
+    let file = file.display();
+    if rules.is_empty() {
+        let message = format!("{file}: there is no [[gate]] in it, and no rule is no pass");
+        let help = "write a rule, such as metric = \"psnr\" with at_least = 30";
+        return Err(Error::usage(message, help));
+    }
+    if let Some(rule) = rules.iter().find(|rule| rule.needs_baseline())
+        && baseline.is_none()
+    {
+        let message = format!("{file}:{}: {} is held against a baseline", rule.line, rule.quantity);
+        let help = "give it with {baseline}; `fovqa baseline save` makes one";
+        return Err(Error::usage(message, help));
+    }
+    Ok(())
+}
+
+/// The baseline, where one is given, if it is of what is scored.
+fn fitting(path: Option<&Path>, run: &Resolved) -> Result<Option<Baseline>, Error> {
+    let Some(path) = path else { return Ok(None) };
+    let baseline = Baseline::read(path).map_err(|error| {
+        Error::input(error.to_string(), "`fovqa baseline save` makes one of a run")
+    })?;
+    let Some(why) = baseline.refuses(run) else { return Ok(Some(baseline)) };
+    let file = path.display();
+    let message = format!("{file}: the baseline is of values that were taken otherwise: {why}");
+    let help = "run the experiment, look at it, and `fovqa baseline accept` it";
+    Err(Error::input(message, help))
+}
+
+/// Limits for the rules of an experiment, from the spread of repeated runs of one build.
+///
+/// # Errors
+/// When there are fewer than two runs, they are of something else, or have nothing that the rules are of.
+pub fn calibrate(experiment: &Experiment, folders: &[PathBuf]) -> Result<Calibration, Error> {
+    if experiment.gates.is_empty() {
+        let message = format!("{}: there is no [[gate]] in it", experiment.path.display());
+        let help = "name what is to be limited: [[gate]] with a metric, and any limit";
+        return Err(Error::usage(message, help));
+    }
+    if folders.len() < 2 {
+        let message = "one run alone says nothing of how values vary";
+        return Err(Error::usage(message, "give the folders of several runs of one build"));
+    }
+    let resolved = experiment.resolved();
+    let mut runs = Vec::new();
+    for folder in folders {
+        let run = FinishedRun::read(folder)?;
+        let other = run.record.resolved.differs(&resolved);
+        if let Some(why) = other.or_else(|| run.values.errors.first().cloned()) {
+            let message = format!("{}: no limits come of it: {why}", folder.display());
+            return Err(Error::input(message, "run the experiment again"));
+        }
+        runs.push((folder.display().to_string(), run.values));
+    }
+    let calibration = proposals(&experiment.gates, &runs).map_err(|lacking| {
+        let (message, help) = (lacking.to_string(), "mend the rule, or run the experiment again");
+        if matches!(lacking, Lacking::Band(_)) {
+            Error::usage(message, help)
+        } else {
+            Error::input(message, help)
+        }
+    })?;
+    if calibration.proposals.is_empty() {
+        return Err(Error::input("the runs have nothing that the rules are of", "check the rules"));
+    }
+    Ok(calibration)
+}

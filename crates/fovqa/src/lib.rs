@@ -1,0 +1,106 @@
+//! Scores foveated renders against ground truth, by eccentricity: what the command `fovqa` does, for programs.
+//!
+//! # A pair of pictures
+//!
+//! [`score`] compares two pictures in memory. The numbers are those of `fovqa score`, to the last bit.
+//!
+//! ```
+//! use fovqa::{Metric, ScoreOptions, Settings, ViewSpec, score};
+//! use ndarray::Array3;
+//!
+//! // Height x width x channel, 8-bit codes. The test lacks detail in its left half.
+//! let reference = Array3::from_shape_fn((64, 96, 3), |(y, x, c)| ((x * 7 + y * 5 + c * 11) % 256) as u8);
+//! let mut test = reference.clone();
+//! for ((_, x, _), code) in test.indexed_iter_mut() {
+//!     if x < 48 {
+//!         *code = *code / 16 * 16;
+//!     }
+//! }
+//!
+//! let view = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(60.0) };
+//! let settings = Settings { view: Some(view), ..Settings::default() };
+//! let scores = score(reference.view(), test.view(), &ScoreOptions { settings, ..ScoreOptions::default() })?;
+//!
+//! let psnr = scores.value(Metric::Psnr).expect("it is scored by default");
+//! assert!((30.0..35.0).contains(&psnr), "{psnr} dB");
+//! # Ok::<(), fovqa::Error>(())
+//! ```
+//!
+//! # Experiments
+//!
+//! An experiment names scenes, methods and metrics. [`read_experiment`] reads one from a TOML file, and a program
+//! may build one by hand ([`Experiment`], [`Plan`]). A [`Run`] finds its frames and scores them; results, tables
+//! and figures go to a folder, as `fovqa run` writes them. [`gate`] holds the rules of an experiment against
+//! what comes out.
+//!
+//! ```no_run
+//! use std::path::Path;
+//! use fovqa::{Given, Run, RunOptions, Silent, read_experiment};
+//!
+//! let experiment = read_experiment(Path::new("first.toml"))?;
+//! let run = Run::new(experiment, RunOptions::default(), &Given::default())?;
+//! let finished = run.start(&Silent)?;
+//! println!("{} frames, results in {}", finished.scored, finished.folder.display());
+//! # Ok::<(), fovqa::Error>(())
+//! ```
+//!
+//! # Frames from elsewhere
+//!
+//! Whatever implements [`Source`] is a sequence of frames: a plan names it ([`SourceSpec::Given`]), and
+//! whoever runs the plan gives it ([`Given`]).
+//!
+//! # Work for other processes
+//!
+//! [`units`] cuts a plan into stretches that can be scored by themselves. A [`Task`] is one of them with its plan;
+//! it is written as JSON, run anywhere that sees the same files, and its findings are written in turn and
+//! put together again ([`TaskFindings::merge`], [`results`]).
+
+mod baseline;
+mod curves;
+mod error;
+mod events;
+mod experiment;
+mod finish;
+mod finished_run;
+mod gate;
+mod maps;
+mod memory;
+mod merge;
+mod pair;
+mod report;
+mod run;
+mod samples;
+mod score;
+
+pub use baseline::{Accepted, accept_baseline, read_baseline, save_baseline};
+pub use curves::curves;
+pub use error::{Complaint, Error};
+pub use events::Silent;
+pub use experiment::{read_curves, read_experiment};
+pub use finish::text_hash;
+pub use finished_run::FinishedRun;
+pub use gate::{calibrate, gate, gate_folder};
+pub use maps::maps_lacking;
+pub use merge::merge;
+pub use pair::{PairScores, ScoreMap, ScoreOptions, score};
+pub use report::{Report, report};
+pub use run::{Finished, Run, RunOptions, problems};
+pub use samples::Sample;
+pub use score::score_files;
+
+pub use fovqa_config::{ExperimentError, Fault};
+pub use fovqa_engine::{
+    Events, Found, FoundView, Given, Locking, Shard, Task, TaskError, TaskFindings, Unit, find,
+    foresee, results, units,
+};
+pub use fovqa_frame::source::{Listing, Picture, Source, SourceError};
+pub use fovqa_frame::{Crop, Frame, SignalChannels, SignalParams, ToneMap, Transfer};
+pub use fovqa_io::ReadOptions;
+pub use fovqa_metrics::{Metric, ParamSet};
+pub use fovqa_params::ParamValue;
+pub use fovqa_plan::{
+    CurvesFile, Experiment, Eye, EyeView, GateRule, Gaze, MetricChoice, Nonfinite, Plan, Scene,
+    Settings, SourceSpec,
+};
+pub use fovqa_results::{Baseline, RunResults, ScoreReport, Verdict, write_csv, write_json};
+pub use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec};

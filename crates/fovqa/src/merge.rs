@@ -1,0 +1,59 @@
+//! The shards of a run to its results.
+
+use std::path::{Path, PathBuf};
+
+use fovqa_engine::{Events, Header, Journal, Locking, ResultsFolder, Shards, results};
+use fovqa_plan::Experiment;
+
+use crate::error::Error;
+use crate::finish::{clear, finish, in_folder};
+use crate::run::Finished;
+
+/// Puts the shards of a run together: what a run of all of it would have written. Neither the experiment file
+/// nor the frames are needed.
+///
+/// # Errors
+/// When shards are missing or do not belong together, or the results cannot be written or drawn.
+pub fn merge(
+    shards: &[PathBuf],
+    output: &Path,
+    locking: Locking,
+    events: &dyn Events,
+) -> Result<Finished, Error> {
+    if let Some(shard) = shards.iter().find(|shard| same(shard, output)) {
+        let message = format!("{}: it is one of the shards", shard.display());
+        return Err(Error::usage(message, "give another folder with {output}"));
+    }
+    let failed = |error: fovqa_engine::MergeError| Error::input(error.to_string(), error.help());
+    let read = Shards::read(shards).map_err(failed)?;
+    let header = read.header();
+    let Some(experiment) = experiment(header) else {
+        let message = format!("{}: its experiment is none", shards[0].display());
+        return Err(Error::input(message, "score its shard again"));
+    };
+    let plan = &experiment.plan;
+    let findings = read.findings(plan).map_err(failed)?;
+    // Nothing is written before all of it is known to be right.
+    let folder = ResultsFolder::open(output, locking).map_err(|error| in_folder(&error))?;
+    clear(&folder)?;
+    Journal::begin(folder.path(), header, plan, &findings)?;
+    let results = results(plan, events, findings);
+    let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
+    let scored = own.map(|comparison| comparison.report.frames.len()).sum();
+    let (errors, drawn) = finish(&experiment, &results, &folder, events)?;
+    Ok(Finished { folder: folder.path().to_owned(), scored, errors, drawn: Some(drawn) })
+}
+
+/// The experiment whose text a journal has.
+fn experiment(header: &Header) -> Option<Experiment> {
+    let path = Path::new(header.experiment_file());
+    let text = header.experiment_text().to_owned();
+    let mut experiment = fovqa_config::parse_experiment(path, text).ok()?;
+    experiment.plan.frames = header.frames().map(str::parse).transpose().ok()?;
+    Some(experiment)
+}
+
+fn same(one: &Path, other: &Path) -> bool {
+    let real = |path: &Path| -> Option<PathBuf> { path.canonicalize().ok() };
+    one == other || real(one).is_some_and(|one| real(other) == Some(one))
+}

@@ -1,0 +1,58 @@
+//! Tables and figures of a finished run, drawn again.
+
+use std::path::Path;
+
+use fovqa_engine::{Locking, ResultsFolder, shard_in};
+use fovqa_report::Drawn;
+use fovqa_results::{CURVES_JSON, RUN_JSON};
+
+use crate::error::Error;
+use crate::finish::in_folder;
+
+/// What was drawn of a folder.
+#[derive(Debug)]
+pub enum Report {
+    /// The tables and figures of a run.
+    Run(Drawn),
+    /// A page over so many folders of results in it.
+    Index(usize),
+}
+
+/// Draws the tables, figures and page of a run again, without scoring; or, of a folder with several such
+/// folders in it, a page over all of them.
+///
+/// # Errors
+/// When there is nothing in it that can be drawn, or it cannot be written to.
+pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
+    let shown = folder.display();
+    if folder.join(CURVES_JSON).is_file() {
+        let message = format!("{shown}: these are curves");
+        let help = "draw them again with `fovqa curves`, from their file";
+        return Err(Error::input(message, help));
+    }
+    if !folder.join(RUN_JSON).is_file() && folder.is_dir() {
+        let index = fovqa_report::draw_index(folder);
+        let index =
+            index.map_err(|error| Error::input(error.to_string(), "mend it or move it away"))?;
+        if let Some(folders) = index {
+            return Ok(Report::Index(folders));
+        }
+    }
+    // Looked at first: a folder that is none of ours must not become one.
+    if !folder.join(RUN_JSON).is_file() {
+        return Err(match shard_in(folder) {
+            Some(shard) => Error::input(
+                format!("{shown}: it has shard {shard} of a run, and no results yet"),
+                "`fovqa merge` puts shards together",
+            ),
+            None => Error::input(
+                format!("{shown}: there is no finished run in it"),
+                "give the folder that `fovqa run` wrote to, or one with such folders in it",
+            ),
+        });
+    }
+    let folder = ResultsFolder::open(folder, locking).map_err(|error| in_folder(&error))?;
+    let drawn = fovqa_report::draw(folder.path());
+    let drawn = drawn.map_err(|error| Error::input(error.to_string(), "run the experiment again"));
+    Ok(Report::Run(drawn?))
+}

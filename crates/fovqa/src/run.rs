@@ -1,0 +1,245 @@
+//! An experiment, run: frames found and scored, results written and drawn. Or one shard of the scores.
+
+use std::path::{Path, PathBuf};
+
+use fovqa_engine::{
+    Entry, Events, Findings, Found, Given, Header, Journal, Locking, NO_MAPS, ResultsFolder, Shard,
+    Unit, results, resume, units,
+};
+use fovqa_io::sequence::FrameRange;
+use fovqa_plan::{Experiment, Eye};
+use fovqa_report::Drawn;
+
+use crate::error::{Complaint, Error};
+use crate::finish::{clear, finish, in_folder, say_failures_of_shard};
+use crate::maps::{MapsFolder, maps_lacking};
+
+/// How an experiment is run.
+#[derive(Debug, Clone, Default)]
+pub struct RunOptions {
+    /// The folder for the results; `None`: `reports/NAME` below the working directory, NAME being the
+    /// experiment's, or `reports/NAME-shard-I-of-N`.
+    pub output: Option<PathBuf>,
+    /// Whether to go on with a run that was broken off.
+    pub resume: bool,
+    /// Only this share of all frames; [`merge`](crate::merge) puts shards together.
+    pub shard: Option<Shard>,
+    /// Only these of each scene's frames.
+    pub frames: Option<FrameRange>,
+    /// A folder for the maps of each frame.
+    pub maps: Option<PathBuf>,
+    /// Whether the folder of the results is locked.
+    pub locking: Locking,
+}
+
+/// An experiment whose frames were found.
+#[derive(Debug)]
+pub struct Run {
+    experiment: Experiment,
+    options: RunOptions,
+    found: Found,
+}
+
+/// How a run ended.
+#[derive(Debug)]
+pub struct Finished {
+    /// The folder of the results.
+    pub folder: PathBuf,
+    /// Frames that were scored.
+    pub scored: usize,
+    /// How many things could not be scored. Each has been said.
+    pub errors: usize,
+    /// What was drawn; `None` of a shard, which has no results of its own.
+    pub drawn: Option<Drawn>,
+}
+
+impl Finished {
+    /// Where its results are, in words.
+    pub fn in_words(&self) -> String {
+        let folder = self.folder.display();
+        let figures = match self.drawn.as_ref().map_or(0, |drawn| drawn.figures) {
+            0 => String::new(),
+            1 => ", 1 figure".to_owned(),
+            n => format!(", {n} figures"),
+        };
+        format!("{folder}: results.csv, summary.json{figures}; look at {folder}/index.html")
+    }
+
+    /// How much of it could not be scored, in words; `None`: all was.
+    pub fn errors_in_words(&self) -> Option<String> {
+        let errors = match self.errors {
+            0 => return None,
+            1 => "1 error".to_owned(),
+            n => format!("{n} errors"),
+        };
+        Some(match self.scored {
+            0 => format!("{errors}, nothing was scored"),
+            scored => format!("{errors}, {scored} frames scored all the same"),
+        })
+    }
+}
+
+impl Run {
+    /// Finds the frames of an experiment. Reads names and gaze traces, no pixels. `given` are the sources
+    /// that its plan names and does not have.
+    ///
+    /// # Errors
+    /// When what was asked for cannot be. Frames that are not there are no error yet: the others are
+    /// scored all the same.
+    pub fn new(experiment: Experiment, options: RunOptions, given: &Given) -> Result<Self, Error> {
+        let mut experiment = experiment;
+        experiment.plan.frames = options.frames;
+        experiment.plan.maps = options.maps.is_some();
+        let lacking = maps_lacking(experiment.plan.metrics.metrics());
+        if let Some(message) = lacking.filter(|_| options.maps.is_some()) {
+            return Err(Error::usage(message, "add one of them to [metrics], such as ssim = {}"));
+        }
+        let found = fovqa_engine::find(&experiment.plan, given);
+        let run = Self { experiment, options, found };
+        let wrong = run.found.problems.iter().any(|problem| problem.error.is_usage());
+        if wrong { Err(Error::Usage(run.problems())) } else { Ok(run) }
+    }
+
+    /// The experiment.
+    pub fn experiment(&self) -> &Experiment {
+        &self.experiment
+    }
+
+    /// The frames that were found.
+    pub fn found(&self) -> &Found {
+        &self.found
+    }
+
+    /// The units of work of it, or of its shard.
+    pub fn units(&self) -> Vec<Unit> {
+        units(&self.found, self.options.shard)
+    }
+
+    /// What is wrong with its inputs as a whole.
+    pub fn problems(&self) -> Vec<Complaint> {
+        problems(&self.experiment, &self.found)
+    }
+
+    /// Scores it, writes the results and draws them.
+    ///
+    /// # Errors
+    /// When the results cannot be written or drawn. What could not be scored is said, and counted.
+    pub fn start(&self, events: &dyn Events) -> Result<Finished, Error> {
+        let folder = self.options.output.clone().unwrap_or_else(|| self.default_folder());
+        // Before anything is scored: a folder that cannot be written to is found now.
+        let folder = ResultsFolder::open(&folder, self.options.locking)
+            .map_err(|error| in_folder(&error))?;
+        let maps = self.options.maps.as_deref();
+        let header = Header::new(&self.experiment, &self.found, self.options.shard).with_maps(maps);
+        let maps = maps.map(|folder| MapsFolder::new(folder.to_owned(), true));
+        let known = if self.options.resume {
+            self.known(&folder, &header, maps.as_ref(), events)?
+        } else {
+            Findings::default()
+        };
+        let findings = self.score(&folder, &header, maps.as_ref(), known, events)?;
+        let plan = &self.experiment.plan;
+        let path = folder.path().to_owned();
+        if self.options.shard.is_some() {
+            for problem in &self.found.problems {
+                let scene = &plan.scenes[problem.scene].name;
+                let merged = "it will be an error of what is merged";
+                events.warn(&format!("{scene}: {} ({merged})", problem.error));
+            }
+            let failures = findings.failures(plan);
+            say_failures_of_shard(&failures, events);
+            let scored = findings.scored(plan).count();
+            return Ok(Finished { folder: path, scored, errors: failures.len(), drawn: None });
+        }
+        let results = results(plan, events, findings);
+        let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
+        let scored = own.map(|comparison| comparison.report.frames.len()).sum();
+        let (errors, drawn) = finish(&self.experiment, &results, &folder, events)?;
+        Ok(Finished { folder: path, scored, errors, drawn: Some(drawn) })
+    }
+
+    fn default_folder(&self) -> PathBuf {
+        let name = &self.experiment.name;
+        Path::new("reports").join(match self.options.shard {
+            None => name.clone(),
+            Some(shard) => format!("{name}-shard-{}-of-{}", shard.index(), shard.of()),
+        })
+    }
+
+    /// What an earlier run of the same has left; what keeps it from being of use is said.
+    fn known(
+        &self,
+        folder: &ResultsFolder,
+        header: &Header,
+        maps: Option<&MapsFolder>,
+        events: &dyn Events,
+    ) -> Result<Findings, Error> {
+        const SHOWN: usize = 10;
+        let plan = &self.experiment.plan;
+        let resumed = resume(folder.path(), header, plan, &self.found)?;
+        let mut changes = resumed.changes;
+        let lacks = maps.is_some_and(|maps| {
+            resumed.known.scored(plan).any(|(named, frame)| !maps.has(named, frame))
+        });
+        if lacks {
+            changes.push(NO_MAPS.to_owned());
+        }
+        let shown = folder.path().display();
+        if changes.is_empty() {
+            let pairs = resumed.known.pairs();
+            if pairs > 0 {
+                let frames = if pairs == 1 { "1 frame is" } else { &format!("{pairs} frames are") };
+                events.note(&format!("{shown}: {frames} finished; going on from there"));
+            }
+            return Ok(resumed.known);
+        }
+        for change in changes.iter().take(SHOWN) {
+            events.warn(&format!("{shown}: {change}"));
+        }
+        if changes.len() > SHOWN {
+            events.warn(&format!("{shown}: {} more changes", changes.len() - SHOWN));
+        }
+        events.warn(&format!("{shown}: what is finished there is not used: all is scored"));
+        Ok(Findings::default())
+    }
+
+    fn score(
+        &self,
+        folder: &ResultsFolder,
+        header: &Header,
+        maps: Option<&MapsFolder>,
+        known: Findings,
+        events: &dyn Events,
+    ) -> Result<Findings, Error> {
+        clear(folder)?;
+        let plan = &self.experiment.plan;
+        let scored = Journal::begin(folder.path(), header, plan, &known).and_then(|mut journal| {
+            let record = &mut |entry: Entry<'_>| {
+                maps.map_or(Ok(()), |maps| maps.write(&entry))?;
+                journal.write(entry)
+            };
+            let scored =
+                fovqa_engine::score(plan, &self.found, &self.units(), known, events, record)?;
+            if self.options.shard.is_some() {
+                journal.done()?;
+            }
+            Ok(scored)
+        });
+        events.finish();
+        Ok(scored?)
+    }
+}
+
+/// What is wrong with the inputs of an experiment as a whole.
+pub fn problems(experiment: &Experiment, found: &Found) -> Vec<Complaint> {
+    let complaint = |problem: &fovqa_engine::Problem| {
+        let scene = &experiment.plan.scenes[problem.scene];
+        let eye = scene.eyes[problem.eye].eye.map(Eye::name);
+        let method = problem.method.map(|method| experiment.plan.methods[method].as_str());
+        let place: Vec<&str> =
+            [Some(scene.name.as_str()), method, eye].into_iter().flatten().collect();
+        let message = format!("{}: {}", place.join(", "), problem.error);
+        Complaint { message, help: problem.error.help() }
+    };
+    found.problems.iter().map(complaint).collect()
+}

@@ -1,0 +1,61 @@
+//! Arrays to frames.
+
+use fovqa_frame::{Channels, Frame, Samples};
+use ndarray::ArrayView3;
+
+use crate::error::Error;
+
+/// What an array may hold: codes of 8 or 16 bits, encoded for a display, or floats, which are linear light
+/// unless the settings say otherwise ([`SignalParams::transfer`](crate::SignalParams)).
+pub trait Sample: Copy + sealed::Sealed {
+    /// The samples of a picture of height x width x channel.
+    #[doc(hidden)]
+    fn samples(pixels: ArrayView3<'_, Self>) -> Samples;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for u8 {}
+    impl Sealed for u16 {}
+    impl Sealed for f32 {}
+}
+
+impl Sample for u8 {
+    fn samples(pixels: ArrayView3<'_, Self>) -> Samples {
+        Samples::U8(pixels.iter().copied().collect())
+    }
+}
+
+impl Sample for u16 {
+    fn samples(pixels: ArrayView3<'_, Self>) -> Samples {
+        Samples::U16(pixels.iter().copied().collect())
+    }
+}
+
+impl Sample for f32 {
+    fn samples(pixels: ArrayView3<'_, Self>) -> Samples {
+        // Floats are kept one channel after the other.
+        Samples::F32(pixels.permuted_axes([2, 0, 1]).iter().copied().collect())
+    }
+}
+
+/// The frame of an array of height x width x channel, with one channel (gray) or three (RGB).
+///
+/// # Errors
+/// When it has no pixels, or another number of channels.
+#[allow(clippy::needless_pass_by_value, reason = "a view is a borrow already")]
+pub(crate) fn frame<T: Sample>(name: &str, pixels: ArrayView3<'_, T>) -> Result<Frame, Error> {
+    let (height, width, channels) = pixels.dim();
+    let channels = match channels {
+        1 => Channels::Gray,
+        3 => Channels::Rgb,
+        n => {
+            return Err(Error::input(
+                format!("the {name} has {n} channels"),
+                "give an array of height x width x channel, with 1 channel (gray) or 3 (RGB)",
+            ));
+        }
+    };
+    Frame::new(width, height, channels, T::samples(pixels))
+        .map_err(|error| Error::input(format!("the {name}: {error}"), "give one with pixels"))
+}

@@ -1,0 +1,182 @@
+//! The library and the command have the same numbers, and units of work are as good as a whole run.
+
+use std::fs;
+use std::path::Path;
+
+use fovqa::{
+    Given, Metric, MetricChoice, ParamSet, ParamValue, Run, RunOptions, ScoreOptions, Settings,
+    Silent, Task, TaskFindings, ViewSpec, read_experiment, results, score, units, write_json,
+};
+use ndarray::Array3;
+use serde_json::Value;
+
+use crate::fovqa::command;
+
+fn picture(seed: usize) -> Array3<u8> {
+    Array3::from_shape_fn((72, 90, 3), |(y, x, c)| {
+        ((x * 7 + y * 13 + c * 31 + (x * y) % 17 * seed) % 256) as u8
+    })
+}
+
+fn write_png(path: &Path, pixels: &Array3<u8>) {
+    let (height, width, _) = pixels.dim();
+    let codes: Vec<u8> = pixels.iter().copied().collect();
+    fs::write(path, fovqa_io::png_rgb8(width, height, &codes).unwrap()).unwrap();
+}
+
+/// Without what the two are called.
+fn nameless(mut scores: Value) -> Value {
+    for frame in scores["frames"].as_array_mut().unwrap() {
+        frame["reference"] = Value::Null;
+        frame["test"] = Value::Null;
+    }
+    scores
+}
+
+#[test]
+fn arrays_score_as_files_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let [a, b] = [1, 3].map(picture);
+    let [a_png, b_png] = ["a.png", "b.png"].map(|name| folder.path().join(name));
+    write_png(&a_png, &a);
+    write_png(&b_png, &b);
+    let names =
+        ["psnr", "ssim", "ms-ssim", "fpsnr", "fssim", "gmsd", "rms-contrast", "haar", "fvvdp"];
+    let mut params = ParamSet::default();
+    params.set(Metric::Ssim, "sigma", &ParamValue::Number(1.2)).unwrap();
+    params.set(Metric::Haar, "levels", &ParamValue::Number(3.0)).unwrap();
+    let options = ScoreOptions {
+        settings: Settings {
+            view: fovqa_vision::find_display("htc-vive-pro").cloned().map(ViewSpec::Display),
+            gaze: fovqa::Gaze::Point([30.5, 40.0]),
+            ..Settings::default()
+        },
+        metrics: MetricChoice::Named(names.iter().filter_map(|name| Metric::find(name)).collect()),
+        params,
+        maps: true,
+    };
+    let scores = score(a.view(), b.view(), &options).unwrap();
+    let mut text = Vec::new();
+    write_json(&scores.report, &mut text).unwrap();
+    let ours: Value = serde_json::from_slice(&text).unwrap();
+    let names = names.join(",");
+    let arguments = [
+        a_png.to_str().unwrap(),
+        b_png.to_str().unwrap(),
+        "--metrics",
+        &names,
+        "--display",
+        "htc-vive-pro",
+        "--gaze",
+        "30.5,40",
+        "--set",
+        "ssim.sigma=1.2",
+        "--set",
+        "haar.levels=3",
+        "--format",
+        "json",
+    ];
+    let output = command(&[&["score"], &arguments[..]].concat()).output().unwrap();
+    let theirs: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(nameless(ours), nameless(theirs));
+    let maps: Vec<&str> = scores.maps.iter().map(|map| map.name).collect();
+    assert!(maps.contains(&"ssim") && maps.contains(&"fvvdp"), "{maps:?}");
+    assert!(scores.warnings.iter().any(|warning| warning.contains("stretched")));
+}
+
+#[test]
+fn other_kinds_of_samples_and_slices() {
+    let codes = picture(2);
+    let wide = codes.mapv(|code| u16::from(code) * 257);
+    let options = ScoreOptions::default();
+    let same = score(codes.view(), wide.view(), &options).unwrap();
+    assert_eq!(same.value(Metric::Mse), Some(0.0));
+    // A view with another order of rows in memory is the same picture.
+    let mut flipped = codes.clone();
+    flipped.invert_axis(ndarray::Axis(0));
+    let mut again = flipped.view();
+    again.invert_axis(ndarray::Axis(0));
+    let same = score(codes.view(), again, &options).unwrap();
+    assert_eq!(same.value(Metric::Mse), Some(0.0));
+    // Floats are linear light: half of full scale, once encoded.
+    let light = Array3::from_elem((72, 90, 3), 0.214_041_14_f32);
+    let grey = Array3::from_elem((72, 90, 3), 32768u16);
+    let near = score(grey.view(), light.view(), &options).unwrap();
+    assert!(near.value(Metric::Mse).unwrap() < 1e-9, "{:?}", near.value(Metric::Mse));
+    let two = Array3::<u8>::zeros((8, 8, 2));
+    let error = score(two.view(), two.view(), &options).unwrap_err();
+    assert!(error.to_string().contains("the reference has 2 channels"), "{error}");
+    let error =
+        score(codes.view(), two.slice_axis(ndarray::Axis(2), (..1).into()), &options).unwrap_err();
+    assert!(error.to_string().contains("90x72 pixels and test has 8x8"), "{error}");
+    let empty = Array3::<u8>::zeros((0, 8, 3));
+    assert!(score(empty.view(), empty.view(), &options).is_err());
+}
+
+/// Four frames of two methods, with a measure over time.
+fn experiment(folder: &Path) -> std::path::PathBuf {
+    for method in ["gt", "a", "b"] {
+        fs::create_dir(folder.join(method)).unwrap();
+        for frame in 0..4 {
+            let seed = frame + if method == "gt" { 1 } else { method.len() * 4 + 2 };
+            write_png(&folder.join(format!("{method}/{frame:04}.png")), &picture(seed));
+        }
+    }
+    let text = "name = \"units\"\n[view]\nfov_vertical_deg = 60\n[[scene]]\nname = \"s\"\n\
+                reference = \"gt\"\nfps = 30\n[[method]]\nname = \"A\"\ntest = \"a\"\n\
+                [[method]]\nname = \"B\"\ntest = \"b\"\n[metrics]\npsnr = {}\natd = {}\nhaar = { levels = 2 }\n";
+    let file = folder.join("units.toml");
+    fs::write(&file, text).unwrap();
+    file
+}
+
+#[test]
+fn units_done_elsewhere_are_a_whole_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = experiment(folder.path());
+    let run = Run::new(read_experiment(&file).unwrap(), RunOptions::default(), &Given::default());
+    let run = run.unwrap();
+    let plan = &run.experiment().plan;
+    let whole = units(run.found(), None);
+    assert_eq!(whole.iter().map(|unit| unit.pairs.len()).sum::<usize>(), 8);
+    let findings = |pieces: usize| {
+        let tasks = whole.iter().flat_map(|unit| unit.pieces(pieces));
+        let done = tasks.map(|unit| {
+            // Another process has the text alone.
+            let text = Task::new(plan, run.found(), unit).unwrap().to_json().unwrap();
+            let task = Task::from_json(&text).unwrap();
+            assert_eq!(task.to_json().unwrap(), text);
+            let lines = task.run(&Given::default(), &Silent).unwrap().to_lines(&task);
+            TaskFindings::from_lines(&task, &lines).unwrap()
+        });
+        TaskFindings::merge(done.collect::<Vec<_>>())
+    };
+    let [once, pieces] = [100, 3].map(|most| results(plan, &Silent, findings(most)));
+    assert_eq!(once, pieces);
+    assert_eq!(once.comparisons.len(), 2);
+    assert!(once.comparisons.iter().all(|c| c.report.frames.len() == 4));
+    assert_eq!(once.inputs.len(), 12);
+}
+
+#[test]
+fn a_task_of_other_frames_or_text_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = experiment(folder.path());
+    let run = Run::new(read_experiment(&file).unwrap(), RunOptions::default(), &Given::default());
+    let run = run.unwrap();
+    let unit = run.units().remove(0);
+    let task = Task::new(&run.experiment().plan, run.found(), unit).unwrap();
+    let text = task.to_json().unwrap();
+    for wrong in ["", "{}", &text.replace("fovqa.task/1", "fovqa.task/0"), &text[..text.len() / 2]]
+    {
+        assert!(Task::from_json(wrong).unwrap_err().to_string().contains("no task"), "{wrong}");
+    }
+    let lines = task.run(&Given::default(), &Silent).unwrap().to_lines(&task);
+    for wrong in ["", "x\n", lines.split_once('\n').unwrap().0, &lines.replace("\"s\"", "\"t\"")] {
+        let error = TaskFindings::from_lines(&task, wrong).unwrap_err().to_string();
+        assert!(error.contains("not the findings"), "{error}");
+    }
+    fs::remove_file(folder.path().join("a/0003.png")).unwrap();
+    let error = task.run(&Given::default(), &Silent).unwrap_err().to_string();
+    assert!(error.contains("others than those of the task"), "{error}");
+}
