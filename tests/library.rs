@@ -12,8 +12,11 @@ use serde_json::Value;
 
 use crate::fovqa::command;
 
+/// Height and width: the least that MS-SSIM takes, and more.
+const SIZE: (usize, usize) = (150, 180);
+
 fn picture(seed: usize) -> Array3<u8> {
-    Array3::from_shape_fn((72, 90, 3), |(y, x, c)| {
+    Array3::from_shape_fn((SIZE.0, SIZE.1, 3), |(y, x, c)| {
         ((x * 7 + y * 13 + c * 31 + (x * y) % 17 * seed) % 256) as u8
     })
 }
@@ -99,8 +102,8 @@ fn other_kinds_of_samples_and_slices() {
     let same = score(codes.view(), again, &options).unwrap();
     assert_eq!(same.value(Metric::Mse), Some(0.0));
     // Floats are linear light: half of full scale, once encoded.
-    let light = Array3::from_elem((72, 90, 3), 0.214_041_14_f32);
-    let grey = Array3::from_elem((72, 90, 3), 32768u16);
+    let light = Array3::from_elem((SIZE.0, SIZE.1, 3), 0.214_041_14_f32);
+    let grey = Array3::from_elem((SIZE.0, SIZE.1, 3), 32768u16);
     let near = score(grey.view(), light.view(), &options).unwrap();
     assert!(near.value(Metric::Mse).unwrap() < 1e-9, "{:?}", near.value(Metric::Mse));
     let two = Array3::<u8>::zeros((8, 8, 2));
@@ -108,7 +111,7 @@ fn other_kinds_of_samples_and_slices() {
     assert!(error.to_string().contains("the reference has 2 channels"), "{error}");
     let error =
         score(codes.view(), two.slice_axis(ndarray::Axis(2), (..1).into()), &options).unwrap_err();
-    assert!(error.to_string().contains("90x72 pixels and test has 8x8"), "{error}");
+    assert!(error.to_string().contains("180x150 pixels and test has 8x8"), "{error}");
     let empty = Array3::<u8>::zeros((0, 8, 3));
     assert!(score(empty.view(), empty.view(), &options).is_err());
 }

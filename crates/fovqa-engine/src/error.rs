@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use fovqa_frame::source::Doubt;
-use fovqa_io::ReadError;
+use fovqa_frame::source::{Doubt, SourceError};
 use fovqa_io::sequence::{ListingError, PairingError};
+use fovqa_io::{OpenError, ReadError};
 use fovqa_metrics::Metric;
 use fovqa_metrics::fvvdp::TimeError;
 use fovqa_params::ParamError;
@@ -19,6 +19,9 @@ pub enum EngineError {
     /// A path argument that stands for nothing.
     #[error(transparent)]
     Listing(#[from] ListingError),
+    /// A path argument that is there, and no sequence of frames.
+    #[error(transparent)]
+    Source(#[from] SourceError),
     /// Frames without partners.
     #[error(transparent)]
     Pairing(#[from] PairingError),
@@ -135,6 +138,15 @@ pub enum EngineError {
     },
 }
 
+impl From<OpenError> for EngineError {
+    fn from(error: OpenError) -> Self {
+        match error {
+            OpenError::Listing(error) => Self::Listing(error),
+            OpenError::Source(error) => Self::Source(error),
+        }
+    }
+}
+
 impl EngineError {
     /// The same of other paths: as results show them.
     pub(crate) fn with_paths(self, shown: &dyn Fn(&Path) -> PathBuf) -> Self {
@@ -162,6 +174,7 @@ impl EngineError {
             Self::GazeTrace { error, .. } => matches!(error, GazeTraceError::NoFps),
             Self::Listing(error) => matches!(error, ListingError::Pattern { .. }),
             Self::Pairing(_)
+            | Self::Source(_)
             | Self::NoFrames { .. }
             | Self::NoNumbers { .. }
             | Self::GazeFile { .. }
@@ -177,6 +190,7 @@ impl EngineError {
     pub fn help(&self) -> String {
         match self {
             Self::Listing(error) => error.help().to_owned(),
+            Self::Source(error) => error.help.clone(),
             Self::Pairing(error) => error.help(),
             Self::NoNumbers { .. } => {
                 "give a pattern that has the number, such as 'renders/f_%04d.png', or rename the files"

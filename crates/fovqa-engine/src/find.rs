@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use fovqa_frame::source::Source;
 use fovqa_io::sequence::{FramePair, PairingError, Pairs, Spacing, pair};
 use fovqa_metrics::Metric;
 use fovqa_plan::{Plan, Scene};
@@ -34,6 +35,8 @@ pub struct FoundView {
     pub sources: ViewSources,
     /// The frames, in order.
     pub frames: Vec<FoundFrame>,
+    /// Frames a second: those of the scene, else what the reference or a test says of itself.
+    pub fps: Option<f64>,
     /// The gaze of each frame, where it comes from a trace.
     pub trace: Option<Vec<GazeAt>>,
     /// Files without a partner that the plan says to pass over.
@@ -141,19 +144,21 @@ pub fn find(plan: &Plan, given: &Given) -> Found {
                 let [motion, depth] = opener.guides(&*reference, &mut frames)?;
                 let sources = ViewSources { reference, tests, motion, depth };
                 let mut remarks = remarks(plan, scene, view, &sources, (&numbering, &spacing))?;
-                let (trace, of_gaze) = gaze(plan, view, scene, &frames)?;
+                let fps = scene.fps.or_else(|| sources.all().find_map(Source::fps));
+                let (trace, of_gaze) = gaze(plan, view, fps, &frames)?;
                 remarks.extend(of_gaze);
                 let view = FoundView {
                     scene: scene_index,
                     eye,
                     sources,
                     frames,
+                    fps,
                     trace,
                     passed_over,
                     remarks,
                 };
                 if plan.metrics.metrics().contains(&Metric::Fvvdp) {
-                    timings(&view, scene.fps, &plan.params.fvvdp)?;
+                    timings(&view, view.fps, &plan.params.fvvdp)?;
                 }
                 Ok(view)
             }) {

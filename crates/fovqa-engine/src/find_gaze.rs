@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fovqa_io::read_small_file;
-use fovqa_plan::{EyeView, Gaze, Plan, Scene};
+use fovqa_plan::{EyeView, Gaze, Plan};
 use fovqa_vision::{FrameAt, GazeAt, GazeTrace};
 
 use crate::error::EngineError;
@@ -19,7 +19,7 @@ const MAX_GAZE_BYTES: u64 = 64 << 20;
 pub(crate) fn gaze(
     plan: &Plan,
     view: &EyeView,
-    scene: &Scene,
+    fps: Option<f64>,
     frames: &[FoundFrame],
 ) -> Result<(Option<Vec<GazeAt>>, Vec<String>), EngineError> {
     let (path, hold) = match &view.settings.gaze {
@@ -32,7 +32,7 @@ pub(crate) fn gaze(
     let failed = |error| EngineError::GazeTrace { path: path.clone(), error };
     let trace = GazeTrace::read(bytes.as_slice()).map_err(failed)?;
     let frames: Vec<FrameAt> = frames.iter().map(|frame| (frame.number, frame.position)).collect();
-    let gaze = trace.at_frames(&frames, scene.fps, hold).map_err(failed)?;
+    let gaze = trace.at_frames(&frames, fps, hold).map_err(failed)?;
     let remarks = of_trace(plan, path, &trace);
     Ok((Some(gaze), remarks))
 }

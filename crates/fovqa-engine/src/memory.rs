@@ -117,12 +117,7 @@ impl Amount<'_> {
 ///
 /// # Errors
 /// [`EngineError::Memory`].
-pub(crate) fn check(
-    plan: &Plan,
-    view: &FoundView,
-    fps: Option<f64>,
-    metrics: &[Metric],
-) -> Result<(), EngineError> {
+pub(crate) fn check(plan: &Plan, view: &FoundView, metrics: &[Metric]) -> Result<(), EngineError> {
     let settings = &plan.scenes[view.scene].eyes[view.eye].settings;
     let Some(first) = view.frames.first() else { return Ok(()) };
     let reference = &view.sources.reference;
@@ -132,7 +127,7 @@ pub(crate) fn check(
         return Ok(());
     }
     let crop = settings.crop.map(|crop| (crop.width as u64).saturating_mul(crop.height as u64));
-    let timings = timings(view, fps, &plan.params.fvvdp).unwrap_or_default();
+    let timings = timings(view, view.fps, &plan.params.fvvdp).unwrap_or_default();
     let windows = timings.values().filter_map(|timing| Some(timing.time.as_ref().ok()?.reach()));
     let amount = Amount {
         pixels: [file, crop.unwrap_or(file).min(file)],

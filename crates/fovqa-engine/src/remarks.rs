@@ -53,5 +53,15 @@ pub(crate) fn remarks(
             "{missing} {are} missing in reference and test: no difference over time is taken across {them}"
         ));
     }
+    let mut rates = sources.all().filter_map(|source| Some((source.fps()?, source)));
+    if scene.fps.is_none()
+        && let Some((rate, first)) = rates.next()
+        && let Some((other, second)) = rates.find(|(other, _)| other.to_bits() != rate.to_bits())
+    {
+        let [first, second] = [first, second].map(|source| &source.listing().argument);
+        remarks.push(format!(
+            "{first} has {rate} frames a second and {second} has {other}: the first counts, unless {{fps}} says otherwise"
+        ));
+    }
     Ok(remarks)
 }

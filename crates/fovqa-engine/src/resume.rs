@@ -180,7 +180,7 @@ fn of_view(
     }
     let fvvdp = metrics.contains(&Metric::Fvvdp);
     if Needs::of(&metrics).lead_in > LeadIn::None {
-        let timings = timings(view, plan.scenes[view.scene].fps, &plan.params.fvvdp);
+        let timings = timings(view, view.fps, &plan.params.fvvdp);
         let timings = timings.unwrap_or_default();
         let good = |index: &usize| {
             let Some(outcome) = known.pairs.get(index) else { return false };

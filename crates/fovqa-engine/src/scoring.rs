@@ -90,7 +90,7 @@ impl<'a> Scoring<'a> {
         }
         let guides = Needs::of(&metrics).guides;
         let loader = Loader { settings: &eye.settings, sources: &self.view.sources, guides };
-        let sequence = (self.bands, self.scene.fps);
+        let sequence = (self.bands, self.view.fps);
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
         let frame = self.take_up(&work, &mut run, &loader, down)?;
         let mut findings = known;
@@ -217,7 +217,7 @@ impl<'a> Scoring<'a> {
 
     /// Whether the frames fit into memory.
     pub(crate) fn fits(&self, metrics: &[Metric]) -> Result<(), EngineError> {
-        memory::check(self.plan, self.view, self.scene.fps, metrics)
+        memory::check(self.plan, self.view, metrics)
     }
 
     fn mask(&self) -> Result<Option<Mask>, EngineError> {

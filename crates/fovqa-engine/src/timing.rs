@@ -78,6 +78,7 @@ mod tests {
             eye: 0,
             sources: ViewSources::empty(),
             frames,
+            fps: None,
             trace: None,
             passed_over: 0,
             remarks: Vec::new(),

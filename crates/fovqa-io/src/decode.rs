@@ -13,6 +13,7 @@ use crate::contain::contained;
 use crate::error::{ReadError, ReadErrorKind};
 use crate::guides::{GuideOptions, GuideSearch};
 use crate::input_id::id_of;
+use crate::sources::FormatOptions;
 use crate::{exr, jpeg, png};
 
 /// How files are read.
@@ -26,14 +27,22 @@ pub struct ReadOptions {
     pub max_megapixels: u64,
     /// Motion and depth to read beside the colour.
     pub guides: GuideOptions,
+    /// What is of one format alone.
+    #[serde(default)]
+    pub formats: FormatOptions,
 }
 
 impl Default for ReadOptions {
     /// No layer, alpha an error, no guides, 256 megapixels: three times the retinal resolution of
     /// the papers (11520x6480), 768 MB of 8-bit RGB.
     fn default() -> Self {
-        let guides = GuideOptions::default();
-        Self { layer: None, alpha: AlphaPolicy::Error, max_megapixels: 256, guides }
+        Self {
+            layer: None,
+            alpha: AlphaPolicy::Error,
+            max_megapixels: 256,
+            guides: GuideOptions::default(),
+            formats: FormatOptions::default(),
+        }
     }
 }
 

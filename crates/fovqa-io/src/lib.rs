@@ -34,5 +34,5 @@ pub use guides::{
 pub use input_id::{id_of, id_of_file};
 pub use jpeg::JpegKind;
 pub use small_file::{open_regular_file, read_head, read_small_file};
-pub use sources::open_source;
+pub use sources::{FormatOptions, OpenError, open_source};
 pub use write::{exr_gray, exr_gray_half, png_rgb8};

@@ -236,7 +236,7 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
     view["bands_deg"] = json!(edges);
     let (signal, read) = (&settings.signal, &settings.read);
     let crop = settings.crop.map(|crop| [crop.x, crop.y, crop.width, crop.height]);
-    let signal = json!({
+    let mut signal = json!({
         "channels": signal.channels,
         "exposure_stops": signal.exposure_stops,
         "tonemap": signal.tonemap,
@@ -250,6 +250,12 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
         "motion": motion_keys(plan, settings),
         "depth": depth_keys(plan, settings),
     });
+    // Those of one format have their keys among the others, as in the experiment file.
+    if let (Value::Object(keys), Ok(Value::Object(more))) =
+        (&mut signal, serde_json::to_value(&read.formats))
+    {
+        keys.extend(more);
+    }
     let tests = eye.tests.iter();
     ResolvedEye {
         eye: eye.eye,

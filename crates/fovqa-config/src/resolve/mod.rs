@@ -71,6 +71,10 @@ struct Placeholders<'a> {
 impl Placeholders<'_> {
     /// The path of a text from the file, below `base`.
     fn path(&self, base: &Path, text: &str) -> Result<PathBuf, (String, String)> {
+        if text == "-" {
+            let message = "\"-\" is standard input, which an experiment cannot read".to_owned();
+            return Err((message, "give a file; `fovqa score` reads standard input".to_owned()));
+        }
         // In a pattern, names stand for themselves, whatever characters they have.
         let pattern = is_glob(Path::new(text));
         let verbatim = |name: &str| {

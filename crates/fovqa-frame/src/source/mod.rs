@@ -44,6 +44,11 @@ pub trait Source: Debug + Send + Sync {
     /// What a frame is made of, by the names that results have for it.
     fn origins(&self, frame: usize) -> Vec<(String, Origin)>;
 
+    /// Frames a second, where the source says so itself.
+    fn fps(&self) -> Option<f64> {
+        None
+    }
+
     /// Whether each frame can be read but once, in order. Frames that are passed over are gone.
     fn is_read_once(&self) -> bool {
         false
