@@ -1,6 +1,6 @@
 //! Sources whose length is not known before they end: what is alone there is found while they are read.
 
-use fovqa_frame::source::{Frames, Source, SourceError};
+use fovqa_frame::source::{Source, SourceError};
 use fovqa_plan::{Plan, Scene};
 use fovqa_results::Failure;
 
@@ -43,7 +43,8 @@ impl<'a> OpenEnded<'a> {
     ) -> Option<Ended> {
         let end = loaded.errors().find(|error| error.has_ended)?;
         let frames = self.view.frames.len() - step.frame;
-        let frames = if frames == 1 { "1 frame" } else { &format!("{frames} frames") };
+        let (frames, have) =
+            if frames == 1 { ("1 frame", "has") } else { (&*format!("{frames} frames"), "have") };
         if self.scene.allow_missing {
             let message = format!("{end}: {frames} without a partner are passed over");
             warnings.once_a_view("ended", &message);
@@ -52,7 +53,7 @@ impl<'a> OpenEnded<'a> {
         if std::mem::replace(&mut self.said, true) {
             return Some(Ended::PassedOver);
         }
-        let message = format!("{end}, and {frames} of the other sequence have no partner");
+        let message = format!("{end}, and {frames} of the other sequence {have} no partner");
         Some(Ended::Failed(self.failure(Some(step.found.number), message)))
     }
 
@@ -61,8 +62,7 @@ impl<'a> OpenEnded<'a> {
         if self.plan.frames.is_some() || self.scene.frames.is_some() {
             return None;
         }
-        let open = |source: &&dyn Source| source.listing().frames == Frames::Counted(None);
-        let mut open = self.view.sources.all().filter(open);
+        let mut open = self.view.sources.all().filter(|source| source.listing().is_open());
         let source = open.find(|source| source.has_more() == Ok(true))?;
         let frames = self.view.frames.len();
         let message = format!(

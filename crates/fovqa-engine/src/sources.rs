@@ -166,7 +166,7 @@ type OwnFiles = (Arc<dyn Source>, BTreeMap<usize, usize>);
 impl ViewSources {
     /// Of frames that are never read.
     pub(crate) fn empty() -> Self {
-        let listing = Listing::counted(String::new(), Some(0));
+        let listing = Listing::counted(String::new(), 0);
         let (tests, reference) = (BTreeMap::new(), Arc::new(Never(listing)));
         Self { reference, tests, motion: None, depth: None }
     }

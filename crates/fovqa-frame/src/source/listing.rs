@@ -20,8 +20,13 @@ pub struct Listing {
 pub enum Frames {
     /// Each with a name of its own.
     Named(Vec<Entry>),
-    /// So many without names, such as those of a video, counted from 0; `None`: as many as will come.
-    Counted(Option<usize>),
+    /// Frames without names, such as those of a video, counted from 0.
+    Counted {
+        /// How many are known of.
+        known: usize,
+        /// Whether more may come: a stream that has not ended, a file that is damaged behind these.
+        is_open: bool,
+    },
 }
 
 /// A frame with a name.
@@ -36,17 +41,28 @@ pub struct Entry {
 }
 
 impl Listing {
-    /// Frames without names.
-    pub fn counted(argument: String, frames: Option<usize>) -> Self {
-        let numbering = Numbering::ByPosition;
-        Self { argument, is_single: false, frames: Frames::Counted(frames), numbering }
+    /// So many frames without names.
+    pub fn counted(argument: String, known: usize) -> Self {
+        let frames = Frames::Counted { known, is_open: false };
+        Self { argument, is_single: false, frames, numbering: Numbering::ByPosition }
+    }
+
+    /// The same where nobody knows how many there are behind them.
+    pub fn open(argument: String, known: usize) -> Self {
+        let frames = Frames::Counted { known, is_open: true };
+        Self { frames, ..Self::counted(argument, known) }
+    }
+
+    /// Whether the last frame is known only once it has come.
+    pub fn is_open(&self) -> bool {
+        matches!(self.frames, Frames::Counted { is_open: true, .. })
     }
 
     /// The frames with names; none, where they have none.
     pub fn entries(&self) -> &[Entry] {
         match &self.frames {
             Frames::Named(entries) => entries,
-            Frames::Counted(_) => &[],
+            Frames::Counted { .. } => &[],
         }
     }
 
@@ -59,7 +75,7 @@ impl Listing {
     pub fn label(&self, frame: usize) -> String {
         match &self.frames {
             Frames::Named(_) => self.name(frame).to_owned(),
-            Frames::Counted(_) => format!("{}, frame {frame}", self.argument),
+            Frames::Counted { .. } => format!("{}, frame {frame}", self.argument),
         }
     }
 }
@@ -120,7 +136,7 @@ mod tests {
 
     #[test]
     fn frames_without_names_are_told_apart_in_messages() {
-        let video = Listing::counted("a.y4m".to_owned(), Some(3));
+        let video = Listing::counted("a.y4m".to_owned(), 3);
         assert_eq!((video.name(2), video.label(2)), ("a.y4m", "a.y4m, frame 2".to_owned()));
         let entry = Entry { name: "a/1.png".to_owned(), stem: "1".into(), number: Some(1) };
         let frames = Frames::Named(vec![entry]);

@@ -141,13 +141,16 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
         PairingError::Nothing { reference, test }
     };
     match (&reference.frames, &test.frames) {
-        (Frames::Counted(None), Frames::Counted(None)) => {
-            let (reference, test) = (reference.argument.clone(), test.argument.clone());
-            Err(PairingError::Endless { reference, test })
-        }
-        (Frames::Counted(count), Frames::Counted(other)) => {
-            let [count, other] =
-                [count.or(*other), other.or(*count)].map(Option::unwrap_or_default);
+        (Frames::Counted { known, .. }, Frames::Counted { known: other, .. }) => {
+            let (known, other) = (*known, *other);
+            if reference.is_open() && test.is_open() && known.max(other) == 0 {
+                let (reference, test) = (reference.argument.clone(), test.argument.clone());
+                return Err(PairingError::Endless { reference, test });
+            }
+            let count = |of: &Listing, known: usize, other: usize| {
+                if of.is_open() { known.max(other) } else { known }
+            };
+            let (count, other) = (count(reference, known, other), count(test, other, known));
             let pair = |at: usize| FramePair { number: at as i64, reference: at, test: at };
             let both = count.min(other);
             let alone = |of: &Listing, count: usize| {
@@ -158,8 +161,8 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
             let pairs: Vec<_> = (0..both).map(pair).collect();
             if pairs.is_empty() { Err(nothing()) } else { Ok(Pairs { pairs, numbering, alone }) }
         }
-        (Frames::Named(names), Frames::Counted(count)) => {
-            let counted = Counted { named: reference, names, count: *count, other: test };
+        (Frames::Named(names), Frames::Counted { known, .. }) => {
+            let counted = Counted { named: reference, names, known: *known, other: test };
             let (pairs, [named, other]) = counted.pairs(|number, named, other| FramePair {
                 number,
                 reference: named,
@@ -171,8 +174,8 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
             }
             Ok(Pairs { pairs, numbering: reference.numbering.clone(), alone })
         }
-        (Frames::Counted(count), Frames::Named(names)) => {
-            let counted = Counted { named: test, names, count: *count, other: reference };
+        (Frames::Counted { known, .. }, Frames::Named(names)) => {
+            let counted = Counted { named: test, names, known: *known, other: reference };
             let (pairs, [named, other]) = counted.pairs(|number, named, other| FramePair {
                 number,
                 reference: other,
@@ -192,8 +195,8 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
 struct Counted<'a> {
     named: &'a Listing,
     names: &'a [Entry],
-    /// `None`: as many as the names ask for.
-    count: Option<usize>,
+    /// How many frames the other one is known to have.
+    known: usize,
     other: &'a Listing,
 }
 
@@ -213,14 +216,16 @@ impl Counted<'_> {
         let spacing = Spacing::of(&numbers);
         let places: Vec<usize> =
             (0..self.names.len()).map(|at| spacing.place(number(at))).collect();
-        let count = self.count.unwrap_or_else(|| places.last().map_or(0, |last| last + 1));
+        // A source that may go on has what the names ask for.
+        let asked = places.iter().max().map_or(0, |last| last.saturating_add(1));
+        let count = if self.other.is_open() { self.known.max(asked) } else { self.known };
         let (with, without): (Vec<usize>, Vec<usize>) =
             (0..self.names.len()).partition(|at| places[*at] < count);
         let taken: BTreeSet<usize> = with.iter().map(|at| places[*at]).collect();
-        let others = (0..count).filter(|at| !taken.contains(at) && self.count.is_some());
+        let others = (0..self.known).filter(|at| !taken.contains(at));
         let alone = [
             without.iter().map(|at| (Some(number(*at)), self.named.label(*at))).collect(),
-            others.map(|at| (None, self.other.label(at))).collect(),
+            others.map(|at| (spacing.number(at), self.other.label(at))).collect(),
         ];
         Ok((with.iter().map(|at| pair(number(*at), *at, places[*at])).collect(), alone))
     }
@@ -361,22 +366,32 @@ mod tests {
     fn frames_without_names_count_from_the_first() {
         let files = listing(&["f1.png", "f2.png", "f4.png"]);
         let video = |frames| Listing::counted("v.y4m".to_owned(), frames);
-        let whole = pair(&files, &video(Some(4))).unwrap();
+        let open = |frames| Listing::open("v.y4m".to_owned(), frames);
+        let whole = pair(&files, &video(4)).unwrap();
         let places: Vec<_> = whole.pairs.iter().map(|p| (p.number, p.reference, p.test)).collect();
         assert_eq!(places, [(1, 0, 0), (2, 1, 1), (4, 2, 3)]);
-        assert_eq!(whole.alone.test, [(None, "v.y4m, frame 2".to_owned())]);
-        let short = pair(&video(Some(2)), &files).unwrap();
+        assert_eq!(whole.alone.test, [(Some(3), "v.y4m, frame 2".to_owned())]);
+        let long = pair(&files, &video(5)).unwrap().alone.test;
+        assert_eq!(long.last(), Some(&(Some(5), "v.y4m, frame 4".to_owned())));
+        let short = pair(&video(2), &files).unwrap();
         let places: Vec<_> = short.pairs.iter().map(|p| (p.number, p.reference, p.test)).collect();
         assert_eq!(places, [(1, 0, 0), (2, 1, 1)]);
         assert_eq!(short.alone.test, [(Some(4), "f4.png".to_owned())]);
-        let endless = pair(&files, &video(None)).unwrap();
+        let endless = pair(&files, &open(0)).unwrap();
         assert_eq!((endless.pairs.len(), endless.alone.count()), (3, 0));
-        let two = pair(&video(Some(2)), &video(Some(3))).unwrap();
+        // What is damaged at its end has what is known of it, and may have had the others.
+        assert_eq!(pair(&files, &open(2)).unwrap().pairs.len(), 3);
+        let damaged = pair(&files, &open(6)).unwrap();
+        assert_eq!((damaged.pairs.len(), damaged.alone.test.len()), (3, 3));
+        let two = pair(&video(2), &video(3)).unwrap();
         assert_eq!((two.pairs.len(), two.alone.test.len()), (2, 1));
-        assert_eq!(pair(&video(None), &video(Some(3))).unwrap().pairs.len(), 3);
-        let both = pair(&video(None), &video(None)).unwrap_err();
+        assert_eq!(pair(&open(0), &video(3)).unwrap().pairs.len(), 3);
+        assert_eq!(pair(&open(2), &video(3)).unwrap().pairs.len(), 3);
+        assert_eq!(pair(&open(4), &video(3)).unwrap().alone.reference.len(), 1);
+        assert_eq!(pair(&open(4), &open(0)).unwrap().pairs.len(), 4);
+        let both = pair(&open(0), &open(0)).unwrap_err();
         assert!(matches!(both, PairingError::Endless { .. }));
-        assert!(pair(&video(Some(0)), &files).is_err());
+        assert!(pair(&video(0), &files).is_err());
     }
 
     #[test]

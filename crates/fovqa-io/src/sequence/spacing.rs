@@ -38,6 +38,19 @@ impl Spacing {
         }
     }
 
+    /// The number of a place, where the others tell.
+    pub(super) fn number(&self, place: usize) -> Option<i64> {
+        let first = *self.numbers.first()?;
+        match self.step {
+            Some(step) => {
+                let steps = (place as u64).checked_mul(step)?;
+                first.checked_add_unsigned(steps)
+            }
+            None if self.numbers.len() == 1 => first.checked_add_unsigned(place as u64),
+            None => self.numbers.get(place).copied(),
+        }
+    }
+
     /// The numbers that neither side has, of those that are wanted.
     pub fn missing(&self, wanted: impl Fn(i64) -> bool) -> MissingFrames {
         /// Beyond as many nobody asks which of them are wanted.
