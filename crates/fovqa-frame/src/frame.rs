@@ -1,10 +1,12 @@
 //! A picture as its file holds it, before any transfer function.
 
 use half::f16;
+use multiversion::multiversion;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::blocks::BLOCK_ROWS;
 use crate::mask::Mask;
 
 /// One channel of gray, or three of colour with Rec.709 primaries.
@@ -330,23 +332,71 @@ impl Frame {
 
     /// Smallest and largest finite sample of the visible part.
     pub fn range(&self) -> (f32, f32) {
-        let mut range = (f32::INFINITY, f32::NEG_INFINITY);
-        for c in 0..self.channels.count() {
-            for y in 0..self.height() {
-                for value in (0..self.width()).map(|x| self.sample(c, x, y)) {
-                    if value.is_finite() {
-                        range = (range.0.min(value), range.1.max(value));
-                    }
-                }
-            }
-        }
-        range
+        let rows = (0..self.height()).into_par_iter().with_min_len(BLOCK_ROWS);
+        let of_row = |y: usize| {
+            let channels = (0..self.channels.count()).map(|c| self.row_range(c, y));
+            channels.fold(NO_RANGE, wider)
+        };
+        rows.map(of_row).reduce(|| NO_RANGE, wider)
     }
+
+    fn row_range(&self, channel: usize, y: usize) -> (f32, f32) {
+        let start = channel * self.plane_len() + self.row_start(y);
+        if let Samples::F32(s) = &self.samples {
+            return range_of(&s[start..start + self.width()]);
+        }
+        let values = (0..self.width()).map(|x| self.sample(channel, x, y));
+        values.filter(|v| v.is_finite()).fold(NO_RANGE, |range, v| wider(range, (v, v)))
+    }
+}
+
+/// The range of no value at all.
+const NO_RANGE: (f32, f32) = (f32::INFINITY, f32::NEG_INFINITY);
+
+fn wider(a: (f32, f32), b: (f32, f32)) -> (f32, f32) {
+    (a.0.min(b.0), a.1.max(b.1))
+}
+
+/// The range of the finite values: lanes side by side, as one value after the other would not vectorise.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn range_of(values: &[f32]) -> (f32, f32) {
+    const LANES: usize = 16;
+    let (mut least, mut greatest) = ([NO_RANGE.0; LANES], [NO_RANGE.1; LANES]);
+    let (chunks, rest) = values.as_chunks::<LANES>();
+    for chunk in chunks {
+        for ((least, greatest), value) in least.iter_mut().zip(&mut greatest).zip(chunk) {
+            let (low, high) = if value.is_finite() { (*value, *value) } else { NO_RANGE };
+            *least = if low < *least { low } else { *least };
+            *greatest = if high > *greatest { high } else { *greatest };
+        }
+    }
+    let lanes = least.into_iter().zip(greatest);
+    let rest = rest.iter().filter(|value| value.is_finite()).map(|value| (*value, *value));
+    lanes.chain(rest).fold(NO_RANGE, wider)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Every place in a row counts, and what is not finite does not.
+    #[test]
+    fn the_range_is_of_the_finite_samples_that_are_seen() {
+        for at in 0..3 * 37 {
+            let mut values = vec![0.5f32; 3 * 37];
+            values[at] = -2.0;
+            values[(at + 1) % 111] = f32::NAN;
+            values[(at + 2) % 111] = f32::INFINITY;
+            values[(at + 3) % 111] = 3.0;
+            let frame = Frame::new(37, 1, Channels::Rgb, Samples::F32(values)).unwrap();
+            assert_eq!(frame.range(), (-2.0, 3.0), "{at}");
+        }
+        let values = vec![f16::from_f32(-1.0), f16::NAN, f16::from_f32(0.25), f16::from_f32(4.0)];
+        let frame = Frame::new(4, 1, Channels::Gray, Samples::F16(values)).unwrap();
+        assert_eq!(frame.range(), (-1.0, 4.0));
+        let cut = frame.cropped(Crop { x: 1, y: 0, width: 2, height: 1 }).unwrap();
+        assert_eq!(cut.range(), (0.25, 0.25));
+    }
 
     #[test]
     fn says_where_the_first_nan_is_and_how_many() {
