@@ -3,9 +3,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use fovqa_frame::source::Source;
+use fovqa_frame::source::{Source, SourceError};
 use fovqa_io::sequence::{FramePair, PairingError, Pairs, Spacing, pair};
 use fovqa_metrics::Metric;
+use fovqa_metrics::fvvdp::Padding;
 use fovqa_plan::{Plan, Scene};
 use fovqa_vision::GazeAt;
 
@@ -159,6 +160,7 @@ pub fn find(plan: &Plan, given: &Given) -> Found {
                 };
                 if plan.metrics.metrics().contains(&Metric::Fvvdp) {
                     timings(&view, view.fps, &plan.params.fvvdp)?;
+                    refuse_streams(plan, &view)?;
                 }
                 Ok(view)
             }) {
@@ -169,6 +171,23 @@ pub fn find(plan: &Plan, given: &Given) -> Found {
         number_alike(&mut found.views, scene_index);
     }
     found
+}
+
+/// Refuses streams where FovVideoVDP begins a sequence with frames that come later.
+fn refuse_streams(plan: &Plan, view: &FoundView) -> Result<(), EngineError> {
+    let mut streams = view.sources.all().filter(|source| source.is_read_once());
+    let looks_ahead = plan.params.fvvdp.temp_padding != Padding::Replicate;
+    match streams.next().filter(|_| looks_ahead && view.frames.len() > 1) {
+        None => Ok(()),
+        Some(stream) => {
+            let message = format!(
+                "{}: FovVideoVDP begins with frames that come later, and a stream is read but once, in order",
+                stream.listing().argument
+            );
+            let help = "write it to a file first, or leave fvvdp.temp_padding at replicate";
+            Err(SourceError::new(message, help).into())
+        }
+    }
 }
 
 /// Two eyes with one frame each, of different numbers: the numbers tell the eyes apart, and no

@@ -1,6 +1,6 @@
 //! Sources whose length is not known before they end: what is alone there is found while they are read.
 
-use fovqa_frame::source::{Source, SourceError};
+use fovqa_frame::source::{Length, Source, SourceError};
 use fovqa_plan::{Plan, Scene};
 use fovqa_results::Failure;
 
@@ -62,7 +62,11 @@ impl<'a> OpenEnded<'a> {
         if self.plan.frames.is_some() || self.scene.frames.is_some() {
             return None;
         }
-        let mut open = self.view.sources.all().filter(|source| source.listing().is_open());
+        let mut open = self
+            .view
+            .sources
+            .all()
+            .filter(|source| source.listing().length() == Some(Length::Open));
         let source = open.find(|source| source.has_more() == Ok(true))?;
         let frames = self.view.frames.len();
         let message = format!(

@@ -1,6 +1,6 @@
 //! What the user should know of the frames that were found, before a pixel is read.
 
-use fovqa_frame::source::Numbering;
+use fovqa_frame::source::{Length, Numbering, Source};
 use fovqa_io::sequence::Spacing;
 use fovqa_plan::{EyeView, Gaze, Plan, Scene};
 
@@ -53,6 +53,15 @@ pub(crate) fn remarks(
             "{missing} {are} missing in reference and test: no difference over time is taken across {them}"
         ));
     }
+    for listing in sources.all().map(Source::listing) {
+        if let Some(Length::Damaged(frames)) = listing.length() {
+            remarks.push(format!(
+                "{}: its frame {} is damaged, and nothing behind it is found",
+                listing.argument,
+                frames.saturating_sub(1)
+            ));
+        }
+    }
     let mut rates = sources.all().filter_map(|source| Some((source.fps()?, source)));
     if scene.fps.is_none()
         && let Some((rate, first)) = rates.next()
@@ -60,8 +69,15 @@ pub(crate) fn remarks(
     {
         let [first, second] = [first, second].map(|source| &source.listing().argument);
         remarks.push(format!(
-            "{first} has {rate} frames a second and {second} has {other}: the first counts, unless {{fps}} says otherwise"
+            "{first} has {} frames a second and {second} has {}: the first counts, unless {{fps}} says otherwise",
+            shown(rate),
+            shown(other)
         ));
     }
     Ok(remarks)
+}
+
+/// A rate with as many decimals as anybody reads.
+fn shown(rate: f64) -> f64 {
+    (rate * 1000.0).round() / 1000.0
 }

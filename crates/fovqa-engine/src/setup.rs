@@ -125,11 +125,11 @@ impl<'a> Setup<'a> {
         }
         Err(Fault {
             message: format!(
-                "{file} has the pixelAspectRatio {pixel_aspect}, the width of a pixel over its height, and the \
-                 view has {seen:.4}"
+                "{file} says that its pixels are {pixel_aspect} times as wide as high, and in the view they are \
+                 {seen:.4} times"
             ),
             help: "give the horizontal and the vertical field of view, or the frustum, as it was rendered; if the \
-                   pixels are square, write 1 into the file"
+                   pixels are square, write that into the file (pixelAspectRatio 1 of OpenEXR, A1:1 of y4m)"
                 .to_owned(),
         })
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use fovqa_frame::source::Source;
 #[cfg(test)]
-use fovqa_frame::source::{Listing, Origin, Picture, PictureGuides, SourceError};
+use fovqa_frame::source::{Length, Listing, Origin, Picture, PictureGuides, SourceError};
 use fovqa_io::sequence::pair;
 use fovqa_io::{
     DepthChannels, GuideOptions, MotionChannels, ReadOptions, SourceOptions, open_source,
@@ -166,7 +166,7 @@ type OwnFiles = (Arc<dyn Source>, BTreeMap<usize, usize>);
 impl ViewSources {
     /// Of frames that are never read.
     pub(crate) fn empty() -> Self {
-        let listing = Listing::counted(String::new(), 0);
+        let listing = Listing::counted(String::new(), Length::Whole(0));
         let (tests, reference) = (BTreeMap::new(), Arc::new(Never(listing)));
         Self { reference, tests, motion: None, depth: None }
     }

@@ -31,7 +31,7 @@ words! {
 }
 
 impl OrAuto for Transfer {
-    const AUTO: &'static str = "sRGB for PNG and JPEG, linear for OpenEXR";
+    const AUTO: &'static str = "sRGB for PNG, JPEG and y4m video, linear for OpenEXR";
 }
 
 words! {

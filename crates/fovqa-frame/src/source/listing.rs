@@ -21,12 +21,18 @@ pub enum Frames {
     /// Each with a name of its own.
     Named(Vec<Entry>),
     /// Frames without names, such as those of a video, counted from 0.
-    Counted {
-        /// How many are known of.
-        known: usize,
-        /// Whether more may come: a stream that has not ended, a file that is damaged behind these.
-        is_open: bool,
-    },
+    Counted(Length),
+}
+
+/// How many frames a source without names has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Length {
+    /// So many.
+    Whole(usize),
+    /// So many, of which the last cannot be read. Whether there were more behind it, nobody knows.
+    Damaged(usize),
+    /// As many as will come: a stream.
+    Open,
 }
 
 /// A frame with a name.
@@ -41,28 +47,25 @@ pub struct Entry {
 }
 
 impl Listing {
-    /// So many frames without names.
-    pub fn counted(argument: String, known: usize) -> Self {
-        let frames = Frames::Counted { known, is_open: false };
+    /// Frames without names.
+    pub fn counted(argument: String, length: Length) -> Self {
+        let frames = Frames::Counted(length);
         Self { argument, is_single: false, frames, numbering: Numbering::ByPosition }
     }
 
-    /// The same where nobody knows how many there are behind them.
-    pub fn open(argument: String, known: usize) -> Self {
-        let frames = Frames::Counted { known, is_open: true };
-        Self { frames, ..Self::counted(argument, known) }
-    }
-
-    /// Whether the last frame is known only once it has come.
-    pub fn is_open(&self) -> bool {
-        matches!(self.frames, Frames::Counted { is_open: true, .. })
+    /// How long it is, where its frames have no names.
+    pub fn length(&self) -> Option<Length> {
+        match self.frames {
+            Frames::Named(_) => None,
+            Frames::Counted(length) => Some(length),
+        }
     }
 
     /// The frames with names; none, where they have none.
     pub fn entries(&self) -> &[Entry] {
         match &self.frames {
             Frames::Named(entries) => entries,
-            Frames::Counted { .. } => &[],
+            Frames::Counted(_) => &[],
         }
     }
 
@@ -75,7 +78,7 @@ impl Listing {
     pub fn label(&self, frame: usize) -> String {
         match &self.frames {
             Frames::Named(_) => self.name(frame).to_owned(),
-            Frames::Counted { .. } => format!("{}, frame {frame}", self.argument),
+            Frames::Counted(_) => format!("{}, frame {frame}", self.argument),
         }
     }
 }
@@ -136,7 +139,7 @@ mod tests {
 
     #[test]
     fn frames_without_names_are_told_apart_in_messages() {
-        let video = Listing::counted("a.y4m".to_owned(), 3);
+        let video = Listing::counted("a.y4m".to_owned(), Length::Whole(3));
         assert_eq!((video.name(2), video.label(2)), ("a.y4m", "a.y4m, frame 2".to_owned()));
         let entry = Entry { name: "a/1.png".to_owned(), stem: "1".into(), number: Some(1) };
         let frames = Frames::Named(vec![entry]);

@@ -5,7 +5,7 @@ mod listing;
 mod picture;
 
 pub use error::SourceError;
-pub use listing::{Doubt, Entry, Frames, Listing, Numbering};
+pub use listing::{Doubt, Entry, Frames, Length, Listing, Numbering};
 pub use picture::{InputId, MissingGuides, Picture, PictureGuides};
 
 use std::fmt::Debug;

@@ -97,10 +97,12 @@ impl ListingError {
         match self {
             Self::NotFound(_) => "check the path; a relative one starts in {start}",
             Self::Dangling { .. } => "fetch the file (git annex get, dvc pull), or mend the link",
-            Self::NotRegular(_) => "give a file, a folder or a pattern",
+            Self::NotRegular(_) => {
+                "give a file, a folder or a pattern; - stands for a y4m video on standard input"
+            }
             Self::Io { .. } => "check that it may be read",
             Self::Empty { .. } => {
-                "give a folder with .png, .jpg or .exr files, or a pattern that matches some"
+                "give a folder with .png, .jpg or .exr files, a pattern that matches some, or a y4m video by its name"
             }
             Self::SameStem(..) => "give a pattern with the ending, such as 'renders/*.exr'",
             Self::Pattern { .. } => "use *, ? and [a-z], or one number such as %04d or ####",

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use fovqa_frame::source::{Doubt, Entry, Frames, Listing, Numbering};
+use fovqa_frame::source::{Doubt, Entry, Frames, Length, Listing, Numbering};
 use thiserror::Error;
 
 use super::spacing::Spacing;
@@ -114,11 +114,10 @@ impl PairingError {
 fn unpaired(alone: &Alone) -> String {
     const SHOWN: usize = 5;
     let side = |files: &[(Option<i64>, String)], of: &str, without: &str| {
-        let names = files.iter().take(SHOWN).map(|(_, name)| name.as_str());
-        let names: Vec<_> = names.collect();
+        let names: Vec<&str> = files.iter().take(SHOWN).map(|(_, name)| name.as_str()).collect();
         let more = files.len().saturating_sub(SHOWN);
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-        format!("{of} without a {without}: {}{more}", names.join(", "))
+        format!("{of} without a {without}: {}{more}", of_one_source(&names))
     };
     let mut parts = Vec::new();
     if !alone.reference.is_empty() {
@@ -128,6 +127,22 @@ fn unpaired(alone: &Alone) -> String {
         parts.push(side(&alone.test, "test", "reference frame"));
     }
     parts.join("; ")
+}
+
+/// Names with commas between them; what they share in front of the number of a frame stands once.
+fn of_one_source(names: &[&str]) -> String {
+    let parts: Option<Vec<(&str, &str)>> =
+        names.iter().map(|name| name.rsplit_once(", frame ")).collect();
+    match parts.as_deref() {
+        Some([(source, first), rest @ ..])
+            if !rest.is_empty() && rest.iter().all(|(other, _)| other == source) =>
+        {
+            let rest = rest.iter().map(|(_, frame)| *frame);
+            let frames: Vec<&str> = [*first].into_iter().chain(rest).collect();
+            format!("{source}, frames {}", frames.join(", "))
+        }
+        _ => names.join(", "),
+    }
 }
 
 /// Pairs the frames of two sources: two single ones as they are, others by stem and then by number. Those of
@@ -141,28 +156,31 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
         PairingError::Nothing { reference, test }
     };
     match (&reference.frames, &test.frames) {
-        (Frames::Counted { known, .. }, Frames::Counted { known: other, .. }) => {
-            let (known, other) = (*known, *other);
-            if reference.is_open() && test.is_open() && known.max(other) == 0 {
-                let (reference, test) = (reference.argument.clone(), test.argument.clone());
-                return Err(PairingError::Endless { reference, test });
-            }
-            let count = |of: &Listing, known: usize, other: usize| {
-                if of.is_open() { known.max(other) } else { known }
+        (Frames::Counted(length), Frames::Counted(other)) => {
+            let both = match (*length, *other) {
+                (Length::Open, Length::Open) => {
+                    let (reference, test) = (reference.argument.clone(), test.argument.clone());
+                    return Err(PairingError::Endless { reference, test });
+                }
+                (Length::Open, length) | (length, Length::Open) => known(length),
+                (length, other) => known(length).min(known(other)),
             };
-            let (count, other) = (count(reference, known, other), count(test, other, known));
             let pair = |at: usize| FramePair { number: at as i64, reference: at, test: at };
-            let both = count.min(other);
-            let alone = |of: &Listing, count: usize| {
+            // Behind a frame that is damaged there may have been any number.
+            let alone = |of: &Listing, length: Length, other: Length| {
+                let count = if let Length::Damaged(_) = other { both } else { known(length) };
                 (both..count).map(|at| (Some(at as i64), of.label(at))).collect()
             };
-            let alone = Alone { reference: alone(reference, count), test: alone(test, other) };
+            let alone = Alone {
+                reference: alone(reference, *length, *other),
+                test: alone(test, *other, *length),
+            };
             let numbering = Numbering::ByPosition;
             let pairs: Vec<_> = (0..both).map(pair).collect();
             if pairs.is_empty() { Err(nothing()) } else { Ok(Pairs { pairs, numbering, alone }) }
         }
-        (Frames::Named(names), Frames::Counted { known, .. }) => {
-            let counted = Counted { named: reference, names, known: *known, other: test };
+        (Frames::Named(names), Frames::Counted(length)) => {
+            let counted = Counted { named: reference, names, length: *length, other: test };
             let (pairs, [named, other]) = counted.pairs(|number, named, other| FramePair {
                 number,
                 reference: named,
@@ -174,8 +192,8 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
             }
             Ok(Pairs { pairs, numbering: reference.numbering.clone(), alone })
         }
-        (Frames::Counted { known, .. }, Frames::Named(names)) => {
-            let counted = Counted { named: test, names, known: *known, other: reference };
+        (Frames::Counted(length), Frames::Named(names)) => {
+            let counted = Counted { named: test, names, length: *length, other: reference };
             let (pairs, [named, other]) = counted.pairs(|number, named, other| FramePair {
                 number,
                 reference: other,
@@ -195,9 +213,17 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
 struct Counted<'a> {
     named: &'a Listing,
     names: &'a [Entry],
-    /// How many frames the other one is known to have.
-    known: usize,
+    /// Of the other one.
+    length: Length,
     other: &'a Listing,
+}
+
+/// Frames that are known of before any of them is read.
+fn known(length: Length) -> usize {
+    match length {
+        Length::Whole(frames) | Length::Damaged(frames) => frames,
+        Length::Open => 0,
+    }
 }
 
 /// Frames without a partner.
@@ -216,15 +242,15 @@ impl Counted<'_> {
         let spacing = Spacing::of(&numbers);
         let places: Vec<usize> =
             (0..self.names.len()).map(|at| spacing.place(number(at))).collect();
-        // A source that may go on has what the names ask for.
-        let asked = places.iter().max().map_or(0, |last| last.saturating_add(1));
-        let count = if self.other.is_open() { self.known.max(asked) } else { self.known };
-        let (with, without): (Vec<usize>, Vec<usize>) =
-            (0..self.names.len()).partition(|at| places[*at] < count);
+        // A stream has what the names ask for, and behind a damaged frame there may have been any.
+        let is_there = |at: &usize| self.length == Length::Open || places[*at] < known(self.length);
+        let (with, without): (Vec<usize>, Vec<usize>) = (0..self.names.len()).partition(is_there);
+        let is_missed = |_: &&usize| !matches!(self.length, Length::Damaged(_));
+        let without = without.iter().filter(is_missed);
         let taken: BTreeSet<usize> = with.iter().map(|at| places[*at]).collect();
-        let others = (0..self.known).filter(|at| !taken.contains(at));
+        let others = (0..known(self.length)).filter(|at| !taken.contains(at));
         let alone = [
-            without.iter().map(|at| (Some(number(*at)), self.named.label(*at))).collect(),
+            without.map(|at| (Some(number(*at)), self.named.label(*at))).collect(),
             others.map(|at| (spacing.number(at), self.other.label(at))).collect(),
         ];
         Ok((with.iter().map(|at| pair(number(*at), *at, places[*at])).collect(), alone))
@@ -365,8 +391,9 @@ mod tests {
     #[test]
     fn frames_without_names_count_from_the_first() {
         let files = listing(&["f1.png", "f2.png", "f4.png"]);
-        let video = |frames| Listing::counted("v.y4m".to_owned(), frames);
-        let open = |frames| Listing::open("v.y4m".to_owned(), frames);
+        let of = |length| Listing::counted("v.y4m".to_owned(), length);
+        let (video, damaged) = (|n| of(Length::Whole(n)), |n| of(Length::Damaged(n)));
+        let stream = of(Length::Open);
         let whole = pair(&files, &video(4)).unwrap();
         let places: Vec<_> = whole.pairs.iter().map(|p| (p.number, p.reference, p.test)).collect();
         assert_eq!(places, [(1, 0, 0), (2, 1, 1), (4, 2, 3)]);
@@ -377,20 +404,24 @@ mod tests {
         let places: Vec<_> = short.pairs.iter().map(|p| (p.number, p.reference, p.test)).collect();
         assert_eq!(places, [(1, 0, 0), (2, 1, 1)]);
         assert_eq!(short.alone.test, [(Some(4), "f4.png".to_owned())]);
-        let endless = pair(&files, &open(0)).unwrap();
-        assert_eq!((endless.pairs.len(), endless.alone.count()), (3, 0));
-        // What is damaged at its end has what is known of it, and may have had the others.
-        assert_eq!(pair(&files, &open(2)).unwrap().pairs.len(), 3);
-        let damaged = pair(&files, &open(6)).unwrap();
-        assert_eq!((damaged.pairs.len(), damaged.alone.test.len()), (3, 3));
-        let two = pair(&video(2), &video(3)).unwrap();
-        assert_eq!((two.pairs.len(), two.alone.test.len()), (2, 1));
-        assert_eq!(pair(&open(0), &video(3)).unwrap().pairs.len(), 3);
-        assert_eq!(pair(&open(2), &video(3)).unwrap().pairs.len(), 3);
-        assert_eq!(pair(&open(4), &video(3)).unwrap().alone.reference.len(), 1);
-        assert_eq!(pair(&open(4), &open(0)).unwrap().pairs.len(), 4);
-        let both = pair(&open(0), &open(0)).unwrap_err();
+        let counts = |reference: &Listing, test: &Listing| {
+            let Pairs { pairs, alone, .. } = pair(reference, test).unwrap();
+            (pairs.len(), alone.reference.len(), alone.test.len())
+        };
+        assert_eq!(counts(&files, &stream), (3, 0, 0));
+        assert_eq!(counts(&files, &damaged(2)), (2, 0, 0));
+        assert_eq!(counts(&files, &damaged(6)), (3, 0, 3));
+        assert_eq!(counts(&video(2), &video(3)), (2, 0, 1));
+        assert_eq!(counts(&stream, &video(3)), (3, 0, 0));
+        assert_eq!(counts(&damaged(2), &video(3)), (2, 0, 0));
+        assert_eq!(counts(&damaged(4), &video(3)), (3, 1, 0));
+        assert_eq!(counts(&damaged(4), &damaged(5)), (4, 0, 0));
+        assert_eq!(counts(&damaged(4), &stream), (4, 0, 0));
+        let both = pair(&stream, &stream).unwrap_err();
         assert!(matches!(both, PairingError::Endless { .. }));
+        let long = pair(&video(2), &video(9)).unwrap().alone;
+        let said = PairingError::Unpaired(long).to_string();
+        assert_eq!(said, "test without a reference frame: v.y4m, frames 2, 3, 4, 5, 6 and 2 more");
         assert!(pair(&video(0), &files).is_err());
     }
 
