@@ -50,3 +50,4 @@ mod unchanged;
 mod visible_difference;
 mod visible_difference_errors;
 mod wide_fields;
+mod y4m;

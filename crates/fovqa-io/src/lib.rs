@@ -1,5 +1,5 @@
 //! Files to frames, and pictures to files: PNG, JPEG and OpenEXR, with motion and depth where OpenEXR has them, sequences
-//! of them, and limits on what is read.
+//! of them, y4m video, and limits on what is read.
 //!
 //! Every decoder's mistake (an error, a panic, a declared size beyond reason) ends as a
 //! [`ReadError`] that names the file: one bad file never takes the others with it.
@@ -19,6 +19,7 @@ pub mod sequence;
 mod small_file;
 mod sources;
 mod write;
+mod y4m;
 
 pub use alpha::AlphaPolicy;
 pub use contain::is_contained;
@@ -36,3 +37,4 @@ pub use jpeg::JpegKind;
 pub use small_file::{open_regular_file, read_head, read_small_file};
 pub use sources::{FormatOptions, OpenError, open_source};
 pub use write::{exr_gray, exr_gray_half, png_rgb8};
+pub use y4m::{CodeRange, ColourMatrix, Y4mOptions, video_stream};

@@ -8,11 +8,16 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::files::{Files, SourceOptions};
-use crate::sequence::{ListingError, list_below};
+use crate::sequence::{FileListing, ListingError, list_below, shown};
+use crate::y4m::{VideoKind, Y4mOptions, is_video_name, open_video, standard_input, video_kind};
 
 /// Settings of one format alone, a field a format.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct FormatOptions {}
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct FormatOptions {
+    /// Video as YUV4MPEG2.
+    #[serde(flatten)]
+    pub y4m: Y4mOptions,
+}
 
 /// A path argument without a source.
 #[derive(Debug, Error)]
@@ -25,12 +30,40 @@ pub enum OpenError {
     Source(#[from] SourceError),
 }
 
-/// The source of a path argument: a file, a folder, a glob or a pattern. Wildcards in the folder of
-/// `options.base` are none.
+/// The source of a path argument: a video (`*.y4m`, or what begins like one), `-` for a video on standard
+/// input, an image, a folder, a glob or a pattern. Wildcards in the folder of `options.base` are none.
 ///
 /// # Errors
 /// When the argument stands for nothing, or for something that is no sequence of frames.
 pub fn open_source(argument: &Path, options: SourceOptions) -> Result<Arc<dyn Source>, OpenError> {
+    if argument == Path::new("-") {
+        return Ok(standard_input(&options.read)?);
+    }
     let files = list_below(&options.base, argument)?;
+    match files.files.as_slice() {
+        [file] => match video_kind(&file.path) {
+            Some(VideoKind::Y4m) => return Ok(open_video(&file.path, &options)?),
+            Some(VideoKind::Other(what)) => {
+                let argument = shown(&options.base, &file.path);
+                let message = format!("{argument}: it is {what} video, of which y4m alone is read");
+                let help = "ffmpeg -i FILE -f yuv4mpegpipe -strict -1 FILE.y4m makes one, or pipe it into `fovqa score … -`";
+                return Err(SourceError::new(message, help).into());
+            }
+            None => {}
+        },
+        [first, .., last] if [first, last].iter().any(|file| is_video_name(&file.path)) => {
+            return Err(several_videos(&files, &options).into());
+        }
+        _ => {}
+    }
     Ok(Arc::new(Files::new(&files, options)))
+}
+
+fn several_videos(files: &FileListing, options: &SourceOptions) -> SourceError {
+    let argument = shown(&options.base, &files.argument);
+    let message = format!(
+        "{argument} stands for {} files, videos among them; each video is a sequence by itself",
+        files.files.len()
+    );
+    SourceError::new(message, "give one video")
 }

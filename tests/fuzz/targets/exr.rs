@@ -21,6 +21,7 @@ fuzz_target!(init: prepare(), |bytes: &[u8]| {
         alpha: AlphaPolicy::Error,
         max_megapixels: 1,
         guides: GuideOptions { motion: MotionChannels::Auto, depth: DepthChannels::Auto },
+        ..ReadOptions::default()
     };
     let named = ReadOptions {
         layer: Some("ViewLayer.Combined".to_owned()),

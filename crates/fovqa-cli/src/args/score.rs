@@ -1,6 +1,6 @@
 //! `fovqa score`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use fovqa_io::sequence::FrameRange;
@@ -13,7 +13,8 @@ use super::values::positive;
 use super::view::ViewArgs;
 
 pub(crate) const EXAMPLES: &str = "\
-Paths are files, folders, globs ('renders/*.exr') or patterns (gt.%04d.exr, 'gt.####.exr').
+Paths are files, folders, globs ('renders/*.exr'), patterns (gt.%04d.exr, 'gt.####.exr') or y4m
+video, - from standard input.
 Frames pair by name, then by the number that changes from name to name (docs/files.md).
 
 Examples:
@@ -21,6 +22,7 @@ Examples:
   fovqa score gt/ rmfr/ --display vive-pro-eye --gaze gaze.csv --fps 72 --format csv
   fovqa score gt/ rmfr/ --metrics fvvdp --display htc-vive-pro --fps 90 --maps maps
   fovqa score gt.%04d.exr rmfr.%04d.exr --tonemap reinhard --exposure 0.5 --metrics psnr,ssim
+  ffmpeg -i rmfr.mkv -f yuv4mpegpipe -strict -1 - | fovqa score gt.y4m -
 
 Exit codes: 0 done; 2 the command line is wrong; 3 an input is missing, unreadable or does not fit,
 or the output cannot be written (frames that fit are scored all the same); 70 a bug in fovqa; 130
@@ -39,9 +41,10 @@ pub(crate) enum Format {
 
 #[derive(Debug, Args)]
 pub(crate) struct ScoreArgs {
-    /// Reference frames (ground truth)
+    /// Reference frames (ground truth): a file, a folder, a glob, a pattern, a y4m video, or - for one on
+    /// standard input
     reference: PathBuf,
-    /// Test frames (foveated)
+    /// Test frames (foveated), likewise
     test: PathBuf,
     /// How results are printed
     #[arg(long, value_name = "FORMAT", default_value = "table")]
@@ -57,7 +60,8 @@ pub(crate) struct ScoreArgs {
     /// Frames by their numbers, from A up to, but without, B
     #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP", help_heading = "Sequence")]
     frames: Option<FrameRange>,
-    /// Frames a second: FovVideoVDP of a sequence, and gaze traces in seconds, need it
+    /// Frames a second: FovVideoVDP of a sequence, and gaze traces in seconds, need it [default: that of a
+    /// video]
     #[arg(long, value_name = "N", value_parser = positive, help_heading = "Sequence")]
     fps: Option<f64>,
     /// Pass over frames without a partner
@@ -75,6 +79,10 @@ pub(crate) struct ScoreArgs {
 impl ScoreArgs {
     /// The plan; the error is a wrong command line.
     pub(crate) fn plan(self) -> Result<Plan, String> {
+        let stdin = Path::new("-");
+        if self.reference == stdin && self.test == stdin {
+            return Err("both frames are standard input (-), which can be read but once".to_owned());
+        }
         let (motion_files, depth_files) = self.guides.files();
         let settings = Settings {
             guides: self.guides.options(),

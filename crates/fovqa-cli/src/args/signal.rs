@@ -1,11 +1,11 @@
 //! `--channels`, `--exposure`, `--tonemap`, `--transfer`, `--layer`, `--test-layer`, `--alpha`, `--nonfinite`,
-//! `--mask`, `--crop`.
+//! `--range`, `--matrix`, `--mask`, `--crop`.
 
 use std::path::PathBuf;
 
 use clap::Args;
 use fovqa_frame::{Crop, SignalChannels, SignalParams, ToneMap, Transfer};
-use fovqa_io::{AlphaPolicy, ReadOptions};
+use fovqa_io::{AlphaPolicy, CodeRange, ColourMatrix, FormatOptions, ReadOptions, Y4mOptions};
 use fovqa_params::Words;
 use fovqa_plan::Nonfinite;
 
@@ -13,6 +13,8 @@ use super::values::{crop, finite, words};
 
 /// Otherwise the parser would take `Option` for an option that need not be given.
 type TransferOrAuto = Option<Transfer>;
+type RangeOrAuto = Option<CodeRange>;
+type MatrixOrAuto = Option<ColourMatrix>;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Signal")]
@@ -42,6 +44,12 @@ pub(crate) struct SignalArgs {
     /// What to do about alpha that is not 1 everywhere
     #[arg(long, value_name = "POLICY", default_value = AlphaPolicy::default().word(), value_parser = words::<AlphaPolicy>())]
     alpha: AlphaPolicy,
+    /// Which codes of y4m video are black and white
+    #[arg(long, value_name = "NAME", default_value = RangeOrAuto::default().word(), value_parser = words::<RangeOrAuto>())]
+    range: RangeOrAuto,
+    /// What Y', Cb and Cr of y4m video were made with
+    #[arg(long, value_name = "NAME", default_value = MatrixOrAuto::default().word(), value_parser = words::<MatrixOrAuto>())]
+    matrix: MatrixOrAuto,
     /// Picture that is white where pixels count, such as a lens's visible area
     #[arg(long, value_name = "FILE")]
     mask: Option<PathBuf>,
@@ -68,6 +76,7 @@ impl SignalArgs {
             layer: self.layer.clone(),
             alpha: self.alpha,
             max_megapixels: self.max_megapixels,
+            formats: FormatOptions { y4m: Y4mOptions { range: self.range, matrix: self.matrix } },
             ..ReadOptions::default()
         }
     }

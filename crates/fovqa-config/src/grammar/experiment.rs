@@ -1,7 +1,7 @@
 //! The keys of an experiment file.
 
 use fovqa_frame::{SignalChannels, ToneMap, Transfer};
-use fovqa_io::{AlphaPolicy, GuidePreset, MotionUnit};
+use fovqa_io::{AlphaPolicy, CodeRange, ColourMatrix, GuidePreset, MotionUnit};
 use fovqa_params::words_of;
 use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
 
@@ -109,6 +109,16 @@ const SIGNAL: &[Key] = &[
         "alpha",
         Kind::Words(words_of::<AlphaPolicy>),
         "what to do about alpha that is not 1 everywhere",
+    ),
+    key(
+        "range",
+        Kind::Words(words_of::<Option<CodeRange>>),
+        "which codes of y4m video are black and white",
+    ),
+    key(
+        "matrix",
+        Kind::Words(words_of::<Option<ColourMatrix>>),
+        "what Y', Cb and Cr of y4m video were made with",
     ),
     key("mask", Kind::Text, "picture that is white where pixels count"),
     key(

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use fovqa_frame::{Crop, SignalParams};
-use fovqa_io::ReadOptions;
+use fovqa_io::{FormatOptions, ReadOptions, Y4mOptions};
 use fovqa_params::Words;
 use fovqa_vision::{BandEdges, ViewSpec};
 use serde_spanned::Spanned;
@@ -110,6 +110,9 @@ impl<'a> Layers<'a> {
             layer: self.text("layer").map(str::to_owned),
             alpha: self.word("alpha"),
             max_megapixels: megapixels.map_or(default.max_megapixels, |n| n as u64),
+            formats: FormatOptions {
+                y4m: Y4mOptions { range: self.word("range"), matrix: self.word("matrix") },
+            },
             ..default
         }
     }

@@ -1,0 +1,112 @@
+//! The colour tag of a header: bits, subsampling, and where the samples of chroma lie.
+
+/// What the samples of a video are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Colour {
+    /// 8, 10 or 12. Above 8, a sample is a word of two bytes, the low one first.
+    pub(super) bits: u32,
+    /// Cb and Cr; `None`: Y' alone.
+    pub(super) chroma: Option<Chroma>,
+}
+
+/// How Cb and Cr are sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Chroma {
+    pub(super) across: Sampling,
+    pub(super) down: Sampling,
+}
+
+/// The samples of chroma along one side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sampling {
+    /// One a pixel.
+    Each,
+    /// One for two pixels, halfway between them.
+    HalfCentred,
+    /// One for two pixels, in the place of the first.
+    HalfFirst,
+}
+
+impl Sampling {
+    /// Samples along a side of so many pixels.
+    pub(super) fn count(self, pixels: usize) -> usize {
+        match self {
+            Self::Each => pixels,
+            Self::HalfCentred | Self::HalfFirst => pixels.div_ceil(2),
+        }
+    }
+}
+
+const FULL: Chroma = Chroma { across: Sampling::Each, down: Sampling::Each };
+const HALF_ACROSS: Chroma = Chroma { across: Sampling::HalfFirst, down: Sampling::Each };
+const CENTRED: Chroma = Chroma { across: Sampling::HalfCentred, down: Sampling::HalfCentred };
+const LEFT: Chroma = Chroma { across: Sampling::HalfFirst, down: Sampling::HalfCentred };
+
+/// Every tag that is read. 4:2:0 of more than 8 bits is sited as today's encoders have it, on the left.
+const TAGS: [(&str, u32, Option<Chroma>); 15] = [
+    ("420", 8, Some(CENTRED)),
+    ("420jpeg", 8, Some(CENTRED)),
+    ("420mpeg2", 8, Some(LEFT)),
+    ("420paldv", 8, Some(LEFT)),
+    ("420p10", 10, Some(LEFT)),
+    ("420p12", 12, Some(LEFT)),
+    ("422", 8, Some(HALF_ACROSS)),
+    ("422p10", 10, Some(HALF_ACROSS)),
+    ("422p12", 12, Some(HALF_ACROSS)),
+    ("444", 8, Some(FULL)),
+    ("444p10", 10, Some(FULL)),
+    ("444p12", 12, Some(FULL)),
+    ("mono", 8, None),
+    ("mono10", 10, None),
+    ("mono12", 12, None),
+];
+
+impl Colour {
+    /// What a tag stands for; the error says why it is none.
+    pub(super) fn of_tag(tag: &str) -> Result<Self, String> {
+        if let Some((_, bits, chroma)) = TAGS.iter().find(|(name, ..)| *name == tag) {
+            return Ok(Self { bits: *bits, chroma: *chroma });
+        }
+        let why = if tag.contains("alpha") { ", which has alpha" } else { "" };
+        let known: Vec<&str> = TAGS.iter().map(|(name, ..)| *name).collect();
+        let tag: String = tag.chars().take(32).flat_map(char::escape_debug).collect();
+        Err(format!("its colour tag is C{tag}{why}; those that are read are {}", known.join(", ")))
+    }
+
+    /// A video without a tag.
+    pub(super) fn untagged() -> Self {
+        Self { bits: 8, chroma: Some(CENTRED) }
+    }
+
+    /// Bytes of a sample.
+    pub(super) fn sample_bytes(self) -> usize {
+        if self.bits > 8 { 2 } else { 1 }
+    }
+
+    /// The greatest code.
+    pub(super) fn greatest(self) -> u16 {
+        (1 << self.bits) - 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_read_is_said() {
+        assert_eq!(Colour::of_tag("420jpeg"), Ok(Colour::untagged()));
+        let error = Colour::of_tag("444alpha").unwrap_err();
+        assert!(error.starts_with("its colour tag is C444alpha, which has alpha; "), "{error}");
+        let error = Colour::of_tag("420p16").unwrap_err();
+        assert!(error.contains("C420p16; those that are read are 420, 420jpeg, "), "{error}");
+        assert!(!Colour::of_tag("4\u{1b}[2J").unwrap_err().contains('\u{1b}'));
+    }
+
+    #[test]
+    fn an_odd_side_has_half_a_sample_more() {
+        assert_eq!(Sampling::HalfFirst.count(5), 3);
+        assert_eq!(Sampling::HalfCentred.count(1), 1);
+        assert_eq!(Sampling::Each.count(5), 5);
+    }
+}

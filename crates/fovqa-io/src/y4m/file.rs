@@ -1,0 +1,172 @@
+//! A video in a file: any frame at any time.
+
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+use fovqa_frame::source::{
+    InputId, Length, Listing, Origin, Picture, PictureGuides, Source, SourceError,
+};
+
+use super::frames::{Line, Video, not_a_frame, read_line, unreadable};
+use super::header::MAGIC;
+use crate::files::SourceOptions;
+use crate::input_id::id_of_file;
+use crate::sequence::shown;
+use crate::small_file::{open_regular_file, read_head};
+
+/// What kind of video a file is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum VideoKind {
+    /// One that is read.
+    Y4m,
+    /// One that is not: its kind, with the article.
+    Other(&'static str),
+}
+
+/// The kind of video that a file is by its name, which one that is empty or cut short has too, or by its first
+/// bytes. `None`: it is no video.
+pub(crate) fn video_kind(path: &Path) -> Option<VideoKind> {
+    if is_video_name(path) {
+        return Some(VideoKind::Y4m);
+    }
+    match read_head(path, 12).ok()?.as_slice() {
+        head if head.starts_with(MAGIC) => Some(VideoKind::Y4m),
+        [0x1a, 0x45, 0xdf, 0xa3, ..] => Some(VideoKind::Other("a Matroska or WebM")),
+        [_, _, _, _, b'f', b't', b'y', b'p', ..] => Some(VideoKind::Other("an MP4 or QuickTime")),
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'A', b'V', b'I', b' ', ..] => {
+            Some(VideoKind::Other("an AVI"))
+        }
+        _ => None,
+    }
+}
+
+/// Whether a file is named like a video.
+pub(crate) fn is_video_name(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("y4m"))
+}
+
+/// A video in a file.
+#[derive(Debug)]
+struct VideoFile {
+    path: PathBuf,
+    video: Video,
+    listing: Listing,
+    /// Where the pixels of each whole frame begin.
+    frames: Vec<u64>,
+    /// What is behind them, if it is no frame.
+    rest: Option<SourceError>,
+    /// Size and hash, where they are taken.
+    id: Option<OnceLock<Result<InputId, SourceError>>>,
+}
+
+/// Reads the header of a video and finds its frames.
+pub(crate) fn open_video(
+    path: &Path,
+    options: &SourceOptions,
+) -> Result<Arc<dyn Source>, SourceError> {
+    let name = shown(&options.base, path);
+    let file = open_regular_file(path).map_err(|error| unreadable(&name, &error))?;
+    let length = file.metadata().map_err(|error| unreadable(&name, &error))?.len();
+    let mut reader = BufReader::new(file);
+    let video = Video::begin(name, &mut reader, &options.read)?;
+    let (frames, rest) = find_frames(&video, reader, length)?;
+    let count = frames.len() + usize::from(rest.is_some());
+    if count == 0 {
+        let message = format!("{}: it has a header and no frames", video.name);
+        return Err(SourceError::new(message, "check how it was written"));
+    }
+    let length = if rest.is_some() { Length::Damaged(count) } else { Length::Whole(count) };
+    let listing = Listing::counted(video.name.clone(), length);
+    let id = options.hash.then(OnceLock::new);
+    Ok(Arc::new(VideoFile { path: path.to_owned(), video, listing, frames, rest, id }))
+}
+
+/// Where the pixels of each frame begin, and what the rest is, if there is any.
+fn find_frames(
+    video: &Video,
+    mut reader: BufReader<std::fs::File>,
+    length: u64,
+) -> Result<(Vec<u64>, Option<SourceError>), SourceError> {
+    let failed = |error| unreadable(&video.name, &error);
+    let bytes = video.header.frame_bytes() as u64;
+    let mut frames = Vec::new();
+    loop {
+        let line = read_line(&mut reader).map_err(failed)?;
+        if line == Line::None {
+            return Ok((frames, None));
+        }
+        if let Some((what, help)) = not_a_frame(&line) {
+            let error = video.error(frames.len(), &what, help);
+            return Ok((frames, Some(error)));
+        }
+        let start = reader.stream_position().map_err(failed)?;
+        let there = length.saturating_sub(start);
+        if there < bytes {
+            let error = video.cut(frames.len(), there);
+            return Ok((frames, Some(error)));
+        }
+        frames.push(start);
+        // Not `seek`, which would throw away what has been read ahead of small frames.
+        reader.seek_relative(bytes as i64).map_err(failed)?;
+    }
+}
+
+impl VideoFile {
+    fn bytes(&self, frame: usize) -> Result<Vec<u8>, SourceError> {
+        let Some(start) = self.frames.get(frame) else {
+            let whole = self.frames.len();
+            return Err(match &self.rest {
+                None => self.video.ended(whole),
+                Some(damage) if frame == whole => damage.clone(),
+                Some(_) => self.video.damaged(whole),
+            });
+        };
+        let failed = |error| unreadable(&self.listing.label(frame), &error);
+        let mut file = open_regular_file(&self.path).map_err(failed)?;
+        let mut bytes = vec![0; self.video.header.frame_bytes()];
+        file.seek(SeekFrom::Start(*start)).map_err(failed)?;
+        file.read_exact(&mut bytes).map_err(failed)?;
+        Ok(bytes)
+    }
+
+    fn inputs(&self) -> Result<Vec<(String, InputId)>, SourceError> {
+        let Some(id) = &self.id else { return Ok(Vec::new()) };
+        let hashed =
+            || id_of_file(&self.path).map_err(|error| unreadable(&self.video.name, &error));
+        let id = id.get_or_init(hashed).clone()?;
+        Ok(vec![(self.video.name.clone(), id)])
+    }
+}
+
+impl Source for VideoFile {
+    fn listing(&self) -> &Listing {
+        &self.listing
+    }
+
+    fn size(&self, _frame: usize) -> Result<(usize, usize), SourceError> {
+        Ok((self.video.header.width, self.video.header.height))
+    }
+
+    fn bytes_per_pixel(&self) -> u64 {
+        self.video.bytes_per_pixel()
+    }
+
+    fn read(&self, frame: usize, guides: bool) -> Result<Picture, SourceError> {
+        let bytes = self.bytes(frame)?;
+        let picture = self.video.picture(frame, &bytes, guides)?;
+        Ok(Picture { inputs: self.inputs()?, ..picture })
+    }
+
+    fn read_guides(&self, _frame: usize) -> Result<PictureGuides, SourceError> {
+        self.video.no_guides()
+    }
+
+    fn origins(&self, _frame: usize) -> Vec<(String, Origin)> {
+        vec![(self.video.name.clone(), Origin::File(self.path.clone()))]
+    }
+
+    fn fps(&self) -> Option<f64> {
+        self.video.header.fps
+    }
+}
