@@ -47,7 +47,8 @@
 //! # Frames from elsewhere
 //!
 //! Whatever implements [`Source`] is a sequence of frames: a plan names it ([`SourceSpec::Given`]), and
-//! whoever runs the plan gives it ([`Given`]).
+//! whoever runs the plan gives it ([`Given`]). [`open_source`] is the source of a path, [`video_stream`] that of
+//! anything that gives the bytes of a y4m video.
 //!
 //! # Work for other processes
 //!
@@ -95,7 +96,7 @@ pub use fovqa_engine::{
 };
 pub use fovqa_frame::source::{Listing, Picture, Source, SourceError};
 pub use fovqa_frame::{Crop, Frame, SignalChannels, SignalParams, ToneMap, Transfer};
-pub use fovqa_io::ReadOptions;
+pub use fovqa_io::{ReadOptions, SourceOptions, open_source, video_stream};
 pub use fovqa_metrics::{Metric, ParamSet};
 pub use fovqa_params::ParamValue;
 pub use fovqa_plan::{
