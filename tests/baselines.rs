@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::{Value, json};
 
 use crate::experiment_folder::{experiment, two_scenes};
-use crate::fovqa::{Folder, Run};
+use crate::fovqa::{Folder, Run, root};
 use crate::gate_verdicts::{near, number};
 
 pub(crate) const METRICS: &str = "[metrics]\nmse = {}\npsnr = {}\nssim = {}\n";
@@ -166,4 +166,52 @@ fn a_baseline_has_the_same_bytes_for_any_number_of_threads() {
     let [one, eight] = ["1.json", "8.json"].map(|name| fs::read(folder.path(name)).unwrap());
     assert_eq!(one, eight);
     assert!(one.ends_with(b"}\n") && one.is_ascii());
+}
+
+/// As a merge leaves it that went wrong: `tests/cases/baseline-duplicate`.
+#[test]
+fn a_comparison_that_stands_twice_is_refused() {
+    let folder = saved(DROP);
+    for (file, twice) in
+        [("dupfirst.json", "mono, B"), ("baseline-crash.json", "living-room, VaFR")]
+    {
+        let path = root().join("tests/cases/baseline-duplicate").join(file);
+        let path = path.display().to_string();
+        let said = [file, "it is not a baseline: the comparison ", twice, " stands twice"];
+        folder.run(&["baseline", "show", &path]).fails(3, &said);
+        folder.run(&["gate", "e.toml", "--baseline", &path]).fails(3, &said);
+    }
+    let before = read(&folder, "b.json");
+    edit(&folder, |baseline| {
+        let comparisons = baseline["comparisons"].as_array_mut().unwrap();
+        comparisons.push(comparisons[1].clone());
+    });
+    let doubled = fs::read(folder.path("b.json")).unwrap();
+    folder.run(&["baseline", "accept", "reports/e", "b.json"]).fails(3, &["stands twice"]);
+    assert_eq!(fs::read(folder.path("b.json")).unwrap(), doubled, "it is left as it is");
+    folder.write("b.json", before.to_string());
+    assert_eq!(against(&folder).code, 0);
+}
+
+/// Of two values of one key nobody can tell which is meant.
+#[test]
+fn a_key_that_stands_twice_is_refused() {
+    let folder = saved(DROP);
+    let twice = |name: &str, key: &str| {
+        let text = String::from_utf8(fs::read(folder.path(name)).unwrap()).unwrap();
+        let (before, behind) = text.split_once(key).unwrap();
+        folder.write(name, format!("{before}{key} null,\n{key}{behind}"));
+        text
+    };
+    let baseline = twice("b.json", "\"psnr min\":");
+    against(&folder).fails(3, &["b.json: it is not a baseline: the key \"psnr min\" stands twice"]);
+    folder.write("b.json", baseline);
+    let record = twice("reports/e/run.json", "\"name\":");
+    let arguments = ["gate", "reports/e", "--baseline", "b.json"];
+    folder.run(&arguments).fails(3, &["run.json", "the key \"name\" stands twice"]);
+    folder.write("reports/e/run.json", record);
+    let summary = twice("reports/e/summary.json", "\"comparisons\":");
+    folder.run(&["report", "reports/e"]).fails(3, &["summary.json", "stands twice"]);
+    folder.write("reports/e/summary.json", summary);
+    folder.run(&["report", "reports/e"]).ok();
 }

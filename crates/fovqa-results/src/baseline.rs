@@ -1,6 +1,6 @@
 //! A baseline: the values of a run that later ones are held against, as a small text file fit for git.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use fovqa_metrics::{Better, Metric, MetricKind};
@@ -143,9 +143,19 @@ impl Baseline {
     /// Reads a file.
     ///
     /// # Errors
-    /// When it cannot be read, or is no baseline.
+    /// When it cannot be read, is no baseline, or has a comparison twice, as after a merge that went wrong.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        read_json_file(path, BASELINE_SCHEMA, "a baseline")
+        let expected = "a baseline";
+        let baseline: Self = read_json_file(path, BASELINE_SCHEMA, expected)?;
+        let mut places = BTreeSet::new();
+        let twice = baseline.comparisons.iter().find(|one| !places.insert(one.place()));
+        match twice {
+            None => Ok(baseline),
+            Some(one) => {
+                let detail = format!("the comparison {} stands twice", one.named());
+                Err(FileError::Format { path: path.to_owned(), expected, detail })
+            }
+        }
     }
 
     /// Frames of a comparison; `None`: there is no such comparison.

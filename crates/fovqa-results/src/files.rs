@@ -10,6 +10,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
 
+use crate::json::UniqueKeys;
+
 /// All values, a row each.
 pub const RESULTS_CSV: &str = "results.csv";
 /// Values over the frames.
@@ -112,7 +114,7 @@ pub fn open_result_file(path: &Path) -> Result<File, FileError> {
 /// Reads a JSON file of a run, of one schema.
 ///
 /// # Errors
-/// When it is not there, or is something else, or of another version.
+/// When it is not there, or is something else, or of another version, or has a key twice.
 pub fn read_json_file<T: DeserializeOwned>(
     path: &Path,
     schema: &str,
@@ -121,7 +123,7 @@ pub fn read_json_file<T: DeserializeOwned>(
     let bytes = read_small_file(path, MOST_BYTES)
         .map_err(|error| FileError::Read { path: path.to_owned(), error })?;
     let format = |detail: String| FileError::Format { path: path.to_owned(), expected, detail };
-    let value: serde_json::Value =
+    let UniqueKeys(value) =
         serde_json::from_slice(&bytes).map_err(|error| format(error.to_string()))?;
     match value.get("schema").and_then(serde_json::Value::as_str) {
         Some(found) if found == schema => {}

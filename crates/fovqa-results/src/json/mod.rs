@@ -4,6 +4,7 @@ mod compared;
 mod run;
 mod score;
 mod summary;
+mod unique_keys;
 mod values;
 
 pub use compared::{HaarRecord, HaarSides, HaarValues, SideValues};
@@ -12,4 +13,5 @@ pub use score::{SCORE_SCHEMA, write_json};
 pub use summary::{
     BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, SummaryRecord, ViewRecord,
 };
+pub(crate) use unique_keys::UniqueKeys;
 pub use values::Number;
