@@ -5,6 +5,7 @@
 mod bad_input;
 mod baselines;
 mod calibration;
+mod crafted_names;
 mod curve_files;
 mod curves;
 mod curves_golden;

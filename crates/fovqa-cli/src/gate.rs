@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use fovqa::{Given, RunOptions, Verdict, text_hash};
-use fovqa_report::{github_annotations, gitlab_report, junit, markdown, verdict_table};
+use fovqa_report::{
+    github_annotations, gitlab_report, junit, markdown, verdict_table, without_commands,
+};
 use fovqa_results::{State, write_verdict_json, write_whole};
 
 use crate::args::{Annotations, GateArgs, GateFormat};
@@ -99,7 +101,7 @@ fn print(args: &GateArgs, verdict: &Verdict) -> Exit {
             output::write(|out| out.write_all(report.as_bytes()))
         }
         (Some(Annotations::Github), _) => {
-            let text = format!("{table}{}", github_annotations(verdict));
+            let text = format!("{}{}", without_commands(&table), github_annotations(verdict));
             output::write(|out| out.write_all(text.as_bytes()))
         }
         (None, GateFormat::Table) => output::write(|out| out.write_all(table.as_bytes())),

@@ -20,5 +20,5 @@ pub use sheet::{ReportError, clear};
 pub use terminal::score_table;
 pub use verdict::{
     baseline_table, difference_table, github_annotations, gitlab_report, junit, markdown,
-    verdict_table,
+    verdict_table, without_commands,
 };

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use fovqa_results::{RunRecord, SummaryRecord};
 
 use crate::comparison::ComparisonTable;
+use crate::text_table::printable;
 
 /// A figure on the page.
 pub(crate) struct PageFigure<'a> {
@@ -145,7 +146,7 @@ pub(crate) fn address(path: &str) -> String {
 /// Text that HTML takes as it is, between tags and in attributes.
 pub(crate) fn escaped(text: &str) -> String {
     let mut plain = String::new();
-    for c in text.chars() {
+    for c in printable(text).chars() {
         match c {
             '&' => plain.push_str("&amp;"),
             '<' => plain.push_str("&lt;"),

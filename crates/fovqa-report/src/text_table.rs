@@ -20,10 +20,11 @@ pub(crate) fn aligned(mut table: Table) -> String {
     table.lines().map(|line| line.trim_end().to_owned()).collect::<Vec<_>>().join("\n")
 }
 
-/// A name that cannot steer the terminal.
-pub(crate) fn printable(name: &str) -> String {
+/// Text in which nothing steers a terminal or begins another line: characters that are not seen are written as
+/// escapes.
+pub(crate) fn printable(text: &str) -> String {
     let shown = |c: char| {
         if c.is_control() { c.escape_default().collect() } else { c.to_string() }
     };
-    name.chars().map(shown).collect()
+    text.chars().map(shown).collect()
 }

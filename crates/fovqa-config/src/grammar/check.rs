@@ -356,6 +356,9 @@ fn name_fits(text: &str) -> Result<(), String> {
             "cannot have / or \\ or control characters in it, or begin with a dot".to_owned()
         );
     }
+    if text.starts_with("::") {
+        return Err("cannot begin with ::, which is a command where CI shows it".to_owned());
+    }
     if text.chars().count() > LONGEST || text.len() > LONGEST_BYTES {
         return Err(format!(
             "cannot be longer than {LONGEST} characters, or {LONGEST_BYTES} bytes"

@@ -6,6 +6,7 @@ use fovqa_metrics::Better;
 
 use super::group::Group;
 use super::{ComparisonTable, Row};
+use crate::text_table::printable;
 
 impl ComparisonTable {
     /// A `tabular` to be put into a `table`; the best of each row in bold. Needs
@@ -13,7 +14,7 @@ impl ComparisonTable {
     pub fn latex(&self) -> String {
         let mut text = String::new();
         for note in &self.notes {
-            let _ = writeln!(text, "% {note}");
+            let _ = writeln!(text, "% {}", printable(note));
         }
         let methods = self.methods.len();
         let columns = format!(" {}", "r".repeat(methods)).repeat(self.groups.len());
@@ -92,7 +93,7 @@ fn number(group: &Group, value: Option<f64>) -> String {
 /// Text that LaTeX takes as it is.
 fn escaped(text: &str) -> String {
     let mut plain = String::new();
-    for c in text.chars() {
+    for c in printable(text).chars() {
         match c {
             '&' | '%' | '$' | '#' | '_' | '{' | '}' => plain.extend(['\\', c]),
             '~' => plain.push_str("\\textasciitilde{}"),

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::ComparisonTable;
+use crate::text_table::printable;
 
 impl ComparisonTable {
     /// GitHub's Markdown; the best of each row in bold.
@@ -42,7 +43,7 @@ impl ComparisonTable {
 /// Text that Markdown takes as it is.
 pub(crate) fn escaped_markdown(text: &str) -> String {
     let mut plain = String::new();
-    for c in text.chars() {
+    for c in printable(text).chars() {
         if matches!(c, '|' | '*' | '_' | '`' | '\\' | '<' | '>' | '[' | ']' | '#' | '&' | '~') {
             plain.push('\\');
         }

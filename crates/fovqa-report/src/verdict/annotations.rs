@@ -6,6 +6,19 @@ use fovqa_results::{RuleVerdict, State, Verdict};
 use serde_json::json;
 
 use super::{place, sentence};
+use crate::text_table::printable;
+
+/// Text that a job of GitHub shows and does not obey: a line that begins with `::`, or has `##[`, is a command
+/// there.
+pub fn without_commands(text: &str) -> String {
+    let lines = text.split_inclusive('\n').map(|line| {
+        let behind = line.trim_start();
+        let space = &line[..line.len() - behind.len()];
+        let guard = if behind.starts_with("::") { "\\" } else { "" };
+        format!("{space}{guard}{}", behind.replace("##[", "##\\["))
+    });
+    lines.collect()
+}
 
 /// Workflow commands of GitHub, a line a check that does not hold.
 pub fn github_annotations(verdict: &Verdict) -> String {
@@ -76,12 +89,24 @@ fn messages(verdict: &Verdict) -> Vec<Message<'_>> {
     messages
 }
 
-/// Escaped as GitHub reads messages.
+/// Escaped as GitHub reads messages: one line, without what would steer a terminal.
 fn data(text: &str) -> String {
-    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+    printable(text).replace('%', "%25")
 }
 
 /// Escaped as GitHub reads properties.
 fn property(text: &str) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_is_shown_and_not_obeyed() {
+        let text = "of  value\n::error::x\n  ::stop-commands::t\na ::b c\n##[group]d\n";
+        let shown = "of  value\n\\::error::x\n  \\::stop-commands::t\na ::b c\n##\\[group]d\n";
+        assert_eq!(without_commands(text), shown);
+    }
 }

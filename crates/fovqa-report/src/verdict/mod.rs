@@ -6,7 +6,7 @@ mod junit;
 mod markdown;
 mod terminal;
 
-pub use annotations::{github_annotations, gitlab_report};
+pub use annotations::{github_annotations, gitlab_report, without_commands};
 pub use baseline::{baseline_table, difference_table};
 pub use junit::junit;
 pub use markdown::markdown;
