@@ -312,6 +312,44 @@ fn damaged_results_are_refused() {
     folder.run(&["gate", "reports/e"]).ok();
 }
 
+/// Files that agree with each other, and are not those that were written: whatever was changed in them.
+#[test]
+fn changed_results_are_refused_by_everything_that_reads_them() {
+    let folder = scenes(HOLDS);
+    folder.run(&["run", "e.toml"]).ok();
+    for name in ["results.csv", "summary.json"] {
+        let path = folder.path(&format!("reports/e/{name}"));
+        let original = fs::read_to_string(&path).unwrap();
+        fs::write(&path, format!("{original}\n")).unwrap();
+        let said = [name, "it is not as the run has written it", "run the experiment again"];
+        for command in [
+            &["gate", "reports/e"][..],
+            &["report", "reports/e"],
+            &["baseline", "save", "reports/e", "b.json"],
+        ] {
+            folder.run(command).fails(3, &said);
+        }
+        fs::write(&path, &original).unwrap();
+    }
+    // Half a file, which a figure would be drawn of.
+    let path = folder.path("reports/e/results.csv");
+    let original = fs::read_to_string(&path).unwrap();
+    let lines: Vec<&str> = original.lines().collect();
+    fs::write(&path, lines[..lines.len() / 2].join("\n") + "\n").unwrap();
+    folder.run(&["report", "reports/e"]).fails(3, &["results.csv", "run the experiment again"]);
+    fs::write(&path, &original).unwrap();
+    // Those of an earlier version have no checksums.
+    let path = folder.path("reports/e/run.json");
+    let mut record: serde_json::Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    assert_eq!(record["files"].as_object().unwrap().len(), 2);
+    record.as_object_mut().unwrap().remove("files");
+    fs::write(&path, record.to_string()).unwrap();
+    let said = "an earlier version wrote it, without checksums";
+    folder.run(&["report", "reports/e"]).ok().says(&[said]);
+    let run = folder.run(&["gate", "reports/e"]).ok();
+    assert!(run.stdout.contains(said), "{}", run.stdout);
+}
+
 #[test]
 fn a_folder_has_been_scored_and_needs_rules() {
     let folder = scenes(HOLDS);

@@ -160,7 +160,11 @@ fn a_band_of_one_block_counts_among_others() {
     let inner =
         found.iter().find(|row| row["statistic"] == "map_pixels" && row["from_deg"] == "0.0");
     assert_eq!(inner.unwrap()["value"], "1");
-    // Without it, how the bands weigh would be guessed.
+    // Without it, how the bands weigh would be guessed. Versions that left it out had no checksums either.
+    let path = folder.path("reports/e/run.json");
+    let mut record: Value = serde_json::from_slice(&fs::read(&path).unwrap()).unwrap();
+    record.as_object_mut().unwrap().remove("files");
+    fs::write(&path, record.to_string()).unwrap();
     let csv = fs::read_to_string(folder.path("reports/e/results.csv")).unwrap();
     let without: Vec<&str> = csv.lines().filter(|line| !line.contains("map_pixels")).collect();
     folder.write("reports/e/results.csv", without.join("\n") + "\n");

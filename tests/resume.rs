@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::experiment_folder::{bytes, json, rows};
 use crate::fovqa::{Folder, command};
-use crate::recorded::{assert_same, journal, results, sequence, two_scenes};
+use crate::recorded::{assert_same, journal, results, sealed, sequence, two_scenes};
 
 /// Goes on with what is left of journals, a folder each, and ends as `whole` has.
 #[track_caller]
@@ -46,11 +46,14 @@ fn cuts(lines: &[String], of: &str) -> Vec<(String, String)> {
 /// The lines of a journal, with another value for what a frame has been scored.
 fn marked(lines: &[String]) -> Vec<String> {
     let mark = |line: &String| {
-        let mut value: Value = serde_json::from_str(line).unwrap();
-        let Some(values) = value.get_mut("values") else { return line.clone() };
+        let value: Value = serde_json::from_str(line).unwrap();
+        if value.get("values").is_none() {
+            return line.clone();
+        }
         // MSE comes first.
-        values[0] = 123.5.into();
-        format!("{value}\n")
+        let (before, behind) = line.split_once("\"values\":[").unwrap();
+        let (_, behind) = behind.split_once(',').unwrap();
+        sealed(&format!("{before}\"values\":[123.5,{behind}"))
     };
     lines.iter().map(mark).collect()
 }
@@ -232,7 +235,8 @@ fn what_has_changed_is_said_and_all_is_scored() {
     resumed(&cut, &[], &[]);
     resumed(&cut, &["--frames", "0..2"], &["it is of all frames, and this is of --frames 0..2:1"]);
     resumed(&cut, &["--shard", "1/2"], &["it is of a whole run, and this is shard 1/2"]);
-    let older = cut.replace("\"version\":\"0.1.0\"", "\"version\":\"0.0.9\"");
+    let older = cut.replacen("\"version\":\"0.1.0\"", "\"version\":\"0.0.9\"", 1);
+    let older: String = older.split_inclusive('\n').map(sealed).collect();
     resumed(&older, &[], &["it is of fovqa 0.0.9, and this is 0.1.0"]);
     resumed(
         "{\"schema\":\"fovqa.journal/9\"}\n",
@@ -446,4 +450,24 @@ fn a_full_disk_loses_nothing() {
     assert!(disk.mount("remount,size=64m"));
     folder.run(&run).ok().says(&["24 frames are finished"]);
     assert_same(&results(&folder.path("disk/out")), &wanted, "all was scored");
+}
+
+/// A line that is not as it was written is neither taken nor passed over.
+#[test]
+fn a_line_that_was_changed_is_refused() {
+    let folder = crate::experiment_folder::two_scenes();
+    folder.run(&["run", "e.toml", "--output", "whole"]).ok();
+    let lines = journal(&folder, "whole");
+    for (at, line) in lines.iter().enumerate() {
+        let digit = line.rfind(|c: char| c.is_ascii_digit() && c != '9').unwrap();
+        let digit = line[..digit].rfind(|c: char| c.is_ascii_digit() && c != '9').unwrap_or(digit);
+        let mut changed = lines.clone();
+        changed[at].replace_range(digit..=digit, "9");
+        folder.write("out/journal.jsonl", changed.concat());
+        let said = format!("journal.jsonl:{}: this line of the journal was changed", at + 1);
+        let run = folder.run(&["run", "e.toml", "--resume", "--output", "out"]);
+        run.fails(3, &[&said, "cut the file off in front of that line"]);
+        let kept = fs::read_to_string(folder.path("out/journal.jsonl")).unwrap();
+        assert!(kept == changed.concat(), "it is left as it is");
+    }
 }

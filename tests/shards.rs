@@ -8,7 +8,7 @@ use fovqa_testkit::exr_files::{File, Part};
 use crate::experiment_folder::{bytes, rows};
 use crate::fovqa::{Folder, Run};
 use crate::moving_frames::{SIZE, moving};
-use crate::recorded::{FRAMES, assert_same, journal, results, sequence, two_scenes};
+use crate::recorded::{FRAMES, assert_same, journal, results, sealed, sequence, two_scenes};
 
 /// Runs one shard, into `NAME-I-of-N`.
 fn shard(folder: &Folder, name: &str, index: usize, of: usize) -> Run {
@@ -205,7 +205,7 @@ fn a_shard_leaves_its_journal_and_nothing_else() {
     assert_eq!(bytes(&folder.path("s")).into_keys().collect::<Vec<_>>(), ["journal.jsonl"]);
     let lines = journal(&folder, "s");
     assert!(lines[0].contains("\"shard\":\"2/3\""));
-    assert_eq!(lines.last().unwrap(), "{\"done\":true}\n");
+    assert_eq!(*lines.last().unwrap(), sealed("{\"done\":true,\"sum\":\"\"}\n"));
     for command in ["report", "gate"] {
         folder.run(&[command, "s"]).fails(3, &["s: it has shard 2/3 of a run", "`fovqa merge`"]);
     }
@@ -322,7 +322,8 @@ fn shards_that_do_not_belong_together_are_told() {
     let other = |from: &str, to: &str, words: &[&str]| {
         let text = lines.concat();
         assert!(text.contains(from), "{from}");
-        folder.write("s-3-of-3/journal.jsonl", text.replacen(from, to, 1));
+        let text: String = text.replacen(from, to, 1).split_inclusive('\n').map(sealed).collect();
+        folder.write("s-3-of-3/journal.jsonl", text);
         fails(&[one, two, three], words);
     };
     other("\"version\":\"0.1.0\"", "\"version\":\"0.0.9\"", &["of fovqa 0.0.9", "this is 0.1.0"]);
@@ -336,6 +337,18 @@ fn shards_that_do_not_belong_together_are_told() {
     let sha = lines.iter().find(|line| line.contains("\"input\"")).unwrap();
     let sha = sha.split("\"sha256\":\"").nth(1).unwrap()[..64].to_owned();
     other(&sha, &"0".repeat(64), &["was not the same file for all shards", "s-3-of-3"]);
+    // Bands and sizes that other shards have seen otherwise: `journal-bands` of public reports.
+    let said = "s-2-of-3 and s-3-of-3 do not agree in the";
+    let bands = lines.iter().rfind(|line| line.contains("\"bands_deg\":[[")).unwrap();
+    let bands = bands.split("\"bands_deg\":").nth(1).unwrap().split("]]").next().unwrap();
+    let fewer = format!("{}]", bands.rsplit_once(",[").unwrap().0);
+    other(&format!("{bands}]]"), &fewer, &[said, "eccentricity bands of scene", "score both"]);
+    other("\"size\":[48,40]", "\"size\":[48,41]", &[said, "size of the frames of scene"]);
+    // A line that is not as it was written.
+    let text = lines.concat().replacen("\"frame\":", "\"frame\":1", 1);
+    folder.write("s-3-of-3/journal.jsonl", text);
+    let at = lines.iter().position(|line| line.contains("\"frame\":")).unwrap() + 1;
+    fails(&[one, two, three], &[&format!("s-3-of-3/journal.jsonl:{at}: this line"), "changed"]);
     write(&lines);
     fs::copy(folder.path("hall/gt/0000.png"), folder.path("hall/gt/0003.png")).unwrap();
     for side in ["a", "b"] {

@@ -42,6 +42,9 @@ pub(crate) fn say(finished: &Finished) -> Exit {
         Some(table) => output::write(|out| out.write_all(table.terminal().as_bytes())),
         None => Exit::Done,
     };
+    if let Some(warning) = finished.drawn.as_ref().and_then(|drawn| drawn.warning.as_ref()) {
+        diagnostic::warning(warning);
+    }
     diagnostic::note(&finished.in_words());
     match finished.errors_in_words() {
         None => printed,

@@ -128,6 +128,14 @@ pub enum EngineError {
         /// The reason.
         error: std::io::Error,
     },
+    /// A journal with a line that is not as it was written.
+    #[error("{}:{line}: this line of the journal was changed or damaged", path.display())]
+    JournalChanged {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+    },
     /// A journal that cannot be read.
     #[error("{}: the journal cannot be read: {error}", path.display())]
     JournalRead {
@@ -182,6 +190,7 @@ impl EngineError {
             | Self::Memory { .. }
             | Self::Map { .. }
             | Self::Journal { .. }
+            | Self::JournalChanged { .. }
             | Self::JournalRead { .. } => false,
         }
     }
@@ -232,6 +241,10 @@ impl EngineError {
             Self::Mask(error) => error.kind.help().to_owned(),
             Self::Journal { .. } => {
                 "free some space: frames in the journal are not lost, and {resume} goes on with them"
+                    .to_owned()
+            }
+            Self::JournalChanged { .. } => {
+                "cut the file off in front of that line to go on from there, or leave {resume} out to score all again"
                     .to_owned()
             }
             Self::JournalRead { .. } => "mend that, or leave {resume} out".to_owned(),

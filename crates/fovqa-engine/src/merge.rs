@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use fovqa_plan::Plan;
 use thiserror::Error;
 
-use crate::findings::Findings;
+use crate::findings::{Findings, ViewFindings};
 use crate::journal::{self, Found, Header, Text, place};
 use crate::share::Shard;
 
@@ -33,6 +33,26 @@ pub enum MergeError {
         path: PathBuf,
         /// The name of the format.
         format: String,
+    },
+    /// One with a line that is not as it was written.
+    #[error("{}:{line}: this line of the journal was changed or damaged", path.join(journal::JOURNAL).display())]
+    Changed {
+        /// The folder.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+    },
+    /// Two that saw a scene in other ways.
+    #[error("{} and {} do not agree in the {what} of scene {scene}", first.display(), second.display())]
+    Disagree {
+        /// A folder.
+        first: PathBuf,
+        /// Another one.
+        second: PathBuf,
+        /// Name of the scene.
+        scene: String,
+        /// In what they differ.
+        what: &'static str,
     },
     /// One that is not done.
     #[error("{}: shard {shard} is not finished", path.display())]
@@ -110,6 +130,10 @@ impl MergeError {
             Self::Differ { .. } | Self::Version { .. } | Self::Format { .. } => {
                 "score all shards with one version, of one experiment file, with the same --frames"
             }
+            Self::Changed { .. } => {
+                "fetch it again from where it was made, or score the shard again"
+            }
+            Self::Disagree { .. } => "score both shards again",
             Self::Twice { .. } => "give each shard once",
             Self::Missing { .. } => "score them, and give their folders too",
             Self::Input { .. } => "score all shards of the same files",
@@ -177,6 +201,9 @@ impl Shards {
         let mut all = Findings::default();
         for (path, shard, text) in &self.shards {
             let said = text.said(plan);
+            if let Some(line) = said.changed {
+                return Err(MergeError::Changed { path: path.clone(), line });
+            }
             if !said.done || said.torn || !is_complete(plan, text, &said.findings) {
                 return Err(MergeError::Unfinished { path: path.clone(), shard: *shard });
             }
@@ -189,9 +216,43 @@ impl Shards {
                     return Err(changed(file.to_owned()));
                 }
             }
+            self.agree(plan, &all, path, &said.findings)?;
             all.join(said.findings);
         }
         Ok(all)
+    }
+
+    /// Refuses a shard that has seen a scene otherwise than those before it.
+    fn agree(
+        &self,
+        plan: &Plan,
+        all: &Findings,
+        path: &Path,
+        other: &Findings,
+    ) -> Result<(), MergeError> {
+        for (place, found) in &other.views {
+            let settled = |view: &ViewFindings| view.settled.as_ref()?.view.clone();
+            let before = all.views.get(place).and_then(settled);
+            let what = match (before, settled(found)) {
+                (Some(one), Some(other)) if one.bands_deg != other.bands_deg => {
+                    "eccentricity bands"
+                }
+                (Some(one), Some(other)) if one.size != other.size => "size of the frames",
+                (Some(one), Some(other))
+                    if (one.focal_px, one.eccentricity) != (other.focal_px, other.eccentricity) =>
+                {
+                    "view"
+                }
+                _ => continue,
+            };
+            let seen = self.shards.iter().find(|(_, _, text)| {
+                text.said(plan).findings.views.get(place).and_then(settled).is_some()
+            });
+            let first = seen.map_or_else(|| path.to_owned(), |(first, _, _)| first.clone());
+            let scene = plan.scenes[place.0].name.clone();
+            return Err(MergeError::Disagree { first, second: path.to_owned(), scene, what });
+        }
+        Ok(())
     }
 }
 

@@ -58,6 +58,9 @@ pub fn resume(
         return changed(changes);
     }
     let said = text.said(plan);
+    if let Some(line) = said.changed {
+        return Err(EngineError::JournalChanged { path: folder.join(JOURNAL), line });
+    }
     let changes = said.findings.inputs.changes(plan, &origins(plan, found));
     if !changes.is_empty() {
         return changed(changes);

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use fovqa_plan::{Plot, PlotKind};
 use fovqa_results::{
-    RUN_JSON, RUN_SCHEMA, RunRecord, SUMMARY_JSON, SUMMARY_SCHEMA, SummaryRecord, read_json_file,
+    RUN_JSON, RUN_SCHEMA, RunRecord, SUMMARY_JSON, SUMMARY_SCHEMA, SummaryRecord, check_files,
+    read_json_file,
 };
 
 use crate::comparison::ComparisonTable;
@@ -21,6 +22,8 @@ pub struct Drawn {
     pub table: Option<ComparisonTable>,
     /// How many figures.
     pub figures: usize,
+    /// What the user should know of the files of the run.
+    pub warning: Option<String>,
 }
 
 /// Draws tables, figures and the page of a run into its folder.
@@ -32,6 +35,7 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let summary: SummaryRecord =
         read_json_file(&folder.join(SUMMARY_JSON), SUMMARY_SCHEMA, "the summary of a run")?;
     let values = FrameValues::read(folder)?;
+    let warning = check_files(folder, &run)?;
     let source = Source { run: &run, summary: &summary, values: &values };
     let plots = match run.resolved.plots.as_slice() {
         [] => default_plots(&source),
@@ -61,7 +65,7 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let page = page(&run, &summary, &tables, &on_page);
     let figures = drawn.len();
     Sheet { tables: files, figures: drawn, page }.write(folder)?;
-    Ok(Drawn { table: tables.into_iter().next(), figures })
+    Ok(Drawn { table: tables.into_iter().next(), figures, warning })
 }
 
 /// The tables of a plot, with their names.

@@ -2,6 +2,7 @@
 
 mod baseline;
 mod both_eyes;
+mod checksums;
 mod compared;
 mod curves;
 mod files;
@@ -16,6 +17,7 @@ pub use baseline::{
     BASELINE_SCHEMA, Baseline, BaselineComparison, Difference, InputGroup, MetricRecord,
 };
 pub use both_eyes::both_eyes;
+pub use checksums::{Checksums, check_files, checksums};
 pub use compared::Sides;
 pub use curves::{CurveRecord, CurvesRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{

@@ -8,7 +8,7 @@ use fovqa_plan::{Experiment, Eye};
 use fovqa_report::Drawn;
 use fovqa_results::{
     ExperimentRecord, Failure, FileError, RESULTS_CSV, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
-    SUMMARY_JSON, SummaryRecord, write_json_file, write_results_csv, write_whole_with,
+    SUMMARY_JSON, SummaryRecord, checksums, write_json_file, write_results_csv, write_whole_with,
 };
 
 use crate::error::Error;
@@ -110,6 +110,7 @@ fn write(
         },
         resolved: experiment.resolved(),
         inputs: results.inputs.clone(),
+        files: checksums(folder)?,
     };
     write_json_file(&folder.join(RUN_JSON), &record)
 }

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use fovqa_engine::shard_in;
-use fovqa_results::{FileError, RUN_JSON, RUN_SCHEMA, RunRecord, RunValues, read_json_file};
+use fovqa_results::{
+    FileError, RUN_JSON, RUN_SCHEMA, RunRecord, RunValues, check_files, read_json_file,
+};
 
 use crate::error::Error;
 
@@ -14,6 +16,8 @@ pub struct FinishedRun {
     pub record: RunRecord,
     /// Its values.
     pub values: RunValues,
+    /// What the user should know of its files.
+    pub warning: Option<String>,
 }
 
 impl FinishedRun {
@@ -38,7 +42,10 @@ impl FinishedRun {
         }
         let read = || -> Result<Self, FileError> {
             let record = read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
-            Ok(Self { record, values: RunValues::read(folder)? })
+            // What is wrong in them says more than that something is.
+            let values = RunValues::read(folder)?;
+            let warning = check_files(folder, &record)?;
+            Ok(Self { record, values, warning })
         };
         read().map_err(|error| Error::input(error.to_string(), "run the experiment again"))
     }

@@ -55,6 +55,7 @@ fn judge(finished: &FinishedRun, file: &str, baseline: Option<&Baseline>) -> Ver
     let resolved = &finished.record.resolved;
     let names = (resolved.name.as_str(), file);
     let mut verdict = Verdict::of(names, &resolved.gates, &finished.values, baseline);
+    verdict.notes.extend(finished.warning.clone());
     if let Some(baseline) = baseline {
         let other = baseline.other_inputs(&finished.record, &text_hash).into_iter();
         verdict.notes.extend(other.map(|folder| {

@@ -8,6 +8,7 @@ mod header;
 mod number;
 mod read;
 mod records;
+mod seal;
 mod write;
 
 pub use header::{Header, shard_in};

@@ -16,6 +16,7 @@ use serde_json::Value;
 use super::JOURNAL;
 use super::header::Header;
 use super::records::{ErrorRecord, FrameRecord, KeysRecord, SettledRecord};
+use super::seal::{Seal, seal_of};
 use crate::findings::{Findings, Outcome, ViewFindings, ViewPlace};
 use crate::share::shares;
 
@@ -36,6 +37,8 @@ pub(crate) struct Text {
     pub(crate) header: Header,
     /// What it has, or is to have, of each view of its header.
     pub(crate) shares: Vec<Range<usize>>,
+    /// Whether its first line is not as it was written.
+    is_changed: bool,
     /// Its other lines.
     rest: Vec<u8>,
 }
@@ -49,6 +52,8 @@ pub(crate) struct Said {
     pub(crate) torn: bool,
     /// An input that was taken down with two hashes.
     pub(crate) twice: Option<String>,
+    /// The number of a line, from 1, that is not as it was written; what is behind that is not looked at.
+    pub(crate) changed: Option<usize>,
 }
 
 /// More than the journal of the largest run that fits into memory.
@@ -76,7 +81,8 @@ pub(crate) fn read(folder: &Path) -> io::Result<Found> {
     let rest = bytes[(end + 1).min(bytes.len())..].to_vec();
     let pairs: Vec<usize> = header.views.iter().map(|view| view.pairs).collect();
     let shares = shares(header.shard, &pairs);
-    Ok(Found::Journal(Box::new(Text { header, shares, rest })))
+    let is_changed = seal_of(&bytes[..end]) != Seal::Whole;
+    Ok(Found::Journal(Box::new(Text { header, shares, is_changed, rest })))
 }
 
 impl Text {
@@ -89,14 +95,18 @@ impl Text {
             let index = views.position(|view| view.scene == *scene && view.eye == eye);
             index.is_some_and(|index| step.is_none_or(|step| self.shares[index].contains(&step)))
         };
-        Lines { plan, own: &own }.said(&self.rest)
+        let mut said = Lines { plan, own: &own }.said(&self.rest);
+        // The header is the first line.
+        said.changed = if self.is_changed { Some(1) } else { said.changed.map(|line| line + 1) };
+        said
     }
 }
 
 /// The findings that lines have, of what is `own`; `None` where one is not understood.
 pub(crate) fn findings_of(plan: &Plan, lines: &str, own: &Own<'_>) -> Option<Findings> {
     let said = Lines { plan, own }.said(lines.as_bytes());
-    (!said.torn && said.twice.is_none()).then_some(said.findings)
+    let whole = !said.torn && said.twice.is_none() && said.changed.is_none();
+    whole.then_some(said.findings)
 }
 
 /// Whether a view, and a pair of it, may be there.
@@ -110,11 +120,16 @@ struct Lines<'a> {
 
 impl Lines<'_> {
     fn said(&self, lines: &[u8]) -> Said {
-        let mut said =
-            Said { findings: Findings::default(), done: false, torn: false, twice: None };
+        let findings = Findings::default();
+        let mut said = Said { findings, done: false, torn: false, twice: None, changed: None };
         let mut layouts = BTreeMap::new();
-        for line in lines.split_inclusive(|byte| *byte == b'\n') {
-            let whole = line.last() == Some(&b'\n');
+        for (index, line) in lines.split_inclusive(|byte| *byte == b'\n').enumerate() {
+            let seal = seal_of(line);
+            if seal == Seal::Broken {
+                (said.changed, said.done) = (Some(index + 1), false);
+                break;
+            }
+            let whole = line.last() == Some(&b'\n') && seal == Seal::Whole;
             // Nothing comes behind the last line.
             if said.done || !whole || self.line(line, &mut said, &mut layouts).is_none() {
                 (said.torn, said.done) = (true, false);

@@ -9,6 +9,7 @@ use fovqa_plan::{Experiment, Eye, EyeView, Plan, Scene};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, ViewResult};
 
 use super::read::Said;
+use super::seal::sealed;
 use super::write::Lines;
 use super::*;
 use crate::findings::{Entry, Findings, Outcome, Settled, ViewFindings};
@@ -226,6 +227,34 @@ fn a_piece_of_a_line_is_dropped_and_what_is_behind_it() {
     assert!(matches!(read(folder.path()).unwrap(), Found::Nothing));
 }
 
+/// Lines that were changed, as if they had been written so.
+fn resealed(lines: &str) -> String {
+    let line = |line: &str| match line.rsplit_once(",\"sum\":") {
+        Some((object, _)) => String::from_utf8(sealed(format!("{object}}}").into_bytes())).unwrap(),
+        None => line.to_owned(),
+    };
+    lines.split_inclusive('\n').map(line).collect()
+}
+
+#[test]
+fn a_line_that_was_changed_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = plan();
+    Journal::begin(folder.path(), &header(&plan, None), &plan, &findings()).unwrap();
+    let whole = std::fs::read_to_string(folder.path().join(JOURNAL)).unwrap();
+    let lines: Vec<&str> = whole.split_inclusive('\n').collect();
+    for at in 0..lines.len() {
+        let changed = lines[at].replacen("\"gt/1\"", "\"gt/2\"", 1).replacen(":1", ":2", 1);
+        if changed == lines[at] {
+            continue;
+        }
+        let text = [&lines[..at], &[&*changed], &lines[at + 1..]].concat().concat();
+        let found = said(folder.path(), text.as_bytes());
+        assert_eq!((found.changed, found.done), (Some(at + 1), false), "{changed}");
+        assert!(said(folder.path(), resealed(&text).as_bytes()).changed.is_none());
+    }
+}
+
 #[test]
 fn lines_of_something_else_are_not_understood() {
     let folder = tempfile::tempdir().unwrap();
@@ -244,7 +273,9 @@ fn lines_of_something_else_are_not_understood() {
     let named = |scene, method, eye| crate::findings::Named { scene, method, eye };
     let good = line(named("one", "A", None), 3);
     let torn = |line: &str| {
+        let line = resealed(line);
         let said = said(folder.path(), &[&head, line.as_bytes(), good.as_bytes()].concat());
+        assert_eq!(said.changed, None, "{line}");
         assert_eq!(said.findings.pairs(), usize::from(!said.torn), "{line}");
         said.torn
     };
@@ -278,7 +309,10 @@ fn lines_of_something_else_are_not_understood() {
     ] {
         assert!(torn(&bad), "{bad}");
     }
-    let id = |sha256: &str| format!("{{\"input\":\"x\",\"bytes\":1,\"sha256\":\"{sha256}\"}}\n");
+    let id = |sha256: &str| {
+        let object = format!("{{\"input\":\"x\",\"bytes\":1,\"sha256\":\"{sha256}\"}}");
+        String::from_utf8(sealed(object.into_bytes())).unwrap()
+    };
     let twice = [id("0"), id("0"), id("1")].concat();
     assert_eq!(said(folder.path(), &[&head, twice.as_bytes()].concat()).twice.unwrap(), "x");
     // A text that is not the one it says.

@@ -13,6 +13,7 @@ use serde_json::json;
 use super::JOURNAL;
 use super::header::Header;
 use super::records::{ErrorRecord, FrameRecord, KeysRecord, SettledRecord};
+use super::seal::sealed;
 use crate::error::EngineError;
 use crate::findings::{Entry, Findings, Finished, Named};
 
@@ -142,10 +143,8 @@ impl Lines {
 }
 
 fn line(record: &impl Serialize) -> Vec<u8> {
-    let mut line = match serde_json::to_vec(record) {
-        Ok(line) => line,
+    match serde_json::to_vec(record) {
+        Ok(object) => sealed(object),
         Err(error) => unreachable!("names and numbers are JSON: {error}"),
-    };
-    line.push(b'\n');
-    line
+    }
 }

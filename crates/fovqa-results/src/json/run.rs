@@ -1,8 +1,11 @@
 //! run.json: what a run was of, so that it can be drawn again, repeated and trusted.
 
+use std::collections::BTreeMap;
+
 use fovqa_plan::Resolved;
 use serde::{Deserialize, Serialize};
 
+use crate::checksums::Checksums;
 use crate::report::Input;
 
 /// Name and version of the format.
@@ -22,6 +25,9 @@ pub struct RunRecord {
     pub resolved: Resolved,
     /// Every file that was read, by path.
     pub inputs: Vec<Input>,
+    /// The checksums of the files beside this one; none in those of earlier versions.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub files: Checksums,
 }
 
 /// An experiment file.

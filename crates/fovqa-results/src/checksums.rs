@@ -1,0 +1,63 @@
+//! The checksums of a run's files, which stand in run.json: a file that was cut or changed afterwards is told
+//! from the one that was written.
+
+use std::collections::BTreeMap;
+use std::io::{self, BufRead, BufReader};
+use std::path::Path;
+
+use fovqa_io::{id_of, open_regular_file};
+
+use crate::files::{FileError, RESULTS_CSV, SUMMARY_JSON};
+use crate::json::RunRecord;
+
+/// SHA-256 of each file of a run, in hexadecimal digits, by its name.
+pub type Checksums = BTreeMap<String, String>;
+
+/// The checksums of the files in the folder of a run.
+///
+/// # Errors
+/// When one cannot be read.
+pub fn checksums(folder: &Path) -> Result<Checksums, FileError> {
+    let of = |name: &str| {
+        let path = folder.join(name);
+        match checksum(&path) {
+            Ok(sum) => Ok((name.to_owned(), sum)),
+            Err(error) => Err(FileError::Read { path, error }),
+        }
+    };
+    [RESULTS_CSV, SUMMARY_JSON].into_iter().map(of).collect()
+}
+
+/// SHA-256 of a file. An editor's byte order mark does not count: whoever reads the file passes over it.
+fn checksum(path: &Path) -> io::Result<String> {
+    let mut file = BufReader::new(open_regular_file(path)?);
+    if file.fill_buf()?.starts_with(b"\xef\xbb\xbf") {
+        file.consume(3);
+    }
+    Ok(id_of(file)?.sha256)
+}
+
+/// Holds the files of a run against the checksums in its record. `Some`: what the user should know where it has
+/// none, as an earlier version wrote it.
+///
+/// # Errors
+/// When a file cannot be read, or is not as it was written.
+pub fn check_files(folder: &Path, record: &RunRecord) -> Result<Option<String>, FileError> {
+    if record.files.is_empty() {
+        let folder = folder.display();
+        return Ok(Some(format!(
+            "{folder}: an earlier version wrote it, without checksums: whether its files were changed since is not known"
+        )));
+    }
+    let found = checksums(folder)?;
+    let changed =
+        record.files.iter().find(|(name, sum)| found.get(*name).is_some_and(|now| now != *sum));
+    match changed {
+        None => Ok(None),
+        Some((name, _)) => Err(FileError::Format {
+            path: folder.join(name),
+            expected: "as the run has written it",
+            detail: "its checksum is another one than run.json has".to_owned(),
+        }),
+    }
+}
