@@ -9,8 +9,9 @@ use std::ffi::OsStr;
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
 
+use fovqa_frame::source::{Listing, Numbering};
 use fovqa_fuzz::abort_on_escaping_panics;
-use fovqa_io::sequence::{FramePattern, FrameRange, Listing, Numbering, Pairs, Spacing, pair};
+use fovqa_io::sequence::{FileListing, FramePattern, FrameRange, Pairs, Spacing, pair};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(init: abort_on_escaping_panics(), |bytes: &[u8]| {
@@ -26,23 +27,24 @@ fuzz_target!(init: abort_on_escaping_panics(), |bytes: &[u8]| {
     let Some(reference) = listing(references) else { return };
     let Some(test) = listing(tests) else { return };
     spacing(&reference);
+    let [reference, test] = [reference, test].map(|files| files.listing(Path::new("")));
     let pairs = pair(&reference, &test).inspect(|pairs| whole(&reference, &test, pairs));
     let turned = pair(&test, &reference).inspect(|pairs| whole(&test, &reference, pairs));
     if let (Ok(pairs), Ok(turned)) = (pairs, turned) {
-        let there: BTreeSet<_> = pairs.pairs.iter().map(|p| (&p.reference, &p.test)).collect();
-        let back: BTreeSet<_> = turned.pairs.iter().map(|p| (&p.test, &p.reference)).collect();
+        let there: BTreeSet<_> = pairs.pairs.iter().map(|p| (p.reference, p.test)).collect();
+        let back: BTreeSet<_> = turned.pairs.iter().map(|p| (p.test, p.reference)).collect();
         assert_eq!(there, back, "pairs are the same from either side");
     }
 });
 
 /// The listing of names, if no two of them are one; their order is by number.
-fn listing(lines: &[&[u8]]) -> Option<Listing> {
+fn listing(lines: &[&[u8]]) -> Option<FileListing> {
     let path = |line: &&[u8]| {
         let name = [line, &b".png"[..]].concat();
         (!line.is_empty() && !line.contains(&b'/')).then(|| PathBuf::from(OsStr::from_bytes(&name)))
     };
     let paths: Vec<PathBuf> = lines.iter().filter_map(path).collect();
-    let listing = Listing::of_names(Path::new("folder"), paths.clone()).ok()?;
+    let listing = FileListing::of_names(Path::new("folder"), paths.clone()).ok()?;
     let given: BTreeSet<&PathBuf> = paths.iter().collect();
     let listed: BTreeSet<&PathBuf> = listing.files.iter().map(|file| &file.path).collect();
     assert_eq!(given, listed, "no file is lost");
@@ -56,13 +58,13 @@ fn listing(lines: &[&[u8]]) -> Option<Listing> {
 
 /// Each file is in one pair, or alone, and frames come in the order of their numbers.
 fn whole(reference: &Listing, test: &Listing, pairs: &Pairs) {
-    let side = |listing: &Listing, paired: Vec<&PathBuf>, alone: &[(Option<i64>, PathBuf)]| {
-        let all: Vec<&PathBuf> =
-            paired.into_iter().chain(alone.iter().map(|(_, path)| path)).collect();
-        assert_eq!(all.len(), listing.files.len());
-        assert_eq!(all.into_iter().collect::<BTreeSet<_>>().len(), listing.files.len());
+    let side = |listing: &Listing, paired: Vec<usize>, alone: &[(Option<i64>, String)]| {
+        let paired = paired.into_iter().map(|at| listing.name(at));
+        let all: Vec<&str> = paired.chain(alone.iter().map(|(_, name)| name.as_str())).collect();
+        assert_eq!(all.len(), listing.entries().len());
+        assert_eq!(all.into_iter().collect::<BTreeSet<_>>().len(), listing.entries().len());
     };
-    let (left, right) = pairs.pairs.iter().map(|p| (&p.reference, &p.test)).unzip();
+    let (left, right) = pairs.pairs.iter().map(|p| (p.reference, p.test)).unzip();
     side(reference, left, &pairs.alone.reference);
     side(test, right, &pairs.alone.test);
     assert!(pairs.pairs.windows(2).all(|pair| pair[0].number < pair[1].number));
@@ -112,7 +114,7 @@ fn ranges(text: &str) {
 }
 
 /// Frames follow each other as their numbers do, and what is missing is none of them.
-fn spacing(listing: &Listing) {
+fn spacing(listing: &FileListing) {
     let numbers: BTreeSet<i64> = listing.files.iter().filter_map(|file| file.number).collect();
     let spacing = Spacing::of(&numbers);
     let places: Vec<usize> = numbers.iter().map(|number| spacing.place(*number)).collect();
