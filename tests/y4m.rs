@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use crate::fovqa::{Folder, Run, command, root};
 
-/// PSNR, against double precision; docs/metrics.md promises 1e-4.
+/// PSNR, against double precision.
 const PSNR_DB: f64 = 2e-5;
 /// R'G'B', against double precision.
 const RGB: f64 = 5e-7;

@@ -18,7 +18,7 @@ fn start(asked: Option<u16>) -> Result<(), String> {
         .map_err(|error| format!("{threads} threads cannot be started: {error}"))
 }
 
-/// The same; what keeps it from starting is said.
+/// Starts the thread pool, and prints the error if it cannot be started.
 pub(crate) fn started(asked: Option<u16>) -> Result<(), Exit> {
     start(asked).map_err(|message| {
         diagnostic::error(&message, "ask for fewer");

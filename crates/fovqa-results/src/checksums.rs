@@ -1,5 +1,5 @@
-//! The checksums of a run's files, which stand in run.json: a file that was cut or changed afterwards is told
-//! from the one that was written.
+//! The checksums of a run's files. They are part of run.json, so that a file which was truncated or changed
+//! afterwards is noticed.
 
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, BufReader};

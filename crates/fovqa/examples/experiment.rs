@@ -7,7 +7,7 @@ use fovqa::{Events, Finished, Given, Run, RunOptions, gate_folder, read_experime
 /// Says what a run says on the way.
 struct Printed;
 
-#[allow(clippy::print_stderr, reason = "an example shows what is said")]
+#[allow(clippy::print_stderr, reason = "an example prints messages")]
 impl Events for Printed {
     fn warn(&self, message: &str) {
         eprintln!("warning: {message}");

@@ -1,4 +1,4 @@
-//! Whoever listens to what is said on the way.
+//! Listeners for the warnings, errors and progress of a run.
 
 use std::cell::RefCell;
 
@@ -14,7 +14,7 @@ impl Events for Silent {
     fn progress(&self, _done: usize, _total: usize) {}
 }
 
-/// Keeps what is said.
+/// Collects the warnings.
 #[derive(Debug, Default)]
 pub(crate) struct Kept(pub(crate) RefCell<Vec<String>>);
 

@@ -1,5 +1,4 @@
-//! The checksum that ends each line of a journal: a line that was changed, or lost some of its bytes, is told
-//! from one that was written so.
+//! The checksum at the end of each line of a journal, so that a line which was truncated or changed is noticed.
 //!
 //! The last key of a line is `"sum"`, the CRC-32 (of ISO-HDLC, as PNG and gzip have it) of everything in front of
 //! it, as eight hexadecimal digits.

@@ -85,7 +85,7 @@ impl Header {
     }
 }
 
-/// The fields of a header as they stand there.
+/// The fields of a header, as text that is not parsed yet.
 #[derive(Debug, Default)]
 struct Fields<'a> {
     width: Option<&'a str>,
