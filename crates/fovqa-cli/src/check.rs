@@ -9,8 +9,9 @@ use fovqa::{Complaint, Events, Found, FoundView, Given};
 use fovqa_engine::FoundFrame;
 use fovqa_frame::source::Origin;
 use fovqa_io::frame_size;
+use fovqa_methods::curves::CurveSource;
 use fovqa_metrics::Metric;
-use fovqa_plan::{CurveSource, Experiment, EyeView, Gaze, MetricChoice};
+use fovqa_plan::{Experiment, EyeView, Gaze, MetricChoice};
 
 use crate::args::CheckArgs;
 use crate::diagnostic;

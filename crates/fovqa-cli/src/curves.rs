@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use fovqa::{CurvesFile, Locking};
-use fovqa_shading::{Curve, trace};
+use fovqa_methods::curves::{Curve, trace};
 
 use crate::args::CurvesArgs;
 use crate::dialect::Dialect;
@@ -39,11 +39,11 @@ fn one(args: &CurvesArgs) -> Exit {
 
 fn csv(curve: &Curve) -> String {
     let mut text = String::from("eccentricity_deg,radial_cpd,tangential_cpd\n");
-    for row in &curve.rows {
+    for point in &curve.points {
         let _ = writeln!(
             text,
             "{:?},{:?},{:?}",
-            row.eccentricity_deg, row.radial_cpd, row.tangential_cpd
+            point.eccentricity_deg, point.radial_cpd, point.tangential_cpd
         );
     }
     text

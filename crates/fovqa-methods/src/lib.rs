@@ -3,7 +3,8 @@
 //!
 //! [`Method`] is the registry: a method with its parameters, set by name. [`Method::over`] applies it
 //! to a [`Setting`] (a frame, its focal length and the gaze), and gives a [`Foveation`]: rates,
-//! density, counts and, where the method has a reduced buffer, its [`Mapping`]. One method a file,
+//! density, counts and, where the method has a reduced buffer, its [`Mapping`]. [`curves`] computes the
+//! shading rate over eccentricity and compares it with acuity. One file per method,
 //! each in the same order: source and misprints, parameters, mapping, inverse, rates, counts.
 //!
 //! Places are measured from the gaze, in pixels, x to the right and y down; angles are degrees.
@@ -28,6 +29,7 @@
 
 mod budget;
 pub mod cps;
+pub mod curves;
 pub mod deamp;
 mod error;
 mod foveation;

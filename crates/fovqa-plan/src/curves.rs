@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
-use fovqa_methods::{BudgetOf, Method, MethodError, Setting};
+use fovqa_methods::curves::{CurveRange, CurveSpec};
 use fovqa_params::words;
 use fovqa_vision::acuity::AcuityModel;
-use fovqa_vision::{EccentricityKind, Tangential, View};
 
 /// What a file of curves asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,116 +36,6 @@ pub struct CurvePlan {
     pub plots: Vec<CurvePlot>,
     /// Tables; likewise.
     pub tables: Vec<CurveTable>,
-}
-
-/// The eccentricities of curves: from 0 on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CurveRange {
-    /// From one to the next, degrees.
-    pub step_deg: f64,
-    /// The last one, degrees, for methods whose curves do not end with the frame.
-    pub to_deg: f64,
-}
-
-impl Default for CurveRange {
-    fn default() -> Self {
-        Self { step_deg: 0.25, to_deg: 60.0 }
-    }
-}
-
-impl CurveRange {
-    /// Steps finer than this are no longer told apart in a plot or a table.
-    pub const LEAST_STEP_DEG: f64 = 0.001;
-    /// Where eccentricity ends.
-    pub const MOST_DEG: f64 = 179.0;
-}
-
-/// One curve.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CurveSpec {
-    /// The name its file gives it: the same for every setting.
-    pub name: String,
-    /// What is drawn.
-    pub source: CurveSource,
-    /// Parameters that are not at their defaults, `name=value` with `;` between them.
-    pub parameters: String,
-}
-
-impl CurveSpec {
-    /// A curve of a method, its budget solved.
-    ///
-    /// # Errors
-    /// When the method cannot be applied there, or does not reach the budget; in words.
-    pub fn of_method(
-        name: String,
-        method: Method,
-        parameters: String,
-        setting: CurveSetting,
-        budget: Option<CurveBudget>,
-    ) -> Result<Self, String> {
-        let over = setting.setting().map_err(|error| error.to_string())?;
-        let (mut method, mut parameters) = (method, parameters);
-        if let Some(CurveBudget { share, of }) = budget {
-            let found = method.at_budget(&over, share, of).map_err(|error| error.to_string())?;
-            method = found.method;
-            // What is solved stands for what was given.
-            let given = parameters.split(';').filter(|given| {
-                !given.is_empty() && given.split('=').next() != Some(found.parameter)
-            });
-            let solved = format!("{}={}", found.parameter, found.value);
-            parameters = given.chain([solved.as_str()]).collect::<Vec<_>>().join(";");
-        }
-        method.over(&over).map_err(|error| error.to_string())?;
-        Ok(Self { name, source: CurveSource::Method { method, setting }, parameters })
-    }
-}
-
-/// What a curve is of.
-#[derive(Debug, Clone, PartialEq)]
-pub enum CurveSource {
-    /// An acuity model, which is of no screen.
-    Acuity(AcuityModel),
-    /// A method on a screen.
-    Method {
-        /// The method, its budget solved.
-        method: Method,
-        /// The screen.
-        setting: CurveSetting,
-    },
-}
-
-/// A screen, a gaze, and how rates are measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CurveSetting {
-    /// The frame.
-    pub view: View,
-    /// The gaze in pixels; one outside of the frame is taken at its border.
-    pub gaze_px: [f64; 2],
-    /// Direction of the curve from the gaze, degrees from +x towards +y.
-    pub direction_deg: f64,
-    /// What a degree across the curve is.
-    pub tangential: Tangential,
-    /// How eccentricity is measured.
-    pub eccentricity: EccentricityKind,
-}
-
-impl CurveSetting {
-    /// What methods are applied to.
-    ///
-    /// # Errors
-    /// When the frame has no pixels or the gaze is no place.
-    pub fn setting(&self) -> Result<Setting, MethodError> {
-        Setting::new(&self.view, self.gaze_px)
-    }
-}
-
-/// A budget that a method is solved for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CurveBudget {
-    /// Samples over the frame's pixels.
-    pub share: f64,
-    /// Which samples.
-    pub of: BudgetOf,
 }
 
 /// A figure.

@@ -14,8 +14,8 @@ mod settings;
 mod source;
 
 pub use curves::{
-    CurveBudget, CurvePlan, CurvePlot, CurvePlotKind, CurveRange, CurveSetting, CurveSource,
-    CurveSpec, CurveTable, CurveTableKind, CurvesFile, PanelOf, RateKind, RateUnit,
+    CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, CurvesFile, PanelOf, RateKind,
+    RateUnit,
 };
 pub use experiment::Experiment;
 pub use gates::{Aggregate, Allowance, GateRule, Quantity, better};

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use fovqa_methods::curves::CurveError;
 use fovqa_plot::{Figure, PlotError, png};
 use fovqa_results::{FileError, REPORT_JSON, read_json_file, write_json_file, write_whole};
-use fovqa_shading::CurveError;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

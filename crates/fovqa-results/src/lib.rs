@@ -19,7 +19,7 @@ pub use baseline::{
 pub use both_eyes::both_eyes;
 pub use checksums::{Checksums, check_files, checksums};
 pub use compared::Sides;
-pub use curves::{CurveRecord, CurvesRecord, ScreenRecord, ShadingRecord, curves_csv};
+pub use curves::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
     CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RUN_JSON,
     SUMMARY_JSON, open_result_file, read_json_file, write_json_file, write_whole, write_whole_with,

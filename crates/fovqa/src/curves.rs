@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use fovqa_engine::{Events, Locking, ResultsFolder};
+use fovqa_methods::curves::trace_all;
 use fovqa_plan::CurvesFile;
 use fovqa_report::DrawnCurves;
-use fovqa_shading::trace_all;
 
 use crate::error::Error;
 use crate::finish::in_folder;
@@ -22,7 +22,7 @@ pub fn curves(
     events: &dyn Events,
 ) -> Result<(PathBuf, DrawnCurves), Error> {
     let folder = output.map_or_else(|| Path::new("reports").join(&file.name), Path::to_owned);
-    let curves = trace_all(&file.plan)
+    let curves = trace_all(&file.plan.curves, file.plan.range, &file.plan.acuity)
         .map_err(|error| Error::usage(format!("{}: {error}", file.name), ""))?;
     let folder =
         ResultsFolder::open_for_curves(&folder, locking).map_err(|error| in_folder(&error))?;

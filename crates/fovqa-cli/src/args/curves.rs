@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, ValueEnum};
 use fovqa_config::resolution as parse_resolution;
+use fovqa_methods::curves::{CurveBudget, CurveRange, CurveSetting, CurveSource, CurveSpec};
 use fovqa_methods::{BudgetOf, Method};
 use fovqa_params::{ParamValue, Words};
-use fovqa_plan::{CurveBudget, CurveRange, CurveSetting, CurveSource, CurveSpec};
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::{EccentricityKind, Tangential, ViewSpec};
 

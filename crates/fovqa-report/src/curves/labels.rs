@@ -1,8 +1,8 @@
 //! What curves are called where several stand together: by what differs between them.
 
 use fovqa_methods::Method;
-use fovqa_plan::{CurveSetting, CurveSource, PanelOf};
-use fovqa_shading::Curve;
+use fovqa_methods::curves::{Curve, CurveSetting, CurveSource};
+use fovqa_plan::PanelOf;
 
 /// What tells the curves of a figure or table apart.
 pub(super) struct Labels {

@@ -10,11 +10,11 @@ mod tables;
 
 use std::path::Path;
 
+use fovqa_methods::curves::Curve;
 use fovqa_plan::{CurvePlotKind, CurvesFile};
 use fovqa_results::{
     CURVES_CSV, CURVES_JSON, CurvesRecord, curves_csv, write_json_file, write_whole,
 };
-use fovqa_shading::Curve;
 
 use crate::figures::slug;
 use crate::sheet::{NamedFigure, NamedTable, Names, ReportError, Sheet};

@@ -2,9 +2,10 @@
 //! half axis (Fig. 3).
 
 use fovqa_methods::Method;
+use fovqa_methods::curves::CurveSource;
 use fovqa_methods::deamp::Deamp;
 use fovqa_methods::rmfr::half_axis as mapped;
-use fovqa_plan::{CurvePlot, CurveSource, PanelOf};
+use fovqa_plan::{CurvePlot, PanelOf};
 use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look};
 
 use super::Source;

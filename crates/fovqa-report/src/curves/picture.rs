@@ -1,9 +1,9 @@
 //! Samples per pixel over the field of view, as a picture with rings of equal eccentricity.
 
 use fovqa_methods::Place;
-use fovqa_plan::{CurvePlot, CurveSetting, CurveSource, PanelOf};
+use fovqa_methods::curves::{CurveSetting, CurveSource, density_map};
+use fovqa_plan::{CurvePlot, PanelOf};
 use fovqa_plot::{Axis, Figure, RasterChart, RasterLine, RasterPanel};
-use fovqa_shading::density_map;
 use fovqa_vision::{PixelScale, Tangential};
 
 use super::Source;

@@ -1,8 +1,8 @@
 //! Rates and acuity against eccentricity, with what is over- and under-sampled.
 
+use fovqa_methods::curves::{Curve, CurvePoint};
 use fovqa_plan::{CurvePlot, PanelOf, RateKind, RateUnit};
 use fovqa_plot::{Axis, Figure, Fill, FillKind, LineChart, LineSeries, Look, PanelChart};
-use fovqa_shading::{Curve, Row};
 
 use super::Source;
 use super::labels::{Labels, resolution, screen};
@@ -19,15 +19,15 @@ enum Along {
 }
 
 impl Along {
-    fn of(self, row: &Row) -> f64 {
+    fn of(self, point: &CurvePoint) -> f64 {
         match self {
-            Along::Radial => row.radial_cpd,
-            Along::Tangential => row.tangential_cpd,
+            Along::Radial => point.radial_cpd,
+            Along::Tangential => point.tangential_cpd,
         }
     }
 
-    fn display(self, row: &Row) -> Option<f64> {
-        row.display_cpd.map(|cpd| cpd[usize::from(self == Along::Tangential)])
+    fn display(self, point: &CurvePoint) -> Option<f64> {
+        point.display_cpd.map(|cpd| cpd[usize::from(self == Along::Tangential)])
     }
 
     fn name(self) -> &'static str {
@@ -153,7 +153,7 @@ impl<'a> Rates<'a> {
             series.push(LineSeries {
                 name: label,
                 look: Look::new(look),
-                points: self.points(curve, |row| Some(along.of(row)), along),
+                points: self.points(curve, |point| Some(along.of(point)), along),
                 smooth: true,
                 ..LineSeries::default()
             });
@@ -208,14 +208,14 @@ impl<'a> Rates<'a> {
     fn points(
         &self,
         curve: &Curve,
-        of: impl Fn(&Row) -> Option<f64>,
+        of: impl Fn(&CurvePoint) -> Option<f64>,
         along: Along,
     ) -> Vec<(f64, Option<f64>)> {
-        let value = |row: &Row| match self.plot.unit {
-            RateUnit::Cpd => of(row),
-            RateUnit::PerPixel => Some(of(row)? / along.display(row)?),
+        let value = |point: &CurvePoint| match self.plot.unit {
+            RateUnit::Cpd => of(point),
+            RateUnit::PerPixel => Some(of(point)? / along.display(point)?),
         };
-        curve.rows.iter().map(|row| (row.eccentricity_deg, value(row))).collect()
+        curve.points.iter().map(|point| (point.eccentricity_deg, value(point))).collect()
     }
 
     /// What the plan holds rates against, over the eccentricities of a panel; none among models of
@@ -227,8 +227,8 @@ impl<'a> Rates<'a> {
         if self.plot.unit == RateUnit::PerPixel && !same_displays(group) {
             return None;
         }
-        let longest = shaded.iter().max_by_key(|curve| curve.rows.len())?;
-        let cut_off = |row: &Row| Some(acuity.cutoff_cpd(row.eccentricity_deg));
+        let longest = shaded.iter().max_by_key(|curve| curve.points.len())?;
+        let cut_off = |point: &CurvePoint| Some(acuity.cutoff_cpd(point.eccentricity_deg));
         Some(LineSeries {
             name: match self.source.file.plan.acuity_parameters.as_str() {
                 "" => format!("Acuity ({})", model.info().label),
@@ -247,7 +247,7 @@ impl<'a> Rates<'a> {
             let Some(screen) = screen(curve) else { continue };
             let name = format!("Display {}", resolution(screen));
             match found.iter_mut().find(|(known, _)| *known == name) {
-                Some((_, longest)) if longest.rows.len() < curve.rows.len() => *longest = curve,
+                Some((_, longest)) if longest.points.len() < curve.points.len() => *longest = curve,
                 Some(_) => {}
                 None => found.push((name, curve)),
             }
@@ -259,7 +259,7 @@ impl<'a> Rates<'a> {
                 // Acuity has the first look of a reference.
                 look: Look::new(1 + look),
                 reference: true,
-                points: self.points(curve, |row| along.display(row), along),
+                points: self.points(curve, |point| along.display(point), along),
                 ..LineSeries::default()
             }
         };
@@ -275,8 +275,8 @@ impl<'a> Rates<'a> {
         };
         let mut fills = Vec::new();
         for curve in shaded {
-            let rates = self.points(curve, |row| Some(along.of(row)), along);
-            let cut_off = |row: &Row| Some(acuity.cutoff_cpd(row.eccentricity_deg));
+            let rates = self.points(curve, |point| Some(along.of(point)), along);
+            let cut_off = |point: &CurvePoint| Some(acuity.cutoff_cpd(point.eccentricity_deg));
             let needed = self.points(curve, cut_off, along);
             let value = |y: Option<f64>| y.unwrap_or(f64::NAN);
             let both = rates.iter().zip(&needed);

@@ -1,8 +1,8 @@
 //! Tables: samples and load, speed-up, the field against acuity.
 
 use fovqa_methods::Counts;
+use fovqa_methods::curves::Curve;
 use fovqa_plan::{CurveTable, CurveTableKind};
-use fovqa_shading::Curve;
 
 use super::Source;
 use super::labels::{Labels, resolution, screen};
@@ -209,7 +209,7 @@ fn acuity(source: &Source<'_>, curves: &[&Curve]) -> PlainTable {
         Column::new("of those seen", "above"),
     ];
     let rows = curves.iter().filter_map(|curve| {
-        let field = curve.field?;
+        let field = curve.shares?;
         Some(vec![
             Cell::text(labels.row(curve)),
             Cell::text(screen(curve).map(resolution).unwrap_or_default()),

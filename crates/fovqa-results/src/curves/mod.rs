@@ -4,5 +4,5 @@
 mod record;
 mod tidy;
 
-pub use record::{CurveRecord, CurvesRecord, ScreenRecord, ShadingRecord};
+pub use record::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRecord};
 pub use tidy::curves_csv;

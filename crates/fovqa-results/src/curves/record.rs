@@ -1,8 +1,8 @@
 //! What was computed, as JSON: curves with their settings, counts and fields.
 
+use fovqa_methods::curves::{AcuityShares, Curve, CurveSource};
 use fovqa_params::Words;
-use fovqa_plan::{CurveSource, CurvesFile};
-use fovqa_shading::{Curve, Field};
+use fovqa_plan::CurvesFile;
 use serde::{Deserialize, Serialize};
 
 use crate::files::CURVES_SCHEMA;
@@ -47,7 +47,7 @@ pub struct CurveRecord {
     pub shading: Option<ShadingRecord>,
     /// The field against acuity.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub field: Option<Field>,
+    pub field: Option<FieldRecord>,
     /// What has to be said of it.
     pub notes: Vec<String>,
 }
@@ -88,6 +88,28 @@ pub struct ShadingRecord {
     pub samples_beyond: f64,
     /// Samples that are seen.
     pub samples_seen: f64,
+}
+
+/// Shares of the frame below and above acuity, as [`AcuityShares`] describes them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct FieldRecord {
+    /// Share of the frame whose radial rate is below acuity.
+    pub below_radial: f64,
+    /// Share whose tangential rate is below acuity.
+    pub below_tangential: f64,
+    /// Share where at least one of the two is below acuity.
+    pub below: f64,
+    /// Shaded samples beyond what acuity asks for.
+    pub samples_above: f64,
+    /// These samples as a share of all samples.
+    pub above: f64,
+}
+
+impl From<AcuityShares> for FieldRecord {
+    fn from(shares: AcuityShares) -> Self {
+        let AcuityShares { below_radial, below_tangential, below, samples_above, above } = shares;
+        Self { below_radial, below_tangential, below, samples_above, above }
+    }
 }
 
 impl CurvesRecord {
@@ -135,7 +157,7 @@ impl CurveRecord {
                 samples_beyond: counts.samples_beyond,
                 samples_seen: counts.samples_seen,
             }),
-            field: curve.field,
+            field: curve.shares.map(FieldRecord::from),
             notes: curve.notes.clone(),
         }
     }

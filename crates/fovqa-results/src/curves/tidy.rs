@@ -1,8 +1,8 @@
 //! All values of all curves as one long, tidy table.
 
+use fovqa_methods::curves::{Curve, CurveSource};
 use fovqa_params::Words;
-use fovqa_plan::{CurvePlan, CurveSource};
-use fovqa_shading::Curve;
+use fovqa_plan::CurvePlan;
 
 const HEADER: [&str; 16] = [
     "curve",
@@ -49,16 +49,16 @@ pub fn curves_csv(plan: &CurvePlan, curves: &[Curve]) -> String {
                 screen.eccentricity.word().to_owned(),
             ],
         });
-        for row in &curve.rows {
-            let [radial, across] = row.display_cpd.map_or([None; 2], |cpd| cpd.map(Some));
-            let acuity = acuity.as_ref().map(|acuity| acuity.cutoff_cpd(row.eccentricity_deg));
+        for point in &curve.points {
+            let [radial, across] = point.display_cpd.map_or([None; 2], |cpd| cpd.map(Some));
+            let acuity = acuity.as_ref().map(|acuity| acuity.cutoff_cpd(point.eccentricity_deg));
             let values = [
-                Some(row.eccentricity_deg),
-                Some(row.radial_cpd),
-                Some(row.tangential_cpd),
+                Some(point.eccentricity_deg),
+                Some(point.radial_cpd),
+                Some(point.tangential_cpd),
                 radial,
                 across,
-                row.samples_per_pixel,
+                point.samples_per_pixel,
                 acuity,
             ];
             let cells = values.map(|value| value.map(|v| format!("{v:?}")).unwrap_or_default());

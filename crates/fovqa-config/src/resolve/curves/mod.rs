@@ -15,9 +15,8 @@ use super::scenes::unique;
 use crate::fault::{Fault, Faults};
 use crate::grammar::MOST_CURVES;
 use crate::node::Node;
-use fovqa_plan::{
-    CurveBudget, CurvePlan, CurvePlot, CurvePlotKind, CurveRange, CurveSource, CurveSpec,
-};
+use fovqa_methods::curves::{CurveBudget, CurveRange, CurveSource, CurveSpec};
+use fovqa_plan::{CurvePlan, CurvePlot, CurvePlotKind};
 use plots::{all_that_fit, few_panels, plot, table};
 use screens::Screens;
 

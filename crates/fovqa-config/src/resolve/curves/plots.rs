@@ -7,9 +7,9 @@ use fovqa_methods::Method;
 use crate::fault::{Fault, Faults};
 use crate::node::Node;
 use crate::resolve::plots::subset;
+use fovqa_methods::curves::{CurveSource, CurveSpec};
 use fovqa_plan::{
-    CurvePlan, CurvePlot, CurvePlotKind, CurveSource, CurveSpec, CurveTable, CurveTableKind,
-    PanelOf, RateKind, RateUnit,
+    CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, PanelOf, RateKind, RateUnit,
 };
 
 /// The curves a plot or table shows.

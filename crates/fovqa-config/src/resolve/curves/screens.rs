@@ -10,7 +10,7 @@ use crate::fault::{Fault, Faults};
 use crate::grammar::{MOST_CURVES, resolution};
 use crate::node::{Node, numbers, text};
 use crate::resolve::view::{gives_view, view};
-use fovqa_plan::CurveSetting;
+use fovqa_methods::curves::CurveSetting;
 
 /// Tables that say on which screens a curve is, the more special one last.
 pub(super) struct Screens<'a> {

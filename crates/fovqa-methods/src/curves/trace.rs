@@ -1,38 +1,41 @@
 //! A curve: rates at rising eccentricities in one direction.
 
-use fovqa_methods::{Counts, Foveation, Method, MethodError, Place, Reach};
-use fovqa_plan::{CurvePlan, CurveRange, CurveSetting, CurveSource, CurveSpec};
-use fovqa_vision::acuity::{AcuityModel, PiecewiseMarError};
+use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::{EccentricityKind, PixelScale};
 use rayon::prelude::*;
-use thiserror::Error;
 
-use crate::field::{Field, field};
+use super::acuity_shares::{AcuityShares, acuity_shares};
+use super::error::CurveError;
+use super::setting::{CurveRange, CurveSetting};
+use super::spec::{CurveSource, CurveSpec};
+use crate::foveation::{Counts, Foveation, Reach};
+use crate::registry::Method;
+use crate::setting::Place;
 
 /// A curve with what its method costs.
 #[derive(Debug, Clone)]
 pub struct Curve {
-    /// What it is of.
+    /// What it shows.
     pub spec: CurveSpec,
     /// Its values, at rising eccentricities.
-    pub rows: Vec<Row>,
+    pub points: Vec<CurvePoint>,
     /// Samples of the method in a frame; `None` for an acuity model.
     pub counts: Option<Counts>,
-    /// The frame's field against the plan's acuity; `None` for an acuity model, and of a curve by
-    /// itself.
-    pub field: Option<Field>,
-    /// What has to be said wherever it is shown.
+    /// Shares of the frame below and above acuity; `None` for an acuity model, and for a curve that was
+    /// computed by itself.
+    pub shares: Option<AcuityShares>,
+    /// What a reader has to know wherever the curve is shown.
     pub notes: Vec<String>,
 }
 
-/// Rates at an eccentricity. cpd are cycles per degree, a cycle being two samples.
+/// Rates at one eccentricity, in cycles per degree (cpd); a cycle is two samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
+pub struct CurvePoint {
     /// Eccentricity in degrees.
     pub eccentricity_deg: f64,
     /// Along the line from the gaze.
     pub radial_cpd: f64,
-    /// Across it; of an acuity model the same.
+    /// Across that line; an acuity model has the same rate in both directions.
     pub tangential_cpd: f64,
     /// The display's own rate along the line and across it; `None` without a screen.
     pub display_cpd: Option<[f64; 2]>,
@@ -40,33 +43,28 @@ pub struct Row {
     pub samples_per_pixel: Option<f64>,
 }
 
-/// Why there is no curve.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum CurveError {
-    /// A method that cannot be applied.
-    #[error(transparent)]
-    Method(#[from] MethodError),
-    /// Knots that are no acuity curve.
-    #[error(transparent)]
-    Acuity(#[from] PiecewiseMarError),
-}
-
-/// All curves of a plan, in its order.
+/// Computes all curves, in their order, and compares each method with an acuity model.
 ///
 /// # Errors
-/// When a method cannot be applied or an acuity model is no curve.
-pub fn trace_all(plan: &CurvePlan) -> Result<Vec<Curve>, CurveError> {
+/// When a method cannot be applied, or the knots of an acuity model do not make a curve.
+pub fn trace_all(
+    specs: &[CurveSpec],
+    range: CurveRange,
+    acuity: &AcuityModel,
+) -> Result<Vec<Curve>, CurveError> {
     let traced = |spec: &CurveSpec| {
-        let field = match &spec.source {
+        let shares = match &spec.source {
             CurveSource::Acuity(_) => None,
-            CurveSource::Method { method, setting } => Some(field(method, setting, &plan.acuity)?),
+            CurveSource::Method { method, setting } => {
+                Some(acuity_shares(method, setting, acuity)?)
+            }
         };
-        Ok(Curve { field, ..trace(spec, plan.range)? })
+        Ok(Curve { shares, ..trace(spec, range)? })
     };
-    plan.curves.par_iter().map(traced).collect()
+    specs.par_iter().map(traced).collect()
 }
 
-/// A curve.
+/// Computes a curve.
 ///
 /// # Errors
 /// As [`trace_all`].
@@ -86,9 +84,9 @@ fn eccentricities_deg(range: CurveRange) -> impl Iterator<Item = f64> {
 
 fn acuity(spec: &CurveSpec, model: &AcuityModel, range: CurveRange) -> Result<Curve, CurveError> {
     let curve = model.curve()?;
-    let row = |eccentricity_deg| {
+    let point = |eccentricity_deg| {
         let cpd = curve.cutoff_cpd(eccentricity_deg);
-        Row {
+        CurvePoint {
             eccentricity_deg,
             radial_cpd: cpd,
             tangential_cpd: cpd,
@@ -96,8 +94,8 @@ fn acuity(spec: &CurveSpec, model: &AcuityModel, range: CurveRange) -> Result<Cu
             samples_per_pixel: None,
         }
     };
-    let rows = eccentricities_deg(range).map(row).collect();
-    Ok(Curve { spec: spec.clone(), rows, counts: None, field: None, notes: Vec::new() })
+    let points = eccentricities_deg(range).map(point).collect();
+    Ok(Curve { spec: spec.clone(), points, counts: None, shares: None, notes: Vec::new() })
 }
 
 fn shading(
@@ -119,21 +117,21 @@ fn shading(
         Reach::Border => setting.edge_px(direction),
         Reach::Corner => setting.corner_px(),
     };
-    let rows: Vec<Row> = eccentricities_deg(range)
+    let points: Vec<CurvePoint> = eccentricities_deg(range)
         .map_while(|e| {
             let scale = scale_at(screen, direction, e)?;
             // The end itself belongs to the curve, however its radius is rounded.
             (scale.radius_px <= end_px * (1.0 + 1e-9)).then_some((e, scale))
         })
-        .filter_map(|(e, scale)| row(foveation.as_ref(), e, scale, direction))
+        .filter_map(|(e, scale)| point(foveation.as_ref(), e, scale, direction))
         .collect();
     let notes = outside
         .into_iter()
         .chain(stretched(screen))
         .chain(foveation.note())
-        .chain(without_rows(&rows, range))
+        .chain(without_points(&points, range))
         .collect();
-    Ok(Curve { spec: spec.clone(), rows, counts: Some(foveation.counts()), field: None, notes })
+    Ok(Curve { spec: spec.clone(), points, counts: Some(foveation.counts()), shares: None, notes })
 }
 
 /// What planar eccentricity makes of pixels that are not square.
@@ -154,8 +152,8 @@ fn stretched(screen: &CurveSetting) -> Option<String> {
     })
 }
 
-fn without_rows(rows: &[Row], range: CurveRange) -> Option<String> {
-    rows.is_empty().then(|| {
+fn without_points(points: &[CurvePoint], range: CurveRange) -> Option<String> {
+    points.is_empty().then(|| {
         format!(
             "no rate is defined at any step from 0° to {}°: take a finer step or go further",
             range.to_deg
@@ -168,22 +166,22 @@ fn scale_at(screen: &CurveSetting, direction: [f64; 2], e: f64) -> Option<PixelS
     PixelScale::at(view, *gaze_px, *eccentricity, *tangential, direction, e)
 }
 
-fn row(
+fn point(
     foveation: &dyn Foveation,
     eccentricity_deg: f64,
     scale: PixelScale,
     direction: [f64; 2],
-) -> Option<Row> {
+) -> Option<CurvePoint> {
     let place = Place { radius_px: scale.radius_px, direction };
     let rates = foveation.rates(place)?;
-    let row = Row {
+    let point = CurvePoint {
         eccentricity_deg,
         radial_cpd: rates.radial * scale.radial / 2.0,
         tangential_cpd: rates.tangential * scale.tangential / 2.0,
         display_cpd: Some([scale.radial / 2.0, scale.tangential / 2.0]),
         samples_per_pixel: Some(foveation.density(place)),
     };
-    (row.radial_cpd.is_finite() && row.tangential_cpd.is_finite()).then_some(row)
+    (point.radial_cpd.is_finite() && point.tangential_cpd.is_finite()).then_some(point)
 }
 
 #[cfg(test)]
@@ -225,8 +223,8 @@ mod tests {
 
     /// Its first and last eccentricity, and how many there are.
     fn ends(curve: &Curve) -> (f64, f64, usize) {
-        let rows = &curve.rows;
-        (rows[0].eccentricity_deg, rows[rows.len() - 1].eccentricity_deg, rows.len())
+        let points = &curve.points;
+        (points[0].eccentricity_deg, points[points.len() - 1].eccentricity_deg, points.len())
     }
 
     #[test]
@@ -278,7 +276,7 @@ mod tests {
         let focal_px = 800.0 / 55f64.to_radians().tan();
         for tangential in [Tangential::Paper, Tangential::Angle] {
             let found = curve(find("rmfr", &[("fx", 0.2)]), screen(CENTRE, 90.0, tangential));
-            for row in &found.rows {
+            for row in &found.points {
                 let cos = row.eccentricity_deg.to_radians().cos();
                 let t = focal_px * row.eccentricity_deg.to_radians().tan();
                 let along = PI / 180.0 * focal_px / (cos * cos) / 2.0;
@@ -301,14 +299,14 @@ mod tests {
         }
         // No row without a number: at the corner itself LaFR's rate is infinite.
         let kfr = curve(find("lafr", &[]), screen(CENTRE, 0.0, Tangential::Paper));
-        assert!(kfr.rows.iter().all(|row| row.radial_cpd.is_finite()));
+        assert!(kfr.points.iter().all(|row| row.radial_cpd.is_finite()));
     }
 
     #[test]
     fn a_gaze_outside_is_taken_at_the_border_and_said() {
         let of = |gaze| curve(find("deamp", &[]), screen(gaze, 180.0, Tangential::Paper));
         let (outside, border) = (of([1500.0, 800.0]), of([1440.0, 800.0]));
-        assert_eq!(outside.rows, border.rows);
+        assert_eq!(outside.points, border.points);
         assert_eq!(border.notes.len(), 1, "{:?}", border.notes);
         assert!(border.notes[0].contains("DEAMP"));
         assert_eq!(outside.notes.len(), 2);
@@ -324,36 +322,28 @@ mod tests {
                 CurveSetting { eccentricity: EccentricityKind::Angular, ..screen },
             )
         };
-        assert_eq!(angular([1500.0, 800.0]).rows, angular([1440.0, 800.0]).rows);
+        assert_eq!(angular([1500.0, 800.0]).points, angular([1440.0, 800.0]).points);
     }
 
     #[test]
-    fn all_curves_of_a_plan_with_their_fields() {
+    fn all_curves_with_their_acuity_shares() {
         let acuity = AcuityModel::find("linear_mar").unwrap();
         let setting = screen(CENTRE, 0.0, Tangential::Paper);
         let kfr = find("kfr", &[]);
         let of_acuity = CurveSource::Acuity(acuity.clone());
         let (name, parameters) = (String::new(), String::new());
-        let plan = CurvePlan {
-            curves: vec![
-                CurveSpec { name, source: of_acuity, parameters },
-                spec(kfr.clone(), setting),
-            ],
-            acuity: acuity.clone(),
-            range: RANGE,
-            ..CurvePlan::default()
-        };
-        let curves = trace_all(&plan).unwrap();
+        let specs = [CurveSpec { name, source: of_acuity, parameters }, spec(kfr.clone(), setting)];
+        let curves = trace_all(&specs, RANGE, &acuity).unwrap();
         assert_eq!(curves.len(), 2);
-        assert!(curves[0].field.is_none() && curves[0].counts.is_none());
+        assert!(curves[0].shares.is_none() && curves[0].counts.is_none());
         assert_eq!(ends(&curves[0]), (0.0, 60.0, 241));
-        for row in &curves[0].rows {
+        for row in &curves[0].points {
             let want = 1.0 / (0.0275 * row.eccentricity_deg + 1.0 / 48.0);
             assert!((row.radial_cpd / want - 1.0).abs() < 1e-12);
             assert!(row.tangential_cpd.to_bits() == row.radial_cpd.to_bits());
             assert!(row.display_cpd.is_none() && row.samples_per_pixel.is_none());
         }
-        assert_eq!(curves[1].field, Some(field(&kfr, &setting, &acuity).unwrap()));
-        assert_eq!(curves[1].rows, curve(kfr, setting).rows);
+        assert_eq!(curves[1].shares, Some(acuity_shares(&kfr, &setting, &acuity).unwrap()));
+        assert_eq!(curves[1].points, curve(kfr, setting).points);
     }
 }

@@ -1,9 +1,9 @@
 //! Samples per pixel over the field, as a picture.
 
-use fovqa_methods::{Method, Place};
-use fovqa_plan::CurveSetting;
-
-use crate::curve::CurveError;
+use super::error::CurveError;
+use super::setting::CurveSetting;
+use crate::registry::Method;
+use crate::setting::Place;
 
 /// Samples per pixel of a frame, at the centres of cells, row by row.
 #[derive(Debug, Clone, PartialEq)]

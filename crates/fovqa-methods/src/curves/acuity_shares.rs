@@ -1,23 +1,23 @@
 //! The field of view against acuity: how much of it is shaded too sparsely, and how many samples
 //! are more than acuity asks for.
 
-use fovqa_methods::{Method, Place};
-use fovqa_plan::CurveSetting;
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::{Eccentricity, PixelScale};
-use serde::{Deserialize, Serialize};
 
-use crate::curve::CurveError;
+use super::error::CurveError;
+use super::setting::CurveSetting;
+use crate::registry::Method;
+use crate::setting::Place;
 
 /// Cells along the longer side of the frame.
 const CELLS: f64 = 720.0;
 /// A rate that follows acuity is not below it by a rounding.
 const EQUAL: f64 = 1e-9;
 
-/// A frame's field against an acuity model. Shares are of the frame's pixels, taken at the centres
+/// Shares of a frame that a method shades below and above acuity. Shares are of the frame's pixels, taken at the centres
 /// of cells, at most 1/720 of the longer side wide: exact to about a thousandth.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Field {
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct AcuityShares {
     /// Share of the field whose radial rate is below acuity.
     pub below_radial: f64,
     /// Share whose tangential rate is.
@@ -31,15 +31,15 @@ pub struct Field {
     pub above: f64,
 }
 
-/// Holds a method against an acuity model, all over the frame.
+/// Compares a method with an acuity model over the whole frame.
 ///
 /// # Errors
-/// When the method cannot be applied or the model is no curve.
-pub fn field(
+/// When the method cannot be applied or the model does not make a curve.
+pub fn acuity_shares(
     method: &Method,
     screen: &CurveSetting,
     acuity: &AcuityModel,
-) -> Result<Field, CurveError> {
+) -> Result<AcuityShares, CurveError> {
     let setting = screen.setting()?;
     let foveation = method.over(&setting)?;
     let acuity = acuity.curve()?;
@@ -50,7 +50,7 @@ pub fn field(
     let cell_px = (sides[0].max(sides[1]) / CELLS).max(1.0);
     let cells = sides.map(|side| (side / cell_px).ceil());
     let steps = [sides[0] / cells[0], sides[1] / cells[1]];
-    let (mut sums, mut samples) = (Field::default(), 0.0);
+    let (mut sums, mut samples) = (AcuityShares::default(), 0.0);
     for j in 0..cells[1] as usize {
         for i in 0..cells[0] as usize {
             let at = [(i as f64 + 0.5) * steps[0], (j as f64 + 0.5) * steps[1]];
@@ -79,7 +79,7 @@ pub fn field(
     }
     let all = cells[0] * cells[1];
     let cell_pixels = steps[0] * steps[1];
-    Ok(Field {
+    Ok(AcuityShares {
         below_radial: sums.below_radial / all,
         below_tangential: sums.below_tangential / all,
         below: sums.below / all,
@@ -107,14 +107,14 @@ mod tests {
         }
     }
 
-    fn found(name: &str, screen: &CurveSetting) -> Field {
-        field(&Method::find(name).unwrap(), screen, &AcuityModel::default()).unwrap()
+    fn found(name: &str, screen: &CurveSetting) -> AcuityShares {
+        acuity_shares(&Method::find(name).unwrap(), screen, &AcuityModel::default()).unwrap()
     }
 
     #[test]
     fn vafr_is_acuity_and_nothing_else() {
         let paper = found("vafr", &screen(2560, 1440, Tangential::Paper));
-        assert_eq!(paper, Field::default());
+        assert_eq!(paper, AcuityShares::default());
         // In visual angle its tangential rate is f cos e: below acuity everywhere.
         let angle = found("vafr", &screen(2560, 1440, Tangential::Angle));
         assert!((angle.below_tangential - 1.0).abs() < 1e-12 && angle.below_radial == 0.0);
@@ -129,7 +129,7 @@ mod tests {
             let mut method = Method::find("vafr").unwrap();
             method.set("factor", &ParamValue::Number(2.0)).unwrap();
             method.set("reprojected_share", &ParamValue::Number(share)).unwrap();
-            let found = field(&method, &screen, &AcuityModel::default()).unwrap();
+            let found = acuity_shares(&method, &screen, &AcuityModel::default()).unwrap();
             (found, method.over(&screen.setting().unwrap()).unwrap().counts().samples_seen)
         };
         let ((all, seen), (half, half_seen)) = (with(1.0), with(0.0));
@@ -193,7 +193,7 @@ mod tests {
             let cpd = focal_px * 1f64.to_radians() / 2.0 * 1.1;
             let (screen, acuity) = at((width, height), gaze, cpd);
             let full = Method::find("full").unwrap();
-            let found = field(&full, &screen, &acuity).unwrap();
+            let found = acuity_shares(&full, &screen, &acuity).unwrap();
             let (mut below, mut above) = (0.0, 0.0);
             for y in 0..height {
                 for x in 0..width {
@@ -216,7 +216,7 @@ mod tests {
     fn one_direction_does_not_make_up_for_the_other() {
         let screen = screen(1440, 1600, Tangential::Paper);
         let rmfr = Method::find("rmfr").unwrap();
-        let found = field(&rmfr, &screen, &AcuityModel::default()).unwrap();
+        let found = acuity_shares(&rmfr, &screen, &AcuityModel::default()).unwrap();
         let acuity = AcuityModel::default().curve().unwrap();
         let focal_px = screen.view.focal_px[0];
         let (mut above, mut samples) = (0.0, 0.0);
@@ -245,7 +245,7 @@ mod tests {
         let screen = screen(2560, 1440, Tangential::Paper);
         let mut clamped = Method::find("vafr").unwrap();
         clamped.set("beyond", &fovqa_params::ParamValue::Text("clamp".into())).unwrap();
-        let found = field(&clamped, &screen, &AcuityModel::default()).unwrap();
+        let found = acuity_shares(&clamped, &screen, &AcuityModel::default()).unwrap();
         // Beyond 60° lie 40 % of the pixels.
         let radius = screen.view.focal_px[0] * 60f64.to_radians().tan();
         let (mut beyond, half) = (0usize, radius * radius);
@@ -271,14 +271,14 @@ mod tests {
             })
         };
         // The display has 0.09 cpd at the gaze, and three times that at the border above.
-        let found = field(&full, &screen(30, 30, Tangential::Paper), &flat(0.2)).unwrap();
+        let found = acuity_shares(&full, &screen(30, 30, Tangential::Paper), &flat(0.2)).unwrap();
         let pixels = found.below * 900.0;
         assert!(pixels > 100.0 && (pixels - pixels.round()).abs() < 1e-9, "{pixels}");
         // Cells of 721/720 x 1 pixels: acuity asks for next to nothing, and all is above.
         let wide = screen(721, 2, Tangential::Paper);
         let wide =
             CurveSetting { view: fovqa_vision::View { focal_px: [900.0; 2], ..wide.view }, ..wide };
-        let found = field(&full, &wide, &flat(0.01)).unwrap();
+        let found = acuity_shares(&full, &wide, &flat(0.01)).unwrap();
         assert!((found.samples_above / 1442.0 - 1.0).abs() < 1e-4, "{found:?}");
     }
 }

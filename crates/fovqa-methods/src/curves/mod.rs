@@ -1,0 +1,16 @@
+//! Shading rate against acuity: what a foveation method shades at each eccentricity, what that costs,
+//! and where its rate falls below the acuity curve. Numbers only: figures and tables are made elsewhere.
+
+mod acuity_shares;
+mod density;
+mod error;
+mod setting;
+mod spec;
+mod trace;
+
+pub use acuity_shares::{AcuityShares, acuity_shares};
+pub use density::{DensityMap, density_map};
+pub use error::CurveError;
+pub use setting::{CurveRange, CurveSetting};
+pub use spec::{CurveBudget, CurveSource, CurveSpec};
+pub use trace::{Curve, CurvePoint, trace, trace_all};
