@@ -1,6 +1,6 @@
 # Each line is plain cargo, for those without make. Everything but `lint` and `fuzz` shares the release profile.
 
-.PHONY: demo figures test bench lint fuzz
+.PHONY: demo figures published-numbers test bench lint fuzz
 
 demo:
 	cargo run --release --locked --bin fovqa -- run configs/demo.toml
@@ -11,6 +11,10 @@ figures:
 	done
 	cargo run --release --locked --bin fovqa -- curves configs/papers/vafr-*.toml configs/papers/rmfr-*.toml configs/papers/deamp-*.toml configs/papers/patney-rates.toml --output reports/papers
 	cargo run --release --locked --bin fovqa -- report reports/papers
+
+# docs/published-numbers.md, from the models and the papers' tables in ../shared/papers.
+published-numbers:
+	FOVQA_WRITE_PUBLISHED_NUMBERS=1 cargo test --release --locked --workspace --test integration published::
 
 test:
 	cargo test --release --locked --workspace

@@ -36,7 +36,7 @@ mod moving_frames;
 mod output;
 mod png;
 mod profiles;
-mod published_numbers;
+mod published;
 mod questionable_views;
 mod recorded;
 mod results_folder;

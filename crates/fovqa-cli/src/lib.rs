@@ -13,7 +13,6 @@ mod list;
 mod merge;
 mod output;
 mod progress;
-mod published_numbers;
 mod report;
 mod run;
 mod schema;
@@ -53,7 +52,6 @@ fn dispatch(cli: Cli) -> Exit {
         Command::Curves(args) => curves::run(&args),
         Command::Schema { what } => schema::run(what),
         Command::List { what } => list::run(what),
-        Command::PublishedNumbers(args) => published_numbers::run(&args),
         Command::Completions { shell } => output::write(|out| {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "fovqa", &mut script);

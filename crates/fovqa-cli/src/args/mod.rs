@@ -8,7 +8,6 @@ mod lock;
 mod luminance;
 mod metrics;
 mod no_such;
-mod published_numbers;
 mod run;
 mod score;
 mod signal;
@@ -18,7 +17,6 @@ mod view;
 pub(crate) use baseline::BaselineCommand;
 pub(crate) use curves::CurvesArgs;
 pub(crate) use gate::{Annotations, GateArgs, GateFormat};
-pub(crate) use published_numbers::PublishedNumbersArgs;
 pub(crate) use run::{CheckArgs, MergeArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
 
@@ -79,9 +77,6 @@ pub(crate) enum Command {
         /// What to list.
         what: Listed,
     },
-    /// Print the numbers that papers print beside those computed here, with verdicts, as Markdown.
-    #[command(after_help = published_numbers::EXAMPLES)]
-    PublishedNumbers(PublishedNumbersArgs),
     /// Print a completion script for a shell.
     Completions {
         /// The shell.

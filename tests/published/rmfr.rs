@@ -2,11 +2,11 @@
 
 use fovqa_methods::{Foveation, Method, Setting, guenter, linear, rmfr};
 
-use crate::frame::{centred, possible};
-use crate::printed::{Printed, Verdict};
-use crate::row::{Cell, Paper, Row};
-use crate::statistics::{at_least, two_sided, whole_votes};
-use crate::tables::{RMFR_TABLE, Table};
+use super::frame::{centred, possible};
+use super::printed::{Printed, Verdict};
+use super::row::{Cell, PageRow, Paper};
+use super::statistics::{at_least, two_sided, whole_votes};
+use super::tables::{RMFR_TABLE, Table};
 
 /// The display of the study, per eye, and its field.
 const FRAME: [usize; 2] = [1440, 1600];
@@ -20,12 +20,12 @@ const VOTES: [(&str, &str); 4] =
 const FRAME_TIMES_MS: [f64; 2] = [26.2, 14.29];
 
 /// The rows of RMFR: Eq. 4-7, Fig. 11, Tables 1 and 3, the study. `table` is Table 1.
-pub fn rmfr(table: Option<&Table>) -> Vec<Row> {
+pub(super) fn rmfr(table: Option<&Table>) -> Vec<PageRow> {
     [vec![samples()], study(), densities(), vec![averages(table)], times()].concat()
 }
 
-fn one(place: &'static str, quantity: impl Into<String>, cell: Cell) -> Row {
-    Row::one(Paper::Rmfr, place, quantity, cell)
+fn one(place: &'static str, quantity: impl Into<String>, cell: Cell) -> PageRow {
+    PageRow::one(Paper::Rmfr, place, quantity, cell)
 }
 
 /// Samples over pixels with σ = 2.6.
@@ -34,13 +34,13 @@ fn share(setting: &Setting) -> f64 {
         / setting.pixels()
 }
 
-fn samples() -> Row {
+fn samples() -> PageRow {
     let share = 100.0 * share(&centred(FRAME, FOV_VERTICAL_DEG));
     one("text", "share of samples at σ = 2.6", Cell::new("", Printed::new("14.8 %"), share, 2))
         .because("1 / σ²")
 }
 
-fn study() -> Vec<Row> {
+fn study() -> Vec<PageRow> {
     let mut votes_rows = Vec::new();
     let mut two_sided_rows = Vec::new();
     let mut one_sided_rows = Vec::new();
@@ -130,7 +130,7 @@ fn best_fov_deg(means: [Mean; 2], density: f64) -> f64 {
     fields.fold((from, f64::INFINITY), nearer).0
 }
 
-fn densities() -> Vec<Row> {
+fn densities() -> Vec<PageRow> {
     let target = share(&centred(FRAME, FOV_VERTICAL_DEG));
     let rmfr = format!("{target:.3}");
     let cell =
@@ -148,7 +148,7 @@ fn densities() -> Vec<Row> {
         let means = [hyperbolic, Mean::Linear];
         let fov = best_fov_deg(means, target);
         let cells = vec![cell(name, means[0].at(fov)), cell("linear", means[1].at(fov))];
-        Row::joined(Paper::Rmfr, "Fig. 11", format!("{name} / linear in one field"), " / ", cells)
+        PageRow::joined(Paper::Rmfr, "Fig. 11", format!("{name} / linear in one field"), " / ", cells)
             .because("no field fits both")
             .more(format!(
                 "Among vertical fields from {:.0}° to {:.0}°, in tenths, {fov:.1}° comes nearest to RMFR's \
@@ -176,7 +176,7 @@ fn densities() -> Vec<Row> {
 const METRICS: [&str; 4] = ["FPSNR", "PSNR", "SSIM", "FovVideoVDP"];
 
 /// The averages over scenes, from the scenes' rows.
-fn averages(table: Option<&Table>) -> Row {
+fn averages(table: Option<&Table>) -> PageRow {
     let cells = table.map(|table| {
         let mut cells = Vec::new();
         for metric in METRICS {
@@ -192,11 +192,11 @@ fn averages(table: Option<&Table>) -> Row {
         }
         cells
     });
-    Row::counted(Paper::Rmfr, "Table 1", "means over the scenes", "averages", cells)
+    PageRow::counted(Paper::Rmfr, "Table 1", "means over the scenes", "averages", cells)
         .because("from the table's own rows")
 }
 
-fn times() -> Vec<Row> {
+fn times() -> Vec<PageRow> {
     let [full, foveated] = FRAME_TIMES_MS;
     let row = |quantity: &str, printed: &str, computed| {
         one("Table 3", quantity, Cell::new("", Printed::new(printed), computed, 2))

@@ -2,13 +2,12 @@
 
 use std::fmt::Write;
 
-use crate::printed::{CLOSE, Verdict};
-use crate::row::{Paper, Row};
+use super::printed::{CLOSE, Verdict};
+use super::row::{PageRow, Paper};
 
 /// All rows as a page of Markdown.
-pub fn page(rows: &[Row]) -> String {
-    let mut text =
-        "<!-- Made by `fovqa published-numbers`, with `--tables` where there are any; do not edit. -->\n\n".to_owned();
+pub(super) fn page(rows: &[PageRow]) -> String {
+    let mut text = "<!-- Made by `make published-numbers`; do not edit. -->\n\n".to_owned();
     text.push_str("# The papers' numbers\n\n");
     let close = 100.0 * CLOSE;
     let _ = write!(
@@ -22,13 +21,13 @@ follows from the printed digits alone, and none is bent to fit:
 - **close**: it does not, but is within {close} % of the printed number;
 - **not reproduced**: neither; the reasons stand at the end;
 - **not independent**: it gives the printed digits, but something that went into it was read off them;
-- **not checked**: the paper's table was not given (`--tables`).
+- **not checked**: the paper's table is not at hand.
 
 Of several numbers in a row the worst decides, and the relative error is the largest.
 "
     );
     for paper in Paper::ALL {
-        let rows: Vec<&Row> = rows.iter().filter(|row| row.paper == paper).collect();
+        let rows: Vec<&PageRow> = rows.iter().filter(|row| row.paper == paper).collect();
         let _ = write!(text, "\n## {}\n\n{}.\n\n", paper.name(), paper.reference());
         table(&mut text, &rows);
     }
@@ -43,7 +42,7 @@ const HEADER: [&str; 7] =
 const NUMBERS: std::ops::RangeInclusive<usize> = 2..=4;
 
 /// A paper's table, padded, and the notes below it.
-fn table(text: &mut String, rows: &[&Row]) {
+fn table(text: &mut String, rows: &[&PageRow]) {
     let mut notes = Vec::new();
     let mut lines = vec![HEADER.map(str::to_owned)];
     for row in rows {
@@ -100,7 +99,7 @@ fn table(text: &mut String, rows: &[&Row]) {
 }
 
 /// What is not reproduced, and what is not checked.
-fn closing(text: &mut String, rows: &[Row]) {
+fn closing(text: &mut String, rows: &[PageRow]) {
     let with = |verdict| rows.iter().filter(move |row| row.verdict() == verdict);
     text.push_str("\n## Not reproduced, and why\n\n");
     for row in with(Verdict::NotReproduced) {

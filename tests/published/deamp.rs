@@ -2,11 +2,11 @@
 
 use fovqa_methods::deamp::{Deamp, Params, Projection};
 
-use crate::frame::{centred, possible};
-use crate::printed::{Printed, Verdict};
-use crate::row::{Cell, Paper, Row};
-use crate::statistics::f_tail;
-use crate::tables::{DEAMP_TABLE, Table};
+use super::frame::{centred, possible};
+use super::printed::{Printed, Verdict};
+use super::row::{Cell, PageRow, Paper};
+use super::statistics::f_tail;
+use super::tables::{DEAMP_TABLE, Table};
 
 /// The paper's display, per eye: 90° x 90°.
 const FRAME: [usize; 2] = [1600, 1600];
@@ -17,15 +17,15 @@ const EFR_MS: f64 = 17.28;
 const DEAMP_MS: f64 = 14.74;
 
 /// The rows of DEAMP: section 3.3, Eq. 5-9, Table 2, the study. `table` is Table 2.
-pub fn deamp(table: Option<&Table>) -> Vec<Row> {
+pub(super) fn deamp(table: Option<&Table>) -> Vec<PageRow> {
     [outer_share(), speed_ups(), table_2(table), study()].concat()
 }
 
-fn one(place: &'static str, quantity: impl Into<String>, cell: Cell) -> Row {
-    Row::one(Paper::Deamp, place, quantity, cell)
+fn one(place: &'static str, quantity: impl Into<String>, cell: Cell) -> PageRow {
+    PageRow::one(Paper::Deamp, place, quantity, cell)
 }
 
-fn outer_share() -> Vec<Row> {
+fn outer_share() -> Vec<PageRow> {
     let share = |projection, name: &str| {
         let params = Params { projection, ..Params::default() };
         let deamp = possible(Deamp::new(&params, &centred(FRAME, FOV_DEG)));
@@ -49,7 +49,7 @@ fn frame_rate(ms: f64) -> f64 {
     (1000.0 / ms).round()
 }
 
-fn speed_ups() -> Vec<Row> {
+fn speed_ups() -> Vec<PageRow> {
     let row = |quantity: &str, printed: &str, computed| {
         one("text", quantity, Cell::new("", Printed::new(printed), computed, 2))
     };
@@ -77,9 +77,9 @@ const TOTAL: &str = "Total GPU Time";
 const BINOCULAR: &str = "Binocular Time";
 const RATE: &str = "Fps";
 
-fn table_2(table: Option<&Table>) -> Vec<Row> {
+fn table_2(table: Option<&Table>) -> Vec<PageRow> {
     let counted = |quantity: &str, what, cells: Option<Vec<Cell>>| {
-        Row::counted(Paper::Deamp, "Table 2", quantity, what, cells)
+        PageRow::counted(Paper::Deamp, "Table 2", quantity, what, cells)
             .because("from the table's own rows")
     };
     let sums = table.map(|table| {
@@ -158,7 +158,7 @@ fn fitting(printed: &Printed, f: f64, first: u32) -> String {
     }
 }
 
-fn study() -> Vec<Row> {
+fn study() -> Vec<PageRow> {
     let row = |anova: &Anova, freedom: [u32; 2]| {
         let cell = Cell::new("", Printed::new(anova.p), f_tail(anova.f, freedom), anova.decimals);
         one("study", format!("p of F({}, {}) = {}", freedom[0], freedom[1], anova.f), cell)

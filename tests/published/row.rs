@@ -1,10 +1,10 @@
 //! One line of the page: what a paper prints at a place, and what is computed.
 
-use crate::printed::{Printed, Verdict};
+use super::printed::{Printed, Verdict};
 
 /// A paper whose numbers are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Paper {
+pub(super) enum Paper {
     /// Zhang, Gai, Li: visual acuity consistent foveated rendering.
     Vafr,
     /// Ye et al. 2022: rectangular mapping-based foveated rendering.
@@ -17,10 +17,10 @@ pub enum Paper {
 
 impl Paper {
     /// All of them, in the order of the page.
-    pub const ALL: [Self; 4] = [Self::Vafr, Self::Rmfr, Self::Deamp, Self::Patney];
+    pub(super) const ALL: [Self; 4] = [Self::Vafr, Self::Rmfr, Self::Deamp, Self::Patney];
 
     /// Its short name.
-    pub fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         match self {
             Self::Vafr => "VaFR",
             Self::Rmfr => "RMFR",
@@ -30,7 +30,7 @@ impl Paper {
     }
 
     /// Authors and subject.
-    pub fn reference(self) -> &'static str {
+    pub(super) fn reference(self) -> &'static str {
         match self {
             Self::Vafr => "Zhang, Gai, Li: visual acuity consistent foveated rendering",
             Self::Rmfr => "Ye et al. 2022: rectangular mapping-based foveated rendering",
@@ -42,7 +42,7 @@ impl Paper {
 
 /// A printed number and the computed one, in the same unit.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Cell {
+pub(super) struct Cell {
     /// Which one, where there are several.
     pub name: String,
     /// As it is printed.
@@ -55,17 +55,22 @@ pub struct Cell {
 
 impl Cell {
     /// A printed number beside a computed one.
-    pub fn new(name: impl Into<String>, printed: Printed, computed: f64, decimals: usize) -> Self {
+    pub(super) fn new(
+        name: impl Into<String>,
+        printed: Printed,
+        computed: f64,
+        decimals: usize,
+    ) -> Self {
         Self { name: name.into(), printed, computed, decimals }
     }
 
     /// What is to be said of it.
-    pub fn verdict(&self) -> Verdict {
+    pub(super) fn verdict(&self) -> Verdict {
         self.printed.verdict(self.computed)
     }
 
     /// The computed number, with the printed one's unit.
-    pub fn computed_text(&self) -> String {
+    pub(super) fn computed_text(&self) -> String {
         format!("{}{}", grouped(self.computed, self.decimals), self.printed.unit())
     }
 }
@@ -97,7 +102,7 @@ enum Shown {
 
 /// One line of the page. Computed values, errors and verdicts follow from its cells.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub(super) struct PageRow {
     /// The paper.
     pub paper: Paper,
     /// Where it is printed.
@@ -114,9 +119,9 @@ pub struct Row {
     read_off: bool,
 }
 
-impl Row {
+impl PageRow {
     /// A single number.
-    pub(crate) fn one(
+    pub(super) fn one(
         paper: Paper,
         place: &'static str,
         quantity: impl Into<String>,
@@ -126,7 +131,7 @@ impl Row {
     }
 
     /// A few numbers, shown with something between them.
-    pub(crate) fn joined(
+    pub(super) fn joined(
         paper: Paper,
         place: &'static str,
         quantity: impl Into<String>,
@@ -147,7 +152,7 @@ impl Row {
 
     /// Many numbers, of which only those that do not come out are shown. `None` where the table
     /// they are computed from was not given.
-    pub(crate) fn counted(
+    pub(super) fn counted(
         paper: Paper,
         place: &'static str,
         quantity: impl Into<String>,
@@ -158,26 +163,26 @@ impl Row {
         Self { shown: Shown::Counted(what), cells, ..row }
     }
 
-    pub(crate) fn because(self, why: impl Into<String>) -> Self {
+    pub(super) fn because(self, why: impl Into<String>) -> Self {
         Self { why: why.into(), ..self }
     }
 
-    pub(crate) fn more(self, more: impl Into<String>) -> Self {
+    pub(super) fn more(self, more: impl Into<String>) -> Self {
         Self { more: Some(more.into()), ..self }
     }
 
     /// Something that went into the computed numbers was read off the printed ones.
-    pub(crate) fn read_off(self) -> Self {
+    pub(super) fn read_off(self) -> Self {
         Self { read_off: true, ..self }
     }
 
     /// Its numbers; none when they are not checked.
-    pub fn cells(&self) -> &[Cell] {
+    pub(super) fn cells(&self) -> &[Cell] {
         self.cells.as_deref().unwrap_or_default()
     }
 
     /// What is printed.
-    pub fn printed(&self) -> String {
+    pub(super) fn printed(&self) -> String {
         match (&self.cells, &self.shown) {
             (None, Shown::Counted(what)) => (*what).to_owned(),
             (_, Shown::Counted(what)) => format!("{} {what}", self.cells().len()),
@@ -191,7 +196,7 @@ impl Row {
     }
 
     /// What is computed.
-    pub fn computed(&self) -> String {
+    pub(super) fn computed(&self) -> String {
         match (&self.cells, &self.shown) {
             (None, _) => "–".to_owned(),
             (Some(cells), Shown::Counted(_)) => {
@@ -207,13 +212,13 @@ impl Row {
 
     /// How far the computed number is above the printed one, relative to it; of several the largest.
     /// Bounds have none.
-    pub fn relative_error(&self) -> Option<f64> {
+    pub(super) fn relative_error(&self) -> Option<f64> {
         let errors = self.cells().iter().filter_map(|c| c.printed.relative_error(c.computed));
         errors.max_by(|a, b| a.abs().total_cmp(&b.abs()))
     }
 
     /// What is to be said of it: of several numbers the worst.
-    pub fn verdict(&self) -> Verdict {
+    pub(super) fn verdict(&self) -> Verdict {
         let Some(cells) = &self.cells else { return Verdict::NotChecked };
         match cells.iter().map(Cell::verdict).max() {
             // A row without numbers shows nothing.
@@ -224,7 +229,7 @@ impl Row {
     }
 
     /// Of many numbers that are only counted, those that do not come out.
-    pub fn exceptions(&self) -> Vec<&Cell> {
+    pub(super) fn exceptions(&self) -> Vec<&Cell> {
         let counted = matches!(self.shown, Shown::Counted(_));
         let missing = |cell: &&Cell| counted && cell.verdict() != Verdict::Reproduced;
         self.cells().iter().filter(missing).collect()
@@ -240,8 +245,8 @@ mod tests {
         computed.iter().map(cell).collect()
     }
 
-    fn counted(cells: Option<Vec<Cell>>) -> Row {
-        Row::counted(Paper::Rmfr, "Table 1", "numbers", "cells", cells)
+    fn counted(cells: Option<Vec<Cell>>) -> PageRow {
+        PageRow::counted(Paper::Rmfr, "Table 1", "numbers", "cells", cells)
     }
 
     #[test]
@@ -267,7 +272,7 @@ mod tests {
 
     #[test]
     fn numbers_are_shown_like_the_printed_ones() {
-        let row = Row::joined(Paper::Vafr, "", "", " / ", cells(&[17.51, 4.06]));
+        let row = PageRow::joined(Paper::Vafr, "", "", " / ", cells(&[17.51, 4.06]));
         assert_eq!((row.printed().as_str(), row.computed().as_str()), ("20 %", "17.5 % / 4.1 %"));
         for (value, decimals, text) in [
             (1_061_733.72, 1, "1,061,733.7"),

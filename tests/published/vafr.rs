@@ -7,9 +7,9 @@ use fovqa_methods::vafr::{FIELD_DEG, Params, Vafr};
 use fovqa_methods::{Foveation, Method, lafr};
 use fovqa_vision::acuity::{AcuityModel, PiecewiseParams};
 
-use crate::frame::{centred, possible};
-use crate::printed::Printed;
-use crate::row::{Cell, Paper, Row};
+use super::frame::{centred, possible};
+use super::printed::Printed;
+use super::row::{Cell, PageRow, Paper};
 
 /// Table 1's resolutions with their names.
 const RESOLUTIONS: [(&str, [usize; 2]); 5] = [
@@ -32,7 +32,7 @@ const FLAT_CPD: f64 = 5.0;
 const FIELD_OF_EYE_DEG: [f64; 2] = [120.0, 100.0];
 
 /// The rows of VaFR: text, Eq. 3-12 and 19, Table 1.
-pub fn vafr() -> Vec<Row> {
+pub(super) fn vafr() -> Vec<PageRow> {
     [buffer(), table_1(), savings(), retinal()].concat()
 }
 
@@ -61,12 +61,12 @@ fn size(last_cpd: f64, cap_cpd: Option<f64>) -> [f64; 2] {
 const MIXED: &str = "The paper mixes two sets of knots: its samples are those of f(60°) = 4 cpd, its \
                      buffer is that of f(60°) = 5 cpd.";
 
-fn buffer() -> Vec<Row> {
+fn buffer() -> Vec<PageRow> {
     let cell = |name, printed, computed| Cell::new(name, Printed::new(printed), computed, 1);
     let mut rows = Vec::new();
     for cpd in [FALLING_CPD, FLAT_CPD] {
         let cell = cell("", "1,061,735", samples(cpd, None));
-        rows.push(Row::one(Paper::Vafr, "text", format!("samples, f(60°) = {cpd}"), cell));
+        rows.push(PageRow::one(Paper::Vafr, "text", format!("samples, f(60°) = {cpd}"), cell));
     }
     for cpd in [FLAT_CPD, FALLING_CPD] {
         let [columns, longest] = size(cpd, None);
@@ -74,8 +74,8 @@ fn buffer() -> Vec<Row> {
         let sides = vec![cell("columns", "932", columns), cell("rows", "1800", longest)];
         let widest = cell("", "45°", widest_deg);
         let two = [
-            Row::joined(Paper::Vafr, "text", format!("buffer, f(60°) = {cpd}"), " x ", sides),
-            Row::one(Paper::Vafr, "text", format!("longest column, f(60°) = {cpd}"), widest),
+            PageRow::joined(Paper::Vafr, "text", format!("buffer, f(60°) = {cpd}"), " x ", sides),
+            PageRow::one(Paper::Vafr, "text", format!("longest column, f(60°) = {cpd}"), widest),
         ];
         rows.extend(two);
     }
@@ -83,7 +83,7 @@ fn buffer() -> Vec<Row> {
 }
 
 /// Thousands per eye: W H, W H / δ², ∫ l du; further digits are cut off in print.
-fn table_1() -> Vec<Row> {
+fn table_1() -> Vec<PageRow> {
     let printed: [(&str, [&str; 5]); 4] = [
         ("GT", ["3686", "8294", "18662", "33177", "74649"]),
         ("LaFR(2.2)", ["761", "1713", "3855", "6854", "15423"]),
@@ -101,12 +101,18 @@ fn table_1() -> Vec<Row> {
             cells.push(Cell::new(name, Printed::truncated(printed), thousands, 1));
         }
     }
-    let all = Row::counted(Paper::Vafr, "Table 1", "thousands of samples", "cells", Some(cells))
-        .because("cut off, not rounded")
-        .more(
-            "GT, LaFR(2.2), LaFR(1.8) and VaFR_Dup at five resolutions, per eye: W H, W H / δ² and the \
+    let all = PageRow::counted(
+        Paper::Vafr,
+        "Table 1",
+        "thousands of samples",
+        "cells",
+        Some(cells),
+    )
+    .because("cut off, not rounded")
+    .more(
+        "GT, LaFR(2.2), LaFR(1.8) and VaFR_Dup at five resolutions, per eye: W H, W H / δ² and the \
              sample count with f(60°) = 4 cpd. Digits below a thousand are cut off in print.",
-        );
+    );
 
     let printed = ["637", "743", "849", "955", "1035"];
     let cells =
@@ -116,7 +122,7 @@ fn table_1() -> Vec<Row> {
             Cell::new(resolution.0, Printed::truncated(printed), thousands, 1)
         });
     let what = "thousands, VaFR_Rep";
-    let rep = Row::counted(Paper::Vafr, "Table 1", what, "cells", Some(cells.collect()))
+    let rep = PageRow::counted(Paper::Vafr, "Table 1", what, "cells", Some(cells.collect()))
         .read_off()
         .because("shares read off the table")
         .more(
@@ -128,14 +134,14 @@ fn table_1() -> Vec<Row> {
 
 /// What is saved when no more is shaded than a device shows: 9 cpd (Vive Pro Eye), 18 cpd (Pimax
 /// Crystal).
-fn savings() -> Vec<Row> {
+fn savings() -> Vec<PageRow> {
     const CAPS_CPD: [f64; 2] = [9.0, 18.0];
     let both = |quantity: &str, load: &dyn Fn(Option<f64>) -> f64| {
         let cells = CAPS_CPD.iter().zip(["20 %", "8 %"]).map(|(cap, printed)| {
             let saved = 100.0 * (1.0 - load(Some(*cap)) / load(None));
             Cell::new(format!("{cap} cpd"), Printed::new(printed), saved, 1)
         });
-        Row::joined(Paper::Vafr, "text", quantity, " / ", cells.collect())
+        PageRow::joined(Paper::Vafr, "text", quantity, " / ", cells.collect())
     };
     vec![
         both("samples saved at 9 / 18 cpd", &|cap| samples(FALLING_CPD, cap))
@@ -150,10 +156,10 @@ fn savings() -> Vec<Row> {
     ]
 }
 
-fn retinal() -> Vec<Row> {
+fn retinal() -> Vec<PageRow> {
     let pixels = possible(Method::Full.over(&centred(RETINAL, 110.0))).counts().samples;
     let cell = Cell::new("", Printed::new("74,649,600"), pixels, 0);
-    let product = Row::one(Paper::Vafr, "Table 1", "pixels of 11520 x 6480", cell)
+    let product = PageRow::one(Paper::Vafr, "Table 1", "pixels of 11520 x 6480", cell)
         .because("the product of the sides");
 
     // Two pixels a cycle: twice f(0) pixels per degree.
@@ -162,7 +168,7 @@ fn retinal() -> Vec<Row> {
     let field = FIELD_OF_EYE_DEG[0] * FIELD_OF_EYE_DEG[1];
     let millions = field * per_degree * per_degree / 1e6;
     let cell = Cell::new("", Printed::new("76.8 M"), millions, 1);
-    let eye = Row::one(Paper::Vafr, "text", "retinal pixels", cell)
+    let eye = PageRow::one(Paper::Vafr, "text", "retinal pixels", cell)
         .read_off()
         .because("the field is our guess")
         .more(format!(

@@ -2,10 +2,10 @@
 
 use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, FisherSnedecor};
 
-use crate::printed::{Printed, Verdict};
+use super::printed::{Printed, Verdict};
 
 /// One-sided binomial test: the chance of at least `votes` of `trials`, each as likely as not.
-pub fn at_least(votes: u64, trials: u64) -> f64 {
+pub(super) fn at_least(votes: u64, trials: u64) -> f64 {
     match (Binomial::new(0.5, trials), votes.checked_sub(1)) {
         (Ok(binomial), Some(fewer)) => binomial.sf(fewer),
         (Ok(_), None) => 1.0,
@@ -15,12 +15,12 @@ pub fn at_least(votes: u64, trials: u64) -> f64 {
 
 /// Two-sided binomial test: the chance of being at least as far from the half as `votes` of `trials`,
 /// each as likely as not.
-pub fn two_sided(votes: u64, trials: u64) -> f64 {
+pub(super) fn two_sided(votes: u64, trials: u64) -> f64 {
     (2.0 * at_least(votes.max(trials.saturating_sub(votes)), trials)).min(1.0)
 }
 
 /// The whole numbers of votes that a printed percentage of `trials` can be.
-pub fn whole_votes(percentage: &Printed, trials: u64) -> Vec<u64> {
+pub(super) fn whole_votes(percentage: &Printed, trials: u64) -> Vec<u64> {
     let fits = |votes: &u64| {
         percentage.verdict(100.0 * *votes as f64 / trials as f64) == Verdict::Reproduced
     };
@@ -28,7 +28,7 @@ pub fn whole_votes(percentage: &Printed, trials: u64) -> Vec<u64> {
 }
 
 /// The chance of an F of at least this, with these degrees of freedom.
-pub fn f_tail(f: f64, [above, below]: [u32; 2]) -> f64 {
+pub(super) fn f_tail(f: f64, [above, below]: [u32; 2]) -> f64 {
     FisherSnedecor::new(above.into(), below.into()).map_or(f64::NAN, |fisher| fisher.sf(f))
 }
 

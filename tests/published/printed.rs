@@ -4,11 +4,11 @@
 //! since they may be rounded either way; "3/4" is a number of quarters.
 
 /// How far from a printed number a computed one may be, relative to it, to be called close.
-pub const CLOSE: f64 = 1e-3;
+pub(super) const CLOSE: f64 = 1e-3;
 
 /// What is to be said of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verdict {
+pub(super) enum Verdict {
     /// The computed number gives the printed digits.
     Reproduced,
     /// It gives them, but something that went into it was read off them.
@@ -23,7 +23,7 @@ pub enum Verdict {
 
 impl Verdict {
     /// The verdict in words.
-    pub fn words(self) -> &'static str {
+    pub(super) fn words(self) -> &'static str {
         match self {
             Self::Reproduced => "reproduced",
             Self::NotIndependent => "not independent",
@@ -44,7 +44,7 @@ enum Sense {
 
 /// A number as it is printed.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Printed {
+pub(super) struct Printed {
     text: String,
     /// NaN when the text is no number: nothing gives its digits then.
     value: f64,
@@ -56,7 +56,7 @@ pub struct Printed {
 
 impl Printed {
     /// A number that was rounded: "1,061,735", "14.8 %", "3/4"; or a bound: "< .01", "> .05".
-    pub fn new(text: &str) -> Self {
+    pub(super) fn new(text: &str) -> Self {
         let (sense, number) = match (text.strip_prefix("< "), text.strip_prefix("> ")) {
             (Some(number), _) => (Sense::Below, number),
             (_, Some(number)) => (Sense::Above, number),
@@ -71,32 +71,32 @@ impl Printed {
     }
 
     /// A number whose further digits were cut off.
-    pub fn truncated(text: &str) -> Self {
+    pub(super) fn truncated(text: &str) -> Self {
         Self { sense: Sense::Truncated, ..Self::new(text) }
     }
 
     /// A number that is said in words.
-    pub fn in_words(words: &str, number: &str) -> Self {
+    pub(super) fn in_words(words: &str, number: &str) -> Self {
         Self { text: words.to_owned(), ..Self::new(number) }
     }
 
     /// As it is printed.
-    pub fn text(&self) -> &str {
+    pub(super) fn text(&self) -> &str {
         &self.text
     }
 
     /// Its value, in its unit. NaN when it is no number.
-    pub fn value(&self) -> f64 {
+    pub(super) fn value(&self) -> f64 {
         self.value
     }
 
     /// What stands behind the digits, with its space: " %", "°".
-    pub fn unit(&self) -> &str {
+    pub(super) fn unit(&self) -> &str {
         &self.unit
     }
 
     /// What a number in the same unit is beside it.
-    pub fn verdict(&self, computed: f64) -> Verdict {
+    pub(super) fn verdict(&self, computed: f64) -> Verdict {
         // Less than a number is off by its own computation.
         let slack = 1e-9 * self.value.abs().max(self.step);
         let above = computed - self.value;
@@ -115,7 +115,7 @@ impl Printed {
     }
 
     /// How far a number in the same unit is above it, relative to it. A bound has no such error.
-    pub fn relative_error(&self, computed: f64) -> Option<f64> {
+    pub(super) fn relative_error(&self, computed: f64) -> Option<f64> {
         let number = matches!(self.sense, Sense::Rounded | Sense::Truncated);
         number.then(|| computed / self.value - 1.0)
     }

@@ -1,10 +1,13 @@
 //! The numbers that are known to come out, and those that are known not to.
 
 use std::fmt::Write;
-use std::path::Path;
 
-use crate::Verdict::{Close, NotChecked, NotIndependent, NotReproduced, Reproduced};
-use crate::{DEAMP_TABLE, Paper, RMFR_TABLE, Row, Table, Tables, Verdict, page, rows};
+use super::page::page;
+use super::printed::Verdict;
+use super::printed::Verdict::{Close, NotChecked, NotIndependent, NotReproduced, Reproduced};
+use super::row::{PageRow, Paper};
+use super::rows;
+use super::tables::{DEAMP_TABLE, Format, RMFR_TABLE, Table, Tables};
 
 const KNOWN: [(Paper, &str, &str, Verdict); 48] = [
     (Paper::Vafr, "samples, f(60°) = 4", "1,061,733.7", Close),
@@ -68,7 +71,7 @@ fn every_number_comes_out_as_it_is_known() {
     }
     assert!(checked.next().is_none());
     // What is printed was read as the number it is.
-    for cell in rows.iter().flat_map(Row::cells) {
+    for cell in rows.iter().flat_map(PageRow::cells) {
         assert!(cell.printed.value().is_finite() && cell.computed.is_finite(), "{cell:?}");
     }
 }
@@ -120,7 +123,7 @@ fn tables(first: &str) -> Tables {
         pairs.join(","),
         rates.join(","),
     );
-    let parse = |format, text: &str| Table::parse(format, text, Path::new("made up")).unwrap();
+    let parse = |format: &Format, text: &str| Table::parse(format, text);
     Tables { rmfr: parse(&RMFR_TABLE, &rmfr), deamp: parse(&DEAMP_TABLE, &deamp) }
 }
 
@@ -163,5 +166,5 @@ fn the_page_is_a_table_a_paper() {
     let not_reproduced = KNOWN.iter().filter(|row| row.3 == NotReproduced).count();
     assert_eq!(text.matches("\n- **").count(), 5 + not_reproduced);
     assert_eq!(text.matches("the tables were not given").count(), 4 + 1);
-    assert!(text.starts_with("<!-- Made by `fovqa published-numbers`,"));
+    assert!(text.starts_with("<!-- Made by `make published-numbers`;"));
 }

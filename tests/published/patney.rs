@@ -2,8 +2,8 @@
 
 use fovqa_vision::find_display;
 
-use crate::printed::Printed;
-use crate::row::{Cell, Paper, Row};
+use super::printed::Printed;
+use super::row::{Cell, PageRow, Paper};
 
 /// Table 1, in per cent of the frame's quads: Guenter's, and the paper's.
 const GUENTER_QUADS: [f64; 3] = [48.4, 49.9, 50.7];
@@ -11,22 +11,22 @@ const QUADS: [f64; 3] = [26.6, 31.8, 38.1];
 const DESKTOP: &str = "desktop-27-qhd";
 
 /// The rows of Patney et al.: section 3's display, Table 1.
-pub fn patney() -> Vec<Row> {
+pub(super) fn patney() -> Vec<PageRow> {
     [vec![desktop_pixel()], quads()].concat()
 }
 
-fn one(place: &'static str, quantity: impl Into<String>, cell: Cell) -> Row {
-    Row::one(Paper::Patney, place, quantity, cell)
+fn one(place: &'static str, quantity: impl Into<String>, cell: Cell) -> PageRow {
+    PageRow::one(Paper::Patney, place, quantity, cell)
 }
 
-fn desktop_pixel() -> Row {
+fn desktop_pixel() -> PageRow {
     let display = find_display(DESKTOP);
     let ppd = display.map_or(f64::NAN, fovqa_vision::Display::central_pixels_per_degree);
     one("text", "desktop pixel at 81 cm", Cell::new("", Printed::new("1 arcmin"), 60.0 / ppd, 3))
         .because(format!("{ppd:.1} pixels per degree"))
 }
 
-fn quads() -> Vec<Row> {
+fn quads() -> Vec<PageRow> {
     let saved_of_all = QUADS.map(|quads| 100.0 - quads);
     let least = saved_of_all.into_iter().fold(f64::INFINITY, f64::min);
     let most = saved_of_all.into_iter().fold(0.0, f64::max);
