@@ -106,7 +106,7 @@ fn check_accumulated(folder: &Path) {
             near(&format!("{name} {half}°"), deamp.share_within(half), share);
         }
         let whole = deamp.share_within(deamp.whole_deg());
-        let counts = Method::Deamp(params).over(&square).unwrap().counts();
+        let counts = Method::Deamp(params).apply(&square).unwrap().counts();
         near(name, counts.samples / square.pixels(), whole);
     }
 }
@@ -123,7 +123,7 @@ fn check_half_axis(folder: &Path) {
 fn check_density(folder: &Path) {
     let setting = setting(1440, 1600, 110.0);
     for (name, method) in [("rmfr_fig11_linear_x", "linear"), ("rmfr_fig11_rmfr_x", "rmfr")] {
-        let foveation = Method::find(method).unwrap().over(&setting).unwrap();
+        let foveation = Method::find(method).unwrap().apply(&setting).unwrap();
         for [e, samples] in golden(folder, name, ["eccentricity_deg", "samples_per_pixel"]) {
             let place = Place::polar(setting.radius_px(e), 0.0);
             near(&format!("{name} {e}°"), foveation.density(place), samples);

@@ -30,7 +30,7 @@ fn one(place: &'static str, quantity: impl Into<String>, cell: Cell) -> PageRow 
 
 /// Samples over pixels with σ = 2.6.
 fn share(setting: &Setting) -> f64 {
-    possible(Method::Rmfr(rmfr::Params::default()).over(setting)).counts().samples
+    possible(Method::Rmfr(rmfr::Params::default()).apply(setting)).counts().samples
         / setting.pixels()
 }
 

@@ -95,7 +95,7 @@ fn table_1() -> Vec<PageRow> {
     let mut cells = Vec::new();
     for (method, (name, printed)) in methods.iter().zip(printed) {
         for ((resolution, size), printed) in RESOLUTIONS.iter().zip(printed) {
-            let counts = possible(method.over(&centred(*size, 110.0))).counts();
+            let counts = possible(method.apply(&centred(*size, 110.0))).counts();
             let thousands = counts.samples / 1000.0;
             let name = format!("{name} at {resolution}");
             cells.push(Cell::new(name, Printed::truncated(printed), thousands, 1));
@@ -157,7 +157,7 @@ fn savings() -> Vec<PageRow> {
 }
 
 fn retinal() -> Vec<PageRow> {
-    let pixels = possible(Method::Full.over(&centred(RETINAL, 110.0))).counts().samples;
+    let pixels = possible(Method::Full.apply(&centred(RETINAL, 110.0))).counts().samples;
     let cell = Cell::new("", Printed::new("74,649,600"), pixels, 0);
     let product = PageRow::one(Paper::Vafr, "Table 1", "pixels of 11520 x 6480", cell)
         .because("the product of the sides");

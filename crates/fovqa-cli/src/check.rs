@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fovqa::{Complaint, Events, Found, FoundView, Given};
+use fovqa::{Complaint, Events, FoundInputs, FoundView, Given};
 use fovqa_engine::FoundFrame;
 use fovqa_frame::source::Origin;
 use fovqa_io::frame_size;
@@ -111,7 +111,7 @@ fn masks(experiment: &Experiment) -> bool {
 }
 
 /// Whether every frame is an existing file. Reports the first missing file of each view.
-fn frames(found: &Found) -> bool {
+fn frames(found: &FoundInputs) -> bool {
     let mut there = true;
     for view in &found.views {
         let origins = view.frames.iter().flat_map(|frame| view.sources.of_frame(frame));
@@ -132,7 +132,7 @@ fn frames(found: &Found) -> bool {
     there
 }
 
-fn plan(experiment: &Experiment, metrics: &[Metric], found: &Found) -> String {
+fn plan(experiment: &Experiment, metrics: &[Metric], found: &FoundInputs) -> String {
     let mut text = String::new();
     let metrics: Vec<&str> = metrics.iter().map(|metric| metric.info().label).collect();
     let by_default = match experiment.plan.metrics {

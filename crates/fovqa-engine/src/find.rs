@@ -8,93 +8,20 @@ use fovqa_io::sequence::{FramePair, PairingError, Pairs, Spacing, pair};
 use fovqa_metrics::Metric;
 use fovqa_metrics::fvvdp::Padding;
 use fovqa_plan::{Plan, Scene};
-use fovqa_vision::GazeAt;
 
 use crate::error::EngineError;
 use crate::find_gaze::gaze;
+use crate::found::{FoundInputs, FoundView, Problem, is_wanted};
+use crate::found_frame::{FoundFrame, GuideFrames};
 use crate::remarks::remarks;
-use crate::sources::{Given, Opener, ViewSources};
+use crate::sources::{Given, Opener};
 use crate::timing::timings;
-
-/// The frames of a plan, and what is wrong with its inputs.
-#[derive(Debug)]
-pub struct Found {
-    /// One a scene and eye, in the order of the plan.
-    pub views: Vec<FoundView>,
-    /// Inputs that cannot be scored.
-    pub problems: Vec<Problem>,
-}
-
-/// The frames of one eye's view of a scene.
-#[derive(Debug)]
-pub struct FoundView {
-    /// Index of the scene.
-    pub scene: usize,
-    /// Index of the eye's view in it.
-    pub eye: usize,
-    /// Where the frames come from.
-    pub sources: ViewSources,
-    /// The frames, in order.
-    pub frames: Vec<FoundFrame>,
-    /// Frames a second: those of the scene, else what the reference or a test says of itself.
-    pub fps: Option<f64>,
-    /// The gaze of each frame, where it comes from a trace.
-    pub trace: Option<Vec<GazeAt>>,
-    /// Files without a partner that the plan says to pass over.
-    pub passed_over: usize,
-    /// What the user should know of the frames that were found: a sentence each.
-    pub remarks: Vec<String>,
-}
-
-impl FoundView {
-    /// How many tests there are to score.
-    pub fn pairs(&self) -> usize {
-        self.frames.iter().map(|frame| frame.tests.len()).sum()
-    }
-}
-
-/// One frame: its reference and the tests there are of it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FoundFrame {
-    /// Frame number.
-    pub number: i64,
-    /// Its place in the sequence, from 0: two frames follow each other where their positions differ by
-    /// 1. Numbers that are missing on both sides have a position as well.
-    pub position: usize,
-    /// The reference: its place in its source.
-    pub reference: usize,
-    /// Motion and depth that have sources of their own.
-    pub guides: GuideFrames,
-    /// Tests: the index of their method, which rises, and their place in its source.
-    pub tests: Vec<(usize, usize)>,
-}
-
-/// Places of the motion and the depth of a frame in sources of their own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct GuideFrames {
-    /// The motion.
-    pub motion: Option<usize>,
-    /// The depth.
-    pub depth: Option<usize>,
-}
-
-/// An input that cannot be scored.
-#[derive(Debug)]
-pub struct Problem {
-    /// Index of the scene.
-    pub scene: usize,
-    /// Index of the eye's view in it.
-    pub eye: usize,
-    /// Index of the method; `None`: all of them.
-    pub method: Option<usize>,
-    /// What is wrong.
-    pub error: EngineError,
-}
+use crate::view_sources::ViewSources;
 
 /// Finds and pairs the frames of every scene. Reads names and gaze traces, no pixels. `given` are the sources
 /// that the plan names and does not have.
-pub fn find(plan: &Plan, given: &Given) -> Found {
-    let mut found = Found { views: Vec::new(), problems: Vec::new() };
+pub fn find(plan: &Plan, given: &Given) -> FoundInputs {
+    let mut found = FoundInputs { views: Vec::new(), problems: Vec::new() };
     for (scene_index, scene) in plan.scenes.iter().enumerate() {
         for (eye, view) in scene.eyes.iter().enumerate() {
             let problem = |method, error: EngineError| {
@@ -224,11 +151,6 @@ fn merge(pairings: Vec<(usize, Pairs)>, spacing: &Spacing) -> Vec<FoundFrame> {
     // A stable sort: what has one number stays as it was found.
     order.sort_by_key(|(number, _)| *number);
     order.into_iter().filter_map(|key| frames.remove(&key)).collect()
-}
-
-/// Whether both the plan and the scene ask for a frame.
-pub(crate) fn is_wanted(plan: &Plan, scene: &Scene, number: i64) -> bool {
-    [scene.frames, plan.frames].into_iter().flatten().all(|range| range.contains(number))
 }
 
 /// The frames both the plan and the scene ask for.

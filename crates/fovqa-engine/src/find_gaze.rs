@@ -7,7 +7,7 @@ use fovqa_plan::{EyeView, Gaze, Plan};
 use fovqa_vision::{FrameAt, GazeAt, GazeTrace};
 
 use crate::error::EngineError;
-use crate::find::FoundFrame;
+use crate::found_frame::FoundFrame;
 
 /// Hours of gaze at any rate a tracker has.
 const MAX_GAZE_BYTES: u64 = 64 << 20;

@@ -6,7 +6,7 @@ use fovqa_vision::BandEdges;
 
 use crate::error::EngineError;
 use crate::events::{Events, Warnings};
-use crate::find::{Found, FoundView};
+use crate::found::{FoundInputs, FoundView};
 use crate::scoring::{Scoring, scene_bands};
 use crate::setup::{Inputs, Setup};
 use crate::view::warn_of_gaze;
@@ -18,7 +18,7 @@ use crate::view::warn_of_gaze;
 /// When the plan itself cannot be ([`crate::check`]).
 pub fn foresee(
     plan: &Plan,
-    found: &Found,
+    found: &FoundInputs,
     events: &dyn Events,
 ) -> Result<Vec<Metric>, EngineError> {
     let mut warnings = Warnings::new(events);

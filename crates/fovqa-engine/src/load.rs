@@ -5,8 +5,8 @@ use fovqa_frame::{BadPixel, CropError, Frame, Guides, Mask, Motion, Plane, Trans
 use fovqa_plan::{Nonfinite, Settings};
 use thiserror::Error;
 
-use crate::find::FoundFrame;
-use crate::sources::ViewSources;
+use crate::found_frame::FoundFrame;
+use crate::view_sources::ViewSources;
 
 /// Why a pair cannot be compared.
 #[derive(Debug, Error)]

@@ -25,7 +25,7 @@ use fovqa_plan::Plan;
 
 use crate::available_memory::available_bytes;
 use crate::error::EngineError;
-use crate::find::FoundView;
+use crate::found::FoundView;
 use crate::timing::timings;
 
 /// What is held at once, by who holds it.

@@ -6,7 +6,7 @@ use fovqa_plan::Plan;
 use thiserror::Error;
 
 use crate::findings::{Findings, ViewFindings};
-use crate::journal::{self, Found, Header, Text, place};
+use crate::journal::{self, Content, Header, Text, place};
 use crate::share::Shard;
 
 /// Shards that cannot be put together.
@@ -259,9 +259,9 @@ impl Shards {
 fn text(path: &Path) -> Result<Text, MergeError> {
     let none = || MergeError::NoShard(path.to_owned());
     let text = match journal::read(path) {
-        Ok(Found::Journal(text)) => *text,
-        Ok(Found::Nothing | Found::Other) => return Err(none()),
-        Ok(Found::OtherFormat(format)) => {
+        Ok(Content::Journal(text)) => *text,
+        Ok(Content::Nothing | Content::Other) => return Err(none()),
+        Ok(Content::OtherFormat(format)) => {
             return Err(MergeError::Format { path: path.to_owned(), format });
         }
         Err(error) if error.kind() == std::io::ErrorKind::NotADirectory => return Err(none()),

@@ -5,7 +5,7 @@ use fovqa_plan::{Plan, Scene};
 use fovqa_results::Failure;
 
 use crate::events::Warnings;
-use crate::find::FoundView;
+use crate::found::FoundView;
 use crate::load::{LoadError, Loaded, Step};
 
 /// What keeps frames without a partner from being an error.

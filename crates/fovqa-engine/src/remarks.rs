@@ -5,8 +5,8 @@ use fovqa_io::sequence::Spacing;
 use fovqa_plan::{EyeView, Gaze, Plan, Scene};
 
 use crate::error::EngineError;
-use crate::find::is_wanted;
-use crate::sources::ViewSources;
+use crate::found::is_wanted;
+use crate::view_sources::ViewSources;
 
 /// What the user should know of the frames of a view.
 ///

@@ -9,8 +9,8 @@ use fovqa_metrics::{LeadIn, Metric, Needs};
 use fovqa_plan::{Eye, Gaze, Plan};
 
 use crate::error::EngineError;
-use crate::find::{Found, FoundView};
 use crate::findings::{Findings, ViewFindings};
+use crate::found::{FoundInputs, FoundView};
 use crate::journal::{self, Header, JOURNAL, ViewFiles};
 use crate::share::{Shard, shares};
 use crate::timing::timings;
@@ -33,15 +33,15 @@ pub fn resume(
     folder: &Path,
     header: &Header,
     plan: &Plan,
-    found: &Found,
+    found: &FoundInputs,
 ) -> Result<Resumed, EngineError> {
     let changed = |changes| Ok(Resumed { changes, ..Resumed::default() });
     let text = match journal::read(folder) {
-        Ok(journal::Found::Nothing) => return Ok(Resumed::default()),
-        Ok(journal::Found::Other) => {
+        Ok(journal::Content::Nothing) => return Ok(Resumed::default()),
+        Ok(journal::Content::Other) => {
             return changed(vec![format!("{JOURNAL} is not in the format of this version")]);
         }
-        Ok(journal::Found::OtherFormat(format)) => {
+        Ok(journal::Content::OtherFormat(format)) => {
             let kept = format!("{JOURNAL}.old");
             std::fs::rename(folder.join(JOURNAL), folder.join(&kept))
                 .map_err(|error| EngineError::JournalRead { path: folder.join(JOURNAL), error })?;
@@ -50,7 +50,7 @@ pub fn resume(
                  that version can go on with it under its own name"
             )]);
         }
-        Ok(journal::Found::Journal(text)) => text,
+        Ok(journal::Content::Journal(text)) => text,
         Err(error) => return Err(EngineError::JournalRead { path: folder.join(JOURNAL), error }),
     };
     let changes = differences(&text.header, header);
@@ -70,7 +70,7 @@ pub fn resume(
 }
 
 /// All that a run reads, by how results show it.
-fn origins(plan: &Plan, found: &Found) -> BTreeMap<String, Origin> {
+fn origins(plan: &Plan, found: &FoundInputs) -> BTreeMap<String, Origin> {
     let settings = plan.scenes.iter().flat_map(|scene| &scene.eyes).map(|eye| &eye.settings);
     let beside = settings.flat_map(|settings| {
         let trace = match &settings.gaze {
@@ -149,7 +149,7 @@ fn other_files(then: &[ViewFiles], now: &[ViewFiles], shard: Option<Shard>) -> V
 /// What of a journal still holds, whatever becomes of the rest.
 fn still_good(
     plan: &Plan,
-    found: &Found,
+    found: &FoundInputs,
     shard: Option<Shard>,
     mut findings: Findings,
 ) -> Result<Findings, EngineError> {

@@ -6,8 +6,8 @@ use fovqa_results::RunResults;
 use crate::assemble::{results, whole};
 use crate::error::EngineError;
 use crate::events::{Events, Progress, Warnings};
-use crate::find::{Found, FoundView, Problem};
 use crate::findings::{Entry, Findings, Named, Place, Record};
+use crate::found::{FoundInputs, FoundView, Problem};
 use crate::scoring::{Scoring, TakenDown, scene_bands};
 use crate::unit::{Unit, units};
 
@@ -26,7 +26,7 @@ pub fn check(plan: &Plan) -> Result<(), EngineError> {
 /// When the plan itself cannot be ([`check`]), or what is finished cannot be taken down.
 pub fn run(
     plan: &Plan,
-    found: &Found,
+    found: &FoundInputs,
     events: &dyn Events,
     record: &mut Record<'_>,
 ) -> Result<RunResults, EngineError> {
@@ -41,7 +41,7 @@ pub fn run(
 /// As [`run`].
 pub fn score(
     plan: &Plan,
-    found: &Found,
+    found: &FoundInputs,
     units: &[Unit],
     mut known: Findings,
     events: &dyn Events,

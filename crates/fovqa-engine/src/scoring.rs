@@ -12,8 +12,9 @@ use fovqa_vision::{BandEdges, GazeAt};
 use crate::assemble::whole;
 use crate::error::EngineError;
 use crate::events::{Progress, Warnings};
-use crate::find::{Found, FoundFrame, FoundView};
 use crate::findings::{Entry, Finished, Named, Outcome, Record, Settled, ViewFindings};
+use crate::found::{FoundInputs, FoundView};
+use crate::found_frame::FoundFrame;
 use crate::inputs::Inputs;
 use crate::load::{Loaded, Loader, Step};
 use crate::memory;
@@ -246,7 +247,7 @@ impl<'a> Scoring<'a> {
 }
 
 /// The bands of a scene with two eyes and none given: one list, as far as either eye sees.
-pub(crate) fn scene_bands(scene: &Scene, found: &Found, index: usize) -> Option<BandEdges> {
+pub(crate) fn scene_bands(scene: &Scene, found: &FoundInputs, index: usize) -> Option<BandEdges> {
     let default = |view: &EyeView| view.settings.view.is_some() && view.settings.bands.is_none();
     if scene.eyes.len() < 2 || !scene.eyes.iter().all(default) {
         return None;

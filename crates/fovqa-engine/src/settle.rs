@@ -5,7 +5,7 @@ use fovqa_plan::{MetricChoice, Plan, Settings};
 use fovqa_vision::ViewSpec;
 
 use crate::error::{EngineError, no_view};
-use crate::find::FoundView;
+use crate::found::FoundView;
 
 /// The metrics of a view, and those of the default ones that are left out for want of one.
 ///

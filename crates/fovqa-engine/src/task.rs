@@ -51,7 +51,7 @@ pub enum TaskError {
 
 impl Task {
     /// A unit of a plan whose frames were found.
-    pub fn new(plan: &Plan, found: &crate::find::Found, unit: Unit) -> Option<Self> {
+    pub fn new(plan: &Plan, found: &crate::found::FoundInputs, unit: Unit) -> Option<Self> {
         let files = view_files(plan, found, unit.scene, unit.eye)?;
         let (schema, version) = (SCHEMA.to_owned(), env!("CARGO_PKG_VERSION").to_owned());
         Some(Self { schema, version, plan: plan.clone(), unit, files })
@@ -95,7 +95,7 @@ impl Task {
         }
         let units = std::slice::from_ref(&self.unit);
         // Problems of other views are not the task's.
-        let found = crate::find::Found { problems: Vec::new(), ..found };
+        let found = crate::found::FoundInputs { problems: Vec::new(), ..found };
         let nothing = &mut |_: crate::findings::Entry<'_>| Ok(());
         let findings = score(&self.plan, &found, units, Findings::default(), events, nothing)?;
         Ok(TaskFindings(findings))

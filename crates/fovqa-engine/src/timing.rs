@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use fovqa_metrics::fvvdp::{Params, Time, TimeError};
 
-use crate::find::FoundView;
+use crate::found::FoundView;
 
 /// The sequence of a method.
 #[derive(Debug, Clone)]
@@ -61,8 +61,8 @@ pub(crate) fn timings(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::find::{FoundFrame, GuideFrames};
-    use crate::sources::ViewSources;
+    use crate::found_frame::{FoundFrame, GuideFrames};
+    use crate::view_sources::ViewSources;
 
     fn view(positions: &[usize]) -> FoundView {
         let frame = |position: &usize| FoundFrame {

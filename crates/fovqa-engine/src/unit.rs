@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use crate::find::{Found, FoundView};
+use crate::found::{FoundInputs, FoundView};
 use crate::share::{Shard, shares};
 
 /// A unit of work: a stretch of the pairs of one sequence. The frames before it that its measures over time
@@ -34,7 +34,7 @@ impl Unit {
 
 /// The units of what was found, one a sequence, or those of a shard of it: all pairs of all views, one
 /// behind the other, are cut into as many stretches as there are shards.
-pub fn units(found: &Found, shard: Option<Shard>) -> Vec<Unit> {
+pub fn units(found: &FoundInputs, shard: Option<Shard>) -> Vec<Unit> {
     let pairs: Vec<usize> = found.views.iter().map(FoundView::pairs).collect();
     let units = found.views.iter().zip(shares(shard, &pairs));
     let units = units.map(|(view, pairs)| Unit { scene: view.scene, eye: view.eye, pairs });

@@ -10,7 +10,7 @@ use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, ViewResult};
 use fovqa_vision::BandEdges;
 
 use crate::events::Warnings;
-use crate::find::FoundView;
+use crate::found::FoundView;
 use crate::load::{Fault, Loaded, Loader, Side, Step, comparable};
 use crate::meters::{Measured, Meters, Pair};
 use crate::setup::{Inputs, Setup};

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use crate::find::FoundView;
 use crate::findings::Outcome;
+use crate::found::FoundView;
 use crate::load::Step;
 
 /// A view's pairs, and those of them that are to be scored: places among all pairs of the view.
@@ -88,8 +88,8 @@ impl<'a> Work<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::find::{FoundFrame, GuideFrames};
-    use crate::sources::ViewSources;
+    use crate::found_frame::{FoundFrame, GuideFrames};
+    use crate::view_sources::ViewSources;
 
     /// Three frames, of which the second has one test.
     fn view() -> FoundView {

@@ -10,9 +10,12 @@ use std::sync::OnceLock;
 use half::f16;
 use multiversion::multiversion;
 
+use crate::codes::{CODES_8, CODES_16, table};
+use crate::conversion::{Conversion, FloatToSignal};
 use crate::frame::{Channels, Frame, Samples};
-use crate::side::{Side, within_unit};
-use crate::signal::{CODES_8, CODES_16, FloatToSignal, SignalParams, Source, Transfer, table};
+use crate::shown_light::{Curve, ShownLight};
+use crate::side::Side;
+use crate::signal_params::{SignalParams, Transfer};
 
 /// What a display makes of linear samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,44 +24,6 @@ pub enum LinearLight {
     ToneMapped,
     /// Absolute light, clipped to what the display can show.
     Absolute(ShownLight),
-}
-
-/// Absolute light as a display shows it: `clip(value cd_m2_per_unit, floor, peak) + black`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ShownLight {
-    /// cd/m² of a sample of 1.
-    pub cd_m2_per_unit: f64,
-    /// Darkest light, before black is added, cd/m².
-    pub floor_cd_m2: f64,
-    /// Brightest light, before black is added, cd/m².
-    pub peak_cd_m2: f64,
-    /// What the display adds to everything, cd/m².
-    pub black_cd_m2: f64,
-}
-
-impl ShownLight {
-    /// The light of a sample, cd/m².
-    #[inline]
-    pub(crate) fn shown(self, value: f32) -> f32 {
-        // `max` first: of NaN and a number it is the number.
-        let light = (value * self.cd_m2_per_unit as f32).max(self.floor_cd_m2 as f32);
-        light.min(self.peak_cd_m2 as f32) + self.black_cd_m2 as f32
-    }
-}
-
-/// A display's curve over encoded values, tabulated where 16-bit codes lie; straight between them.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Curve<'a>(&'a [f32; CODES_16]);
-
-impl Curve<'_> {
-    #[inline]
-    pub(crate) fn at(self, encoded: f32) -> f32 {
-        const LAST: usize = CODES_16 - 2;
-        let at = within_unit(encoded) * (CODES_16 - 1) as f32;
-        let below = (at as usize).min(LAST);
-        let (from, to) = (self.0[below], self.0[below + 1]);
-        from + (to - from) * (at - below as f32)
-    }
 }
 
 /// An encoded value in `[0, 1]` to cd/m².
@@ -135,7 +100,7 @@ impl LightTables {
         }
     }
 
-    fn source<'a>(&'a self, frame: &'a Frame) -> Source<'a> {
+    fn source<'a>(&'a self, frame: &'a Frame) -> Conversion<'a> {
         let linear = self.signal.transfer_of(frame) == Transfer::Linear;
         let of_code = |code: usize, codes: usize| {
             let value = code as f64 / (codes - 1) as f64;
@@ -144,23 +109,25 @@ impl LightTables {
         match frame.samples() {
             Samples::U8(s) => {
                 let light = self.codes8.get_or_init(|| table(|code| of_code(code, CODES_8)));
-                Source::Table8(s, light)
+                Conversion::Table8(s, light)
             }
             Samples::U16(s) => {
                 let light = self.codes16.get_or_init(|| table(|code| of_code(code, CODES_16)));
-                Source::Table16(s, light)
+                Conversion::Table16(s, light)
             }
             Samples::F16(s) => {
                 let value = |bits: usize| {
                     let value = f16::from_bits(bits as u16).to_f32();
                     if linear { self.of_linear(value) } else { self.curve().at(value) }
                 };
-                Source::Half(s, self.half.get_or_init(|| table(value)))
+                Conversion::Half(s, self.half.get_or_init(|| table(value)))
             }
             Samples::F32(s) => match self.linear {
-                _ if !linear => Source::Curve(s, self.curve()),
-                LinearLight::ToneMapped => Source::ToneMapped(s, self.to_signal(), self.curve()),
-                LinearLight::Absolute(shown) => Source::Absolute(s, shown),
+                _ if !linear => Conversion::Curve(s, self.curve()),
+                LinearLight::ToneMapped => {
+                    Conversion::ToneMapped(s, self.to_signal(), self.curve())
+                }
+                LinearLight::Absolute(shown) => Conversion::Absolute(s, shown),
             },
         }
     }

@@ -9,7 +9,8 @@ use multiversion::multiversion;
 
 use crate::frame::{Channels, Frame, Samples};
 use crate::side::Side;
-use crate::signal::{Luma, SignalTables, Transfer};
+use crate::signal::SignalTables;
+use crate::signal_params::{Luma, Transfer};
 use crate::transfer::{pq, srgb};
 
 /// What a pixel is reduced to.
@@ -192,7 +193,7 @@ fn weigh(planes: [&mut [f32]; 3], weights: [f64; 3], out: &mut [f64]) {
 mod tests {
     use super::*;
     use crate::frame::Crop;
-    use crate::signal::SignalParams;
+    use crate::signal_params::SignalParams;
 
     fn read(frame: &Frame, params: SignalParams, kind: LumaKind) -> Vec<Vec<f64>> {
         let tables = SignalTables::new(params);

@@ -10,7 +10,8 @@ use multiversion::multiversion;
 
 use crate::frame::{Channels, Frame};
 use crate::side::Side;
-use crate::signal::{Luma, SignalChannels, SignalTables};
+use crate::signal::SignalTables;
+use crate::signal_params::{Luma, SignalChannels};
 
 /// Two frames of one size, ready to be read row by row.
 #[derive(Debug)]

@@ -4,19 +4,20 @@ use std::ops::Range;
 
 use multiversion::multiversion;
 
+use crate::codes::within_unit;
+use crate::conversion::Conversion;
 use crate::frame::{Channels, Frame};
-use crate::signal::Source;
 
 /// A frame with the way to its signal.
 #[derive(Debug)]
 pub(crate) struct Side<'a> {
     frame: &'a Frame,
-    source: Source<'a>,
+    conversion: Conversion<'a>,
 }
 
 impl<'a> Side<'a> {
-    pub(crate) fn new(frame: &'a Frame, source: Source<'a>) -> Self {
-        Self { frame, source }
+    pub(crate) fn new(frame: &'a Frame, conversion: Conversion<'a>) -> Self {
+        Self { frame, conversion }
     }
 }
 
@@ -30,36 +31,36 @@ impl Side<'_> {
         let channels = if colour { 0..3 } else { 0..1 };
         let interleaved = pixels.start * channels.len()..pixels.end * channels.len();
         let planar = |c: usize| c * plane + pixels.start..c * plane + pixels.end;
-        match self.source {
-            Source::Codes8(s, scale) => codes8(&s[interleaved], planes, scale),
-            Source::Codes16(s, scale) => codes16(&s[interleaved], planes, scale),
-            Source::Table8(s, table) => {
+        match self.conversion {
+            Conversion::Codes8(s, scale) => codes8(&s[interleaved], planes, scale),
+            Conversion::Codes16(s, scale) => codes16(&s[interleaved], planes, scale),
+            Conversion::Table8(s, table) => {
                 take_apart(&s[interleaved], planes, |c| table[usize::from(c)]);
             }
-            Source::Table16(s, table) => {
+            Conversion::Table16(s, table) => {
                 take_apart(&s[interleaved], planes, |c| table[usize::from(c)]);
             }
-            Source::Half(s, table) => {
+            Conversion::Half(s, table) => {
                 for c in channels {
                     for (out, v) in planes[c].iter_mut().zip(&s[planar(c)]) {
                         *out = table[usize::from(v.to_bits())];
                     }
                 }
             }
-            Source::Linear(s, to_signal) => {
+            Conversion::Linear(s, to_signal) => {
                 channels.for_each(|c| each(&s[planar(c)], planes[c], |v| to_signal.map(v)));
             }
-            Source::Encoded(s) => {
+            Conversion::Encoded(s) => {
                 channels.for_each(|c| each(&s[planar(c)], planes[c], within_unit));
             }
-            Source::Curve(s, curve) => {
+            Conversion::Curve(s, curve) => {
                 channels.for_each(|c| each(&s[planar(c)], planes[c], |v| curve.at(v)));
             }
-            Source::ToneMapped(s, to_signal, curve) => {
+            Conversion::ToneMapped(s, to_signal, curve) => {
                 let light = |v| curve.at(to_signal.map(v));
                 channels.for_each(|c| each(&s[planar(c)], planes[c], light));
             }
-            Source::Absolute(s, light) => {
+            Conversion::Absolute(s, light) => {
                 channels.for_each(|c| each(&s[planar(c)], planes[c], |v| light.shown(v)));
             }
         }
@@ -86,13 +87,6 @@ fn each(values: &[f32], out: &mut [f32], of: impl Fn(f32) -> f32) {
     for (out, &value) in out.iter_mut().zip(values) {
         *out = of(value);
     }
-}
-
-/// An encoded float, kept in range.
-#[inline]
-#[allow(clippy::manual_clamp, reason = "clamp would let NaN through; here it becomes 0")]
-pub(crate) fn within_unit(value: f32) -> f32 {
-    value.max(0.0).min(1.0)
 }
 
 /// Takes interleaved codes apart: as many into the first plane as it has pixels (gray), or three

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use crate::jpeg::JpegKind;
+use crate::jpeg::kind::JpegKind;
 
 /// A file that could not be read as a frame, and why.
 #[derive(Debug, Error)]

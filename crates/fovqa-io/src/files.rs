@@ -6,11 +6,12 @@ use fovqa_frame::source::{
     InputId, Listing, MissingGuides, Origin, Picture, PictureGuides, Source, SourceError,
 };
 
-use crate::decode::{Note, ReadOptions, frame_size, read_frame, read_frame_and_hash};
+use crate::decode::{frame_size, read_frame, read_frame_and_hash};
 use crate::error::ReadError;
-use crate::guides::{
-    DepthChannels, GuideOptions, GuideSearch, MotionChannels, read_guides, read_guides_and_hash,
-};
+use crate::guides::{DepthChannels, GuideOptions, GuideSearch, MotionChannels};
+use crate::note::Note;
+use crate::read_guides::{read_guides, read_guides_and_hash};
+use crate::read_options::ReadOptions;
 use crate::sequence::{FileListing, shown};
 
 /// How a source of files is read.

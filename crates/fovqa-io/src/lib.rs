@@ -7,6 +7,7 @@
 mod alpha;
 mod contain;
 mod decode;
+mod decoded;
 mod error;
 mod exif;
 mod exr;
@@ -14,7 +15,11 @@ mod files;
 mod guides;
 mod input_id;
 mod jpeg;
+mod note;
+mod opened;
 mod png;
+mod read_guides;
+mod read_options;
 pub mod sequence;
 mod small_file;
 mod sources;
@@ -23,18 +28,21 @@ mod y4m;
 
 pub use alpha::AlphaPolicy;
 pub use contain::is_contained;
-pub use decode::{
-    Decoded, Note, ReadOptions, frame_size, read_frame, read_frame_and_hash, read_mask,
-};
+pub use decode::{frame_size, read_frame, read_frame_and_hash, read_mask};
+pub use decoded::{Decoded, DecodedGuides};
 pub use error::{ReadError, ReadErrorKind};
 pub use files::SourceOptions;
 pub use guides::{
-    DecodedGuides, DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels,
-    MotionUnit, NamedMotion, Sought, read_guides, read_guides_and_hash,
+    DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels, MotionUnit, NamedMotion,
+    Sought,
 };
 pub use input_id::{id_of, id_of_file};
-pub use jpeg::JpegKind;
+pub use jpeg::kind::JpegKind;
+pub use note::Note;
+pub use read_guides::{read_guides, read_guides_and_hash};
+pub use read_options::{FormatOptions, ReadOptions};
 pub use small_file::{open_regular_file, read_head, read_small_file};
-pub use sources::{FormatOptions, OpenError, open_source};
+pub use sources::{OpenError, open_source};
 pub use write::{exr_gray, exr_gray_half, png_rgb8};
-pub use y4m::{CodeRange, ColourMatrix, Y4mOptions, video_stream};
+pub use y4m::options::{CodeRange, ColourMatrix, Y4mOptions};
+pub use y4m::video_stream;

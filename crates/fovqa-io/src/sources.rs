@@ -4,20 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use fovqa_frame::source::{Source, SourceError};
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::files::{Files, SourceOptions};
 use crate::sequence::{FileListing, ListingError, list_below, shown};
-use crate::y4m::{VideoKind, Y4mOptions, is_video_name, open_video, standard_input, video_kind};
-
-/// Settings of one format alone, a field a format.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct FormatOptions {
-    /// Video as YUV4MPEG2.
-    #[serde(flatten)]
-    pub y4m: Y4mOptions,
-}
+use crate::y4m::{VideoKind, is_video_name, open_video, standard_input, video_kind};
 
 /// A path argument without a source.
 #[derive(Debug, Error)]

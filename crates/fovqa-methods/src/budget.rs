@@ -102,7 +102,7 @@ impl Method {
             method
         };
         let share_of = |value: f64| -> Result<f64, BudgetError> {
-            let counts = with(value).over(setting)?.counts();
+            let counts = with(value).apply(setting)?.counts();
             let samples = match of {
                 BudgetOf::Buffer => counts.whole(),
                 BudgetOf::OnScreen => counts.samples_on_screen,

@@ -9,7 +9,7 @@
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::foveation::{Counts, Foveation, Rates};
-use crate::registry::MethodInfo;
+use crate::info::MethodInfo;
 use crate::setting::{Place, Setting, up_to};
 
 /// How a requested rate becomes one the hardware has.

@@ -16,7 +16,7 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::error::MethodError;
 use crate::foveation::{Counts, Foveation, Mapping, Rates, Reach};
-use crate::registry::MethodInfo;
+use crate::info::MethodInfo;
 use crate::rmfr::Squeeze;
 use crate::setting::{Place, Setting, up_to};
 

@@ -1,7 +1,17 @@
 //! The display's own rate: every pixel shaded once. What others are held against.
 
 use crate::foveation::{Counts, Foveation, Mapping, Rates};
+use crate::info::MethodInfo;
 use crate::setting::{Place, Setting};
+
+/// Its entry in the list of methods.
+pub(crate) const INFO: MethodInfo = MethodInfo {
+    key: "full",
+    label: "Full",
+    about: "the display's own rate: every pixel shaded",
+    source: "the reference of all comparisons",
+    params: &[],
+};
 
 /// Every pixel of a frame.
 #[derive(Debug, Clone, Copy)]

@@ -14,7 +14,7 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::error::MethodError;
 use crate::foveation::{Counts, Foveation, Mapping, Rates};
-use crate::registry::MethodInfo;
+use crate::info::MethodInfo;
 use crate::setting::{Place, Setting, up_to};
 
 /// How bounds and scales are found.

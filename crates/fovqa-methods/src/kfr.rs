@@ -11,8 +11,8 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::error::MethodError;
 use crate::foveation::{Counts, Foveation, Mapping, Rates, Reach};
+use crate::info::MethodInfo;
 use crate::log_polar::LogPolar;
-use crate::registry::MethodInfo;
 use crate::setting::{Place, Setting};
 
 /// Parameters.

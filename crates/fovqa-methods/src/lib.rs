@@ -1,7 +1,7 @@
 //! Foveation methods as pure mathematics: where a method's samples stand on the screen, how densely,
 //! and how many there are. Knows nothing of images.
 //!
-//! [`Method`] is the registry: a method with its parameters, set by name. [`Method::over`] applies it
+//! [`Method`] is the registry: a method with its parameters, set by name. [`Method::apply`] applies it
 //! to a [`Setting`] (a frame, its focal length and the gaze), and gives a [`Foveation`]: rates,
 //! density, counts and, where the method has a reduced buffer, its [`Mapping`]. [`curves`] computes the
 //! shading rate over eccentricity and compares it with acuity. One file per method,
@@ -19,7 +19,7 @@
 //! let view = spec.resolve(1440, 1600)?.view;
 //! let mut rmfr = Method::find("rmfr").unwrap();
 //! rmfr.set("sigma", &ParamValue::Number(2.6))?;
-//! let rmfr = rmfr.over(&Setting::new(&view, [720.0, 800.0])?)?;
+//! let rmfr = rmfr.apply(&Setting::new(&view, [720.0, 800.0])?)?;
 //! let share = rmfr.counts().samples / (1440.0 * 1600.0);
 //! assert!((share - 0.1479).abs() < 1e-4);
 //! let [u, v] = rmfr.mapping().unwrap().to_buffer(0, Place::at([100.0, 0.0]));
@@ -35,6 +35,7 @@ mod error;
 mod foveation;
 pub mod full;
 pub mod guenter;
+mod info;
 pub mod kfr;
 pub mod lafr;
 pub mod linear;
@@ -49,7 +50,8 @@ pub mod visual_polar;
 pub use budget::{BudgetError, BudgetOf, Budgeted};
 pub use error::MethodError;
 pub use foveation::{Counts, Foveation, Mapping, Rates, Reach};
-pub use registry::{Method, MethodInfo};
+pub use info::MethodInfo;
+pub use registry::Method;
 pub use setting::{Place, Setting};
 
 #[cfg(test)]

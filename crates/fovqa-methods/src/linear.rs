@@ -8,7 +8,7 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::error::MethodError;
 use crate::foveation::{Counts, Foveation, Rates};
-use crate::registry::MethodInfo;
+use crate::info::MethodInfo;
 use crate::setting::{Place, Setting};
 
 /// Parameters.

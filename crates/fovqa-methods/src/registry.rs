@@ -1,13 +1,14 @@
-//! What methods there are.
+//! The list of all methods.
 
-use fovqa_params::{ParamError, ParamInfo, ParamValue, find};
+use fovqa_params::{ParamError, ParamValue, find};
 
 use crate::cps::{self, Cps};
 use crate::deamp::{self, Deamp};
 use crate::error::MethodError;
 use crate::foveation::Foveation;
-use crate::full::Full;
+use crate::full::{self, Full};
 use crate::guenter::{self, Guenter};
+use crate::info::MethodInfo;
 use crate::kfr::{self, Kfr};
 use crate::lafr::{self, Lafr};
 use crate::linear::{self, Linear};
@@ -41,29 +42,6 @@ pub enum Method {
     VisualPolar(visual_polar::Params),
 }
 
-/// What there is to say about a method.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MethodInfo {
-    /// Its name in results and, with `-` for `_` if one likes, on the command line.
-    pub key: &'static str,
-    /// Its name in tables and figures.
-    pub label: &'static str,
-    /// One line on what it is.
-    pub about: &'static str,
-    /// Where it comes from.
-    pub source: &'static str,
-    /// Its parameters.
-    pub params: &'static [ParamInfo],
-}
-
-const FULL: MethodInfo = MethodInfo {
-    key: "full",
-    label: "Full",
-    about: "the display's own rate: every pixel shaded",
-    source: "what others are held against",
-    params: &[],
-};
-
 impl Method {
     /// All methods with their defaults, in the order of tables.
     pub fn all() -> [Method; 10] {
@@ -90,7 +68,7 @@ impl Method {
     /// Its entry.
     pub fn info(&self) -> &'static MethodInfo {
         match self {
-            Self::Full => &FULL,
+            Self::Full => &full::INFO,
             Self::Vafr(_) => &vafr::INFO,
             Self::Kfr(_) => &kfr::INFO,
             Self::Lafr(_) => &lafr::INFO,
@@ -134,7 +112,7 @@ impl Method {
     ///
     /// # Errors
     /// When parameters do not go together, or not with the frame.
-    pub fn over(&self, setting: &Setting) -> Result<Box<dyn Foveation>, MethodError> {
+    pub fn apply(&self, setting: &Setting) -> Result<Box<dyn Foveation>, MethodError> {
         Ok(match self {
             Self::Full => Box::new(Full::new(setting)),
             Self::Vafr(params) => Box::new(Vafr::new(params, setting)?),

@@ -9,7 +9,7 @@
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::foveation::{Counts, Foveation, Mapping, Rates, Reach};
-use crate::registry::MethodInfo;
+use crate::info::MethodInfo;
 use crate::setting::{Place, Setting};
 
 /// Parameters.

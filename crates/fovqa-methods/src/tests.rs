@@ -102,7 +102,7 @@ proptest! {
         let gaze_px = [gaze.0 * w, gaze.1 * h];
         let setting = setting(width, height, fov, gaze_px);
         // What a small frame cannot have is refused, not mapped.
-        let Ok(foveation) = mapped()[which].over(&setting) else { return Ok(()) };
+        let Ok(foveation) = mapped()[which].apply(&setting) else { return Ok(()) };
         let Some(mapping) = foveation.mapping() else { return Ok(()) };
         let place = Place::at([point.0 * w - gaze_px[0], point.1 * h - gaze_px[1]]);
         prop_assume!(place.radius_px > 1.01);
@@ -157,7 +157,7 @@ proptest! {
         const SIDE: usize = 400;
         let side = SIDE as f64;
         let setting = setting(SIDE, SIDE, fov, [gaze.0 * side, gaze.1 * side]);
-        let Ok(foveation) = Method::all()[which].over(&setting) else { return Ok(()) };
+        let Ok(foveation) = Method::all()[which].apply(&setting) else { return Ok(()) };
         let [gx, gy] = setting.gaze_px();
         let mut sum = 0.0;
         for y in 0..2 * SIDE {
@@ -234,7 +234,7 @@ fn vafr_goes_on_beyond_its_field() {
 #[test]
 fn samples_of_the_rectangular_mappings() {
     let square = centred(1600, 1600, 90.0);
-    let share = |method: &Method| method.over(&square).unwrap().counts().samples / square.pixels();
+    let share = |method: &Method| method.apply(&square).unwrap().counts().samples / square.pixels();
     assert!((share(&Method::find("rmfr").unwrap()) - 0.147_929).abs() < 1e-6);
     // Equal σ telescope to σ².
     let equal = ParamValue::List(vec![2.6, 2.6, 2.6]);
@@ -251,7 +251,7 @@ fn samples_of_the_rectangular_mappings() {
     assert!((deamp(deamp::Projection::Tan).outer_share() - 0.828).abs() < 5e-4);
     assert!((deamp(deamp::Projection::Linear).outer_share() - 0.75).abs() < 1e-12);
     assert!(deamp(deamp::Projection::Tan).note().is_none(), "the paper's own frame");
-    let wide = Method::find("deamp").unwrap().over(&centred(1440, 1600, 110.0)).unwrap();
+    let wide = Method::find("deamp").unwrap().apply(&centred(1440, 1600, 110.0)).unwrap();
     assert!(wide.note().unwrap().contains("45° is 52.12° x 55.00°"), "{:?}", wide.note());
 }
 
@@ -260,7 +260,7 @@ fn samples_of_the_rectangular_mappings() {
 fn mean_densities_of_the_comparison() {
     let setting = centred(1440, 1600, 110.0);
     let mean = |name: &str| {
-        let counts = Method::find(name).unwrap().over(&setting).unwrap().counts();
+        let counts = Method::find(name).unwrap().apply(&setting).unwrap().counts();
         counts.samples_seen / setting.pixels()
     };
     assert!((mean("guenter") - 0.030).abs() < 5e-4);
@@ -300,8 +300,8 @@ fn guenter_optimises_on_its_grid() {
 #[test]
 fn kfr_off_centre_shades_what_nobody_sees() {
     let kfr = Method::find("kfr").unwrap();
-    let centre = kfr.over(&centred(1440, 1600, 110.0)).unwrap().counts();
-    let corner = kfr.over(&setting(1440, 1600, 110.0, [0.0, 0.0])).unwrap().counts();
+    let centre = kfr.apply(&centred(1440, 1600, 110.0)).unwrap().counts();
+    let corner = kfr.apply(&setting(1440, 1600, 110.0, [0.0, 0.0])).unwrap().counts();
     assert!(centre.samples_on_screen < centre.samples);
     assert!((corner.samples - centre.samples).abs() < 1e-6);
     // A quarter of the angles, less what is beyond the border.
@@ -323,7 +323,7 @@ fn coarse_pixels_have_the_normalised_rate_of_the_filter() {
     let rate = |quantise: &str, e: f64| {
         let setting = centred(1184, 1464, 110.0);
         let cps = method("cps", &[("quantise", ParamValue::Text(quantise.into()))]);
-        let rates = cps.over(&setting).unwrap().rates(Place::at([setting.radius_px(e), 0.0]));
+        let rates = cps.apply(&setting).unwrap().rates(Place::at([setting.radius_px(e), 0.0]));
         rates.unwrap().radial
     };
     // Requests 0.8125, 0.7, 0.4, 0.3 at 20°, 23°, 31°, 33 2/3°.
@@ -343,7 +343,7 @@ fn coarse_pixels_have_the_normalised_rate_of_the_filter() {
 #[test]
 fn visual_polar_keeps_its_budget() {
     let setting = centred(1440, 1600, 110.0);
-    let polar = Method::find("visual_polar").unwrap().over(&setting).unwrap();
+    let polar = Method::find("visual_polar").unwrap().apply(&setting).unwrap();
     let counts = polar.counts();
     assert!((counts.samples_on_screen / setting.pixels() - 0.4).abs() < 1e-12);
     assert!(counts.samples > counts.samples_on_screen);
@@ -371,7 +371,7 @@ fn a_budget_is_met_or_its_range_is_said() {
                 }
                 found => found.unwrap().method,
             };
-            let counts = found.over(&setting).unwrap().counts();
+            let counts = found.apply(&setting).unwrap().counts();
             let samples = match of {
                 BudgetOf::Buffer => counts.samples + counts.samples_beyond,
                 BudgetOf::OnScreen => counts.samples_on_screen,
@@ -390,7 +390,7 @@ fn a_budget_is_met_or_its_range_is_said() {
 /// θ is 0 at the gaze, whatever direction a curve has there.
 #[test]
 fn the_gaze_itself_has_no_angle() {
-    let kfr = Method::find("kfr").unwrap().over(&centred(1440, 1600, 110.0)).unwrap();
+    let kfr = Method::find("kfr").unwrap().apply(&centred(1440, 1600, 110.0)).unwrap();
     let [u, v] = kfr.mapping().unwrap().to_buffer(0, Place::polar(0.0, 90.0));
     assert!(u.abs() < 1e-12 && v.abs() < 1e-12, "{u} {v}");
 }
@@ -417,7 +417,8 @@ fn what_guenter_optimises_can_be_taken_as_it_is() {
 fn refuses_what_does_not_go_together() {
     let list = |l: &[f64]| ParamValue::List(l.to_vec());
     let over = |name: &str, params: &[(&str, ParamValue)], words: &[&str]| {
-        let error = method(name, params).over(&centred(1440, 1600, 110.0)).unwrap_err().to_string();
+        let error =
+            method(name, params).apply(&centred(1440, 1600, 110.0)).unwrap_err().to_string();
         for word in words {
             assert!(error.contains(word), "{word:?} is not in {error}");
         }
@@ -446,7 +447,7 @@ fn refuses_what_does_not_go_together() {
             .contains("0.1 to 1000")
     );
     let tiny = centred(1, 1, 110.0);
-    assert!(method("kfr", &[]).over(&tiny).unwrap_err().to_string().contains("more than 1 px"));
+    assert!(method("kfr", &[]).apply(&tiny).unwrap_err().to_string().contains("more than 1 px"));
     let nothing = View { width: 0, ..view(8, 8, 90.0) };
     assert!(Setting::new(&nothing, [0.0, 0.0]).unwrap_err().to_string().contains("0x8"));
     // A gaze outside is clamped to the frame.

@@ -18,8 +18,8 @@ use fovqa_vision::acuity::{AcuityCurve, AcuityModel, GeislerPerry, LinearMar, Pi
 
 use crate::error::MethodError;
 use crate::foveation::{Counts, Foveation, Mapping, Rates};
+use crate::info::MethodInfo;
 use crate::quadrature;
-use crate::registry::MethodInfo;
 use crate::setting::{Place, Setting, up_to};
 
 /// Where the paper's field ends, in degrees.

@@ -11,8 +11,8 @@ use std::f64::consts::TAU;
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use crate::foveation::{Counts, Foveation, Mapping, Rates};
+use crate::info::MethodInfo;
 use crate::quadrature;
-use crate::registry::MethodInfo;
 use crate::setting::{Place, Setting};
 
 /// Parameters.

@@ -91,8 +91,8 @@ pub use score::score_files;
 
 pub use fovqa_config::{ExperimentError, Fault};
 pub use fovqa_engine::{
-    Events, Found, FoundView, Given, Locking, Shard, Task, TaskError, TaskFindings, Unit, find,
-    foresee, results, units,
+    Events, FoundInputs, FoundView, Given, Locking, Shard, Task, TaskError, TaskFindings, Unit,
+    find, foresee, results, units,
 };
 pub use fovqa_frame::source::{Listing, Picture, Source, SourceError};
 pub use fovqa_frame::{Crop, Frame, SignalChannels, SignalParams, ToneMap, Transfer};

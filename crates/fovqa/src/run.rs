@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use fovqa_engine::{
-    Entry, Events, Findings, Found, Given, Header, Journal, Locking, NO_MAPS, ResultsFolder, Shard,
-    Unit, results, resume, units,
+    Entry, Events, Findings, FoundInputs, Given, Header, Journal, Locking, NO_MAPS, ResultsFolder,
+    Shard, Unit, results, resume, units,
 };
 use fovqa_io::sequence::FrameRange;
 use fovqa_plan::{Experiment, Eye};
@@ -37,7 +37,7 @@ pub struct RunOptions {
 pub struct Run {
     experiment: Experiment,
     options: RunOptions,
-    found: Found,
+    found: FoundInputs,
 }
 
 /// How a run ended.
@@ -106,7 +106,7 @@ impl Run {
     }
 
     /// The frames that were found.
-    pub fn found(&self) -> &Found {
+    pub fn found(&self) -> &FoundInputs {
         &self.found
     }
 
@@ -231,7 +231,7 @@ impl Run {
 }
 
 /// What is wrong with the inputs of an experiment as a whole.
-pub fn problems(experiment: &Experiment, found: &Found) -> Vec<Complaint> {
+pub fn problems(experiment: &Experiment, found: &FoundInputs) -> Vec<Complaint> {
     let complaint = |problem: &fovqa_engine::Problem| {
         let scene = &experiment.plan.scenes[problem.scene];
         let eye = scene.eyes[problem.eye].eye.map(Eye::name);

@@ -3,9 +3,9 @@
 use fovqa_params::{Words, words_of};
 use fovqa_vision::{Eotf, Luminance};
 
+use super::display::display;
 use super::no_such::no_such;
 use super::values::finite;
-use super::view::display;
 
 /// The photometry of a preset, or keys as in an experiment.
 pub(super) fn luminance(text: &str) -> Result<Luminance, String> {

@@ -2,6 +2,7 @@
 
 mod baseline;
 mod curves;
+mod display;
 mod gate;
 mod guides;
 mod lock;

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 use fovqa_params::Words;
 use fovqa_plan::Gaze;
-use fovqa_vision::{BandEdges, EccentricityKind, Luminance, ViewSpec, displays, find_display};
+use fovqa_vision::{BandEdges, EccentricityKind, Luminance, ViewSpec};
 
+use super::display::display;
 use super::luminance::luminance;
-use super::no_such::no_such;
 use super::values::{finite, numbers, words};
 
 /// The ways to give a view.
@@ -95,13 +95,6 @@ fn bands(text: &str) -> Result<BandEdges, String> {
     let edges =
         edges.map_err(|_| "write degrees with commas between them: 0,5,10,20".to_owned())?;
     BandEdges::new(edges).map_err(|error| error.to_string())
-}
-
-pub(super) fn display(name: &str) -> Result<fovqa_vision::Display, String> {
-    find_display(name).cloned().ok_or_else(|| {
-        let names: Vec<String> = displays().iter().map(|d| d.name.replace('_', "-")).collect();
-        no_such("display", name, &names)
-    })
 }
 
 impl ViewSpecArgs {

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use fovqa_io::{DepthChannels, GuideOptions, GuidePreset, MotionChannels, NamedMotion};
 use fovqa_params::Words;
 
-use super::Placeholders;
-use super::settings::path;
+use super::placeholders::{Placeholders, path};
 use crate::fault::{Fault, Faults};
 use crate::node::Node;
 

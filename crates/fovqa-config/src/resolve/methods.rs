@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::Placeholders;
+use super::placeholders::Placeholders;
+use super::placeholders::path;
 use super::scenes::{Resolved, unique};
-use super::settings::path;
 use crate::fault::{Fault, Faults};
 use crate::grammar::first_quoted;
 use crate::nearest::nearest;

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use fovqa_metrics::MetricInfo;
 
-use super::Placeholders;
-use super::settings::{Layers, path};
+use super::placeholders::{Placeholders, path};
+use super::settings::Layers;
 use super::view::{LUMINANCE_HELP, VIEW_HELP};
 use crate::fault::{Fault, Faults};
 use crate::node::Node;

@@ -10,8 +10,9 @@ use fovqa_vision::{BandEdges, ViewSpec};
 use serde_spanned::Spanned;
 use toml::de::DeValue;
 
-use super::Placeholders;
 use super::guides::guides;
+use super::placeholders::Placeholders;
+use super::placeholders::path;
 use super::view::{VIEW_HELP, gives_view, luminance, view};
 use crate::fault::{Fault, Faults};
 use crate::node::{Node, numbers, table};
@@ -195,22 +196,5 @@ fn gaze_of(
     match path(placeholders, base, text, trace.span("trace"), faults) {
         Some(path) => Gaze::Trace { path, hold: trace.flag("hold").unwrap_or(false) },
         None => Gaze::Centre,
-    }
-}
-
-/// A path with its placeholders filled in.
-pub(super) fn path(
-    placeholders: Placeholders<'_>,
-    base: &Path,
-    text: &str,
-    span: Range<usize>,
-    faults: &mut Faults,
-) -> Option<std::path::PathBuf> {
-    match placeholders.path(base, text) {
-        Ok(path) => Some(path),
-        Err((message, help)) => {
-            faults.push(Fault::new(span, message).help(help));
-            None
-        }
     }
 }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::JOURNAL;
-use crate::find::{Found, FoundView};
+use crate::found::{FoundInputs, FoundView};
 use crate::scoring::scene_bands;
 use crate::share::Shard;
 
@@ -52,7 +52,7 @@ pub(crate) struct ViewFiles {
 }
 
 impl ViewFiles {
-    fn of(plan: &Plan, found: &Found, view: &FoundView) -> Self {
+    fn of(plan: &Plan, found: &FoundInputs, view: &FoundView) -> Self {
         let scene = &plan.scenes[view.scene];
         Self {
             scene: scene.name.clone(),
@@ -66,7 +66,7 @@ impl ViewFiles {
 /// The files of an eye's view of a scene; `None` where none were found.
 pub(crate) fn view_files(
     plan: &Plan,
-    found: &Found,
+    found: &FoundInputs,
     scene: usize,
     eye: usize,
 ) -> Option<ViewFiles> {
@@ -76,7 +76,7 @@ pub(crate) fn view_files(
 
 impl Header {
     /// That of a run of an experiment, whose frames were found, or of a shard of it.
-    pub fn new(experiment: &Experiment, found: &Found, shard: Option<Shard>) -> Self {
+    pub fn new(experiment: &Experiment, found: &FoundInputs, shard: Option<Shard>) -> Self {
         let file = experiment.path.file_name().unwrap_or_default();
         let plan = &experiment.plan;
         let views = found.views.iter().map(|view| ViewFiles::of(plan, found, view));

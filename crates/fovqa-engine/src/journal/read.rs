@@ -21,7 +21,7 @@ use crate::findings::{Findings, Outcome, ViewFindings, ViewPlace};
 use crate::share::shares;
 
 /// What was found of a journal.
-pub(crate) enum Found {
+pub(crate) enum Content {
     /// None.
     Nothing,
     /// Something that is none of this format.
@@ -63,26 +63,26 @@ const MOST_BYTES: u64 = 64 << 30;
 ///
 /// # Errors
 /// When the system refuses.
-pub(crate) fn read(folder: &Path) -> io::Result<Found> {
+pub(crate) fn read(folder: &Path) -> io::Result<Content> {
     let bytes = match read_small_file(&folder.join(JOURNAL), MOST_BYTES) {
         Ok(bytes) => bytes,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Found::Nothing),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Content::Nothing),
         Err(error) => return Err(error),
     };
     // A run that was killed, or had no room, before it had written anything.
     if bytes.is_empty() {
-        return Ok(Found::Nothing);
+        return Ok(Content::Nothing);
     }
     let end = bytes.iter().position(|byte| *byte == b'\n').unwrap_or(bytes.len());
     let Some(header) = Header::parse(&bytes[..end]) else {
         let other = Header::other_format(&bytes[..end]);
-        return Ok(other.map_or(Found::Other, Found::OtherFormat));
+        return Ok(other.map_or(Content::Other, Content::OtherFormat));
     };
     let rest = bytes[(end + 1).min(bytes.len())..].to_vec();
     let pairs: Vec<usize> = header.views.iter().map(|view| view.pairs).collect();
     let shares = shares(header.shard, &pairs);
     let is_changed = seal_of(&bytes[..end]) != Seal::Whole;
-    Ok(Found::Journal(Box::new(Text { header, shares, is_changed, rest })))
+    Ok(Content::Journal(Box::new(Text { header, shares, is_changed, rest })))
 }
 
 impl Text {

@@ -128,7 +128,7 @@ fn header(plan: &Plan, shard: Option<&str>) -> Header {
     let text = "name = \"e\"\n".to_owned();
     let experiment =
         Experiment { plan: plan.clone(), text, path: "x/e.toml".into(), ..Experiment::default() };
-    let found = crate::find::Found { views: vec![], problems: vec![] };
+    let found = crate::found::FoundInputs { views: vec![], problems: vec![] };
     let mut header = Header::new(&experiment, &found, shard.map(|shard| shard.parse().unwrap()));
     for (scene, eye) in [("one", None), ("two", Some(Eye::Left)), ("two", Some(Eye::Right))] {
         let (scene, files) = (scene.to_owned(), String::new());
@@ -139,7 +139,7 @@ fn header(plan: &Plan, shard: Option<&str>) -> Header {
 
 fn read_text(folder: &Path) -> Box<Text> {
     match read(folder).unwrap() {
-        Found::Journal(text) => text,
+        Content::Journal(text) => text,
         _ => panic!("it is a journal"),
     }
 }
@@ -221,10 +221,10 @@ fn a_piece_of_a_line_is_dropped_and_what_is_behind_it() {
     // Within the first line there is no journal yet.
     for end in [1, 20, lines[0].len() - 2] {
         std::fs::write(folder.path().join(JOURNAL), &whole[..end]).unwrap();
-        assert!(matches!(read(folder.path()).unwrap(), Found::Other), "{end}");
+        assert!(matches!(read(folder.path()).unwrap(), Content::Other), "{end}");
     }
     std::fs::write(folder.path().join(JOURNAL), "").unwrap();
-    assert!(matches!(read(folder.path()).unwrap(), Found::Nothing));
+    assert!(matches!(read(folder.path()).unwrap(), Content::Nothing));
 }
 
 /// Lines that were changed, as if they had been written so.
@@ -318,5 +318,5 @@ fn lines_of_something_else_are_not_understood() {
     // A text that is not the one it says.
     let other = String::from_utf8(head).unwrap().replace("name = ", "nome = ");
     std::fs::write(folder.path().join(JOURNAL), other).unwrap();
-    assert!(matches!(read(folder.path()).unwrap(), Found::Other));
+    assert!(matches!(read(folder.path()).unwrap(), Content::Other));
 }

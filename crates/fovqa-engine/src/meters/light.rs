@@ -17,7 +17,7 @@ use fovqa_results::FvvdpSight;
 
 use super::{Measured, Pair};
 use crate::events::Warnings;
-use crate::find::FoundView;
+use crate::found::FoundView;
 use crate::load::Fault;
 use crate::timing::timings;
 use sequence::{Missing, Sequence, State};

@@ -19,7 +19,7 @@ use fovqa_plan::{Plan, Settings};
 use fovqa_results::{AtdGuides, FvvdpSight};
 
 use crate::events::Warnings;
-use crate::find::FoundView;
+use crate::found::FoundView;
 use crate::load::{Fault, Side};
 use crate::retina::{Blocks, Retina};
 use crate::setup::Setup;

@@ -7,16 +7,16 @@ use super::channels::{By, Channel, Channels, Match};
 use super::pixels::{Planes, Request};
 use super::views::Views;
 use super::window::Window;
-use crate::decode::Note;
 use crate::error::{ReadErrorKind, listed};
 use crate::guides::{
-    DepthChannels, DepthChoice, Encoding, GuideOptions, GuidePreset, GuideSearch, MotionChannels,
-    MotionChoice, Place, Reach, Sought, in_one,
+    DepthChannels, DepthChoice, Encoding, GuideFile, GuideOptions, GuidePreset, GuideSearch,
+    MotionChannels, MotionChoice, Reach, Sought, in_one,
 };
+use crate::note::Note;
 
 /// What was found.
 #[derive(Debug, Default)]
-pub(crate) struct Found {
+pub(crate) struct GuideChannels {
     motion: MotionFound,
     depth: Option<Channel>,
     pub(crate) search: GuideSearch,
@@ -26,7 +26,7 @@ pub(crate) struct Found {
 /// What motion and depth are looked for beside.
 #[derive(Debug)]
 pub(crate) struct Beside<'a> {
-    pub(crate) place: Place,
+    pub(crate) place: GuideFile,
     /// Full name of the colour's layer, empty for none.
     pub(crate) layer: &'a str,
     /// Its view, in lower case.
@@ -41,9 +41,9 @@ pub(crate) fn find(
     views: &Views,
     options: &GuideOptions,
     beside: &Beside<'_>,
-) -> Result<Found, ReadErrorKind> {
+) -> Result<GuideChannels, ReadErrorKind> {
     if options.is_none() {
-        return Ok(Found::default());
+        return Ok(GuideChannels::default());
     }
     let channels = Channels::of(headers, views);
     let place = beside.place;
@@ -86,7 +86,7 @@ pub(crate) fn find(
         }),
         channels: channels.names().map(str::to_owned).collect(),
     };
-    Ok(Found { motion, depth, search, notes })
+    Ok(GuideChannels { motion, depth, search, notes })
 }
 
 fn name(channel: &Channel) -> String {
@@ -187,9 +187,9 @@ impl<'a> Finder<'a> {
 
     fn is_own(&self, found: &Match<'_>) -> bool {
         match self.beside.place {
-            Place::Alone => found.channels[0].bare,
+            GuideFile::Separate => found.channels[0].bare,
             // Of which view it is, is decided later.
-            Place::BesideColour => {
+            GuideFile::Colour => {
                 lies_in(self.layer(found), found.lead)
                     || self.several_views && lies_in(&self.plain_layer, &self.plain_lead(found))
             }
@@ -329,7 +329,7 @@ fn sets(matches: &[&Match<'_>]) -> String {
     }))
 }
 
-impl Found {
+impl GuideChannels {
     /// What to read: the motion across, the motion down, the depth, as far as they are there. All
     /// of them must have the display window of the part `beside`.
     pub(crate) fn requests(

@@ -4,6 +4,7 @@
 mod attributes;
 mod channels;
 mod data_layers;
+mod error;
 mod guides;
 mod layers;
 mod luminance_chroma;
@@ -11,7 +12,7 @@ mod pixels;
 mod views;
 mod window;
 
-use std::io::{BufRead, ErrorKind, Seek};
+use std::io::{BufRead, Seek};
 
 use ::exr::block::reader::Reader;
 use ::exr::math::Vec2;
@@ -20,9 +21,12 @@ use ::exr::meta::header::Header;
 use fovqa_frame::{Channels, Chromaticities, Frame, Samples};
 
 use crate::alpha::{AlphaPolicy, require_opaque};
-use crate::decode::{Decoded, Note, ReadOptions};
+use crate::decoded::{Decoded, DecodedGuides};
 use crate::error::ReadErrorKind;
-use crate::guides::{DecodedGuides, Place};
+use crate::guides::GuideFile;
+use crate::note::Note;
+use crate::read_options::ReadOptions;
+use error::{damaged, no_parts};
 use guides::Beside;
 use layers::Colour;
 use pixels::Request;
@@ -54,7 +58,7 @@ pub(crate) fn read(
     let luminance_weights =
         chromaticities(header).unwrap_or(Chromaticities::REC709).luminance_weights();
     let beside = Beside {
-        place: Place::BesideColour,
+        place: GuideFile::Colour,
         layer: layer.full_name(),
         view: layer.view.clone(),
         layers: &layers,
@@ -112,7 +116,7 @@ pub(crate) fn read_guides(
     let layer = options.layer.as_deref().filter(|&layer| layer != layers::ROOT);
     let layer = layer.unwrap_or_default();
     let view = views.in_name(layer);
-    let beside = Beside { place: Place::Alone, layer, view, layers: &[] };
+    let beside = Beside { place: GuideFile::Separate, layer, view, layers: &[] };
     let found = guides::find(headers, &views, &options.guides, &beside)?;
     let missing = found.search.missing_motion().or_else(|| found.search.missing_depth());
     if let Some(missing) = missing {
@@ -151,35 +155,6 @@ fn reader<R: BufRead + Seek + Send>(
     }
     file.rewind()?;
     ::exr::block::read(file, false).map_err(damaged)
-}
-
-fn no_parts() -> ReadErrorKind {
-    ReadErrorKind::Damaged { format: "OpenEXR", detail: "it has no parts".to_owned() }
-}
-
-fn damaged(error: ::exr::error::Error) -> ReadErrorKind {
-    use ::exr::error::Error;
-    match error {
-        Error::Io(error) => match error.kind() {
-            ErrorKind::UnexpectedEof => {
-                let detail = "the file ends too early".to_owned();
-                ReadErrorKind::Damaged { format: "OpenEXR", detail }
-            }
-            // A place in the file that the file itself made up.
-            ErrorKind::InvalidInput | ErrorKind::InvalidData => {
-                let detail = format!("it points to where nothing is: {error}");
-                ReadErrorKind::Damaged { format: "OpenEXR", detail }
-            }
-            _ => ReadErrorKind::Io(error),
-        },
-        Error::NotSupported(what) if what.contains("deep") => ReadErrorKind::Deep,
-        Error::NotSupported(what) => ReadErrorKind::Unsupported { detail: what.into_owned() },
-        Error::Invalid(what) if what.contains("compression attribute") => {
-            let detail = "a compression newer than the decoder".to_owned();
-            ReadErrorKind::Unsupported { detail }
-        }
-        error => ReadErrorKind::Damaged { format: "OpenEXR", detail: error.to_string() },
-    }
 }
 
 /// The primaries a file declares.

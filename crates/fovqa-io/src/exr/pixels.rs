@@ -16,7 +16,7 @@ use half::f16;
 use half::vec::HalfBitsVecExt;
 use rayon::prelude::*;
 
-use super::damaged;
+use super::error::damaged;
 use super::window::Window;
 use crate::contain::contained;
 use crate::error::ReadErrorKind;

@@ -1,9 +1,6 @@
-//! How renderers name and encode motion and depth.
+//! The renderers whose motion and depth channels are known.
 
 use fovqa_params::words;
-
-use super::choice::{DepthChoice, Encoding, MotionChoice, Place, Reach};
-use super::options::MotionUnit;
 
 words! {
     /// A renderer whose channels are known.
@@ -57,93 +54,7 @@ words! {
     }
 }
 
-/// Frames for a difference of 1 from 0.5 in Unreal's motion. See [`GuidePreset::Unreal`] for where
-/// it comes from.
-const UNREAL_FRAMES: f64 = 2.0;
-
 impl GuidePreset {
     /// All, in the order in which they are tried.
     pub const ALL: [Self; 4] = [Self::Blender, Self::Falcor, Self::Unreal, Self::Mitsuba];
-
-    pub(crate) fn encoding(self) -> Encoding {
-        let frame = Encoding { unit: MotionUnit::Frame, ..Encoding::PIXELS };
-        match self {
-            Self::Blender => Encoding { sign: [1.0, -1.0], ..Encoding::PIXELS },
-            Self::Falcor => frame,
-            Self::Unreal => {
-                let scale = [UNREAL_FRAMES; 2];
-                Encoding { sign: [-1.0, 1.0], scale, offset: 0.5, ..frame }
-            }
-            Self::Mitsuba => Encoding::PIXELS,
-        }
-    }
-
-    pub(crate) fn motion(self, place: Place) -> Vec<MotionChoice> {
-        let (names, bare) = match self {
-            Self::Blender => (["Vector.X", "Vector.Y"], ["X", "Y"]),
-            Self::Falcor => (["mvec.R", "mvec.G"], ["R", "G"]),
-            Self::Unreal => (
-                [
-                    "FinalImageMovieRenderQueue_MotionVectors.R",
-                    "FinalImageMovieRenderQueue_MotionVectors.G",
-                ],
-                ["R", "G"],
-            ),
-            Self::Mitsuba => (["motion.X", "motion.Y"], ["X", "Y"]),
-        };
-        let mut choices = vec![MotionChoice::of(self, &names, Reach::Any)];
-        if place == Place::Alone {
-            choices.push(MotionChoice::of(self, &bare, Reach::Own));
-        }
-        choices
-    }
-
-    /// The names of the layers that hold motion or depth.
-    pub(crate) fn layers() -> Vec<String> {
-        let layer = |channel: &str| channel.rsplit_once('.').map(|(layer, _)| layer.to_owned());
-        let presets = || Self::ALL.iter();
-        let motion = presets().flat_map(|p| p.motion(Place::BesideColour));
-        let motion = motion.flat_map(|choice| choice.channels);
-        let depth = presets().flat_map(|p| p.depth(Place::BesideColour));
-        let depth = depth.filter_map(|choice| match choice {
-            DepthChoice::Channel(name, _) => Some(name),
-            DepthChoice::Only => None,
-        });
-        let mut layers: Vec<String> = motion.chain(depth).filter_map(|name| layer(&name)).collect();
-        layers.sort_unstable();
-        layers.dedup();
-        layers
-    }
-
-    /// The renderer whose motion has these names in a layer, across and down, without regard to case.
-    pub fn of_motion(channels: &[String; 2]) -> Option<Self> {
-        let ends = |whole: &str, name: &str| {
-            let (whole, name) = (whole.to_ascii_lowercase(), name.to_ascii_lowercase());
-            whole.strip_suffix(&name).is_some_and(|rest| rest.is_empty() || rest.ends_with('.'))
-        };
-        Self::ALL.into_iter().find(|preset| {
-            let names = preset.motion(Place::BesideColour).into_iter().flat_map(|c| c.channels);
-            channels.iter().zip(names).all(|(whole, name)| ends(whole, &name))
-        })
-    }
-
-    /// Whether its motion is in pixels, x to the right and y down, as channels are that are only named.
-    pub fn is_plain(self) -> bool {
-        self.encoding() == Encoding::PIXELS
-    }
-
-    pub(crate) fn depth(self, place: Place) -> Vec<DepthChoice> {
-        let (names, bare): (&[&str], &[&str]) = match self {
-            Self::Blender => (&["Depth.Z", "Depth.V"], &["Z", "V"]),
-            Self::Falcor => (&["linearZ.R"], &["R"]),
-            Self::Unreal => (&["FinalImageMovieRenderQueue_WorldDepth.R"], &["R"]),
-            Self::Mitsuba => (&["T", "dd.y"], &["Y"]),
-        };
-        let mut choices: Vec<DepthChoice> =
-            names.iter().map(|name| DepthChoice::new(name, Reach::Any)).collect();
-        if place == Place::Alone {
-            choices.extend(bare.iter().map(|name| DepthChoice::new(name, Reach::Own)));
-        }
-        choices
-    }
 }

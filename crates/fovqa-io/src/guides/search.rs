@@ -1,6 +1,6 @@
 //! What was looked for, and what there is.
 
-use super::choice::{DepthChoice, MotionChoice, Place};
+use super::choice::{DepthChoice, GuideFile, MotionChoice};
 use super::options::GuideOptions;
 use crate::error::{ReadErrorKind, listed};
 
@@ -55,8 +55,8 @@ pub(crate) fn in_one(channels: &[String]) -> String {
 impl GuideSearch {
     /// In a file that cannot hold what was asked for.
     pub(crate) fn in_vain(options: &GuideOptions) -> Self {
-        let motion = Sought::motion(&options.motion.choices(Place::BesideColour));
-        let depth = Sought::depth(&options.depth.choices(Place::BesideColour));
+        let motion = Sought::motion(&options.motion.choices(GuideFile::Colour));
+        let depth = Sought::depth(&options.depth.choices(GuideFile::Colour));
         Self { motion, depth, channels: Vec::new() }
     }
 

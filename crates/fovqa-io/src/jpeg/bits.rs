@@ -1,7 +1,8 @@
 //! Bits of entropy-coded data, the highest first.
 
+use super::error::{Result, damaged};
 use super::huffman::Huffman;
-use super::{Result, damaged};
+use crate::error::ReadErrorKind;
 
 /// Reads bits of the data between two markers.
 ///
@@ -79,7 +80,7 @@ impl<'a> Bits<'a> {
     }
 
     #[cold]
-    fn bad_code(&self) -> super::ReadErrorKind {
+    fn bad_code(&self) -> ReadErrorKind {
         match self.check() {
             Err(error) => error,
             Ok(()) => damaged("its data holds a Huffman code that is not in the table"),
@@ -137,7 +138,7 @@ impl<'a> Bits<'a> {
 }
 
 #[cold]
-fn too_short() -> super::ReadErrorKind {
+fn too_short() -> ReadErrorKind {
     damaged("its entropy-coded data ends too early, in front of a marker")
 }
 

@@ -5,11 +5,11 @@
 
 use multiversion::multiversion;
 
-use super::Result;
 use super::application::Application;
+use super::error::Result;
+use super::error::not_read;
 use super::frame_header::FrameHeader;
 use super::kind::JpegKind;
-use super::not_read;
 
 /// What the components are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

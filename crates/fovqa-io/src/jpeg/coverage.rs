@@ -1,9 +1,9 @@
 //! Which coefficients the scans of a file have brought.
 
+use super::error::{Result, damaged};
 use super::frame_header::{Coding, FrameHeader};
 use super::quantisation::COEFFICIENTS;
 use super::scan_header::ScanHeader;
-use super::{Result, damaged};
 
 /// For each component and coefficient, the lowest bit that is known.
 #[derive(Debug)]

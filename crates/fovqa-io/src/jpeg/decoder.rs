@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::coverage::Coverage;
+use super::error::{Result, damaged};
 use super::frame_header::{BLOCK, Coding, Component, FrameHeader};
 use super::head::{Head, Settings, declared_height};
 use super::idct;
@@ -13,8 +14,8 @@ use super::scan::Scan;
 use super::scan_header::ScanHeader;
 use super::segments::marker;
 use super::sequential::{Coefficients, impossible};
+use super::standard_huffman;
 use super::upsample::Plane;
-use super::{Result, damaged, standard_huffman};
 
 /// A file's components, decoded.
 #[derive(Debug)]

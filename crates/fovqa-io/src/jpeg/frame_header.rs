@@ -1,8 +1,8 @@
 //! The frame header (ITU-T T.81, B.2.2): size, components and their sampling.
 
+use super::error::{Result, damaged, not_read};
 use super::kind::JpegKind;
 use super::segments::{marker, u16_at};
-use super::{Result, damaged, not_read};
 
 /// Samples of a block's side.
 pub(super) const BLOCK: usize = 8;

@@ -1,12 +1,12 @@
 //! A file up to its first scan, and the settings that segments make.
 
 use super::application::Application;
+use super::error::{Result, damaged};
 use super::frame_header::{FrameHeader, starts_frame};
 use super::huffman::Tables;
 use super::intervals::Intervals;
 use super::quantisation::{self, Steps};
 use super::segments::{Segment, Segments, marker, u16_at};
-use super::{Result, damaged};
 
 /// What segments have set so far.
 #[derive(Debug, Default)]

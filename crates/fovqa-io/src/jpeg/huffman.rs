@@ -1,6 +1,7 @@
 //! Huffman tables (ITU-T T.81, B.2.4.2 and annex C).
 
-use super::{Result, damaged};
+use super::error::{Result, damaged};
+use crate::error::ReadErrorKind;
 
 /// Codes of up to so many bits are found at once.
 const LOOKUP_BITS: u32 = 9;
@@ -92,7 +93,7 @@ impl Huffman {
     }
 }
 
-fn wrong() -> super::ReadErrorKind {
+fn wrong() -> ReadErrorKind {
     damaged("a Huffman table has more codes than fit its lengths")
 }
 

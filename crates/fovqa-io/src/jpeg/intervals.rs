@@ -1,7 +1,7 @@
 //! The entropy-coded data of a scan, cut at its restart markers.
 
+use super::error::{Result, damaged};
 use super::segments::marker;
-use super::{Result, damaged};
 
 /// Data without stuffed zeros, in the stretches that restart markers leave.
 #[derive(Debug)]

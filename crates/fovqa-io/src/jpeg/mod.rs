@@ -11,12 +11,13 @@ mod bits;
 mod colour;
 mod coverage;
 mod decoder;
+mod error;
 mod frame_header;
 mod head;
 mod huffman;
 mod idct;
 mod intervals;
-mod kind;
+pub(crate) mod kind;
 mod order;
 mod picture;
 mod progressive;
@@ -32,25 +33,15 @@ use std::io::{BufRead, Read, Seek};
 
 use fovqa_frame::{Channels, Frame, Samples};
 
-pub use kind::JpegKind;
-
-use crate::decode::{Decoded, Note, ReadOptions};
-use crate::error::ReadErrorKind;
+use crate::decoded::Decoded;
+use crate::note::Note;
+use crate::read_options::ReadOptions;
 use colour::Colours;
+use error::{Result, damaged};
 use head::Head;
-
-type Result<T> = std::result::Result<T, ReadErrorKind>;
 
 /// A JPEG is read whole; this is four bytes a pixel of the largest one by default.
 const MAX_BYTES: u64 = 1 << 30;
-
-fn damaged(detail: impl Into<String>) -> ReadErrorKind {
-    ReadErrorKind::Damaged { format: "JPEG", detail: detail.into() }
-}
-
-fn not_read(kind: JpegKind) -> ReadErrorKind {
-    ReadErrorKind::UnsupportedJpeg(kind)
-}
 
 /// Reads a file.
 ///

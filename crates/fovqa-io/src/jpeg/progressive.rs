@@ -1,10 +1,10 @@
 //! Blocks of progressive scans (ITU-T T.81, G.1.2).
 
 use super::bits::Bits;
+use super::error::{Result, damaged};
 use super::huffman::Huffman;
 use super::quantisation::ZIGZAG;
 use super::sequential::{Coefficients, beyond_block, impossible};
-use super::{Result, damaged};
 
 /// Which coefficients a scan codes, in zigzag order, and down to which bit.
 #[derive(Debug, Clone, Copy)]

@@ -1,6 +1,6 @@
 //! Quantisation tables (ITU-T T.81, B.2.4.1) and the order of coefficients in a file.
 
-use super::{Result, damaged};
+use super::error::{Result, damaged};
 
 /// Coefficients of a block.
 pub(super) const COEFFICIENTS: usize = 64;

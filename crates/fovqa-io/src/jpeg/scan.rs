@@ -1,6 +1,7 @@
 //! Decoding one scan: its units, row by row, and its restart intervals.
 
 use super::bits::Bits;
+use super::error::{Result, damaged};
 use super::frame_header::Coding;
 use super::huffman::{Huffman, Tables};
 use super::intervals::Intervals;
@@ -9,7 +10,6 @@ use super::progressive::{self, Band};
 use super::quantisation::COEFFICIENTS;
 use super::scan_header::ScanHeader;
 use super::sequential::{self, Coefficients};
-use super::{Result, damaged};
 
 /// What a scan does to a block.
 #[derive(Debug, Clone, Copy)]

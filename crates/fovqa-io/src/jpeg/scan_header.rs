@@ -1,7 +1,7 @@
 //! The scan header (ITU-T T.81, B.2.3): which components, and which part of their coefficients.
 
+use super::error::{Result, damaged};
 use super::frame_header::{Coding, FrameHeader};
-use super::{Result, damaged};
 
 /// One component of a scan, by its place in the frame, and its Huffman tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

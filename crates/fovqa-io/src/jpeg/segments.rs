@@ -1,6 +1,6 @@
 //! The markers of a JPEG file and the segments behind them (ITU-T T.81, B.1.1).
 
-use super::{Result, damaged};
+use super::error::{Result, damaged};
 
 /// Codes of markers, without the byte 0xFF in front.
 pub(super) mod marker {

@@ -1,9 +1,10 @@
 //! Blocks of sequential scans (ITU-T T.81, F.2.2).
 
 use super::bits::Bits;
+use super::error::{Result, damaged};
 use super::huffman::Huffman;
 use super::quantisation::{COEFFICIENTS, ZIGZAG};
-use super::{Result, damaged};
+use crate::error::ReadErrorKind;
 
 /// The coefficients of a block, row by row, not yet multiplied by their steps.
 pub(super) type Coefficients = [i16; COEFFICIENTS];
@@ -53,11 +54,11 @@ pub(super) fn block(
 }
 
 #[cold]
-pub(super) fn beyond_block() -> super::ReadErrorKind {
+pub(super) fn beyond_block() -> ReadErrorKind {
     damaged("its data holds a run of coefficients beyond the end of a block")
 }
 
 #[cold]
-pub(super) fn impossible() -> super::ReadErrorKind {
+pub(super) fn impossible() -> ReadErrorKind {
     damaged("its data holds a coefficient that no image of 8-bit samples has")
 }

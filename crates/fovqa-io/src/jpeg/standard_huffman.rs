@@ -1,6 +1,6 @@
 //! The Huffman tables of ITU-T T.81, annex K.3: frames of Motion JPEG leave them out.
 
-use super::Result;
+use super::error::Result;
 use super::huffman::{Huffman, Tables};
 
 const MEANS_LUMA: [u8; 16] = [0, 1, 5, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0];

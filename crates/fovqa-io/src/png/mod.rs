@@ -8,9 +8,11 @@ use std::io::{BufRead, ErrorKind, Seek};
 use fovqa_frame::{Channels, Frame};
 use png::{BitDepth, ColorType, DecodeOptions, Decoder, DecodingError, Limits, Transformations};
 
-use crate::decode::{Decoded, Note, ReadOptions};
+use crate::decoded::Decoded;
 use crate::error::ReadErrorKind;
 use crate::exif::is_turned;
+use crate::note::Note;
+use crate::read_options::ReadOptions;
 use chunks::Chunks;
 use samples::samples;
 

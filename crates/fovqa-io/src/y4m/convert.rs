@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use super::colour::{Chroma, Sampling};
 use super::header::Header;
-use super::{CodeRange, ColourMatrix, Y4mOptions};
+use super::options::{CodeRange, ColourMatrix, Y4mOptions};
 
 /// Lines from which a video without a matrix is one of high definition.
 const HIGH_DEFINITION: usize = 720;

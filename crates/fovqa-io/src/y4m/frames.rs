@@ -8,9 +8,9 @@ use fovqa_frame::source::{MissingGuides, Picture, PictureGuides, SourceError};
 
 use super::convert::{BadCode, Conversion};
 use super::header::{Header, MAX_LINE};
-use crate::decode::ReadOptions;
 use crate::error::{ReadError, ReadErrorKind};
 use crate::guides::{DepthChannels, GuideOptions, MotionChannels};
+use crate::read_options::ReadOptions;
 
 /// A line before pixels.
 #[derive(Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The first line of a video: size, rate, colour and what else it declares.
 
-use super::CodeRange;
 use super::colour::Colour;
+use super::options::CodeRange;
 
 /// What a video begins with.
 pub(super) const MAGIC: &[u8] = b"YUV4MPEG2";

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use fovqa_frame::source::{Length, Listing, Origin, Picture, PictureGuides, Source, SourceError};
 
 use super::frames::{Line, Video, not_a_frame, read_line, unreadable};
-use crate::decode::ReadOptions;
+use crate::read_options::ReadOptions;
 
 /// What standard input is called.
 const STANDARD_INPUT: &str = "standard input";

@@ -41,7 +41,7 @@ pub fn acuity_shares(
     acuity: &AcuityModel,
 ) -> Result<AcuityShares, CurveError> {
     let setting = screen.setting()?;
-    let foveation = method.over(&setting)?;
+    let foveation = method.apply(&setting)?;
     let acuity = acuity.curve()?;
     let CurveSetting { view, tangential, eccentricity, .. } = *screen;
     let gaze_px = setting.gaze_px();
@@ -130,7 +130,7 @@ mod tests {
             method.set("factor", &ParamValue::Number(2.0)).unwrap();
             method.set("reprojected_share", &ParamValue::Number(share)).unwrap();
             let found = acuity_shares(&method, &screen, &AcuityModel::default()).unwrap();
-            (found, method.over(&screen.setting().unwrap()).unwrap().counts().samples_seen)
+            (found, method.apply(&screen.setting().unwrap()).unwrap().counts().samples_seen)
         };
         let ((all, seen), (half, half_seen)) = (with(1.0), with(0.0));
         assert!(all.samples_above > 0.5 * seen);
@@ -168,7 +168,7 @@ mod tests {
         let fine = of(60_000, 33_750);
         assert!(fine.below < 1e-3);
         let screen = screen(60_000, 33_750, Tangential::Paper);
-        let vafr = Method::find("vafr").unwrap().over(&screen.setting().unwrap()).unwrap();
+        let vafr = Method::find("vafr").unwrap().apply(&screen.setting().unwrap()).unwrap();
         let needed = 60_000.0 * 33_750.0 - fine.samples_above;
         assert!((needed / vafr.counts().samples_on_screen - 1.0).abs() < 0.01);
     }

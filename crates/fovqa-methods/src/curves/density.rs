@@ -26,7 +26,7 @@ pub fn density_map(
     cells: usize,
 ) -> Result<DensityMap, CurveError> {
     let setting = screen.setting()?;
-    let foveation = method.over(&setting)?;
+    let foveation = method.apply(&setting)?;
     let [gaze_x, gaze_y] = setting.gaze_px();
     let (width, height) = (screen.view.width, screen.view.height);
     let shrink = (width.max(height) as f64 / cells as f64).max(1.0);

@@ -41,7 +41,7 @@ impl CurveSpec {
             let solved = format!("{}={}", found.parameter, found.value);
             parameters = given.chain([solved.as_str()]).collect::<Vec<_>>().join(";");
         }
-        method.over(&over).map_err(|error| error.to_string())?;
+        method.apply(&over).map_err(|error| error.to_string())?;
         Ok(Self { name, source: CurveSource::Method { method, setting }, parameters })
     }
 }

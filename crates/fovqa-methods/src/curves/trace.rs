@@ -109,7 +109,7 @@ fn shading(
     let outside = ((x - at_x).abs() + (y - at_y).abs() > 0.0).then(|| {
         format!("the gaze ({x}, {y}) is outside of the frame: it is taken at ({at_x}, {at_y})")
     });
-    let foveation = method.over(&setting)?;
+    let foveation = method.apply(&setting)?;
     let screen = &CurveSetting { gaze_px: setting.gaze_px(), ..*screen };
     let direction = Place::polar(0.0, screen.direction_deg).direction;
     let end_px = match foveation.reach() {

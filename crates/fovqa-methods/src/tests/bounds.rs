@@ -17,7 +17,7 @@ fn frames() -> impl Iterator<Item = (usize, f64)> {
 /// in directions along the axes.
 fn rates_at(method: &Method, side: usize, fov_deg: f64, e: f64) -> Vec<Option<Rates>> {
     let (view, middle) = (view(side, side, fov_deg), [side as f64 / 2.0; 2]);
-    let foveation = method.over(&Setting::new(&view, middle).unwrap()).unwrap();
+    let foveation = method.apply(&Setting::new(&view, middle).unwrap()).unwrap();
     let mut found = Vec::new();
     for kind in [EccentricityKind::Planar, EccentricityKind::Angular] {
         for direction_deg in [0.0, 90.0, 180.0, 270.0] {

@@ -25,7 +25,7 @@ fn word(word: &str) -> ParamValue {
 }
 
 fn counts(method: &Method, setting: &Setting) -> Counts {
-    method.over(setting).unwrap().counts()
+    method.apply(setting).unwrap().counts()
 }
 
 #[test]
@@ -49,7 +49,7 @@ fn log_polar_samples_on_screen() {
     for gaze in [[720.0, 800.0], [1438.0, 900.0], [40.0, 1530.0], [0.3, 800.0], [1440.0, 0.0]] {
         let setting = setting(1440, 1600, 110.0, gaze);
         for name in ["kfr", "lafr"] {
-            let foveation = Method::find(name).unwrap().over(&setting).unwrap();
+            let foveation = Method::find(name).unwrap().apply(&setting).unwrap();
             let mapping = foveation.mapping().unwrap();
             let [_, rows] = mapping.buffer(0);
             let steps = 200_000;
@@ -114,7 +114,7 @@ fn deamp_counts_its_rings() {
 fn refused_at_the_very_ends() {
     let setting = centred(1440, 1600, 110.0);
     let refused = |name: &str, params: &[(&str, ParamValue)], what: &str| {
-        let error = method(name, params).over(&setting).unwrap_err().to_string();
+        let error = method(name, params).apply(&setting).unwrap_err().to_string();
         assert!(error.contains(what), "{error}");
     };
     for bounds in [[0.0, 20.0, 45.0], [10.0, 20.0, 90.0], [10.0, 10.0, 45.0]] {
@@ -129,7 +129,7 @@ fn refused_at_the_very_ends() {
     let pairs = |pairs: &[[f64; 2]]| [("ratio", ParamValue::Pairs(pairs.to_vec()))];
     refused("vafr", &pairs(&[[5.0, 1.0], [5.0, 2.0]]), "do not rise");
     refused("vafr", &pairs(&[[5.0, 0.009]]), "0.01 and 100");
-    assert!(method("deamp", &[("sigmas", list(&[0.1, 1.0, 1000.0]))]).over(&setting).is_ok());
+    assert!(method("deamp", &[("sigmas", list(&[0.1, 1.0, 1000.0]))]).apply(&setting).is_ok());
 }
 
 #[test]

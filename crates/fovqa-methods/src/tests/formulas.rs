@@ -38,7 +38,7 @@ fn kfr_is_the_printed_rate() {
     let ln_l = f64::hypot(1700.0, 940.0).ln();
     for (sigma, alpha) in [(2.6, 4.0), (1.8, 4.0), (3.0, 2.5)] {
         let kfr = method("kfr", &[("sigma", number(sigma)), ("alpha", number(alpha))]);
-        let kfr = kfr.over(&setting).unwrap();
+        let kfr = kfr.apply(&setting).unwrap();
         let (w, h) = (2560.0 / sigma, 1440.0 / sigma);
         for e in [0.3, 5.0, 33.0, 60.0] {
             let (sin, cos) = f64::to_radians(e).sin_cos();
@@ -61,7 +61,7 @@ fn kfr_is_the_printed_rate() {
 fn log_polar_methods_within_a_pixel() {
     let setting = centred(1440, 1600, 110.0);
     for name in ["kfr", "lafr"] {
-        let foveation = Method::find(name).unwrap().over(&setting).unwrap();
+        let foveation = Method::find(name).unwrap().apply(&setting).unwrap();
         for radius_px in [0.3, 0.7, 1.0] {
             let place = Place::polar(radius_px, 90.0);
             assert_eq!(foveation.rates(place), None, "{name} {radius_px}");
@@ -88,7 +88,7 @@ fn lafr_is_the_repaired_formula() {
         let values = [sigma, a, alpha, beta, foveal_deg].map(number);
         let names = ["sigma", "a", "alpha", "beta", "foveal_deg"];
         let params: Vec<_> = names.into_iter().zip(values).collect();
-        let lafr = method("lafr", &params).over(&setting).unwrap();
+        let lafr = method("lafr", &params).apply(&setting).unwrap();
         let z_at = |e: f64| setting.radius_px(e).ln() / ln_l;
         let big_z = z_at(foveal_deg);
         let f = 1.0 - (alpha * big_z.powf(1.0 - a) / (1.0 - a)).log(big_z);
@@ -114,7 +114,7 @@ fn lafr_is_the_repaired_formula() {
 fn lafr_ends_at_the_corner() {
     for width in (300..3000).step_by(37) {
         let setting = centred(width, 1440, 110.0);
-        let lafr = Method::find("lafr").unwrap().over(&setting).unwrap();
+        let lafr = Method::find("lafr").unwrap().apply(&setting).unwrap();
         let corner = Place { radius_px: setting.corner_px(), direction: [1.0, 0.0] };
         let mapping = lafr.mapping().unwrap();
         near(mapping.to_buffer(0, corner)[0], width as f64 / 1.8, 1e-6);
@@ -128,7 +128,7 @@ fn lafr_ends_at_the_corner() {
 #[test]
 fn lafr_says_between_what_its_weight_lies() {
     let setting = centred(1440, 1600, 110.0);
-    let with = |name, value| method("lafr", &[(name, number(value))]).over(&setting);
+    let with = |name, value| method("lafr", &[(name, number(value))]).apply(&setting);
     let error = with("foveal_deg", 0.05).unwrap_err().to_string();
     assert!(error.contains("(1 px)"), "{error}");
     let error = with("alpha", 50.0).unwrap_err().to_string();
@@ -148,7 +148,7 @@ fn lafr_says_between_what_its_weight_lies() {
 fn rmfr_is_its_density_per_axis() {
     let setting = setting(1440, 1600, 110.0, [300.0, 1000.0]);
     let rmfr = method("rmfr", &[("fx", number(0.3)), ("fy", number(0.5)), ("sigma", number(2.0))]);
-    let rmfr = rmfr.over(&setting).unwrap();
+    let rmfr = rmfr.apply(&setting).unwrap();
     let (fx, fy) = (0.3 * 1440.0, 0.5 * 1600.0);
     let rate = |f: f64, a: f64, t: f64| f * (f + a) / (2.0 * (t.abs() + f).powi(2));
     for (x, y, ax, ay) in [
@@ -188,7 +188,7 @@ fn deamp_is_an_rmfr_in_each_layer() {
     // 90° in height: half sizes are 800 and 720 tan e / tan 45°.
     let setting = setting(1440, 1600, 90.0, [500.0, 700.0]);
     let deamp = method("deamp", &[("fx", number(0.3)), ("fy", number(0.45))]);
-    let deamp = deamp.over(&setting).unwrap();
+    let deamp = deamp.apply(&setting).unwrap();
     let (fx, fy) = (0.3 * 1440.0, 0.45 * 1600.0);
     let [t10, t22] = [10.0, 22.5].map(|e: f64| e.to_radians().tan());
     let rate = |f: f64, a: f64, t: f64, sigma: f64| f * (f + a) / (sigma * (t + f).powi(2));
@@ -214,7 +214,7 @@ fn guenter_layers_are_discs_with_their_scales() {
     let setting = centred(2000, 1500, 100.0);
     let list = |l: &[f64]| ParamValue::List(l.to_vec());
     let params = [("bounds_deg", list(&[8.0, 30.0])), ("scales", list(&[0.5, 3.0, 7.0]))];
-    let guenter = method("guenter", &params).over(&setting).unwrap();
+    let guenter = method("guenter", &params).apply(&setting).unwrap();
     for (e, scale) in [(0.0, 0.5), (7.9, 0.5), (8.1, 3.0), (29.9, 3.0), (30.1, 7.0), (50.0, 7.0)] {
         for direction_deg in [0.0, 45.0, 200.0] {
             let place = Place::polar(setting.radius_px(e), direction_deg);
@@ -228,7 +228,7 @@ fn guenter_layers_are_discs_with_their_scales() {
 #[test]
 fn the_linear_fall_off_is_a_probability() {
     let setting = centred(1440, 1600, 110.0);
-    let linear = Method::find("linear").unwrap().over(&setting).unwrap();
+    let linear = Method::find("linear").unwrap().apply(&setting).unwrap();
     for (e, p) in [
         (0.0, 1.0),
         (9.0, 1.0),
@@ -246,7 +246,7 @@ fn the_linear_fall_off_is_a_probability() {
 }
 
 fn vafr(params: &[(&str, ParamValue)]) -> Box<dyn Foveation> {
-    method("vafr", params).over(&centred(2560, 1440, 110.0)).unwrap()
+    method("vafr", params).apply(&centred(2560, 1440, 110.0)).unwrap()
 }
 
 #[test]
@@ -301,7 +301,7 @@ fn vafr_counts_columns_times_rows() {
             })
             .sum::<f64>()
     };
-    let all = method("vafr", &[("ratio", pairs.clone())]).over(&setting).unwrap().counts();
+    let all = method("vafr", &[("ratio", pairs.clone())]).apply(&setting).unwrap().counts();
     let inside: f64 =
         [0.0, 5.0, 10.0, 20.0, 30.0, 60.0].windows(2).map(|e| simpson(e[0], e[1])).sum();
     near(all.samples, inside, 1e-9);
@@ -319,7 +319,7 @@ fn vafr_counts_columns_times_rows() {
     near(all.buffers[0][1], longest.1, 1e-6);
 
     // Reprojection leaves (1 + s) / 2 of every number of samples to shade.
-    let rep = method("vafr", &[("ratio", pairs), share]).over(&setting).unwrap().counts();
+    let rep = method("vafr", &[("ratio", pairs), share]).apply(&setting).unwrap().counts();
     for (rep, all) in [
         (rep.samples, all.samples),
         (rep.samples_on_screen, all.samples_on_screen),
@@ -337,7 +337,7 @@ fn vafr_beyond_its_field() {
     let wide = centred(2560, 1440, 140.0);
     let far = Place::polar(wide.radius_px(65.0), 77.0);
     for beyond in ["clamp", "black"] {
-        let vafr = method("vafr", &[("beyond", word(beyond))]).over(&wide).unwrap();
+        let vafr = method("vafr", &[("beyond", word(beyond))]).apply(&wide).unwrap();
         assert_eq!(vafr.rates(far), None, "{beyond}");
         let (mapping, end) = (vafr.mapping().unwrap(), Place::polar(wide.radius_px(60.0), 77.0));
         let [found, want] = [far, end].map(|place| mapping.to_buffer(0, place));
@@ -346,7 +346,7 @@ fn vafr_beyond_its_field() {
         assert_eq!(mapping.buffer(0), vafr.counts().buffers[0]);
     }
     let vafr = Method::find("vafr").unwrap();
-    let extended = vafr.over(&wide).unwrap();
+    let extended = vafr.apply(&wide).unwrap();
     assert!(extended.rates(far).is_some());
     // The buffer goes on to the corner; the paper's count does not.
     let [columns, _] = extended.mapping().unwrap().buffer(0);
@@ -356,13 +356,13 @@ fn vafr_beyond_its_field() {
     // Where columns grow to the very corner, the longest stands there.
     let flat = ParamValue::List(vec![40.0, 10.0, 6.0, 5.0, 5.0]);
     let params = [("columns", word("angle")), ("knots_cpd", flat)];
-    let growing = method("vafr", &params).over(&wide).unwrap();
+    let growing = method("vafr", &params).apply(&wide).unwrap();
     let sin = |e: f64| e.to_radians().sin();
     let corner = wide.eccentricity_deg(wide.corner_px());
     near(growing.mapping().unwrap().buffer(0)[1], 720.0 * sin(corner) * 5.0, 1e-9);
     near(growing.counts().buffers[0][1], 720.0 * sin(60.0) * 5.0, 1e-9);
     // A frame inside of the field has the paper's buffer all the same, and nothing beyond.
-    let narrow = vafr.over(&centred(640, 480, 40.0)).unwrap();
+    let narrow = vafr.apply(&centred(640, 480, 40.0)).unwrap();
     assert_eq!(narrow.mapping().unwrap().buffer(0), narrow.counts().buffers[0]);
     near(narrow.counts().buffers[0][0], 900.1, 1e-4);
     assert!(narrow.counts().samples_beyond == 0.0);
@@ -407,7 +407,7 @@ fn visual_polar_is_as_dense_as_its_acuity() {
 
     // A frame inside of 5.79°: a density of 0.4 everywhere, rows that only shrink.
     let small = centred(300, 400, 8.0);
-    let polar = Method::find("visual-polar").unwrap().over(&small).unwrap();
+    let polar = Method::find("visual-polar").unwrap().apply(&small).unwrap();
     let counts = polar.counts();
     near(counts.samples, 0.4 * PI * 250.0 * 250.0, 1e-12);
     near(counts.buffers[0][0], 250.0 * 0.4f64.sqrt(), 1e-12);
@@ -423,14 +423,14 @@ fn how_far_curves_reach() {
             "rmfr" | "deamp" => Reach::Border,
             _ => Reach::Any,
         };
-        assert_eq!(method.over(&setting).unwrap().reach(), reach, "{}", method.key());
+        assert_eq!(method.apply(&setting).unwrap().reach(), reach, "{}", method.key());
     }
 }
 
 #[test]
 fn only_what_must_be_said_is_said() {
     let setting = centred(1440, 1600, 90.0);
-    let note = |method: &Method| method.over(&setting).unwrap().note();
+    let note = |method: &Method| method.apply(&setting).unwrap().note();
     for name in ["full", "vafr", "kfr", "lafr", "rmfr", "guenter", "linear", "cps"] {
         assert_eq!(note(&Method::find(name).unwrap()), None, "{name}");
     }
@@ -439,6 +439,6 @@ fn only_what_must_be_said_is_said() {
     let said = note(&Method::find("deamp").unwrap()).unwrap();
     assert!(said.contains("10° is 9.02° x 10.00°"), "{said}");
     let square = centred(1600, 1600, 90.2);
-    let said = Method::find("deamp").unwrap().over(&square).unwrap().note().unwrap();
+    let said = Method::find("deamp").unwrap().apply(&square).unwrap().note().unwrap();
     assert!(said.contains("45° is 45.10° x 45.10°"), "{said}");
 }

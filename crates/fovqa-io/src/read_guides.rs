@@ -3,25 +3,14 @@
 use std::fs::File;
 use std::path::Path;
 
-use fovqa_frame::Guides;
 use fovqa_frame::source::InputId;
 
-use super::search::GuideSearch;
 use crate::contain::contained;
-use crate::decode::{EXR_MAGIC, Note, ReadOptions, buffered, hashed, open};
+use crate::decoded::DecodedGuides;
 use crate::error::{ReadError, ReadErrorKind};
 use crate::exr;
-
-/// The guides of a file and what there is to say about it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DecodedGuides {
-    /// The guides; whatever was asked for is there.
-    pub guides: Guides,
-    /// Remarks.
-    pub notes: Vec<Note>,
-    /// Which channels they are.
-    pub search: GuideSearch,
-}
+use crate::opened::{EXR_MAGIC, buffered, hashed, open};
+use crate::read_options::ReadOptions;
 
 /// Reads motion and depth, as `options.guides` asks for them, from an OpenEXR file that need not
 /// have colour; `options.layer` tells which of several layers is meant, if there are several.

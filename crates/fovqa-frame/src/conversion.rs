@@ -1,0 +1,50 @@
+//! The samples of a frame, and how each becomes the signal or light.
+
+use half::f16;
+
+use crate::codes::{CODES_8, CODES_16};
+use crate::shown_light::{Curve, ShownLight};
+use crate::signal_params::SignalParams;
+use crate::tonemap::ToneMap;
+use crate::transfer::srgb;
+
+/// The samples of a frame, and how each becomes the signal or light.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Conversion<'a> {
+    /// Codes times a whole number.
+    Codes8(&'a [u8], f32),
+    Codes16(&'a [u16], f32),
+    Table8(&'a [u8], &'a [f32; CODES_8]),
+    Table16(&'a [u16], &'a [f32; CODES_16]),
+    Half(&'a [f16], &'a [f32; CODES_16]),
+    Linear(&'a [f32], FloatToSignal),
+    Encoded(&'a [f32]),
+    /// To light: encoded values, those of a scene, and absolute light.
+    Curve(&'a [f32], Curve<'a>),
+    ToneMapped(&'a [f32], FloatToSignal, Curve<'a>),
+    Absolute(&'a [f32], ShownLight),
+}
+
+/// Exposure, tone map, encoding.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FloatToSignal {
+    gain: f32,
+    tonemap: ToneMap,
+    encoder: srgb::Encoder,
+}
+
+impl FloatToSignal {
+    pub(crate) fn new(params: &SignalParams) -> Self {
+        Self {
+            gain: libm::exp2(params.exposure_stops) as f32,
+            tonemap: params.tonemap,
+            encoder: srgb::Encoder::new(),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn map(self, linear: f32) -> f32 {
+        // `NaN.max(0.0)` in the tone map is 0.
+        self.encoder.encode(self.tonemap.map(linear * self.gain))
+    }
+}

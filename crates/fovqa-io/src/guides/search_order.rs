@@ -1,0 +1,73 @@
+//! The order in which channel names are tried.
+
+use super::choice::{DepthChoice, GuideFile, MotionChoice, Reach};
+use super::options::{DepthChannels, MotionChannels};
+use super::preset::GuidePreset;
+
+impl MotionChannels {
+    pub(crate) fn choices(&self, place: GuideFile) -> Vec<MotionChoice> {
+        match self {
+            MotionChannels::None => Vec::new(),
+            MotionChannels::Auto => auto_motion(place),
+            MotionChannels::Preset(preset) => preset.motion(place),
+            MotionChannels::NamedAs(preset, [x, y]) => {
+                vec![MotionChoice::of(*preset, &[x, y], Reach::Named)]
+            }
+            MotionChannels::Named(named) => vec![named.into()],
+        }
+    }
+}
+
+impl DepthChannels {
+    pub(crate) fn choices(&self, place: GuideFile) -> Vec<DepthChoice> {
+        match self {
+            DepthChannels::None => Vec::new(),
+            DepthChannels::Auto => auto_depth(place),
+            DepthChannels::Preset(preset) => preset.depth(place),
+            DepthChannels::Named(name) => vec![DepthChoice::new(name, Reach::Named)],
+        }
+    }
+}
+
+fn auto_motion(place: GuideFile) -> Vec<MotionChoice> {
+    let ours = MotionChoice::pixels(&["motion.X", "motion.Y"], Reach::Any);
+    // Bare names come last: a file of its own may still have layers that say what they are.
+    let presets = GuidePreset::ALL.iter().flat_map(|p| p.motion(GuideFile::Colour));
+    let mut choices = vec![ours];
+    choices.extend(presets.filter(|choice| choice.channels[0] != "motion.X"));
+    if place == GuideFile::Separate {
+        choices.push(MotionChoice::of(GuidePreset::Blender, &["X", "Y", "Z", "W"], Reach::Own));
+        choices.push(MotionChoice::pixels(&["X", "Y"], Reach::Own));
+        choices.push(MotionChoice::of(GuidePreset::Falcor, &["R", "G"], Reach::Own));
+    }
+    choices
+}
+
+fn auto_depth(place: GuideFile) -> Vec<DepthChoice> {
+    let vector = if place == GuideFile::Separate { "W" } else { "X" };
+    let mut choices = vec![DepthChoice::new("Z", Reach::OwnWithout(vector))];
+    choices.extend(GuidePreset::ALL.iter().flat_map(|p| p.depth(GuideFile::Colour)));
+    if place == GuideFile::Separate {
+        choices.push(DepthChoice::new("Y", Reach::OwnWithout("X")));
+        choices.push(DepthChoice::new("R", Reach::Own));
+        choices.push(DepthChoice::Only);
+    }
+    choices
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn automatic_names_in_their_order() {
+        let names = |place| -> Vec<String> {
+            let choices = MotionChannels::Auto.choices(place);
+            choices.iter().map(|choice| choice.channels[0].clone()).collect()
+        };
+        let beside =
+            ["motion.X", "Vector.X", "mvec.R", "FinalImageMovieRenderQueue_MotionVectors.R"];
+        assert_eq!(names(GuideFile::Colour), beside);
+        assert_eq!(names(GuideFile::Separate), [&beside[..], &["X", "X", "R"]].concat());
+    }
+}
