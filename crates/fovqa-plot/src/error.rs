@@ -44,7 +44,7 @@ pub enum PlotError {
     /// A scale that makes no picture.
     #[error(
         "the scale {scale} makes a PNG of {width} x {height} pixels, not of 1 to {} a side",
-        crate::png::MAX_SIDE_PX
+        crate::limits::MAX_SIDE_PX
     )]
     Size {
         /// Pixels of the PNG for each of the SVG.

@@ -1,13 +1,14 @@
 //! A figure of any kind.
 
-use crate::bar::BarChart;
-use crate::drawing::Drawing;
+use crate::canvas::drawing::Drawing;
+use crate::canvas::svg;
+use crate::charts::bar::BarChart;
+use crate::charts::line::LineChart;
+use crate::charts::panels::PanelChart;
+use crate::charts::raster::RasterChart;
+use crate::charts::spread::SpreadChart;
 use crate::error::PlotError;
-use crate::line::LineChart;
-use crate::panels::PanelChart;
-use crate::raster::RasterChart;
-use crate::spread::SpreadChart;
-use crate::{svg, tidy};
+use crate::tidy;
 
 /// A figure of any kind.
 #[derive(Debug, Clone, PartialEq)]

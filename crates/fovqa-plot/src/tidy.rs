@@ -1,11 +1,11 @@
 //! The data of a figure as CSV, tidy: a row for each value. RFC 4180 but for the line ends, which
 //! are LF alone.
 
-use crate::bar::BarChart;
-use crate::line::LineChart;
-use crate::panels::PanelChart;
-use crate::raster::RasterChart;
-use crate::spread::SpreadChart;
+use crate::charts::bar::BarChart;
+use crate::charts::line::LineChart;
+use crate::charts::panels::PanelChart;
+use crate::charts::raster::RasterChart;
+use crate::charts::spread::SpreadChart;
 
 /// A number so that it reads back as the same, and as a float: "1.0".
 fn number(value: f64) -> String {

@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::drawing::{Mark, Rect, Text};
-use crate::look::{AXIS, Colour, GRID, INK, REFERENCE, SPAN};
+use crate::canvas::drawing::{Mark, Rect, Text};
+use crate::canvas::look::{AXIS, Colour, GRID, INK, REFERENCE, SPAN};
 use crate::{Axis, BarSeries, Fill, FillKind, LineSeries, Look, Span, SpreadSeries, png};
 
 mod curves;
@@ -297,7 +297,7 @@ fn a_point_between_gaps_is_seen_on_a_reference_too() {
 
 #[test]
 fn ten_values_make_a_box() {
-    let tint = Look::new(0).colour().tint(crate::swatch::TINT);
+    let tint = Look::new(0).colour().tint(crate::marks::swatch::TINT);
     let boxes = |count: u32| {
         let figure = spread(vec![vec![(0..count).map(f64::from).collect()], vec![vec![]]]);
         let drawing = figure.draw().unwrap();
@@ -313,7 +313,7 @@ fn ten_values_make_a_box() {
     let (found, medians) = boxes(10);
     // The key and the box, from 2.25 to 6.75 on an axis of 9 and its air.
     let (top, bottom) = found[1];
-    let height = crate::layout::PLOT_HEIGHT_PX * 4.5 / (9.0 * 1.12);
+    let height = crate::page::layout::PLOT_HEIGHT_PX * 4.5 / (9.0 * 1.12);
     assert!(found.len() == 2 && (bottom - top - height).abs() < 1e-6, "{found:?}");
     let middle = top.midpoint(bottom);
     assert!((medians[0][0].1 - middle).abs() < 1e-6);
@@ -380,7 +380,7 @@ fn infinite_values_stand_at_their_border() {
     // The key, the two on the axis, then the one above and the one below.
     let [_, zero, one, above, below] = ys[..] else { panic!("{ys:?}") };
     assert!(above < one && one < zero && zero < below, "{ys:?}");
-    assert!((below - above - crate::layout::PLOT_HEIGHT_PX).abs() < 1e-6);
+    assert!((below - above - crate::page::layout::PLOT_HEIGHT_PX).abs() < 1e-6);
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use resvg::tiny_skia::Pixmap;
 
 use super::*;
-use crate::colour_map::{NO_VALUE, palette};
-use crate::look::WHITE;
+use crate::canvas::colour_map::{NO_VALUE, palette};
+use crate::canvas::look::WHITE;
 use crate::{RasterLine, RasterPanel};
 
 /// A panel over −20 to 20 across and −10 down to 10.

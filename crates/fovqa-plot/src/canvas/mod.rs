@@ -1,0 +1,13 @@
+//! What a figure is drawn with: shapes, text, colours, and the SVG and PNG made of them.
+
+pub(crate) mod bitmap;
+pub(crate) mod clip;
+pub(crate) mod colour_map;
+pub(crate) mod drawing;
+pub(crate) mod look;
+pub(crate) mod path;
+pub(crate) mod png;
+pub(crate) mod smooth;
+pub(crate) mod svg;
+pub(crate) mod text;
+pub(crate) mod wrap;

@@ -1,0 +1,226 @@
+//! Bars in groups: one value for each method in each scene.
+
+use crate::axes::axis::{AXIS_STROKE, Axis};
+use crate::axes::group_axis::GroupAxis;
+use crate::axes::value_axis::ValueAxis;
+use crate::canvas::drawing::{Drawing, Rect};
+use crate::canvas::look::Look;
+use crate::error::PlotError;
+use crate::marks::infinity;
+use crate::marks::legend::Key;
+use crate::marks::marker;
+use crate::marks::swatch;
+use crate::marks::value_label::{Setting, Side, widest_px};
+use crate::page::layout::{self, MARGIN_PX, PLOT_HEIGHT_PX, Sides};
+use crate::scales::number::Format;
+use crate::scales::scale::{AxisPlace, Scale};
+
+/// The share of its place that a bar fills.
+const FILLED: f64 = 0.88;
+/// Air around the data of an axis that does not begin at 0, as a share of its range.
+const AIR: f64 = 0.06;
+/// What stands in the place of a missing value.
+const MISSING: &str = "n/a";
+
+/// Groups of bars, one bar a series in each, with its value above it where there is room.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BarChart {
+    /// What stands above it all.
+    pub title: Option<String>,
+    /// The vertical axis.
+    pub y: Axis,
+    /// Names of the groups, from left to right.
+    pub groups: Vec<String>,
+    /// The series.
+    pub series: Vec<BarSeries>,
+    /// Whether the axis begins at 0, as it does by default.
+    ///
+    /// A bar is read by its length, and a cut-off one shows ratios that are not there. So without
+    /// zero there are no bars: each value is a marker on an axis that fits the data, which is read
+    /// by position (a dot plot, Cleveland and McGill 1984), and nobody takes it for a bar.
+    pub from_zero: bool,
+}
+
+/// The bars of one series.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct BarSeries {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its look.
+    pub look: Look,
+    /// A value for each group. `None` and NaN have no bar but an "n/a"; an infinite one is as high
+    /// as the plot area, with an "∞" above it.
+    pub values: Vec<Option<f64>>,
+}
+
+impl Default for BarChart {
+    fn default() -> Self {
+        Self {
+            title: None,
+            y: Axis::default(),
+            groups: Vec::new(),
+            series: Vec::new(),
+            from_zero: true,
+        }
+    }
+}
+
+/// The figures of a chart that its marks need.
+struct Frame<'a> {
+    axis: &'a ValueAxis,
+    groups: &'a GroupAxis,
+    plot: Rect,
+    format: Format,
+    values: Setting,
+    missing: Setting,
+}
+
+impl BarChart {
+    pub(crate) fn draw(&self) -> Result<Drawing, PlotError> {
+        for series in &self.series {
+            PlotError::check_groups(&series.name, series.values.len(), self.groups.len())?;
+        }
+        let scale = self.scale();
+        let rough = ValueAxis::new(&self.y, scale, PLOT_HEIGHT_PX);
+        let beside_px = rough.left_px() + MARGIN_PX;
+        let groups = GroupAxis::new(&self.groups, self.series.len(), beside_px);
+        let finite = || self.places().filter_map(AxisPlace::finite);
+        let format = Format::of_values(finite());
+        let labels: Vec<String> = finite().map(|value| format.label(value)).collect();
+        let label_px = widest_px(labels.iter().map(String::as_str));
+        let values = Setting::of(label_px, groups.pitch_px());
+        let missing = Setting::of(widest_px([MISSING]), groups.pitch_px());
+        let axis = self.axis_with_room(scale, values.reach_px(label_px));
+
+        let (above, below) = infinity::strips_px(self.places());
+        let sides = Sides {
+            left: axis.left_px(),
+            right: MARGIN_PX,
+            above: above.max(MARGIN_PX),
+            below: below + groups.below_px(),
+        };
+        let keys: Vec<_> =
+            self.series.iter().map(|s| (s.name.as_str(), self.key(s.look))).collect();
+        let (mut drawing, plot) =
+            layout::begin(self.title.as_deref(), &keys, sides, groups.plot_width_px());
+        axis.draw_grid(&mut drawing, plot);
+        if !self.from_zero {
+            groups.draw_dividers(&mut drawing, plot);
+        }
+        groups.draw(&mut drawing, plot, below);
+        if self.places().next().is_none() {
+            layout::say_no_data(&mut drawing, plot);
+        } else {
+            let frame = Frame { axis: &axis, groups: &groups, plot, format, values, missing };
+            self.draw_series(&mut drawing, &frame);
+        }
+        axis.draw(&mut drawing, plot, 0.0);
+        let base = if self.from_zero { axis.y(plot, 0.0) } else { plot.bottom };
+        drawing.line(&[(plot.left, base), (plot.right, base)], AXIS_STROKE);
+        Ok(drawing)
+    }
+
+    fn key(&self, look: Look) -> Key {
+        if self.from_zero { Key::Bar(look) } else { Key::Marker(look) }
+    }
+
+    fn places(&self) -> impl Iterator<Item = AxisPlace> {
+        self.series
+            .iter()
+            .flat_map(|series| &series.values)
+            .filter_map(|v| v.and_then(AxisPlace::of))
+    }
+
+    /// The range of the values, and of 0 where bars stand on it; none without finite values.
+    fn scale(&self) -> Option<Scale> {
+        let finite = || self.places().filter_map(AxisPlace::finite);
+        if !self.from_zero {
+            return Some(Scale::holding(finite())?.with_air(AIR, AIR));
+        }
+        let below = self.places().any(|place| place == AxisPlace::Below);
+        let (low, high) = finite().fold((0.0, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
+        let high = if low < high { high } else { 1.0 };
+        // An infinite bar downwards needs room to be seen.
+        let low = if below && low >= 0.0 { -high / 2.0 } else { low };
+        (finite().next().is_some() || below).then(|| Scale::even(low, high))
+    }
+
+    /// The axis with room beyond the outermost values for their labels.
+    fn axis_with_room(&self, scale: Option<Scale>, reach_px: f64) -> ValueAxis {
+        let axis = |scale| ValueAxis::new(&self.y, scale, PLOT_HEIGHT_PX);
+        let Some(scale) = scale else { return axis(None) };
+        let down_px = if self.from_zero && scale.low < 0.0 { reach_px } else { 0.0 };
+        // A 0 has its label above, even where all else is negative.
+        let upwards = self.places().filter_map(AxisPlace::finite).any(|value| value >= 0.0);
+        let up_px = match (self.from_zero, upwards) {
+            (true, true) => reach_px,
+            (true, false) => 0.0,
+            (false, _) => reach_px + marker::RADIUS_PX,
+        };
+        let data_px = PLOT_HEIGHT_PX - up_px - down_px;
+        axis(Some(scale.with_air(down_px / data_px, up_px / data_px)))
+    }
+
+    fn draw_series(&self, drawing: &mut Drawing, frame: &Frame<'_>) {
+        let mut infinite = [(AxisPlace::Above, Side::Above), (AxisPlace::Below, Side::Below)]
+            .map(|(place, side)| (place, side, Vec::new()));
+        for (s, series) in self.series.iter().enumerate() {
+            for (g, value) in series.values.iter().enumerate() {
+                let x = frame.groups.x(frame.plot, g, s);
+                let place = value.and_then(AxisPlace::of);
+                match place {
+                    None => self.draw_missing(drawing, frame, x),
+                    Some(place) => self.draw_value(drawing, frame, (x, place), series.look),
+                }
+                for (beyond, _, xs) in &mut infinite {
+                    if place == Some(*beyond) {
+                        xs.push(x);
+                    }
+                }
+            }
+        }
+        for (_, side, xs) in infinite {
+            infinity::draw_labels(drawing, frame.plot, xs, side);
+        }
+    }
+
+    fn draw_value(
+        &self,
+        drawing: &mut Drawing,
+        frame: &Frame<'_>,
+        (x, place): (f64, AxisPlace),
+        look: Look,
+    ) {
+        let plot = frame.plot;
+        let end = match place {
+            AxisPlace::At(value) => frame.axis.y(plot, value),
+            AxisPlace::Above => plot.top,
+            AxisPlace::Below => plot.bottom,
+        };
+        if self.from_zero {
+            let base = frame.axis.y(plot, 0.0);
+            let half = frame.groups.pitch_px() * FILLED / 2.0;
+            let (top, bottom) = (end.min(base), end.max(base));
+            let rect = Rect { left: x - half, right: x + half, top, bottom };
+            swatch::draw(drawing, rect, look, look.colour());
+        } else {
+            let radius_px = marker::RADIUS_PX.min(frame.groups.pitch_px() / 2.0);
+            marker::draw(drawing, (x, end), look, radius_px, look.colour());
+        }
+        if let Some(value) = place.finite() {
+            let downwards = self.from_zero && value < 0.0;
+            let side = if downwards { Side::Below } else { Side::Above };
+            let off = if self.from_zero { 0.0 } else { marker::RADIUS_PX };
+            frame.values.draw(drawing, &frame.format.label(value), (x, end - off), side);
+        }
+    }
+
+    /// "n/a" on the base line, or below it where there is no room above.
+    fn draw_missing(&self, drawing: &mut Drawing, frame: &Frame<'_>, x: f64) {
+        let plot = frame.plot;
+        let base = if self.from_zero { frame.axis.y(plot, 0.0) } else { plot.bottom };
+        let room_above = base - plot.top >= frame.missing.reach_px(widest_px([MISSING]));
+        let side = if room_above { Side::Above } else { Side::Below };
+        frame.missing.draw(drawing, MISSING, (x, base), side);
+    }
+}

@@ -1,0 +1,317 @@
+//! Curves over a horizontal axis: a measure against eccentricity, frame or parameter.
+
+use std::collections::BTreeMap;
+
+use crate::axes::axis::Axis;
+use crate::axes::position_axis::PositionAxis;
+use crate::axes::value_axis::ValueAxis;
+use crate::canvas::clip;
+use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
+use crate::canvas::look::{Look, REFERENCE};
+use crate::canvas::smooth;
+use crate::marks::fill::Fill;
+use crate::marks::infinity;
+use crate::marks::legend::{self, CURVE_PX, Key, REFERENCE_PX};
+use crate::marks::marker;
+use crate::marks::span::{self, Span};
+use crate::marks::value_label::Side;
+use crate::page::layout::{self, LEAST_PLOT_PX, MARGIN_PX, PLOT_HEIGHT_PX, Sides, WIDTH_PX};
+use crate::scales::scale::{AxisPlace, Scale};
+
+/// Air above and below the data, as a share of its range.
+const AIR: f64 = 0.06;
+/// Air beside the data where no ticks are given.
+const SIDE_AIR: f64 = 0.02;
+/// Markers stand at least so far apart along a curve: of dense points only some have one.
+const MARKER_PITCH_PX: f64 = 12.0;
+/// From the marker of an infinite value to the next of another series at the same place.
+const BESIDE_PX: f64 = 9.0;
+
+/// Curves, each through points of rising `x`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LineChart {
+    /// What stands above it all.
+    pub title: Option<String>,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis. It begins where the data does, unless [told](Self::y_from_zero) to begin
+    /// at 0: the slope and distance of curves are read, not their height.
+    pub y: Axis,
+    /// The curves, the first farthest behind.
+    pub series: Vec<LineSeries>,
+    /// Where the horizontal axis has its ticks, such as at the edges of bands; round numbers
+    /// without.
+    pub x_ticks: Option<Vec<f64>>,
+    /// Whether the vertical axis includes 0, and begins there where no value lies below.
+    pub y_from_zero: bool,
+    /// The ends of the vertical axis, whatever the data are, such as those of other figures. Curves
+    /// and areas end where they cross them, and points beyond have no marker. Ends that are not
+    /// finite or not in order are taken as none.
+    pub y_limits: Option<(f64, f64)>,
+    /// Whether the vertical axis is logarithmic, and does not include 0 then. Values that are not
+    /// above 0 leave a gap; [limits](Self::y_limits) that are not are taken as none.
+    pub y_log: bool,
+    /// Stretches of the horizontal axis to shade.
+    pub spans: Vec<Span>,
+    /// Areas between two curves, behind the curves. They are no data of their own: neither an axis
+    /// nor the [CSV](crate::Figure::csv) has them, as their edges are curves of the chart.
+    pub fills: Vec<Fill>,
+}
+
+/// One curve.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LineSeries {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its look.
+    pub look: Look,
+    /// A curve that others are held against: gray, dashed and without markers.
+    pub reference: bool,
+    /// A function sampled densely, whose points are no data of their own: some markers along the
+    /// curve say which it is. Where curves lie on each other their markers do not.
+    pub smooth: bool,
+    /// Points in the order of the curve. `None` and NaN leave a gap; an infinite value stands at
+    /// the border with an "∞" beyond it, unconnected. Points at no finite `x` are not drawn.
+    pub points: Vec<(f64, Option<f64>)>,
+}
+
+impl LineSeries {
+    fn key(&self) -> Key {
+        if self.reference { Key::Reference(self.look) } else { Key::Curve(self.look) }
+    }
+
+    fn places(&self) -> impl Iterator<Item = (f64, Option<AxisPlace>)> {
+        let at = |&(x, y): &(f64, Option<f64>)| Some((finite(x)?, y.and_then(AxisPlace::of)));
+        self.points.iter().filter_map(at)
+    }
+
+    fn stroke(&self) -> Stroke {
+        if self.reference {
+            Stroke { colour: REFERENCE, width_px: REFERENCE_PX }
+        } else {
+            Stroke { colour: self.look.colour(), width_px: CURVE_PX }
+        }
+    }
+}
+
+/// Where a chart is drawn.
+pub(crate) struct Frame<'a> {
+    pub(crate) x: &'a PositionAxis,
+    pub(crate) y: &'a ValueAxis,
+    pub(crate) plot: Rect,
+    /// Left edge of the room the chart has.
+    pub(crate) edge_px: f64,
+    /// Height of the strip between the plot area and the labels beneath.
+    pub(crate) below_px: f64,
+}
+
+impl LineChart {
+    pub(crate) fn draw(&self) -> Drawing {
+        let y = ValueAxis::new(&self.y, self.y_scale(), PLOT_HEIGHT_PX);
+        let left = y.left_px();
+        let room = (WIDTH_PX - left, LEAST_PLOT_PX);
+        let x = PositionAxis::new(&self.x, self.x_scale(), self.x_ticks(), room);
+        let (above, below) = self.strips_px();
+        let sides = Sides {
+            left: left.max(x.left_px()),
+            right: x.right_px(),
+            above: above.max(MARGIN_PX),
+            below: below + x.below_px(),
+        };
+        let areas = legend::once(self.fill_keys()).chain(legend::once(self.span_keys()));
+        let keys: Vec<_> = self.series_keys().chain(areas).collect();
+        let (mut drawing, plot) =
+            layout::begin(self.title.as_deref(), &keys, sides, x.plot_width_px());
+        self.draw_in(&mut drawing, &Frame { x: &x, y: &y, plot, edge_px: 0.0, below_px: below });
+        drawing
+    }
+
+    pub(crate) fn series_keys(&self) -> impl Iterator<Item = (&str, Key)> {
+        self.series.iter().map(|series| (series.name.as_str(), series.key()))
+    }
+
+    /// Of each span that is seen.
+    pub(crate) fn span_keys(&self) -> impl Iterator<Item = (&str, Key)> {
+        let scale = self.x_scale();
+        let seen = move |span: &&Span| scale.is_some_and(|scale| span.ends(scale).is_some());
+        self.spans.iter().filter(seen).map(Span::key)
+    }
+
+    /// Of each area that is seen.
+    pub(crate) fn fill_keys(&self) -> impl Iterator<Item = (&str, Key)> {
+        let scales = self.x_scale().zip(self.y_scale());
+        let seen = move |fill: &&Fill| scales.is_some_and(|(x, y)| !fill.areas(x, y).is_empty());
+        self.fills.iter().filter(seen).map(Fill::key)
+    }
+
+    /// Heights of the strips of infinite values above and below the plot area.
+    pub(crate) fn strips_px(&self) -> (f64, f64) {
+        infinity::strips_px(self.drawn())
+    }
+
+    /// Draws all but title and legend.
+    pub(crate) fn draw_in(&self, drawing: &mut Drawing, frame: &Frame<'_>) {
+        let Frame { x, y, plot, .. } = *frame;
+        for (from, to) in self.x_scale().into_iter().flat_map(|scale| self.span_ends(scale)) {
+            span::draw(drawing, plot, (x.x(plot, from), x.x(plot, to)));
+        }
+        y.draw_grid(drawing, plot);
+        self.draw_fills(drawing, plot);
+        y.draw(drawing, plot, frame.edge_px);
+        x.draw(drawing, plot, frame.below_px);
+        if self.drawn().next().is_none() {
+            layout::say_no_data(drawing, plot);
+        }
+        let at = |px: f64, place: Option<AxisPlace>| {
+            let value = place.and_then(AxisPlace::finite)?;
+            Some((x.x(plot, px), y.share(value)))
+        };
+        for series in &self.series {
+            let points: Vec<_> = self.places(series).map(|(x, place)| at(x, place)).collect();
+            draw_curve(drawing, series, &points, plot);
+        }
+        self.draw_infinite(drawing, plot, x);
+    }
+
+    fn draw_fills(&self, drawing: &mut Drawing, plot: Rect) {
+        let Some((x, y)) = self.x_scale().zip(self.y_scale()) else { return };
+        for fill in &self.fills {
+            for area in fill.areas(x, y) {
+                let at = |&(x, y): &Point| (plot.left + x * plot.width(), level_px(plot, y));
+                fill.kind.draw(drawing, &area.iter().map(at).collect::<Vec<_>>());
+            }
+        }
+    }
+
+    /// Where its values are drawn.
+    fn drawn(&self) -> impl Iterator<Item = AxisPlace> {
+        self.series.iter().flat_map(|series| self.places(series)).filter_map(|(_, place)| place)
+    }
+
+    /// Where the points of a series are drawn: on a logarithmic axis not all that are numbers.
+    fn places(&self, series: &LineSeries) -> impl Iterator<Item = (f64, Option<AxisPlace>)> {
+        let above_0 = |place: &AxisPlace| match place {
+            AxisPlace::At(value) => *value > 0.0,
+            AxisPlace::Above => true,
+            AxisPlace::Below => false,
+        };
+        let log = self.y_log;
+        series.places().map(move |(x, place)| (x, place.filter(|place| !log || above_0(place))))
+    }
+
+    fn span_ends(&self, scale: Scale) -> impl Iterator<Item = (f64, f64)> {
+        self.spans.iter().filter_map(move |span| span.ends(scale))
+    }
+
+    /// The range of the vertical axis; none without limits and finite values. Air that would move 0
+    /// from an end is left out.
+    pub(crate) fn y_scale(&self) -> Option<Scale> {
+        if let Some(limits) = self.y_limits.and_then(|limits| Scale::between(limits, self.y_log)) {
+            return Some(limits);
+        }
+        let values = self.drawn().filter_map(AxisPlace::finite);
+        if self.y_log {
+            return Some(Scale::holding_log(values)?.with_air(AIR, AIR));
+        }
+        if !self.y_from_zero {
+            return Some(Scale::holding(values)?.with_air(AIR, AIR));
+        }
+        let scale = Scale::from_zero(values)?;
+        let air = |beyond: bool| if beyond { AIR } else { 0.0 };
+        Some(scale.with_air(air(scale.low < 0.0), air(scale.high > 0.0)))
+    }
+
+    /// Given ticks that can be drawn.
+    pub(crate) fn x_ticks(&self) -> Option<&[f64]> {
+        let ticks = self.x_ticks.as_deref()?;
+        ticks.iter().all(|x| finite(*x) == Some(*x)).then_some(ticks)
+    }
+
+    /// The range of the horizontal axis; none without places along it.
+    pub(crate) fn x_scale(&self) -> Option<Scale> {
+        let data = self.series.iter().flat_map(LineSeries::places).map(|(x, _)| x);
+        let ticks = self.x_ticks().unwrap_or_default();
+        let scale = Scale::holding(data.chain(ticks.iter().copied()))?;
+        let air = if ticks.is_empty() { SIDE_AIR } else { 0.0 };
+        Some(scale.with_air(air, air))
+    }
+
+    /// Markers of infinite values on the border, side by side where several series have one.
+    fn draw_infinite(&self, drawing: &mut Drawing, plot: Rect, x: &PositionAxis) {
+        for (beyond, side) in [(AxisPlace::Above, Side::Above), (AxisPlace::Below, Side::Below)] {
+            // By position in tenths of a pixel, from left to right.
+            let mut groups: BTreeMap<i64, Vec<&LineSeries>> = BTreeMap::new();
+            for series in &self.series {
+                for (at, place) in self.places(series) {
+                    if place == Some(beyond) {
+                        let tenths = (x.x(plot, at) * 10.0).round() as i64;
+                        groups.entry(tenths).or_default().push(series);
+                    }
+                }
+            }
+            let border = if side == Side::Above { plot.top } else { plot.bottom };
+            for (tenths, series) in &groups {
+                let width = BESIDE_PX * (series.len() - 1) as f64;
+                let most = (plot.right - width).max(plot.left);
+                let left = (*tenths as f64 / 10.0 - width / 2.0).clamp(plot.left, most);
+                for (i, series) in series.iter().enumerate() {
+                    let at = (left + i as f64 * BESIDE_PX, border);
+                    let colour = series.stroke().colour;
+                    marker::draw(drawing, at, series.look, marker::RADIUS_PX, colour);
+                }
+            }
+            let xs = groups.keys().map(|tenths| *tenths as f64 / 10.0).collect();
+            infinity::draw_labels(drawing, plot, xs, side);
+        }
+    }
+}
+
+fn finite(x: f64) -> Option<f64> {
+    AxisPlace::of(x).and_then(AxisPlace::finite)
+}
+
+/// Where a share of the vertical axis is in a plot area.
+fn level_px(plot: Rect, share: f64) -> f64 {
+    plot.bottom - share * plot.height()
+}
+
+/// The lines of a curve between its gaps, then its markers. A point between two gaps has a marker
+/// in any case, or it would not be seen. Points come as pixels along the plot area and shares of
+/// its height.
+fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point>], plot: Rect) {
+    let runs: Vec<Vec<Point>> = points
+        .split(Option::is_none)
+        .map(|run| run.iter().copied().flatten().collect())
+        .filter(|run: &Vec<Point>| !run.is_empty())
+        .collect();
+    let px = |&(x, share): &Point| (x, level_px(plot, share));
+    let pieces: Vec<Vec<Point>> = runs
+        .iter()
+        .flat_map(|run| clip::level(run))
+        .map(|piece| piece.iter().map(px).collect())
+        .collect();
+    let stroke = series.stroke();
+    let dash =
+        if series.reference { series.look.reference_dash_px() } else { series.look.dash_px() };
+    for piece in &pieces {
+        drawing.dashed(piece, stroke, &dash);
+    }
+    let on_points = !series.reference && !series.smooth;
+    let mut markers: Vec<Point> = Vec::new();
+    for run in &runs {
+        for at in run.iter().filter(|(_, share)| (0.0..=1.0).contains(share)).map(px) {
+            let near = |(x, y): &Point| (at.0 - x).hypot(at.1 - y) < MARKER_PITCH_PX;
+            let alone = run.len() == 1;
+            if alone || (on_points && !markers.last().is_some_and(near)) {
+                markers.push(at);
+            }
+        }
+    }
+    if series.smooth && !series.reference {
+        let along = |piece: &Vec<Point>| smooth::markers(piece, plot, series.look);
+        markers.extend(pieces.iter().flat_map(along));
+    }
+    for at in markers {
+        marker::draw(drawing, at, series.look, marker::RADIUS_PX, stroke.colour);
+    }
+}

@@ -1,0 +1,12 @@
+//! The kinds of charts.
+
+pub(crate) mod bar;
+pub(crate) mod box_summary;
+pub(crate) mod left_out;
+pub(crate) mod line;
+pub(crate) mod overlay;
+pub(crate) mod panels;
+pub(crate) mod raster;
+pub(crate) mod raster_panel;
+pub(crate) mod spread;
+pub(crate) mod spread_series;

@@ -1,0 +1,149 @@
+//! Lines, labels and the cross over a picture: light with a dark edge, seen on every colour.
+
+use crate::canvas::clip;
+use crate::canvas::drawing::{Anchor, Drawing, Point, Rect, Stroke, Text};
+use crate::canvas::look::{INK, WHITE};
+use crate::canvas::path;
+use crate::canvas::text::{CAPITAL, VALUE_PX, width_px};
+use crate::canvas::wrap::wrap;
+use crate::charts::raster_panel::RasterPanel;
+
+const EDGE: Stroke = Stroke { colour: INK, width_px: 3.2 };
+const CORE: Stroke = Stroke { colour: WHITE, width_px: 1.4 };
+/// The edge of a label.
+const LABEL_EDGE: Stroke = Stroke { colour: INK, width_px: 0.8 };
+/// From a label's text to its edge.
+const PADDING_PX: f64 = 2.5;
+/// Between labels, and from them to the border.
+const APART_PX: f64 = 2.0;
+/// From a line to a label beside it.
+const BESIDE_PX: f64 = 4.0;
+/// The length of each arm of the cross.
+const ARM_PX: f64 = 8.0;
+/// Where along a line a label may stand, in turn, as shares of its length.
+const PLACES: [f64; 8] = [0.0, 0.25, 0.5, 0.75, 0.125, 0.375, 0.625, 0.875];
+/// Where a label may stand there: on the line, or to a side of it.
+const SIDES: [Point; 5] = [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0)];
+
+/// Values at the left and right edge, and at the upper and lower one.
+type Ranges = ((f64, f64), (f64, f64));
+
+/// Draws the lines and the cross of a picture over it.
+pub(crate) fn draw(drawing: &mut Drawing, plot: Rect, panel: &RasterPanel) {
+    let ranges = (panel.x_range, panel.y_range);
+    let seen: Vec<Vec<Vec<Point>>> =
+        panel.lines.iter().map(|line| pieces(plot, ranges, &line.points)).collect();
+    let arms = panel.cross.map(|at| arms(plot, ranges, at)).unwrap_or_default();
+    for stroke in [EDGE, CORE] {
+        for piece in seen.iter().flatten().chain(&arms) {
+            drawing.line(piece, stroke);
+        }
+    }
+    cover_border(drawing, plot);
+    let mut taken: Vec<Rect> = arms.iter().map(|arm| around(arm)).collect();
+    for (line, pieces) in panel.lines.iter().zip(&seen) {
+        if let Some(piece) = pieces.first() {
+            label(drawing, plot, &line.name, piece, &mut taken);
+        }
+    }
+}
+
+/// Covers what stands out over the border: half the width of a line that runs along it, and the
+/// pixel that it ends in.
+fn cover_border(drawing: &mut Drawing, plot: Rect) {
+    let out = EDGE.width_px / 2.0 + 1.0;
+    let around = Rect {
+        left: plot.left - out,
+        top: plot.top - out,
+        right: plot.right + out,
+        bottom: plot.bottom + out,
+    };
+    let sides = [
+        Rect { bottom: plot.top, ..around },
+        Rect { top: plot.bottom, ..around },
+        Rect { right: plot.left, ..around },
+        Rect { left: plot.right, ..around },
+    ];
+    for side in sides {
+        drawing.area(side.corners().to_vec(), WHITE);
+    }
+}
+
+/// The parts of a line over the picture, in pixels.
+fn pieces(plot: Rect, ranges: Ranges, points: &[Point]) -> Vec<Vec<Point>> {
+    let shares: Vec<Option<Point>> = points.iter().map(|at| share(ranges, *at)).collect();
+    let turned = |line: Vec<Point>| line.into_iter().map(|(x, y)| (y, x)).collect::<Vec<_>>();
+    let px = |(x, y): Point| (plot.left + x * plot.width(), plot.top + y * plot.height());
+    shares
+        .split(Option::is_none)
+        .map(|run| run.iter().copied().flatten().collect::<Vec<Point>>())
+        .flat_map(|run| clip::level(&run))
+        .flat_map(|piece| clip::level(&turned(piece)))
+        .map(|piece| turned(piece).into_iter().map(px).collect())
+        .collect()
+}
+
+/// Where a place is, as shares of the picture's width and height.
+fn share(((left, right), (top, bottom)): Ranges, (x, y): Point) -> Option<Point> {
+    let along = |value: f64, from: f64, to: f64| {
+        ((value - from) / (to - from)).clamp(-clip::FAR, clip::FAR)
+    };
+    let finite = x.is_finite() && y.is_finite();
+    finite.then(|| (along(x, left, right), along(y, top, bottom)))
+}
+
+/// The two arms of the cross, as far as they are over the picture; none where its middle is not.
+fn arms(plot: Rect, ranges: Ranges, at: Point) -> Vec<Vec<Point>> {
+    let inside = |share: f64| (0.0..=1.0).contains(&share);
+    let middle = share(ranges, at).filter(|(x, y)| inside(*x) && inside(*y));
+    let Some((x, y)) = middle else { return Vec::new() };
+    let (x, y) = (plot.left + x * plot.width(), plot.top + y * plot.height());
+    let (left, right) = ((x - ARM_PX).max(plot.left), (x + ARM_PX).min(plot.right));
+    let (top, bottom) = ((y - ARM_PX).max(plot.top), (y + ARM_PX).min(plot.bottom));
+    vec![vec![(left, y), (right, y)], vec![(x, top), (x, bottom)]]
+}
+
+/// Writes a name on a line or beside it, in the first place along it where nothing else stands.
+fn label(drawing: &mut Drawing, plot: Rect, name: &str, piece: &[Point], taken: &mut Vec<Rect>) {
+    let lines = wrap(name, VALUE_PX, plot.width() / 3.0, 1);
+    let Some(line) = lines.first() else { return };
+    let half = (width_px(line, VALUE_PX) / 2.0 + PADDING_PX, CAPITAL * VALUE_PX / 2.0 + PADDING_PX);
+    let within = |at: f64, half: f64, low: f64, high: f64| {
+        at.clamp(low + half + APART_PX, (high - half - APART_PX).max(low + half + APART_PX))
+    };
+    let length = path::length(piece);
+    let places = PLACES.iter().filter_map(|share| path::place(piece, share * length));
+    let sides = places.flat_map(|(x, y)| {
+        SIDES.map(|(right, down)| {
+            (x + right * (half.0 + BESIDE_PX), y + down * (half.1 + BESIDE_PX))
+        })
+    });
+    let mut rects = sides.map(|(x, y)| {
+        let x = within(x, half.0, plot.left, plot.right);
+        let y = within(y, half.1, plot.top, plot.bottom);
+        Rect { left: x - half.0, right: x + half.0, top: y - half.1, bottom: y + half.1 }
+    });
+    let free = |rect: &Rect| !taken.iter().any(|other| other.overlaps(*rect));
+    let Some(rect) = rects.find(free) else { return };
+    drawing.rect(rect, WHITE, LABEL_EDGE);
+    let (x, y) = rect.centre();
+    let at = (x, y + CAPITAL * VALUE_PX / 2.0);
+    drawing.text(Text::new(line, at, VALUE_PX, Anchor::Middle));
+    taken.push(around(&rect.corners()));
+}
+
+/// The room around some points, with a little space.
+fn around(points: &[Point]) -> Rect {
+    let start = Rect {
+        left: f64::INFINITY,
+        top: f64::INFINITY,
+        right: f64::NEG_INFINITY,
+        bottom: f64::NEG_INFINITY,
+    };
+    points.iter().fold(start, |rect, (x, y)| Rect {
+        left: rect.left.min(x - APART_PX),
+        top: rect.top.min(y - APART_PX),
+        right: rect.right.max(x + APART_PX),
+        bottom: rect.bottom.max(y + APART_PX),
+    })
+}

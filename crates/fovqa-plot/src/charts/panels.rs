@@ -1,0 +1,144 @@
+//! Several charts of curves in one figure, such as a measure for each scene, with one legend.
+
+use crate::axes::axis::Axis;
+use crate::axes::position_axis::PositionAxis;
+use crate::axes::value_axis::ValueAxis;
+use crate::canvas::drawing::{Anchor, Drawing, Text};
+use crate::canvas::text::{LINE_PITCH, TITLE_PX};
+use crate::canvas::wrap::wrap;
+use crate::charts::line::{Frame, LineChart};
+use crate::marks::legend::{self, Key};
+use crate::page::layout::{self, LEAST_PLOT_PX, MARGIN_PX, PAGE_PX, TITLE_LINES, WIDTH_PX};
+use crate::page::panel_grid::{Cell, Grid, Needs};
+
+/// Height of a plot area: lower than that of a single chart, as it is narrower.
+const HEIGHT_PX: f64 = 170.0;
+/// A plot area beside others is no narrower than this: wide labels widen the picture instead.
+const LEAST_PANEL_PX: f64 = 140.0;
+
+/// Charts of curves in rows and columns, with one legend for all.
+///
+/// Each has its own axes: they are compared by shape. The plot areas have one size. A figure of one
+/// column is as wide as a single chart, and one of several as the page.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PanelChart {
+    /// What stands above it all.
+    pub title: Option<String>,
+    /// The charts, row by row, each with its title above it. Series, areas and spans of one name
+    /// are one in the legend, with the look of the first. Where all charts of a row have the same vertical
+    /// axis, its title stands beside the first alone.
+    pub panels: Vec<LineChart>,
+    /// The most charts of a row; 0 is taken as 1.
+    pub columns: usize,
+}
+
+/// A chart with its axes.
+struct Panel<'a> {
+    chart: &'a LineChart,
+    title: Vec<String>,
+    x: PositionAxis,
+    y: ValueAxis,
+}
+
+impl PanelChart {
+    pub(crate) fn draw(&self) -> Drawing {
+        let none = [LineChart::default()];
+        let charts = if self.panels.is_empty() { &none } else { self.panels.as_slice() };
+        let columns = self.columns.clamp(1, charts.len());
+        let y_axes = y_axes(charts, columns);
+        let plot_width_px = plot_width_px(charts, &y_axes, columns);
+        let panel = |(chart, y)| Panel::new(chart, y, plot_width_px);
+        let panels: Vec<Panel<'_>> = charts.iter().zip(y_axes).map(panel).collect();
+        let needs: Vec<Needs> = panels.iter().map(Panel::needs).collect();
+        let grid = Grid::new(&needs, columns, (plot_width_px, HEIGHT_PX));
+
+        let left_px = grid.place(0, 0.0).plot.left;
+        let width_px = grid.width_px().ceil();
+        let keys = keys(charts);
+        let (mut drawing, top) = layout::head(self.title.as_deref(), &keys, left_px, width_px);
+        for (i, panel) in panels.iter().enumerate() {
+            panel.draw(&mut drawing, grid.place(i, top));
+        }
+        drawing.height_px = (top + grid.height_px()).ceil();
+        drawing
+    }
+}
+
+/// The vertical axes: without a title beside others of the same.
+fn y_axes(charts: &[LineChart], columns: usize) -> Vec<ValueAxis> {
+    let row = |charts: &[LineChart]| -> Vec<ValueAxis> {
+        let same = charts.iter().all(|chart| chart.y == charts[0].y);
+        let axis = |(i, chart): (usize, &LineChart)| {
+            let untitled = Axis::default();
+            let axis = if same && i > 0 { &untitled } else { &chart.y };
+            ValueAxis::new(axis, chart.y_scale(), HEIGHT_PX)
+        };
+        charts.iter().enumerate().map(axis).collect()
+    };
+    charts.chunks(columns).flat_map(row).collect()
+}
+
+/// The width of all plot areas: what the axes leave of the picture.
+fn plot_width_px(charts: &[LineChart], y_axes: &[ValueAxis], columns: usize) -> f64 {
+    let (picture_px, least_px) =
+        if columns == 1 { (WIDTH_PX, LEAST_PLOT_PX) } else { (PAGE_PX, LEAST_PANEL_PX) };
+    let column_px = |c| {
+        let axes = y_axes.iter().skip(c).step_by(columns);
+        axes.map(ValueAxis::left_px).fold(0.0, f64::max)
+    };
+    let lefts_px: f64 = (0..columns).map(column_px).sum();
+    let available_px = (picture_px - lefts_px) / columns as f64;
+    let width_px = |chart: &LineChart| {
+        let room = (available_px, least_px);
+        PositionAxis::new(&chart.x, chart.x_scale(), chart.x_ticks(), room).plot_width_px()
+    };
+    charts.iter().map(width_px).fold(f64::INFINITY, f64::min)
+}
+
+/// The series of all charts, those of reference last, then their areas and spans.
+fn keys(charts: &[LineChart]) -> Vec<(&str, Key)> {
+    let all = || charts.iter().flat_map(LineChart::series_keys);
+    let reference = |(_, key): &(&str, Key)| matches!(key, Key::Reference(_));
+    let series = all().filter(|key| !reference(key)).chain(all().filter(reference));
+    let fills = charts.iter().flat_map(LineChart::fill_keys);
+    let spans = charts.iter().flat_map(LineChart::span_keys);
+    legend::once(series).chain(legend::once(fills)).chain(legend::once(spans)).collect()
+}
+
+impl<'a> Panel<'a> {
+    fn new(chart: &'a LineChart, y: ValueAxis, plot_width_px: f64) -> Self {
+        let title = chart.title.as_deref().unwrap_or_default();
+        Self {
+            chart,
+            title: wrap(title, TITLE_PX, plot_width_px, TITLE_LINES),
+            x: PositionAxis::spanning(&chart.x, chart.x_scale(), chart.x_ticks(), plot_width_px),
+            y,
+        }
+    }
+
+    fn title_px(&self) -> f64 {
+        self.title.len() as f64 * TITLE_PX * LINE_PITCH
+    }
+
+    fn needs(&self) -> Needs {
+        let (above, below) = self.chart.strips_px();
+        Needs {
+            left: self.y.left_px().max(self.x.left_px()),
+            right: self.x.right_px(),
+            title: self.title_px(),
+            strips: (above.max(MARGIN_PX), below),
+            axis: self.x.below_px(),
+        }
+    }
+
+    fn draw(&self, drawing: &mut Drawing, place: Cell) {
+        let Cell { edge_px, title_px, plot, below_px } = place;
+        for (i, line) in self.title.iter().enumerate() {
+            let down = TITLE_PX * (1.0 + i as f64 * LINE_PITCH);
+            let at = (plot.left, title_px - self.title_px() + down);
+            drawing.text(Text::new(line, at, TITLE_PX, Anchor::Start));
+        }
+        let frame = Frame { x: &self.x, y: &self.y, plot, edge_px, below_px };
+        self.chart.draw_in(drawing, &frame);
+    }
+}

@@ -1,0 +1,185 @@
+//! Pictures of a quantity over a plane, such as the sampling density over the field of view.
+
+use crate::axes::axis::{AXIS_STROKE, Axis};
+use crate::axes::colour_bar::ColourBar;
+use crate::axes::position_axis::PositionAxis;
+use crate::axes::value_axis::ValueAxis;
+use crate::canvas::bitmap::Bitmap;
+use crate::canvas::colour_map::NO_VALUE;
+use crate::canvas::drawing::{Anchor, Drawing, Rect, Text};
+use crate::canvas::text::{LINE_PITCH, TITLE_PX};
+use crate::canvas::wrap::wrap;
+use crate::charts::overlay;
+use crate::charts::raster_panel::RasterPanel;
+use crate::error::PlotError;
+use crate::page::layout::{self, MARGIN_PX, PAGE_PX, TITLE_LINES, WIDTH_PX};
+use crate::page::panel_grid::{Cell, Grid, Needs};
+use crate::scales::scale::{AxisPlace, Scale};
+
+/// The lowest and highest colour bar: beside low pictures it is higher than they are, or its title
+/// would not fit.
+const BAR_PX: (f64, f64) = (110.0, 340.0);
+/// What axes need beside a picture, about.
+const BESIDE_PX: f64 = 64.0;
+/// How often they are measured before the last time.
+const MEASURED: usize = 2;
+/// Pictures in rows and columns with one colour scale, whose bar stands at the right.
+///
+/// The colours are those of viridis: the lighter, the more. They tell 255 steps apart.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RasterChart {
+    /// What stands above it all.
+    pub title: Option<String>,
+    /// The pictures, row by row. Where all of a row have the same vertical axis, its title stands
+    /// beside the first alone.
+    pub panels: Vec<RasterPanel>,
+    /// The most pictures of a row; 0 is taken as 1. A figure of one column is as wide as a single
+    /// chart, and one of several as the page.
+    pub columns: usize,
+    /// What the colours show, with the unit: "Samples per square degree".
+    pub colour: Axis,
+    /// Whether equal steps of colour are equal ratios.
+    pub log: bool,
+    /// The values of the first and last colour, which those beyond take too; those of the least
+    /// and greatest value without. Ends that are not finite or not in order, and those not above 0
+    /// of a logarithm, are taken as none.
+    pub range: Option<(f64, f64)>,
+}
+
+/// A picture with its axes.
+struct Panel<'a> {
+    chart: &'a RasterPanel,
+    title: Vec<String>,
+    x: PositionAxis,
+    y: ValueAxis,
+    size_px: (f64, f64),
+}
+
+impl RasterChart {
+    pub(crate) fn draw(&self) -> Result<Drawing, PlotError> {
+        self.panels.iter().try_for_each(RasterPanel::check)?;
+        let none = [RasterPanel::default()];
+        let charts = if self.panels.is_empty() { &none } else { self.panels.as_slice() };
+        let columns = self.columns.clamp(1, charts.len());
+        let scale = self.scale();
+
+        // What axes and bar need depends on the height of the pictures, and that on what they leave.
+        let picture_px = if columns == 1 { WIDTH_PX } else { PAGE_PX };
+        let mut width_px = picture_px / columns as f64 - BESIDE_PX;
+        for _ in 0..MEASURED {
+            let (panels, grid) = panels(charts, columns, width_px);
+            let bar = ColourBar::new(&self.colour, scale, bar_px(plots_px(&panels, &grid)));
+            width_px += (picture_px - grid.width_px() - bar.width_px()) / columns as f64;
+        }
+        let (panels, grid) = panels(charts, columns, width_px);
+        let plots_px = plots_px(&panels, &grid);
+        let bar_px = bar_px(plots_px);
+        let bar = ColourBar::new(&self.colour, scale, bar_px);
+
+        let first = grid.place(0, 0.0).plot;
+        let width_px = (grid.width_px() + bar.width_px()).ceil();
+        let (mut drawing, top) = layout::head(self.title.as_deref(), &[], first.left, width_px);
+        for (i, panel) in panels.iter().enumerate() {
+            panel.draw(&mut drawing, grid.place(i, top), scale);
+        }
+        let bar_top = top + first.top + (plots_px - bar_px).max(0.0) / 2.0;
+        bar.draw(&mut drawing, (grid.width_px(), bar_top), bar_px);
+        let bottom = (top + grid.height_px()).max(bar_top + bar_px + 2.0 * MARGIN_PX);
+        drawing.height_px = bottom.ceil();
+        Ok(drawing)
+    }
+
+    /// The range of the colours; none without values that it could hold.
+    fn scale(&self) -> Option<Scale> {
+        let given = self.range.and_then(|range| Scale::between(range, self.log));
+        let values = self.panels.iter().flat_map(|panel| &panel.values);
+        let values = values.filter_map(|value| AxisPlace::of(*value)?.finite());
+        given.or_else(|| if self.log { Scale::holding_log(values) } else { Scale::holding(values) })
+    }
+}
+
+/// From the top of the first row of pictures to the bottom of the last.
+fn plots_px(panels: &[Panel<'_>], grid: &Grid) -> f64 {
+    let top = |i: usize| grid.place(i, 0.0).plot.top;
+    let bottoms = panels.iter().enumerate().map(|(i, panel)| top(i) + panel.size_px.1);
+    bottoms.fold(0.0, f64::max) - top(0)
+}
+
+/// The height of the bar beside pictures of a height.
+fn bar_px(plots_px: f64) -> f64 {
+    plots_px.clamp(BAR_PX.0, BAR_PX.1)
+}
+
+/// The pictures in a grid, none wider than told.
+fn panels(charts: &[RasterPanel], columns: usize, width_px: f64) -> (Vec<Panel<'_>>, Grid) {
+    let panels: Vec<Panel<'_>> = charts
+        .chunks(columns)
+        .flat_map(|row| {
+            let same = row.iter().all(|chart| chart.y == row[0].y);
+            let panel = move |(i, chart)| Panel::new(chart, !same || i == 0, width_px);
+            row.iter().enumerate().map(panel)
+        })
+        .collect();
+    let needs: Vec<Needs> = panels.iter().map(Panel::needs).collect();
+    // Each is of its own size, which its needs say.
+    let grid = Grid::new(&needs, columns, (0.0, 0.0));
+    (panels, grid)
+}
+
+impl<'a> Panel<'a> {
+    fn new(chart: &'a RasterPanel, y_title: bool, width_px: f64) -> Self {
+        let size_px = chart.size_px(width_px);
+        let (left, right) = chart.x_range;
+        let (top, bottom) = chart.y_range;
+        let title = chart.title.as_deref().unwrap_or_default();
+        let untitled = Axis::default();
+        let y = if y_title { &chart.y } else { &untitled };
+        Self {
+            chart,
+            title: wrap(title, TITLE_PX, size_px.0, TITLE_LINES),
+            x: PositionAxis::spanning(&chart.x, Some(Scale::even(left, right)), None, size_px.0),
+            y: ValueAxis::new(y, Some(Scale::even(bottom, top)), size_px.1),
+            size_px,
+        }
+    }
+
+    fn title_px(&self) -> f64 {
+        self.title.len() as f64 * TITLE_PX * LINE_PITCH
+    }
+
+    fn needs(&self) -> Needs {
+        Needs {
+            left: self.y.left_px().max(self.x.left_px()),
+            right: self.size_px.0 + self.x.right_px(),
+            title: self.title_px(),
+            strips: (MARGIN_PX, 0.0),
+            axis: self.size_px.1 + self.x.below_px(),
+        }
+    }
+
+    fn draw(&self, drawing: &mut Drawing, cell: Cell, scale: Option<Scale>) {
+        let Cell { edge_px, title_px, plot, .. } = cell;
+        for (i, line) in self.title.iter().enumerate() {
+            let down = TITLE_PX * (1.0 + i as f64 * LINE_PITCH);
+            let at = (plot.left, title_px - self.title_px() + down);
+            drawing.text(Text::new(line, at, TITLE_PX, Anchor::Start));
+        }
+        let (width, height) = self.size_px;
+        let plot = Rect { right: plot.left + width, bottom: plot.top + height, ..plot };
+        let chart = self.chart;
+        if chart.values.is_empty() {
+            drawing.area(plot.corners().to_vec(), NO_VALUE);
+        } else {
+            let levels = chart.levels(scale);
+            drawing.picture(plot, Bitmap { columns: chart.columns, levels });
+        }
+        if chart.values.iter().all(|value| value.is_nan()) {
+            layout::say_no_data(drawing, plot);
+        } else {
+            overlay::draw(drawing, plot, chart);
+        }
+        drawing.frame(plot, AXIS_STROKE);
+        self.y.draw(drawing, plot, edge_px);
+        self.x.draw(drawing, plot, 0.0);
+    }
+}

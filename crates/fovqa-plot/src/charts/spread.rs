@@ -1,0 +1,145 @@
+//! Distributions in groups: how a measure spreads over the frames of a sequence.
+
+use crate::axes::axis::{AXIS_STROKE, Axis};
+use crate::axes::group_axis::GroupAxis;
+use crate::axes::value_axis::ValueAxis;
+use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
+use crate::canvas::look::{INK, Look};
+use crate::charts::box_summary::{BoxSummary, quantile};
+use crate::charts::left_out::LeftOut;
+use crate::charts::spread_series::{BOX_FROM, SpreadSeries, finite};
+use crate::error::PlotError;
+use crate::marks::marker;
+use crate::marks::swatch;
+use crate::page::layout::{self, MARGIN_PX, PLOT_HEIGHT_PX, Sides};
+use crate::scales::scale::{AxisPlace, Scale};
+
+/// The share of its place that a box fills.
+const FILLED: f64 = 0.72;
+/// The widest box.
+const MOST_BOX_PX: f64 = 26.0;
+/// Air above and below the data, as a share of its range.
+const AIR: f64 = 0.06;
+/// Radius of the points of a strip, and of an outlier.
+const POINT_PX: f64 = 2.6;
+const OUTLIER_PX: f64 = 1.7;
+/// Width of the line at the median.
+const MEDIAN_PX: f64 = 1.8;
+
+/// Groups of distributions, one a series in each.
+///
+/// From ten finite values on a distribution is a box: median, quartiles (interpolated linearly),
+/// whiskers to the farthest value within 1.5 interquartile ranges, and each value beyond as a
+/// point. Fewer are a strip of points in their order, from left to right, with a line at the
+/// median. Infinite values are left out, and their number is written: "3 × ∞".
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SpreadChart {
+    /// What stands above it all.
+    pub title: Option<String>,
+    /// The vertical axis. It begins where the data does.
+    pub y: Axis,
+    /// Names of the groups, from left to right.
+    pub groups: Vec<String>,
+    /// The series.
+    pub series: Vec<SpreadSeries>,
+}
+
+impl SpreadChart {
+    pub(crate) fn draw(&self) -> Result<Drawing, PlotError> {
+        for series in &self.series {
+            PlotError::check_groups(&series.name, series.values.len(), self.groups.len())?;
+        }
+        let values = || self.series.iter().flat_map(|series| series.values.iter().flatten());
+        let places = || values().copied().filter_map(AxisPlace::of);
+        let scale = Scale::holding(places().filter_map(AxisPlace::finite));
+        let axis =
+            ValueAxis::new(&self.y, scale.map(|scale| scale.with_air(AIR, AIR)), PLOT_HEIGHT_PX);
+        let beside_px = axis.left_px() + MARGIN_PX;
+        let groups = GroupAxis::new(&self.groups, self.series.len(), beside_px);
+        let left_out = LeftOut::of(&self.series, groups.pitch_px());
+        let sides = Sides {
+            left: axis.left_px(),
+            right: MARGIN_PX,
+            above: left_out.above_px().max(MARGIN_PX),
+            below: left_out.below_px() + groups.below_px(),
+        };
+        let keys: Vec<_> = self.series.iter().map(|s| (s.name.as_str(), s.key())).collect();
+        let (mut drawing, plot) =
+            layout::begin(self.title.as_deref(), &keys, sides, groups.plot_width_px());
+        axis.draw_grid(&mut drawing, plot);
+        axis.draw(&mut drawing, plot, 0.0);
+        groups.draw(&mut drawing, plot, left_out.below_px());
+        let bottom = plot.bottom;
+        drawing.line(&[(plot.left, bottom), (plot.right, bottom)], AXIS_STROKE);
+        if places().next().is_none() {
+            layout::say_no_data(&mut drawing, plot);
+        }
+        for (s, series) in self.series.iter().enumerate() {
+            for (g, values) in series.values.iter().enumerate() {
+                let slot = Slot {
+                    x: groups.x(plot, g, s),
+                    half_px: (groups.pitch_px() * FILLED).min(MOST_BOX_PX) / 2.0,
+                    look: series.look,
+                    y: &|value| axis.y(plot, value),
+                };
+                slot.draw(&mut drawing, &finite(values));
+            }
+        }
+        left_out.draw(&mut drawing, plot, |group, series| groups.x(plot, group, series));
+        Ok(drawing)
+    }
+}
+
+/// The place of one distribution.
+struct Slot<'a> {
+    x: f64,
+    half_px: f64,
+    look: Look,
+    y: &'a dyn Fn(f64) -> f64,
+}
+
+impl Slot<'_> {
+    fn draw(&self, drawing: &mut Drawing, values: &[f64]) {
+        match BoxSummary::of(values) {
+            Some(summary) if values.len() >= BOX_FROM => self.draw_box(drawing, &summary),
+            _ => self.draw_strip(drawing, values),
+        }
+    }
+
+    fn draw_box(&self, drawing: &mut Drawing, summary: &BoxSummary) {
+        let (x, half, edge) = (self.x, self.half_px, swatch::edge(self.look));
+        let cap = half / 2.0;
+        for (quartile, whisker) in summary.quartiles.iter().zip(&summary.whiskers) {
+            let (from, to) = ((self.y)(*quartile), (self.y)(*whisker));
+            drawing.line(&[(x, from), (x, to)], edge);
+            drawing.line(&[(x - cap, to), (x + cap, to)], edge);
+        }
+        let [bottom, top] = summary.quartiles.map(self.y);
+        let rect = Rect { left: x - half, right: x + half, top, bottom };
+        swatch::draw(drawing, rect, self.look, self.look.colour().tint(swatch::TINT));
+        self.draw_median(drawing, summary.median);
+        for value in &summary.outliers {
+            drawing.disc((x, (self.y)(*value)), OUTLIER_PX, self.look.colour());
+        }
+    }
+
+    fn draw_strip(&self, drawing: &mut Drawing, values: &[f64]) {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let Some(median) = quantile(&sorted, 0.5) else { return };
+        self.draw_median(drawing, median);
+        // Evenly from side to side, so that equal values do not hide each other.
+        let wide = (self.half_px - POINT_PX).max(0.0);
+        let step = 2.0 * wide / values.len() as f64;
+        for (i, value) in values.iter().enumerate() {
+            let at: Point = (self.x - wide + (i as f64 + 0.5) * step, (self.y)(*value));
+            marker::draw(drawing, at, self.look, POINT_PX, self.look.colour());
+        }
+    }
+
+    fn draw_median(&self, drawing: &mut Drawing, median: f64) {
+        let y = (self.y)(median);
+        let ends = [(self.x - self.half_px, y), (self.x + self.half_px, y)];
+        drawing.line(&ends, Stroke { colour: INK, width_px: MEDIAN_PX });
+    }
+}
