@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use fovqa_frame::Mask;
 use fovqa_metrics::fvvdp::{Fvvdp, Geometry, SMALLEST_SIDE};
-use fovqa_metrics::{Metric, Needs, ScoreError, WeightField};
+use fovqa_metrics::{Metric, Needs, WeightField};
 use fovqa_plan::{Gaze, MetricChoice, Plan, Settings};
 use fovqa_results::ViewResult;
 use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind, GazeAt, View, ViewSpec};
@@ -53,7 +53,7 @@ impl<'a> Setup<'a> {
         let mask = inputs.mask.map(|mask| fit_mask(inputs, mask, size)).transpose()?;
         let mut metrics = inputs.metrics.to_vec();
         if plan.metrics == MetricChoice::Default {
-            for (metric, error) in ScoreError::unfit(&metrics, &plan.params, size) {
+            for (metric, error) in plan.params.unfit(&metrics, size) {
                 let message = format!("{} is left out: {error}", metric.info().label);
                 warnings.once_a_view(metric.key(), &message);
                 metrics.retain(|m| *m != metric);
@@ -61,7 +61,7 @@ impl<'a> Setup<'a> {
         }
         let wants_fvvdp = metrics.contains(&Metric::Fvvdp);
         let foveal = Needs::of(&metrics).foveal_weight;
-        let levels = |metric: &Metric| (metric.info().needs.block_levels)(&plan.params);
+        let levels = |metric: &Metric| plan.params.block_levels(*metric);
         let block_levels = metrics.iter().map(levels).filter(|levels| *levels > 0).collect();
         let seen = inputs.settings.view.as_ref().map(|spec| look(inputs, spec, size, warnings));
         let (sight, view) = seen.transpose()?.unzip();

@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
+use crate::metric::Metric;
 use crate::pooling::{Parts, Pooling, pool};
-use crate::registry::Metric;
 use crate::row::{Key, Row, Rows};
 
 /// The values of a frame, in the order of results.
@@ -261,7 +261,7 @@ impl FrameRows {
 #[allow(clippy::float_cmp, reason = "fractions of two are exact")]
 mod tests {
     use super::*;
-    use crate::fidelity::psnr_db;
+    use crate::decibels::psnr_db;
 
     fn rows(offset: f64) -> Rows {
         let mut rows = Rows::default();

@@ -5,11 +5,15 @@
 //! [`Profiler`] every profile in one over a picture, [`temporal`] compares a picture with the one before
 //! it. Each metric's formula stands in a file of its own under `fidelity/`, `profile/` or `temporal/`.
 
+mod decibels;
 mod fidelity;
 mod frame_rows;
 mod info;
+mod kinds;
 mod map;
-mod pair_pass;
+mod metric;
+mod metric_params;
+mod pair_input;
 mod param_set;
 mod pooling;
 pub mod profile;
@@ -22,15 +26,20 @@ pub mod temporal;
 pub use fidelity::fpsnr::{self, WeightField};
 pub use fidelity::fvvdp;
 pub use fidelity::pu_psnr;
+pub use fidelity::score_error::ScoreError;
+pub use fidelity::scored::Scored;
+pub use fidelity::scorer::Scorer;
 pub use fidelity::ssim;
-pub use fidelity::{ScoreError, Scored, Scorer};
 pub use frame_rows::{FrameRows, Layout, Layouts};
-pub use info::{Better, LeadIn, MetricInfo, MetricKind, Needs, NoParams};
+pub use info::{MetricInfo, Needs};
+pub use kinds::{Better, LeadIn, MetricKind};
 pub use map::{Map, MapInfo, MapPicture, MapScale};
-pub use pair_pass::{PairInput, PairPass};
+pub use metric::Metric;
+pub use metric_params::NoParams;
+pub use pair_input::PairInput;
 pub use param_set::ParamSet;
 pub use pooling::{Parts, Pooling, Statistic, Weight, pool};
 pub use profile::Profiler;
 pub use regions::{BlockRegions, Regions};
-pub use registry::{Metric, Params};
+pub use registry::Params;
 pub use row::{Image, Key, Row, Rows, Subject};

@@ -7,7 +7,8 @@ use fovqa_params::{ParamError, ParamValue};
 use serde::de::{Deserialize, Deserializer, Error};
 use serde::ser::{Serialize, Serializer};
 
-use crate::registry::{Metric, Params};
+use crate::metric::Metric;
+use crate::registry::Params;
 
 /// The parameters of all metrics, and which of them were set by name. The others have their defaults.
 ///

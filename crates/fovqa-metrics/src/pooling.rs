@@ -1,8 +1,8 @@
 //! How values are pooled over the bands of a frame, the two eyes, and the frames of a sequence. Each metric
 //! declares once, beside its code, how its statistics pool ([`Statistic`]); [`pool`] does it, for everybody.
 
-use crate::fidelity::{mse_of_db, psnr_db};
-use crate::info::Better;
+use crate::decibels::{mse_of_db, psnr_db};
+use crate::kinds::Better;
 
 /// A statistic of a metric: one of the numbers it gives of a frame, a band or a level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

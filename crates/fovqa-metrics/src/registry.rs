@@ -1,36 +1,31 @@
-//! What there is to measure: a list. Everything about a metric stands in its own file.
+//! What follows from the list of metrics: the entry of each, and the parameters of all.
 
 use fovqa_params::{ParamError, ParamValue, find};
-use serde::{Deserialize, Serialize};
 
-use crate::info::{MetricInfo, MetricKind, MetricParams};
+use crate::fidelity::score_error::ScoreError;
+use crate::fidelity::scored::Scored;
+use crate::info::MetricInfo;
+use crate::kinds::MetricKind;
+use crate::metric::{Metric, for_all_metrics};
+use crate::metric_params::MetricParams;
+use crate::pair_input::PairInput;
 use crate::pooling::Statistic;
-use crate::{fidelity, profile, temporal};
+use crate::{fidelity, metric, profile, temporal};
 
-// A metric that shares a pass with no other is named in this file alone.
-#[path = "fidelity/gmsd.rs"]
-mod gmsd;
-
-/// Metrics in the order of tables: the name here, the name of its parameters, its file.
-macro_rules! metrics {
+macro_rules! registry {
     ($($(#[$about:meta])* $metric:ident, $params:ident: $($file:ident)::+;)*) => {
-        /// A metric; in JSON its key.
-        #[derive(
-            Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
-        )]
-        #[serde(try_from = "String", into = "&'static str")]
-        pub enum Metric {
-            $($(#[$about])* $metric,)*
-        }
-
         impl Metric {
-            /// All metrics, in the order of tables.
-            pub const ALL: [Metric; [$(stringify!($metric)),*].len()] = [$(Metric::$metric),*];
-
             /// Its entry.
             pub fn info(self) -> &'static MetricInfo {
                 match self {
                     $(Metric::$metric => &$($file)::+::INFO,)*
+                }
+            }
+
+            /// Whether it measures pairs in a pass of its own ([`Params::measure`]).
+            pub fn has_own_pass(self) -> bool {
+                match self {
+                    $(Metric::$metric => <$($file)::+::Params as MetricParams>::HAS_OWN_PASS,)*
                 }
             }
         }
@@ -51,44 +46,46 @@ macro_rules! metrics {
                 }
             }
 
-            /// Checks what only all parameters of a metric together can tell.
+            /// Checks conditions that involve several parameters of a metric.
             ///
             /// # Errors
-            /// The first that cannot be.
+            /// The first condition that does not hold.
             pub fn check(&self) -> Result<(), ParamError> {
                 $(self.$params.check()?;)*
                 Ok(())
+            }
+
+            /// The smallest side that a frame may have for a metric, in pixels.
+            pub fn smallest_side(&self, metric: Metric) -> usize {
+                let window = self.ssim.window_side();
+                match metric {
+                    $(Metric::$metric => self.$params.smallest_side(window),)*
+                }
+            }
+
+            /// How many levels of blocks need bands for a metric: blocks of 2x2 pixels and, level by level,
+            /// of 2x2 of those.
+            pub fn block_levels(&self, metric: Metric) -> usize {
+                match metric {
+                    $(Metric::$metric => self.$params.block_levels(),)*
+                }
+            }
+
+            /// Measures a pair; `None` for a metric without a pass of its own.
+            pub fn measure(
+                &self,
+                metric: Metric,
+                input: &PairInput<'_>,
+            ) -> Option<Result<Scored, ScoreError>> {
+                match metric {
+                    $(Metric::$metric => self.$params.measure(input),)*
+                }
             }
         }
     };
 }
 
-metrics! {
-    /// Mean squared error.
-    Mse, mse: fidelity::mse;
-    /// Peak signal-to-noise ratio.
-    Psnr, psnr: fidelity::psnr;
-    /// Structural similarity; MS-SSIM and FSSIM use its window and constants.
-    Ssim, ssim: fidelity::ssim;
-    /// Multi-scale structural similarity.
-    MsSsim, ms_ssim: fidelity::ms_ssim;
-    /// Foveal peak signal-to-noise ratio; FSSIM uses its weight.
-    Fpsnr, fpsnr: fidelity::fpsnr;
-    /// Structural similarity under the foveal weight.
-    Fssim, fssim: fidelity::fssim;
-    /// Gradient magnitude similarity deviation.
-    Gmsd, gmsd: gmsd;
-    /// FovVideoVDP; PU-PSNR sees light as it does.
-    Fvvdp, fvvdp: fidelity::fvvdp;
-    /// Peak signal-to-noise ratio of perceptually uniform luminance.
-    PuPsnr, pu_psnr: fidelity::pu_psnr;
-    /// RMS contrast by eccentricity.
-    RmsContrast, rms_contrast: profile::rms_contrast;
-    /// Haar wavelet coefficients by level and eccentricity.
-    Haar, haar: profile::haar;
-    /// Average temporal difference.
-    Atd, atd: temporal::atd;
-}
+for_all_metrics!(registry);
 
 impl Metric {
     /// The metrics of a run that names none; temporal ones are of sequences alone.
@@ -113,7 +110,7 @@ impl Metric {
         self.info().key
     }
 
-    /// Whether it is of one kind.
+    /// Whether it belongs to a kind.
     pub fn is(self, kind: MetricKind) -> bool {
         self.info().kind == kind
     }
@@ -160,6 +157,22 @@ impl Params {
         let (known, value) = find(info.key, info.params, param, value)?;
         let set = self.set_known(metric, known.name, &value);
         set.ok_or_else(|| known.refuses(info.key, &value))
+    }
+}
+
+impl Params {
+    /// The metrics that do not fit frames of a size, and why.
+    pub fn unfit(
+        &self,
+        metrics: &[Metric],
+        (width, height): (usize, usize),
+    ) -> Vec<(Metric, ScoreError)> {
+        let too_small = metrics.iter().filter_map(|&metric| {
+            let needed = self.smallest_side(metric);
+            let error = ScoreError::TooSmall { metric, width, height, needed };
+            (width.min(height) < needed).then_some((metric, error))
+        });
+        too_small.collect()
     }
 }
 

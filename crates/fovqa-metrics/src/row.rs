@@ -5,9 +5,9 @@
 
 use std::cmp::Ordering;
 
-use crate::info::MetricKind;
+use crate::kinds::MetricKind;
+use crate::metric::Metric;
 use crate::pooling::{Parts, Statistic};
-use crate::registry::Metric;
 
 /// What a value measures, without its eye and frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

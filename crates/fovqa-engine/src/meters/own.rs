@@ -1,6 +1,6 @@
 //! Metrics of fidelity that share a pass with no other.
 
-use fovqa_metrics::{BlockRegions, Metric, PairInput, PairPass, Params, Scored};
+use fovqa_metrics::{BlockRegions, Metric, PairInput, Params, Scored};
 use fovqa_plan::Plan;
 
 use super::Pair;
@@ -9,15 +9,15 @@ use crate::load::Fault;
 
 /// Measures pairs, metric by metric.
 pub(super) struct Own {
-    passes: Vec<(Metric, PairPass)>,
+    metrics: Vec<Metric>,
     params: Params,
     maps: bool,
 }
 
 impl Own {
     pub(super) fn new(plan: &Plan, metrics: &[Metric]) -> Self {
-        let passes = metrics.iter().filter_map(|metric| Some((*metric, metric.info().pass?)));
-        Self { passes: passes.collect(), params: (*plan.params).clone(), maps: plan.maps }
+        let metrics = metrics.iter().copied().filter(|metric| metric.has_own_pass());
+        Self { metrics: metrics.collect(), params: (*plan.params).clone(), maps: plan.maps }
     }
 
     /// Measures a pair, metric by metric; with its maps, where they are wanted and asked for.
@@ -26,20 +26,18 @@ impl Own {
         pair: &Pair<'_>,
         maps: bool,
     ) -> impl Iterator<Item = Result<Scored, Fault>> {
-        self.passes.iter().map(move |(metric, pass)| {
-            let needs = metric.info().needs;
+        self.metrics.iter().filter_map(move |metric| {
             let none = BlockRegions::default();
-            let scored = pass(&PairInput {
+            let input = PairInput {
                 reference: &pair.reference.frame,
                 test: &pair.test.frame,
                 tables: pair.tables,
                 regions: pair.regions,
-                weight: pair.retina.weight.as_ref().filter(|_| needs.foveal_weight),
-                blocks: pair.blocks_of((needs.block_levels)(&self.params)).unwrap_or(&none),
-                params: &self.params,
+                blocks: pair.blocks_of(self.params.block_levels(*metric)).unwrap_or(&none),
                 map: self.maps && maps,
-            });
-            scored.map_err(|error| unscored(&pair.test.file, &error))
+            };
+            let scored = self.params.measure(*metric, &input)?;
+            Some(scored.map_err(|error| unscored(&pair.test.file, &error)))
         })
     }
 }

@@ -15,7 +15,8 @@ use multiversion::multiversion;
 
 use fovqa_params::{ParamError, ParamInfo, ParamValue, ParamValues};
 
-use crate::info::{MetricInfo, MetricParams, Needs};
+use crate::info::{MetricInfo, Needs};
+use crate::metric_params::MetricParams;
 use crate::pooling::{Pooling, Statistic};
 
 /// The metric's description.

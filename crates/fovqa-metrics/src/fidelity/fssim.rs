@@ -2,16 +2,24 @@
 //! defined. Our own, beside FPSNR; in [-1, 1], higher is better.
 
 use crate::info::{MetricInfo, Needs};
+use crate::metric_params::MetricParams;
 
 /// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "fssim",
     label: "FSSIM",
     needs: Needs { view: true, foveal_weight: true, ..Needs::NOTHING },
-    smallest_side: |params| params.ssim.window_side(),
     about: "the SSIM map under FPSNR's weight",
     source: "ours: the map of ssim under the weight of fpsnr",
     ..MetricInfo::FIDELITY
 };
 
-pub(crate) use crate::info::NoParams as Params;
+/// FSSIM has no parameters of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Params;
+
+impl MetricParams for Params {
+    fn smallest_side(&self, ssim_window: usize) -> usize {
+        ssim_window
+    }
+}

@@ -16,13 +16,16 @@ use fovqa_frame::{LumaKind, LumaScratch, LumaSignal, map_row_blocks};
 use fovqa_vision::Run;
 use multiversion::multiversion;
 
-use crate::fidelity::{ScoreError, Scored};
-use crate::info::{Better, MetricInfo, Needs};
+use crate::fidelity::score_error::ScoreError;
+use crate::fidelity::scored::Scored;
+use crate::info::MetricInfo;
+use crate::kinds::Better;
 use crate::map::{MapInfo, MapScale};
-use crate::pair_pass::PairInput;
+use crate::metric::Metric;
+use crate::metric_params::MetricParams;
+use crate::pair_input::PairInput;
 use crate::pooling::{Parts, Pooling, Statistic, Weight, deviation};
 use crate::regions::{BlockRegions, LEFT_OUT, clipped};
-use crate::registry::Metric;
 use crate::row::{Key, Rows};
 use crate::sums::add_by_band;
 
@@ -32,7 +35,6 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     label: "GMSD",
     better: Better::Lower,
     per_band: true,
-    needs: Needs { block_levels: |_| LEVELS, ..Needs::NOTHING },
     statistics: &[
         Statistic::VALUE
             .pooled(Pooling::Deviation)
@@ -44,15 +46,31 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
             .weighted_by(Weight::Statistic(MAP_PIXELS))
             .pointing(Better::Higher),
     ],
-    pass: Some(measure),
     map: Some(&MAP),
-    smallest_side: |_| SMALLEST_SIDE,
     about: "deviation of gradient magnitude similarity, of luma in blocks of 2x2 pixels",
     source: "Xue, Zhang, Mou, Bovik 2014",
     ..MetricInfo::FIDELITY
 };
 
-pub(crate) use crate::info::NoParams as Params;
+/// GMSD has no parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Params;
+
+impl MetricParams for Params {
+    const HAS_OWN_PASS: bool = true;
+
+    fn smallest_side(&self, _ssim_window: usize) -> usize {
+        SMALLEST_SIDE
+    }
+
+    fn block_levels(&self) -> usize {
+        LEVELS
+    }
+
+    fn measure(&self, input: &PairInput<'_>) -> Option<Result<Scored, ScoreError>> {
+        Some(measure(input))
+    }
+}
 
 /// Gradient magnitude similarity.
 const MAP: MapInfo = MapInfo {
@@ -347,7 +365,6 @@ mod tests {
 
     use super::*;
     use crate::regions::Regions;
-    use crate::registry::Params;
 
     const EDGES_DEG: [f64; 4] = [0.0, 10.0, 20.0, 35.0];
 
@@ -383,9 +400,7 @@ mod tests {
                 test,
                 tables: &SignalTables::new(SignalParams::default()),
                 regions: &Regions::unmasked(&pixels),
-                weight: None,
                 blocks: &blocks,
-                params: &Params::default(),
                 map: true,
             })
         }

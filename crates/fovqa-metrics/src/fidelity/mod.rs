@@ -8,14 +8,11 @@ pub(crate) mod mse;
 mod pass;
 pub(crate) mod psnr;
 pub mod pu_psnr;
-mod score_error;
-mod scorer;
+pub(crate) mod score_error;
+pub(crate) mod scored;
+pub(crate) mod scorer;
 pub mod ssim;
 #[cfg(test)]
 mod tests;
 mod totals;
 mod weighted_mean;
-
-pub(crate) use psnr::{mse_of_db, psnr_db};
-pub use score_error::ScoreError;
-pub use scorer::{Scored, Scorer};

@@ -11,19 +11,27 @@ use fovqa_frame::{BLOCK_ROWS, PairSignal, PairTile, Part};
 use multiversion::multiversion;
 
 use crate::info::{MetricInfo, Needs};
+use crate::metric_params::MetricParams;
 
 /// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "ms_ssim",
     label: "MS-SSIM",
     needs: Needs { every_pixel: true, ..Needs::NOTHING },
-    smallest_side: |params| params.ssim.window_side() * COARSEST,
     about: "structural similarity over five scales; sides of 176 px or more",
     source: "Wang, Simoncelli, Bovik 2003; window and constants are ssim's",
     ..MetricInfo::FIDELITY
 };
 
-pub(crate) use crate::info::NoParams as Params;
+/// MS-SSIM has no parameters of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Params;
+
+impl MetricParams for Params {
+    fn smallest_side(&self, ssim_window: usize) -> usize {
+        ssim_window * COARSEST
+    }
+}
 
 /// Exponents of the scales, finest first (Wang et al. 2003, section 3.2).
 pub(crate) const EXPONENTS: [f64; 5] = [0.0448, 0.2856, 0.3001, 0.2363, 0.1333];

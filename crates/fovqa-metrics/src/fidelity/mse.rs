@@ -4,7 +4,8 @@
 
 use multiversion::multiversion;
 
-use crate::info::{Better, MetricInfo};
+use crate::info::MetricInfo;
+use crate::kinds::Better;
 use crate::map::{MapInfo, MapScale};
 use crate::pooling::{Pooling, Statistic};
 
@@ -29,7 +30,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     ..MetricInfo::FIDELITY
 };
 
-pub(crate) use crate::info::NoParams as Params;
+pub(crate) use crate::metric_params::NoParams as Params;
 
 /// The squared error of one row, summed over its planes. Exact for 8-bit codes.
 pub(crate) fn squared_row(differences: &[&[f32]], out: &mut [f32]) {

@@ -8,11 +8,11 @@ use fovqa_frame::map_row_blocks;
 use fovqa_frame::transfer::pu21;
 
 use super::fvvdp::Grid;
-use super::psnr::psnr_db;
+use crate::decibels::psnr_db;
 use crate::info::{MetricInfo, Needs};
+use crate::metric::Metric;
 use crate::pooling::{Parts, Pooling, Statistic};
 use crate::regions::Regions;
-use crate::registry::Metric;
 use crate::row::{Key, Rows};
 use crate::sums::add_by_band;
 
@@ -28,7 +28,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     ..MetricInfo::FIDELITY
 };
 
-pub(crate) use crate::info::NoParams as Params;
+pub(crate) use crate::metric_params::NoParams as Params;
 
 /// Adds PU-PSNR of a test in dB, both given as luminance in cd/m², over the pixels that count; nothing
 /// where none does.

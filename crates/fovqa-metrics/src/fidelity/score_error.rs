@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::registry::{Metric, Params};
+use crate::metric::Metric;
 
 /// A pair that a metric cannot score.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -48,20 +48,4 @@ pub enum ScoreError {
         /// The metric.
         metric: Metric,
     },
-}
-
-impl ScoreError {
-    /// The metrics that do not fit frames of a size, and why.
-    pub fn unfit(
-        metrics: &[Metric],
-        params: &Params,
-        (width, height): (usize, usize),
-    ) -> Vec<(Metric, ScoreError)> {
-        let too_small = metrics.iter().filter_map(|&metric| {
-            let needed = (metric.info().smallest_side)(params);
-            let error = ScoreError::TooSmall { metric, width, height, needed };
-            (width.min(height) < needed).then_some((metric, error))
-        });
-        too_small.collect()
-    }
 }

@@ -6,15 +6,17 @@ use fovqa_vision::BandMap;
 use super::fpsnr::WeightField;
 use super::ms_ssim::{EXPONENTS, PairRows, combine};
 use super::pass::{PixelMaps, Scales, Sums, Wanted, WantedMaps, run};
-use super::psnr::psnr_db;
 use super::score_error::ScoreError;
+use super::scored::Scored;
 use super::ssim::rows::Constants;
 use super::totals::Totals;
 use super::{mse, ssim};
-use crate::info::MetricKind;
-use crate::map::{Map, MapInfo};
+use crate::decibels::psnr_db;
+use crate::kinds::MetricKind;
+use crate::map::MapInfo;
+use crate::metric::Metric;
 use crate::regions::Regions;
-use crate::registry::{Metric, Params};
+use crate::registry::Params;
 use crate::row::{Key, Rows};
 
 /// Computes a set of metrics.
@@ -24,15 +26,6 @@ pub struct Scorer {
     params: Params,
     lenient: bool,
     maps: bool,
-}
-
-/// What was found of a pair.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Scored {
-    /// The values.
-    pub rows: Rows,
-    /// The maps of metrics that have some, where they are asked for.
-    pub maps: Vec<Map>,
 }
 
 impl Scorer {
@@ -71,7 +64,7 @@ impl Scorer {
         regions: &Regions<'_>,
         weight: Option<&WeightField>,
     ) -> Result<Scored, ScoreError> {
-        let unfit = ScoreError::unfit(&self.metrics, &self.params, (pair.width(), pair.height()));
+        let unfit = self.params.unfit(&self.metrics, (pair.width(), pair.height()));
         if let Some((_, error)) = unfit.into_iter().next() {
             return Err(error);
         }
@@ -168,7 +161,7 @@ impl Scorer {
 /// the frames before.
 fn is_of_this_pass(metric: Metric) -> bool {
     let info = metric.info();
-    info.kind == MetricKind::Fidelity && info.pass.is_none() && !info.needs.luminance
+    info.kind == MetricKind::Fidelity && !metric.has_own_pass() && !info.needs.luminance
 }
 
 /// MS-SSIM from the finest scale's sums and the next scale.

@@ -8,7 +8,8 @@ use fovqa_frame::{
 use fovqa_testkit::synthetic::{codes, disturbed, rgb8};
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, View, ViewSpec};
 
-use super::*;
+use super::score_error::ScoreError;
+use super::scorer::Scorer;
 use crate::{Key, Metric, Params, Parts, Regions, Rows, Subject, WeightField};
 use fovqa_params::ParamValue;
 

@@ -1,8 +1,8 @@
 //! From what a pass has summed to the rows of each metric.
 
 use super::pass::Sums;
-use super::psnr::psnr_db;
 use super::weighted_mean::WeightedMean;
+use crate::decibels::psnr_db;
 use crate::pooling::Parts;
 use crate::row::{Key, Rows, Subject};
 

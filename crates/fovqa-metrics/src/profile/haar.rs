@@ -14,7 +14,8 @@ use multiversion::multiversion;
 
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
-use crate::info::{MetricInfo, MetricParams, Needs};
+use crate::info::MetricInfo;
+use crate::metric_params::MetricParams;
 use crate::pooling::{Parts, Pooling, Statistic, Weight};
 use crate::row::{Image, Key, Rows};
 
@@ -49,12 +50,6 @@ const fn mean(name: &'static str) -> Statistic {
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "haar",
     label: "Haar wavelet",
-    smallest_side: |params| params.haar.block_side(),
-    needs: Needs {
-        view: true,
-        block_levels: |params| params.haar.levels as usize,
-        ..Needs::NOTHING
-    },
     statistics: &STATISTICS,
     about: "wavelet coefficients of luma by level and band (mean_abs, max_abs, energy), of reference and test, and their ratios",
     source: "Patney et al. 2016, 4.4.2, Fig. 10",
@@ -94,6 +89,14 @@ impl Default for Params {
 }
 
 impl MetricParams for Params {
+    fn smallest_side(&self, _ssim_window: usize) -> usize {
+        self.block_side()
+    }
+
+    fn block_levels(&self) -> usize {
+        self.levels as usize
+    }
+
     fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
             "levels" => self.levels = value.number()? as u32,

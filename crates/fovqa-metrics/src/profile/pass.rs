@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::haar::{self, Sums};
 use super::rms_contrast::Moments;
 use crate::regions::{BlockRegions, Regions, clipped};
-use crate::temporal::KeptPlane;
+use crate::temporal::kept_plane::KeptPlane;
 
 /// Columns of a tile, as many as the coarsest block within a block of rows times something.
 const TILE_COLUMNS: usize = 512;

@@ -5,11 +5,12 @@ use fovqa_frame::{Frame, LumaKind, LumaSignal, SignalTables};
 use super::haar;
 use super::pass::{Contrast, Wanted, run};
 use super::rms_contrast;
+use crate::metric::Metric;
 use crate::pooling::Parts;
 use crate::regions::{BlockRegions, Regions};
-use crate::registry::{Metric, Params};
+use crate::registry::Params;
 use crate::row::{Image, Key, Rows};
-use crate::temporal::KeptPlane;
+use crate::temporal::kept_plane::KeptPlane;
 
 /// Measures pictures one by one.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,7 +10,8 @@ use multiversion::multiversion;
 
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
-use crate::info::{MetricInfo, MetricParams};
+use crate::info::MetricInfo;
+use crate::metric_params::MetricParams;
 
 /// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {

@@ -7,7 +7,7 @@ use fovqa_testkit::synthetic::{codes, rgb8};
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, ViewSpec};
 
 use super::*;
-use crate::temporal::KeptPlane;
+use crate::temporal::kept_plane::KeptPlane;
 use crate::{BlockRegions, Image, Key, Metric, Params, Regions, Rows, Subject};
 use fovqa_params::ParamValue;
 

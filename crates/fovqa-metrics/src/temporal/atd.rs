@@ -12,10 +12,12 @@ use multiversion::multiversion;
 
 use super::kept_plane::KeptPlane;
 use super::source::{Link, Sources, Stretch};
-use crate::info::{Better, LeadIn, MetricInfo, MetricKind, MetricParams, Needs};
+use crate::info::{MetricInfo, Needs};
+use crate::kinds::{Better, LeadIn, MetricKind};
+use crate::metric::Metric;
+use crate::metric_params::MetricParams;
 use crate::pooling::{Parts, Pooling, Statistic};
 use crate::regions::{Regions, clipped};
-use crate::registry::Metric;
 use crate::row::{Image, Key, Rows};
 use crate::sums::add_by_band;
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};

@@ -1,7 +1,7 @@
 //! One sequence over time: each frame against the one before it, which is all that is kept.
 
 pub mod atd;
-mod kept_plane;
+pub(crate) mod kept_plane;
 mod source;
 #[cfg(test)]
 mod tests;

@@ -9,7 +9,7 @@
 use fovqa_vision::View;
 use multiversion::multiversion;
 
-use super::bands::Band;
+use super::band::Band;
 use super::calibration::FARTHEST_DEG;
 use super::csf::{Coordinates, ECC_STEPS, RHO_FROM, RHO_STEPS_PER_OCTAVE};
 use super::log_exp::{log2, sine};

@@ -11,10 +11,17 @@ use super::grid::Grid;
 use super::level::DifferenceRows;
 use super::log_exp::{exp2, log2};
 use super::masking::powers;
-use super::params::MAP;
 use super::pooling::jod_exponent;
 use super::pyramid::expand;
-use crate::map::{Map, MapPicture};
+use crate::map::{Map, MapInfo, MapPicture, MapScale};
+
+/// Where a frame differs visibly.
+pub(crate) const MAP: MapInfo = MapInfo {
+    name: "fvvdp",
+    block: 1,
+    about: "visible difference, in units like JOD; coloured over a gray picture of the frame",
+    scale: MapScale::Own,
+};
 
 /// The differences of a frame, level by level.
 #[derive(Debug, Clone, Default)]

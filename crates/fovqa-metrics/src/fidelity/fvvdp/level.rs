@@ -1,7 +1,7 @@
 //! One level of the pyramids of reference and test, row by row: what of the reference alone decides, and
 //! the masked differences.
 
-use super::bands::Band;
+use super::band::Band;
 use super::contrast::{background, differences, gain};
 use super::csf::{Cells, Coordinates};
 use super::geometry::BandDirections;

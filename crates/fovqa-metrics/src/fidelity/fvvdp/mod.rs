@@ -24,6 +24,7 @@
 //! and summed in `f64` over fixed blocks of rows: the same bits for any number of threads and any vector
 //! width.
 
+mod band;
 mod bands;
 mod calibration;
 mod color_space;
@@ -56,6 +57,7 @@ pub(crate) use params::INFO;
 pub use params::{MapContext, Padding, Params};
 pub use photometry::Photometry;
 pub use pooling::jod;
-pub use score::{Fvvdp, FvvdpBand, FvvdpFrame, FvvdpReference, FvvdpRegions, SMALLEST_SIDE};
+pub use pyramid::SMALLEST_SIDE;
+pub use score::{Fvvdp, FvvdpBand, FvvdpFrame, FvvdpReference, FvvdpRegions};
 pub use sequence::{Stream, Time, TimeError};
 pub use temporal_filters::{FASTEST_FPS, TOO_SLOW_FPS};

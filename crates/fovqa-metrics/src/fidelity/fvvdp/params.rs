@@ -3,9 +3,11 @@
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use super::color_space::ColorSpace;
-use super::score::SMALLEST_SIDE;
-use crate::info::{Better, LeadIn, MetricInfo, MetricParams, Needs};
-use crate::map::{MapInfo, MapScale};
+use super::heat_map::MAP;
+use super::pyramid::SMALLEST_SIDE;
+use crate::info::{MetricInfo, Needs};
+use crate::kinds::{Better, LeadIn};
+use crate::metric_params::MetricParams;
 use crate::pooling::{Pooling, Statistic};
 
 /// Of a frame: its JOD, and Q in all, by band of spatial frequency (the level) and channel, and by what
@@ -28,14 +30,6 @@ const STATISTICS: [Statistic; 6] = [
         .without_row(),
 ];
 
-/// Where a frame differs visibly.
-pub(crate) const MAP: MapInfo = MapInfo {
-    name: "fvvdp",
-    block: 1,
-    about: "visible difference, in units like JOD; coloured over a gray picture of the frame",
-    scale: MapScale::Own,
-};
-
 /// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "fvvdp",
@@ -49,7 +43,6 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
         every_pixel: true,
         ..Needs::NOTHING
     },
-    smallest_side: |_| SMALLEST_SIDE,
     statistics: &STATISTICS,
     map: Some(&MAP),
     about: "visible difference by eccentricity, over space and time: 10 for none, 1 less where 75 % prefer the reference; of bands, their share of the difference Q",
@@ -150,6 +143,10 @@ impl Default for Params {
 }
 
 impl MetricParams for Params {
+    fn smallest_side(&self, _ssim_window: usize) -> usize {
+        SMALLEST_SIDE
+    }
+
     fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
             "foveated" => self.foveated = value.flag()?,

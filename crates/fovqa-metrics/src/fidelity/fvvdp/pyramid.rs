@@ -10,6 +10,9 @@ use multiversion::multiversion;
 use super::calibration::{FIRST_BAND, LOWEST_CPD, MOST_BANDS};
 use super::grid::Grid;
 
+/// Smallest side of a frame, pixels.
+pub const SMALLEST_SIDE: usize = 4;
+
 /// What decides how the right edge is weighed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum RightEdge {

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use fovqa_frame::map_row_blocks;
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, View};
 
-use super::bands::{Band, bands};
+use super::band::Band;
+use super::bands::bands;
 use super::calibration::BETA;
 use super::geometry::{BandDirections, Geometry};
 use super::grid::Grid;
@@ -16,13 +17,10 @@ use super::masking::powers;
 use super::params::Params;
 use super::pooling::{jod, over_bands, over_channels, over_pixels, shares_of_channels};
 use super::pyramid::{RightEdge, reduce};
+use crate::metric::Metric;
 use crate::pooling::Parts;
-use crate::registry::Metric;
 use crate::row::{Key, Rows};
 use crate::sums::add_by_band;
-
-/// Smallest side of a frame, pixels.
-pub const SMALLEST_SIDE: usize = 4;
 
 /// Q of a band of spatial frequencies.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -16,8 +16,9 @@ pub(crate) mod rows;
 
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
-use crate::info::{MetricInfo, MetricParams};
+use crate::info::MetricInfo;
 use crate::map::{MapInfo, MapScale};
+use crate::metric_params::MetricParams;
 use crate::pooling::{Pooling, Statistic, Weight};
 
 /// The statistic by which bands are pooled: pixels of the band that have a value in the map.
@@ -36,7 +37,6 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "ssim",
     label: "SSIM",
     per_band: true,
-    smallest_side: |params| params.ssim.window_side(),
     statistics: &[
         Statistic::VALUE.over_bands(Pooling::Mean).weighted_by(Weight::Statistic(MAP_PIXELS)),
         Statistic::count(MAP_PIXELS),
@@ -108,6 +108,10 @@ pub(crate) const MAX_SIGMA: f64 = 64.0;
 pub(crate) const MIN_SIGMA: f64 = 0.1;
 
 impl MetricParams for Params {
+    fn smallest_side(&self, ssim_window: usize) -> usize {
+        ssim_window
+    }
+
     fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
             "sigma" => self.sigma = value.number()?,

@@ -2,6 +2,7 @@
 //! with, and every such window has the same error, which no mean over pixels takes away.
 
 use super::*;
+use crate::fidelity::scorer::Scorer;
 
 /// What the documentation promises.
 const TOLERANCE: f64 = 1e-5;

@@ -4,7 +4,8 @@
 use std::collections::BTreeMap;
 
 use super::*;
-use crate::fidelity::fvvdp::bands::{Band, bands};
+use crate::fidelity::fvvdp::band::Band;
+use crate::fidelity::fvvdp::bands::bands;
 use crate::fidelity::fvvdp::contrast::differences;
 use crate::fidelity::fvvdp::csf::{Coordinates, ECC_STEPS, RHO_FROM, RHO_STEPS_PER_OCTAVE};
 use crate::fidelity::fvvdp::geometry::BandDirections;

@@ -1,0 +1,61 @@
+//! The list of all metrics: one line per metric. Everything else about a metric stands in its own file.
+
+use serde::{Deserialize, Serialize};
+
+// A metric that shares a pass with no other is named in this file alone.
+#[path = "fidelity/gmsd.rs"]
+pub(crate) mod gmsd;
+
+/// Hands the list to another macro: the metric, the name of its parameters, its file. Metrics stand in
+/// the order of tables.
+macro_rules! for_all_metrics {
+    ($then:ident) => {
+        $then! {
+            /// Mean squared error.
+            Mse, mse: fidelity::mse;
+            /// Peak signal-to-noise ratio.
+            Psnr, psnr: fidelity::psnr;
+            /// Structural similarity; MS-SSIM and FSSIM use its window and constants.
+            Ssim, ssim: fidelity::ssim;
+            /// Multi-scale structural similarity.
+            MsSsim, ms_ssim: fidelity::ms_ssim;
+            /// Foveal peak signal-to-noise ratio; FSSIM uses its weight.
+            Fpsnr, fpsnr: fidelity::fpsnr;
+            /// Structural similarity under the foveal weight.
+            Fssim, fssim: fidelity::fssim;
+            /// Gradient magnitude similarity deviation.
+            Gmsd, gmsd: metric::gmsd;
+            /// FovVideoVDP; PU-PSNR sees light as it does.
+            Fvvdp, fvvdp: fidelity::fvvdp;
+            /// Peak signal-to-noise ratio of perceptually uniform luminance.
+            PuPsnr, pu_psnr: fidelity::pu_psnr;
+            /// RMS contrast by eccentricity.
+            RmsContrast, rms_contrast: profile::rms_contrast;
+            /// Haar wavelet coefficients by level and eccentricity.
+            Haar, haar: profile::haar;
+            /// Average temporal difference.
+            Atd, atd: temporal::atd;
+        }
+    };
+}
+pub(crate) use for_all_metrics;
+
+macro_rules! declare {
+    ($($(#[$about:meta])* $metric:ident, $params:ident: $($file:ident)::+;)*) => {
+        /// A metric; in JSON its key.
+        #[derive(
+            Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+        )]
+        #[serde(try_from = "String", into = "&'static str")]
+        pub enum Metric {
+            $($(#[$about])* $metric,)*
+        }
+
+        impl Metric {
+            /// All metrics, in the order of tables.
+            pub const ALL: [Metric; [$(stringify!($metric)),*].len()] = [$(Metric::$metric),*];
+        }
+    };
+}
+
+for_all_metrics!(declare);
