@@ -1,4 +1,4 @@
-# Each line is plain cargo, for those without make. Everything but `lint` and `fuzz` shares the release profile.
+# Each line is a plain cargo command, for those without make. All targets except `lint` and `fuzz` share the release profile.
 
 .PHONY: demo figures published-numbers test bench lint fuzz
 
@@ -26,7 +26,7 @@ lint:
 	cargo fmt --all --check
 	cargo clippy --release --locked --workspace --all-targets -- -D warnings
 
-# Of each target. What counts as a finding: tests/fuzz/README.md.
+# Time for each fuzz target. tests/fuzz/README.md says what counts as a finding.
 seconds = 200
 fuzz:
 	cd tests/fuzz && for target in $$(cargo fuzz list --fuzz-dir .); do \
