@@ -4,12 +4,12 @@ use fovqa_testkit::exr_files::{Part, Values};
 use fovqa_testkit::synthetic::codes;
 use serde_json::json;
 
-use crate::experiment_folder;
 use crate::fovqa::Folder;
-use crate::moving_frames::{
+use crate::frames::moving_frames::{
     H, MOTION, SIZE, W, atd, beyond_borders, experiment, float, half, is_steady, motion, moved,
     moving, near, part, plane, with_atd, write,
 };
+use crate::runs::experiment_folder;
 
 /// Motion in any unit and direction, from channels of any name.
 #[test]

@@ -4,10 +4,10 @@ use std::fs;
 
 use serde_json::json;
 
-use crate::baselines::{DROP, METRICS, against, edit, read, saved};
-use crate::experiment_folder::experiment;
 use crate::fovqa::Folder;
-use crate::gate_verdicts::{near, number};
+use crate::gate::baseline_command::{DROP, METRICS, against, edit, read, saved};
+use crate::gate::experiments::{near, number};
+use crate::runs::experiment_folder::experiment;
 
 #[test]
 fn drops_and_rises_are_in_units_and_percent() {

@@ -5,8 +5,8 @@ use std::fs;
 use fovqa_testkit::exr_files::{File, Part, Values};
 use serde_json::json;
 
-use crate::experiment_folder;
 use crate::fovqa::{Folder, root};
+use crate::runs::experiment_folder;
 
 const SIZE: (usize, usize) = (24, 20);
 

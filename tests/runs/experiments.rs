@@ -5,8 +5,8 @@ use std::fs;
 
 use fovqa_testkit::synthetic::{codes, disturbed};
 
-use crate::experiment_folder::{HEAD, experiment, json, rows, two_scenes};
 use crate::fovqa::{Folder, root};
+use crate::runs::experiment_folder::{HEAD, experiment, json, rows, two_scenes};
 
 #[test]
 fn an_experiment_finds_what_score_finds() {

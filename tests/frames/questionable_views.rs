@@ -1,8 +1,8 @@
 //! Views that are possible and yet most likely a slip are questioned; angles that cannot be tangents are
 //! refused.
 
-use crate::experiment_folder::{HEAD, experiment, two_scenes};
 use crate::fovqa::Folder;
+use crate::runs::experiment_folder::{HEAD, experiment, two_scenes};
 
 const METRIC: [&str; 2] = ["--metrics", "fpsnr"];
 

@@ -5,7 +5,7 @@ use std::fs;
 use fovqa_testkit::exr_files::{File, Part};
 
 use crate::fovqa::Folder;
-use crate::visible_difference::{HEADSET, sequence};
+use crate::metrics::fvvdp::{HEADSET, sequence};
 
 #[test]
 fn a_display_is_needed_and_has_to_be_able_to_show_the_files() {

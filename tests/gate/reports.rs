@@ -6,7 +6,7 @@ use std::fs;
 use serde_json::Value;
 
 use crate::fovqa::Folder;
-use crate::gate_verdicts::{NOISE, write_frames};
+use crate::gate::experiments::{NOISE, write_frames};
 
 const HOSTILE: &str =
     "a'b\\\"c <i>&amp; |x| *y* _z_ 100%, ::error:: \u{1f600} \u{202e}desrever\u{202c} ]]>";

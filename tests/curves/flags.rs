@@ -1,6 +1,6 @@
 //! `fovqa curves` from flags: one curve as CSV, and what is wrong with flags.
 
-use crate::curve_files::json;
+use crate::curves::files::json;
 use crate::fovqa::{Folder, Run, command};
 
 const HEADSET: [&str; 4] = ["--resolution", "1440x1600", "--fov-vertical", "110"];

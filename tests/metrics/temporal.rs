@@ -4,12 +4,12 @@ use fovqa_testkit::exr_files::{Part, Values};
 use fovqa_testkit::synthetic::{codes, disturbed};
 use serde_json::{Value, json};
 
-use crate::experiment_folder::{self, rows};
 use crate::fovqa::Folder;
-use crate::moving_frames::{
+use crate::frames::moving_frames::{
     ENCODED, H, MOTION, SIZE, W, atd, beyond_borders, experiment, float, half, is_steady, motion,
     moved, moving, near, noise, part, plane, restless, with_atd, write,
 };
+use crate::runs::experiment_folder::{self, rows};
 
 /// A frame and the one before it, for the definition pixel by pixel; now, then before.
 struct Literal {

@@ -3,8 +3,8 @@
 
 use fovqa_testkit::png_files::header_only;
 
-use crate::experiment_folder::{experiment, two_scenes};
 use crate::fovqa::Folder;
+use crate::runs::experiment_folder::{experiment, two_scenes};
 
 /// The warnings of a run, line by line.
 fn warnings(stderr: &str) -> Vec<String> {

@@ -7,8 +7,8 @@ use fovqa_testkit::exr_files::{File, Part, Values};
 use fovqa_testkit::synthetic::{codes, disturbed};
 use serde_json::Value;
 
-use crate::experiment_folder::rows;
 use crate::fovqa::{Folder, Run, command, root, shared};
+use crate::runs::experiment_folder::rows;
 
 /// Largest deviation from NumPy.
 const TOLERANCE: f64 = 1e-6;

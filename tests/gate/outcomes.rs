@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use crate::experiment_folder::two_scenes;
 use crate::fovqa::Folder;
-use crate::gate_verdicts::{NOISE, experiment, gate, number, only, sequence, write_frames};
+use crate::gate::experiments::{NOISE, experiment, gate, number, only, sequence, write_frames};
+use crate::runs::experiment_folder::two_scenes;
 
 const VIEW: &str = "fov_vertical_deg = 60";
 
@@ -140,7 +140,8 @@ fn default_bands_are_known_when_frames_are_read() {
 /// Two scenes, the second method in one of them.
 fn scenes(rules: &str) -> Folder {
     let folder = two_scenes();
-    let text = crate::experiment_folder::experiment(&format!("[metrics]\npsnr = {{}}\n{rules}"));
+    let text =
+        crate::runs::experiment_folder::experiment(&format!("[metrics]\npsnr = {{}}\n{rules}"));
     folder.write("e.toml", text.replace("/b\"\n", "/b\"\nscenes = [\"room\"]\n"));
     folder
 }

@@ -5,9 +5,9 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::experiment_folder::{HEAD, experiment, json, rows, two_scenes};
 use crate::fovqa::Folder;
-use crate::moving_frames::{H, W, motion, moving, part, write};
+use crate::frames::moving_frames::{H, W, motion, moving, part, write};
+use crate::runs::experiment_folder::{HEAD, experiment, json, rows, two_scenes};
 
 /// The data beside a figure, a row a line.
 fn data(folder: &Folder, figure: &str) -> Vec<Vec<String>> {

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::fovqa::Folder;
-use crate::gate_verdicts::{
+use crate::gate::experiments::{
     Expected, check, experiment, gate, largest, mean, near, number, only, percentile, sequence,
     smallest, write_frames,
 };

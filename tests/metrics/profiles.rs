@@ -6,9 +6,9 @@ use fovqa_testkit::exr_files::{File, Part, Values};
 use fovqa_testkit::synthetic::{codes, disturbed};
 use serde_json::{Value, json};
 
-use crate::experiment_folder::{self, rows};
 use crate::fovqa::Folder;
-use crate::moving_frames::{MOTION, float, motion, moving, part, write};
+use crate::frames::moving_frames::{MOTION, float, motion, moving, part, write};
+use crate::runs::experiment_folder::{self, rows};
 
 const VIEW: [&str; 2] = ["--fov-vertical", "60"];
 /// One band, of all pixels.

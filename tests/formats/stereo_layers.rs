@@ -3,11 +3,11 @@
 use fovqa_testkit::exr_files::{File, Part, Values};
 use serde_json::{Value, json};
 
-use crate::experiment_folder;
 use crate::fovqa::{Folder, Run, root};
-use crate::moving_frames::{
+use crate::frames::moving_frames::{
     ENCODED, MOTION, SIZE, beyond_borders, float, is_steady, moving, near, part, write,
 };
+use crate::runs::experiment_folder;
 
 const RIGHT: &str = "ViewLayer.Combined-right.ViewLayer.Combined";
 

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use fovqa_testkit::exr_files::{File, Part};
 
-use crate::experiment_folder::{experiment, two_scenes};
 use crate::fovqa::Folder;
+use crate::runs::experiment_folder::{experiment, two_scenes};
 
 const RULES: &str = "[metrics]\npsnr = {}\n[[gate]]\nmetric = \"psnr\"\nat_least = 1\n";
 const CURVES: &str = "name = \"c\"\n[view]\nfov_vertical_deg = 100\nresolutions = [\"64x48\"]\n\

@@ -7,9 +7,9 @@ use std::path::Path;
 use fovqa_testkit::exr_files::{File, Part};
 use fovqa_testkit::synthetic::{codes, disturbed};
 
-use crate::experiment_folder::bytes;
 use crate::fovqa::Folder;
-use crate::moving_frames::{MOTION, SIZE, float, motion, moving};
+use crate::frames::moving_frames::{MOTION, SIZE, float, motion, moving};
+use crate::runs::experiment_folder::bytes;
 
 /// Frames of the sequence: more than the filters of FovVideoVDP reach over, which at 24 frames a second
 /// are 6.

@@ -3,8 +3,8 @@
 use fovqa_io::{ReadOptions, read_frame};
 use fovqa_testkit::synthetic::{codes, disturbed};
 
-use crate::experiment_folder::bytes;
 use crate::fovqa::Folder;
+use crate::runs::experiment_folder::bytes;
 
 const SIZE: (usize, usize) = (300, 70);
 

@@ -1,7 +1,7 @@
 //! Mistakes in the rules of a gate: each with its words and its place, and the schema agrees.
 
-use crate::experiment_files::schema_allows;
 use crate::fovqa::{Folder, Run};
+use crate::runs::experiment_files::schema_allows;
 
 /// Two scenes, one of them of two eyes, and a rule on line 27.
 const GOOD: &str = r#"name = "good"

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::experiment_folder::{HEAD, bytes, experiment, json, rows, two_scenes};
 #[cfg(target_os = "linux")]
 use crate::fovqa::peak_kb;
 use crate::fovqa::{Folder, Run, command, root};
+use crate::runs::experiment_folder::{HEAD, bytes, experiment, json, rows, two_scenes};
 
 #[test]
 fn the_same_bytes_for_any_threads_and_again_by_report() {

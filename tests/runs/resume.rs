@@ -4,9 +4,9 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::experiment_folder::{bytes, json, rows};
 use crate::fovqa::{Folder, command};
-use crate::recorded::{assert_same, journal, results, sealed, sequence, two_scenes};
+use crate::runs::experiment_folder::{bytes, json, rows};
+use crate::runs::interrupted_runs::{assert_same, journal, results, sealed, sequence, two_scenes};
 
 /// Goes on with what is left of journals, a folder each, and ends as `whole` has.
 #[track_caller]
@@ -185,7 +185,7 @@ fn finished_frames_are_not_scored_again() {
 /// Where nothing is measured over time, a frame that could not be scored costs itself alone.
 #[test]
 fn a_mended_frame_is_scored_alone_where_frames_stand_alone() {
-    let folder = crate::experiment_folder::two_scenes();
+    let folder = crate::runs::experiment_folder::two_scenes();
     let whole = fs::read(folder.path("room/a/0001.png")).unwrap();
     folder.write("room/a/0001.png", "no picture");
     assert_eq!(folder.run(&["run", "e.toml", "--output", "out"]).code, 3);
@@ -214,7 +214,7 @@ fn a_mended_frame_is_scored_alone_where_frames_stand_alone() {
 /// What a run without results has left, and what becomes of it after a change.
 #[test]
 fn what_has_changed_is_said_and_all_is_scored() {
-    let folder = crate::experiment_folder::two_scenes();
+    let folder = crate::runs::experiment_folder::two_scenes();
     folder.write("gaze.csv", "frame,x_px,y_px\n0,4,4\n1,30,30\n2,9,9\n");
     let text = fs::read_to_string(folder.path("e.toml")).unwrap();
     let text = text.replace("\"room/gt\"", "\"room/gt\"\ngaze = { trace = \"gaze.csv\" }");
@@ -275,7 +275,7 @@ fn what_has_changed_is_said_and_all_is_scored() {
 /// A scene that was missing altogether costs the others nothing when it comes.
 #[test]
 fn a_scene_that_has_come_is_scored_alone() {
-    let folder = crate::experiment_folder::two_scenes();
+    let folder = crate::runs::experiment_folder::two_scenes();
     fs::rename(folder.path("hall"), folder.path("elsewhere")).unwrap();
     assert_eq!(folder.run(&["run", "e.toml", "--output", "out"]).code, 3);
     let lines = marked(&journal(&folder, "out"));
@@ -322,7 +322,7 @@ fn an_eye_that_is_mended_widens_the_bands_of_both() {
 
 #[test]
 fn where_nothing_is_there_a_run_begins() {
-    let folder = crate::experiment_folder::two_scenes();
+    let folder = crate::runs::experiment_folder::two_scenes();
     folder.run(&["run", "e.toml", "--output", "whole"]).ok();
     let wanted = results(&folder.path("whole"));
     folder.run(&["run", "e.toml", "--resume", "--output", "new"]).ok();
@@ -455,7 +455,7 @@ fn a_full_disk_loses_nothing() {
 /// A line that is not as it was written is neither taken nor passed over.
 #[test]
 fn a_line_that_was_changed_is_refused() {
-    let folder = crate::experiment_folder::two_scenes();
+    let folder = crate::runs::experiment_folder::two_scenes();
     folder.run(&["run", "e.toml", "--output", "whole"]).ok();
     let lines = journal(&folder, "whole");
     for (at, line) in lines.iter().enumerate() {

@@ -4,9 +4,9 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use crate::experiment_folder::{experiment, two_scenes};
 use crate::fovqa::{Folder, Run, root};
-use crate::gate_verdicts::{near, number};
+use crate::gate::experiments::{near, number};
+use crate::runs::experiment_folder::{experiment, two_scenes};
 
 pub(crate) const METRICS: &str = "[metrics]\nmse = {}\npsnr = {}\nssim = {}\n";
 

@@ -5,7 +5,7 @@ use std::fs;
 use fovqa_testkit::synthetic::{codes, disturbed};
 
 use crate::fovqa::Folder;
-use crate::gate_verdicts::{NOISE, SIZE, experiment, write_frames};
+use crate::gate::experiments::{NOISE, SIZE, experiment, write_frames};
 
 const METRICS: &str = "[metrics]\nmse = {}\npsnr = {}\nssim = {}\nhaar = { levels = 2 }\n";
 const RULES: &str = r#"[[gate]]

@@ -5,10 +5,12 @@ use std::path::Path;
 
 use fovqa_testkit::exr_files::{File, Part};
 
-use crate::experiment_folder::{bytes, rows};
 use crate::fovqa::{Folder, Run};
-use crate::moving_frames::{SIZE, moving};
-use crate::recorded::{FRAMES, assert_same, journal, results, sealed, sequence, two_scenes};
+use crate::frames::moving_frames::{SIZE, moving};
+use crate::runs::experiment_folder::{bytes, rows};
+use crate::runs::interrupted_runs::{
+    FRAMES, assert_same, journal, results, sealed, sequence, two_scenes,
+};
 
 /// Runs one shard, into `NAME-I-of-N`.
 fn shard(folder: &Folder, name: &str, index: usize, of: usize) -> Run {
@@ -152,7 +154,7 @@ fn pixels_that_are_left_out_are_the_same_in_shards() {
 /// Frames of another size than the first, bad pixels that are left out, gaps, and a scene without a view.
 #[test]
 fn other_frames_are_the_same_in_shards() {
-    let folder = crate::experiment_folder::two_scenes();
+    let folder = crate::runs::experiment_folder::two_scenes();
     for side in ["gt", "a", "b"] {
         folder.png(&format!("hall/{side}/0001.png"), 60, 40, &vec![9; 60 * 40 * 3]);
         fs::remove_file(folder.path(&format!("room/{side}/0001.png"))).unwrap();
@@ -175,7 +177,7 @@ fn other_frames_are_the_same_in_shards() {
 
 #[test]
 fn a_missing_gaze_or_mask_is_the_same_in_shards() {
-    let folder = crate::experiment_folder::two_scenes();
+    let folder = crate::runs::experiment_folder::two_scenes();
     let text = fs::read_to_string(folder.path("e.toml")).unwrap();
     for key in ["gaze = { trace = \"nowhere.csv\" }", "mask = \"nowhere.png\""] {
         folder.write("e.toml", text.replace("\"room/gt\"", &format!("\"room/gt\"\n{key}")));
@@ -278,7 +280,7 @@ fn what_lies_before_a_shard_may_be_mended() {
 
 #[test]
 fn shards_that_do_not_belong_together_are_told() {
-    let folder = crate::experiment_folder::two_scenes();
+    let folder = crate::runs::experiment_folder::two_scenes();
     for index in 1..=3 {
         shard(&folder, "s", index, 3).ok();
     }
@@ -365,7 +367,7 @@ fn shards_that_do_not_belong_together_are_told() {
 /// The rules of the folder are those of a run.
 #[test]
 fn a_merge_keeps_what_is_not_its_own() {
-    let folder = crate::experiment_folder::two_scenes();
+    let folder = crate::runs::experiment_folder::two_scenes();
     for index in 1..=2 {
         shard(&folder, "s", index, 2).ok();
     }

@@ -1,0 +1,4 @@
+//! The command line itself: exit codes, output.
+
+mod exit_codes;
+mod output;

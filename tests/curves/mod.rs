@@ -1,0 +1,5 @@
+//! `fovqa curves`.
+
+pub(crate) mod files;
+mod flags;
+mod golden;

@@ -1,0 +1,10 @@
+//! `fovqa gate`, `fovqa baseline`: rules, verdicts, reports.
+
+pub(crate) mod baseline_command;
+mod baselines;
+mod calibration;
+pub(crate) mod experiments;
+mod outcomes;
+mod reports;
+mod rules;
+mod values;

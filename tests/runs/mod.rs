@@ -1,0 +1,14 @@
+//! `fovqa run`: experiments, their results folders, resume, shards, figures.
+
+mod crafted_names;
+pub(crate) mod experiment_files;
+pub(crate) mod experiment_folder;
+mod experiments;
+mod figures;
+mod foreseen;
+pub(crate) mod interrupted_runs;
+mod library;
+mod results_folder;
+mod resume;
+mod shards;
+mod unchanged;
