@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use fovqa_metrics::{Image, Key, Metric};
-use fovqa_results::{FileError, GAZE_STEP, TableRow, Value, Which, read_results_csv};
+use fovqa_results::{FileError, GAZE_STEP, TableRow, Value, Which, read_results};
 
 /// Whole-frame values by scene, method and eye, in the order of the frames.
 #[derive(Debug, Default)]
@@ -26,7 +26,7 @@ impl FrameValues {
     /// Reads them from a folder of results.
     pub(crate) fn read(folder: &Path) -> Result<Self, FileError> {
         let mut values = Self::default();
-        read_results_csv(folder, Which::WholeFrames, |row| {
+        read_results(folder, Which::WholeFrames, |row| {
             values.take(row);
             Ok(())
         })?;

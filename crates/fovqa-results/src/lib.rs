@@ -40,5 +40,5 @@ pub use report::{
 };
 pub use summary::{AtdSummary, BandSummary, SideStatistics, Spread, Statistics, Summary};
 pub use table::{
-    ERROR, GAZE_STEP, TableRow, Value, Which, read_results_csv, write_csv, write_results_csv,
+    ERROR, GAZE_STEP, TableRow, Value, Which, read_results, write_csv, write_results_csv,
 };

@@ -9,7 +9,7 @@ use fovqa_metrics::Subject;
 use super::values::{Place, Row, RunValues, Values};
 use crate::files::{FileError, RESULTS_CSV, SUMMARY_JSON, read_json_file};
 use crate::json::{ComparisonSummary, SUMMARY_SCHEMA, SummaryRecord};
-use crate::table::{ERROR, Value, Which, not_results, read_results_csv};
+use crate::table::{ERROR, Value, Which, not_results, read_results};
 
 impl RunValues {
     /// Reads those of a folder of results.
@@ -51,7 +51,7 @@ impl RunValues {
     }
 
     fn read_csv(&mut self, folder: &Path) -> Result<(), FileError> {
-        read_results_csv(folder, Which::All, |row| {
+        read_results(folder, Which::All, |row| {
             let place = (row.scene.to_owned(), row.method.to_owned(), row.eye.to_owned());
             let values = self.places.entry(place).or_default();
             if row.metric != ERROR {

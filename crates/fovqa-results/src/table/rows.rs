@@ -1,121 +1,35 @@
-//! One long, tidy table, a row a value: what `score --format csv` prints, and results.csv, written and read
-//! here alone. Empty cells where a column does not apply. Measured values and edges keep their point
-//! (`5.0`): readers that guess a column's type from its first rows are not misled. Counts are whole.
+//! All values of a report or a run as rows of one long, tidy table: one row per value.
 
-use std::fmt;
-use std::io::{self, Write};
-use std::path::Path;
+use std::io;
 
 use fovqa_metrics::{Image, Metric, Row, Subject};
 
+use super::row::{ERROR, GAZE_STEP, TableRow, Value};
 use crate::compared::Sides;
-use crate::files::{FileError, RESULTS_CSV, open_result_file};
 use crate::fvvdp::{FvvdpSummary, SpatialBand};
 use crate::report::{Comparison, FrameResult, RunResults, ScoreReport};
 use crate::summary::{Statistics, Summary};
 
-/// The columns, in order.
-const COLUMNS: [&str; 12] = [
-    "scene",
-    "method",
-    "parameters",
-    "eye",
-    "frame",
-    "image",
-    "metric",
-    "statistic",
-    "level",
-    "from_deg",
-    "to_deg",
-    "value",
-];
-
-/// The column of the lower edge of a band.
-const FROM: usize = 9;
-
-/// The metric of a row that stands for something that could not be scored.
-pub const ERROR: &str = "error";
-
-/// The metric of rows that say how far the gaze has moved since the frame before, degrees.
-pub const GAZE_STEP: &str = "gaze_step_deg";
-
 const FVVDP: &str = "fvvdp";
 
-/// A row of the table; `parameters` belongs to sweeps to come.
-#[derive(Debug, Default, Clone, Copy, PartialEq)]
-pub struct TableRow<'a> {
-    /// The scene.
-    pub scene: &'a str,
-    /// The method.
-    pub method: &'a str,
-    /// `left`, `right` or `both`; empty in a scene with one picture a frame.
-    pub eye: &'a str,
-    /// The frame; `None`: of the whole sequence.
-    pub frame: Option<i64>,
-    /// Of which picture.
-    pub image: Image,
-    /// What is measured or counted, or [`ERROR`].
-    pub metric: &'a str,
-    /// Which statistic of it; empty for the metric's own value.
-    pub statistic: &'a str,
-    /// The level, from 1 on.
-    pub level: Option<usize>,
-    /// Edges of the band, degrees; `None`: the whole frame.
-    pub band: Option<[f64; 2]>,
-    /// The value; `None` where there is nothing to have one of.
-    pub value: Option<Value>,
-}
-
-/// A cell of the last column.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Value {
-    /// Measured: it keeps its point.
-    Measured(f64),
-    /// Counted: whole.
-    Count(u64),
-}
-
-impl Value {
-    /// The number.
-    pub fn number(self) -> f64 {
-        match self {
-            Value::Measured(value) => value,
-            Value::Count(count) => count as f64,
-        }
-    }
-}
-
-impl fmt::Display for Value {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            // As readers of CSV know it.
-            Value::Measured(value) if value.is_nan() => f.write_str("nan"),
-            Value::Measured(value) => write!(f, "{value:?}"),
-            Value::Count(count) => write!(f, "{count}"),
-        }
-    }
-}
-
-/// Writes a report as CSV: each frame's values and then, without a frame, the statistics over
-/// all of them.
+/// The rows of a report: each frame's values and then, without a frame, the statistics over all frames.
 ///
 /// # Errors
-/// When the writer refuses.
-pub fn write_csv(report: &ScoreReport, out: impl Write) -> io::Result<()> {
-    let mut table = Table::new(out)?;
+/// When the sink refuses a row.
+pub(super) fn rows_of_report(report: &ScoreReport, sink: &mut Sink<'_>) -> io::Result<()> {
+    let mut table = Table(sink);
     table.frames(&TableRow::default(), report)?;
-    table.statistics(report)?;
-    table.0.flush()
+    table.statistics(report)
 }
 
-/// Writes the values of a run as results.csv: each frame's values, comparison by comparison; behind
-/// those of a comparison, a row [`ERROR`] with the value `nan` for each frame that could not be scored,
-/// or one without a frame where the whole could not be. Without a frame stands FovVideoVDP of a sequence.
+/// The rows of a run: each frame's values, comparison by comparison. After those of a comparison comes a row
+/// [`ERROR`] with the value `nan` for each frame that could not be scored, or one without a frame where the whole
+/// comparison could not be scored. FovVideoVDP of a sequence stands in a row without a frame.
 ///
 /// # Errors
-/// When the writer refuses.
-pub fn write_results_csv(results: &RunResults, out: impl Write) -> io::Result<()> {
-    let mut table = Table::new(out)?;
+/// When the sink refuses a row.
+pub(super) fn rows_of_run(results: &RunResults, sink: &mut Sink<'_>) -> io::Result<()> {
+    let mut table = Table(sink);
     for Comparison { scene, method, eye, report } in &results.comparisons {
         let row = TableRow { scene, method, eye, ..TableRow::default() };
         table.frames(&row, report)?;
@@ -127,104 +41,7 @@ pub fn write_results_csv(results: &RunResults, out: impl Write) -> io::Result<()
             table.write(&TableRow { frame: failure.frame, metric: ERROR, value, ..row })?;
         }
     }
-    table.0.flush()
-}
-
-/// Which rows of results.csv are read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Which {
-    /// All.
-    All,
-    /// Those of whole frames.
-    WholeFrames,
-}
-
-/// Reads results.csv of a folder, row by row.
-///
-/// # Errors
-/// When it is missing, is not what was written, or `take` says that it is wrong: in words, behind which
-/// the line is named.
-pub fn read_results_csv(
-    folder: &Path,
-    which: Which,
-    mut take: impl FnMut(&TableRow<'_>) -> Result<(), String>,
-) -> Result<(), FileError> {
-    let path = folder.join(RESULTS_CSV);
-    let mut reader = csv::Reader::from_reader(open_result_file(&path)?);
-    let headers = reader.headers().map_err(|error| unreadable(&path, error))?.clone();
-    if !headers.iter().eq(COLUMNS) {
-        let missing = COLUMNS.into_iter().find(|column| !headers.iter().any(|of| of == *column));
-        let detail = match missing {
-            Some(column) => format!("it has no column {column}"),
-            None => format!("its columns are not these: {}", COLUMNS.join(", ")),
-        };
-        return Err(not_results(&path, detail));
-    }
-    let mut record = csv::StringRecord::new();
-    while reader.read_record(&mut record).map_err(|error| unreadable(&path, error))? {
-        // Most rows are of bands; to whom they are of no interest they need not be numbers.
-        let is_of_band = record.get(FROM).is_some_and(|cell| !cell.is_empty());
-        if which == Which::WholeFrames && is_of_band {
-            continue;
-        }
-        let line = record.position().map_or(0, csv::Position::line);
-        let taken = row_of(&record).and_then(|row| take(&row));
-        taken.map_err(|detail| not_results(&path, format!("line {line}: {detail}")))?;
-    }
     Ok(())
-}
-
-/// The error of a file that is not what a run has written.
-pub(crate) fn not_results(path: &Path, detail: String) -> FileError {
-    FileError::Format { path: path.to_owned(), expected: "the results of a run", detail }
-}
-
-fn row_of(record: &csv::StringRecord) -> Result<TableRow<'_>, String> {
-    let cell = |index: usize| record.get(index).unwrap_or_default();
-    let is_error = cell(6) == ERROR;
-    let image = Image::find(cell(5)).ok_or_else(|| format!("there is no image {:?}", cell(5)))?;
-    let value = if is_error { None } else { number(cell(11))? };
-    Ok(TableRow {
-        scene: cell(0),
-        method: cell(1),
-        eye: cell(3),
-        frame: whole(cell(4))?,
-        image,
-        metric: cell(6),
-        statistic: cell(7),
-        level: whole(cell(8))?,
-        band: number(cell(FROM))?.zip(number(cell(10))?).map(Into::into),
-        value: value.map(Value::Measured),
-    })
-}
-
-/// A file that is not there is said as such.
-fn unreadable(path: &Path, error: csv::Error) -> FileError {
-    match error.into_kind() {
-        csv::ErrorKind::Io(error) => FileError::Read { path: path.to_owned(), error },
-        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
-            let line = pos.map_or(0, |at| at.line());
-            not_results(path, format!("line {line}: it has {len} cells, not {expected_len}"))
-        }
-        other => not_results(path, format!("{other:?}")),
-    }
-}
-
-/// A number of a cell, as it is written there: of what is infinite, `inf` alone, and no NaN.
-fn number(cell: &str) -> Result<Option<f64>, String> {
-    if cell.is_empty() {
-        return Ok(None);
-    }
-    let wrong = || format!("{cell:?} is no number");
-    let value: f64 = cell.parse().map_err(|_| wrong())?;
-    if value.is_finite() || matches!(cell, "inf" | "-inf") { Ok(Some(value)) } else { Err(wrong()) }
-}
-
-fn whole<T: std::str::FromStr>(cell: &str) -> Result<Option<T>, String> {
-    if cell.is_empty() {
-        return Ok(None);
-    }
-    cell.parse().map(Some).map_err(|_| format!("{cell:?} is no whole number"))
 }
 
 /// Whether a number of pixels is of interest where it is 0.
@@ -232,15 +49,12 @@ fn is_seldom(subject: Subject) -> bool {
     matches!(subject, Subject::PixelsOutsideBands | Subject::PixelsLeftOut)
 }
 
-struct Table<W: Write>(csv::Writer<W>);
+/// Takes one row.
+pub(super) type Sink<'s> = dyn FnMut(&TableRow<'_>) -> io::Result<()> + 's;
 
-impl<W: Write> Table<W> {
-    fn new(out: W) -> io::Result<Self> {
-        let mut writer = csv::Writer::from_writer(out);
-        writer.write_record(COLUMNS).map_err(io_error)?;
-        Ok(Self(writer))
-    }
+struct Table<'s, 'a>(&'a mut Sink<'s>);
 
+impl Table<'_, '_> {
     fn frames(&mut self, row: &TableRow<'_>, report: &ScoreReport) -> io::Result<()> {
         let edges = report.edges();
         for frame in &report.frames {
@@ -427,26 +241,7 @@ impl<W: Write> Table<W> {
         }
         Ok(())
     }
-
     fn write(&mut self, row: &TableRow<'_>) -> io::Result<()> {
-        let text = |value: Option<Value>| value.map(|v| v.to_string()).unwrap_or_default();
-        let edge = |edge: Option<f64>| text(edge.map(Value::Measured));
-        let frame = row.frame.map(|f| f.to_string()).unwrap_or_default();
-        let [from, to] = [0, 1].map(|side: usize| edge(row.band.map(|band| band[side])));
-        let value = text(row.value);
-        let level = row.level.map(|level| level.to_string()).unwrap_or_default();
-        let TableRow { scene, method, eye, metric, statistic, .. } = *row;
-        let image = row.image.name();
-        let cells =
-            [scene, method, "", eye, &frame, image, metric, statistic, &level, &from, &to, &value];
-        self.0.write_record(cells).map_err(io_error)
-    }
-}
-
-/// The reason itself, whose kind (a closed pipe, say) csv's own conversion would hide.
-fn io_error(error: csv::Error) -> io::Error {
-    match error.into_kind() {
-        csv::ErrorKind::Io(error) => error,
-        other => io::Error::other(format!("{other:?}")),
+        (self.0)(row)
     }
 }

@@ -1,0 +1,152 @@
+//! The table as CSV: what `score --format csv` prints, and results.csv, written and read. Cells are empty
+//! where a column does not apply. Measured values and edges keep their point (`5.0`), so that readers that
+//! guess a column's type from its first rows are not misled. Counts are whole numbers.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use fovqa_metrics::Image;
+
+use super::reading::{Which, not_results};
+use super::row::{COLUMNS, ERROR, TableRow, Value};
+use super::rows::{rows_of_report, rows_of_run};
+use crate::files::{FileError, open_result_file};
+use crate::report::{RunResults, ScoreReport};
+
+/// The column of the lower edge of a band.
+const FROM: usize = 9;
+
+/// Writes a report as CSV: each frame's values and then, without a frame, the statistics over
+/// all of them.
+///
+/// # Errors
+/// When the writer refuses.
+pub fn write_csv(report: &ScoreReport, out: impl Write) -> io::Result<()> {
+    let mut table = CsvTable::new(out)?;
+    rows_of_report(report, &mut |row| table.write(row))?;
+    table.0.flush()
+}
+
+/// Writes the values of a run as results.csv, in the order of [`rows_of_run`].
+///
+/// # Errors
+/// When the writer refuses.
+pub fn write_results_csv(results: &RunResults, out: impl Write) -> io::Result<()> {
+    let mut table = CsvTable::new(out)?;
+    rows_of_run(results, &mut |row| table.write(row))?;
+    table.0.flush()
+}
+
+struct CsvTable<W: Write>(csv::Writer<W>);
+
+impl<W: Write> CsvTable<W> {
+    fn new(out: W) -> io::Result<Self> {
+        let mut writer = csv::Writer::from_writer(out);
+        writer.write_record(COLUMNS).map_err(io_error)?;
+        Ok(Self(writer))
+    }
+
+    fn write(&mut self, row: &TableRow<'_>) -> io::Result<()> {
+        let text = |value: Option<Value>| value.map(|v| v.to_string()).unwrap_or_default();
+        let edge = |edge: Option<f64>| text(edge.map(Value::Measured));
+        let frame = row.frame.map(|f| f.to_string()).unwrap_or_default();
+        let [from, to] = [0, 1].map(|side: usize| edge(row.band.map(|band| band[side])));
+        let value = text(row.value);
+        let level = row.level.map(|level| level.to_string()).unwrap_or_default();
+        let TableRow { scene, method, eye, metric, statistic, .. } = *row;
+        let image = row.image.name();
+        let cells =
+            [scene, method, "", eye, &frame, image, metric, statistic, &level, &from, &to, &value];
+        self.0.write_record(cells).map_err(io_error)
+    }
+}
+
+/// The reason itself, whose kind (a closed pipe, say) csv's own conversion would hide.
+fn io_error(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        other => io::Error::other(format!("{other:?}")),
+    }
+}
+
+/// Reads results.csv, row by row.
+///
+/// # Errors
+/// When it is missing, is not what was written, or `take` says that it is wrong: in words, behind which
+/// the line is named.
+pub(super) fn read_results_csv(
+    path: &Path,
+    which: Which,
+    take: &mut dyn FnMut(&TableRow<'_>) -> Result<(), String>,
+) -> Result<(), FileError> {
+    let mut reader = csv::Reader::from_reader(open_result_file(path)?);
+    let headers = reader.headers().map_err(|error| unreadable(path, error))?.clone();
+    if !headers.iter().eq(COLUMNS) {
+        let missing = COLUMNS.into_iter().find(|column| !headers.iter().any(|of| of == *column));
+        let detail = match missing {
+            Some(column) => format!("it has no column {column}"),
+            None => format!("its columns are not these: {}", COLUMNS.join(", ")),
+        };
+        return Err(not_results(path, detail));
+    }
+    let mut record = csv::StringRecord::new();
+    while reader.read_record(&mut record).map_err(|error| unreadable(path, error))? {
+        // Most rows are of bands; to whom they are of no interest they need not be numbers.
+        let is_of_band = record.get(FROM).is_some_and(|cell| !cell.is_empty());
+        if which == Which::WholeFrames && is_of_band {
+            continue;
+        }
+        let line = record.position().map_or(0, csv::Position::line);
+        let taken = row_of(&record).and_then(|row| take(&row));
+        taken.map_err(|detail| not_results(path, format!("line {line}: {detail}")))?;
+    }
+    Ok(())
+}
+
+fn row_of(record: &csv::StringRecord) -> Result<TableRow<'_>, String> {
+    let cell = |index: usize| record.get(index).unwrap_or_default();
+    let is_error = cell(6) == ERROR;
+    let image = Image::find(cell(5)).ok_or_else(|| format!("there is no image {:?}", cell(5)))?;
+    let value = if is_error { None } else { number(cell(11))? };
+    Ok(TableRow {
+        scene: cell(0),
+        method: cell(1),
+        eye: cell(3),
+        frame: whole(cell(4))?,
+        image,
+        metric: cell(6),
+        statistic: cell(7),
+        level: whole(cell(8))?,
+        band: number(cell(FROM))?.zip(number(cell(10))?).map(Into::into),
+        value: value.map(Value::Measured),
+    })
+}
+
+/// A file that is not there is said as such.
+fn unreadable(path: &Path, error: csv::Error) -> FileError {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => FileError::Read { path: path.to_owned(), error },
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
+            let line = pos.map_or(0, |at| at.line());
+            not_results(path, format!("line {line}: it has {len} cells, not {expected_len}"))
+        }
+        other => not_results(path, format!("{other:?}")),
+    }
+}
+
+/// A number of a cell, as it is written there: of what is infinite, `inf` alone, and no NaN.
+fn number(cell: &str) -> Result<Option<f64>, String> {
+    if cell.is_empty() {
+        return Ok(None);
+    }
+    let wrong = || format!("{cell:?} is no number");
+    let value: f64 = cell.parse().map_err(|_| wrong())?;
+    if value.is_finite() || matches!(cell, "inf" | "-inf") { Ok(Some(value)) } else { Err(wrong()) }
+}
+
+fn whole<T: std::str::FromStr>(cell: &str) -> Result<Option<T>, String> {
+    if cell.is_empty() {
+        return Ok(None);
+    }
+    cell.parse().map(Some).map_err(|_| format!("{cell:?} is no whole number"))
+}
