@@ -5,7 +5,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use fovqa_io::read_head;
-use fovqa_results::{CURVES_CSV, CURVES_JSON, REPORT_JSON, RESULTS_CSV, RUN_JSON, SUMMARY_JSON};
+use fovqa_results::{
+    CURVES_CSV, CURVES_JSON, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, SUMMARY_JSON,
+};
 use thiserror::Error;
 
 use crate::journal::JOURNAL;
@@ -14,8 +16,9 @@ use crate::journal::JOURNAL;
 const LOCK: &str = ".fovqa.lock";
 
 /// What a run writes, and what is drawn of it at its top.
-const OURS: [&str; 11] = [
+const OURS: [&str; 12] = [
     RESULTS_CSV,
+    RESULTS_PARQUET,
     SUMMARY_JSON,
     RUN_JSON,
     JOURNAL,
@@ -227,7 +230,8 @@ impl ResultsFolder {
     /// # Errors
     /// When the system refuses.
     pub fn clear(&self) -> Result<(), FolderError> {
-        for file in [RESULTS_CSV, SUMMARY_JSON, RUN_JSON, CURVES_CSV, CURVES_JSON] {
+        for file in [RESULTS_CSV, RESULTS_PARQUET, SUMMARY_JSON, RUN_JSON, CURVES_CSV, CURVES_JSON]
+        {
             match fs::remove_file(self.path.join(file)) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {
                     return Err(FolderError::Io { path: self.path.clone(), error });

@@ -14,7 +14,7 @@ pub fn is_contained() -> bool {
 }
 
 /// Runs a decoder; `None` when it panicked.
-pub(crate) fn contained<T>(work: impl FnOnce() -> T) -> Option<T> {
+pub fn contained<T>(work: impl FnOnce() -> T) -> Option<T> {
     let before = CONTAINED.replace(true);
     let result = catch_unwind(AssertUnwindSafe(work));
     CONTAINED.set(before);

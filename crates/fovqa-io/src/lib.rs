@@ -27,7 +27,7 @@ mod write;
 mod y4m;
 
 pub use alpha::AlphaPolicy;
-pub use contain::is_contained;
+pub use contain::{contained, is_contained};
 pub use decode::{frame_size, read_frame, read_frame_and_hash, read_mask};
 pub use decoded::{Decoded, DecodedGuides};
 pub use error::{ReadError, ReadErrorKind};

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::gates::GateRule;
+use crate::output::OutputSettings;
 use crate::plan::Plan;
 use crate::plots::Plot;
 
@@ -19,6 +20,8 @@ pub struct Experiment {
     pub text: String,
     /// What is to be scored.
     pub plan: Plan,
+    /// How the results are written.
+    pub output: OutputSettings,
     /// Tables and figures; none: all that fit.
     pub plots: Vec<Plot>,
     /// The rules of its gate.

@@ -7,6 +7,7 @@
 mod curves;
 mod experiment;
 mod gates;
+mod output;
 mod plan;
 mod plots;
 mod resolved;
@@ -19,6 +20,7 @@ pub use curves::{
 };
 pub use experiment::Experiment;
 pub use gates::{Aggregate, Allowance, GateRule, Quantity, better};
+pub use output::{OutputSettings, TableFormat};
 pub use plan::{Eye, EyeView, MetricChoice, Plan, Scene};
 pub use plots::{Plot, PlotKind};
 pub use resolved::{Resolved, ResolvedEye, ResolvedScene, other_parameter};

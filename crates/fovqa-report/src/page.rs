@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use fovqa_results::{RunRecord, SummaryRecord};
+use fovqa_results::{RESULTS_CSV, RunRecord, SummaryRecord};
 
 use crate::comparison::ComparisonTable;
 use crate::text_table::printable;
@@ -50,11 +50,12 @@ pub(crate) fn page(
         .sum();
     let _ = writeln!(
         text,
-        "<p class=\"note\">{}, {}, {} scored. All values: <a href=\"results.csv\">results.csv</a>, \
+        "<p class=\"note\">{}, {}, {} scored. All values: {}, \
          <a href=\"summary.json\">summary.json</a>, <a href=\"run.json\">run.json</a>.</p>",
         count(run.resolved.scenes.len(), "scene"),
         count(run.resolved.methods.len(), "method"),
         count(scored, "frame"),
+        table_links(run),
     );
     if !summary.errors.is_empty() {
         let _ = writeln!(text, "<h2>Not scored</h2>\n<ul class=\"errors\">");
@@ -156,4 +157,16 @@ pub(crate) fn escaped(text: &str) -> String {
         }
     }
     plain
+}
+
+/// Links to the files with all values.
+fn table_links(run: &RunRecord) -> String {
+    let tables = run.files.keys().map(String::as_str).filter(|name| name.starts_with("results."));
+    let mut tables: Vec<&str> = tables.collect();
+    if tables.is_empty() {
+        // An earlier version wrote the folder.
+        tables.push(RESULTS_CSV);
+    }
+    let links = tables.iter().map(|name| format!("<a href=\"{name}\">{name}</a>"));
+    links.collect::<Vec<_>>().join(", ")
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use fovqa_io::{id_of, open_regular_file};
 
-use crate::files::{FileError, RESULTS_CSV, SUMMARY_JSON};
+use crate::files::{FileError, RESULTS_CSV, RESULTS_PARQUET, SUMMARY_JSON};
 use crate::json::RunRecord;
 
 /// SHA-256 of each file of a run, in hexadecimal digits, by its name.
@@ -25,7 +25,10 @@ pub fn checksums(folder: &Path) -> Result<Checksums, FileError> {
             Err(error) => Err(FileError::Read { path, error }),
         }
     };
-    [RESULTS_CSV, SUMMARY_JSON].into_iter().map(of).collect()
+    // A run has one of the tables or both.
+    let tables =
+        [RESULTS_CSV, RESULTS_PARQUET].into_iter().filter(|name| folder.join(name).exists());
+    tables.chain([SUMMARY_JSON]).map(of).collect()
 }
 
 /// SHA-256 of a file. An editor's byte order mark does not count: whoever reads the file passes over it.

@@ -14,6 +14,8 @@ use crate::json::UniqueKeys;
 
 /// All values, a row each.
 pub const RESULTS_CSV: &str = "results.csv";
+/// The same as Parquet.
+pub const RESULTS_PARQUET: &str = "results.parquet";
 /// Values over the frames.
 pub const SUMMARY_JSON: &str = "summary.json";
 /// What the run was of.
@@ -72,7 +74,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
 /// As [`write_whole`].
 pub fn write_whole_with(
     path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), FileError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));

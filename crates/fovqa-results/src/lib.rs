@@ -21,8 +21,9 @@ pub use checksums::{Checksums, check_files, checksums};
 pub use compared::Sides;
 pub use curves::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
-    CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RUN_JSON,
-    SUMMARY_JSON, open_result_file, read_json_file, write_json_file, write_whole, write_whole_with,
+    CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET,
+    RUN_JSON, SUMMARY_JSON, open_result_file, read_json_file, write_json_file, write_whole,
+    write_whole_with,
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{
@@ -39,6 +40,9 @@ pub use report::{
     ScoreReport, ViewResult,
 };
 pub use summary::{AtdSummary, BandSummary, SideStatistics, Spread, Statistics, Summary};
+#[cfg(feature = "parquet")]
+pub use table::write_results_parquet;
 pub use table::{
-    ERROR, GAZE_STEP, TableRow, Value, Which, read_results, write_csv, write_results_csv,
+    ERROR, GAZE_STEP, HAS_PARQUET, TableRow, Value, Which, read_results, table_file, write_csv,
+    write_results_csv, write_tables,
 };

@@ -7,8 +7,8 @@ use fovqa_io::id_of;
 use fovqa_plan::{Experiment, Eye};
 use fovqa_report::Drawn;
 use fovqa_results::{
-    ExperimentRecord, Failure, FileError, RESULTS_CSV, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
-    SUMMARY_JSON, SummaryRecord, checksums, write_json_file, write_results_csv, write_whole_with,
+    ExperimentRecord, Failure, FileError, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
+    SUMMARY_JSON, SummaryRecord, checksums, write_json_file, write_tables,
 };
 
 use crate::error::Error;
@@ -97,7 +97,7 @@ fn write(
     summary: &SummaryRecord,
     folder: &Path,
 ) -> Result<(), FileError> {
-    write_whole_with(&folder.join(RESULTS_CSV), |out| write_results_csv(results, out))?;
+    write_tables(folder, results, &experiment.output.tables)?;
     write_json_file(&folder.join(SUMMARY_JSON), summary)?;
     let file = experiment.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let record = RunRecord {

@@ -7,8 +7,9 @@ use fovqa_engine::{
     Shard, Unit, results, resume, units,
 };
 use fovqa_io::sequence::FrameRange;
-use fovqa_plan::{Experiment, Eye};
+use fovqa_plan::{Experiment, Eye, TableFormat};
 use fovqa_report::Drawn;
+use fovqa_results::{HAS_PARQUET, table_file};
 
 use crate::error::{Complaint, Error};
 use crate::finish::{clear, finish, in_folder, say_failures_of_shard};
@@ -62,7 +63,9 @@ impl Finished {
             1 => ", 1 figure".to_owned(),
             n => format!(", {n} figures"),
         };
-        format!("{folder}: results.csv, summary.json{figures}; look at {folder}/index.html")
+        let table = table_file(&self.folder);
+        let table = table.file_name().unwrap_or_default().display();
+        format!("{folder}: {table}, summary.json{figures}; look at {folder}/index.html")
     }
 
     /// How much of it could not be scored, in words; `None`: all was.
@@ -93,6 +96,13 @@ impl Run {
         let lacking = maps_lacking(experiment.plan.metrics.metrics());
         if let Some(message) = lacking.filter(|_| options.maps.is_some()) {
             return Err(Error::usage(message, "add one of them to [metrics], such as ssim = {}"));
+        }
+        if experiment.output.tables.contains(&TableFormat::Parquet) && !HAS_PARQUET {
+            let message = "this build of fovqa has no support for Parquet".to_owned();
+            return Err(Error::usage(
+                message,
+                "build it with the feature parquet, or write tables = [\"csv\"]",
+            ));
         }
         let found = fovqa_engine::find(&experiment.plan, given);
         let run = Self { experiment, options, found };

@@ -8,6 +8,7 @@ use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
 use super::{Key, Kind};
 use fovqa_plan::Nonfinite;
 use fovqa_plan::PlotKind;
+use fovqa_plan::TableFormat;
 
 pub(super) const fn key(name: &'static str, kind: Kind, about: &'static str) -> Key {
     Key { name, required: false, kind, about }
@@ -297,6 +298,12 @@ static METHOD_TABLE: [Key; 4] = [
     ),
 ];
 
+static OUTPUT: [Key; 1] = [key(
+    "tables",
+    Kind::List(&Kind::Words(words_of::<TableFormat>), 1, 2),
+    "files with the table of all values: [\"csv\"], [\"csv\", \"parquet\"] or [\"parquet\"]",
+)];
+
 static PLOT_TABLE: [Key; 6] = [
     required(
         "kind",
@@ -355,7 +362,7 @@ static GATE_TABLE: [Key; 14] = [
     key("max_rise", ALLOWANCE, "how far it may rise above the baseline's: a number, or \"2%\""),
 ];
 
-static EXPERIMENT_TABLE: [Key; 10] = [
+static EXPERIMENT_TABLE: [Key; 11] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
     required("name", Kind::Name, "name of the experiment, and of its folder below reports/"),
     key("about", Kind::Text, "what it shows, for its page"),
@@ -368,6 +375,7 @@ static EXPERIMENT_TABLE: [Key; 10] = [
         Kind::Metrics,
         "the metrics with their parameters; if it is not given, the default ones",
     ),
+    key("output", Kind::Table(&OUTPUT), "how the results are written"),
     key(
         "plot",
         Kind::Tables(&PLOT_TABLE, 1000),

@@ -5,6 +5,7 @@ mod gates;
 mod guides;
 mod methods;
 mod metrics;
+mod output;
 mod placeholders;
 mod plots;
 mod scenes;
@@ -40,6 +41,7 @@ pub(crate) fn experiment(
         about: root.text("about").map(str::to_owned),
         path: path.to_owned(),
         text: String::new(),
+        output: output::output(root, faults),
         plots,
         gates,
         plan: Plan {

@@ -7,9 +7,9 @@ use std::path::Path;
 use fovqa_metrics::Subject;
 
 use super::values::{Place, Row, RunValues, Values};
-use crate::files::{FileError, RESULTS_CSV, SUMMARY_JSON, read_json_file};
+use crate::files::{FileError, SUMMARY_JSON, read_json_file};
 use crate::json::{ComparisonSummary, SUMMARY_SCHEMA, SummaryRecord};
-use crate::table::{ERROR, Value, Which, not_results, read_results};
+use crate::table::{ERROR, Value, Which, not_results, read_results, table_file};
 
 impl RunValues {
     /// Reads those of a folder of results.
@@ -20,7 +20,7 @@ impl RunValues {
         let path = folder.join(SUMMARY_JSON);
         let summary: SummaryRecord = read_json_file(&path, SUMMARY_SCHEMA, "a summary of a run")?;
         let mut values = Self::default();
-        let path = folder.join(RESULTS_CSV);
+        let path = table_file(folder);
         let broken = |detail: String| not_results(&path, detail);
         values.read_csv(folder)?;
         for comparison in summary.comparisons {

@@ -1,27 +1,88 @@
 //! One long, tidy table of all values, one row per value: its rows, and the files that hold it.
 
 mod csv;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod reading;
 mod row;
 mod rows;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use fovqa_plan::TableFormat;
 
 pub use csv::{write_csv, write_results_csv};
+#[cfg(feature = "parquet")]
+pub use parquet::write_results_parquet;
 pub use reading::Which;
 pub(crate) use reading::not_results;
 pub use row::{ERROR, GAZE_STEP, TableRow, Value};
 
-use crate::files::{FileError, RESULTS_CSV};
+use crate::files::{FileError, RESULTS_CSV, RESULTS_PARQUET, write_whole_with};
+use crate::report::RunResults;
+
+/// Whether this build can write and read results.parquet.
+pub const HAS_PARQUET: bool = cfg!(feature = "parquet");
+
+/// The file of a format.
+fn file(format: TableFormat) -> &'static str {
+    match format {
+        TableFormat::Csv => RESULTS_CSV,
+        TableFormat::Parquet => RESULTS_PARQUET,
+    }
+}
+
+/// Writes the table of a run into its folder, in each of the formats.
+///
+/// # Errors
+/// When a file cannot be written, or this build has no support for a format.
+pub fn write_tables(
+    folder: &Path,
+    results: &RunResults,
+    formats: &[TableFormat],
+) -> Result<(), FileError> {
+    formats.iter().try_for_each(|format| {
+        let path = folder.join(file(*format));
+        match format {
+            TableFormat::Csv => write_whole_with(&path, |out| write_results_csv(results, out)),
+            #[cfg(feature = "parquet")]
+            TableFormat::Parquet => {
+                write_whole_with(&path, |out| write_results_parquet(results, out))
+            }
+            #[cfg(not(feature = "parquet"))]
+            TableFormat::Parquet => Err(no_parquet(path)),
+        }
+    })
+}
+
+/// The file with the table of a results folder: results.csv, or results.parquet where there is no CSV.
+pub fn table_file(folder: &Path) -> PathBuf {
+    let [csv, parquet] = [RESULTS_CSV, RESULTS_PARQUET].map(|name| folder.join(name));
+    if !csv.exists() && parquet.exists() { parquet } else { csv }
+}
 
 /// Reads the table of a results folder, row by row.
 ///
 /// # Errors
-/// When it is missing, is not what a run has written, or `take` refuses a row: with its reason, and the line.
+/// When it is missing, is not what a run has written, or `take` refuses a row: with its reason, and the line or
+/// row.
 pub fn read_results(
     folder: &Path,
     which: Which,
     mut take: impl FnMut(&TableRow<'_>) -> Result<(), String>,
 ) -> Result<(), FileError> {
-    csv::read_results_csv(&folder.join(RESULTS_CSV), which, &mut take)
+    let path = table_file(folder);
+    if path.ends_with(RESULTS_CSV) {
+        return csv::read_results_csv(&path, which, &mut take);
+    }
+    #[cfg(feature = "parquet")]
+    return parquet::read_results_parquet(&path, which, &mut take);
+    #[cfg(not(feature = "parquet"))]
+    Err(no_parquet(path))
+}
+
+#[cfg(not(feature = "parquet"))]
+fn no_parquet(path: PathBuf) -> FileError {
+    let detail = "this build of fovqa has no support for Parquet".to_owned();
+    FileError::Format { path, expected: "readable here", detail }
 }
