@@ -8,7 +8,7 @@ use parquet::record::Field;
 use crate::fovqa::Folder;
 use crate::runs::experiment_folder::{bytes, experiment, two_scenes};
 
-const GATE: &str = "[[gate]]\nmetric = \"psnr\"\nmin = 1.0\n";
+const GATE: &str = "[[gate]]\nmetric = \"psnr\"\nat_least = 1.0\n";
 
 fn with_tables(tables: &str) -> Folder {
     let folder = two_scenes();
