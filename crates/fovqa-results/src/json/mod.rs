@@ -4,6 +4,7 @@ mod compared;
 mod run;
 mod score;
 mod summary;
+mod summary_file;
 mod unique_keys;
 mod values;
 
@@ -13,5 +14,6 @@ pub use score::{SCORE_SCHEMA, write_json};
 pub use summary::{
     BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, SummaryRecord, ViewRecord,
 };
+pub use summary_file::{read_summary, write_summary};
 pub(crate) use unique_keys::UniqueKeys;
 pub use values::Number;

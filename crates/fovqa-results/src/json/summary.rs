@@ -131,8 +131,21 @@ impl SummaryRecord {
     }
 }
 
+impl ErrorRecord {
+    /// What could not be scored of a comparison.
+    pub(super) fn all(comparison: &Comparison) -> impl Iterator<Item = Self> {
+        comparison.report.failures.iter().map(|failure| Self {
+            scene: comparison.scene.clone(),
+            method: comparison.method.clone(),
+            eye: comparison.eye.to_owned(),
+            frame: failure.frame,
+            message: failure.message.clone(),
+        })
+    }
+}
+
 impl ComparisonSummary {
-    fn of(comparison: &Comparison) -> Self {
+    pub(super) fn of(comparison: &Comparison) -> Self {
         let report = &comparison.report;
         let summary = Summary::of(report);
         // Both eyes have a view each, and none together.
