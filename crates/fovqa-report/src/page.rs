@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
-use fovqa_results::{RunRecord, SummaryRecord};
+use fovqa_results::RunRecord;
 
 use crate::comparison::ComparisonTable;
+use crate::overview::Overview;
 use crate::text_table::printable;
 
 /// A figure on the page.
@@ -34,20 +35,16 @@ code{background:#f3f3f3;padding:0 .2em}
 /// The page.
 pub(crate) fn page(
     run: &RunRecord,
-    summary: &SummaryRecord,
-    tables: &[ComparisonTable],
+    overview: &Overview,
+    tables: &[(String, ComparisonTable)],
     figures: &[PageFigure<'_>],
 ) -> String {
     let mut text = begin(&run.resolved.name);
     if let Some(about) = &run.resolved.about {
         let _ = writeln!(text, "<p>{}</p>", escaped(about));
     }
-    let scored: usize = summary
-        .comparisons
-        .iter()
-        .filter(|comparison| comparison.eye != "both")
-        .map(|comparison| comparison.frames)
-        .sum();
+    let own = overview.all().iter().filter(|measured| !measured.is_of_both_eyes);
+    let scored: usize = own.map(|measured| measured.frames).sum();
     let _ = writeln!(
         text,
         "<p class=\"note\">{}, {}, {} scored. All values: <a href=\"results.csv\">results.csv</a>, \
@@ -56,9 +53,9 @@ pub(crate) fn page(
         count(run.resolved.methods.len(), "method"),
         count(scored, "frame"),
     );
-    if !summary.errors.is_empty() {
+    if !overview.errors.is_empty() {
         let _ = writeln!(text, "<h2>Not scored</h2>\n<ul class=\"errors\">");
-        for error in &summary.errors {
+        for error in &overview.errors {
             let frame = error.frame.map(|frame| format!(", frame {frame}")).unwrap_or_default();
             let eye =
                 if error.eye.is_empty() { String::new() } else { format!(", {} eye", error.eye) };
@@ -67,7 +64,7 @@ pub(crate) fn page(
         }
         text.push_str("</ul>\n");
     }
-    for table in tables {
+    for (_, table) in tables {
         let _ = write!(
             text,
             "<h2>{}</h2>\n<div class=\"wide\">\n{}</div>\n<p class=\"note\">{}</p>\n",

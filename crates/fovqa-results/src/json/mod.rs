@@ -11,9 +11,7 @@ mod values;
 pub use compared::{HaarRecord, HaarSides, HaarValues, SideValues};
 pub use run::{ExperimentRecord, RUN_SCHEMA, RunRecord};
 pub use score::{SCORE_SCHEMA, write_json};
-pub use summary::{
-    BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, SummaryRecord, ViewRecord,
-};
+pub use summary::{BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, ViewRecord};
 pub use summary_file::{read_summary, write_summary};
 pub(crate) use unique_keys::UniqueKeys;
 pub use values::Number;
