@@ -30,6 +30,7 @@ mod gmsd;
 mod golden;
 mod jpeg;
 mod library;
+mod many_methods;
 mod maps;
 mod motion_and_depth;
 mod moving_frames;

@@ -2,6 +2,7 @@
 //! method, and over frames. A method has one colour and marker in all of them.
 
 mod compared;
+mod parts;
 mod sequence;
 
 use fovqa_metrics::{Better, Image, Metric, MetricKind};
@@ -10,6 +11,8 @@ use fovqa_plot::{
     Axis, BarChart, BarSeries, Figure, LineChart, LineSeries, Look, SpreadChart, SpreadSeries,
 };
 use fovqa_results::{EccentricityShare, RunRecord};
+
+use parts::Part;
 
 use crate::comparison::{ComparisonTable, Ratios, average_label, common_scenes, mean, statistic};
 use crate::frame_values::FrameValues;
@@ -26,7 +29,8 @@ pub(crate) struct Source<'a> {
     pub(crate) values: &'a FrameValues,
 }
 
-/// A plot's own scenes, methods and metric.
+/// A plot's own scenes and methods, or those of one of its figures.
+#[derive(Clone)]
 struct Selection<'a> {
     source: &'a Source<'a>,
     scenes: Vec<&'a str>,
@@ -34,6 +38,8 @@ struct Selection<'a> {
     methods: Vec<(&'a str, Look)>,
     /// All methods of the plot.
     all: Vec<&'a str>,
+    /// Which of them are shown; `None`: all.
+    part: Option<Part>,
 }
 
 /// The plots of a run that asks for none: all that have something to show.
@@ -56,19 +62,24 @@ pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
 
 /// The figures of a plot; none for a table.
 pub(crate) fn figures(source: &Source<'_>, plot: &Plot) -> Vec<NamedFigure> {
-    let selection = Selection::new(source, plot);
-    let metrics = metrics(source, plot);
-    match plot.kind {
-        PlotKind::Table | PlotKind::Ratios => Vec::new(),
-        PlotKind::Profile => {
-            metrics.into_iter().flat_map(|metric| selection.profiles(metric, plot)).collect()
+    let whole = Selection::new(source, plot);
+    let of_part = |metric: Metric, part: &Selection<'_>| -> Vec<NamedFigure> {
+        match plot.kind {
+            PlotKind::Table | PlotKind::Ratios => Vec::new(),
+            PlotKind::Profile => part.profiles(metric, plot),
+            PlotKind::Sequence => part.sequences(metric),
+            PlotKind::Bars => vec![part.bars(metric)],
+            PlotKind::Frames => vec![part.frames(metric)],
         }
-        PlotKind::Sequence => {
-            metrics.into_iter().flat_map(|metric| selection.sequences(metric)).collect()
-        }
-        PlotKind::Bars => metrics.into_iter().map(|metric| selection.bars(metric)).collect(),
-        PlotKind::Frames => metrics.into_iter().map(|metric| selection.frames(metric)).collect(),
-    }
+    };
+    let of_metric = |metric: Metric| {
+        let parts = whole.parts(metric).into_iter();
+        parts.flat_map(move |part| {
+            let figures = of_part(metric, &part).into_iter();
+            figures.map(|figure| part.labelled(figure)).collect::<Vec<_>>()
+        })
+    };
+    metrics(source, plot).into_iter().flat_map(of_metric).collect()
 }
 
 /// The tables of ratios of a plot: one a metric and scene.
@@ -132,6 +143,7 @@ impl<'a> Selection<'a> {
             scenes: scenes.filter(|scene| wanted(&plot.scenes, scene)).collect(),
             all: methods.iter().map(|(method, _)| *method).collect(),
             methods,
+            part: None,
         }
     }
 
