@@ -16,6 +16,7 @@ pub mod profile;
 mod regions;
 mod registry;
 mod row;
+mod spool;
 mod sums;
 pub mod temporal;
 
