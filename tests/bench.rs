@@ -1,9 +1,11 @@
 //! `make bench`: CPU seconds, megapixels a second and peak memory of whole runs of the command,
 //! beside decoding alone and beside the peers it finds installed. `cargo bench … -- fvvdp`: of FovVideoVDP
-//! alone.
+//! alone; `-- memory`: the peak memory of large runs alone.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot go on has nothing to say")]
 #![allow(clippy::print_stdout, reason = "its results")]
+
+mod bench_memory;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -26,6 +28,8 @@ const DECODE_COLOUR: &str = "--decode-colour";
 
 /// This program writing the inputs into a folder.
 const MAKE: &str = "--make-inputs";
+/// The same for the peak memory of large runs.
+const MAKE_LARGE: &str = "--make-large-inputs";
 
 const FOUR_K: (usize, usize) = (3840, 2160);
 const FULL_HD: (usize, usize) = (1920, 1080);
@@ -391,8 +395,24 @@ fn main() {
             make_sequence(Path::new(folder), FOUR_K.0, FOUR_K.1);
             make_video(Path::new(folder), VGA);
         }
+        [MAKE_LARGE, folder] => bench_memory::make(Path::new(folder)),
+        words if words.contains(&"memory") => large_runs(),
         words => report(words.contains(&"fvvdp")),
     }
+}
+
+/// Measures the peak memory of large runs.
+fn large_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let this = std::env::current_exe().unwrap().display().to_string();
+    run(&this, &[MAKE_LARGE, folder.path().to_str().unwrap()]).expect("inputs");
+    println!("\npeak memory of large runs, each run once\n");
+    heading("limit");
+    bench_memory::memory(folder.path());
+}
+
+fn heading(last: &str) {
+    println!("{:<44} {:>7} {:>7} {:>8} {:>7}   {last}", "case", "CPU s", "wall s", "Mpx/s", "MiB");
 }
 
 /// Measures everything, or FovVideoVDP alone.
@@ -406,7 +426,7 @@ fn report(only_visible: bool) {
     println!(
         "medians of {RUNS} runs of whole processes; Mpx/s: megapixels of a pair a CPU second\n"
     );
-    println!("{:<44} {:>7} {:>7} {:>8} {:>7}   aim", "case", "CPU s", "wall s", "Mpx/s", "MiB");
+    heading("aim");
     if only_visible {
         return visible_difference(folder.path());
     }
@@ -420,4 +440,5 @@ fn report(only_visible: bool) {
     experiments(folder.path());
     peers(&four_k);
     reference_program(&pair("png", FULL_HD));
+    large_runs();
 }

@@ -8,6 +8,7 @@ mod figures;
 mod foreseen;
 pub(crate) mod interrupted_runs;
 mod library;
+mod many_methods;
 mod parquet;
 mod results_folder;
 mod resume;

@@ -54,6 +54,13 @@ impl<'a> Warnings<'a> {
         self.events.warn(&format!("{place}{message}"));
     }
 
+    /// Notes something with the place, where there is something to note.
+    pub(crate) fn note_of_view(&mut self, message: Option<&str>) {
+        let Some(message) = message else { return };
+        let place = if self.place.is_empty() { String::new() } else { format!("{}: ", self.place) };
+        self.events.note(&format!("{place}{message}"));
+    }
+
     /// Says `message` with the place, unless something was said of this view under the same `key`.
     pub(crate) fn once_a_view(&mut self, key: &str, message: &str) {
         if self.said.insert((self.place.clone(), key.to_owned())) {

@@ -28,8 +28,9 @@ pub fn foresee(
         let bands = scene_bands(scene, found, view.scene);
         let scoring = Scoring { plan, scene, view, bands: bands.as_ref(), range: 0..view.pairs() };
         let wanted = scoring.begin(&mut warnings)?;
-        if let Err(error) = scoring.fits(&wanted) {
-            warnings.once_a_view("memory", &format!("{error}; {}", error.help()));
+        match scoring.fits(&wanted) {
+            Ok(much) => warnings.note_of_view(much.as_deref()),
+            Err(error) => warnings.once_a_view("memory", &format!("{error}; {}", error.help())),
         }
         metrics.extend(settle(plan, view, bands.as_ref(), wanted, &mut warnings));
     }

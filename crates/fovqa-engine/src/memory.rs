@@ -6,7 +6,7 @@
 //! | held by | bytes |
 //! | --- | --- |
 //! | decoded frames | 6 n for a pair of 8-bit RGB, 12 n for half floats; in a sequence the next pair too |
-//! | FovVideoVDP, PU-PSNR | luminance, 4 n for each picture |
+//! | FovVideoVDP | luminance, 4 n for each picture |
 //! | FovVideoVDP over time | 4 n for each frame of its window (0.25 s), once for the reference and once for each method; 16 n for the filtered channels of both |
 //! | FovVideoVDP of several methods | 16/3 n, and 32/3 n for each channel of the reference |
 //! | FovVideoVDP's pyramids | 5/4 n for each channel of reference and test: two levels at a time |
@@ -94,7 +94,6 @@ impl Amount<'_> {
             0
         };
         let of = |metric, bytes| if has(metric) { bytes } else { 0 };
-        let pu_psnr = if has(Metric::Fvvdp) { 0 } else { of(Metric::PuPsnr, planes(2)) };
         let atd = if self.frames > 1 { of(Metric::Atd, planes(3 + self.methods)) } else { 0 };
         // Metrics of one map share it.
         let maps = self.metrics.iter().filter_map(|metric| metric.info().map);
@@ -105,26 +104,41 @@ impl Amount<'_> {
             ("decoded frames", decoded),
             ("maps", maps),
             (FVVDP, fvvdp),
-            ("PU-PSNR", pu_psnr),
             ("ATD", atd),
             ("MS-SSIM", of(Metric::MsSsim, pixels.saturating_mul(3))),
         ])
     }
 }
 
+/// A view that needs more bytes than this says so before its first frame is read.
+const ANNOUNCED: u64 = 4_000_000_000;
+
+/// What is said of a view that needs much memory.
+fn announcement((width, height): (usize, usize), needed: &Needed) -> Option<String> {
+    let bytes = needed.bytes();
+    (bytes > ANNOUNCED).then(|| {
+        let all = gigabytes(bytes);
+        format!("frames of {width}x{height} pixels will take at least {all} of memory ({needed})")
+    })
+}
+
 /// Refuses a view whose frames cannot fit. What cannot be known, neither the size of the frames nor how
-/// much memory there is, is no reason.
+/// much memory there is, is no reason. `Some`: what has to be said of a view that needs much.
 ///
 /// # Errors
 /// [`EngineError::Memory`].
-pub(crate) fn check(plan: &Plan, view: &FoundView, metrics: &[Metric]) -> Result<(), EngineError> {
+pub(crate) fn check(
+    plan: &Plan,
+    view: &FoundView,
+    metrics: &[Metric],
+) -> Result<Option<String>, EngineError> {
     let settings = &plan.scenes[view.scene].eyes[view.eye].settings;
-    let Some(first) = view.frames.first() else { return Ok(()) };
+    let Some(first) = view.frames.first() else { return Ok(None) };
     let reference = &view.sources.reference;
-    let Ok((width, height)) = reference.size(first.reference) else { return Ok(()) };
+    let Ok((width, height)) = reference.size(first.reference) else { return Ok(None) };
     let file = (width as u64).saturating_mul(height as u64);
     if !is_read(&settings.read, file) {
-        return Ok(());
+        return Ok(None);
     }
     let crop = settings.crop.map(|crop| (crop.width as u64).saturating_mul(crop.height as u64));
     let timings = timings(view, view.fps, &plan.params.fvvdp).unwrap_or_default();
@@ -143,7 +157,7 @@ pub(crate) fn check(plan: &Plan, view: &FoundView, metrics: &[Metric]) -> Result
         Some(available) if needed.bytes() > available => {
             Err(EngineError::Memory { size: (width, height), needed, available })
         }
-        _ => Ok(()),
+        _ => Ok(announcement((width, height), &needed)),
     }
 }
 
@@ -182,12 +196,24 @@ mod tests {
     }
 
     #[test]
+    fn what_takes_much_memory_is_announced() {
+        let said = |amount: Amount<'_>| announcement((11_520, 6480), &amount.needed());
+        let window = said(amount(&[Metric::Fvvdp])).unwrap();
+        let all = amount(&[Metric::Fvvdp]).needed().bytes() as f64 / 1e9;
+        assert!(window.contains("11520x6480") && window.contains(&format!("{all:.1} GB")));
+        assert!(window.contains("decoded frames 0.9 GB, FovVideoVDP 1"), "{window}");
+        let still = Amount { frames: 1, window: 1, ..amount(&[Metric::Fvvdp]) };
+        assert_eq!(said(still), None);
+        assert_eq!(said(amount(&[Metric::Psnr, Metric::Ssim, Metric::Haar])), None);
+    }
+
+    #[test]
     fn each_metric_adds_what_it_holds() {
         let of = |metrics: &[Metric]| amount(metrics).needed().bytes() / RETINAL;
         let frames = of(&[Metric::Psnr, Metric::Ssim, Metric::Haar]);
         assert_eq!(frames, 12, "the pair and the next one");
         assert_eq!(of(&[Metric::Atd]) - frames, 16);
-        assert_eq!(of(&[Metric::PuPsnr]) - frames, 8);
+        assert_eq!(of(&[Metric::PuPsnr]), frames, "its luminance is made row by row");
         assert_eq!(of(&[Metric::MsSsim]) - frames, 3);
         assert_eq!(of(&[Metric::Fvvdp, Metric::PuPsnr]), of(&[Metric::Fvvdp]));
         let metrics = [Metric::Mse, Metric::Psnr, Metric::Ssim];

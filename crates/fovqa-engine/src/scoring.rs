@@ -74,7 +74,8 @@ impl<'a> Scoring<'a> {
     ) -> Result<ViewFindings, EngineError> {
         let (plan, eye) = (self.plan, self.eye());
         let metrics = self.begin(down.warnings)?;
-        let mask = match self.fits(&metrics).and_then(|()| self.mask()) {
+        let fits = self.fits(&metrics).map(|much| down.warnings.note_of_view(much.as_deref()));
+        let mask = match fits.and_then(|()| self.mask()) {
             Ok(mask) => mask,
             Err(error) => {
                 let failure = whole(error.to_string(), error.help());
@@ -216,8 +217,8 @@ impl<'a> Scoring<'a> {
         Ok(metrics)
     }
 
-    /// Whether the frames fit into memory.
-    pub(crate) fn fits(&self, metrics: &[Metric]) -> Result<(), EngineError> {
+    /// Whether the frames fit into memory; `Some`: what has to be said of how much they take.
+    pub(crate) fn fits(&self, metrics: &[Metric]) -> Result<Option<String>, EngineError> {
         memory::check(self.plan, self.view, metrics)
     }
 

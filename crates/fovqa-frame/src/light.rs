@@ -10,6 +10,7 @@ use std::sync::OnceLock;
 use half::f16;
 use multiversion::multiversion;
 
+use crate::blocks::map_row_blocks;
 use crate::codes::{CODES_8, CODES_16, table};
 use crate::conversion::{Conversion, FloatToSignal};
 use crate::frame::{Channels, Frame, Samples};
@@ -163,6 +164,20 @@ impl LuminanceSignal<'_> {
         self.frame.height()
     }
 
+    /// The brightest pixel, cd/m².
+    pub fn brightest(&self) -> f32 {
+        let blocks = map_row_blocks(self.height(), |rows| {
+            let mut scratch = LuminanceScratch::new(self.width());
+            let mut row = vec![0.0; self.width()];
+            let of_row = |y: usize| {
+                self.fill(y, 0..self.width(), &mut scratch, &mut row);
+                row.iter().copied().fold(f32::MIN, f32::max)
+            };
+            rows.map(of_row).fold(f32::MIN, f32::max)
+        });
+        blocks.into_iter().fold(f32::MIN, f32::max)
+    }
+
     /// Reads the columns `xs` of row `y`.
     pub fn fill(
         &self,
@@ -215,6 +230,17 @@ mod tests {
 
     fn tables(signal: SignalParams, linear: LinearLight) -> LightTables {
         LightTables::new(signal, |v| 100.0 * v * v + 1.0, linear, WEIGHTS)
+    }
+
+    #[test]
+    fn the_brightest_pixel_is_found_in_any_row() {
+        let tables = tables(SignalParams::default(), LinearLight::Absolute(SHOWN));
+        for brightest in [0, 7, 150] {
+            let values = (0..2 * 151).map(|at| if at / 2 == brightest { 9.0 } else { 1.0 });
+            let samples = Samples::F32(values.collect());
+            let frame = Frame::new(2, 151, Channels::Gray, samples).unwrap();
+            near(&[tables.luminance(&frame).brightest()], &[90.5]);
+        }
     }
 
     fn near(found: &[f32], wanted: &[f64]) {

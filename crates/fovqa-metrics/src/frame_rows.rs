@@ -6,13 +6,14 @@ use std::sync::Arc;
 use crate::metric::Metric;
 use crate::pooling::{Parts, Pooling, pool};
 use crate::row::{Key, Row, Rows};
+use crate::spool::{Numbers, Spool};
 
 /// The values of a frame, in the order of results.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct FrameRows {
     layout: Layout,
     /// Values, each with its parts behind it, as bits.
-    numbers: Box<[u64]>,
+    numbers: Numbers,
 }
 
 /// The keys of a frame's values, with the parts that each has. Frames share it.
@@ -88,12 +89,33 @@ impl Layout {
     }
 }
 
+/// The most numbers of a value: with three parts.
+const MOST_NUMBERS: usize = 4;
+
+/// A value from its numbers.
+fn row(&Place { key, shape, .. }: &Place, numbers: &[u64]) -> Row {
+    let value = (numbers[0] != NOTHING).then(|| f64::from_bits(numbers[0]));
+    let number = |index: usize| f64::from_bits(numbers[index]);
+    let parts = match shape {
+        Shape::Value => Parts::Value,
+        Shape::Mean => Parts::Mean { sum: number(1), weight: number(2) },
+        Shape::Deviation => {
+            Parts::Deviation { count: number(1), sum: number(2), squares: number(3) }
+        }
+    };
+    Row { key, value, parts }
+}
+
 /// The bits of no value: those of a NaN that no arithmetic gives.
 const NOTHING: u64 = 0x7ff8_0000_6e6f_6e65;
 
-/// The lists of keys of the last frames, to be shared by those after them.
+/// Packs the values of frames. Has the lists of keys of the last frames, to be shared by those after them;
+/// and writes the values of most frames to a temporary file.
 #[derive(Debug, Clone, Default)]
-pub struct Layouts(Vec<Known>);
+pub struct Layouts {
+    known: Vec<Known>,
+    spool: Spool,
+}
 
 /// A list of keys as it came, and in the order of results.
 #[derive(Debug, Clone)]
@@ -111,6 +133,7 @@ impl Layouts {
     /// Packs the values of a frame.
     pub fn pack(&mut self, rows: &Rows) -> FrameRows {
         let known = self.known(rows);
+        let layout = known.layout.clone();
         let mut numbers = Vec::with_capacity(3 * known.order.len());
         let rows = rows.as_slice();
         for &came in &known.order {
@@ -124,20 +147,37 @@ impl Layouts {
                 }
             }
         }
-        FrameRows { layout: known.layout.clone(), numbers: numbers.into() }
+        FrameRows { layout, numbers: self.spool.keep(numbers) }
+    }
+
+    /// The values of a layout: each value, or `None`, with its parts behind it. `None` where there are
+    /// more or fewer numbers, or parts are missing.
+    pub fn read(&mut self, layout: &Layout, numbers: &[Option<f64>]) -> Option<FrameRows> {
+        let mut bits = Vec::with_capacity(numbers.len());
+        let mut rest = numbers;
+        for (_, parts) in layout.keys() {
+            let (value, of_value) = rest.split_at_checked(1 + parts)?.0.split_first()?;
+            bits.push(value.map_or(NOTHING, f64::to_bits));
+            for part in of_value {
+                bits.push((*part)?.to_bits());
+            }
+            rest = &rest[1 + parts..];
+        }
+        let numbers = rest.is_empty().then_some(bits)?;
+        Some(FrameRows { layout: layout.clone(), numbers: self.spool.keep(numbers) })
     }
 
     /// The list of keys of these rows. Most often it is that of the frame before.
     fn known(&mut self, rows: &Rows) -> &Known {
         let came = || rows.iter().map(|row| (row.key, Shape::of(row.parts)));
-        let index = self.0.iter().position(|known| came().eq(known.came.iter().copied()));
+        let index = self.known.iter().position(|known| came().eq(known.came.iter().copied()));
         let known = match index {
-            Some(index) => self.0.remove(index),
+            Some(index) => self.known.remove(index),
             None => Known::new(came().collect()),
         };
-        self.0.truncate(Self::KEPT - 1);
-        self.0.insert(0, known);
-        &self.0[0]
+        self.known.truncate(Self::KEPT - 1);
+        self.known.insert(0, known);
+        &self.known[0]
     }
 }
 
@@ -165,20 +205,9 @@ impl From<Rows> for FrameRows {
 }
 
 impl FrameRows {
-    /// The values of a layout: each value, or `None`, with its parts behind it. `None` where there are
-    /// more or fewer numbers, or parts are missing.
+    /// The values of a layout, held in memory, as [`Layouts::read`] reads them.
     pub fn of(layout: &Layout, numbers: &[Option<f64>]) -> Option<Self> {
-        let mut bits = Vec::with_capacity(numbers.len());
-        let mut rest = numbers;
-        for (_, parts) in layout.keys() {
-            let (value, of_value) = rest.split_at_checked(1 + parts)?.0.split_first()?;
-            bits.push(value.map_or(NOTHING, f64::to_bits));
-            for part in of_value {
-                bits.push((*part)?.to_bits());
-            }
-            rest = &rest[1 + parts..];
-        }
-        rest.is_empty().then(|| Self { layout: layout.clone(), numbers: bits.into() })
+        Layouts::default().read(layout, numbers)
     }
 
     /// What its values are of.
@@ -188,26 +217,15 @@ impl FrameRows {
 
     /// All of them.
     pub fn iter(&self) -> impl Iterator<Item = Row> + Clone + '_ {
-        self.layout.0.iter().map(|place| self.row(place))
+        let numbers = self.numbers.all();
+        self.layout.0.iter().map(move |place| row(place, &numbers[place.at as usize..]))
     }
 
     /// Those of some keys.
     pub fn of_keys(&self, wanted: impl Fn(&Key) -> bool) -> impl Iterator<Item = Row> {
-        self.layout.0.iter().filter(move |place| wanted(&place.key)).map(|place| self.row(place))
-    }
-
-    fn row(&self, &Place { key, shape, at, .. }: &Place) -> Row {
-        let numbers = &self.numbers[at as usize..];
-        let value = (numbers[0] != NOTHING).then(|| f64::from_bits(numbers[0]));
-        let number = |index: usize| f64::from_bits(numbers[index]);
-        let parts = match shape {
-            Shape::Value => Parts::Value,
-            Shape::Mean => Parts::Mean { sum: number(1), weight: number(2) },
-            Shape::Deviation => {
-                Parts::Deviation { count: number(1), sum: number(2), squares: number(3) }
-            }
-        };
-        Row { key, value, parts }
+        let numbers = self.numbers.all();
+        let wanted = self.layout.0.iter().filter(move |place| wanted(&place.key));
+        wanted.map(move |place| row(place, &numbers[place.at as usize..]))
     }
 
     /// The row of a key.
@@ -217,7 +235,8 @@ impl FrameRows {
 
     fn find(&self, order: u64) -> Option<Row> {
         let found = self.layout.0.binary_search_by_key(&order, |place| place.order).ok()?;
-        Some(self.row(&self.layout.0[found]))
+        let place = &self.layout.0[found];
+        Some(row(place, &self.numbers.some::<MOST_NUMBERS>(place.at as usize)))
     }
 
     /// The rows of a key in several frames.

@@ -20,6 +20,7 @@ pub mod profile;
 mod regions;
 mod registry;
 mod row;
+mod spool;
 mod sums;
 pub mod temporal;
 

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fovqa_frame::{LightTables, SignalParams, Transfer};
+use fovqa_frame::{Frame, LightTables, SignalParams, Transfer};
 use fovqa_metrics::fvvdp::{
     ColorSpace, Fvvdp, FvvdpFrame, Geometry, Grid, Padding, Params, Photometry, Stream, Time, jod,
 };
@@ -104,7 +104,8 @@ fn found(golden: &Golden, case: &FvvdpCase, keep: bool) -> Found {
     let encoded = photometry.eotf().is_relative() || photometry.eotf() == Eotf::Pq;
     let transfer = encoded.then_some(Transfer::Srgb);
     let tables = photometry.tables(SignalParams { transfer, ..SignalParams::default() }, &params);
-    let [reference, test] = golden.frames(case).map(|frames| luminance(&frames, &tables));
+    let pictures = golden.frames(case);
+    let [reference, test] = pictures.each_ref().map(|frames| luminance(frames, &tables));
     assert_eq!((reference.len(), test.len()), (case.n_frames, case.n_frames), "{}", case.id);
 
     let time = Time::new(reference.len(), case.fps, padding).unwrap();
@@ -129,16 +130,17 @@ fn found(golden: &Golden, case: &FvvdpCase, keep: bool) -> Found {
         frames.push(fvvdp.score(&prepared, &streams[1].channels(&time), &regions, None));
     }
     let bands = BandMap::without_bands(case.width, case.height);
-    let pu = |(reference, test): (&Arc<Grid>, &Arc<Grid>)| {
+    let pu = |(reference, test): (&Frame, &Frame)| {
         let mut rows = Rows::default();
-        pu_psnr::rows(reference, test, &Regions::unmasked(&bands), &mut rows);
+        pu_psnr::rows(reference, test, &tables, &Regions::unmasked(&bands), &mut rows);
         rows.value(Key::of(Metric::PuPsnr)).unwrap()
     };
     let q = frames.iter().map(|frame| frame.q).sum::<f64>() / frames.len() as f64;
-    Found { jod: jod(q), frames, pu_psnr_db: reference.iter().zip(&test).map(pu).collect() }
+    let pu_psnr_db = pictures[0].iter().zip(&pictures[1]).map(pu).collect();
+    Found { jod: jod(q), frames, pu_psnr_db }
 }
 
-fn luminance(frames: &[fovqa_frame::Frame], tables: &LightTables) -> Vec<Arc<Grid>> {
+fn luminance(frames: &[Frame], tables: &LightTables) -> Vec<Arc<Grid>> {
     frames.iter().map(|frame| Arc::new(Grid::luminance(frame, tables))).collect()
 }
 

@@ -4,16 +4,14 @@
 use std::path::Path;
 
 use fovqa_plan::{Plot, PlotKind};
-use fovqa_results::{
-    RUN_JSON, RUN_SCHEMA, RunRecord, SUMMARY_JSON, SUMMARY_SCHEMA, SummaryRecord, check_files,
-    read_json_file,
-};
+use fovqa_results::{RUN_JSON, RUN_SCHEMA, RunRecord, check_files, read_json_file};
 
 use crate::comparison::ComparisonTable;
 use crate::figures::{Source, default_plots, figures, ratio_tables};
 use crate::frame_values::FrameValues;
+use crate::overview::Overview;
 use crate::page::{PageFigure, page};
-use crate::sheet::{NamedFigure, NamedTable, Names, PLOTS, ReportError, Sheet};
+use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, PLOTS, ReportError, Sheet};
 
 /// What was drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,11 +30,10 @@ pub struct Drawn {
 /// When a file of the run is missing or broken, or the folder cannot be written to.
 pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let run: RunRecord = read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
-    let summary: SummaryRecord =
-        read_json_file(&folder.join(SUMMARY_JSON), SUMMARY_SCHEMA, "the summary of a run")?;
+    let overview = Overview::read(folder)?;
     let values = FrameValues::read(folder)?;
     let warning = check_files(folder, &run)?;
-    let source = Source { run: &run, summary: &summary, values: &values };
+    let source = Source { run: &run, overview: &overview, values: &values };
     let plots = match run.resolved.plots.as_slice() {
         [] => default_plots(&source),
         plots => plots.to_vec(),
@@ -53,26 +50,39 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     }
 
     let paths: Vec<String> = drawn.iter().map(|f| format!("{PLOTS}/{}", f.name)).collect();
-    let on_page = paths.iter().zip(&drawn);
-    let on_page: Vec<PageFigure<'_>> =
-        on_page.map(|(path, figure)| PageFigure { path, caption: &figure.caption }).collect();
-    let files = tables.iter().map(|(name, table)| NamedTable {
-        name: name.clone(),
-        files: vec![("md", table.markdown()), ("csv", table.csv()), ("tex", table.latex())],
-    });
-    let files = files.collect();
-    let tables: Vec<ComparisonTable> = tables.into_iter().map(|(_, table)| table).collect();
-    let page = page(&run, &summary, &tables, &on_page);
+    let captions: Vec<String> = drawn.iter().map(|figure| figure.caption.clone()).collect();
     let figures = drawn.len();
-    Sheet { tables: files, figures: drawn, page }.write(folder)?;
-    Ok(Drawn { table: tables.into_iter().next(), figures, warning })
+    Sheet {
+        tables: tables.iter().map(|(name, table)| files_of(name, table)).collect(),
+        figures: drawn,
+        page: Box::new(|| {
+            let on_page = paths.iter().zip(&captions);
+            let on_page: Vec<PageFigure<'_>> =
+                on_page.map(|(path, caption)| PageFigure { path, caption }).collect();
+            page(&run, &overview, &tables, &on_page)
+        }),
+    }
+    .write(folder)?;
+    let table = tables.into_iter().next().map(|(_, table)| table);
+    Ok(Drawn { table, figures, warning })
+}
+
+/// The files of a table.
+fn files_of<'a>(name: &'a str, table: &'a ComparisonTable) -> NamedTable<'a> {
+    let markdown: MakeText<'a> = Box::new(|| table.markdown());
+    let files = vec![
+        ("md", markdown),
+        ("csv", Box::new(|| table.csv())),
+        ("tex", Box::new(|| table.latex())),
+    ];
+    NamedTable { name, files }
 }
 
 /// The tables of a plot, with their names.
 fn tables_of(source: &Source<'_>, plot: &Plot) -> Vec<(String, ComparisonTable)> {
     match plot.kind {
         PlotKind::Table => {
-            let table = ComparisonTable::new(source.run, source.summary, plot);
+            let table = ComparisonTable::new(source.run, source.overview, plot);
             table.map(|table| ("table".to_owned(), table)).into_iter().collect()
         }
         PlotKind::Ratios => ratio_tables(source, plot),

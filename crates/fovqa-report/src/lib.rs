@@ -6,6 +6,7 @@ mod draw;
 mod figures;
 mod frame_values;
 mod index;
+mod overview;
 mod page;
 mod sheet;
 mod terminal;

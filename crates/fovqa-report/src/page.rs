@@ -2,10 +2,14 @@
 
 use std::fmt::Write;
 
-use fovqa_results::{RESULTS_CSV, RunRecord, SummaryRecord};
+use fovqa_results::{RESULTS_CSV, RunRecord};
 
 use crate::comparison::ComparisonTable;
+use crate::overview::Overview;
 use crate::text_table::printable;
+
+/// The most errors that the page lists.
+const MOST_ERRORS: usize = 100;
 
 /// A figure on the page.
 pub(crate) struct PageFigure<'a> {
@@ -25,6 +29,8 @@ thead th{text-align:center;font-weight:600}tbody th{text-align:left;font-weight:
 thead tr:last-child th{font-weight:400;border-bottom:1px solid #888;text-align:right}
 thead tr:first-child th:first-child{border-bottom:1px solid #888;text-align:left;vertical-align:bottom}
 td.first{padding-left:1.8em}tr.average>*{border-top:1px solid #ccc}
+.long{overflow:auto;max-height:80vh}.long thead{position:sticky;top:0;z-index:1;background:#fff}
+.long tbody th{position:sticky;left:0;background:#fff}
 .figures{display:flex;flex-wrap:wrap;gap:1.5em}
 img.small{max-width:380px;max-height:320px}figure{margin:0}figure img{max-width:100%}
 .errors li{color:#a00}
@@ -34,20 +40,16 @@ code{background:#f3f3f3;padding:0 .2em}
 /// The page.
 pub(crate) fn page(
     run: &RunRecord,
-    summary: &SummaryRecord,
-    tables: &[ComparisonTable],
+    overview: &Overview,
+    tables: &[(String, ComparisonTable)],
     figures: &[PageFigure<'_>],
 ) -> String {
     let mut text = begin(&run.resolved.name);
     if let Some(about) = &run.resolved.about {
         let _ = writeln!(text, "<p>{}</p>", escaped(about));
     }
-    let scored: usize = summary
-        .comparisons
-        .iter()
-        .filter(|comparison| comparison.eye != "both")
-        .map(|comparison| comparison.frames)
-        .sum();
+    let own = overview.all().iter().filter(|measured| !measured.is_of_both_eyes);
+    let scored: usize = own.map(|measured| measured.frames).sum();
     let _ = writeln!(
         text,
         "<p class=\"note\">{}, {}, {} scored. All values: {}, \
@@ -57,9 +59,9 @@ pub(crate) fn page(
         count(scored, "frame"),
         table_links(run),
     );
-    if !summary.errors.is_empty() {
+    if !overview.errors.is_empty() {
         let _ = writeln!(text, "<h2>Not scored</h2>\n<ul class=\"errors\">");
-        for error in &summary.errors {
+        for error in overview.errors.iter().take(MOST_ERRORS) {
             let frame = error.frame.map(|frame| format!(", frame {frame}")).unwrap_or_default();
             let eye =
                 if error.eye.is_empty() { String::new() } else { format!(", {} eye", error.eye) };
@@ -67,8 +69,16 @@ pub(crate) fn page(
             let _ = writeln!(text, "<li>{}: {}</li>", escaped(&place), escaped(&error.message));
         }
         text.push_str("</ul>\n");
+        if overview.errors.len() > MOST_ERRORS {
+            let more = overview.errors.len() - MOST_ERRORS;
+            let _ = writeln!(text, "<p class=\"note\">{more} more are in summary.json.</p>");
+        }
     }
-    for table in tables {
+    for (name, table) in tables {
+        if table.is_long() {
+            long_table(&mut text, name, table);
+            continue;
+        }
         let _ = write!(
             text,
             "<h2>{}</h2>\n<div class=\"wide\">\n{}</div>\n<p class=\"note\">{}</p>\n",
@@ -90,6 +100,25 @@ pub(crate) fn page(
     );
     end(&mut text, &made);
     text
+}
+
+/// A table of very many methods: in a box of its own, or its files alone.
+fn long_table(text: &mut String, name: &str, table: &ComparisonTable) {
+    let (caption, name) = (escaped(table.caption()), escaped(name));
+    let _ = writeln!(text, "<h2>{caption}</h2>");
+    let note = match table.long_html() {
+        Some(html) => {
+            let _ = writeln!(text, "<div class=\"long\">\n{html}</div>");
+            "Each method is a row here, and a column of the files"
+        }
+        None => "The table has too many methods for a page",
+    };
+    let _ = writeln!(
+        text,
+        "<p class=\"note\">{} {note}: <a href=\"{name}.csv\">CSV</a>, <a href=\"{name}.md\">Markdown</a>, \
+         <a href=\"{name}.tex\">LaTeX</a>.</p>",
+        escaped(&table.notes().join(" "))
+    );
 }
 
 /// The page up to its heading.

@@ -28,18 +28,22 @@ pub(crate) struct NamedFigure {
     pub(crate) figure: Figure,
 }
 
-/// A table's name, and its text for each ending.
-pub(crate) struct NamedTable {
-    pub(crate) name: String,
-    pub(crate) files: Vec<(&'static str, String)>,
+/// A table's name and, for each ending, what makes its text: a table of many methods is long, and its texts
+/// are made only when they are written.
+pub(crate) struct NamedTable<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) files: Vec<(&'static str, MakeText<'a>)>,
 }
 
+/// Makes the text of a file.
+pub(crate) type MakeText<'a> = Box<dyn Fn() -> String + 'a>;
+
 /// What is drawn.
-pub(crate) struct Sheet {
-    pub(crate) tables: Vec<NamedTable>,
+pub(crate) struct Sheet<'a> {
+    pub(crate) tables: Vec<NamedTable<'a>>,
     pub(crate) figures: Vec<NamedFigure>,
     /// The page, `index.html`.
-    pub(crate) page: String,
+    pub(crate) page: MakeText<'a>,
 }
 
 /// Why nothing could be drawn.
@@ -78,7 +82,7 @@ struct Manifest {
     files: Vec<String>,
 }
 
-impl Sheet {
+impl Sheet<'_> {
     /// Writes all of it into a folder.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), ReportError> {
         let table_files = self.tables.iter().flat_map(|table| {
@@ -97,7 +101,7 @@ impl Sheet {
 
         for NamedTable { name, files } in &self.tables {
             for (ending, text) in files {
-                write_whole(&folder.join(format!("{name}.{ending}")), text.as_bytes())?;
+                write_whole(&folder.join(format!("{name}.{ending}")), text().as_bytes())?;
             }
         }
         let plots = folder.join(PLOTS);
@@ -108,7 +112,7 @@ impl Sheet {
         let written: Result<Vec<()>, ReportError> =
             self.figures.par_iter().map(|figure| write_figure(&plots, figure)).collect();
         written?;
-        write_whole(&folder.join("index.html"), self.page.as_bytes())?;
+        write_whole(&folder.join("index.html"), (self.page)().as_bytes())?;
         remove(folder, old.iter().filter(|old| !files.contains(old)));
         write_manifest(folder, files)?;
         Ok(())

@@ -96,10 +96,10 @@ pub fn write_whole_with(
 /// # Errors
 /// As [`write_whole`].
 pub fn write_json_file(path: &Path, value: &impl Serialize) -> Result<(), FileError> {
-    let mut bytes = serde_json::to_vec_pretty(value)
-        .map_err(|error| FileError::Write { path: path.to_owned(), error: error.into() })?;
-    bytes.push(b'\n');
-    write_whole(path, &bytes)
+    write_whole_with(path, |mut out| {
+        serde_json::to_writer_pretty(&mut out, value)?;
+        out.write_all(b"\n")
+    })
 }
 
 /// Far more than the summary of the largest run.

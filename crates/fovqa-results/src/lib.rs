@@ -33,7 +33,7 @@ pub use gate::{
 pub use json::{
     BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,
     HaarValues, Number, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues,
-    SummaryRecord, ViewRecord, write_json,
+    ViewRecord, read_summary, write_json, write_summary,
 };
 pub use report::{
     AtdGuides, Comparison, Failure, FrameResult, FvvdpSight, GuideSource, Input, RunResults,

@@ -8,7 +8,7 @@ use fovqa_plan::{Experiment, Eye};
 use fovqa_report::Drawn;
 use fovqa_results::{
     ExperimentRecord, Failure, FileError, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
-    SUMMARY_JSON, SummaryRecord, checksums, write_json_file, write_tables,
+    SUMMARY_JSON, checksums, write_json_file, write_summary, write_tables, write_whole_with,
 };
 
 use crate::error::Error;
@@ -29,24 +29,24 @@ pub(crate) fn in_folder(error: &FolderError) -> Error {
 /// scored is said.
 pub(crate) fn finish(
     experiment: &Experiment,
-    results: &RunResults,
+    results: RunResults,
     folder: &ResultsFolder,
     events: &dyn Events,
 ) -> Result<(usize, Drawn), Error> {
-    let summary = SummaryRecord::of(&experiment.name, results);
     let failures = results.comparisons.iter().flat_map(|comparison| {
         let eye = Some(comparison.eye).filter(|eye| !eye.is_empty());
         let place = [Some(comparison.scene.as_str()), Some(&comparison.method), eye];
         comparison.report.failures.iter().map(move |failure| (place, failure))
     });
+    let errors = failures.clone().count();
     say_failures(failures, "summary.json", events);
-    if let Err(error) = write(experiment, results, &summary, folder.path()) {
+    if let Err(error) = write(experiment, results, folder.path()) {
         let help = "free some space, or give another folder with {output}; {resume} goes on with what is scored";
         return Err(Error::input(error.to_string(), help));
     }
     let drawn = fovqa_report::draw(folder.path())
         .map_err(|error| Error::input(error.to_string(), DRAW_AGAIN))?;
-    Ok((summary.errors.len(), drawn))
+    Ok((errors, drawn))
 }
 
 /// The SHA-256 of a text.
@@ -91,14 +91,11 @@ fn say_failures<'a, T: AsRef<str>>(
     }
 }
 
-fn write(
-    experiment: &Experiment,
-    results: &RunResults,
-    summary: &SummaryRecord,
-    folder: &Path,
-) -> Result<(), FileError> {
-    write_tables(folder, results, &experiment.output.tables)?;
-    write_json_file(&folder.join(SUMMARY_JSON), summary)?;
+fn write(experiment: &Experiment, results: RunResults, folder: &Path) -> Result<(), FileError> {
+    write_tables(folder, &results, &experiment.output.tables)?;
+    write_whole_with(&folder.join(SUMMARY_JSON), |out| {
+        write_summary(&experiment.name, &results, out)
+    })?;
     let file = experiment.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let record = RunRecord {
         schema: RUN_SCHEMA.to_owned(),
@@ -109,7 +106,7 @@ fn write(
             text: experiment.text.clone(),
         },
         resolved: experiment.resolved(),
-        inputs: results.inputs.clone(),
+        inputs: results.inputs,
         files: checksums(folder)?,
     };
     write_json_file(&folder.join(RUN_JSON), &record)

@@ -164,7 +164,7 @@ impl Run {
         let results = results(plan, events, findings);
         let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
         let scored = own.map(|comparison| comparison.report.frames.len()).sum();
-        let (errors, drawn) = finish(&self.experiment, &results, &folder, events)?;
+        let (errors, drawn) = finish(&self.experiment, results, &folder, events)?;
         Ok(Finished { folder: path, scored, errors, drawn: Some(drawn) })
     }
 

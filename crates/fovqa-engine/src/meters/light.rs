@@ -95,10 +95,10 @@ impl Light {
 
     /// Whether a frame's values are taken for cd/m² without anybody having said so, and none is brighter
     /// than 1: a scene's light in other units, most likely.
-    fn is_dim(&mut self, frame: usize, reference: &Frame) -> bool {
+    fn is_dim(&self, reference: &Frame) -> bool {
         let unsaid = self.params.cd_m2_per_unit.is_none() && self.tables.is_absolute(reference);
         unsaid && {
-            let brightest = self.luminance_of_reference(frame, reference).max();
+            let brightest = self.tables.luminance(reference).brightest();
             f64::from(brightest) - self.photometry.black_cd_m2() <= 1.0 + 1e-6
         }
     }
@@ -125,17 +125,18 @@ impl Light {
         measured: &mut Measured,
         warnings: &mut Warnings<'_>,
     ) {
-        if self.is_dim(pair.frame, &pair.reference.frame) {
+        if self.is_dim(&pair.reference.frame) {
             warnings.once_a_view("candela", CANDELA);
         }
-        let reference = self.luminance_of_reference(pair.frame, &pair.reference.frame);
-        let test = self.luminance(&pair.test.frame);
+        let (reference, test) = (&pair.reference.frame, &pair.test.frame);
         if self.pu_psnr {
-            pu_psnr::rows(&reference, &test, pair.regions, &mut measured.rows);
+            pu_psnr::rows(reference, test, &self.tables, pair.regions, &mut measured.rows);
         }
-        if let Some((metric, regions)) = pair.setup.fvvdp().zip(pair.retina.fvvdp.as_ref())
-            && self.step(pair, &reference, &test)
-        {
+        let Some((metric, regions)) = pair.setup.fvvdp().zip(pair.retina.fvvdp.as_ref()) else {
+            return;
+        };
+        let reference = self.luminance_of_reference(pair.frame, reference);
+        if self.step(pair, &reference, &self.luminance(test)) {
             let (frame, map) = self.score(pair, metric, regions);
             frame.rows(pair.setup.bands(), &mut measured.rows);
             measured.maps.extend(map);

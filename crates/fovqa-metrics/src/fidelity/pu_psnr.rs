@@ -4,10 +4,9 @@
 //! PU-PSNR = 20 log10(V(10,000 cd/m²) / sqrt(mean (V_t - V_r)²)) dB. Higher is better, infinite for
 //! identical pictures.
 
-use fovqa_frame::map_row_blocks;
 use fovqa_frame::transfer::pu21;
+use fovqa_frame::{Frame, LightTables, LuminanceScratch, map_row_blocks};
 
-use super::fvvdp::Grid;
 use crate::decibels::psnr_db;
 use crate::info::{MetricInfo, Needs};
 use crate::metric::Metric;
@@ -30,13 +29,19 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
 
 pub(crate) use crate::metric_params::NoParams as Params;
 
-/// Adds PU-PSNR of a test in dB, both given as luminance in cd/m², over the pixels that count; nothing
-/// where none does.
+/// Adds PU-PSNR of a test in dB, both shown by the display of `tables`, over the pixels that count; nothing
+/// where none does. Luminance is made row by row: planes of it would take more memory than 8-bit frames.
 ///
 /// # Panics
-/// When planes and regions are not of one height.
-pub fn rows(reference: &Grid, test: &Grid, regions: &Regions<'_>, rows: &mut Rows) {
-    let squared = squared_error(reference, test, regions);
+/// When frames and regions are not of one height.
+pub fn rows(
+    reference: &Frame,
+    test: &Frame,
+    tables: &LightTables,
+    regions: &Regions<'_>,
+    rows: &mut Rows,
+) {
+    let squared = squared_error([reference, test], tables, regions);
     let pixels = regions.pixels().iter().sum::<u64>() as f64;
     let peak = pu21::encode(pu21::PEAK_CD_M2);
     if pixels > 0.0 {
@@ -47,16 +52,23 @@ pub fn rows(reference: &Grid, test: &Grid, regions: &Regions<'_>, rows: &mut Row
 }
 
 /// The squared error of perceptually uniform values, over the pixels that count.
-fn squared_error(reference: &Grid, test: &Grid, regions: &Regions<'_>) -> f64 {
-    assert_eq!(reference.height(), test.height(), "planes of one size");
-    assert_eq!(regions.rows(), test.height(), "regions of these planes");
+fn squared_error(frames: [&Frame; 2], tables: &LightTables, regions: &Regions<'_>) -> f64 {
+    let [(width, height), size] = frames.map(|frame| (frame.width(), frame.height()));
+    assert_eq!((width, height), size, "frames of one size");
+    assert_eq!(regions.rows(), height, "regions of these frames");
     let encoder = pu21::Encoder::new();
-    let blocks = map_row_blocks(test.height(), |rows| {
+    let pictures = frames.map(|frame| tables.luminance(frame));
+    let blocks = map_row_blocks(height, |rows| {
+        let mut scratch = LuminanceScratch::new(width);
         let mut sums = vec![0.0; regions.bands() + 1];
-        let mut squared = vec![0.0; test.width()];
+        let mut luminance = [vec![0.0; width], vec![0.0; width]];
+        let mut squared = vec![0.0; width];
         for y in rows {
-            let pair = reference.row(y).iter().zip(test.row(y));
-            for (squared, (reference, test)) in squared.iter_mut().zip(pair) {
+            for (picture, row) in pictures.iter().zip(&mut luminance) {
+                picture.fill(y, 0..width, &mut scratch, row);
+            }
+            let [reference, test] = &luminance;
+            for (squared, (reference, test)) in squared.iter_mut().zip(reference.iter().zip(test)) {
                 let difference = encoder.encode(*test) - encoder.encode(*reference);
                 *squared = difference * difference;
             }
@@ -70,23 +82,23 @@ fn squared_error(reference: &Grid, test: &Grid, regions: &Regions<'_>) -> f64 {
 #[cfg(test)]
 #[allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
 mod tests {
-    use fovqa_frame::{Channels, Frame, LightTables, LinearLight, Mask, Samples, SignalParams};
+    use fovqa_frame::{Channels, LinearLight, Mask, Samples, SignalParams};
     use fovqa_vision::BandMap;
 
     use super::*;
 
     /// PU-PSNR in dB.
-    fn pu_psnr_db(reference: &Grid, test: &Grid, regions: &Regions<'_>) -> Option<f64> {
+    fn pu_psnr_db(reference: &Frame, test: &Frame, regions: &Regions<'_>) -> Option<f64> {
         let mut found = Rows::default();
-        rows(reference, test, regions, &mut found);
+        rows(reference, test, &tables(), regions, &mut found);
         found.value(Key::of(Metric::PuPsnr))
     }
 
     const W: usize = 70;
     const H: usize = 130;
 
-    /// Luminance by pixel, in cd/m².
-    fn luminance(value: impl Fn(usize, usize) -> f32) -> Grid {
+    /// Shows values as cd/m².
+    fn tables() -> LightTables {
         let shown = fovqa_frame::ShownLight {
             cd_m2_per_unit: 1.0,
             floor_cd_m2: 0.0,
@@ -94,10 +106,13 @@ mod tests {
             black_cd_m2: 0.0,
         };
         let light = LinearLight::Absolute(shown);
-        let tables = LightTables::new(SignalParams::default(), |v| v, light, [0.2, 0.7, 0.1]);
+        LightTables::new(SignalParams::default(), |v| v, light, [0.2, 0.7, 0.1])
+    }
+
+    /// A picture of this luminance, in cd/m².
+    fn luminance(value: impl Fn(usize, usize) -> f32) -> Frame {
         let values = (0..W * H).map(|i| value(i % W, i / W)).collect();
-        let frame = Frame::new(W, H, Channels::Gray, Samples::F32(values)).unwrap();
-        Grid::luminance(&frame, &tables)
+        Frame::new(W, H, Channels::Gray, Samples::F32(values)).unwrap()
     }
 
     /// V of 1, 100 and 10,000 cd/m² (PU21, banding and glare).

@@ -2,10 +2,51 @@
 
 use std::fmt::Write;
 
-use super::ComparisonTable;
+use super::group::Group;
+use super::{Cell, ComparisonTable};
 use crate::page::escaped;
 
+/// With more methods than this, columns of methods cannot be read.
+const MOST_METHODS: usize = 20;
+/// With more cells than this, a page opens too slowly.
+const MOST_CELLS: usize = 200_000;
+
 impl ComparisonTable {
+    /// Whether it has so many methods that a page shows it in another form.
+    pub(crate) fn is_long(&self) -> bool {
+        self.methods.len() > MOST_METHODS
+    }
+
+    /// HTML of a table with very many methods: each is a row. `None` where it is too large for a page, as
+    /// those of ratios are.
+    pub(crate) fn long_html(&self) -> Option<String> {
+        let rows = self.rows.len();
+        if !self.is_of_scenes() || self.methods.len() * self.groups.len() * rows > MOST_CELLS {
+            return None;
+        }
+        let mut text = String::from("<table>\n<thead>\n<tr><th rowspan=\"2\">method</th>");
+        for group in &self.groups {
+            let _ = write!(text, "<th colspan=\"{rows}\">{}</th>", group.heading());
+        }
+        text.push_str("</tr>\n<tr>");
+        for _ in &self.groups {
+            for row in &self.rows {
+                let _ = write!(text, "<th>{}</th>", escaped(&row.label));
+            }
+        }
+        text.push_str("</tr>\n</thead>\n<tbody>\n");
+        for (index, method) in self.methods.iter().enumerate() {
+            let _ = write!(text, "<tr><th>{}</th>", escaped(method));
+            for (column, group) in self.groups.iter().enumerate() {
+                let cells = self.rows.iter().map(|row| &row.cells[column][index]);
+                html_cells(&mut text, group, cells);
+            }
+            text.push_str("</tr>\n");
+        }
+        text.push_str("</tbody>\n</table>\n");
+        Some(text)
+    }
+
     /// HTML of the same layout.
     pub(crate) fn html(&self) -> String {
         let corner = self.corner;
@@ -25,16 +66,21 @@ impl ComparisonTable {
             let class = if row.average { " class=\"average\"" } else { "" };
             let _ = write!(text, "<tr{class}><th>{}</th>", escaped(&row.label));
             for (group, cells) in self.groups.iter().zip(&row.cells) {
-                for (index, cell) in cells.iter().enumerate() {
-                    let first = if index == 0 { " class=\"first\"" } else { "" };
-                    let number = group.shown(cell.value);
-                    let number = if cell.best { format!("<b>{number}</b>") } else { number };
-                    let _ = write!(text, "<td{first}>{number}</td>");
-                }
+                html_cells(&mut text, group, cells.iter());
             }
             text.push_str("</tr>\n");
         }
         text.push_str("</tbody>\n</table>\n");
         text
+    }
+}
+
+/// The cells of a group of columns.
+fn html_cells<'a>(text: &mut String, group: &Group, cells: impl Iterator<Item = &'a Cell>) {
+    for (index, cell) in cells.enumerate() {
+        let first = if index == 0 { " class=\"first\"" } else { "" };
+        let number = group.shown(cell.value);
+        let number = if cell.best { format!("<b>{number}</b>") } else { number };
+        let _ = write!(text, "<td{first}>{number}</td>");
     }
 }

@@ -12,11 +12,13 @@ mod terminal;
 
 use fovqa_metrics::{Better, Metric};
 use fovqa_plan::Plot;
-use fovqa_results::{ComparisonSummary, GuideSource, RunRecord, SummaryRecord};
+use fovqa_results::{GuideSource, RunRecord};
 
 use group::Group;
 pub(crate) use markdown::escaped_markdown;
 pub(crate) use ratios::{Ratios, statistic, statistic_in_words};
+
+use crate::overview::Overview;
 
 /// A table of values over the frames.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,7 +63,7 @@ struct Cell {
 impl ComparisonTable {
     /// The table a plot asks for: its scenes, methods and metric, or all. `None` where nothing was
     /// scored.
-    pub fn new(run: &RunRecord, summary: &SummaryRecord, plot: &Plot) -> Option<Self> {
+    pub(crate) fn new(run: &RunRecord, overview: &Overview, plot: &Plot) -> Option<Self> {
         let wanted = |names: &Option<Vec<String>>, name: &String| {
             names.as_ref().is_none_or(|names| names.contains(name))
         };
@@ -76,12 +78,7 @@ impl ComparisonTable {
             .map(String::as_str)
             .collect();
         let scored = |metric: &Metric| {
-            let has = |c: &ComparisonSummary| match metric {
-                Metric::Atd => c.atd.as_ref().is_some_and(|atd| atd.ratio.is_some()),
-                Metric::Fvvdp => c.fvvdp.as_ref().is_some_and(|fvvdp| fvvdp.jod.is_some()),
-                metric => c.metrics.contains_key(metric),
-            };
-            summary.comparisons.iter().any(has)
+            overview.all().iter().any(|measured| measured.value(*metric).is_some())
         };
         let of_plot = |metric: &Metric| plot.metric.as_ref().is_none_or(|key| key == metric.key());
         let metrics: Vec<Metric> =
@@ -90,9 +87,8 @@ impl ComparisonTable {
             return None;
         }
         let groups: Vec<Group> = metrics.iter().map(|metric| group(*metric)).collect();
-        let value = |scene: &str, method: &str, metric: Metric| {
-            value(overall(summary, scene, method)?, metric)
-        };
+        let value =
+            |scene: &str, method: &str, metric: Metric| overview.of(scene, method)?.value(metric);
         let mut rows: Vec<Row> = scenes
             .iter()
             .map(|scene| {
@@ -103,8 +99,10 @@ impl ComparisonTable {
             })
             .collect();
         let names: Vec<&str> = methods.iter().map(String::as_str).collect();
-        let common: Vec<Vec<&str>> =
-            metrics.iter().map(|metric| common_scenes(summary, &scenes, &names, *metric)).collect();
+        let common: Vec<Vec<&str>> = metrics
+            .iter()
+            .map(|metric| common_scenes(overview, &scenes, &names, *metric))
+            .collect();
         rows.extend(average(&groups, &rows, &common));
         let mut notes = vec!["Means over frames; the best of each row is marked.".to_owned()];
         if metrics.contains(&Metric::Fpsnr) || metrics.contains(&Metric::Fssim) {
@@ -115,10 +113,10 @@ impl ComparisonTable {
         }
         if metrics.contains(&Metric::Atd) {
             notes.push(ATD_NOTE.to_owned());
-            notes.extend(without_motion(summary, &scenes, &methods));
+            notes.extend(without_motion(overview, &scenes, &methods));
         }
-        notes.extend(unequal_frames(summary, &scenes, &methods));
-        notes.extend(identical_frames(summary, &scenes, &methods));
+        notes.extend(unequal_frames(overview, &scenes, &methods));
+        notes.extend(identical_frames(overview, &scenes, &methods));
         let (caption, corner) = ("Comparison".to_owned(), SCENE);
         Some(Self { caption, corner, methods, groups, rows, notes })
     }
@@ -139,26 +137,16 @@ impl ComparisonTable {
     }
 }
 
-/// The summary of a method in a scene: of both eyes, where there are two.
-pub(crate) fn overall<'a>(
-    summary: &'a SummaryRecord,
-    scene: &str,
-    method: &str,
-) -> Option<&'a ComparisonSummary> {
-    let eyes = |c: &&ComparisonSummary| c.eye.is_empty() || c.eye == "both";
-    summary.comparisons.iter().filter(eyes).find(|c| c.scene == scene && c.method == method)
-}
-
 /// The scenes in which every method has a value of a metric: those that means over scenes are of, in
 /// tables and figures alike. Means over different scenes could not be compared.
 pub(crate) fn common_scenes<'a>(
-    summary: &SummaryRecord,
+    overview: &Overview,
     scenes: &[&'a str],
     methods: &[&str],
     metric: Metric,
 ) -> Vec<&'a str> {
     let has = |scene: &str, method: &str| {
-        overall(summary, scene, method).is_some_and(|of| value(of, metric).is_some())
+        overview.of(scene, method).is_some_and(|measured| measured.value(metric).is_some())
     };
     let all = |scene: &&str| methods.iter().all(|method| has(scene, method));
     scenes.iter().copied().filter(all).collect()
@@ -179,15 +167,6 @@ fn group(metric: Metric) -> Group {
     match metric {
         Metric::Atd => Group::ratio(info.label.to_owned(), "atd_percent".to_owned(), info.better),
         metric => Group::of(metric),
-    }
-}
-
-/// What these columns show of a comparison.
-pub(crate) fn value(comparison: &ComparisonSummary, metric: Metric) -> Option<f64> {
-    match metric {
-        Metric::Atd => Some(comparison.atd.as_ref()?.ratio? * 100.0),
-        Metric::Fvvdp => comparison.fvvdp.as_ref()?.jod,
-        metric => Some(comparison.metrics.get(&metric)?.mean),
     }
 }
 
@@ -245,10 +224,20 @@ pub(crate) fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
+/// What a note lists; of very many, the first.
+fn first(listed: &[String], separator: &str) -> String {
+    const MOST: usize = 20;
+    let text = listed[..listed.len().min(MOST)].join(separator);
+    match listed.len().saturating_sub(MOST) {
+        0 => text,
+        more => format!("{text}{separator}and {more} more"),
+    }
+}
+
 /// The scenes in which differences over time were taken without motion vectors.
-fn without_motion(summary: &SummaryRecord, scenes: &[&str], methods: &[String]) -> Option<String> {
+fn without_motion(overview: &Overview, scenes: &[&str], methods: &[String]) -> Option<String> {
     let still = |scene: &&&str| {
-        let atd = |method: &String| overall(summary, scene, method)?.atd.as_ref();
+        let atd = |method: &String| overview.of(scene, method)?.atd.as_ref();
         let taken = methods.iter().filter_map(atd).filter(|atd| atd.ratio.is_some());
         taken.clone().count() > 0 && taken.clone().all(|atd| atd.motion == GuideSource::None)
     };
@@ -260,43 +249,39 @@ fn without_motion(summary: &SummaryRecord, scenes: &[&str], methods: &[String]) 
 }
 
 /// The scenes in which methods were not scored on the same number of frames.
-fn unequal_frames(summary: &SummaryRecord, scenes: &[&str], methods: &[String]) -> Option<String> {
+fn unequal_frames(overview: &Overview, scenes: &[&str], methods: &[String]) -> Option<String> {
     let unequal: Vec<String> = scenes
         .iter()
         .filter_map(|scene| {
             let scored: Vec<(&String, usize)> = methods
                 .iter()
-                .filter_map(|method| Some((method, overall(summary, scene, method)?.frames)))
+                .filter_map(|method| Some((method, overview.of(scene, method)?.frames)))
                 .collect();
             let most = scored.iter().map(|(_, frames)| *frames).max()?;
             let fewer = scored.iter().filter(|(_, frames)| *frames < most);
             let fewer: Vec<String> =
                 fewer.map(|(method, frames)| format!("{method} {frames} of {most}")).collect();
-            (!fewer.is_empty()).then(|| format!("{scene}: {}", fewer.join(", ")))
+            (!fewer.is_empty()).then(|| format!("{scene}: {}", first(&fewer, ", ")))
         })
         .collect();
     (!unequal.is_empty()).then(|| {
-        format!("Not all methods were scored on the same frames ({}).", unequal.join("; "))
+        format!("Not all methods were scored on the same frames ({}).", first(&unequal, "; "))
     })
 }
 
 /// The frames whose decibels are infinite and in no mean.
-fn identical_frames(
-    summary: &SummaryRecord,
-    scenes: &[&str],
-    methods: &[String],
-) -> Option<String> {
+fn identical_frames(overview: &Overview, scenes: &[&str], methods: &[String]) -> Option<String> {
     let pairs = scenes.iter().flat_map(|scene| methods.iter().map(move |method| (scene, method)));
     let identical: Vec<String> = pairs
         .filter_map(|(scene, method)| {
-            let comparison = overall(summary, scene, method)?;
-            let count = comparison.metrics.values().find_map(|s| s.identical_frames)?;
+            let comparison = overview.of(scene, method)?;
+            let count = comparison.scores().find_map(|score| score.identical_frames)?;
             (0 < count && count < comparison.frames)
                 .then(|| format!("{scene}, {method}: {count} of {}", comparison.frames))
         })
         .collect();
     (!identical.is_empty()).then(|| {
-        let which = identical.join("; ");
+        let which = first(&identical, "; ");
         format!("Means of decibels leave out frames that are identical to the reference ({which}).")
     })
 }

@@ -2,10 +2,11 @@
 
 use fovqa_metrics::{Better, Metric};
 use fovqa_plan::Plot;
-use fovqa_results::{ComparisonSummary, HaarRecord, RunRecord, Spread, SummaryRecord};
+use fovqa_results::RunRecord;
 
 use super::group::Group;
-use super::{Cell, ComparisonTable, Row, overall};
+use super::{Cell, ComparisonTable, Row};
+use crate::overview::{Measured, Overview, WaveletBand};
 
 /// What a table of ratios is of.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,29 +37,19 @@ pub(crate) fn statistic_in_words(statistic: &str) -> &'static str {
     }
 }
 
-/// A ratio of the wavelet.
-pub(crate) fn haar_ratio(record: &HaarRecord<Spread>, statistic: &str) -> Option<f64> {
-    let ratio = &record.all.ratio;
-    match statistic {
-        "mean_abs" => ratio.mean_abs,
-        "max_abs" => ratio.max_abs,
-        _ => ratio.energy,
-    }
-}
-
 impl ComparisonTable {
     /// The table of one metric in one scene; `None` where nothing of it was scored.
     pub(crate) fn ratios(
         run: &RunRecord,
-        summary: &SummaryRecord,
+        overview: &Overview,
         ratios: &Ratios<'_>,
     ) -> Option<Self> {
-        let of = |method: &&str| overall(summary, ratios.scene, method);
-        let found: Vec<&ComparisonSummary> = ratios.methods.iter().filter_map(of).collect();
-        let bands = found.iter().map(|c| c.bands.as_slice()).find(|bands| !bands.is_empty())?;
+        let of = |method: &&str| overview.of(ratios.scene, method);
+        let found: Vec<&Measured> = ratios.methods.iter().filter_map(of).collect();
+        let bands = found.iter().map(|c| &c.bands).find(|bands| !bands.is_empty())?;
         let levels = ratios.levels_of(&found);
         let groups = ratios.groups(&levels);
-        let row = |label: String, value: &dyn Fn(&ComparisonSummary, usize) -> Option<f64>| {
+        let row = |label: String, value: &dyn Fn(&Measured, usize) -> Option<f64>| {
             let cells = (0..groups.len()).map(|group| {
                 let value = |method: &&str| Some(value(of(method)?, group)? * 100.0);
                 let cell = |value| Cell { value, best: false };
@@ -77,7 +68,7 @@ impl ComparisonTable {
             })
             .collect();
         if ratios.metric == Metric::Atd {
-            let whole = |c: &ComparisonSummary, _| c.atd.as_ref()?.ratio;
+            let whole = |c: &Measured, _| c.atd.as_ref()?.ratio;
             rows.push(Row { average: true, ..row("whole frame".to_owned(), &whole) });
         }
         let cells = rows.iter().flat_map(|row| row.cells.iter().flatten());
@@ -113,12 +104,12 @@ impl Ratios<'_> {
     }
 
     /// The levels to show; none but for the wavelet.
-    fn levels_of(&self, found: &[&ComparisonSummary]) -> Vec<usize> {
+    fn levels_of(&self, found: &[&Measured]) -> Vec<usize> {
         if self.metric != Metric::Haar {
             return Vec::new();
         }
         let mut levels: Vec<usize> =
-            found.iter().flat_map(|c| c.haar.iter().map(|record| record.level)).collect();
+            found.iter().flat_map(|c| c.wavelet.iter().map(|band| band.level.into())).collect();
         levels.sort_unstable();
         levels.dedup();
         levels.retain(|level| self.levels.is_none_or(|wanted| wanted.contains(level)));
@@ -141,17 +132,18 @@ impl Ratios<'_> {
 
     fn in_band(
         &self,
-        comparison: &ComparisonSummary,
+        comparison: &Measured,
         edges: (f64, f64),
         level: Option<&usize>,
     ) -> Option<f64> {
         let is_it = |from: f64, to: f64| (from, to) == edges;
         let Some(&level) = level else {
             let band = comparison.bands.iter().find(|b| is_it(b.from_deg, b.to_deg))?;
-            return band.compared.get(&self.metric)?.ratio;
+            return band.compared(self.metric)?.ratio();
         };
-        let mut records = comparison.haar.iter();
-        let of = |r: &&HaarRecord<Spread>| r.level == level && is_it(r.from_deg, r.to_deg);
-        haar_ratio(records.find(of)?, self.statistic)
+        let of = |band: &&WaveletBand| {
+            usize::from(band.level) == level && is_it(band.from_deg, band.to_deg)
+        };
+        comparison.wavelet.iter().find(of)?.statistic(self.statistic).ratio()
     }
 }

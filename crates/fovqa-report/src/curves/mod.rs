@@ -17,7 +17,7 @@ use fovqa_results::{
 };
 
 use crate::figures::slug;
-use crate::sheet::{NamedFigure, NamedTable, Names, ReportError, Sheet};
+use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
 use plain_table::PlainTable;
 
 /// What was drawn of a file of curves.
@@ -75,10 +75,11 @@ pub fn draw_curves(
         made.push((names.free(name), table));
     }
     let page = page::page(&source, &made, &figures);
-    let files = made.iter().map(|(name, table)| NamedTable {
-        name: name.clone(),
-        files: vec![("md", table.markdown()), ("csv", table.csv())],
+    let files = made.iter().map(|(name, table)| {
+        let markdown: MakeText<'_> = Box::new(|| table.markdown());
+        NamedTable { name, files: vec![("md", markdown), ("csv", Box::new(|| table.csv()))] }
     });
+    let page: MakeText<'_> = Box::new(|| page.clone());
     let sheet = Sheet { tables: files.collect(), figures, page };
     write_whole(&folder.join(CURVES_CSV), curves_csv(&file.plan, curves).as_bytes())?;
     write_json_file(&folder.join(CURVES_JSON), &CurvesRecord::new(file, curves))?;

@@ -4,10 +4,10 @@
 use fovqa_metrics::Metric;
 use fovqa_plan::Plot;
 use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look, PanelChart};
-use fovqa_results::{ComparisonSummary, HaarRecord, Spread};
 
 use super::{MOST_EDGE_TICKS, NamedFigure, Selection, axis, slug};
-use crate::comparison::{overall, statistic, statistic_in_words};
+use crate::comparison::{statistic, statistic_in_words};
+use crate::overview::Measured;
 
 /// Panels beside each other.
 const COLUMNS: usize = 3;
@@ -32,7 +32,7 @@ impl Selection<'_> {
                 (self.wavelet(scene, plot)?, format!("Haar wavelet {words} by level"))
             }
             metric => {
-                let values = |c: &ComparisonSummary| banded(c, metric);
+                let values = |c: &Measured| banded(c, metric);
                 let chart = self.chart(scene, Axis::new(axis(metric)), values)?;
                 // Contrasts differ by little: their distance is read, not their height.
                 let y_from_zero = metric != Metric::RmsContrast;
@@ -45,17 +45,16 @@ impl Selection<'_> {
     }
 
     fn wavelet(&self, scene: &str, plot: &Plot) -> Option<Figure> {
-        let summary = self.source.summary;
-        let of = |(method, _): &(&str, Look)| overall(summary, scene, method);
-        let records = self.methods.iter().filter_map(of).flat_map(|c| &c.haar);
-        let mut levels: Vec<usize> = records.map(|record| record.level).collect();
+        let of = |(method, _): &(&str, Look)| self.source.overview.of(scene, method);
+        let bands = self.methods.iter().filter_map(of).flat_map(|measured| &measured.wavelet);
+        let mut levels: Vec<usize> = bands.map(|band| band.level.into()).collect();
         levels.sort_unstable();
         levels.dedup();
         levels.retain(|level| plot.levels.as_ref().is_none_or(|wanted| wanted.contains(level)));
         let statistic = statistic(plot);
         let panel = |level: &usize| {
             let y = Axis::new(format!("Wavelet {}", statistic_in_words(statistic)));
-            let values = |c: &ComparisonSummary| levelled(c, *level, statistic);
+            let values = |c: &Measured| levelled(c, *level, statistic);
             let chart = self.chart(scene, y, values)?;
             let side = 1u64 << level;
             let title = Some(format!("Level {level} ({side}×{side} px)"));
@@ -80,13 +79,13 @@ impl Selection<'_> {
         &self,
         scene: &str,
         y: Axis,
-        values: impl Fn(&ComparisonSummary) -> Vec<Values>,
+        values: impl Fn(&Measured) -> Vec<Values>,
     ) -> Option<LineChart> {
         let mut edges: Vec<f64> = Vec::new();
         let mut reference: Option<LineSeries> = None;
         let mut series = Vec::new();
         for &(method, look) in &self.methods {
-            let Some(comparison) = overall(self.source.summary, scene, method) else { continue };
+            let Some(comparison) = self.source.overview.of(scene, method) else { continue };
             let bands = values(comparison);
             if bands.is_empty() {
                 continue;
@@ -123,33 +122,28 @@ impl Selection<'_> {
     }
 }
 
-fn banded(comparison: &ComparisonSummary, metric: Metric) -> Vec<Values> {
-    let mean = |spread: &Option<Spread>| spread.map(|spread| spread.mean);
-    let bands = comparison.bands.iter().filter_map(|band| {
-        let sides = band.compared.get(&metric)?;
+fn banded(measured: &Measured, metric: Metric) -> Vec<Values> {
+    let bands = measured.bands.iter().filter_map(|band| {
+        let compared = band.compared(metric)?;
         Some(Values {
             from_deg: band.from_deg,
             to_deg: band.to_deg,
-            reference: mean(&sides.reference),
-            test: mean(&sides.test),
+            reference: compared.reference(),
+            test: compared.test(),
         })
     });
     bands.collect()
 }
 
-fn levelled(comparison: &ComparisonSummary, level: usize, statistic: &str) -> Vec<Values> {
-    let records = comparison.haar.iter().filter(|record| record.level == level);
-    let values = records.map(|record: &HaarRecord<Spread>| {
-        let of = |values: &fovqa_results::HaarValues<Spread>| match statistic {
-            "mean_abs" => values.mean_abs.map(|spread| spread.mean),
-            "max_abs" => values.max_abs.map(|spread| spread.max),
-            _ => values.energy.map(|spread| spread.mean),
-        };
+fn levelled(measured: &Measured, level: usize, statistic: &str) -> Vec<Values> {
+    let bands = measured.wavelet.iter().filter(|band| usize::from(band.level) == level);
+    let values = bands.map(|band| {
+        let compared = band.statistic(statistic);
         Values {
-            from_deg: record.from_deg,
-            to_deg: record.to_deg,
-            reference: of(&record.all.reference),
-            test: of(&record.all.test),
+            from_deg: band.from_deg,
+            to_deg: band.to_deg,
+            reference: compared.reference(),
+            test: compared.test(),
         }
     });
     values.collect()

@@ -2,6 +2,7 @@
 //! method, and over frames. A method has one colour and marker in all of them.
 
 mod compared;
+mod parts;
 mod sequence;
 
 use fovqa_metrics::{Better, Image, Metric, MetricKind};
@@ -9,14 +10,13 @@ use fovqa_plan::{Plot, PlotKind};
 use fovqa_plot::{
     Axis, BarChart, BarSeries, Figure, LineChart, LineSeries, Look, SpreadChart, SpreadSeries,
 };
-use fovqa_results::{
-    BandStatistics, ComparisonSummary, EccentricityShare, RunRecord, SummaryRecord,
-};
+use fovqa_results::{EccentricityShare, RunRecord};
 
-use crate::comparison::{
-    ComparisonTable, Ratios, average_label, common_scenes, mean, overall, statistic, value,
-};
+use parts::Part;
+
+use crate::comparison::{ComparisonTable, Ratios, average_label, common_scenes, mean, statistic};
 use crate::frame_values::FrameValues;
+use crate::overview::Overview;
 use crate::sheet::NamedFigure;
 
 /// More edges than this do not fit the axis as ticks.
@@ -25,31 +25,35 @@ const MOST_EDGE_TICKS: usize = 13;
 /// What figures are made from.
 pub(crate) struct Source<'a> {
     pub(crate) run: &'a RunRecord,
-    pub(crate) summary: &'a SummaryRecord,
+    pub(crate) overview: &'a Overview,
     pub(crate) values: &'a FrameValues,
 }
 
-/// A plot's own scenes, methods and metric.
+/// A plot's own scenes and methods, or those of one of its figures.
+#[derive(Clone)]
 struct Selection<'a> {
     source: &'a Source<'a>,
     scenes: Vec<&'a str>,
     /// Name and look.
     methods: Vec<(&'a str, Look)>,
+    /// All methods of the plot.
+    all: Vec<&'a str>,
+    /// Which of them are shown; `None`: all.
+    part: Option<Part>,
 }
 
 /// The plots of a run that asks for none: all that have something to show.
 pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
-    let summary = source.summary;
+    let all = source.overview.all();
     let mut kinds = vec![PlotKind::Table, PlotKind::Ratios, PlotKind::Profile];
-    let eyes = |c: &&ComparisonSummary| c.eye.is_empty() || c.eye == "both";
-    if summary.comparisons.iter().filter(eyes).count() > 1 {
+    if all.iter().filter(|measured| !measured.is_of_one_eye).count() > 1 {
         kinds.push(PlotKind::Bars);
     }
-    if summary.comparisons.iter().any(|comparison| comparison.frames > 1) {
+    if all.iter().any(|measured| measured.frames > 1) {
         kinds.push(PlotKind::Frames);
     }
     let mut plots: Vec<Plot> = kinds.into_iter().map(Plot::of).collect();
-    if summary.comparisons.iter().any(|c| c.atd.as_ref().is_some_and(|atd| atd.frames > 1)) {
+    if all.iter().any(|of| of.atd.as_ref().is_some_and(|atd| atd.frames > 1)) {
         let metric = Some(Metric::Atd.key().to_owned());
         plots.push(Plot { metric, ..Plot::of(PlotKind::Sequence) });
     }
@@ -58,25 +62,29 @@ pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
 
 /// The figures of a plot; none for a table.
 pub(crate) fn figures(source: &Source<'_>, plot: &Plot) -> Vec<NamedFigure> {
-    let selection = Selection::new(source, plot);
-    let metrics = metrics(source, plot);
-    match plot.kind {
-        PlotKind::Table | PlotKind::Ratios => Vec::new(),
-        PlotKind::Profile => {
-            metrics.into_iter().flat_map(|metric| selection.profiles(metric, plot)).collect()
+    let whole = Selection::new(source, plot);
+    let of_part = |metric: Metric, part: &Selection<'_>| -> Vec<NamedFigure> {
+        match plot.kind {
+            PlotKind::Table | PlotKind::Ratios => Vec::new(),
+            PlotKind::Profile => part.profiles(metric, plot),
+            PlotKind::Sequence => part.sequences(metric),
+            PlotKind::Bars => vec![part.bars(metric)],
+            PlotKind::Frames => vec![part.frames(metric)],
         }
-        PlotKind::Sequence => {
-            metrics.into_iter().flat_map(|metric| selection.sequences(metric)).collect()
-        }
-        PlotKind::Bars => metrics.into_iter().map(|metric| selection.bars(metric)).collect(),
-        PlotKind::Frames => metrics.into_iter().map(|metric| selection.frames(metric)).collect(),
-    }
+    };
+    let of_metric = |metric: Metric| {
+        let parts = whole.parts(metric).into_iter();
+        parts.flat_map(move |part| {
+            let figures = of_part(metric, &part).into_iter();
+            figures.map(|figure| part.labelled(figure)).collect::<Vec<_>>()
+        })
+    };
+    metrics(source, plot).into_iter().flat_map(of_metric).collect()
 }
 
 /// The tables of ratios of a plot: one a metric and scene.
 pub(crate) fn ratio_tables(source: &Source<'_>, plot: &Plot) -> Vec<(String, ComparisonTable)> {
     let selection = Selection::new(source, plot);
-    let methods: Vec<&str> = selection.methods.iter().map(|(method, _)| *method).collect();
     let table = |(metric, scene): (Metric, &str)| {
         let name = format!("ratios-{}", slug(metric.key()));
         let alone = selection.scenes.len() == 1;
@@ -84,11 +92,11 @@ pub(crate) fn ratio_tables(source: &Source<'_>, plot: &Plot) -> Vec<(String, Com
         let ratios = Ratios {
             metric,
             scene,
-            methods: &methods,
+            methods: &selection.all,
             levels: plot.levels.as_deref(),
             statistic: statistic(plot),
         };
-        Some((name, ComparisonTable::ratios(source.run, source.summary, &ratios)?))
+        Some((name, ComparisonTable::ratios(source.run, source.overview, &ratios)?))
     };
     let metrics = metrics(source, plot).into_iter();
     let each =
@@ -99,8 +107,8 @@ pub(crate) fn ratio_tables(source: &Source<'_>, plot: &Plot) -> Vec<(String, Com
 /// The metrics of a plot: its own, or all that were scored and fit, without MSE where PSNR says
 /// the same.
 pub(crate) fn metrics(source: &Source<'_>, plot: &Plot) -> Vec<Metric> {
-    let summary = source.summary;
-    let scored = |metric: Metric| summary.comparisons.iter().any(|c| is_scored(c, metric));
+    let all = source.overview.all();
+    let scored = |metric: Metric| all.iter().any(|measured| measured.is_scored(metric));
     let fits = |metric: Metric| match plot.kind {
         PlotKind::Profile => metric.info().per_band,
         PlotKind::Ratios => !metric.is(MetricKind::Fidelity),
@@ -118,16 +126,6 @@ pub(crate) fn metrics(source: &Source<'_>, plot: &Plot) -> Vec<Metric> {
     all.filter(|&metric| scored(metric) && fits(metric) && wanted(metric)).collect()
 }
 
-fn is_scored(comparison: &ComparisonSummary, metric: Metric) -> bool {
-    match metric.info().kind {
-        _ if metric == Metric::Fvvdp => comparison.fvvdp.as_ref().is_some_and(|f| f.jod.is_some()),
-        MetricKind::Fidelity => comparison.metrics.contains_key(&metric),
-        MetricKind::Temporal => comparison.atd.as_ref().is_some_and(|atd| atd.frames > 0),
-        MetricKind::Profile if metric == Metric::Haar => !comparison.haar.is_empty(),
-        MetricKind::Profile => comparison.bands.iter().any(|b| b.compared.contains_key(&metric)),
-    }
-}
-
 impl<'a> Selection<'a> {
     fn new(source: &'a Source<'a>, plot: &Plot) -> Self {
         let wanted = |names: &Option<Vec<String>>, name: &str| {
@@ -136,13 +134,16 @@ impl<'a> Selection<'a> {
         let resolved = &source.run.resolved;
         let scenes = resolved.scenes.iter().map(|scene| scene.name.as_str());
         let methods = resolved.methods.iter().enumerate();
+        let methods: Vec<(&str, Look)> = methods
+            .filter(|(_, method)| wanted(&plot.methods, method))
+            .map(|(index, method)| (method.as_str(), Look::new(index)))
+            .collect();
         Self {
             source,
             scenes: scenes.filter(|scene| wanted(&plot.scenes, scene)).collect(),
-            methods: methods
-                .filter(|(_, method)| wanted(&plot.methods, method))
-                .map(|(index, method)| (method.as_str(), Look::new(index)))
-                .collect(),
+            all: methods.iter().map(|(method, _)| *method).collect(),
+            methods,
+            part: None,
         }
     }
 
@@ -233,31 +234,25 @@ impl<'a> Selection<'a> {
     }
 
     fn bands(&self, metric: Metric, scene: &str, method: &str) -> Vec<Band> {
-        let comparison = overall(self.source.summary, scene, method);
+        let Some(measured) = self.source.overview.of(scene, method) else { return Vec::new() };
         if metric == Metric::Fvvdp {
-            let fvvdp = comparison.and_then(|c| c.fvvdp.as_ref());
-            let shares = fvvdp.map(|fvvdp| fvvdp.shares.as_slice()).unwrap_or_default().iter();
             let band = |share: &EccentricityShare| Band {
                 from_deg: share.from_deg,
                 to_deg: share.to_deg,
                 value: share.share,
             };
-            return shares.map(band).collect();
+            return measured.shares.iter().map(band).collect();
         }
-        let bands = comparison.map(|c| c.bands.as_slice());
-        let bands = bands.unwrap_or_default().iter();
-        bands
-            .map(|band: &BandStatistics| Band {
-                from_deg: band.from_deg,
-                to_deg: band.to_deg,
-                value: band.metrics.get(&metric).copied().flatten().map(|s| s.mean),
-            })
-            .collect()
+        let band = |band: &crate::overview::Band| Band {
+            from_deg: band.from_deg,
+            to_deg: band.to_deg,
+            value: band.mean(metric),
+        };
+        measured.bands.iter().map(band).collect()
     }
 
     fn common_scenes(&self, metric: Metric) -> Vec<&'a str> {
-        let methods: Vec<&str> = self.methods.iter().map(|(method, _)| *method).collect();
-        common_scenes(self.source.summary, &self.scenes, &methods, metric)
+        common_scenes(self.source.overview, &self.scenes, &self.all, metric)
     }
 
     /// The mean over scenes, of the bands that all of them have.
@@ -277,7 +272,7 @@ impl<'a> Selection<'a> {
 
     fn bars(&self, metric: Metric) -> NamedFigure {
         let series = self.methods.iter().map(|&(method, look)| {
-            let value = |scene: &&str| value(overall(self.source.summary, scene, method)?, metric);
+            let value = |scene: &&str| self.source.overview.of(scene, method)?.value(metric);
             let values = self.scenes.iter().map(value).collect();
             BarSeries { name: method.to_owned(), look, values }
         });

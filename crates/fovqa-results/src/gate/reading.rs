@@ -7,8 +7,8 @@ use std::path::Path;
 use fovqa_metrics::Subject;
 
 use super::values::{Place, Row, RunValues, Values};
-use crate::files::{FileError, SUMMARY_JSON, read_json_file};
-use crate::json::{ComparisonSummary, SUMMARY_SCHEMA, SummaryRecord};
+use crate::files::{FileError, SUMMARY_JSON};
+use crate::json::{ComparisonSummary, read_summary};
 use crate::table::{ERROR, Value, Which, not_results, read_results, table_file};
 
 impl RunValues {
@@ -17,13 +17,13 @@ impl RunValues {
     /// # Errors
     /// When its files are missing or not what they should be.
     pub fn read(folder: &Path) -> Result<Self, FileError> {
-        let path = folder.join(SUMMARY_JSON);
-        let summary: SummaryRecord = read_json_file(&path, SUMMARY_SCHEMA, "a summary of a run")?;
+        let mut comparisons = Vec::new();
+        let errors = read_summary(folder, |comparison| comparisons.push(comparison))?;
         let mut values = Self::default();
         let path = table_file(folder);
         let broken = |detail: String| not_results(&path, detail);
         values.read_csv(folder)?;
-        for comparison in summary.comparisons {
+        for comparison in comparisons {
             let place = place(&comparison);
             let entry = values.places.entry(place).or_default();
             agrees(entry, &comparison).map_err(broken)?;
@@ -36,8 +36,7 @@ impl RunValues {
                 "it has values of {scene}, {method} that {SUMMARY_JSON} has not"
             )));
         }
-        values.errors = summary
-            .errors
+        values.errors = errors
             .iter()
             .map(|error| {
                 let frame = error.frame.map(|frame| format!("frame {frame}"));

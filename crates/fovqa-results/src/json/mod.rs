@@ -4,14 +4,14 @@ mod compared;
 mod run;
 mod score;
 mod summary;
+mod summary_file;
 mod unique_keys;
 mod values;
 
 pub use compared::{HaarRecord, HaarSides, HaarValues, SideValues};
 pub use run::{ExperimentRecord, RUN_SCHEMA, RunRecord};
 pub use score::{SCORE_SCHEMA, write_json};
-pub use summary::{
-    BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, SummaryRecord, ViewRecord,
-};
+pub use summary::{BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, ViewRecord};
+pub use summary_file::{read_summary, write_summary};
 pub(crate) use unique_keys::UniqueKeys;
 pub use values::Number;

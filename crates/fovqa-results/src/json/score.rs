@@ -7,7 +7,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::compared::{HaarRecord, SideValues, haar, in_band, name, summary_haar};
 use super::summary::{BandStatistics, ViewRecord, stats};
-use super::values::{MetricMap, Number, Stats};
+use super::values::{Each, MetricMap, Number, Stats};
 use crate::fvvdp::{FvvdpSummary, SpatialBand, spatial_bands};
 use crate::report::{FrameResult, ScoreReport};
 use crate::summary::{AtdSummary, Spread, Summary};
@@ -25,7 +25,7 @@ pub fn write_json(report: &ScoreReport, mut out: impl Write) -> io::Result<()> {
         schema: SCORE_SCHEMA,
         version: env!("CARGO_PKG_VERSION"),
         view: report.view.as_ref().map(ViewRecord::of),
-        frames: report.frames.iter().map(|f| Frame::of(f, report)).collect(),
+        frames: Each(|| report.frames.iter().map(|frame| Frame::of(frame, report))),
         sequence: Sequence { atd: summary.atd.clone(), fvvdp: summary.fvvdp.clone() },
         summary: stats(&summary.statistics),
         summary_haar: summary_haar(&summary),
@@ -47,11 +47,11 @@ pub fn write_json(report: &ScoreReport, mut out: impl Write) -> io::Result<()> {
 }
 
 #[derive(serde::Serialize)]
-struct Document<'a> {
+struct Document<'a, F> {
     schema: &'a str,
     version: &'static str,
     view: Option<ViewRecord>,
-    frames: Vec<Frame<'a>>,
+    frames: F,
     sequence: Sequence,
     summary: MetricMap<Stats>,
     summary_bands: Vec<BandStatistics>,

@@ -10,26 +10,11 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use super::compared::{HaarRecord, SideValues, in_summary_band, summary_haar};
 use super::values::{AnyStats, MetricMap, Number, Stats};
 use crate::fvvdp::FvvdpSummary;
-use crate::report::{Comparison, RunResults, ViewResult};
+use crate::report::{Comparison, ViewResult};
 use crate::summary::{AtdSummary, BandSummary, Spread, Statistics, Summary};
 
 /// Name and version of the format.
 pub const SUMMARY_SCHEMA: &str = "fovqa.summary/1";
-
-/// The whole file.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct SummaryRecord {
-    /// Name and version of the format.
-    pub schema: String,
-    /// Version of fovqa.
-    pub version: String,
-    /// Name of the experiment.
-    pub experiment: String,
-    /// One entry a scene, method and eye.
-    pub comparisons: Vec<ComparisonSummary>,
-    /// What could not be scored.
-    pub errors: Vec<ErrorRecord>,
-}
 
 /// One method in one scene, for one eye or both.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -109,30 +94,21 @@ pub struct ErrorRecord {
     pub message: String,
 }
 
-impl SummaryRecord {
-    /// The summary of a run.
-    pub fn of(experiment: &str, results: &RunResults) -> Self {
-        let errors = results.comparisons.iter().flat_map(|comparison| {
-            comparison.report.failures.iter().map(|failure| ErrorRecord {
-                scene: comparison.scene.clone(),
-                method: comparison.method.clone(),
-                eye: comparison.eye.to_owned(),
-                frame: failure.frame,
-                message: failure.message.clone(),
-            })
-        });
-        Self {
-            schema: SUMMARY_SCHEMA.to_owned(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            experiment: experiment.to_owned(),
-            comparisons: results.comparisons.iter().map(ComparisonSummary::of).collect(),
-            errors: errors.collect(),
-        }
+impl ErrorRecord {
+    /// What could not be scored of a comparison.
+    pub(super) fn all(comparison: &Comparison) -> impl Iterator<Item = Self> {
+        comparison.report.failures.iter().map(|failure| Self {
+            scene: comparison.scene.clone(),
+            method: comparison.method.clone(),
+            eye: comparison.eye.to_owned(),
+            frame: failure.frame,
+            message: failure.message.clone(),
+        })
     }
 }
 
 impl ComparisonSummary {
-    fn of(comparison: &Comparison) -> Self {
+    pub(super) fn of(comparison: &Comparison) -> Self {
         let report = &comparison.report;
         let summary = Summary::of(report);
         // Both eyes have a view each, and none together.
@@ -315,61 +291,46 @@ mod tests {
             orientations: BTreeMap::from([("lh".to_owned(), of.clone())]),
             all: of,
         };
-        let record = SummaryRecord {
-            schema: SUMMARY_SCHEMA.to_owned(),
-            version: "0".to_owned(),
-            experiment: "e".to_owned(),
-            comparisons: vec![ComparisonSummary {
-                scene: "s".to_owned(),
-                method: "m".to_owned(),
-                parameters: String::new(),
-                eye: "left".to_owned(),
-                frames: 3,
-                errors: 1,
-                view: Some(ViewRecord {
-                    width: 3,
-                    height: 4,
-                    focal_px: [1.1, 2.2],
-                    gaze_px: [0.5, 0.25],
-                    eccentricity: EccentricityKind::Angular,
-                }),
-                metrics: BTreeMap::from([(Metric::Psnr, statistics), (Metric::Ssim, ssim)]),
-                bands: vec![BandStatistics {
-                    from_deg: 0.0,
-                    to_deg: 5.0,
-                    pixels: 7,
-                    metrics: BTreeMap::from([
-                        (Metric::Psnr, Some(statistics)),
-                        (Metric::Ssim, None),
-                    ]),
-                    compared: BTreeMap::from([
-                        (Metric::RmsContrast, sides.clone()),
-                        (Metric::Atd, nothing),
-                    ]),
-                }],
-                haar: vec![haar],
-                atd: Some(AtdSummary {
-                    reference: Some(0.25),
-                    test: Some(0.1 + 0.2),
-                    ratio: Some(1.2),
-                    left_out: Some(0.01),
-                    left_out_test: None,
-                    frames: 2,
-                    motion: GuideSource::Reference,
-                    depth: GuideSource::None,
-                    reason: None,
-                }),
-                fvvdp: Some(fvvdp(spread)),
+        let record = ComparisonSummary {
+            scene: "s".to_owned(),
+            method: "m".to_owned(),
+            parameters: String::new(),
+            eye: "left".to_owned(),
+            frames: 3,
+            errors: 1,
+            view: Some(ViewRecord {
+                width: 3,
+                height: 4,
+                focal_px: [1.1, 2.2],
+                gaze_px: [0.5, 0.25],
+                eccentricity: EccentricityKind::Angular,
+            }),
+            metrics: BTreeMap::from([(Metric::Psnr, statistics), (Metric::Ssim, ssim)]),
+            bands: vec![BandStatistics {
+                from_deg: 0.0,
+                to_deg: 5.0,
+                pixels: 7,
+                metrics: BTreeMap::from([(Metric::Psnr, Some(statistics)), (Metric::Ssim, None)]),
+                compared: BTreeMap::from([
+                    (Metric::RmsContrast, sides.clone()),
+                    (Metric::Atd, nothing),
+                ]),
             }],
-            errors: vec![ErrorRecord {
-                scene: "s".to_owned(),
-                method: "m".to_owned(),
-                eye: String::new(),
-                frame: None,
-                message: "no".to_owned(),
-            }],
+            haar: vec![haar],
+            atd: Some(AtdSummary {
+                reference: Some(0.25),
+                test: Some(0.1 + 0.2),
+                ratio: Some(1.2),
+                left_out: Some(0.01),
+                left_out_test: None,
+                frames: 2,
+                motion: GuideSource::Reference,
+                depth: GuideSource::None,
+                reason: None,
+            }),
+            fvvdp: Some(fvvdp(spread)),
         };
         let text = serde_json::to_string_pretty(&record).unwrap();
-        assert_eq!(serde_json::from_str::<SummaryRecord>(&text).unwrap(), record, "{text}");
+        assert_eq!(serde_json::from_str::<ComparisonSummary>(&text).unwrap(), record, "{text}");
     }
 }

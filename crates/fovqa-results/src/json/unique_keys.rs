@@ -14,6 +14,11 @@ impl<'de> Deserialize<'de> for UniqueKeys {
     }
 }
 
+/// The error of a key that stands twice.
+pub(super) fn stands_twice<E: Error>(key: &str) -> E {
+    E::custom(format!("the key {key:?} stands twice"))
+}
+
 struct AnyValue;
 
 impl<'de> Visitor<'de> for AnyValue {
@@ -63,7 +68,7 @@ impl<'de> Visitor<'de> for AnyValue {
         let mut values = Map::new();
         while let Some(key) = access.next_key::<String>()? {
             if values.contains_key(&key) {
-                return Err(A::Error::custom(format!("the key {key:?} stands twice")));
+                return Err(stands_twice(&key));
             }
             let UniqueKeys(value) = access.next_value()?;
             values.insert(key, value);

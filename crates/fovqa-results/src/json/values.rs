@@ -55,6 +55,19 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
+/// A list whose elements are made while it is written.
+pub(crate) struct Each<F>(pub(crate) F);
+
+impl<F, I> Serialize for Each<F>
+where
+    F: Fn() -> I,
+    I: Iterator<Item: Serialize>,
+{
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq((self.0)())
+    }
+}
+
 /// Values under the keys of their metrics, in the order of tables.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MetricMap<T>(pub(crate) BTreeMap<Metric, T>);

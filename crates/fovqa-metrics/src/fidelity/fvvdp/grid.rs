@@ -68,12 +68,6 @@ impl Grid {
         &self.values[y * self.stride..(y + 1) * self.stride]
     }
 
-    /// The largest value.
-    pub fn max(&self) -> f32 {
-        let rows = (0..self.height).map(|y| self.row(y).iter().copied().fold(f32::MIN, f32::max));
-        rows.fold(f32::MIN, f32::max)
-    }
-
     /// Hands blocks of rows to `fill`, in parallel: the number of a block's first row, and its rows with
     /// what lies behind their ends.
     pub(crate) fn fill_blocks(

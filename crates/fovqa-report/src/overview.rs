@@ -1,0 +1,307 @@
+//! What tables and figures show of a run's summary. Of each comparison only these numbers are kept, as a run
+//! can have very many.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use fovqa_metrics::{Metric, MetricKind};
+use fovqa_results::{
+    AtdSummary, BandStatistics, ComparisonSummary, EccentricityShare, ErrorRecord, FileError,
+    HaarRecord, HaarValues, SideValues, Spread, Statistics, read_summary,
+};
+
+/// The comparisons of a run, and what could not be scored.
+#[derive(Debug, Default)]
+pub(crate) struct Overview {
+    comparisons: Vec<Measured>,
+    /// By scene and method, the comparison that stands for them: of both eyes, where there are two.
+    overall: BTreeMap<String, BTreeMap<String, usize>>,
+    pub(crate) errors: Vec<ErrorRecord>,
+}
+
+/// One method in one scene, for one eye or both.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Measured {
+    /// Whether it is of the left or of the right eye alone.
+    pub(crate) is_of_one_eye: bool,
+    /// Whether it is of two eyes together.
+    pub(crate) is_of_both_eyes: bool,
+    /// Frames that were scored.
+    pub(crate) frames: usize,
+    scores: Box<[(Metric, Score)]>,
+    pub(crate) bands: Box<[Band]>,
+    /// The wavelet by level and band.
+    pub(crate) wavelet: Box<[WaveletBand]>,
+    pub(crate) atd: Option<AtdSummary>,
+    /// JOD of FovVideoVDP.
+    pub(crate) jod: Option<f64>,
+    /// What each band of eccentricity has in FovVideoVDP's Q.
+    pub(crate) shares: Box<[EccentricityShare]>,
+}
+
+/// A metric over the frames.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Score {
+    pub(crate) mean: f64,
+    /// Of decibels, the frames without any error.
+    pub(crate) identical_frames: Option<usize>,
+}
+
+/// A band of eccentricity over the frames.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Band {
+    pub(crate) from_deg: f64,
+    pub(crate) to_deg: f64,
+    means: Box<[(Metric, Option<f64>)]>,
+    compared: Box<[(Metric, Compared)]>,
+}
+
+/// A level of the wavelet in a band of eccentricity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct WaveletBand {
+    pub(crate) level: u8,
+    pub(crate) from_deg: f64,
+    pub(crate) to_deg: f64,
+    /// Mean |c|, max |c| and mean c².
+    statistics: [Compared; 3],
+}
+
+/// A measure of the reference and of the test, and their ratio. NaN, which is no measured value, stands for a
+/// value that is missing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Compared([f64; 3]);
+
+impl Overview {
+    /// Reads it from a folder of results.
+    pub(crate) fn read(folder: &Path) -> Result<Self, FileError> {
+        let mut overview = Self::default();
+        let errors = read_summary(folder, |comparison| overview.add(comparison))?;
+        Ok(Self { errors, ..overview })
+    }
+
+    fn add(&mut self, comparison: ComparisonSummary) {
+        let measured = Measured::of(&comparison);
+        if !measured.is_of_one_eye {
+            let methods = self.overall.entry(comparison.scene).or_default();
+            methods.entry(comparison.method).or_insert(self.comparisons.len());
+        }
+        self.comparisons.push(measured);
+    }
+
+    /// All comparisons.
+    pub(crate) fn all(&self) -> &[Measured] {
+        &self.comparisons
+    }
+
+    /// What was measured of a method in a scene: of both eyes, where there are two.
+    pub(crate) fn of(&self, scene: &str, method: &str) -> Option<&Measured> {
+        self.comparisons.get(*self.overall.get(scene)?.get(method)?)
+    }
+}
+
+impl Measured {
+    fn of(comparison: &ComparisonSummary) -> Self {
+        let score = |(metric, of): (&Metric, &Statistics)| {
+            (*metric, Score { mean: of.mean, identical_frames: of.identical_frames })
+        };
+        let fvvdp = comparison.fvvdp.as_ref();
+        Self {
+            is_of_one_eye: !matches!(comparison.eye.as_str(), "" | "both"),
+            is_of_both_eyes: comparison.eye == "both",
+            frames: comparison.frames,
+            scores: comparison.metrics.iter().map(score).collect(),
+            bands: comparison.bands.iter().map(Band::of).collect(),
+            wavelet: comparison.haar.iter().map(WaveletBand::of).collect(),
+            atd: comparison.atd.clone(),
+            jod: fvvdp.and_then(|fvvdp| fvvdp.jod),
+            shares: fvvdp.map(|fvvdp| fvvdp.shares.as_slice().into()).unwrap_or_default(),
+        }
+    }
+
+    /// The scores of whole frames.
+    pub(crate) fn scores(&self) -> impl Iterator<Item = &Score> {
+        self.scores.iter().map(|(_, score)| score)
+    }
+
+    /// The score of a metric.
+    pub(crate) fn score(&self, metric: Metric) -> Option<&Score> {
+        of(&self.scores, metric)
+    }
+
+    /// Whether there is anything of a metric.
+    pub(crate) fn is_scored(&self, metric: Metric) -> bool {
+        match metric.info().kind {
+            _ if metric == Metric::Fvvdp => self.jod.is_some(),
+            MetricKind::Fidelity => self.score(metric).is_some(),
+            MetricKind::Temporal => self.atd.as_ref().is_some_and(|atd| atd.frames > 0),
+            MetricKind::Profile if metric == Metric::Haar => !self.wavelet.is_empty(),
+            MetricKind::Profile => self.bands.iter().any(|band| band.compared(metric).is_some()),
+        }
+    }
+
+    /// What the columns of tables and the bars show: means over the frames or, over time, the papers'
+    /// percentage.
+    pub(crate) fn value(&self, metric: Metric) -> Option<f64> {
+        match metric {
+            Metric::Atd => Some(self.atd.as_ref()?.ratio? * 100.0),
+            Metric::Fvvdp => self.jod,
+            metric => Some(self.score(metric)?.mean),
+        }
+    }
+}
+
+impl Band {
+    fn of(band: &BandStatistics) -> Self {
+        let mean = |(metric, of): (&Metric, &Option<Statistics>)| (*metric, of.map(|of| of.mean));
+        let mean_of = |spread: &Spread| spread.mean;
+        let compared = band.compared.iter();
+        let compared = compared.map(|(metric, of)| (*metric, Compared::of(of, mean_of)));
+        Self {
+            from_deg: band.from_deg,
+            to_deg: band.to_deg,
+            means: band.metrics.iter().map(mean).collect(),
+            compared: compared.collect(),
+        }
+    }
+
+    /// The mean of a metric over the frames.
+    pub(crate) fn mean(&self, metric: Metric) -> Option<f64> {
+        *of(&self.means, metric)?
+    }
+
+    /// A measure of each picture.
+    pub(crate) fn compared(&self, metric: Metric) -> Option<&Compared> {
+        of(&self.compared, metric)
+    }
+}
+
+impl WaveletBand {
+    fn of(record: &HaarRecord<Spread>) -> Self {
+        let all = &record.all;
+        let of = |statistic: fn(&HaarValues<Spread>) -> Option<f64>, ratio: Option<f64>| {
+            Compared::new([statistic(&all.reference), statistic(&all.test), ratio])
+        };
+        Self {
+            level: record.level as u8,
+            from_deg: record.from_deg,
+            to_deg: record.to_deg,
+            statistics: [
+                of(|values| values.mean_abs.map(|spread| spread.mean), all.ratio.mean_abs),
+                of(|values| values.max_abs.map(|spread| spread.max), all.ratio.max_abs),
+                of(|values| values.energy.map(|spread| spread.mean), all.ratio.energy),
+            ],
+        }
+    }
+
+    /// A statistic by its name.
+    pub(crate) fn statistic(&self, name: &str) -> &Compared {
+        let [mean_abs, max_abs, energy] = &self.statistics;
+        match name {
+            "mean_abs" => mean_abs,
+            "max_abs" => max_abs,
+            _ => energy,
+        }
+    }
+}
+
+impl Compared {
+    fn new(values: [Option<f64>; 3]) -> Self {
+        Self(values.map(|value| value.unwrap_or(f64::NAN)))
+    }
+
+    fn of(sides: &SideValues<Spread>, headline: impl Fn(&Spread) -> f64) -> Self {
+        let of = |side: &Option<Spread>| side.as_ref().map(&headline);
+        Self::new([of(&sides.reference), of(&sides.test), sides.ratio])
+    }
+
+    /// The reference's.
+    pub(crate) fn reference(&self) -> Option<f64> {
+        self.get(0)
+    }
+
+    /// The test's.
+    pub(crate) fn test(&self) -> Option<f64> {
+        self.get(1)
+    }
+
+    /// test / reference.
+    pub(crate) fn ratio(&self) -> Option<f64> {
+        self.get(2)
+    }
+
+    fn get(&self, index: usize) -> Option<f64> {
+        Some(self.0[index]).filter(|value| !value.is_nan())
+    }
+}
+
+fn of<T>(values: &[(Metric, T)], metric: Metric) -> Option<&T> {
+    values.iter().find(|(of, _)| *of == metric).map(|(_, value)| value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn comparison(scene: &str, method: &str, eye: &str, frames: usize) -> ComparisonSummary {
+        ComparisonSummary {
+            scene: scene.to_owned(),
+            method: method.to_owned(),
+            parameters: String::new(),
+            eye: eye.to_owned(),
+            frames,
+            errors: 0,
+            view: None,
+            metrics: BTreeMap::new(),
+            bands: Vec::new(),
+            haar: Vec::new(),
+            atd: None,
+            fvvdp: None,
+        }
+    }
+
+    #[test]
+    fn both_eyes_stand_for_a_method_in_a_scene() {
+        let mut overview = Overview::default();
+        for (eye, frames) in [("left", 1), ("right", 2), ("both", 3)] {
+            overview.add(comparison("s", "m", eye, frames));
+        }
+        overview.add(comparison("s", "n", "", 4));
+        overview.add(comparison("t", "m", "left", 5));
+        let frames = |scene, method| overview.of(scene, method).map(|of| of.frames);
+        assert_eq!((frames("s", "m"), frames("s", "n")), (Some(3), Some(4)));
+        assert_eq!((frames("t", "m"), frames("u", "m"), frames("s", "o")), (None, None, None));
+        assert_eq!(overview.all().len(), 5);
+    }
+
+    #[test]
+    fn the_numbers_of_each_statistic_are_kept_apart() {
+        let spread = |mean: f64| Some(Spread { mean, min: 0.5 * mean, max: 2.0 * mean });
+        let values = |mean: f64| HaarValues {
+            mean_abs: spread(mean),
+            max_abs: spread(10.0 * mean),
+            energy: None,
+        };
+        let ratio = HaarValues { mean_abs: Some(3.0), max_abs: None, energy: Some(4.0) };
+        let record = HaarRecord {
+            level: 2,
+            from_deg: 0.0,
+            to_deg: 5.0,
+            coefficients: 7,
+            all: fovqa_results::HaarSides {
+                reference: values(1.0),
+                test: values(2.0),
+                ratio,
+                reason: None,
+            },
+            orientations: BTreeMap::new(),
+        };
+        let band = WaveletBand::of(&record);
+        let numbers = |name: &str| {
+            let of = band.statistic(name);
+            [of.reference(), of.test(), of.ratio()]
+        };
+        assert_eq!(numbers("mean_abs"), [Some(1.0), Some(2.0), Some(3.0)]);
+        assert_eq!(numbers("max_abs"), [Some(20.0), Some(40.0), None], "maxima, not means");
+        assert_eq!(numbers("energy"), [None, None, Some(4.0)]);
+    }
+}
