@@ -7,7 +7,7 @@ use fovqa_plan::{Eye, Plan};
 use fovqa_results::{Comparison, Failure, RunResults, ScoreReport, both_eyes};
 
 use crate::events::Events;
-use crate::findings::{Findings, Outcome, Place, Settled, ViewFindings, ViewPlace};
+use crate::findings::{ComparisonIndex, Findings, Outcome, Settled, ViewFindings, ViewIndex};
 
 /// A failure of a whole comparison.
 pub(crate) fn whole(message: String, help: String) -> Failure {
@@ -20,8 +20,8 @@ pub fn results(plan: &Plan, events: &dyn Events, findings: Findings) -> RunResul
     RunResults { comparisons: in_order(plan, events, reports(plan, findings)), inputs }
 }
 
-fn reports(plan: &Plan, findings: Findings) -> BTreeMap<Place, ScoreReport> {
-    let mut reports: BTreeMap<Place, ScoreReport> = BTreeMap::new();
+fn reports(plan: &Plan, findings: Findings) -> BTreeMap<ComparisonIndex, ScoreReport> {
+    let mut reports: BTreeMap<ComparisonIndex, ScoreReport> = BTreeMap::new();
     for (place, failure) in findings.problems {
         reports.entry(place).or_default().failures.push(failure);
     }
@@ -33,9 +33,9 @@ fn reports(plan: &Plan, findings: Findings) -> BTreeMap<Place, ScoreReport> {
 
 fn report_view(
     plan: &Plan,
-    (scene, eye): ViewPlace,
+    (scene, eye): ViewIndex,
     findings: ViewFindings,
-    reports: &mut BTreeMap<Place, ScoreReport>,
+    reports: &mut BTreeMap<ComparisonIndex, ScoreReport>,
 ) {
     let methods = plan.scenes[scene].eyes[eye].tests.iter().map(|(method, _)| *method);
     if let Some(failure) = findings.failed {
@@ -85,7 +85,7 @@ fn settle(report: &mut ScoreReport, method: usize, settled: &Settled) {
 fn in_order(
     plan: &Plan,
     events: &dyn Events,
-    mut reports: BTreeMap<Place, ScoreReport>,
+    mut reports: BTreeMap<ComparisonIndex, ScoreReport>,
 ) -> Vec<Comparison> {
     let mut comparisons = Vec::new();
     for (scene_index, scene) in plan.scenes.iter().enumerate() {

@@ -11,7 +11,7 @@ use fovqa_params::ParamError;
 use fovqa_vision::{GazeTraceError, ViewError};
 use thiserror::Error;
 
-use crate::memory::{Needed, gigabytes};
+use crate::needed_memory::{Needed, gigabytes};
 
 /// Why a run could not start.
 #[derive(Debug, Error)]

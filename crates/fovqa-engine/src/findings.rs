@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use fovqa_metrics::{Map, Metric};
 use fovqa_plan::{Eye, Plan};
-use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, Input, ViewResult};
+use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, Input, ViewResult};
 
 use crate::error::EngineError;
 use crate::inputs::Inputs;
@@ -13,17 +13,17 @@ use crate::inputs::Inputs;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Findings {
     /// Views by the indices of scene and eye.
-    pub(crate) views: BTreeMap<ViewPlace, ViewFindings>,
+    pub(crate) views: BTreeMap<ViewIndex, ViewFindings>,
     /// What kept whole comparisons from being scored before any file was read.
-    pub(crate) problems: Vec<(Place, Failure)>,
+    pub(crate) problems: Vec<(ComparisonIndex, Failure)>,
     pub(crate) inputs: Inputs,
 }
 
 /// Indices of a scene and an eye's view in it.
-pub(crate) type ViewPlace = (usize, usize);
+pub(crate) type ViewIndex = (usize, usize);
 
 /// Indices of a scene, a method and an eye's view.
-pub(crate) type Place = (usize, usize, usize);
+pub(crate) type ComparisonIndex = (usize, usize, usize);
 
 /// What was found of a view.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -56,7 +56,7 @@ pub struct Settled {
     pub(crate) metrics: Vec<Metric>,
     pub(crate) gaze_held: Option<usize>,
     /// How FovVideoVDP sees the sequence of a method.
-    pub(crate) fvvdp: BTreeMap<usize, FvvdpSight>,
+    pub(crate) fvvdp: BTreeMap<usize, FvvdpViewing>,
     /// Why it has no value for it, as far as the sequence goes here.
     pub(crate) missing: BTreeMap<usize, String>,
 }
@@ -73,7 +73,7 @@ pub struct Named<'a> {
 }
 
 impl<'a> Named<'a> {
-    pub(crate) fn of(plan: &'a Plan, (scene, method, eye): Place) -> Self {
+    pub(crate) fn of(plan: &'a Plan, (scene, method, eye): ComparisonIndex) -> Self {
         let (scene, method) = (&plan.scenes[scene], &plan.methods[method]);
         Self { scene: &scene.name, method, eye: scene.eyes[eye].eye }
     }

@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_is_taken_down_once() {
+    fn a_file_is_recorder_once() {
         let id = InputId { bytes: 1, sha256: "0".to_owned() };
         let mut inputs = Inputs::default();
         assert!(inputs.add("b", &id).is_some() && inputs.add("a", &id).is_some());

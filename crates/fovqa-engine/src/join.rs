@@ -2,7 +2,7 @@
 
 use fovqa_metrics::{Layouts, Metric};
 
-use crate::findings::{Findings, Outcome, Settled, ViewFindings, ViewPlace};
+use crate::findings::{Findings, Outcome, Settled, ViewFindings, ViewIndex};
 use crate::unit::Unit;
 
 impl Findings {
@@ -19,7 +19,7 @@ impl Findings {
     }
 
     /// Takes in what the next unit of a view has found.
-    pub(crate) fn join_view(&mut self, place: ViewPlace, next: ViewFindings) {
+    pub(crate) fn join_view(&mut self, place: ViewIndex, next: ViewFindings) {
         join(self.views.entry(place).or_default(), next);
     }
 

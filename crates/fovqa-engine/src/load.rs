@@ -78,7 +78,7 @@ pub(crate) struct Step<'a> {
     pub(crate) reference: bool,
     /// Index of the method.
     pub(crate) method: usize,
-    /// Place of the test in the method's source.
+    /// ComparisonIndex of the test in the method's source.
     pub(crate) test: usize,
 }
 

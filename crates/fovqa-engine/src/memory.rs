@@ -17,7 +17,6 @@
 //! What is kept row by row or in bands of rows does not count.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use fovqa_io::ReadOptions;
 use fovqa_metrics::Metric;
@@ -26,39 +25,8 @@ use fovqa_plan::Plan;
 use crate::available_memory::available_bytes;
 use crate::error::EngineError;
 use crate::found::FoundView;
+use crate::needed_memory::{FVVDP, Needed, gigabytes};
 use crate::timing::timings;
-
-/// What is held at once, by who holds it.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Needed(Vec<(&'static str, u64)>);
-
-impl Needed {
-    /// Bytes in all.
-    pub(crate) fn bytes(&self) -> u64 {
-        self.0.iter().fold(0, |sum, (_, bytes)| sum.saturating_add(*bytes))
-    }
-
-    /// Whether most of it is held by FovVideoVDP.
-    pub(crate) fn is_of_fvvdp(&self) -> bool {
-        self.0.iter().max_by_key(|(_, bytes)| *bytes).is_some_and(|(who, _)| *who == FVVDP)
-    }
-}
-
-impl fmt::Display for Needed {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let parts = self.0.iter().filter(|(_, bytes)| *bytes > 0);
-        let parts: Vec<String> =
-            parts.map(|(who, bytes)| format!("{who} {}", gigabytes(*bytes))).collect();
-        f.write_str(&parts.join(", "))
-    }
-}
-
-const FVVDP: &str = "FovVideoVDP";
-
-/// Bytes as a message shows them.
-pub(crate) fn gigabytes(bytes: u64) -> String {
-    format!("{:.1} GB", bytes as f64 / 1e9)
-}
 
 /// What the arithmetic is of.
 #[derive(Debug, Clone, Copy)]

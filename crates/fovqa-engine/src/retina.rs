@@ -66,7 +66,7 @@ fn masked(blocks: &BTreeMap<usize, Vec<BandMap>>, mask: &Mask) -> Blocks<'static
 
 /// How an eye sees the frames.
 #[derive(Debug)]
-pub(crate) struct Sight {
+pub(crate) struct Viewing {
     pub(crate) view: View,
     pub(crate) kind: EccentricityKind,
     pub(crate) edges: BandEdges,
@@ -76,7 +76,7 @@ pub(crate) struct Sight {
 #[derive(Debug)]
 pub(crate) struct RetinaMaker<'a> {
     /// `None` without a view: no bands then.
-    pub(crate) sight: Option<Sight>,
+    pub(crate) viewing: Option<Viewing>,
     pub(crate) size: (usize, usize),
     pub(crate) params: &'a Params,
     pub(crate) foveal: bool,
@@ -99,7 +99,7 @@ pub(crate) fn key(gaze_px: [f64; 2]) -> Key {
 
 impl RetinaMaker<'_> {
     fn make(&self, gaze_px: [f64; 2]) -> Retina {
-        let (bands, blocks, weight) = match &self.sight {
+        let (bands, blocks, weight) = match &self.viewing {
             None => {
                 let levels = self.block_levels.iter();
                 let maps = |levels: &usize| {
@@ -108,15 +108,15 @@ impl RetinaMaker<'_> {
                 let bands = BandMap::without_bands(self.size.0, self.size.1);
                 (bands, levels.map(maps).collect(), None)
             }
-            Some(sight) => self.seen(sight, gaze_px),
+            Some(viewing) => self.seen(viewing, gaze_px),
         };
         let masked = self.mask.as_ref().map(|mask| {
             let regions = Regions::masked(&bands, mask, self.window_radius);
             (regions, masked(&blocks, mask))
         });
-        let fvvdp = self.sight.as_ref().zip(self.fvvdp.as_ref()).map(|(sight, fvvdp)| {
-            let eccentricity = Eccentricity::new(sight.view, gaze_px, sight.kind);
-            fvvdp.regions(&eccentricity, &sight.edges)
+        let fvvdp = self.viewing.as_ref().zip(self.fvvdp.as_ref()).map(|(viewing, fvvdp)| {
+            let eccentricity = Eccentricity::new(viewing.view, gaze_px, viewing.kind);
+            fvvdp.regions(&eccentricity, &viewing.edges)
         });
         let maps = blocks.values().flatten().chain([&bands]).map(BandMap::bytes).sum::<usize>();
         let bytes = maps
@@ -127,10 +127,10 @@ impl RetinaMaker<'_> {
 
     fn seen(
         &self,
-        sight: &Sight,
+        viewing: &Viewing,
         gaze_px: [f64; 2],
     ) -> (BandMap, BTreeMap<usize, Vec<BandMap>>, Option<WeightField>) {
-        let eccentricity = Eccentricity::new(sight.view, gaze_px, sight.kind);
+        let eccentricity = Eccentricity::new(viewing.view, gaze_px, viewing.kind);
         let fits = self.size.0 * self.size.1 * size_of::<f32>() <= MAX_FIELD_BYTES;
         let often = self.uses.get(&key(gaze_px)).is_some_and(|uses| *uses >= USES_OF_A_FIELD);
         let weight = self.foveal.then(|| {
@@ -138,9 +138,9 @@ impl RetinaMaker<'_> {
             if often && fits { field.precomputed() } else { field }
         });
         let maps =
-            |levels: &usize| (*levels, BlockRegions::maps(&eccentricity, &sight.edges, *levels));
+            |levels: &usize| (*levels, BlockRegions::maps(&eccentricity, &viewing.edges, *levels));
         let blocks = self.block_levels.iter().map(maps).collect();
-        (BandMap::new(&eccentricity, &sight.edges), blocks, weight)
+        (BandMap::new(&eccentricity, &viewing.edges), blocks, weight)
     }
 }
 
@@ -197,13 +197,13 @@ mod tests {
 
     fn retinas(params: &Params) -> Retinas<'_> {
         let spec = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(90.0) };
-        let sight = Sight {
+        let viewing = Viewing {
             view: spec.resolve(64, 48).unwrap().view,
             kind: EccentricityKind::Angular,
             edges: BandEdges::new(vec![0.0, 10.0, 20.0]).unwrap(),
         };
         Retinas::new(RetinaMaker {
-            sight: Some(sight),
+            viewing: Some(viewing),
             size: (64, 48),
             params,
             foveal: true,

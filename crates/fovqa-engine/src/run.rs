@@ -6,9 +6,9 @@ use fovqa_results::RunResults;
 use crate::assemble::{results, whole};
 use crate::error::EngineError;
 use crate::events::{Events, Progress, Warnings};
-use crate::findings::{Entry, Findings, Named, Place, Record};
+use crate::findings::{ComparisonIndex, Entry, Findings, Named, Record};
 use crate::found::{FoundInputs, FoundView, Problem};
-use crate::scoring::{Scoring, TakenDown, scene_bands};
+use crate::scoring::{Recorder, Scoring, scene_bands};
 use crate::unit::{Unit, units};
 
 /// Checks what needs no file: parameters, and that what needs a view has one.
@@ -23,7 +23,7 @@ pub fn check(plan: &Plan) -> Result<(), EngineError> {
 /// Scores every frame that was found. What cannot be scored is in the failures of its comparison.
 ///
 /// # Errors
-/// When the plan itself cannot be ([`check`]), or what is finished cannot be taken down.
+/// When the plan itself cannot be ([`check`]), or what is finished cannot be taken recorder.
 pub fn run(
     plan: &Plan,
     found: &FoundInputs,
@@ -35,7 +35,7 @@ pub fn run(
 }
 
 /// Scores the pairs of some units that are not `known` (as [`crate::resume`] has it), and returns what is
-/// known then. Each step of it is taken down, but what was known before.
+/// known then. Each step of it is taken recorder, but what was known before.
 ///
 /// # Errors
 /// As [`run`].
@@ -66,7 +66,7 @@ pub fn score(
         let scene = &plan.scenes[view.scene];
         let bands = scene_bands(scene, found, view.scene);
         let scoring = Scoring { plan, scene, view, bands: bands.as_ref(), range };
-        let mut taken_down = TakenDown {
+        let mut recorder = Recorder {
             inputs: &mut findings.inputs,
             warnings: &mut warnings,
             progress: &mut progress,
@@ -74,14 +74,14 @@ pub fn score(
         };
         let place = (view.scene, view.eye);
         let known = known.views.remove(&place).unwrap_or_default();
-        let scored = scoring.run(known, &mut taken_down)?;
+        let scored = scoring.run(known, &mut recorder)?;
         findings.join_view(place, scored);
     }
     Ok(findings)
 }
 
 /// The comparisons a problem is of.
-fn places(plan: &Plan, problem: &Problem) -> Vec<Place> {
+fn places(plan: &Plan, problem: &Problem) -> Vec<ComparisonIndex> {
     let tests = &plan.scenes[problem.scene].eyes[problem.eye].tests;
     let methods = tests.iter().map(|(method, _)| *method);
     methods

@@ -36,14 +36,14 @@ pub(crate) struct Scoring<'a> {
 }
 
 /// Where it goes.
-pub(crate) struct TakenDown<'a, 'e, 'r> {
+pub(crate) struct Recorder<'a, 'e, 'r> {
     pub(crate) inputs: &'a mut Inputs,
     pub(crate) warnings: &'a mut Warnings<'e>,
     pub(crate) progress: &'a mut Progress<'e>,
     pub(crate) record: &'a mut Record<'r>,
 }
 
-impl TakenDown<'_, '_, '_> {
+impl Recorder<'_, '_, '_> {
     fn input(&mut self, path: &str, id: &InputId) -> Result<(), EngineError> {
         self.inputs.add(path, id).map_or(Ok(()), |input| (self.record)(Entry::Input(&input)))
     }
@@ -70,22 +70,22 @@ impl<'a> Scoring<'a> {
     pub(crate) fn run(
         &self,
         known: ViewFindings,
-        down: &mut TakenDown<'_, '_, '_>,
+        recorder: &mut Recorder<'_, '_, '_>,
     ) -> Result<ViewFindings, EngineError> {
         let (plan, eye) = (self.plan, self.eye());
-        let metrics = self.begin(down.warnings)?;
-        let fits = self.fits(&metrics).map(|much| down.warnings.note_of_view(much.as_deref()));
+        let metrics = self.begin(recorder.warnings)?;
+        let fits = self.fits(&metrics).map(|much| recorder.warnings.note_of_view(much.as_deref()));
         let mask = match fits.and_then(|()| self.mask()) {
             Ok(mask) => mask,
             Err(error) => {
                 let failure = whole(error.to_string(), error.help());
-                (down.record)(Entry::ViewFailed(&self.scene.name, eye.eye, &failure))?;
-                down.progress.step(self.range.len());
+                (recorder.record)(Entry::ViewFailed(&self.scene.name, eye.eye, &failure))?;
+                recorder.progress.step(self.range.len());
                 return Ok(ViewFindings { failed: Some(failure), ..ViewFindings::default() });
             }
         };
-        self.inputs_beside(down)?;
-        down.progress.step(known.pairs.len());
+        self.inputs_beside(recorder)?;
+        recorder.progress.step(known.pairs.len());
         let work = Work::new(self.view, self.range.clone(), &known.pairs);
         if work.todo.is_empty() && known.settled.is_some() {
             return Ok(known);
@@ -94,12 +94,12 @@ impl<'a> Scoring<'a> {
         let loader = Loader { settings: &eye.settings, sources: &self.view.sources, guides };
         let sequence = (self.bands, self.view.fps);
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
-        let frame = self.take_up(&work, &mut run, &loader, down)?;
+        let frame = self.take_up(&work, &mut run, &loader, recorder)?;
         let mut findings = known;
-        self.score(&work.steps(frame), &mut run, &loader, &mut findings, down)?;
+        self.score(&work.steps(frame), &mut run, &loader, &mut findings, recorder)?;
         let settled = self.settled(&run, metrics, &work);
         let (scene, methods) = (&self.scene.name, &plan.methods);
-        (down.record)(Entry::Settled(scene, eye.eye, &settled, methods))?;
+        (recorder.record)(Entry::Settled(scene, eye.eye, &settled, methods))?;
         Ok(ViewFindings { settled: Some(settled), ..findings })
     }
 
@@ -110,7 +110,7 @@ impl<'a> Scoring<'a> {
         work: &Work<'_>,
         run: &mut ViewRun<'_>,
         loader: &Loader<'_>,
-        down: &mut TakenDown<'_, '_, '_>,
+        recorder: &mut Recorder<'_, '_, '_>,
     ) -> Result<Option<usize>, EngineError> {
         let kept = run.go_on(work);
         let mut frame = None;
@@ -121,9 +121,9 @@ impl<'a> Scoring<'a> {
             }
             frame = Some(step.frame);
             let loaded = loader.load(&step);
-            down.inputs_of(&loaded)?;
-            if let Err(failure) = run.take_in(&step, loaded, kept, down.warnings) {
-                (down.record)(Entry::Before(self.named(step.method), &failure))?;
+            recorder.inputs_of(&loaded)?;
+            if let Err(failure) = run.take_in(&step, loaded, kept, recorder.warnings) {
+                (recorder.record)(Entry::Before(self.named(step.method), &failure))?;
             }
         }
         Ok(frame)
@@ -135,7 +135,7 @@ impl<'a> Scoring<'a> {
         run: &mut ViewRun<'_>,
         loader: &Loader<'_>,
         findings: &mut ViewFindings,
-        down: &mut TakenDown<'_, '_, '_>,
+        recorder: &mut Recorder<'_, '_, '_>,
     ) -> Result<(), EngineError> {
         let mut written = Ok(());
         let mut ends = OpenEnded::new(self.plan, self.scene, self.view);
@@ -146,21 +146,21 @@ impl<'a> Scoring<'a> {
             Loaded::bytes,
             |nth, loaded| {
                 let (index, step) = &steps[nth];
-                written = down.inputs_of(&loaded);
+                written = recorder.inputs_of(&loaded);
                 // What cannot be taken down any more is not worth scoring.
                 if written.is_err() {
                     return ControlFlow::Break(());
                 }
-                let result = match ends.of_step(step, &loaded, down.warnings) {
-                    None => run.step(step, loaded, down.warnings),
+                let result = match ends.of_step(step, &loaded, recorder.warnings) {
+                    None => run.step(step, loaded, recorder.warnings),
                     Some(Ended::Failed(failure)) => Err(failure),
                     Some(Ended::PassedOver) => {
-                        down.progress.step(1);
+                        recorder.progress.step(1);
                         return ControlFlow::Continue(());
                     }
                 };
                 let guides = run.atd_guides(step.method);
-                written = (down.record)(Entry::Pair(Finished {
+                written = (recorder.record)(Entry::Pair(Finished {
                     named: self.named(step.method),
                     step: *index,
                     result: result.as_ref().map(|(frame, _)| frame),
@@ -169,12 +169,12 @@ impl<'a> Scoring<'a> {
                 }));
                 let result = result.map(|(frame, _)| frame);
                 findings.pairs.insert(*index, Outcome { method: step.method, result, guides });
-                down.progress.step(1);
+                recorder.progress.step(1);
                 if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
         );
         written?;
-        let (Some((last, step)), Some(left)) = (steps.last(), ends.left(down.warnings)) else {
+        let (Some((last, step)), Some(left)) = (steps.last(), ends.left(recorder.warnings)) else {
             return Ok(());
         };
         let outcome =
@@ -230,7 +230,7 @@ impl<'a> Scoring<'a> {
     }
 
     /// What is read once for all frames: mask and gaze trace.
-    fn inputs_beside(&self, down: &mut TakenDown<'_, '_, '_>) -> Result<(), EngineError> {
+    fn inputs_beside(&self, recorder: &mut Recorder<'_, '_, '_>) -> Result<(), EngineError> {
         let settings = &self.eye().settings;
         let trace = match &settings.gaze {
             Gaze::Trace { path, .. } => Some(path),
@@ -240,7 +240,7 @@ impl<'a> Scoring<'a> {
         for path in files.filter(|_| self.plan.hash_inputs) {
             // They have been read; one that has gone since is no input of another run either.
             if let Ok(id) = id_of_file(path) {
-                down.input(&self.plan.shown(path), &id)?;
+                recorder.input(&self.plan.shown(path), &id)?;
             }
         }
         Ok(())

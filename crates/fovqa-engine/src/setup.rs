@@ -12,7 +12,7 @@ use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind, GazeAt, View, View
 
 use crate::events::Warnings;
 use crate::load::Fault;
-use crate::retina::{Key, Retina, RetinaMaker, Retinas, Sight, key};
+use crate::retina::{Key, Retina, RetinaMaker, Retinas, Viewing, key};
 
 /// Settled once, used for every frame.
 pub(crate) struct Setup<'a> {
@@ -64,13 +64,13 @@ impl<'a> Setup<'a> {
         let levels = |metric: &Metric| plan.params.block_levels(*metric);
         let block_levels = metrics.iter().map(levels).filter(|levels| *levels > 0).collect();
         let seen = inputs.settings.view.as_ref().map(|spec| look(inputs, spec, size, warnings));
-        let (sight, view) = seen.transpose()?.unzip();
-        let fvvdp = sight.as_ref().filter(|_| wants_fvvdp && fits_fvvdp(size)).map(|sight| {
+        let (viewing, view) = seen.transpose()?.unzip();
+        let fvvdp = viewing.as_ref().filter(|_| wants_fvvdp && fits_fvvdp(size)).map(|viewing| {
             let display = match &inputs.settings.view {
                 Some(ViewSpec::Display(display)) => Some(display.central_pixels_per_degree()),
                 _ => None,
             };
-            Fvvdp::new(Geometry::new(sight.view, display), &plan.params.fvvdp)
+            Fvvdp::new(Geometry::new(viewing.view, display), &plan.params.fvvdp)
         });
         if plan.params.fvvdp.foveated
             && let Some(fvvdp) = &fvvdp
@@ -87,7 +87,7 @@ impl<'a> Setup<'a> {
         }
         let gaze_px = view.as_ref().map_or([0.0; 2], |view: &ViewResult| view.gaze_px);
         let mut retinas = Retinas::new(RetinaMaker {
-            sight,
+            viewing,
             size,
             params: &plan.params,
             foveal,
@@ -99,12 +99,12 @@ impl<'a> Setup<'a> {
         });
         let retina = retinas.at(gaze_px);
         if retina.weight.as_ref().is_some_and(WeightField::is_flat)
-            && let Some(sight) = &retinas.maker.sight
+            && let Some(viewing) = &retinas.maker.viewing
         {
             let message = format!(
                 "the view shows {:.2} cycles per degree at most, less than the eye sees anywhere in the \
                  frame: the foveal weight is flat, and foveal metrics equal their plain forms",
-                sight.view.nyquist_cpd()
+                viewing.view.nyquist_cpd()
             );
             warnings.once_a_view("flat weight", &message);
         }
@@ -115,8 +115,8 @@ impl<'a> Setup<'a> {
     /// agree within a hundredth, which no rounding of the two reaches.
     pub(crate) fn check_pixels(&self, file: &str, pixel_aspect: f32) -> Result<(), Fault> {
         const TOLERANCE: f64 = 0.01;
-        let Some(sight) = &self.retinas.maker.sight else { return Ok(()) };
-        let [x, y] = sight.view.focal_px;
+        let Some(viewing) = &self.retinas.maker.viewing else { return Ok(()) };
+        let [x, y] = viewing.view.focal_px;
         let (declared, seen) = (f64::from(pixel_aspect), y / x);
         let is = |aspect: f64| (declared / aspect - 1.0).abs() <= TOLERANCE;
         // Files without square pixels say so; those that say nothing, or 1, leave it to the view.
@@ -177,8 +177,8 @@ impl<'a> Setup<'a> {
 
     /// How far the gaze has moved, degrees; `None` without a view.
     pub(crate) fn gaze_step_deg(&self, from_px: [f64; 2], to_px: [f64; 2]) -> Option<f64> {
-        let sight = self.retinas.maker.sight.as_ref()?;
-        let from = Eccentricity::new(sight.view, from_px, EccentricityKind::Angular);
+        let viewing = self.retinas.maker.viewing.as_ref()?;
+        let from = Eccentricity::new(viewing.view, from_px, EccentricityKind::Angular);
         Some(from.at_deg(to_px[0], to_px[1]))
     }
 }
@@ -204,7 +204,7 @@ fn look(
     spec: &ViewSpec,
     (w, h): (usize, usize),
     warnings: &mut Warnings<'_>,
-) -> Result<(Sight, ViewResult), Fault> {
+) -> Result<(Viewing, ViewResult), Fault> {
     let resolved = spec.resolve(w, h).map_err(|error| Fault {
         message: error.to_string(),
         help: "give a view that fits frames of this size".to_owned(),
@@ -235,7 +235,7 @@ fn look(
         eccentricity: kind,
         bands_deg: edges.iter().collect(),
     };
-    Ok((Sight { view, kind, edges }, result))
+    Ok((Viewing { view, kind, edges }, result))
 }
 
 /// The gaze of the first frame.

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use fovqa_frame::{Mask, SignalTables};
 use fovqa_metrics::{Key, Layouts, Map, Metric, MetricKind, Rows};
 use fovqa_plan::{EyeView, Plan};
-use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, ViewResult};
+use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::BandEdges;
 
 use crate::events::Warnings;
@@ -103,7 +103,7 @@ impl<'a> ViewRun<'a> {
     }
 
     /// How FovVideoVDP sees the sequence of a method, where it is asked for and a pair could be compared.
-    pub(crate) fn fvvdp(&self, method: usize) -> Option<FvvdpSight> {
+    pub(crate) fn fvvdp(&self, method: usize) -> Option<FvvdpViewing> {
         self.meters.fvvdp(method, self.setup.as_ref()?)
     }
 

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::files::{FileError, read_json_file};
-use crate::gate::{Place, RunValues};
+use crate::gate::{ComparisonName, RunValues};
 use crate::json::{Number, RunRecord};
 use crate::report::Input;
 
@@ -70,7 +70,7 @@ pub struct BaselineComparison {
 
 impl BaselineComparison {
     /// Scene, method and eye.
-    pub fn place(&self) -> Place {
+    pub fn place(&self) -> ComparisonName {
         (self.scene.clone(), self.method.clone(), self.eye.clone())
     }
 
@@ -159,12 +159,12 @@ impl Baseline {
     }
 
     /// Frames of a comparison; `None`: there is no such comparison.
-    pub(crate) fn frames_of(&self, place: &Place) -> Option<usize> {
+    pub(crate) fn frames_of(&self, place: &ComparisonName) -> Option<usize> {
         self.comparisons.iter().find(|c| c.place() == *place).map(|c| c.frames)
     }
 
     /// The value of a comparison.
-    pub(crate) fn value(&self, place: &Place, quantity: &Quantity) -> Result<f64, String> {
+    pub(crate) fn value(&self, place: &ComparisonName, quantity: &Quantity) -> Result<f64, String> {
         let found = self.comparisons.iter().find(|c| c.place() == *place);
         let Some(comparison) = found else {
             let (scene, method, eye) = place;

@@ -4,8 +4,8 @@ use fovqa_metrics::fvvdp::jod;
 use fovqa_metrics::{Key, Metric, Subject, pool};
 use serde::{Deserialize, Serialize};
 
-use crate::report::{FrameResult, FvvdpSight, ScoreReport};
-use crate::summary::{Gathered, Spread};
+use crate::report::{FrameResult, FvvdpViewing, ScoreReport};
+use crate::spread::{Gathered, Spread};
 
 /// FovVideoVDP of a sequence; of a still, a sequence of one frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -113,7 +113,7 @@ fn spread(values: impl Iterator<Item = f64>) -> Option<Spread> {
 }
 
 /// Q by spatial frequency, means over frames; without bands where frames have none in common.
-pub(crate) fn spatial_bands(sight: &FvvdpSight, frames: &[FrameResult]) -> Vec<SpatialBand> {
+pub(crate) fn spatial_bands(sight: &FvvdpViewing, frames: &[FrameResult]) -> Vec<SpatialBand> {
     let mean = |statistic: &str, level: usize| {
         let key = Key::named(Subject::Metric(Metric::Fvvdp), statistic)?.on_level(level);
         spread(frames.iter().filter_map(|frame| frame.rows.value(key))).map(|q| q.mean)
@@ -135,14 +135,14 @@ pub(crate) fn same_frequencies(left: &ScoreReport, right: &ScoreReport) -> bool 
 }
 
 /// How both eyes see: as each does, where they see alike.
-pub(crate) fn sight_of_both(left: &ScoreReport, right: &ScoreReport) -> Option<FvvdpSight> {
+pub(crate) fn sight_of_both(left: &ScoreReport, right: &ScoreReport) -> Option<FvvdpViewing> {
     let (l, r) = (left.fvvdp.as_ref()?, right.fvvdp.as_ref()?);
     let jod = |report| FvvdpSummary::of(report)?.jod;
     let eyes_jod = jod(left).zip(jod(right)).map(|(l, r)| [l, r]);
     let missing = l.missing.as_ref().map(|why| format!("left eye: {why}"));
     let missing = missing.or(r.missing.as_ref().map(|why| format!("right eye: {why}")));
     let missing = missing.or(eyes_jod.is_none().then(|| "an eye has no value".to_owned()));
-    Some(FvvdpSight { missing, eyes_jod, ..l.clone() })
+    Some(FvvdpViewing { missing, eyes_jod, ..l.clone() })
 }
 
 #[cfg(test)]
@@ -177,7 +177,7 @@ mod tests {
                 bands_deg: vec![(0.0, 5.0), (5.0, 10.0)],
             }),
             frames,
-            fvvdp: Some(FvvdpSight {
+            fvvdp: Some(FvvdpViewing {
                 pixels_per_degree: 13.0,
                 peak_cd_m2: 100.0,
                 black_cd_m2: 0.1,

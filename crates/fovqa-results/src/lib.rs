@@ -10,6 +10,7 @@ mod fvvdp;
 mod gate;
 mod json;
 mod report;
+mod spread;
 mod summary;
 mod table;
 
@@ -27,8 +28,8 @@ pub use files::{
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{
-    Calibration, Check, Found, GATE_SCHEMA, Lacking, Limit, Outcome, Place, Proposal, RuleVerdict,
-    RunValues, State, Verdict, calibrate, write_verdict_json,
+    Calibration, Check, ComparisonName, FoundValue, GATE_SCHEMA, Lacking, Limit, Outcome, Proposal,
+    RuleVerdict, RunValues, State, Verdict, calibrate, write_verdict_json,
 };
 pub use json::{
     BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,
@@ -36,10 +37,11 @@ pub use json::{
     ViewRecord, read_summary, write_json, write_summary,
 };
 pub use report::{
-    AtdGuides, Comparison, Failure, FrameResult, FvvdpSight, GuideSource, Input, RunResults,
+    AtdGuides, Comparison, Failure, FrameResult, FvvdpViewing, GuideSource, Input, RunResults,
     ScoreReport, ViewResult,
 };
-pub use summary::{AtdSummary, BandSummary, SideStatistics, Spread, Statistics, Summary};
+pub use spread::Spread;
+pub use summary::{AtdSummary, BandSummary, SideStatistics, Statistics, Summary};
 #[cfg(feature = "parquet")]
 pub use table::write_results_parquet;
 pub use table::{

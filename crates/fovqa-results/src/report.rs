@@ -60,7 +60,7 @@ pub struct AtdGuides {
 
 /// How FovVideoVDP sees a sequence, and what came of it as a whole.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FvvdpSight {
+pub struct FvvdpViewing {
     /// Pixels of the display in a degree at its centre.
     pub pixels_per_degree: f64,
     /// White, cd/m².
@@ -110,7 +110,7 @@ pub struct ScoreReport {
     /// What differences over time were taken along.
     pub atd_guides: AtdGuides,
     /// How FovVideoVDP sees it, where it is asked for.
-    pub fvvdp: Option<FvvdpSight>,
+    pub fvvdp: Option<FvvdpViewing>,
 }
 
 impl ScoreReport {

@@ -7,6 +7,7 @@ use fovqa_metrics::{FrameRows, Image, Key, Metric, MetricKind, Subject, pool};
 use crate::compared::Sides;
 use crate::fvvdp::FvvdpSummary;
 use crate::report::{FrameResult, GuideSource, ScoreReport};
+use crate::spread::{Gathered, Spread};
 
 /// One measure over the frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,17 +23,6 @@ pub struct Statistics {
     pub identical_frames: Option<usize>,
     /// Of metrics that pool their frames (the decibels of all errors): the value of all together.
     pub pooled: Option<f64>,
-}
-
-/// Mean and extremes over the frames.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Spread {
-    /// The mean.
-    pub mean: f64,
-    /// The smallest value.
-    pub min: f64,
-    /// The largest value.
-    pub max: f64,
 }
 
 /// A measure of reference and test alike over the frames.
@@ -106,12 +96,12 @@ impl Summary {
     pub fn of(report: &ScoreReport) -> Self {
         let frames = &report.frames;
         let scored = || report.metrics.iter().copied().filter(|metric| Key::of(*metric).is_score());
-        let whole = scored().filter_map(|m| Some((m, Statistics::over(frames, Key::of(m))?)));
+        let whole = scored().filter_map(|m| Some((m, Statistics::of_key(frames, Key::of(m))?)));
         let bands = report.edges().iter().enumerate().map(|(index, &(from_deg, to_deg))| {
             let pixels = Key::pixels(Subject::Pixels).in_band(index);
             let per_band = scored().filter(|m| m.info().per_band && m.is(MetricKind::Fidelity));
             let statistics =
-                per_band.map(|m| (m, Statistics::over(frames, Key::of(m).in_band(index))));
+                per_band.map(|m| (m, Statistics::of_key(frames, Key::of(m).in_band(index))));
             BandSummary {
                 from_deg,
                 to_deg,
@@ -154,29 +144,6 @@ fn compared(frames: &[FrameResult]) -> BTreeMap<Key, SideStatistics> {
         .into_iter()
         .map(|(key, values)| (key, SideStatistics::of(&values, key.statistic().is_maximum())));
     statistics.collect()
-}
-
-/// Values on their way to a [`Spread`].
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Gathered {
-    sum: f64,
-    count: usize,
-    extremes: Option<(f64, f64)>,
-}
-
-impl Gathered {
-    pub(crate) fn add(&mut self, value: Option<f64>) {
-        let Some(value) = value else { return };
-        let (min, max) = self.extremes.unwrap_or((value, value));
-        self.extremes = Some((min.min(value), max.max(value)));
-        self.sum += value;
-        self.count += 1;
-    }
-
-    /// `None` without a value.
-    pub(crate) fn spread(&self) -> Option<Spread> {
-        self.extremes.map(|(min, max)| Spread { mean: self.sum / self.count as f64, min, max })
-    }
 }
 
 impl SideStatistics {
@@ -237,7 +204,7 @@ impl AtdSummary {
 
 impl Statistics {
     /// Of the values of a key; `None` where no frame has one.
-    fn over(frames: &[FrameResult], key: Key) -> Option<Self> {
+    fn of_key(frames: &[FrameResult], key: Key) -> Option<Self> {
         let rows = || FrameRows::of_frames(frames.iter().map(|frame| &frame.rows), key);
         let values = rows().filter_map(|row| row.value);
         let statistics = Self::of(key.metric()?, values)?;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use fovqa_metrics::{Better, Key, Metric, MetricKind, Pooling, Statistic, Subject};
 
 use super::plots::Known;
-use super::scenes::Resolved;
+use super::scenes::SceneEntry;
 use super::view::VIEW_HELP;
 use crate::fault::{Fault, Faults};
 use crate::grammar::quoted;
@@ -41,7 +41,8 @@ fn rule(
     let scene = one_of(table, "scene", &scenes, faults);
     let method = one_of(table, "method", &methods, faults);
     let eye = table.text("eye").map(str::to_owned);
-    let of = |resolved: &&Resolved| scene.as_ref().is_none_or(|name| *name == resolved.scene.name);
+    let of =
+        |resolved: &&SceneEntry| scene.as_ref().is_none_or(|name| *name == resolved.scene.name);
     let two_eyes = known.scenes.iter().filter(of).any(|scene| scene.scene.eyes.len() > 1);
     if eye.is_some() && !two_eyes {
         let message = "the rule is of an eye, and none of its scenes has two";
@@ -228,7 +229,7 @@ fn bands(
     table: Node<'_>,
     metric: Metric,
     statistic: &str,
-    scenes: &[&Resolved],
+    scenes: &[&SceneEntry],
     faults: &mut Faults,
 ) {
     let span = table.span("band_deg");

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::placeholders::Placeholders;
 use super::placeholders::path;
-use super::scenes::{Resolved, unique};
+use super::scenes::{SceneEntry, unique};
 use crate::fault::{Fault, Faults};
 use crate::grammar::first_quoted;
 use crate::nearest::nearest;
@@ -18,7 +18,7 @@ const MOST_COMPARISONS: usize = 100_000;
 pub(super) fn methods(
     root: Node<'_>,
     base: &Path,
-    scenes: &mut [Resolved],
+    scenes: &mut [SceneEntry],
     faults: &mut Faults,
 ) -> Vec<String> {
     let tables = root.tables("method");
@@ -67,7 +67,7 @@ pub(super) fn methods(
 }
 
 /// Adds a method's tests to a scene.
-fn tests(table: Node<'_>, index: usize, base: &Path, scene: &mut Resolved, faults: &mut Faults) {
+fn tests(table: Node<'_>, index: usize, base: &Path, scene: &mut SceneEntry, faults: &mut Faults) {
     let method = table.text("name").unwrap_or_default();
     let name = scene.scene.name.clone();
     let sides = table.table("test");

@@ -2,7 +2,7 @@
 
 use fovqa_metrics::{Metric, MetricKind, Params};
 
-use super::scenes::Resolved;
+use super::scenes::SceneEntry;
 use super::view::VIEW_HELP;
 use crate::fault::{Fault, Faults};
 use crate::grammar::{first_quoted, quoted};
@@ -13,7 +13,7 @@ use fovqa_plan::{Plot, PlotKind};
 
 /// What plots may refer to.
 pub(super) struct Known<'a> {
-    pub(super) scenes: &'a [Resolved],
+    pub(super) scenes: &'a [SceneEntry],
     pub(super) methods: &'a [String],
     pub(super) metrics: &'a MetricChoice,
     pub(super) params: &'a Params,

@@ -14,7 +14,7 @@ use crate::node::Node;
 use fovqa_plan::{Eye, EyeView, MetricChoice, Scene};
 
 /// A scene, and what its methods need to know.
-pub(super) struct Resolved {
+pub(super) struct SceneEntry {
     pub(super) scene: Scene,
     /// What `{folder}` stands for.
     pub(super) folder: String,
@@ -26,7 +26,7 @@ pub(super) fn scenes(
     base: &Path,
     metrics: &MetricChoice,
     faults: &mut Faults,
-) -> Vec<Resolved> {
+) -> Vec<SceneEntry> {
     let tables = root.tables("scene");
     if tables.is_empty() {
         faults.push(Fault::new(root.span("scene"), "the experiment has no scene"));
@@ -93,7 +93,7 @@ pub(super) fn scenes(
                 fps: table.number("fps"),
                 eyes,
             };
-            Resolved { scene, folder: folder.to_owned(), span }
+            SceneEntry { scene, folder: folder.to_owned(), span }
         })
         .collect()
 }

@@ -17,7 +17,7 @@ use super::JOURNAL;
 use super::header::Header;
 use super::records::{ErrorRecord, FrameRecord, KeysRecord, SettledRecord};
 use super::seal::{Seal, seal_of};
-use crate::findings::{Findings, Outcome, ViewFindings, ViewPlace};
+use crate::findings::{Findings, Outcome, ViewFindings, ViewIndex};
 use crate::share::shares;
 
 /// What was found of a journal.
@@ -89,7 +89,7 @@ impl Text {
     /// What it says of a plan, that of its experiment.
     pub(crate) fn said(&self, plan: &Plan) -> Said {
         // What is of no view of this journal, or of no pair that it has, is not understood.
-        let own = |(scene, eye): ViewPlace, step: Option<usize>| {
+        let own = |(scene, eye): ViewIndex, step: Option<usize>| {
             let (scene, eye) = (&plan.scenes[scene].name, plan.scenes[scene].eyes[eye].eye);
             let mut views = self.header.views.iter();
             let index = views.position(|view| view.scene == *scene && view.eye == eye);
@@ -110,7 +110,7 @@ pub(crate) fn findings_of(plan: &Plan, lines: &str, own: &Own<'_>) -> Option<Fin
 }
 
 /// Whether a view, and a pair of it, may be there.
-pub(crate) type Own<'a> = dyn Fn(ViewPlace, Option<usize>) -> bool + 'a;
+pub(crate) type Own<'a> = dyn Fn(ViewIndex, Option<usize>) -> bool + 'a;
 
 /// What lines are of.
 struct Lines<'a> {
@@ -228,7 +228,7 @@ fn method(plan: &Plan, name: &str) -> Option<usize> {
 }
 
 /// The place of a view that is called by the name of its scene and its eye.
-pub(crate) fn place(plan: &Plan, scene: &str, eye: Option<Eye>) -> Option<ViewPlace> {
+pub(crate) fn place(plan: &Plan, scene: &str, eye: Option<Eye>) -> Option<ViewIndex> {
     let index = plan.scenes.iter().position(|of| of.name == scene)?;
     let eye = plan.scenes[index].eyes.iter().position(|view| view.eye == eye)?;
     Some((index, eye))

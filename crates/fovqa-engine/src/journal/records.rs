@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use fovqa_metrics::{FrameRows, Image, Key, Layout, Metric, Parts, Subject};
 use fovqa_plan::Eye;
-use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, ViewResult};
+use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::EccentricityKind;
 use serde::{Deserialize, Serialize};
 
@@ -188,7 +188,7 @@ pub(super) struct SettledRecord {
     metrics: Vec<String>,
     gaze_held: Option<usize>,
     /// By the names of methods.
-    fvvdp: BTreeMap<String, FvvdpSight>,
+    fvvdp: BTreeMap<String, FvvdpViewing>,
     missing: BTreeMap<String, String>,
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use fovqa_frame::source::InputId;
 use fovqa_metrics::{Image, Key, Metric, Parts, Pooling, Rows, Subject};
 use fovqa_plan::{Experiment, Eye, EyeView, Plan, Scene};
-use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpSight, GuideSource, ViewResult};
+use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, GuideSource, ViewResult};
 
 use super::read::Said;
 use super::seal::sealed;
@@ -90,7 +90,7 @@ fn findings() -> Findings {
     };
     let bare = Outcome { guides: AtdGuides::default(), ..outcome(1, Ok(bare_frame())) };
     let failed = Outcome { guides: AtdGuides::default(), ..outcome(0, Err(failure(Some(3)))) };
-    let sight = FvvdpSight {
+    let sight = FvvdpViewing {
         pixels_per_degree: 13.1,
         peak_cd_m2: 100.1,
         black_cd_m2: 0.1,
@@ -100,7 +100,7 @@ fn findings() -> Findings {
         missing: None,
         eyes_jod: None,
     };
-    let still = FvvdpSight { fps: None, foveated: false, ..sight.clone() };
+    let still = FvvdpViewing { fps: None, foveated: false, ..sight.clone() };
     let settled = Settled {
         view: Some(ViewResult {
             size: [3, 4],

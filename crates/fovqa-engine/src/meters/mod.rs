@@ -4,8 +4,8 @@
 //! measured over time has a *lead-in*: pairs before the one it measures that it has to have seen.
 
 mod fidelity;
-mod light;
 mod lumas;
+mod luminance;
 mod own;
 mod profiles;
 mod temporal;
@@ -16,7 +16,7 @@ use std::ops::Range;
 use fovqa_frame::{Mask, SignalTables};
 use fovqa_metrics::{BlockRegions, Map, Metric, Regions, Rows, Scored};
 use fovqa_plan::{Plan, Settings};
-use fovqa_results::{AtdGuides, FvvdpSight};
+use fovqa_results::{AtdGuides, FvvdpViewing};
 
 use crate::events::Warnings;
 use crate::found::FoundView;
@@ -25,9 +25,9 @@ use crate::retina::{Blocks, Retina};
 use crate::setup::Setup;
 use crate::work::Work;
 use fidelity::Fidelity;
-use light::Light;
-pub(crate) use light::LoadPair;
 use lumas::Lumas;
+pub(crate) use luminance::LoadPair;
+use luminance::LuminanceMeter;
 use own::Own;
 use profiles::Profiles;
 use temporal::Temporal;
@@ -39,7 +39,7 @@ enum Meter {
     /// What compares them too, each metric in a pass of its own.
     Own(Own),
     /// What is of the light that the display shows.
-    Light(Box<Light>),
+    Luminance(Box<LuminanceMeter>),
     /// What is measured of each picture by itself.
     Profiles(Profiles),
     /// What is measured of each picture and the one before it.
@@ -88,7 +88,7 @@ impl Meter {
     fn lead_in(&mut self, sequence: &Sequence) -> Range<usize> {
         let &Sequence { method, done, end, goes_on } = sequence;
         match self {
-            Meter::Light(light) => light.go_on(method, done, end),
+            Meter::Luminance(light) => light.go_on(method, done, end),
             Meter::Temporal(_) if goes_on => done.saturating_sub(1)..done,
             Meter::Temporal(_) | Meter::Fidelity(_) | Meter::Own(_) | Meter::Profiles(_) => {
                 done..done
@@ -140,7 +140,8 @@ impl Meters {
         let meters = [
             Some(Meter::Fidelity(Fidelity::new(plan, metrics))),
             Some(Meter::Own(Own::new(plan, metrics))),
-            Light::new(plan, settings, metrics, view, fps).map(|light| Meter::Light(light.into())),
+            LuminanceMeter::new(plan, settings, metrics, view, fps)
+                .map(|light| Meter::Luminance(light.into())),
             Some(Meter::Profiles(Profiles::new(plan, metrics))),
             temporal.map(|temporal| Meter::Temporal(temporal.into())),
         ];
@@ -154,7 +155,7 @@ impl Meters {
                 Meter::Fidelity(fidelity) => *fidelity = Fidelity::new(plan, metrics),
                 Meter::Own(own) => *own = Own::new(plan, metrics),
                 Meter::Profiles(profiles) => *profiles = Profiles::new(plan, metrics),
-                Meter::Light(_) | Meter::Temporal(_) => {}
+                Meter::Luminance(_) | Meter::Temporal(_) => {}
             }
         }
     }
@@ -200,7 +201,7 @@ impl Meters {
             match meter {
                 Meter::Profiles(profiles) => profiles.leave(),
                 Meter::Temporal(temporal) => temporal.leave(reference, position),
-                Meter::Fidelity(_) | Meter::Own(_) | Meter::Light(_) => {}
+                Meter::Fidelity(_) | Meter::Own(_) | Meter::Luminance(_) => {}
             }
         }
     }
@@ -220,7 +221,7 @@ impl Meters {
                         measured.add(scored?);
                     }
                 }
-                Meter::Light(light) => light.measure(pair, &mut measured, warnings),
+                Meter::Luminance(light) => light.measure(pair, &mut measured, warnings),
                 Meter::Profiles(profiles) => {
                     profiles.measure(pair, &mut self.lumas, &mut measured.rows);
                 }
@@ -243,7 +244,7 @@ impl Meters {
                     own.measure(pair, false).try_for_each(|scored| scored.map(|_| ()))?;
                 }
                 Meter::Fidelity(_) | Meter::Own(_) => {}
-                Meter::Light(light) => light.take_in(pair),
+                Meter::Luminance(light) => light.take_in(pair),
                 Meter::Profiles(_) => profiles::take_in(pair, &mut self.lumas),
                 Meter::Temporal(temporal) => temporal.take_in(pair, &mut self.lumas),
             }
@@ -257,7 +258,7 @@ impl Meters {
     }
 
     /// How FovVideoVDP sees the sequence of a method, where it is asked for.
-    pub(crate) fn fvvdp(&self, method: usize, setup: &Setup<'_>) -> Option<FvvdpSight> {
+    pub(crate) fn fvvdp(&self, method: usize, setup: &Setup<'_>) -> Option<FvvdpViewing> {
         self.light()?.sight(method, setup.fvvdp()?)
     }
 
@@ -270,9 +271,9 @@ impl Meters {
         self.light()?.missing(method, number)
     }
 
-    fn light(&self) -> Option<&Light> {
+    fn light(&self) -> Option<&LuminanceMeter> {
         self.meters.iter().find_map(|meter| match meter {
-            Meter::Light(light) => Some(&**light),
+            Meter::Luminance(light) => Some(&**light),
             _ => None,
         })
     }

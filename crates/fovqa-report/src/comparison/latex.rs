@@ -5,7 +5,7 @@ use std::fmt::Write;
 use fovqa_metrics::Better;
 
 use super::group::Group;
-use super::{ComparisonTable, Row};
+use super::{ComparedRow, ComparisonTable};
 use crate::text_table::printable;
 
 impl ComparisonTable {
@@ -44,7 +44,7 @@ impl ComparisonTable {
         text
     }
 
-    fn latex_row(&self, row: &Row, text: &mut String) {
+    fn latex_row(&self, row: &ComparedRow, text: &mut String) {
         text.push_str(&escaped(&row.label));
         for (group, cells) in self.groups.iter().zip(&row.cells) {
             for cell in cells {

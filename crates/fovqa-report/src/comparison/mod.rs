@@ -29,7 +29,7 @@ pub struct ComparisonTable {
     corner: &'static str,
     methods: Vec<String>,
     groups: Vec<Group>,
-    rows: Vec<Row>,
+    rows: Vec<ComparedRow>,
     notes: Vec<String>,
 }
 
@@ -46,7 +46,7 @@ const ATD_NOTE: &str =
     "ATD: average temporal difference of the test in percent of the reference's.";
 
 #[derive(Debug, Clone, PartialEq)]
-struct Row {
+struct ComparedRow {
     label: String,
     /// Whether it is of all scenes together.
     average: bool,
@@ -89,13 +89,13 @@ impl ComparisonTable {
         let groups: Vec<Group> = metrics.iter().map(|metric| group(*metric)).collect();
         let value =
             |scene: &str, method: &str, metric: Metric| overview.of(scene, method)?.value(metric);
-        let mut rows: Vec<Row> = scenes
+        let mut rows: Vec<ComparedRow> = scenes
             .iter()
             .map(|scene| {
                 let cells = metrics.iter().zip(&groups).map(|(&metric, group)| {
                     marked(group, methods.iter().map(|method| value(scene, method, metric)))
                 });
-                Row { label: (*scene).to_owned(), average: false, cells: cells.collect() }
+                ComparedRow { label: (*scene).to_owned(), average: false, cells: cells.collect() }
             })
             .collect();
         let names: Vec<&str> = methods.iter().map(String::as_str).collect();
@@ -190,7 +190,7 @@ fn marked(group: &Group, values: impl Iterator<Item = Option<f64>>) -> Vec<Cell>
 
 /// The means over the scenes that all methods have ([`common_scenes`], measure by measure), of the
 /// measures for which there are at least two; `None` where there is no such measure.
-fn average(groups: &[Group], rows: &[Row], common: &[Vec<&str>]) -> Option<Row> {
+fn average(groups: &[Group], rows: &[ComparedRow], common: &[Vec<&str>]) -> Option<ComparedRow> {
     let mut scenes = Vec::new();
     let cells = groups.iter().enumerate().map(|(index, group)| {
         let whole: Vec<&Vec<Cell>> = rows
@@ -215,7 +215,7 @@ fn average(groups: &[Group], rows: &[Row], common: &[Vec<&str>]) -> Option<Row> 
     } else {
         "Average of the scenes all methods have".to_owned()
     };
-    Some(Row { label, average: true, cells })
+    Some(ComparedRow { label, average: true, cells })
 }
 
 /// The plain mean; `None` without any value. Infinite with any that is: what cannot be beaten in one

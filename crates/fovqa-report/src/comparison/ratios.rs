@@ -5,7 +5,7 @@ use fovqa_plan::Plot;
 use fovqa_results::RunRecord;
 
 use super::group::Group;
-use super::{Cell, ComparisonTable, Row};
+use super::{Cell, ComparedRow, ComparisonTable};
 use crate::overview::{Measured, Overview, WaveletBand};
 
 /// What a table of ratios is of.
@@ -55,9 +55,9 @@ impl ComparisonTable {
                 let cell = |value| Cell { value, best: false };
                 ratios.methods.iter().map(|method| cell(value(method))).collect()
             });
-            Row { label, average: false, cells: cells.collect() }
+            ComparedRow { label, average: false, cells: cells.collect() }
         };
-        let mut rows: Vec<Row> = bands
+        let mut rows: Vec<ComparedRow> = bands
             .iter()
             .map(|band| {
                 let edges = (band.from_deg, band.to_deg);
@@ -69,7 +69,7 @@ impl ComparisonTable {
             .collect();
         if ratios.metric == Metric::Atd {
             let whole = |c: &Measured, _| c.atd.as_ref()?.ratio;
-            rows.push(Row { average: true, ..row("whole frame".to_owned(), &whole) });
+            rows.push(ComparedRow { average: true, ..row("whole frame".to_owned(), &whole) });
         }
         let cells = rows.iter().flat_map(|row| row.cells.iter().flatten());
         if groups.is_empty() || cells.clone().all(|cell| cell.value.is_none()) {

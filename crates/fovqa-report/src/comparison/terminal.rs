@@ -1,7 +1,7 @@
 //! The table on a terminal.
 
 use super::group::Group;
-use super::{Cell, ComparisonTable, Row};
+use super::{Cell, ComparedRow, ComparisonTable};
 use crate::text_table::{aligned, plain_table, printable};
 
 impl ComparisonTable {
@@ -31,7 +31,7 @@ impl ComparisonTable {
         text
     }
 
-    fn one_scene(&self, row: &Row) -> String {
+    fn one_scene(&self, row: &ComparedRow) -> String {
         let headings: Vec<String> = self.groups.iter().map(Group::heading).collect();
         let label = printable(&row.label);
         let headings = headings.iter().map(String::as_str);

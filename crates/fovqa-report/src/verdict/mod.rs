@@ -14,7 +14,7 @@ pub use terminal::verdict_table;
 
 use std::fmt::Write as _;
 
-use fovqa_results::{Check, Limit, Place, State, Verdict};
+use fovqa_results::{Check, ComparisonName, Limit, State, Verdict};
 
 /// A value as verdicts show it: short. On which side of a limit it lies, its margin says.
 fn number(value: f64) -> String {
@@ -42,7 +42,7 @@ fn margin(limit: &Limit) -> String {
     format!("{sign}{}", number(limit.margin))
 }
 
-fn place((scene, method, eye): &Place) -> String {
+fn place((scene, method, eye): &ComparisonName) -> String {
     let parts = [scene, method, eye].into_iter().filter(|part| !part.is_empty());
     parts.map(String::as_str).collect::<Vec<_>>().join(", ")
 }

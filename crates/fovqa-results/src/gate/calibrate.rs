@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use fovqa_metrics::Better;
 use fovqa_plan::{GateRule, Quantity};
 
-use super::values::{Lacking, Place, RunValues};
+use super::values::{ComparisonName, Lacking, RunValues};
 use super::verdict::is_of;
 
 /// Limits for a gate, from repeated runs.
@@ -22,7 +22,7 @@ pub struct Calibration {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proposal {
     /// Scene, method and eye.
-    pub place: Place,
+    pub place: ComparisonName,
     /// The value.
     pub quantity: Quantity,
     /// Whether the rule is held against a baseline.
@@ -58,13 +58,13 @@ pub fn calibrate(rules: &[GateRule], runs: &[(String, RunValues)]) -> Result<Cal
     Ok(Calibration { runs: runs.len(), proposals })
 }
 
-fn named((scene, method, eye): &Place) -> String {
+fn named((scene, method, eye): &ComparisonName) -> String {
     let eye = if eye.is_empty() { String::new() } else { format!(", {eye}") };
     format!("{scene}, {method}{eye}")
 }
 
 impl Proposal {
-    fn new(rule: &GateRule, place: &Place, values: &[f64]) -> Self {
+    fn new(rule: &GateRule, place: &ComparisonName, values: &[f64]) -> Self {
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let squared: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();

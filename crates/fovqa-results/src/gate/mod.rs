@@ -9,5 +9,5 @@ mod verdict;
 
 pub use calibrate::{Calibration, Proposal, calibrate};
 pub use json::{GATE_SCHEMA, write_verdict_json};
-pub use values::{Found, Lacking, Place, RunValues};
+pub use values::{ComparisonName, FoundValue, Lacking, RunValues};
 pub use verdict::{Check, Limit, Outcome, RuleVerdict, State, Verdict};

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use fovqa_metrics::Subject;
 
-use super::values::{Place, Row, RunValues, Values};
+use super::values::{ComparisonName, RunValues, ValueRow, Values};
 use crate::files::{FileError, SUMMARY_JSON};
 use crate::json::{ComparisonSummary, read_summary};
 use crate::table::{ERROR, Value, Which, not_results, read_results, table_file};
@@ -58,14 +58,14 @@ impl RunValues {
                 let kind = (metric, statistic, row.image.name().to_owned(), row.level);
                 let value = row.value.map(Value::number);
                 let (frame, band) = (row.frame, row.band);
-                values.rows.entry(kind).or_default().push(Row { frame, band, value });
+                values.rows.entry(kind).or_default().push(ValueRow { frame, band, value });
             }
             Ok(())
         })
     }
 }
 
-fn place(comparison: &ComparisonSummary) -> Place {
+fn place(comparison: &ComparisonSummary) -> ComparisonName {
     (comparison.scene.clone(), comparison.method.clone(), comparison.eye.clone())
 }
 
@@ -94,7 +94,7 @@ fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String>
     }
     for band in &comparison.bands {
         let edges = [band.from_deg, band.to_deg].map(f64::to_bits);
-        let of = |row: &&Row| row.band.is_some_and(|band| band.map(f64::to_bits) == edges);
+        let of = |row: &&ValueRow| row.band.is_some_and(|band| band.map(f64::to_bits) == edges);
         let pixels: f64 = rows("pixels").iter().filter(of).filter_map(|row| row.value).sum();
         if pixels as u64 != band.pixels {
             return Err(lacks("pixels"));
@@ -115,13 +115,13 @@ fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String>
 }
 
 /// Whether a frame has two values of one statistic, for the whole of it or for a band.
-fn is_double(rows: &[Row]) -> bool {
+fn is_double(rows: &[ValueRow]) -> bool {
     let mut seen = BTreeSet::new();
     !rows.iter().all(|row| seen.insert((row.frame, row.band.map(|band| band.map(f64::to_bits)))))
 }
 
 /// Whether a frame has some bands of a statistic, but not all.
-fn lacks_bands(rows: &[Row], bands: usize) -> bool {
+fn lacks_bands(rows: &[ValueRow], bands: usize) -> bool {
     let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
     let banded = rows.iter().filter(|row| row.band.is_some());
     for frame in banded.filter_map(|row| row.frame) {

@@ -10,12 +10,12 @@ use super::aggregate::aggregate;
 use crate::json::ComparisonSummary;
 
 /// Scene, method and eye.
-pub type Place = (String, String, String);
+pub type ComparisonName = (String, String, String);
 
 /// The values of a run, comparison by comparison.
 #[derive(Debug, Default)]
 pub struct RunValues {
-    pub(super) places: BTreeMap<Place, Values>,
+    pub(super) places: BTreeMap<ComparisonName, Values>,
     /// What could not be scored, in words.
     pub errors: Vec<String>,
 }
@@ -23,7 +23,7 @@ pub struct RunValues {
 /// The values of a comparison.
 #[derive(Debug, Default)]
 pub(super) struct Values {
-    pub(super) rows: BTreeMap<Kind, Vec<Row>>,
+    pub(super) rows: BTreeMap<Kind, Vec<ValueRow>>,
     pub(super) summary: Option<ComparisonSummary>,
     /// Frames, or the whole, that could not be scored.
     pub(super) errors: usize,
@@ -34,7 +34,7 @@ pub(super) type Kind = (String, String, String, Option<usize>);
 
 /// A value.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Row {
+pub(super) struct ValueRow {
     /// `None`: of the whole sequence.
     pub(super) frame: Option<i64>,
     pub(super) band: Option<[f64; 2]>,
@@ -43,7 +43,7 @@ pub(super) struct Row {
 
 /// A value of a comparison.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct FoundValue {
     /// The value.
     pub value: f64,
     /// The frames it is of, with theirs; empty where it is of the sequence alone.
@@ -82,17 +82,17 @@ impl fmt::Display for Lacking {
 
 impl RunValues {
     /// Scene, method and eye of every comparison.
-    pub fn places(&self) -> impl Iterator<Item = &Place> {
+    pub fn places(&self) -> impl Iterator<Item = &ComparisonName> {
         self.places.keys()
     }
 
     /// Frames of a comparison that could not be scored.
-    pub fn errors_of(&self, place: &Place) -> usize {
+    pub fn errors_of(&self, place: &ComparisonName) -> usize {
         self.places.get(place).map_or(0, |values| values.errors)
     }
 
     /// Frames of a comparison that were scored.
-    pub fn frames_of(&self, place: &Place) -> usize {
+    pub fn frames_of(&self, place: &ComparisonName) -> usize {
         let summary = self.places.get(place).and_then(|values| values.summary.as_ref());
         summary.map_or(0, |summary| summary.frames)
     }
@@ -101,14 +101,14 @@ impl RunValues {
     ///
     /// # Errors
     /// When there is none.
-    pub fn of(&self, place: &Place, quantity: &Quantity) -> Result<Found, Lacking> {
+    pub fn of(&self, place: &ComparisonName, quantity: &Quantity) -> Result<FoundValue, Lacking> {
         let nothing = || Lacking::Nothing("there is no such comparison".to_owned());
         self.places.get(place).ok_or_else(nothing)?.of(quantity)
     }
 }
 
 impl Values {
-    fn of(&self, quantity: &Quantity) -> Result<Found, Lacking> {
+    fn of(&self, quantity: &Quantity) -> Result<FoundValue, Lacking> {
         let Some(kind) = quantity.aggregate else { return self.of_sequence(quantity) };
         let frames = self.frames(quantity)?;
         let values: Vec<f64> = frames.iter().map(|(_, value)| *value).collect();
@@ -118,11 +118,11 @@ impl Values {
             (Aggregate::Mean, "ratio") => self.ratio_of_means(quantity)?,
             (kind, _) => aggregate(kind, &values, decibels).ok_or_else(|| lacks(quantity))?,
         };
-        Ok(Found { value, frames })
+        Ok(FoundValue { value, frames })
     }
 
     /// A value of the sequence as a whole: JOD, or decibels of the pooled error.
-    fn of_sequence(&self, quantity: &Quantity) -> Result<Found, Lacking> {
+    fn of_sequence(&self, quantity: &Quantity) -> Result<FoundValue, Lacking> {
         let frame_statistic = if quantity.statistic == "jod" { "frame_jod" } else { "" };
         let of_frames = Quantity { statistic: frame_statistic.to_owned(), ..quantity.clone() };
         let frames = self.frames(&of_frames).unwrap_or_default();
@@ -135,7 +135,7 @@ impl Values {
             (Some(_), Some(_)) => Some(self.pooled_in_bands(&of_frames)?),
             _ => None,
         };
-        Ok(Found { value: value.ok_or_else(|| lacks(quantity))?, frames })
+        Ok(FoundValue { value: value.ok_or_else(|| lacks(quantity))?, frames })
     }
 
     /// What all frames have together in a band, or several.
@@ -276,8 +276,9 @@ impl Values {
         let Some(rows) = self.rows.get(&kind).or(Some(&none).filter(|_| !scored)) else {
             return Err(unweighted(quantity));
         };
-        let weight =
-            |row: &Row| Some(((row.frame?, row.band?.map(f64::to_bits)), row.value.unwrap_or(0.0)));
+        let weight = |row: &ValueRow| {
+            Some(((row.frame?, row.band?.map(f64::to_bits)), row.value.unwrap_or(0.0)))
+        };
         Ok(rows.iter().filter_map(weight).collect())
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use fovqa_metrics::Better;
 use fovqa_plan::{Allowance, GateRule};
 
-use super::values::{Found, Lacking, Place, RunValues};
+use super::values::{ComparisonName, FoundValue, Lacking, RunValues};
 use crate::baseline::Baseline;
 
 /// What came of a gate.
@@ -38,7 +38,7 @@ pub struct RuleVerdict {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Check {
     /// Scene, method and eye.
-    pub place: Place,
+    pub place: ComparisonName,
     /// The value, where there is one.
     pub value: Option<f64>,
     /// The limit it comes nearest to, or that it breaks most.
@@ -169,13 +169,13 @@ impl Verdict {
 
 /// Comparisons that only the baseline has: what is gone cannot get worse.
 fn strangers(run: &RunValues, baseline: &Baseline) -> Vec<String> {
-    let here: BTreeSet<&Place> = run.places().collect();
+    let here: BTreeSet<&ComparisonName> = run.places().collect();
     let gone = baseline.comparisons.iter().filter(|c| !here.contains(&c.place()));
     gone.map(|c| format!("the baseline has {}, and the run has not", c.named())).collect()
 }
 
 /// Whether a rule is of a comparison: of both eyes together, where it names none.
-pub(super) fn is_of(rule: &GateRule, (scene, method, eye): &Place) -> bool {
+pub(super) fn is_of(rule: &GateRule, (scene, method, eye): &ComparisonName) -> bool {
     let wanted = |wanted: &Option<String>, name: &str| wanted.as_ref().is_none_or(|w| w == name);
     let of_eye = match &rule.eye {
         Some(wanted) => wanted == eye,
@@ -199,7 +199,12 @@ fn judged(rule: &GateRule, run: &RunValues, baseline: Option<&Baseline>) -> Rule
     RuleVerdict { rule: rule.clone(), checks, failure: nothing.or(lost) }
 }
 
-fn check(rule: &GateRule, run: &RunValues, place: &Place, baseline: Option<&Baseline>) -> Check {
+fn check(
+    rule: &GateRule,
+    run: &RunValues,
+    place: &ComparisonName,
+    baseline: Option<&Baseline>,
+) -> Check {
     let mut check = Check {
         place: place.clone(),
         value: None,
@@ -288,7 +293,7 @@ fn limits(rule: &GateRule, value: f64, before: Option<f64>) -> Vec<Limit> {
 }
 
 /// The frame that is worst by the rule's direction, or nearest to its limit where it has none.
-fn worst(found: &Found, rule: &GateRule, limit: Option<Limit>) -> Option<(i64, f64)> {
+fn worst(found: &FoundValue, rule: &GateRule, limit: Option<Limit>) -> Option<(i64, f64)> {
     let low = match rule.quantity.better() {
         Better::Higher => true,
         Better::Lower => false,

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::compared::Sides;
 use crate::report::{FrameResult, ViewResult};
-use crate::summary::{SideStatistics, Spread, Summary};
+use crate::spread::Spread;
+use crate::summary::{SideStatistics, Summary};
 
 /// A measure of each picture, and their ratio.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

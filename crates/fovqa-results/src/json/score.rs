@@ -10,7 +10,8 @@ use super::summary::{BandStatistics, ViewRecord, stats};
 use super::values::{Each, MetricMap, Number, Stats};
 use crate::fvvdp::{FvvdpSummary, SpatialBand, spatial_bands};
 use crate::report::{FrameResult, ScoreReport};
-use crate::summary::{AtdSummary, Spread, Summary};
+use crate::spread::Spread;
+use crate::summary::{AtdSummary, Summary};
 
 /// Name and version of the format.
 pub const SCORE_SCHEMA: &str = "fovqa.score/1";

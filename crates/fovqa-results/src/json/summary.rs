@@ -11,7 +11,8 @@ use super::compared::{HaarRecord, SideValues, in_summary_band, summary_haar};
 use super::values::{AnyStats, MetricMap, Number, Stats};
 use crate::fvvdp::FvvdpSummary;
 use crate::report::{Comparison, ViewResult};
-use crate::summary::{AtdSummary, BandSummary, Spread, Statistics, Summary};
+use crate::spread::Spread;
+use crate::summary::{AtdSummary, BandSummary, Statistics, Summary};
 
 /// Name and version of the format.
 pub const SUMMARY_SCHEMA: &str = "fovqa.summary/1";

@@ -13,7 +13,7 @@ use fovqa_metrics::fvvdp::{
 };
 use fovqa_metrics::{Map, Metric, pu_psnr};
 use fovqa_plan::{Plan, Settings};
-use fovqa_results::FvvdpSight;
+use fovqa_results::FvvdpViewing;
 
 use super::{Measured, Pair};
 use crate::events::Warnings;
@@ -27,7 +27,7 @@ const CANDELA: &str = "no pixel of the reference is brighter than 1 cd/m², as l
      where 1 stands for white or for another amount of light, say how much with fvvdp.cd_m2_per_unit";
 
 /// The light of a view's frames, as long as it is needed.
-pub(super) struct Light {
+pub(super) struct LuminanceMeter {
     params: Params,
     photometry: Photometry,
     tables: LightTables,
@@ -48,7 +48,7 @@ struct Seen(Vec<usize>, [u64; 2]);
 /// Loads the reference and the test of a method for another frame of the view, by its index.
 pub(crate) type LoadPair<'a> = dyn Fn(usize, usize) -> Result<[Frame; 2], Fault> + 'a;
 
-impl Light {
+impl LuminanceMeter {
     /// `None` where no metric is of light.
     pub(super) fn new(
         plan: &Plan,
@@ -257,9 +257,9 @@ impl Light {
     }
 
     /// How a method's sequence is seen.
-    pub(super) fn sight(&self, method: usize, metric: &Fvvdp) -> Option<FvvdpSight> {
+    pub(super) fn sight(&self, method: usize, metric: &Fvvdp) -> Option<FvvdpViewing> {
         let sequence = self.sequences.get(&method)?;
-        Some(FvvdpSight {
+        Some(FvvdpViewing {
             pixels_per_degree: metric.geometry().pixels_per_degree,
             peak_cd_m2: self.photometry.peak_cd_m2(),
             black_cd_m2: self.photometry.black_cd_m2(),
