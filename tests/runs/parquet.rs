@@ -86,7 +86,7 @@ fn stands_in_for_the_csv() {
     fs::remove_dir_all(parquet.path("out/plots")).unwrap();
     parquet.run(&["report", "out"]).ok();
     assert_eq!(drawn(&parquet), expected);
-    let gate = |folder: &Folder| folder.run(&["gate", "e.toml", "out"]).ok().stdout;
+    let gate = |folder: &Folder| folder.run(&["gate", "out"]).ok().stdout;
     assert_eq!(gate(&parquet), gate(&csv));
 }
 
@@ -99,8 +99,7 @@ fn is_refused_when_it_was_changed_or_is_damaged() {
     let mut changed = whole.clone();
     changed[whole.len() / 2] ^= 1;
     fs::write(&file, &changed).unwrap();
-    for command in [["report", "out", "--"], ["gate", "e.toml", "out"]] {
-        let command: Vec<&str> = command.into_iter().filter(|word| *word != "--").collect();
+    for command in [["report", "out"], ["gate", "out"]] {
         folder.run(&command).fails(3, &["results.parquet", "checksum"]);
     }
     // Without checksums, as another program may write the folder: an error, and never a panic.
@@ -110,10 +109,10 @@ fn is_refused_when_it_was_changed_or_is_damaged() {
     folder.write("out/run.json", record.to_string());
     for end in [0, 3, 4, 11, whole.len() / 2, whole.len() - 9, whole.len() - 1] {
         fs::write(&file, &whole[..end]).unwrap();
-        folder.run(&["gate", "e.toml", "out"]).fails(3, &["results.parquet"]);
+        folder.run(&["gate", "out"]).fails(3, &["results.parquet"]);
     }
     fs::write(&file, "scene,method\n").unwrap();
-    folder.run(&["gate", "e.toml", "out"]).fails(3, &["results.parquet"]);
+    folder.run(&["gate", "out"]).fails(3, &["results.parquet"]);
 }
 
 #[test]
