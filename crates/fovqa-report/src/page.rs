@@ -29,12 +29,16 @@ thead th{text-align:center;font-weight:600}tbody th{text-align:left;font-weight:
 thead tr:last-child th{font-weight:400;border-bottom:1px solid #888;text-align:right}
 thead tr:first-child th:first-child{border-bottom:1px solid #888;text-align:left;vertical-align:bottom}
 td.first{padding-left:1.8em}tr.average>*{border-top:1px solid #ccc}
-.long{overflow:auto;max-height:80vh}.long thead{position:sticky;top:0;z-index:1;background:#fff}
-.long tbody th{position:sticky;left:0;background:#fff}
 .figures{display:flex;flex-wrap:wrap;gap:1.5em}
 img.small{max-width:380px;max-height:320px}figure{margin:0}figure img{max-width:100%}
 .errors li{color:#a00}
 code{background:#f3f3f3;padding:0 .2em}
+";
+
+/// What tables of very many methods need beside it.
+const LONG_STYLE: &str = "\
+.long{overflow:auto;max-height:80vh}.long thead{position:sticky;top:0;z-index:1;background:#fff}
+.long tbody th{position:sticky;left:0;background:#fff}
 ";
 
 /// The page.
@@ -44,7 +48,8 @@ pub(crate) fn page(
     tables: &[(String, ComparisonTable)],
     figures: &[PageFigure<'_>],
 ) -> String {
-    let mut text = begin(&run.resolved.name);
+    let is_long = tables.iter().any(|(_, table)| table.is_long());
+    let mut text = begin_with(&run.resolved.name, if is_long { LONG_STYLE } else { "" });
     if let Some(about) = &run.resolved.about {
         let _ = writeln!(text, "<p>{}</p>", escaped(about));
     }
@@ -123,11 +128,15 @@ fn long_table(text: &mut String, name: &str, table: &ComparisonTable) {
 
 /// The page up to its heading.
 pub(crate) fn begin(name: &str) -> String {
+    begin_with(name, "")
+}
+
+fn begin_with(name: &str, style: &str) -> String {
     let name = escaped(name);
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n<title>{name}</title>\n\
-         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{name}</h1>\n"
+         <style>\n{STYLE}{style}</style>\n</head>\n<body>\n<h1>{name}</h1>\n"
     )
 }
 

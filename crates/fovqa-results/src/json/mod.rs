@@ -13,5 +13,5 @@ pub use run::{ExperimentRecord, RUN_SCHEMA, RunRecord};
 pub use score::{SCORE_SCHEMA, write_json};
 pub use summary::{BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, ViewRecord};
 pub use summary_file::{read_summary, write_summary};
-pub(crate) use unique_keys::UniqueKeys;
+pub(crate) use unique_keys::CheckedKeys;
 pub use values::Number;

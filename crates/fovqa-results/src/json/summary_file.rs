@@ -3,16 +3,18 @@
 
 use std::collections::BTreeSet;
 use std::fmt;
+use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::path::Path;
 
+use fovqa_io::open_regular_file;
 use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, Error, MapAccess, SeqAccess};
 use serde::de::{IgnoredAny, Visitor};
 
 use super::summary::{ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA};
-use super::unique_keys::{UniqueKeys, stands_twice};
+use super::unique_keys::{CheckedKeys, UniqueKeys, stands_twice};
 use super::values::Each;
-use crate::files::{FileError, SUMMARY_JSON, open_result_file};
+use crate::files::{FileError, SUMMARY_JSON};
 use crate::report::RunResults;
 
 /// Writes the summary of a run as indented JSON.
@@ -52,17 +54,29 @@ pub fn read_summary(
     mut take: impl FnMut(ComparisonSummary),
 ) -> Result<Vec<ErrorRecord>, FileError> {
     let path = folder.join(SUMMARY_JSON);
+    let open = || -> io::Result<BufReader<File>> {
+        let file = open_regular_file(&path)?;
+        let mut file = BufReader::with_capacity(1 << 16, file);
+        if file.fill_buf()?.starts_with(b"\xef\xbb\xbf") {
+            file.consume(3);
+        }
+        Ok(file)
+    };
     let read = |error| FileError::Read { path: path.clone(), error };
-    let mut file = BufReader::with_capacity(1 << 16, open_result_file(&path)?);
-    if file.fill_buf().map_err(read)?.starts_with(b"\xef\xbb\xbf") {
-        file.consume(3);
-    }
-    read_from(file, &mut take).map_err(|fault| match fault {
+    read_from(open().map_err(read)?, &mut take).map_err(|fault| match fault {
         Fault::Read(error) => read(error),
         Fault::Format(detail) => {
+            // Of all that may be wrong, a key that stands twice explains the most.
+            let detail = open().ok().and_then(key_twice).unwrap_or(detail);
             FileError::Format { path: path.clone(), expected: "a summary of a run", detail }
         }
     })
+}
+
+/// Which key stands twice, where one does.
+fn key_twice(file: impl Read) -> Option<String> {
+    let error = serde_json::from_reader::<_, CheckedKeys>(file).err()?;
+    error.is_data().then(|| error.to_string())
 }
 
 /// Why a summary cannot be read.
@@ -229,6 +243,14 @@ mod tests {
         let none = String::from_utf8(none).unwrap();
         assert!(none.contains("\"comparisons\": [],\n  \"errors\": []\n"), "{none}");
         assert_eq!(read(&none), Ok((Vec::new(), 0)));
+    }
+
+    #[test]
+    fn a_key_that_stands_twice_is_found_behind_other_faults() {
+        let text = r#"{"comparisons": null, "schema": "x", "comparisons": []}"#;
+        assert!(key_twice(text.as_bytes()).unwrap().contains("\"comparisons\" stands twice"));
+        assert_eq!(key_twice(&br#"{"a": 1, "b": {"a": 2}}"#[..]), None);
+        assert_eq!(key_twice(&b"{\"a\": 1"[..]), None);
     }
 
     #[test]

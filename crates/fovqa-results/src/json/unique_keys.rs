@@ -1,5 +1,6 @@
 //! JSON in which no key stands twice: of two values of one name, nobody can tell which is meant.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
@@ -11,6 +12,66 @@ pub(crate) struct UniqueKeys(pub(crate) Value);
 impl<'de> Deserialize<'de> for UniqueKeys {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(AnyValue).map(Self)
+    }
+}
+
+/// JSON whose objects were found to have each key once. Nothing of it is kept.
+pub(crate) struct CheckedKeys;
+
+impl<'de> Deserialize<'de> for CheckedKeys {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Check)
+    }
+}
+
+struct Check;
+
+impl<'de> Visitor<'de> for Check {
+    type Value = CheckedKeys;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("JSON")
+    }
+
+    fn visit_unit<E: Error>(self) -> Result<CheckedKeys, E> {
+        Ok(CheckedKeys)
+    }
+
+    fn visit_bool<E: Error>(self, _: bool) -> Result<CheckedKeys, E> {
+        Ok(CheckedKeys)
+    }
+
+    fn visit_i64<E: Error>(self, _: i64) -> Result<CheckedKeys, E> {
+        Ok(CheckedKeys)
+    }
+
+    fn visit_u64<E: Error>(self, _: u64) -> Result<CheckedKeys, E> {
+        Ok(CheckedKeys)
+    }
+
+    fn visit_f64<E: Error>(self, _: f64) -> Result<CheckedKeys, E> {
+        Ok(CheckedKeys)
+    }
+
+    fn visit_str<E: Error>(self, _: &str) -> Result<CheckedKeys, E> {
+        Ok(CheckedKeys)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut access: A) -> Result<CheckedKeys, A::Error> {
+        while access.next_element::<CheckedKeys>()?.is_some() {}
+        Ok(CheckedKeys)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut access: A) -> Result<CheckedKeys, A::Error> {
+        let mut keys = BTreeSet::new();
+        while let Some(key) = access.next_key::<String>()? {
+            access.next_value::<CheckedKeys>()?;
+            if keys.contains(&key) {
+                return Err(stands_twice(&key));
+            }
+            keys.insert(key);
+        }
+        Ok(CheckedKeys)
     }
 }
 
@@ -86,6 +147,7 @@ mod tests {
         let text = r#"{"a": [1, -2, 2.5, 1e300, null, true, "x"], "b": {"a": {}}, "c": 18446744073709551615}"#;
         let UniqueKeys(value) = serde_json::from_str(text).unwrap();
         assert_eq!(value, serde_json::from_str::<Value>(text).unwrap());
+        assert!(serde_json::from_str::<CheckedKeys>(text).is_ok());
     }
 
     #[test]
@@ -94,6 +156,8 @@ mod tests {
         {
             let error = serde_json::from_str::<UniqueKeys>(text).err().unwrap().to_string();
             assert!(error.contains("the key \"a\" stands twice at line 1"), "{error}");
+            let checked = serde_json::from_str::<CheckedKeys>(text).err().unwrap().to_string();
+            assert!(checked.contains("the key \"a\" stands twice at line 1"), "{checked}");
         }
     }
 }
