@@ -105,7 +105,7 @@ impl Method {
             Self::Cps(params) => params.set(known.name, &value),
             Self::VisualPolar(params) => params.set(known.name, &value),
         };
-        set.ok_or_else(|| known.refuses(info.key, &value))
+        set.ok_or_else(|| known.value_error(info.key, &value))
     }
 
     /// Applies the method to a frame and a gaze.

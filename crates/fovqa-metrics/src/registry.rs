@@ -156,7 +156,7 @@ impl Params {
         let info = metric.info();
         let (known, value) = find(info.key, info.params, param, value)?;
         let set = self.set_known(metric, known.name, &value);
-        set.ok_or_else(|| known.refuses(info.key, &value))
+        set.ok_or_else(|| known.value_error(info.key, &value))
     }
 }
 
