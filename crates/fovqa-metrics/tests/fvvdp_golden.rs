@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fovqa_frame::{LightTables, SignalParams, Transfer};
+use fovqa_frame::{LuminanceTables, SignalParams, Transfer};
 use fovqa_metrics::fvvdp::{
     ColorSpace, Fvvdp, FvvdpFrame, Geometry, Grid, Padding, Params, Photometry, Stream, Time, jod,
 };
@@ -138,7 +138,7 @@ fn found(golden: &Golden, case: &FvvdpCase, keep: bool) -> Found {
     Found { jod: jod(q), frames, pu_psnr_db: reference.iter().zip(&test).map(pu).collect() }
 }
 
-fn luminance(frames: &[fovqa_frame::Frame], tables: &LightTables) -> Vec<Arc<Grid>> {
+fn luminance(frames: &[fovqa_frame::Frame], tables: &LuminanceTables) -> Vec<Arc<Grid>> {
     frames.iter().map(|frame| Arc::new(Grid::luminance(frame, tables))).collect()
 }
 

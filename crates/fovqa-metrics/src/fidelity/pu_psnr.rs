@@ -70,7 +70,7 @@ fn squared_error(reference: &Grid, test: &Grid, regions: &Regions<'_>) -> f64 {
 #[cfg(test)]
 #[allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
 mod tests {
-    use fovqa_frame::{Channels, Frame, LightTables, LinearLight, Mask, Samples, SignalParams};
+    use fovqa_frame::{Channels, Frame, LinearInput, LuminanceTables, Mask, Samples, SignalParams};
     use fovqa_vision::BandMap;
 
     use super::*;
@@ -87,14 +87,14 @@ mod tests {
 
     /// Luminance by pixel, in cd/m².
     fn luminance(value: impl Fn(usize, usize) -> f32) -> Grid {
-        let shown = fovqa_frame::ShownLight {
+        let shown = fovqa_frame::DisplayRange {
             cd_m2_per_unit: 1.0,
             floor_cd_m2: 0.0,
             peak_cd_m2: 1e5,
             black_cd_m2: 0.0,
         };
-        let light = LinearLight::Absolute(shown);
-        let tables = LightTables::new(SignalParams::default(), |v| v, light, [0.2, 0.7, 0.1]);
+        let light = LinearInput::Absolute(shown);
+        let tables = LuminanceTables::new(SignalParams::default(), |v| v, light, [0.2, 0.7, 0.1]);
         let values = (0..W * H).map(|i| value(i % W, i / W)).collect();
         let frame = Frame::new(W, H, Channels::Gray, Samples::F32(values)).unwrap();
         Grid::luminance(&frame, &tables)

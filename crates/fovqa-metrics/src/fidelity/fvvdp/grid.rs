@@ -1,6 +1,6 @@
 //! A plane whose rows begin at multiples of a vector's length, so that loops over a whole row need no rest.
 
-use fovqa_frame::{BLOCK_ROWS, Frame, LightTables, LuminanceScratch};
+use fovqa_frame::{BLOCK_ROWS, Frame, LuminanceScratch, LuminanceTables};
 use rayon::prelude::*;
 
 use super::spare;
@@ -25,7 +25,7 @@ impl Grid {
     }
 
     /// The luminance of a frame in cd/m².
-    pub fn luminance(frame: &Frame, tables: &LightTables) -> Self {
+    pub fn luminance(frame: &Frame, tables: &LuminanceTables) -> Self {
         let signal = tables.luminance(frame);
         let mut grid = Self::new(frame.width(), frame.height());
         let width = grid.width;

@@ -4,7 +4,7 @@
 //! is part of it, not added on top. In cd/m².
 
 use fovqa_frame::transfer::{pq, srgb};
-use fovqa_frame::{LightTables, LinearLight, ShownLight, SignalParams};
+use fovqa_frame::{DisplayRange, LinearInput, LuminanceTables, SignalParams};
 use fovqa_vision::{Eotf, Luminance};
 
 use super::calibration::LOWEST_LIGHT_CD_M2;
@@ -55,12 +55,12 @@ impl Photometry {
     }
 
     /// How absolute light is shown.
-    fn shown(&self, cd_m2_per_unit: f64) -> ShownLight {
+    fn shown(&self, cd_m2_per_unit: f64) -> DisplayRange {
         let floor_cd_m2 = match self.luminance.eotf {
             Eotf::Absolute => self.luminance.min_cd_m2.unwrap_or(LOWEST_LIGHT_CD_M2),
             _ => LOWEST_LIGHT_CD_M2,
         };
-        ShownLight {
+        DisplayRange {
             cd_m2_per_unit,
             floor_cd_m2,
             peak_cd_m2: self.peak_cd_m2(),
@@ -71,15 +71,15 @@ impl Photometry {
     /// The way from the samples of frames to luminance on this display. Linear samples are absolute
     /// light on a display that takes light, or where `params` say how much a unit is; else they are
     /// tone-mapped and encoded as `signal` says.
-    pub fn tables(&self, signal: SignalParams, params: &Params) -> LightTables {
-        let absolute = |unit: f64| LinearLight::Absolute(self.shown(unit));
+    pub fn tables(&self, signal: SignalParams, params: &Params) -> LuminanceTables {
+        let absolute = |unit: f64| LinearInput::Absolute(self.shown(unit));
         let linear = match params.cd_m2_per_unit {
             Some(unit) => absolute(unit),
-            None if self.eotf().is_relative() => LinearLight::ToneMapped,
+            None if self.eotf().is_relative() => LinearInput::ToneMapped,
             None => absolute(1.0),
         };
         let this = *self;
         let emitted = move |value| this.emitted_cd_m2(value);
-        LightTables::new(signal, emitted, linear, params.color_space.luminance_weights())
+        LuminanceTables::new(signal, emitted, linear, params.color_space.luminance_weights())
     }
 }
