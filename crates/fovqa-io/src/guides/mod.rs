@@ -1,4 +1,4 @@
-//! Motion and depth: which channels they are, what their values mean, and files of their own.
+//! Motion and depth: their channels, the meaning of their values, and separate files for them.
 
 pub(crate) mod choice;
 mod encoding;

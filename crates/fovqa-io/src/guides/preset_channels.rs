@@ -41,7 +41,8 @@ impl GuidePreset {
         layers
     }
 
-    /// The renderer whose motion has these names in a layer, across and down, without regard to case.
+    /// The renderer that writes motion under these names within a layer, across and down, without
+    /// regard to case.
     pub fn of_motion(channels: &[String; 2]) -> Option<Self> {
         let ends = |whole: &str, name: &str| {
             let (whole, name) = (whole.to_ascii_lowercase(), name.to_ascii_lowercase());

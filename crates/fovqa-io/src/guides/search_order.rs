@@ -31,7 +31,7 @@ impl DepthChannels {
 
 fn auto_motion(place: GuideFile) -> Vec<MotionChoice> {
     let ours = MotionChoice::pixels(&["motion.X", "motion.Y"], Reach::Any);
-    // Bare names come last: a file of its own may still have layers that say what they are.
+    // Bare names come last: a separate file may still have layers whose names identify them.
     let presets = GuidePreset::ALL.iter().flat_map(|p| p.motion(GuideFile::Colour));
     let mut choices = vec![ours];
     choices.extend(presets.filter(|choice| choice.channels[0] != "motion.X"));
