@@ -43,9 +43,9 @@ words! {
         /// `0.499 * 0.5` times that, plus 0.5 (`EncodeVelocityToTexture` in VelocityCommon.ush): so
         /// the motion is 2 (v - 0.5) frame sizes. A public script that turns these channels into
         /// optical flow computes 2 (v - 0.5) times the size with the sign `[-1, 1]`, too. The
-        /// material itself is in a binary asset, so a warning advises to
-        /// test with a known motion. Half floats hold values near 0.5 in steps of 1/4096 to 1/2048,
-        /// which is up to two pixels in a frame of 2048 pixels: 32-bit floats are better.
+        /// material itself is in a binary asset, so a warning advises to test with a known motion.
+        /// Half floats hold values near 0.5 in steps of 1/4096 to 1/2048, which is up to two pixels
+        /// in a frame of 2048 pixels: 32-bit floats are better.
         ///
         /// Depth is in centimetres.
         Unreal "unreal" "As Unreal writes them";
