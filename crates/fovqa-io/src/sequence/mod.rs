@@ -1,4 +1,5 @@
-//! Path arguments to pairs of files: folders, globs, patterns with a number, pairing, frame ranges.
+//! From path arguments to pairs of files: folders, globs, patterns with a number, pairing, frame
+//! ranges.
 
 mod argument;
 mod frame_number;
