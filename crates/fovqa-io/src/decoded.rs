@@ -24,7 +24,7 @@ pub struct Decoded {
 impl Decoded {
     /// A frame from a file format that cannot hold motion or depth.
     pub(crate) fn without_guides(frame: Frame, notes: Vec<Note>, options: &ReadOptions) -> Self {
-        let guide_search = GuideSearch::in_vain(&options.guides);
+        let guide_search = GuideSearch::without_channels(&options.guides);
         Self { frame, notes, guides: Guides::default(), guide_search, pixel_aspect: 1.0 }
     }
 }

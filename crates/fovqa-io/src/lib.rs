@@ -33,8 +33,8 @@ pub use decoded::{Decoded, DecodedGuides};
 pub use error::{ReadError, ReadErrorKind};
 pub use files::SourceOptions;
 pub use guides::{
-    DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels, MotionUnit, NamedMotion,
-    Sought,
+    ChannelSearch, DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels,
+    MotionUnit, NamedMotion,
 };
 pub use input_id::{id_of, id_of_file};
 pub use jpeg::kind::JpegKind;

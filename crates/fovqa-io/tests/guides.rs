@@ -136,7 +136,7 @@ fn is_said(error: &ReadErrorKind, words: &[&str]) {
     }
 }
 
-fn found(sought: Option<&fovqa_io::Sought>) -> Option<&str> {
+fn found(sought: Option<&fovqa_io::ChannelSearch>) -> Option<&str> {
     sought.and_then(|sought| sought.found.as_deref())
 }
 

@@ -28,7 +28,7 @@ pub(crate) struct Channel {
 
 /// The form of a channel's name that is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum By {
+pub(crate) enum NameForm {
     /// The full name as it is in the file.
     Name,
     /// The full name without the view; only channels of the same view are compared.
@@ -39,9 +39,9 @@ pub(crate) enum By {
 #[derive(Debug)]
 pub(crate) struct Channels {
     list: Vec<Channel>,
-    /// The index in the list for each name in lower case. For [`By::Plain`] the view is part of the
+    /// The index in the list for each name in lower case. For [`NameForm::Plain`] the view is part of the
     /// key.
-    places: HashMap<(By, Option<String>, String), usize>,
+    places: HashMap<(NameForm, Option<String>, String), usize>,
 }
 
 /// The channels of one layer that have the names looked for.
@@ -50,7 +50,7 @@ pub(crate) struct Match<'a> {
     /// The prefix in front of these names, without the last dot.
     pub(crate) lead: &'a str,
     /// The form of the names that matches.
-    pub(crate) by: By,
+    pub(crate) by: NameForm,
     /// The channels in the order of the names.
     pub(crate) channels: Vec<&'a Channel>,
 }
@@ -78,8 +78,8 @@ impl Channels {
                 let plain =
                     if layer.is_empty() { last.to_owned() } else { format!("{layer}.{last}") };
                 let keys = [
-                    (By::Name, None, name.to_ascii_lowercase()),
-                    (By::Plain, view.clone(), plain.to_ascii_lowercase()),
+                    (NameForm::Name, None, name.to_ascii_lowercase()),
+                    (NameForm::Plain, view.clone(), plain.to_ascii_lowercase()),
                 ];
                 for key in keys {
                     places.entry(key).or_insert(list.len());
@@ -114,10 +114,10 @@ impl Channels {
     }
 
     /// The channel `name` of the layer `lead`, by the given form of its name. The view counts only
-    /// for [`By::Plain`].
-    fn get(&self, by: By, view: Option<&String>, lead: &str, name: &str) -> Option<&Channel> {
+    /// for [`NameForm::Plain`].
+    fn get(&self, by: NameForm, view: Option<&String>, lead: &str, name: &str) -> Option<&Channel> {
         let whole = if lead.is_empty() { name.to_owned() } else { format!("{lead}.{name}") };
-        let view = view.filter(|_| by == By::Plain).cloned();
+        let view = view.filter(|_| by == NameForm::Plain).cloned();
         self.places.get(&(by, view, whole.to_ascii_lowercase())).map(|&at| &self.list[at])
     }
 
@@ -132,7 +132,7 @@ impl Channels {
                 let all = std::iter::once(Some(channel)).chain(others.iter().map(of));
                 Some(Match { lead, by, channels: all.collect::<Option<_>>()? })
             };
-            by(By::Name, &channel.name).or_else(|| by(By::Plain, &channel.plain))
+            by(NameForm::Name, &channel.name).or_else(|| by(NameForm::Plain, &channel.plain))
         })
     }
 }

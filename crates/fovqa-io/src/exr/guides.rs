@@ -3,14 +3,14 @@
 use ::exr::meta::header::Header;
 use fovqa_frame::{Guides, Motion, Plane};
 
-use super::channels::{By, Channel, Channels, Match};
+use super::channels::{Channel, Channels, Match, NameForm};
 use super::pixels::{Planes, Request};
 use super::views::Views;
 use super::window::Window;
 use crate::error::{ReadErrorKind, listed};
 use crate::guides::{
-    DepthChannels, DepthChoice, Encoding, GuideFile, GuideOptions, GuidePreset, GuideSearch,
-    MotionChannels, MotionChoice, Reach, Sought, in_one,
+    ChannelSearch, DepthChannels, DepthChoice, Encoding, GuideFile, GuideOptions, GuidePreset,
+    GuideSearch, LayerScope, MotionChannels, MotionChoice, joined_names,
 };
 use crate::note::Note;
 
@@ -25,7 +25,7 @@ pub(crate) struct GuideChannels {
 
 /// The colour for which motion and depth are looked for.
 #[derive(Debug)]
-pub(crate) struct Beside<'a> {
+pub(crate) struct ColourContext<'a> {
     pub(crate) place: GuideFile,
     /// Full name of the colour's layer; empty if it has none.
     pub(crate) layer: &'a str,
@@ -40,7 +40,7 @@ pub(crate) fn find(
     headers: &[Header],
     views: &Views,
     options: &GuideOptions,
-    beside: &Beside<'_>,
+    beside: &ColourContext<'_>,
 ) -> Result<GuideChannels, ReadErrorKind> {
     if options.is_none() {
         return Ok(GuideChannels::default());
@@ -71,15 +71,15 @@ pub(crate) fn find(
         }
         _ => {}
     }
-    let found_motion = motion.as_ref().map(|(pair, ..)| in_one(&pair.each_ref().map(name)));
+    let found_motion = motion.as_ref().map(|(pair, ..)| joined_names(&pair.each_ref().map(name)));
     let found_depth = depth.as_ref().map(name);
     let search = GuideSearch {
-        motion: Sought::motion(&motions).map(|sought| Sought {
+        motion: ChannelSearch::motion(&motions).map(|sought| ChannelSearch {
             found: found_motion,
             elsewhere: motion_elsewhere,
             ..sought
         }),
-        depth: Sought::depth(&depths).map(|sought| Sought {
+        depth: ChannelSearch::depth(&depths).map(|sought| ChannelSearch {
             found: found_depth,
             elsewhere: depth_elsewhere,
             ..sought
@@ -100,7 +100,7 @@ type Elsewhere = Option<String>;
 struct Finder<'a> {
     channels: &'a Channels,
     views: &'a Views,
-    beside: &'a Beside<'a>,
+    beside: &'a ColourContext<'a>,
     /// Full name of the colour's layer without its view.
     plain_layer: String,
     /// First components of the names of all colour layers, without views and in lower case.
@@ -110,7 +110,7 @@ struct Finder<'a> {
 }
 
 impl<'a> Finder<'a> {
-    fn new(channels: &'a Channels, views: &'a Views, beside: &'a Beside<'a>) -> Self {
+    fn new(channels: &'a Channels, views: &'a Views, beside: &'a ColourContext<'a>) -> Self {
         Self {
             channels,
             views,
@@ -125,8 +125,8 @@ impl<'a> Finder<'a> {
     fn motion(&self, choices: &[MotionChoice]) -> Result<(MotionFound, Elsewhere), ReadErrorKind> {
         let mut elsewhere = None;
         for choice in choices {
-            let matches = self.matching(&choice.channels, choice.reach, &[]);
-            let search = Search { reach: choice.reach, what: "motion", names: &choice.channels };
+            let matches = self.matching(&choice.channels, choice.scope, &[]);
+            let search = Search { scope: choice.scope, what: "motion", names: &choice.channels };
             if let Some(found) = self.one_of(&matches, &search, &mut elsewhere)? {
                 let pair = [found.channels[0].clone(), found.channels[1].clone()];
                 return Ok((Some((pair, choice.encoding, choice.preset)), None));
@@ -144,10 +144,10 @@ impl<'a> Finder<'a> {
         let mut elsewhere = None;
         for choice in choices {
             let found = match choice {
-                DepthChoice::Channel(name, reach) => {
+                DepthChoice::Channel(name, scope) => {
                     let names = std::slice::from_ref(name);
-                    let matches = self.matching(names, *reach, taken);
-                    let search = Search { reach: *reach, what: "depth", names };
+                    let matches = self.matching(names, *scope, taken);
+                    let search = Search { scope: *scope, what: "depth", names };
                     let found = self.one_of(&matches, &search, &mut elsewhere)?;
                     found.map(|found| found.channels[0].clone())
                 }
@@ -163,26 +163,26 @@ impl<'a> Finder<'a> {
     fn matching<'b>(
         &'b self,
         names: &'b [String],
-        reach: Reach,
+        scope: LayerScope,
         taken: &[Channel],
     ) -> Vec<Match<'b>> {
-        let within_reach = |found: &Match<'_>| match reach {
-            Reach::Named | Reach::Any => true,
-            Reach::Own => self.is_own(found) && !taken.contains(found.channels[0]),
-            Reach::OwnWithout(other) => {
+        let in_scope = |found: &Match<'_>| match scope {
+            LayerScope::Named | LayerScope::Any => true,
+            LayerScope::Own => self.is_own(found) && !taken.contains(found.channels[0]),
+            LayerScope::OwnWithout(other) => {
                 self.is_own(found)
                     && !taken.contains(found.channels[0])
                     && self.channels.beside(found, other).is_none()
             }
         };
-        self.channels.matching(names).filter(within_reach).collect()
+        self.channels.matching(names).filter(in_scope).collect()
     }
 
     /// The name of the colour's layer in the form that a match uses.
     fn layer(&self, found: &Match<'_>) -> &str {
         match found.by {
-            By::Name => self.beside.layer,
-            By::Plain => &self.plain_layer,
+            NameForm::Name => self.beside.layer,
+            NameForm::Plain => &self.plain_layer,
         }
     }
 
@@ -211,8 +211,9 @@ impl<'a> Finder<'a> {
         elsewhere: &mut Elsewhere,
     ) -> Result<Option<&'b Match<'b>>, ReadErrorKind> {
         // If the user gives a full name, it decides.
-        let is_whole = |found: &&Match<'_>| found.by == By::Name && found.lead.is_empty();
-        if let Some(whole) = matches.iter().find(is_whole).filter(|_| search.reach == Reach::Named)
+        let is_whole = |found: &&Match<'_>| found.by == NameForm::Name && found.lead.is_empty();
+        if let Some(whole) =
+            matches.iter().find(is_whole).filter(|_| search.scope == LayerScope::Named)
         {
             return Ok(Some(whole));
         }
@@ -298,7 +299,7 @@ impl<'a> Finder<'a> {
 
 /// The channels to look for.
 struct Search<'a> {
-    reach: Reach,
+    scope: LayerScope,
     what: &'static str,
     names: &'a [String],
 }
@@ -327,7 +328,7 @@ fn last(name: &str) -> String {
 fn sets(matches: &[&Match<'_>]) -> String {
     listed(matches.iter().map(|found| {
         let names: Vec<String> = found.channels.iter().map(|c| c.name.clone()).collect();
-        in_one(&names)
+        joined_names(&names)
     }))
 }
 

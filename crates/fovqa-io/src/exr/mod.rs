@@ -27,7 +27,7 @@ use crate::guides::GuideFile;
 use crate::note::Note;
 use crate::read_options::ReadOptions;
 use error::{damaged, no_parts};
-use guides::Beside;
+use guides::ColourContext;
 use layers::Colour;
 use pixels::Request;
 use views::Views;
@@ -57,7 +57,7 @@ pub(crate) fn read(
     let primaries = primaries(header)?.filter(|_| !is_gray);
     let luminance_weights =
         chromaticities(header).unwrap_or(Chromaticities::REC709).luminance_weights();
-    let beside = Beside {
+    let beside = ColourContext {
         place: GuideFile::Colour,
         layer: layer.full_name(),
         view: layer.view.clone(),
@@ -117,7 +117,7 @@ pub(crate) fn read_guides(
     let layer = options.layer.as_deref().filter(|&layer| layer != layers::ROOT);
     let layer = layer.unwrap_or_default();
     let view = views.in_name(layer);
-    let beside = Beside { place: GuideFile::Separate, layer, view, layers: &[] };
+    let beside = ColourContext { place: GuideFile::Separate, layer, view, layers: &[] };
     let found = guides::find(headers, &views, &options.guides, &beside)?;
     let missing = found.search.missing_motion().or_else(|| found.search.missing_depth());
     if let Some(missing) = missing {

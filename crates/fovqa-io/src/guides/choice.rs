@@ -15,7 +15,7 @@ pub(crate) enum GuideFile {
 
 /// The layers in which a name is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Reach {
+pub(crate) enum LayerScope {
     /// All layers. A channel of exactly this name takes precedence over those of a layer.
     Named,
     /// All layers.
@@ -32,7 +32,7 @@ pub(crate) enum Reach {
 pub(crate) struct MotionChoice {
     /// Channels of one layer, all of which must exist. The motion is in the first two.
     pub(crate) channels: Vec<String>,
-    pub(crate) reach: Reach,
+    pub(crate) scope: LayerScope,
     pub(crate) encoding: Encoding,
     /// The renderer that writes these names.
     pub(crate) preset: Option<GuidePreset>,
@@ -40,15 +40,15 @@ pub(crate) struct MotionChoice {
 
 impl MotionChoice {
     /// Channels whose values are in pixels, x to the right and y down.
-    pub(crate) fn pixels(channels: &[&str], reach: Reach) -> Self {
+    pub(crate) fn pixels(channels: &[&str], scope: LayerScope) -> Self {
         let channels = channels.iter().map(|&name| name.to_owned()).collect();
-        Self { channels, reach, encoding: Encoding::PIXELS, preset: None }
+        Self { channels, scope, encoding: Encoding::PIXELS, preset: None }
     }
 
     /// Channels whose values are encoded as the renderer writes them.
-    pub(crate) fn of(preset: GuidePreset, channels: &[&str], reach: Reach) -> Self {
+    pub(crate) fn of(preset: GuidePreset, channels: &[&str], scope: LayerScope) -> Self {
         let encoding = preset.encoding();
-        Self { encoding, preset: Some(preset), ..Self::pixels(channels, reach) }
+        Self { encoding, preset: Some(preset), ..Self::pixels(channels, scope) }
     }
 }
 
@@ -56,20 +56,20 @@ impl From<&NamedMotion> for MotionChoice {
     fn from(named: &NamedMotion) -> Self {
         let &NamedMotion { ref channels, sign, scale, unit } = named;
         let encoding = Encoding { sign, scale, unit, offset: 0.0 };
-        Self { channels: channels.to_vec(), reach: Reach::Named, encoding, preset: None }
+        Self { channels: channels.to_vec(), scope: LayerScope::Named, encoding, preset: None }
     }
 }
 
 /// A depth channel that is looked for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum DepthChoice {
-    Channel(String, Reach),
+    Channel(String, LayerScope),
     /// The only channel of the file.
     Only,
 }
 
 impl DepthChoice {
-    pub(crate) fn new(channel: &str, reach: Reach) -> Self {
-        Self::Channel(channel.to_owned(), reach)
+    pub(crate) fn new(channel: &str, scope: LayerScope) -> Self {
+        Self::Channel(channel.to_owned(), scope)
     }
 }

@@ -1,6 +1,6 @@
 //! The channel names that each renderer writes.
 
-use super::choice::{DepthChoice, GuideFile, MotionChoice, Reach};
+use super::choice::{DepthChoice, GuideFile, LayerScope, MotionChoice};
 use super::preset::GuidePreset;
 
 impl GuidePreset {
@@ -17,9 +17,9 @@ impl GuidePreset {
             ),
             Self::Mitsuba => (["motion.X", "motion.Y"], ["X", "Y"]),
         };
-        let mut choices = vec![MotionChoice::of(self, &names, Reach::Any)];
+        let mut choices = vec![MotionChoice::of(self, &names, LayerScope::Any)];
         if place == GuideFile::Separate {
-            choices.push(MotionChoice::of(self, &bare, Reach::Own));
+            choices.push(MotionChoice::of(self, &bare, LayerScope::Own));
         }
         choices
     }
@@ -62,9 +62,9 @@ impl GuidePreset {
             Self::Mitsuba => (&["T", "dd.y"], &["Y"]),
         };
         let mut choices: Vec<DepthChoice> =
-            names.iter().map(|name| DepthChoice::new(name, Reach::Any)).collect();
+            names.iter().map(|name| DepthChoice::new(name, LayerScope::Any)).collect();
         if place == GuideFile::Separate {
-            choices.extend(bare.iter().map(|name| DepthChoice::new(name, Reach::Own)));
+            choices.extend(bare.iter().map(|name| DepthChoice::new(name, LayerScope::Own)));
         }
         choices
     }

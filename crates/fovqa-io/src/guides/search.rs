@@ -9,9 +9,9 @@ use crate::error::{ReadErrorKind, listed};
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct GuideSearch {
     /// The search for motion; `None` if it was not asked for.
-    pub motion: Option<Sought>,
+    pub motion: Option<ChannelSearch>,
     /// The search for depth; `None` if it was not asked for.
-    pub depth: Option<Sought>,
+    pub depth: Option<ChannelSearch>,
     /// The channels of the file, with part and layer in front. Empty if nothing was asked for, and
     /// for files that are not OpenEXR.
     pub channels: Vec<String>,
@@ -19,7 +19,7 @@ pub struct GuideSearch {
 
 /// The search for the motion or for the depth.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Sought {
+pub struct ChannelSearch {
     /// The names that were looked for, the first choice first. The two names of a pair are joined
     /// by ` + `.
     pub wanted: Vec<String>,
@@ -30,9 +30,9 @@ pub struct Sought {
     pub elsewhere: Option<String>,
 }
 
-impl Sought {
+impl ChannelSearch {
     pub(crate) fn motion(choices: &[MotionChoice]) -> Option<Self> {
-        Self::of(choices.iter().map(|choice| in_one(&choice.channels)))
+        Self::of(choices.iter().map(|choice| joined_names(&choice.channels)))
     }
 
     pub(crate) fn depth(choices: &[DepthChoice]) -> Option<Self> {
@@ -49,15 +49,15 @@ impl Sought {
 }
 
 /// Joins the names of channels that belong together.
-pub(crate) fn in_one(channels: &[String]) -> String {
+pub(crate) fn joined_names(channels: &[String]) -> String {
     channels.join(" + ")
 }
 
 impl GuideSearch {
     /// The search in a file that cannot hold motion or depth.
-    pub(crate) fn in_vain(options: &GuideOptions) -> Self {
-        let motion = Sought::motion(&options.motion.choices(GuideFile::Colour));
-        let depth = Sought::depth(&options.depth.choices(GuideFile::Colour));
+    pub(crate) fn without_channels(options: &GuideOptions) -> Self {
+        let motion = ChannelSearch::motion(&options.motion.choices(GuideFile::Colour));
+        let depth = ChannelSearch::depth(&options.depth.choices(GuideFile::Colour));
         Self { motion, depth, channels: Vec::new() }
     }
 
@@ -71,7 +71,7 @@ impl GuideSearch {
         self.missing("depth", self.depth.as_ref())
     }
 
-    fn missing(&self, what: &'static str, sought: Option<&Sought>) -> Option<ReadErrorKind> {
+    fn missing(&self, what: &'static str, sought: Option<&ChannelSearch>) -> Option<ReadErrorKind> {
         let sought = sought.filter(|sought| sought.found.is_none())?;
         if let Some(channels) = sought.elsewhere.clone() {
             return Some(ReadErrorKind::GuidesElsewhere { what, channels });

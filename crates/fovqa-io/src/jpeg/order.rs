@@ -5,7 +5,7 @@ use super::scan_header::ScanHeader;
 
 /// The blocks of one component in each unit of a scan.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Share {
+pub(super) struct ComponentBlocks {
     /// The index of the component in the frame.
     pub(super) component: usize,
     /// The number of blocks in a unit, across and down.
@@ -22,7 +22,7 @@ pub(super) struct Order {
     /// The number of units across and down.
     pub(super) units: (usize, usize),
     /// The components in the order of the scan.
-    pub(super) shares: Vec<Share>,
+    pub(super) shares: Vec<ComponentBlocks>,
 }
 
 impl Order {
@@ -33,9 +33,9 @@ impl Order {
         let share = |index: usize| {
             let component = &frame.components[index];
             let blocks = if alone { (1, 1) } else { component.factors };
-            Share { component: index, blocks, within: component.blocks }
+            ComponentBlocks { component: index, blocks, within: component.blocks }
         };
-        let shares: Vec<Share> = scan.components.iter().map(|c| share(c.index)).collect();
+        let shares: Vec<ComponentBlocks> = scan.components.iter().map(|c| share(c.index)).collect();
         let units = if alone { shares[0].within } else { frame.units() };
         Self { units, shares }
     }

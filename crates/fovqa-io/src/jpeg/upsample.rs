@@ -24,7 +24,7 @@ impl Plane {
 
 /// The upsampling of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Way {
+enum Interpolation {
     /// Interpolation across.
     Half,
     /// Interpolation down.
@@ -39,7 +39,7 @@ enum Way {
 #[derive(Debug)]
 pub(super) struct Upsampled<'a> {
     plane: &'a Plane,
-    way: Way,
+    interpolation: Interpolation,
 }
 
 impl<'a> Upsampled<'a> {
@@ -48,27 +48,29 @@ impl<'a> Upsampled<'a> {
     pub(super) fn new(plane: &'a Plane, factors: (usize, usize)) -> Self {
         /// Interpolation across needs more samples than this.
         const NARROW: usize = 2;
-        let way = match factors {
-            (2, 1) if plane.size.0 > NARROW => Way::Half,
-            (2, 2) if plane.size.0 > NARROW => Way::HalfBoth,
-            (1, 2) => Way::HalfDown,
-            (across, down) => Way::Repeat(across, down),
+        let interpolation = match factors {
+            (2, 1) if plane.size.0 > NARROW => Interpolation::Half,
+            (2, 2) if plane.size.0 > NARROW => Interpolation::HalfBoth,
+            (1, 2) => Interpolation::HalfDown,
+            (across, down) => Interpolation::Repeat(across, down),
         };
-        Self { plane, way }
+        Self { plane, interpolation }
     }
 
     /// Writes row `y` of the image to `out`, which is as wide as the image.
     pub(super) fn row(&self, y: usize, sums: &mut Vec<u16>, out: &mut [u8]) {
-        match self.way {
-            Way::Repeat(1, down) => out.copy_from_slice(&self.plane.row(y / down)[..out.len()]),
-            Way::Repeat(across, down) => repeat(self.plane.row(y / down), across, out),
-            Way::Half => half(self.plane.row(y), out),
-            Way::HalfDown => {
+        match self.interpolation {
+            Interpolation::Repeat(1, down) => {
+                out.copy_from_slice(&self.plane.row(y / down)[..out.len()])
+            }
+            Interpolation::Repeat(across, down) => repeat(self.plane.row(y / down), across, out),
+            Interpolation::Half => half(self.plane.row(y), out),
+            Interpolation::HalfDown => {
                 let (near, far) = self.rows(y);
                 // Rows are rounded up and down in turn, so that the mean does not change.
                 half_down(near, far, if y.is_multiple_of(2) { 1 } else { 2 }, out);
             }
-            Way::HalfBoth => {
+            Interpolation::HalfBoth => {
                 let (near, far) = self.rows(y);
                 sums.clear();
                 sums.extend(near.iter().zip(far).map(|(n, f)| 3 * u16::from(*n) + u16::from(*f)));

@@ -28,19 +28,19 @@ pub struct Pairs {
     /// How the frames are numbered.
     pub numbering: Numbering,
     /// Frames without a partner.
-    pub alone: Alone,
+    pub alone: Unpaired,
 }
 
 /// Frames without a partner: their numbers, if they have any, and their names as in messages.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Alone {
+pub struct Unpaired {
     /// Frames of the reference that have no test.
     pub reference: Vec<(Option<i64>, String)>,
     /// Frames of the test that have no reference.
     pub test: Vec<(Option<i64>, String)>,
 }
 
-impl Alone {
+impl Unpaired {
     /// Keeps only the frames that are wanted. Frames without a number are kept.
     pub fn retain(&mut self, wanted: impl Fn(i64) -> bool) {
         for side in [&mut self.reference, &mut self.test] {
@@ -59,7 +59,7 @@ impl Alone {
 pub enum PairingError {
     /// Some frames have no partner.
     #[error("{}", unpaired(.0))]
-    Unpaired(Alone),
+    Unpaired(Unpaired),
     /// Several numbers change in the names.
     #[error("{argument}: {}; either could be the number of the frame", .doubt.in_words())]
     Ambiguous {
@@ -112,7 +112,7 @@ impl PairingError {
     }
 }
 
-fn unpaired(alone: &Alone) -> String {
+fn unpaired(alone: &Unpaired) -> String {
     const SHOWN: usize = 5;
     let side = |files: &[(Option<i64>, String)], of: &str, without: &str| {
         let names: Vec<&str> = files.iter().take(SHOWN).map(|(_, name)| name.as_str()).collect();
@@ -174,7 +174,7 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
                 let count = if let Length::Damaged(_) = other { both } else { known(length) };
                 (both..count).map(|at| (Some(at as i64), of.label(at))).collect()
             };
-            let alone = Alone {
+            let alone = Unpaired {
                 reference: alone(reference, *length, *other),
                 test: alone(test, *other, *length),
             };
@@ -189,7 +189,7 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
                 reference: named,
                 test: other,
             })?;
-            let alone = Alone { reference: named, test: other };
+            let alone = Unpaired { reference: named, test: other };
             if pairs.is_empty() {
                 return Err(nothing());
             }
@@ -202,7 +202,7 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
                 reference: other,
                 test: named,
             })?;
-            let alone = Alone { reference: other, test: named };
+            let alone = Unpaired { reference: other, test: named };
             if pairs.is_empty() {
                 return Err(nothing());
             }
@@ -230,7 +230,7 @@ fn known(length: Length) -> usize {
 }
 
 /// Frames without a partner.
-type WithoutPartner = Vec<(Option<i64>, String)>;
+type UnpairedNames = Vec<(Option<i64>, String)>;
 
 impl Counted<'_> {
     /// The pairs, and the frames without a partner: those of the source with names first. A frame
@@ -238,7 +238,7 @@ impl Counted<'_> {
     fn pairs(
         &self,
         pair: impl Fn(i64, usize, usize) -> FramePair,
-    ) -> Result<(Vec<FramePair>, [WithoutPartner; 2]), PairingError> {
+    ) -> Result<(Vec<FramePair>, [UnpairedNames; 2]), PairingError> {
         unambiguous(self.named)?;
         let number = |at: usize| self.names[at].number.unwrap_or(at as i64);
         let numbers: BTreeSet<i64> = (0..self.names.len()).map(number).collect();
@@ -277,7 +277,7 @@ fn by_names(
         let numbering =
             if number.is_some() { reference.numbering.clone() } else { Numbering::ByPosition };
         let pairs = vec![FramePair { number: number.unwrap_or(0), reference: 0, test: 0 }];
-        return Ok(Pairs { pairs, numbering, alone: Alone::default() });
+        return Ok(Pairs { pairs, numbering, alone: Unpaired::default() });
     }
     unambiguous(reference)?;
     let mut partner: Vec<Option<usize>> = vec![None; references.len()];
@@ -295,7 +295,7 @@ fn by_names(
     let numbered = references.iter().all(|entry| entry.number.is_some());
     let untaken = tests.iter().zip(&taken).filter(|(_, taken)| !**taken);
     let untaken = untaken.map(|(f, _)| (f.number.filter(|_| numbered), f.name.clone()));
-    let mut alone = Alone { reference: Vec::new(), test: untaken.collect() };
+    let mut alone = Unpaired { reference: Vec::new(), test: untaken.collect() };
     let mut pairs = Vec::new();
     let mut numbering = reference.numbering.clone();
     for (position, (entry, partner)) in references.iter().zip(partner).enumerate() {

@@ -88,7 +88,7 @@ impl Conversion {
         } else {
             let words = bytes.as_chunks().0.iter().map(|word| u16::from_le_bytes(*word));
             let words: Vec<u16> = words.collect();
-            refuse_beyond(header, &words)?;
+            check_codes(header, &words)?;
             Ok(self.of_codes(header, &words))
         }
     }
@@ -246,7 +246,7 @@ fn spread(samples: &[f32], pixels: &mut [f32], two: impl Fn(f32, f32, f32) -> [f
 }
 
 /// Refuses codes that are too large for the bits of the video.
-fn refuse_beyond(header: &Header, codes: &[u16]) -> Result<(), BadCode> {
+fn check_codes(header: &Header, codes: &[u16]) -> Result<(), BadCode> {
     let greatest = header.colour.greatest();
     // A fold instead of `any`: the loop vectorises only without an early exit.
     if codes.iter().fold(0, |greatest, code| greatest.max(*code)) <= greatest {
