@@ -1,144 +1,29 @@
-//! Motion and depth of OpenEXR files, as a caller sees them.
+//! Motion and depth of OpenEXR files, as a caller of this crate reads them.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::float_cmp, reason = "what is only passed on comes back exactly")]
 
+mod files;
+
 use std::fs;
-use std::path::PathBuf;
 
 use exr::prelude::{Blocks, Compression, Encoding, LineOrder, Vec2};
-use fovqa_frame::{Crop, Guides, Motion, Plane};
+use fovqa_frame::{Crop, Guides};
 use fovqa_io::{
-    AlphaPolicy, Decoded, DecodedGuides, DepthChannels, GuideOptions, GuidePreset, GuideSearch,
-    MotionChannels, MotionUnit, NamedMotion, Note, ReadErrorKind, ReadOptions, id_of_file,
-    read_frame, read_frame_and_hash, read_guides, read_guides_and_hash,
+    AlphaPolicy, DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels, MotionUnit,
+    NamedMotion, Note, ReadErrorKind, ReadOptions, id_of_file, read_frame, read_frame_and_hash,
+    read_guides, read_guides_and_hash,
 };
 use fovqa_params::Words;
 use fovqa_testkit::exr_files::{
     File, Part, Values, block_starts, deep, with_block_as, with_deep_part, with_subsampled,
 };
 use fovqa_testkit::png_files::write8;
-use tempfile::TempDir;
 
-const W: usize = 40;
-const H: usize = 36;
-const SIZE: (usize, usize) = (W, H);
-
-/// A value for each pixel, exact as half float, and different from channel to channel.
-fn value(seed: usize, x: usize, y: usize) -> f32 {
-    ((x * 7 + y * 13 + seed * 101) % 1000) as f32 / 4.0
-}
-
-fn values(seed: usize, (w, h): (usize, usize)) -> Vec<f32> {
-    (0..w * h).map(|i| value(seed, i % w, i / w)).collect()
-}
-
-fn half(seed: usize) -> Values {
-    Values::Half(values(seed, SIZE))
-}
-
-fn float(seed: usize) -> Values {
-    Values::Float(values(seed, SIZE))
-}
-
-/// Half floats by name, with the seeds 0, 1, 2 and so on.
-fn part(names: &[&str]) -> Part {
-    let channels: Vec<_> = names.iter().enumerate().map(|(i, name)| (*name, half(i))).collect();
-    Part::new(SIZE, &channels)
-}
-
-/// Files, where the tests are done with them.
-struct Folder(TempDir);
-
-impl Folder {
-    fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn path(&self) -> PathBuf {
-        self.0.path().join("file.exr")
-    }
-
-    fn file(&self, parts: Vec<Part>) -> PathBuf {
-        self.written(&File::new(parts))
-    }
-
-    fn written(&self, file: &File) -> PathBuf {
-        file.write(&self.path());
-        self.path()
-    }
-
-    fn bytes(&self, bytes: impl AsRef<[u8]>) -> PathBuf {
-        fs::write(self.path(), bytes).unwrap();
-        self.path()
-    }
-}
-
-fn options(motion: MotionChannels, depth: DepthChannels) -> ReadOptions {
-    ReadOptions { guides: GuideOptions { motion, depth }, ..ReadOptions::default() }
-}
-
-fn auto() -> ReadOptions {
-    options(MotionChannels::Auto, DepthChannels::Auto)
-}
-
-fn preset(preset: GuidePreset) -> ReadOptions {
-    options(MotionChannels::Preset(preset), DepthChannels::Preset(preset))
-}
-
-fn named(channels: [&str; 2]) -> MotionChannels {
-    MotionChannels::Named(NamedMotion {
-        channels: channels.map(str::to_owned),
-        sign: [1.0; 2],
-        scale: [1.0; 2],
-        unit: MotionUnit::Pixels,
-    })
-}
-
-fn depth_named(channel: &str) -> DepthChannels {
-    DepthChannels::Named(channel.to_owned())
-}
-
-fn frame_of(parts: Vec<Part>, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
-    let folder = Folder::new();
-    read_frame(&folder.file(parts), options).map_err(|error| error.kind)
-}
-
-fn guides_of(parts: Vec<Part>, options: &ReadOptions) -> Result<DecodedGuides, ReadErrorKind> {
-    let folder = Folder::new();
-    read_guides(&folder.file(parts), options).map_err(|error| error.kind)
-}
-
-#[track_caller]
-fn is_seed(plane: &Plane, seed: usize) {
-    let wrong = (0..W * H).find(|i| plane.at(i % W, i / W) != value(seed, i % W, i / W));
-    assert_eq!((plane.file_size(), wrong), (SIZE, None), "channel {seed}");
-}
-
-/// Motion that is these channels times a scale.
-#[track_caller]
-fn is_motion(motion: &Motion, seeds: [usize; 2], scale: [f64; 2]) {
-    assert_eq!((motion.file_size(), motion.scale()), (SIZE, scale));
-    let (mut across, mut down) = (vec![0.0; W], vec![0.0; W]);
-    for y in 0..H {
-        motion.fill_row(y, 0..W, &mut across, &mut down);
-        for x in 0..W {
-            assert_eq!([across[x], down[x]], seeds.map(|seed| value(seed, x, y)), "({x}, {y})");
-        }
-    }
-}
-
-#[track_caller]
-fn is_said(error: &ReadErrorKind, words: &[&str]) {
-    let said = format!("{error}; {}", error.help());
-    for word in words {
-        assert!(said.contains(word), "{word:?} is not in: {said}");
-    }
-}
-
-fn found(sought: Option<&fovqa_io::ChannelSearch>) -> Option<&str> {
-    sought.and_then(|sought| sought.found.as_deref())
-}
+use crate::files::{
+    Folder, H, SIZE, W, auto, depth_named, float, found, frame_of, guides_of, half, is_motion,
+    is_said, is_seed, is_seed_frame, named, options, part, preset, two_layers, value, values,
+};
 
 // ---- beside the colour ----
 
@@ -317,14 +202,6 @@ fn parts_and_layers_are_in_front_of_names() {
     assert_eq!(found(search.depth.as_ref()), Some("ViewLayer.Depth.Z"));
 }
 
-/// The colour is that of the channels 0, 1 and 2 of its part.
-#[track_caller]
-fn is_seed_frame(decoded: &Decoded) {
-    for c in 0..3 {
-        assert_eq!(decoded.frame.sample(c, 9, 8), value(c, 9, 8));
-    }
-}
-
 #[test]
 fn names_begin_at_a_dot() {
     let names = ["R", "G", "B", "xmotion.X", "xmotion.Y", "FooZ", "motion.X.A", "motion.Y.A"];
@@ -341,23 +218,6 @@ fn both_channels_of_motion_are_of_one_layer() {
     assert!(motion("b.v").is_none());
     assert!(motion("v").is_none());
     is_motion(&motion("a.v").unwrap(), [3, 4], [1.0, 1.0]);
-}
-
-fn two_layers() -> Part {
-    part(&[
-        "near.Combined.R",
-        "near.Combined.G",
-        "near.Combined.B",
-        "near.Vector.X",
-        "near.Vector.Y",
-        "near.Depth.Z",
-        "far.Combined.R",
-        "far.Combined.G",
-        "far.Combined.B",
-        "far.Vector.X",
-        "far.Vector.Y",
-        "far.Depth.Z",
-    ])
 }
 
 #[test]
