@@ -77,13 +77,13 @@ fn geometry(case: &FvvdpCase, display: &Display) -> Geometry {
     Geometry::new(view, Some(Geometry::new(own, None).pixels_per_degree))
 }
 
-struct Found {
+struct CaseScores {
     jod: f64,
     frames: Vec<FvvdpFrame>,
     pu_psnr_db: Vec<f64>,
 }
 
-fn found(golden: &Golden, case: &FvvdpCase, keep: bool) -> Found {
+fn found(golden: &Golden, case: &FvvdpCase, keep: bool) -> CaseScores {
     let display = find_display(&case.display).unwrap();
     let geometry = geometry(case, display);
     assert!((geometry.pixels_per_degree / case.ppd - 1.0).abs() < 1e-6, "{}", case.id);
@@ -135,7 +135,7 @@ fn found(golden: &Golden, case: &FvvdpCase, keep: bool) -> Found {
         rows.value(Key::of(Metric::PuPsnr)).unwrap()
     };
     let q = frames.iter().map(|frame| frame.q).sum::<f64>() / frames.len() as f64;
-    Found { jod: jod(q), frames, pu_psnr_db: reference.iter().zip(&test).map(pu).collect() }
+    CaseScores { jod: jod(q), frames, pu_psnr_db: reference.iter().zip(&test).map(pu).collect() }
 }
 
 fn luminance(frames: &[fovqa_frame::Frame], tables: &LuminanceTables) -> Vec<Arc<Grid>> {

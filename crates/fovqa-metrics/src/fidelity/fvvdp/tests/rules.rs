@@ -1,4 +1,4 @@
-//! What holds for any pictures.
+//! Rules that hold for any pictures.
 
 use super::*;
 use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind};
@@ -107,7 +107,8 @@ fn exact_edges_matter_where_parities_differ() {
         let (reference, test) = (pair(width, height, 3), pair(width, height, 5));
         score(&fvvdp, [&reference, &test], [0.0; 2], None)
     };
-    // Even or odd together on every level: 36, 18, 9, 5; 20, 10, 5, 3; 68, 34, 17, 9.
+    // Width and height have the same parity on every level: 36, 18, 9, 5; 20, 10, 5, 3; 68, 34, 17,
+    // 9.
     for (width, height) in [(16, 16), (36, 20), (33, 17), (36, 68)] {
         assert_eq!(run(width, height, true), run(width, height, false), "{width}x{height}");
     }
