@@ -17,11 +17,11 @@ pub struct FrameRows {
 
 /// The keys of a frame's values, with the parts that each has. Frames share it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Layout(Arc<[Place]>);
+pub struct Layout(Arc<[ValuePlace]>);
 
 /// Where a value stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Place {
+struct ValuePlace {
     /// Where the key stands among others.
     order: u64,
     key: Key,
@@ -69,11 +69,11 @@ impl Layout {
         let mut at = 0;
         let place = |(key, parts): (Key, usize)| {
             let shape = Shape::ALL.into_iter().find(|shape| shape.parts() == parts)?;
-            let place = Place { order: key.order(), key, shape, at };
+            let place = ValuePlace { order: key.order(), key, shape, at };
             at += 1 + parts as u32;
             Some(place)
         };
-        let places: Vec<Place> = keys.into_iter().map(place).collect::<Option<_>>()?;
+        let places: Vec<ValuePlace> = keys.into_iter().map(place).collect::<Option<_>>()?;
         places.is_sorted_by(|a, b| a.order < b.order).then(|| Self(places.into()))
     }
 
@@ -148,11 +148,11 @@ impl Known {
         let sorted = order.iter().map(|at| came[*at as usize]);
         let mut at = 0;
         let place = |(key, shape): (Key, Shape)| {
-            let place = Place { order: key.order(), key, shape, at };
+            let place = ValuePlace { order: key.order(), key, shape, at };
             at += 1 + shape.parts() as u32;
             place
         };
-        let places: Vec<Place> = sorted.map(place).collect();
+        let places: Vec<ValuePlace> = sorted.map(place).collect();
         debug_assert!(places.is_sorted_by(|a, b| a.order < b.order), "one row per key");
         Self { layout: Layout(places.into()), came, order }
     }
@@ -196,7 +196,7 @@ impl FrameRows {
         self.layout.0.iter().filter(move |place| wanted(&place.key)).map(|place| self.row(place))
     }
 
-    fn row(&self, &Place { key, shape, at, .. }: &Place) -> Row {
+    fn row(&self, &ValuePlace { key, shape, at, .. }: &ValuePlace) -> Row {
         let numbers = &self.numbers[at as usize..];
         let value = (numbers[0] != NOTHING).then(|| f64::from_bits(numbers[0]));
         let number = |index: usize| f64::from_bits(numbers[index]);

@@ -243,7 +243,7 @@ impl Curve {
     }
 
     /// Replaces eccentricities in degrees by f².
-    fn weigh(&self, row: &mut [f32]) {
+    fn to_weights(&self, row: &mut [f32]) {
         match &self.degrees_per_cycle {
             DegreesPerCycle::Line(at_0, slope) => weigh_line(*at_0, *slope, self.limit, row),
             DegreesPerCycle::Table(table) => weigh_table(table, self.limit, row),
@@ -286,7 +286,7 @@ impl WeightField {
     /// Whether f is the display's Nyquist frequency in the whole frame: FPSNR is PSNR then.
     pub fn is_flat(&self) -> bool {
         let mut farthest = [self.eccentricity.max_deg() as f32];
-        self.curve.weigh(&mut farthest);
+        self.curve.to_weights(&mut farthest);
         farthest[0] >= self.curve.limit
     }
 
@@ -306,7 +306,7 @@ impl WeightField {
 
     fn compute(&self, y: usize, xs: Range<usize>, out: &mut [f32]) {
         self.eccentricity.fill_row_deg(y, xs, out);
-        self.curve.weigh(out);
+        self.curve.to_weights(out);
     }
 
     /// Writes f² of the pixels `xs` of row `y`.

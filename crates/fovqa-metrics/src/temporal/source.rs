@@ -107,7 +107,7 @@ impl Sources {
         let starts = [(at.x as i32, 1, at.width), (at.y as i32, 0, at.height)];
         for (axis, (first, step, side)) in starts.into_iter().enumerate() {
             let line = Line { first, step, side: side as u32 };
-            let found = Found {
+            let found = AxisSources {
                 whole: &mut self.whole[axis][..n],
                 weight: &mut self.weight[axis][..n],
                 valid: &mut self.valid[..n],
@@ -192,7 +192,7 @@ struct Line {
 }
 
 /// Where motion along one axis leads.
-struct Found<'a> {
+struct AxisSources<'a> {
     whole: &'a mut [i32],
     weight: &'a mut [f32],
     valid: &'a mut [u32],
@@ -205,11 +205,11 @@ const FARTHEST_PX: f32 = (1 << 21) as f32;
 /// from one just outside of it: the part of the motion beyond whole pixels is exact, or, of small motion
 /// to the left or up, too near to 1 to be mistaken.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn follow_signed(motion: &[f32], sign: f32, line: Line, found: Found<'_>) {
+fn follow_signed(motion: &[f32], sign: f32, line: Line, found: AxisSources<'_>) {
     /// Added to a whole number, it leaves that in the lowest bits: a conversion that vectorises.
     const BITS: f32 = (3 << 22) as f32;
     let n = motion.len();
-    let Found { whole, weight, valid } = found;
+    let AxisSources { whole, weight, valid } = found;
     let (whole, weight, valid) = (&mut whole[..n], &mut weight[..n], &mut valid[..n]);
     for i in 0..n {
         let near = motion[i].abs() < FARTHEST_PX;
@@ -225,10 +225,10 @@ fn follow_signed(motion: &[f32], sign: f32, line: Line, found: Found<'_>) {
 
 /// The same of motion in other units, in f64.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn follow_scaled(motion: &[f32], scale: f64, line: Line, found: Found<'_>) {
+fn follow_scaled(motion: &[f32], scale: f64, line: Line, found: AxisSources<'_>) {
     const BITS: f64 = (3u64 << 51) as f64;
     let n = motion.len();
-    let Found { whole, weight, valid } = found;
+    let AxisSources { whole, weight, valid } = found;
     let (whole, weight, valid) = (&mut whole[..n], &mut weight[..n], &mut valid[..n]);
     for i in 0..n {
         let pixels = f64::from(motion[i]) * scale;
