@@ -1,7 +1,7 @@
 //! PU-PSNR: PSNR of perceptually uniform luminance (PU21; Mantiuk, Azimi 2021).
 //!
-//! V is the encoded luminance of what the display shows ([`fovqa_frame::transfer::pu21`]);
-//! PU-PSNR = 20 log10(V(10,000 cd/m²) / sqrt(mean (V_t - V_r)²)) dB. Higher is better, infinite for
+//! V is the encoded luminance that the display shows ([`fovqa_frame::transfer::pu21`]); PU-PSNR =
+//! 20 log10(V(10,000 cd/m²) / sqrt(mean (V_t - V_r)²)) dB. Higher is better; it is infinite for
 //! identical pictures.
 
 use fovqa_frame::map_row_blocks;
@@ -30,11 +30,11 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
 
 pub(crate) use crate::metric_params::NoParams as Params;
 
-/// Adds PU-PSNR of a test in dB, both given as luminance in cd/m², over the pixels that count; nothing
-/// where none does.
+/// Adds the PU-PSNR of a test in dB over the pixels that count; nothing is added if none counts.
+/// Test and reference are given as luminance in cd/m².
 ///
 /// # Panics
-/// When planes and regions are not of one height.
+/// When planes and regions differ in height.
 pub fn rows(reference: &Grid, test: &Grid, regions: &Regions<'_>, rows: &mut Rows) {
     let squared = squared_error(reference, test, regions);
     let pixels = regions.pixels().iter().sum::<u64>() as f64;
@@ -85,7 +85,7 @@ mod tests {
     const W: usize = 70;
     const H: usize = 130;
 
-    /// Luminance by pixel, in cd/m².
+    /// A plane of luminance in cd/m² from a function of the pixel.
     fn luminance(value: impl Fn(usize, usize) -> f32) -> Grid {
         let shown = fovqa_frame::DisplayRange {
             cd_m2_per_unit: 1.0,
@@ -108,12 +108,12 @@ mod tests {
         let bands = BandMap::without_bands(W, H);
         let regions = Regions::unmasked(&bands);
         let (one, hundred) = (luminance(|_, _| 1.0), luminance(|_, _| 100.0));
-        // The encoder's chords are 2e-4 units off at most: of 220, 1e-5 dB.
+        // The chords of the encoder are up to 2e-4 units off: of 220 units, this is 1e-5 dB.
         let wanted = 20.0 * (V[2] / (V[1] - V[0])).log10();
         let found = pu_psnr_db(&one, &hundred, &regions).unwrap();
         assert!((found - wanted).abs() < 2e-5, "{found} for {wanted}");
         assert_eq!(pu_psnr_db(&hundred, &one, &regions), Some(found));
-        // A quarter of the pixels: 6 dB better.
+        // A quarter of the pixels has the error, so the result is 6 dB better.
         let part = luminance(|x, y| if x % 2 == 0 && y % 2 == 0 { 100.0 } else { 1.0 });
         let found = pu_psnr_db(&one, &part, &regions).unwrap();
         assert!((found - wanted - 20.0 * 2f64.log10()).abs() < 2e-5, "{found}");
@@ -125,7 +125,7 @@ mod tests {
         let picture = luminance(|x, y| (1 + x * y % 97) as f32);
         let found = pu_psnr_db(&picture, &picture, &Regions::unmasked(&bands));
         assert_eq!(found, Some(f64::INFINITY));
-        // Beyond the ends of the encoding everything is alike.
+        // Luminance above the range of the encoding is clamped, so that such values are equal.
         let (bright, brighter) = (luminance(|_, _| 1e4), luminance(|_, _| 5e4));
         let found = pu_psnr_db(&bright, &brighter, &Regions::unmasked(&bands));
         assert_eq!(found, Some(f64::INFINITY));
