@@ -1,5 +1,5 @@
-//! The values of a frame in packed form. A run keeps them to its end, and frames with the same keys share one
-//! list of these.
+//! The values of a frame in packed form. A run keeps them to its end, and frames with the same keys
+//! share one list of keys.
 
 use std::sync::Arc;
 
@@ -11,26 +11,26 @@ use crate::row::{Key, Row, Rows};
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct FrameRows {
     layout: Layout,
-    /// Values, each with its parts behind it, as bits.
+    /// The values, each followed by its parts, as bits.
     numbers: Box<[u64]>,
 }
 
-/// The keys of a frame's values, with the parts that each has. Frames share it.
+/// The keys of a frame's values, with the number of parts of each. Frames share it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Layout(Arc<[ValuePlace]>);
 
-/// Where a value stands.
+/// The place of a value in the packed numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct ValuePlace {
-    /// Where the key stands among others.
+    /// The position of the key in the order of results.
     order: u64,
     key: Key,
     shape: Shape,
-    /// Of its first number.
+    /// Index of its first number.
     at: u32,
 }
 
-/// What numbers there are of a value.
+/// The numbers that are stored for a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Shape {
     /// The value alone.
@@ -52,7 +52,7 @@ impl Shape {
         }
     }
 
-    /// How many numbers the parts are.
+    /// The number of parts.
     fn parts(self) -> usize {
         match self {
             Shape::Value => 0,
@@ -63,8 +63,8 @@ impl Shape {
 }
 
 impl Layout {
-    /// The layout of keys in the order of results, each with how many numbers its parts are; `None`
-    /// where there is no such order, or there are no such parts.
+    /// The layout of keys in the order of results, each with its number of parts. `None` if there
+    /// is no such order, or no such number of parts.
     pub fn new(keys: impl IntoIterator<Item = (Key, usize)>) -> Option<Self> {
         let mut at = 0;
         let place = |(key, parts): (Key, usize)| {
@@ -77,35 +77,36 @@ impl Layout {
         places.is_sorted_by(|a, b| a.order < b.order).then(|| Self(places.into()))
     }
 
-    /// Its keys, each with how many numbers its parts are.
+    /// Its keys, each with its number of parts.
     pub fn keys(&self) -> impl Iterator<Item = (Key, usize)> + '_ {
         self.0.iter().map(|place| (place.key, place.shape.parts()))
     }
 
-    /// Whether it is another one, or the same.
+    /// Whether two layouts are equal.
     pub fn is(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0) || self == other
     }
 }
 
-/// The bits of no value: those of a NaN that no arithmetic gives.
+/// The bits for a missing value: a NaN that no arithmetic produces.
 const NOTHING: u64 = 0x7ff8_0000_6e6f_6e65;
 
-/// The lists of keys of the last frames, to be shared by those after them.
+/// The lists of keys of the last frames, which later frames share.
 #[derive(Debug, Clone, Default)]
 pub struct Layouts(Vec<Known>);
 
-/// A list of keys as it came, and in the order of results.
+/// A list of keys as it came, and its order in results.
 #[derive(Debug, Clone)]
 struct Known {
     came: Vec<(Key, Shape)>,
-    /// The places of the sorted keys among those that came.
+    /// The indices of the sorted keys in the list as it came.
     order: Vec<u32>,
     layout: Layout,
 }
 
 impl Layouts {
-    /// A few kinds of frames take turns: the first has no differences over time, others have no SSIM.
+    /// A few kinds of frames alternate: the first frame has no temporal differences, others have no
+    /// SSIM.
     const KEPT: usize = 4;
 
     /// Packs the values of a frame.
@@ -127,7 +128,7 @@ impl Layouts {
         FrameRows { layout: known.layout.clone(), numbers: numbers.into() }
     }
 
-    /// The list of keys of these rows. Most often it is that of the frame before.
+    /// The list of keys of these rows, which is usually that of the frame before.
     fn known(&mut self, rows: &Rows) -> &Known {
         let came = || rows.iter().map(|row| (row.key, Shape::of(row.parts)));
         let index = self.0.iter().position(|known| came().eq(known.came.iter().copied()));
@@ -165,8 +166,8 @@ impl From<Rows> for FrameRows {
 }
 
 impl FrameRows {
-    /// The values of a layout: each value, or `None`, with its parts behind it. `None` where there are
-    /// more or fewer numbers, or parts are missing.
+    /// The values of a layout from numbers: each value, or `None`, followed by its parts. `None` if
+    /// there are more or fewer numbers, or parts are missing.
     pub fn of(layout: &Layout, numbers: &[Option<f64>]) -> Option<Self> {
         let mut bits = Vec::with_capacity(numbers.len());
         let mut rest = numbers;
@@ -181,17 +182,17 @@ impl FrameRows {
         rest.is_empty().then(|| Self { layout: layout.clone(), numbers: bits.into() })
     }
 
-    /// What its values are of.
+    /// The layout of its values.
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
 
-    /// All of them.
+    /// All rows.
     pub fn iter(&self) -> impl Iterator<Item = Row> + Clone + '_ {
         self.layout.0.iter().map(|place| self.row(place))
     }
 
-    /// Those of some keys.
+    /// The rows of the wanted keys.
     pub fn of_keys(&self, wanted: impl Fn(&Key) -> bool) -> impl Iterator<Item = Row> {
         self.layout.0.iter().filter(move |place| wanted(&place.key)).map(|place| self.row(place))
     }
@@ -229,17 +230,17 @@ impl FrameRows {
         frames.filter_map(move |rows| rows.find(order))
     }
 
-    /// The value of a key; `None` where there is no row, or nothing to have a value of.
+    /// The value of a key; `None` if there is no such row or the row has no value.
     pub fn value(&self, key: Key) -> Option<f64> {
         self.get(key)?.value
     }
 
-    /// The number of a key; 0 without a row.
+    /// The number of a key; 0 if there is no such row.
     pub fn number(&self, key: Key) -> u64 {
         self.value(key).map_or(0, |value| value as u64)
     }
 
-    /// Whether there is a row of a metric.
+    /// Whether a metric has a row.
     pub fn has(&self, metric: Metric) -> bool {
         self.layout.0.iter().any(|place| place.key.metric() == Some(metric))
     }
@@ -293,7 +294,7 @@ mod tests {
         assert!(Layout::new(twice).is_none() && Layout::new([(Key::of(Metric::Mse), 1)]).is_none());
         let other = layouts.pack(&rows(0.25));
         assert!(Arc::ptr_eq(&packed.layout.0, &other.layout.0), "what they are of is kept once");
-        // Also where another frame has no value, and behind frames of other kinds.
+        // This holds as well if another frame has no value, and after frames of other kinds.
         for metric in [Metric::Psnr, Metric::Fssim, Metric::Fpsnr] {
             let mut alone = Rows::default();
             alone.push(Key::of(metric), Some(1.0), Parts::Mean { sum: 1.0, weight: 1.0 });
@@ -330,7 +331,8 @@ mod tests {
         assert!(!both.has(Metric::MsSsim), "the other eye was not asked for it");
     }
 
-    /// Errors by pixels, wavelets by coefficients, FPSNR by its weight; other scores are averaged.
+    /// Errors are pooled by pixels, wavelets by coefficients and FPSNR by its weight; other scores
+    /// are averaged.
     #[test]
     fn both_eyes_are_pooled_as_each_statistic_says() {
         let haar = |statistic: &str| {

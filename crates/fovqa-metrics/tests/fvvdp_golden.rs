@@ -1,5 +1,5 @@
-//! FovVideoVDP against the reference program: every case of the golden values, frame by frame and band by
-//! band, through the library.
+//! Compares FovVideoVDP with the reference program, for every case of the golden values, frame by
+//! frame and band by band, through the library's API.
 
 #![allow(clippy::unwrap_used, reason = "a test fails where a golden value is missing")]
 
@@ -19,7 +19,7 @@ use fovqa_vision::{
 };
 use serde_json::Value;
 
-/// Required is 0.01; the reference program's own rounding is 1e-4.
+/// The required tolerance is 0.01; the reference program's own rounding error is 1e-4.
 const JOD: f64 = 3e-4;
 
 fn photometry(case: &FvvdpCase, display: &Display) -> Photometry {
@@ -47,7 +47,7 @@ fn photometry(case: &FvvdpCase, display: &Display) -> Photometry {
     Photometry::new(luminance)
 }
 
-/// The geometry of frames stretched over the display of a case.
+/// The geometry of frames that are stretched over the display of a case.
 fn geometry(case: &FvvdpCase, display: &Display) -> Geometry {
     let Some(given) = &case.geometry else {
         let spec = ViewSpec::Display(display.clone());
