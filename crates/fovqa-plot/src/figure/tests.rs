@@ -1,5 +1,5 @@
-//! Every kind of figure with usual, odd and hostile data: all of it inside the picture, no text
-//! over another, and the same each time.
+//! Every kind of figure with usual, odd and hostile data. All marks must be inside the picture,
+//! texts must not overlap, and the output must be the same each time.
 
 use proptest::prelude::*;
 
@@ -11,7 +11,7 @@ use crate::{Axis, BarSeries, Fill, FillKind, LineSeries, Look, Span, SpreadSerie
 mod curves;
 mod rasters;
 
-/// Names that break careless layouts.
+/// Names that are difficult for a layout.
 const HOSTILE: [&str; 8] = [
     "RMFR",
     "A & B <x> \"quoted\" 'too'",
@@ -23,7 +23,7 @@ const HOSTILE: [&str; 8] = [
     "עברית",
 ];
 
-/// Values that break careless axes.
+/// Values that are difficult for axes.
 const ODD: [f64; 14] = [
     0.0,
     -0.0,
@@ -57,7 +57,7 @@ fn line(series: Vec<Vec<(f64, Option<f64>)>>) -> Figure {
     Figure::Line(LineChart { x, y, series: series.collect(), ..LineChart::default() })
 }
 
-/// Bars, or markers where not from zero: `values[series][group]`.
+/// A bar chart of `values[series][group]`. The values are markers if the axis does not begin at 0.
 fn bars(values: Vec<Vec<Option<f64>>>, from_zero: bool) -> Figure {
     let groups = (0..values.first().map_or(0, Vec::len)).map(name).collect();
     let series = values.into_iter().enumerate().map(|(i, values)| BarSeries {
@@ -80,7 +80,7 @@ fn spread(values: Vec<Vec<Vec<f64>>>) -> Figure {
     Figure::Spread(SpreadChart { title: None, y, groups, series: series.collect() })
 }
 
-/// A chart of the same curves in each of some panels, with a span and hostile titles.
+/// A figure of `count` panels with the same curves, with a span and hostile titles.
 fn panels(series: &[Vec<(f64, Option<f64>)>], count: usize, columns: usize) -> Figure {
     let Figure::Line(chart) = line(series.to_vec()) else { unreachable!() };
     let panel = |i: usize| LineChart {
@@ -112,7 +112,7 @@ fn count(figure: &Figure, text: &str) -> usize {
     texts(figure).iter().filter(|line| *line == text).count()
 }
 
-/// Nothing beyond the border, and no text over another.
+/// Checks that no mark is outside the picture and that texts do not overlap.
 fn check(figure: &Figure) {
     let drawing = figure.draw().unwrap();
     let (width, height) = (drawing.width_px, drawing.height_px);
@@ -142,7 +142,7 @@ fn check(figure: &Figure) {
         }
     }
     let svg = figure.svg().unwrap();
-    // The letters of an encoded picture may say anything.
+    // The characters of an encoded picture are arbitrary.
     let mut lines = svg.lines().filter(|line| !line.starts_with("<image "));
     assert!(lines.all(|line| !line.contains("NaN") && !line.contains("inf")), "{svg}");
 }
@@ -243,7 +243,7 @@ fn infinite_and_missing_values_are_shown() {
     assert_eq!(count(&narrow, "360 × ∞ left out"), 1);
 }
 
-/// The upper and lower ends of the areas of a colour, the legend's key left out.
+/// The upper and lower ends of the areas of a look, without the key in the legend.
 fn areas(figure: &Figure, look: usize) -> Vec<(f64, f64)> {
     let colour = Look::new(look).colour();
     let ends = |mark: &Mark| match mark {
@@ -282,7 +282,7 @@ fn a_gap_is_not_bridged() {
     let y = [Some(1.0), Some(2.0), None, Some(3.0), Some(1.0)];
     let figure = line(vec![y.iter().enumerate().map(|(x, y)| (x as f64, *y)).collect()]);
     let (lines, discs) = lines_and_discs(&figure, Look::new(0).colour());
-    // Each with its key in the legend.
+    // Both counts include the key in the legend.
     assert_eq!((lines.len(), discs), (3, 5));
     assert!(lines.iter().all(|line| line.len() == 2));
 }
@@ -305,13 +305,13 @@ fn ten_values_make_a_box() {
             Mark::Area(points, colour) if *colour == tint => Some((points[0].1, points[2].1)),
             _ => None,
         };
-        // No line but that of a median is in ink.
+        // Only the line of a median is drawn in ink.
         (drawing.marks.iter().filter_map(area).collect::<Vec<_>>(), lines_and_discs(&figure, INK).0)
     };
     let (none, strip_median) = boxes(9);
     assert!(none.is_empty() && strip_median.len() == 1);
     let (found, medians) = boxes(10);
-    // The key and the box, from 2.25 to 6.75 on an axis of 9 and its air.
+    // The key and the box, which extends from 2.25 to 6.75 on an axis of 9 plus its space.
     let (top, bottom) = found[1];
     let height = crate::page::layout::PLOT_HEIGHT_PX * 4.5 / (9.0 * 1.12);
     assert!(found.len() == 2 && (bottom - top - height).abs() < 1e-6, "{found:?}");
@@ -377,7 +377,7 @@ fn infinite_values_stand_at_their_border() {
         _ => None,
     };
     let ys: Vec<f64> = figure.draw().unwrap().marks.iter().filter_map(disc).collect();
-    // The key, the two on the axis, then the one above and the one below.
+    // The key, the two points on the axis, then the one above and the one below.
     let [_, zero, one, above, below] = ys[..] else { panic!("{ys:?}") };
     assert!(above < one && one < zero && zero < below, "{ys:?}");
     assert!((below - above - crate::page::layout::PLOT_HEIGHT_PX).abs() < 1e-6);
@@ -399,7 +399,7 @@ fn data_are_tidy() {
     assert_eq!(csv, "group,series,value\nRMFR,RMFR,1.0\nRMFR,RMFR,\n");
 }
 
-/// A chart over 0 to 3 with spans.
+/// A chart over 0 to 3 with these spans.
 fn with_spans(spans: Vec<Span>) -> LineChart {
     let series = LineSeries { points: points(&[1.0, 3.0, 2.0, 4.0]), ..LineSeries::default() };
     LineChart { series: vec![series], spans, ..LineChart::default() }
@@ -426,7 +426,7 @@ fn plots(drawing: &Drawing) -> Vec<Rect> {
     plots
 }
 
-/// The shaded spans in the plot areas, not those in the legend.
+/// The shaded spans in the plot areas, without those in the legend.
 fn shaded(drawing: &Drawing) -> Vec<Rect> {
     let area = |mark: &Mark| match mark {
         Mark::Area(points, SPAN) => {
@@ -444,7 +444,7 @@ fn spans_are_behind_all_else_and_as_high_as_the_plot_area() {
     let drawing = with_spans(vec![span(1.0, 2.0)]).draw();
     let (plot, area) = (plots(&drawing)[0], shaded(&drawing)[0]);
     assert_eq!((area.top, area.bottom), (plot.top, plot.bottom));
-    // An axis from 0 to 3 and its air.
+    // The axis runs from 0 to 3 plus its space.
     let unit = plot.width() / (3.0 * 1.04);
     assert!((area.left - (plot.left + 1.06 * unit)).abs() < 1e-6);
     assert!((area.width() - unit).abs() < 1e-6);
@@ -592,7 +592,7 @@ fn panels_share_a_legend() {
     assert_eq!(texts(&figure)[..5], names);
     assert!(names.iter().all(|name| count(&figure, name) == 1));
 
-    // What others are held against stands behind them, wherever it first comes.
+    // Reference curves come last in the legend, wherever they first occur.
     let Figure::Panels(chart) = &mut figure else { unreachable!() };
     chart.panels[0].series[1].reference = true;
     chart.panels[1].series[0].reference = true;
@@ -602,7 +602,7 @@ fn panels_share_a_legend() {
 #[test]
 fn a_row_of_one_measure_has_its_title_once() {
     let figure = panels(&[points(&[1.0, 2.0])], 8, 3);
-    // The last row has two.
+    // The last row has two different axes.
     assert_eq!((count(&figure, "Error energy"), count(&figure, "another measure")), (3, 1));
     let two = panels(&[points(&[1.0, 2.0])], 8, 4);
     assert_eq!((count(&two, "Error energy"), count(&two, "another measure")), (4, 1));
@@ -661,7 +661,7 @@ fn data_of_panels_and_spans_are_tidy() {
     );
 }
 
-/// Usual values, or any at all: infinite, tiny, not a number.
+/// Usual values, or any float at all: infinite, tiny, not a number.
 fn value() -> impl Strategy<Value = f64> {
     prop_oneof![-50.0..50.0, Just(0.0), prop::num::f64::ANY]
 }
