@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn primaries_on_a_line_are_no_space() {
+    fn primaries_on_a_line_do_not_make_a_space() {
         let flat = Chromaticities {
             green: [0.3, 0.3],
             red: [0.2, 0.2],

@@ -386,7 +386,7 @@ mod tests {
 
     /// Every position in a row counts, and values that are not finite are ignored.
     #[test]
-    fn the_range_is_of_the_finite_samples_that_are_seen() {
+    fn the_range_covers_visible_finite_samples() {
         for at in 0..3 * 37 {
             let mut values = vec![0.5f32; 3 * 37];
             values[at] = -2.0;

@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn codes_go_through_the_curve_and_gray_is_not_weighed() {
+    fn codes_go_through_the_curve_and_gray_is_not_weighted() {
         let tables = tables(SignalParams::default(), LinearInput::ToneMapped);
         let light = |v: f64| 100.0 * v * v + 1.0;
         let colour = frame(Channels::Rgb, 1, Samples::U8(vec![255, 51, 0]));
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn absolute_light_is_clipped_before_black_is_added() {
+    fn absolute_luminance_is_clipped_before_black_is_added() {
         let tables = tables(SignalParams::default(), LinearInput::Absolute(SHOWN));
         let values = vec![0.0, 0.001, 2.0, 50.0, f32::NAN, -3.0];
         let wanted = [0.505, 0.51, 20.5, 100.5, 0.505, 0.505];

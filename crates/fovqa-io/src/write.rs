@@ -64,7 +64,7 @@ mod tests {
     use fovqa_frame::{Channels, Samples};
 
     #[test]
-    fn what_is_written_is_read_again() {
+    fn written_pictures_are_read_back() {
         let folder = tempfile::tempdir().unwrap();
         let read = |name: &str, bytes: Vec<u8>| {
             let path = folder.path().join(name);

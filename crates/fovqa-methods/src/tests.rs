@@ -207,7 +207,7 @@ fn vafr_has_the_papers_counts() {
 
 /// A frame of 110° at 16:9 has 40 % of its pixels beyond 60°.
 #[test]
-fn vafr_goes_on_beyond_its_field() {
+fn vafr_continues_beyond_its_field() {
     let setting = centred(2560, 1440, 110.0);
     let extended = vafr_over(FALLING, None, vafr::Columns::Paper).counts();
     let corner = setting.eccentricity_deg(setting.corner_px());
@@ -301,7 +301,7 @@ fn guenter_optimises_on_its_grid() {
 }
 
 #[test]
-fn kfr_off_centre_shades_what_nobody_sees() {
+fn kfr_off_centre_shades_samples_outside_the_frame() {
     let kfr = Method::find("kfr").unwrap();
     let centre = kfr.apply(&centred(1440, 1600, 110.0)).unwrap().counts();
     let corner = kfr.apply(&setting(1440, 1600, 110.0, [0.0, 0.0])).unwrap().counts();
@@ -363,7 +363,7 @@ fn the_papers_figure_of_a_half_axis() {
 }
 
 #[test]
-fn a_budget_is_met_or_its_range_is_said() {
+fn a_budget_is_met_or_the_error_states_its_range() {
     let setting = centred(1440, 1600, 110.0);
     for method in Method::all() {
         for of in [BudgetSamples::Buffer, BudgetSamples::OnScreen] {
@@ -400,7 +400,7 @@ fn the_gaze_itself_has_no_angle() {
 
 /// This includes a corner at almost 90°, and acuity so poor that scales would be unbounded.
 #[test]
-fn what_guenter_optimises_can_be_taken_as_it_is() {
+fn optimised_guenter_layers_can_be_used_as_fixed() {
     for (setting, m) in [(centred(2000, 2000, 179.9), 0.0275), (centred(11520, 6480, 110.0), 1.0)] {
         let params = guenter::Params { fit: guenter::Fit::Optimised, m, ..Default::default() };
         let best = Guenter::new(&params, &setting).unwrap();
@@ -417,7 +417,7 @@ fn what_guenter_optimises_can_be_taken_as_it_is() {
 }
 
 #[test]
-fn refuses_what_does_not_go_together() {
+fn refuses_contradicting_parameters() {
     let list = |l: &[f64]| ParamValue::List(l.to_vec());
     let over = |name: &str, params: &[(&str, ParamValue)], words: &[&str]| {
         let error =

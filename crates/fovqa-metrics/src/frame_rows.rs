@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_packed_is_the_same() {
+    fn packed_values_are_unchanged() {
         let mut layouts = Layouts::default();
         let packed = layouts.pack(&rows(0.5));
         let mut sorted: Vec<Row> = rows(0.5).iter().copied().collect();

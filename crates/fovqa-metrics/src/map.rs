@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn what_differs_more_is_brighter() {
+    fn larger_differences_are_brighter() {
         let linear = MapScale::Linear { none: 1.0, most: 0.0 };
         let logarithmic = MapScale::Logarithmic { none: 1e-6, most: 1.0 };
         let values: Vec<f32> = (0..=100).map(|i| i as f32 / 100.0).collect();

@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_set_is_written_and_read() {
+    fn parameters_that_were_set_are_written_and_read() {
         let mut set = ParamSet::default();
         set.set(Metric::Ssim, "sigma", &ParamValue::Number(0.1 + 0.2)).unwrap();
         set.set(Metric::Fvvdp, "foveated", &ParamValue::Flag(false)).unwrap();

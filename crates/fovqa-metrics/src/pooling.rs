@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn means_are_of_sums_and_scores_of_values() {
+    fn means_pool_sums_and_scores_pool_values() {
         let values = [mean(1.0, 4.0), mean(6.0, 12.0), (None, Parts::Value)];
         let (value, parts) = pool(Pooling::Mean, values);
         assert_eq!((value, parts), (Some(7.0 / 16.0), Parts::Mean { sum: 7.0, weight: 16.0 }));
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn decibels_are_of_the_error_not_of_the_decibels() {
+    fn decibels_are_computed_from_the_pooled_error() {
         let frame = |mse: f64, pixels: f64| {
             (Some(psnr_db(mse)), Parts::Mean { sum: mse * pixels, weight: pixels })
         };

@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_is_not_there_or_out_of_range() {
+    fn refuses_unknown_names_and_values_out_of_range() {
         let mut params = Params::default();
         let number = ParamValue::Number;
         assert!(matches!(

@@ -481,7 +481,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_edges_that_make_no_bands() {
+    fn refuses_edges_that_do_not_make_bands() {
         assert_eq!(BandEdges::new(vec![0.0]), Err(BandEdgesError::TooFew));
         for bad in [vec![0.0, f64::NAN], vec![-1.0, 5.0], vec![0.0, 181.0]] {
             assert!(matches!(BandEdges::new(bad), Err(BandEdgesError::OutOfRange { .. })));

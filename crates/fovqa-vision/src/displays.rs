@@ -266,7 +266,7 @@ mod tests {
 
     /// The expected values are FovVideoVDP's own.
     #[test]
-    fn black_is_leaked_and_reflected_light() {
+    fn black_is_panel_black_plus_reflections() {
         for (name, black) in [
             ("standard_4k", 0.597_887_358),
             ("standard_hdr_pq", 0.017_415_494_3),

@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn slips_are_questioned_in_the_words_of_their_kind() {
+    fn likely_mistakes_are_described() {
         let radians = [-0.87f64, 0.73, 0.83, -0.83].map(|side| side.abs().tan());
         // The frame size that the runtime recommends for these angles.
         let height = 2000.0 * (radians[2] + radians[3]) / (radians[0] + radians[1]);

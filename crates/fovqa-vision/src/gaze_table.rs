@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn exports_are_told_by_their_headings() {
+    fn exports_are_recognised_by_their_headings() {
         let export = |heading: &str| match Table::read(heading.as_bytes()) {
             Err(GazeTraceError::Column { export, .. }) => export,
             other => panic!("{other:?}"),

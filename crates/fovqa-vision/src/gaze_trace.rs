@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn unix_times_are_no_times_of_the_sequence() {
+    fn unix_times_are_not_times_of_the_sequence() {
         let t = trace("time_s,x_px,y_px\n1700000000.0,9,9\n1700000000.011,9,9\n").unwrap();
         for hold in [false, true] {
             let error = t.at_frames(&[(7, 0)], Some(90.0), hold).unwrap_err();
@@ -333,7 +333,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_of_the_frame_are_no_pixels() {
+    fn shares_of_the_frame_are_not_pixels() {
         let table = |rows: &str| trace(&format!("frame,x_px,y_px\n{rows}"));
         for rows in ["0,0.5,0.5\n1,0.25,0.75\n", "0,0.5,0.5\n", "0,-0.1,0.5\n1,1.2,0.3\n"] {
             assert!(matches!(table(rows), Err(GazeTraceError::Shares { .. })), "{rows:?}");

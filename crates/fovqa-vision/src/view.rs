@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_no_eye_sees() {
+    fn refuses_frequencies_that_no_eye_sees() {
         for bad in [0.0, -10.0, 180.0, f64::NAN] {
             let spec = ViewSpec::Fov { horizontal_deg: Some(bad), vertical_deg: None };
             assert!(spec.check().is_err(), "{bad}");

@@ -142,7 +142,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn frames_without_names_are_told_apart_in_messages() {
+    fn frames_without_names_have_unique_labels() {
         let video = Listing::counted("a.y4m".to_owned(), Length::Whole(3));
         assert_eq!((video.name(2), video.label(2)), ("a.y4m", "a.y4m, frame 2".to_owned()));
         let entry = Entry { name: "a/1.png".to_owned(), stem: "1".into(), number: Some(1) };

@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_view_is_a_component_or_stands_behind_a_hyphen() {
+    fn a_view_is_a_component_or_follows_a_hyphen() {
         let views = Views { names: vec!["left".into(), "right".into(), "cam2".into()] };
         let told = |name: &str| (views.in_name(name), views.without(name));
         for (name, view, without) in [

@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_well_formed() {
+    fn malformed_data_is_refused() {
         for data in [
             &[1, 2, 3][..],
             &[1, 0xff],

@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn says_what_is_not_there() {
+    fn refuses_missing_paths_and_invalid_patterns() {
         let dir = folder_with(&["a.txt", "b.md"]);
         assert!(matches!(list(dir.path()), Err(ListingError::Empty { other_files: 2, .. })));
         assert!(matches!(list(&dir.path().join("nope")), Err(ListingError::NotFound(_))));
@@ -192,7 +192,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn what_cannot_be_read_is_a_frame_all_the_same() {
+    fn unreadable_entries_are_listed_as_frames() {
         use std::os::unix::fs::symlink;
         let dir = folder_with(&["f1.png", "f2.png"]);
         symlink("nowhere", dir.path().join("f3.png")).unwrap();

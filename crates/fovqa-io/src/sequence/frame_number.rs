@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_certain_is_a_doubt() {
+    fn uncertain_numbers_are_doubtful() {
         let Doubt::Several { names, patterns } =
             doubt(&["f0001_t0017_4k", "f0001_t0033_4k", "f0002_t0050_4k"])
         else {

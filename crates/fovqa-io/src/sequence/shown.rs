@@ -47,7 +47,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn names_that_are_no_text_are_told_apart() {
+    fn names_that_are_not_utf8_stay_distinct() {
         use std::os::unix::ffi::OsStrExt;
         let of = |name: &[u8]| text_of(std::ffi::OsStr::from_bytes(name));
         assert_eq!(of(b"g\xfft"), r"g\xfft");

@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_constant_step_is_no_gap() {
+    fn a_constant_step_has_no_gap() {
         for whole in [&[0, 10, 20][..], &[-2, -1, 0], &[7], &[], &[3, 90], &[0, 11, 22, 34]] {
             assert!(spacing(whole).missing(|_| true).is_empty(), "{whole:?}");
         }
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_missing_is_named_in_short() {
+    fn missing_frames_are_listed_briefly() {
         assert_eq!(missing(&[0, 1, 3]), "frame 2");
         assert_eq!(missing(&[0, 10, 30, 70]), "frames 20, 40 to 60");
         assert_eq!(missing(&[-4, -3, 0]), "frames -2, -1");
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_from_end_to_end_are_no_effort() {
+    fn the_largest_gap_is_counted_quickly() {
         let far = spacing(&[i64::MIN, i64::MIN + 1, i64::MAX]);
         assert_eq!(far.missing(|_| true).count(), u64::MAX - 2);
         assert!(far.place(i64::MAX) > 1 << 60);

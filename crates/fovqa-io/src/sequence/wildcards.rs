@@ -146,7 +146,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn what_cannot_be_read_is_found_as_well() {
+    fn unreadable_entries_are_found() {
         use std::os::unix::ffi::OsStrExt;
         let dir = tree();
         std::os::unix::fs::symlink("nowhere", dir.path().join("a/x9.png")).unwrap();

@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_not_read_is_said() {
+    fn unsupported_tags_are_reported() {
         assert_eq!(Colour::of_tag("420jpeg"), Ok(Colour::untagged()));
         let error = Colour::of_tag("444alpha").unwrap_err();
         assert!(error.starts_with("its colour tag is C444alpha, which has alpha; "), "{error}");

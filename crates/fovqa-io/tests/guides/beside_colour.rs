@@ -120,7 +120,7 @@ fn alpha_is_still_looked_at() {
 }
 
 #[test]
-fn what_is_missing_is_none_and_can_be_said() {
+fn missing_guides_are_none_and_reported() {
     let decoded = frame_of(vec![part(&["R", "G", "B", "motion.X", "albedo"])], &auto()).unwrap();
     assert_eq!(decoded.guides, Guides::default(), "one of two is none");
     let motion = decoded.guide_search.missing_motion().unwrap();

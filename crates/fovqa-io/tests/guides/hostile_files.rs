@@ -21,7 +21,7 @@ fn ours() -> ReadOptions {
 }
 
 #[test]
-fn damage_to_the_guides_is_no_damage_to_the_colour() {
+fn damaged_guides_do_not_affect_the_colour() {
     let folder = Folder::new();
     let whole = fs::read(folder.file(colour_and_guides())).unwrap();
     let plain = read_frame(&folder.path(), &ReadOptions::default()).unwrap();

@@ -52,7 +52,7 @@ fn names_begin_at_a_dot() {
 }
 
 #[test]
-fn both_channels_of_motion_are_of_one_layer() {
+fn both_channels_of_motion_come_from_one_layer() {
     let ours = options(named(["u", "v"]), DepthChannels::None);
     let motion = |other| {
         let parts = vec![part(&["R", "G", "B", "a.u", other])];
@@ -64,7 +64,7 @@ fn both_channels_of_motion_are_of_one_layer() {
 }
 
 #[test]
-fn of_several_layers_that_of_the_colour() {
+fn of_several_layers_the_colours_own_is_read() {
     for (layer, [x, y, z]) in [("near.Combined", [3, 4, 5]), ("far.Combined", [9, 10, 11])] {
         for ours in [
             auto(),
@@ -104,7 +104,7 @@ fn automatic_names_of_the_root_and_of_a_layer() {
 }
 
 #[test]
-fn a_whole_name_goes_before_that_of_a_layer() {
+fn a_full_name_takes_precedence_over_a_layer() {
     let names = ["L.C.R", "L.C.G", "L.C.B", "far", "L.far", "u", "v", "L.u", "L.v"];
     let guides = frame_of(vec![part(&names)], &options(named(["u", "v"]), depth_named("far")));
     let guides = guides.unwrap().guides;

@@ -95,7 +95,7 @@ fn a_channel_of_motion_is_not_taken_for_depth() {
 }
 
 #[test]
-fn what_a_file_of_guides_lacks_is_an_error() {
+fn a_guide_missing_from_a_separate_file_is_an_error() {
     let error = guides_of(vec![part(&["Z", "normal"])], &auto()).unwrap_err();
     is_said(&error, &["no motion", "motion.X + motion.Y", "channels are Z, normal", "render them"]);
     let ours = options(MotionChannels::Auto, depth_named("far"));
@@ -109,7 +109,7 @@ fn what_a_file_of_guides_lacks_is_an_error() {
 }
 
 #[test]
-fn the_layer_tells_which_guides_of_a_file_are_meant() {
+fn the_layer_selects_among_several_guides() {
     let error = guides_of(vec![two_layers()], &auto()).unwrap_err();
     is_said(&error, &["could be the motion", "far.Vector.X", "near.Vector.X"]);
     let far = ReadOptions { layer: Some("far.Combined".to_owned()), ..auto() };

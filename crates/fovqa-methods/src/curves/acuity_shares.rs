@@ -126,7 +126,7 @@ mod tests {
     /// Reprojected samples are not shaded, so they do not count as above acuity. The shares
     /// stay the same.
     #[test]
-    fn samples_above_are_of_those_that_are_shaded() {
+    fn samples_above_count_shaded_samples_only() {
         let screen = screen(2560, 1440, Tangential::Paper);
         let with = |share: f64| {
             let mut method = Method::find("vafr").unwrap();
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_spent_above_grows_with_the_display() {
+    fn samples_above_acuity_grow_with_the_display() {
         let of = |w, h| found("full", &screen(w, h, Tangential::Paper));
         let (small, large) = (of(1280, 720), of(7680, 4320));
         assert!(large.below < small.below && large.above > small.above);

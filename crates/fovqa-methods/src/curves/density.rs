@@ -71,7 +71,7 @@ mod tests {
 
     /// Values are the densities at the centres of the cells, row by row.
     #[test]
-    fn cells_stand_at_their_centres() {
+    fn cells_are_sampled_at_their_centres() {
         let found = map("rmfr", (800, 1000), [200.0, 900.0], 50);
         assert_eq!((found.columns, found.rows, found.values.len()), (40, 50, 2000));
         let axis = |side: f64, gaze: f64, at: f64| {

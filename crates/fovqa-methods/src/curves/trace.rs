@@ -306,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gaze_outside_is_taken_at_the_border_and_said() {
+    fn a_gaze_outside_is_moved_to_the_border_with_a_note() {
         let of = |gaze| curve(find("deamp", &[]), screen(gaze, 180.0, Tangential::Paper));
         let (outside, border) = (of([1500.0, 800.0]), of([1440.0, 800.0]));
         assert_eq!(outside.points, border.points);

@@ -321,7 +321,7 @@ fn budgets_reach_as_far_as_their_parameters() {
 }
 
 #[test]
-fn budgets_keep_what_is_not_free() {
+fn budgets_keep_parameters_that_are_not_free() {
     let setting = setting(1440, 1600, 110.0, [500.0, 900.0]);
     for method in Method::all().into_iter().filter(|method| method.key() != "full") {
         for of in [BudgetSamples::Buffer, BudgetSamples::OnScreen] {

@@ -127,7 +127,7 @@ fn lafr_ends_at_the_corner() {
 }
 
 #[test]
-fn lafr_says_between_what_its_weight_lies() {
+fn lafr_states_the_range_of_alpha() {
     let setting = centred(1440, 1600, 110.0);
     let with = |name, value| method("lafr", &[(name, number(value))]).apply(&setting);
     let error = with("foveal_deg", 0.05).unwrap_err().to_string();
@@ -430,7 +430,7 @@ fn how_far_curves_reach() {
 }
 
 #[test]
-fn only_what_must_be_said_is_said() {
+fn notes_are_only_given_where_they_apply() {
     let setting = centred(1440, 1600, 90.0);
     let note = |method: &Method| method.apply(&setting).unwrap().note();
     for name in ["full", "vafr", "kfr", "lafr", "rmfr", "guenter", "linear", "cps"] {

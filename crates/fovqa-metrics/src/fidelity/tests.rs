@@ -286,7 +286,7 @@ fn foveal_psnr_knows_where_the_error_is() {
 }
 
 #[test]
-fn masked_pixels_are_in_no_number() {
+fn masked_pixels_do_not_affect_any_number() {
     let (w, h) = (90, 80);
     let (a, b) = pair(w, h, 40.0);
     let mut setup = Setup::new(w, h, [45.0, 40.0]);

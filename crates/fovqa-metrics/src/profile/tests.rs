@@ -190,7 +190,7 @@ fn levels_above_a_block_of_rows_are_no_different() {
 }
 
 #[test]
-fn orientations_are_told_apart() {
+fn orientations_are_distinguished() {
     Setup::new(97, 71).set(Metric::Haar, "orientations", &ParamValue::Flag(true)).check_haar();
     // Horizontal stripes change only along y.
     let mut setup = Setup::new(64, 64).set(Metric::Haar, "orientations", &ParamValue::Flag(true));

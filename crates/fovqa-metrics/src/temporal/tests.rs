@@ -98,7 +98,7 @@ fn half_a_pixel_fetches_the_bilinear_value() {
 }
 
 #[test]
-fn what_comes_into_sight_is_left_out_and_counted() {
+fn newly_visible_pixels_are_left_out_and_counted() {
     let bands = no_bands(64, 8);
     let regions = Regions::unmasked(&bands);
     let (now, before) = (plane(64, 8, |_, _| 0.75), plane(64, 8, |x, _| x as f32 / 64.0));
@@ -123,7 +123,7 @@ fn what_comes_into_sight_is_left_out_and_counted() {
 }
 
 #[test]
-fn what_is_not_finite_is_left_out() {
+fn pixels_that_are_not_finite_are_left_out() {
     let bands = no_bands(64, 8);
     let regions = Regions::unmasked(&bands);
     let gray = plane(64, 8, |_, _| 0.5);

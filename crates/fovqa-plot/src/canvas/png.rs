@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_makes_no_picture() {
+    fn refuses_scales_that_make_no_picture() {
         assert!(matches!(png("<svg", 1.0), Err(PlotError::Svg(_))));
         for scale in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e9] {
             assert!(matches!(png(SVG, scale), Err(PlotError::Size { .. })), "{scale}");

@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn stand_apart_along_a_curve() {
+    fn markers_keep_their_distance_along_a_curve() {
         for curve in
             [sampled(|_| 100.0), sampled(|x| 200.0 - x / 2.0), sampled(|x| 9e3 / (x + 40.0))]
         {

@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_in_dots_what_is_too_long() {
+    fn long_text_ends_in_dots() {
         let lines = wrap(&"word ".repeat(10_000), 12.0, 80.0, 3);
         assert_eq!(lines.len(), 3);
         assert!(lines[2].ends_with('…') && widest_px(&lines, 12.0) <= 80.0);

@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn stand_at_round_numbers() {
+    fn ticks_are_at_round_numbers() {
         assert_eq!(labels(19.2, 40.8, 7), ["20", "25", "30", "35", "40"]);
         assert_eq!(labels(0.0, 60.0, 7), ["0", "10", "20", "30", "40", "50", "60"]);
         assert_eq!(labels(0.0, 10.0, 6), ["0", "2", "4", "6", "8", "10"]);
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn logarithmic_ones_stand_at_1_2_5_or_at_powers() {
+    fn logarithmic_ticks_are_at_1_2_5_or_at_powers() {
         let labels = |low: f64, high: f64, most: usize| -> Vec<String> {
             let ticks = log_ticks(low, high, |t| t.len() <= most).into_iter();
             ticks.map(|t| t.label).collect()

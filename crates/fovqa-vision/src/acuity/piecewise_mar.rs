@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn goes_through_its_knots_and_on() {
+    fn passes_its_knots_and_continues() {
         let model = PiecewiseMar::default();
         for (e, f) in [(0.0, 40.0), (10.0, 10.0), (20.0, 6.0), (30.0, 5.0), (60.0, 4.0)] {
             assert!((model.cutoff_cpd(e) - f).abs() < 1e-12);
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_lists_that_do_not_match_and_angles_that_are_none() {
+    fn refuses_unequal_lists_and_impossible_knots() {
         for (degs, cpds) in
             [(&[0.0, 5.0, 9.0][..], &[3.0, 2.0][..]), (&[0.0, 5.0], &[3.0, 2.0, 1.0])]
         {

@@ -128,7 +128,7 @@ mod tests {
 
     /// 24 frames per second make 6 taps.
     #[test]
-    fn a_sequence_can_be_taken_up_in_its_middle() {
+    fn a_sequence_can_be_started_in_the_middle() {
         const FRAMES: usize = 12;
         let frames: Vec<Arc<Grid>> = (0..FRAMES).map(|i| grid((i * i) as f32 + 0.1)).collect();
         for padding in [Padding::Replicate, Padding::Circular, Padding::Pingpong] {

@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_is_taken_by_its_length_and_once() {
+    fn a_plane_is_reused_once_for_its_length() {
         let mut spare = Spare { planes: VecDeque::new(), floats: 0 };
         for length in [3, 5, 3] {
             assert!(spare.keep(vec![1.0; length]).is_empty());
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn what_waited_longest_makes_room() {
+    fn the_memory_kept_longest_makes_room() {
         let mut spare = Spare { planes: VecDeque::new(), floats: 0 };
         for length in [MOST / 2, MOST / 4, MOST / 4] {
             assert!(spare.keep(vec![0.0; length]).is_empty());

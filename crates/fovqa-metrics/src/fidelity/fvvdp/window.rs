@@ -114,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_stands_before_the_first_frame() {
+    fn padding_before_the_first_frame() {
         let at = |padding, frames, reach| at_first_frame(padding, frames, reach);
         assert_eq!(at(Padding::Replicate, 5, 3), [0, 0, 0]);
         assert_eq!(at(Padding::Pingpong, 5, 4), [3, 2, 1, 0]);

@@ -238,7 +238,7 @@ fn equal_ratios_are_equal_heights_on_a_logarithmic_axis() {
 }
 
 #[test]
-fn what_has_no_logarithm_is_a_gap() {
+fn values_without_a_logarithm_are_gaps() {
     let (inf, nan) = (f64::INFINITY, f64::NAN);
     let chart = log(&[1.0, 2.0, 0.0, 4.0, 5.0, -3.0, 6.0, 7.0, -inf, nan, 8.0, 9.0, inf]);
     let figure = Figure::Line(chart.clone());

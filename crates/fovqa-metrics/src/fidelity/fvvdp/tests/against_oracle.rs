@@ -158,7 +158,7 @@ fn the_centre_of_the_display_may_lie_off_the_middle() {
 }
 
 #[test]
-fn directions_beyond_89_9_degrees_are_taken_for_that() {
+fn directions_beyond_89_9_degrees_are_clamped() {
     // 172° by 168°: the corners are 119° from the centre, measured as the distance of two pairs of
     // angles.
     let size = (48, 40);

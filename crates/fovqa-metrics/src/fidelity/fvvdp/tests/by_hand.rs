@@ -130,7 +130,7 @@ fn rows_of_directions_are_the_directions_of_their_pixels() {
 }
 
 #[test]
-fn gamma_and_measured_light_are_shown_as_they_are() {
+fn gamma_and_measured_luminance_are_shown_unchanged() {
     let plain = Luminance::of_peak(400.0);
     let gamma = Photometry::new(Luminance {
         eotf: Eotf::Gamma,
@@ -159,7 +159,7 @@ fn gamma_and_measured_light_are_shown_as_they_are() {
 }
 
 #[test]
-fn perceptual_quantisation_is_light_within_the_display() {
+fn pq_is_luminance_within_the_display() {
     let dim = Luminance { eotf: Eotf::Pq, contrast: Some(1e4), ..Luminance::of_peak(1000.0) };
     let photometry = Photometry::new(dim);
     let light = |code: f64| {

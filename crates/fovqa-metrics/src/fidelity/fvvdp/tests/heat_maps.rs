@@ -79,7 +79,7 @@ fn codes([r, g, b]: [f64; 3], gray: f64) -> [u8; 3] {
 }
 
 #[test]
-fn colors_stand_at_equal_steps_over_a_flat_gray() {
+fn colors_have_equal_steps_over_a_flat_gray() {
     let at = |value: f32, colors: MapColors| {
         let raw = grid(5, 4, |_, _| value);
         let codes = colored(&raw, &grid(5, 4, |_, _| 40.0), colors);

@@ -119,7 +119,7 @@ fn exact_edges_matter_where_parities_differ() {
 }
 
 #[test]
-fn what_is_not_foveated_has_no_gaze() {
+fn without_foveation_the_gaze_has_no_effect() {
     let run = |foveated: bool, gaze: [f64; 2]| {
         let fvvdp = fvvdp(64, 60, &params(foveated));
         score(&fvvdp, [&pair(64, 60, 3), &pair(64, 60, 5)], gaze, None)
@@ -130,7 +130,7 @@ fn what_is_not_foveated_has_no_gaze() {
 }
 
 #[test]
-fn what_lies_behind_the_end_of_a_row_is_of_no_account() {
+fn padding_after_the_end_of_a_row_has_no_effect() {
     let (width, height) = (37, 20);
     let fvvdp = fvvdp(width, height, &params(true));
     let planes = [pair(width, height, 3), pair(width, height, 5)];

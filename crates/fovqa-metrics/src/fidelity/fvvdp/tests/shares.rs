@@ -107,7 +107,7 @@ fn check_shares(setup: &Setup) {
 }
 
 #[test]
-fn an_error_lies_where_it_is() {
+fn an_error_counts_in_its_band() {
     let setup = setup();
     let reference = grid(W, H, |_, _| 30.0);
     let full = |x: usize, y: usize| Plane { width: W, height: H, values: vec![(x + y) as f64] };

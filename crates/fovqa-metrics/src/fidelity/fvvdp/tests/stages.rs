@@ -24,7 +24,7 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 #[test]
-fn displays_turn_values_into_light() {
+fn displays_turn_values_into_luminance() {
     let displays = stage("photometry");
     assert_eq!(displays.len(), 10);
     for given in &displays {
