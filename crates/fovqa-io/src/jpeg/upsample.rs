@@ -61,7 +61,7 @@ impl<'a> Upsampled<'a> {
     pub(super) fn row(&self, y: usize, sums: &mut Vec<u16>, out: &mut [u8]) {
         match self.interpolation {
             Interpolation::Repeat(1, down) => {
-                out.copy_from_slice(&self.plane.row(y / down)[..out.len()])
+                out.copy_from_slice(&self.plane.row(y / down)[..out.len()]);
             }
             Interpolation::Repeat(across, down) => repeat(self.plane.row(y / down), across, out),
             Interpolation::Half => half(self.plane.row(y), out),

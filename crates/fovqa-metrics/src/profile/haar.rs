@@ -1,9 +1,9 @@
 //! The Haar wavelet by eccentricity (Patney et al. 2016, 4.4.2 and Fig. 10).
 //!
-//! The orthonormal 2-D transform of the luma: level l describes blocks of 2^l x 2^l pixels. Of a
-//! block's quarters a b / c d, LH = (a + b - c - d) / 2 is low in x and high in y, HL is (a - b + c
-//! - d) / 2 and HH (a - b - c + d) / 2; LL = (a + b + c + d) / 2 is the input of the next level.
-//! The picture is cropped at the right and bottom to a multiple of 2^levels; a coefficient belongs
+//! This is the orthonormal 2-D transform of the luma: level l describes blocks of 2^l x 2^l pixels.
+//! With the quarters a b / c d of a block, LH = `(a + b - c - d) / 2` is low in x and high in y,
+//! HL = `(a - b + c - d) / 2`, and HH = `(a - b - c + d) / 2`. LL = `(a + b + c + d) / 2` is the
+//! input of the next level. The picture is cropped at the right and bottom to a multiple of 2^levels; a coefficient belongs
 //! to the band of its block's centre in the uncropped frame.
 //!
 //! Per level and band, over LH, HL and HH together: mean |c|, max |c| and mean c² (energy), of luma
