@@ -1,7 +1,7 @@
-//! Row blocks: the only unit of parallel work.
+//! Row blocks, the only unit of parallel work.
 //!
-//! Their height is fixed, so that partial sums, added in block order, come out the same for any
-//! number of threads.
+//! Their height is fixed, so that partial sums, added in block order, are the same for any number
+//! of threads.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 /// Rows of one block. Even, so that a 2x2 mean never straddles two blocks.
 pub const BLOCK_ROWS: usize = 64;
 
-/// Calls `work` with each block of rows of a picture `height` rows high, in parallel, and
+/// Calls `work` in parallel with each block of rows of a picture that is `height` rows high, and
 /// returns the results in the order of the rows.
 pub fn map_row_blocks<T: Send>(
     height: usize,

@@ -1,6 +1,6 @@
-//! Primaries of a linear RGB space, and the way to Rec.709.
+//! The primaries of a linear RGB space, and its conversion to Rec.709.
 
-/// CIE 1931 xy of the primaries and of white.
+/// The CIE 1931 xy coordinates of the primaries and of white.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Chromaticities {
     /// Red.
@@ -28,7 +28,7 @@ impl Chromaticities {
         white: [0.3127, 0.3290],
     };
 
-    /// Whether these are Rec.709's to the precision files are written with.
+    /// Whether these are the primaries of Rec.709, to the precision with which files write them.
     pub fn is_rec709(&self) -> bool {
         let all = |c: &Self| [c.red, c.green, c.blue, c.white];
         all(self)
@@ -57,15 +57,15 @@ impl Chromaticities {
         matrix.iter().flatten().all(|v| v.is_finite()).then_some(matrix)
     }
 
-    /// What linear R, G and B of these primaries contribute to the luminance; white has 1. `None` when
-    /// the primaries do not span a colour space, or green has no luminance.
+    /// The contributions of linear R, G and B of these primaries to the luminance, which is 1 for
+    /// white. `None` when the primaries do not span a colour space, or green has no luminance.
     pub fn luminance_weights(&self) -> Option<[f64; 3]> {
         let [_, weights, _] = self.rgb_to_xyz()?;
         (weights.iter().all(|weight| weight.is_finite()) && weights[1].abs() > 1e-6)
             .then_some(weights)
     }
 
-    /// SMPTE RP 177: the primaries scaled so that they add up to white.
+    /// SMPTE RP 177: the primaries are scaled so that they add up to white.
     fn rgb_to_xyz(&self) -> Option<Matrix> {
         let column = |[x, y]: [f64; 2]| [x, y, 1.0 - x - y];
         let [r, g, b] = [column(self.red), column(self.green), column(self.blue)];
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn primaries_on_a_line_are_no_space() {
+    fn primaries_on_a_line_do_not_make_a_space() {
         let flat = Chromaticities {
             green: [0.3, 0.3],
             red: [0.2, 0.2],

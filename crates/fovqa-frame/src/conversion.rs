@@ -1,17 +1,17 @@
-//! The samples of a frame, and how each becomes the signal or light.
+//! The samples of a frame with their conversion to the signal or to luminance.
 
 use half::f16;
 
 use crate::codes::{CODES_8, CODES_16};
-use crate::shown_light::{Curve, ShownLight};
+use crate::display_range::{Curve, DisplayRange};
 use crate::signal_params::SignalParams;
 use crate::tonemap::ToneMap;
 use crate::transfer::srgb;
 
-/// The samples of a frame, and how each becomes the signal or light.
+/// The samples of a frame with their conversion to the signal or to luminance.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Conversion<'a> {
-    /// Codes times a whole number.
+    /// Integer codes, multiplied by a whole number.
     Codes8(&'a [u8], f32),
     Codes16(&'a [u16], f32),
     Table8(&'a [u8], &'a [f32; CODES_8]),
@@ -19,13 +19,14 @@ pub(crate) enum Conversion<'a> {
     Half(&'a [f16], &'a [f32; CODES_16]),
     Linear(&'a [f32], FloatToSignal),
     Encoded(&'a [f32]),
-    /// To light: encoded values, those of a scene, and absolute light.
+    /// The last three convert to displayed luminance: encoded values, linear scene values, and
+    /// absolute luminance.
     Curve(&'a [f32], Curve<'a>),
     ToneMapped(&'a [f32], FloatToSignal, Curve<'a>),
-    Absolute(&'a [f32], ShownLight),
+    Absolute(&'a [f32], DisplayRange),
 }
 
-/// Exposure, tone map, encoding.
+/// Exposure, tone map and sRGB encoding.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FloatToSignal {
     gain: f32,
@@ -44,7 +45,7 @@ impl FloatToSignal {
 
     #[inline]
     pub(crate) fn map(self, linear: f32) -> f32 {
-        // `NaN.max(0.0)` in the tone map is 0.
+        // NaN becomes 0, since the tone map takes `NaN.max(0.0)`, which is 0.
         self.encoder.encode(self.tonemap.map(linear * self.gain))
     }
 }

@@ -9,7 +9,7 @@ use thiserror::Error;
 use crate::blocks::BLOCK_ROWS;
 use crate::mask::Mask;
 
-/// One channel of gray, or three of colour with Rec.709 primaries.
+/// The colour channels of a frame: one of gray, or three with Rec.709 primaries.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Channels {
     /// One channel.
@@ -19,7 +19,7 @@ pub enum Channels {
 }
 
 impl Channels {
-    /// 1 or 3.
+    /// The number of channels, 1 or 3.
     pub fn count(self) -> usize {
         match self {
             Channels::Gray => 1,
@@ -27,7 +27,7 @@ impl Channels {
         }
     }
 
-    /// The name of channel `index`, as error messages say it.
+    /// The name of channel `index` in error messages.
     pub fn name(self, index: usize) -> &'static str {
         match self {
             Channels::Gray => "Y",
@@ -36,7 +36,7 @@ impl Channels {
     }
 }
 
-/// The samples of a frame, in the type and order their decoder leaves them in.
+/// The samples of a frame, in the type and order in which the decoder leaves them.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Samples {
     /// Codes 0..=255, channels interleaved.
@@ -50,7 +50,7 @@ pub enum Samples {
 }
 
 impl Samples {
-    /// Bytes of one sample.
+    /// Size of one sample in bytes.
     fn size(&self) -> usize {
         match self {
             Samples::U8(_) => 1,
@@ -88,7 +88,8 @@ pub struct Crop {
 }
 
 impl Crop {
-    /// The same rectangle in the coordinates in which `visible` is given, inside of which it lies.
+    /// The same rectangle in the coordinates of the whole frame; `self` is given relative to the
+    /// corner of `visible`.
     pub(crate) fn within(self, visible: Crop) -> Result<Crop, CropError> {
         let fits = |from: usize, length: usize, size: usize| {
             length > 0 && from.checked_add(length).is_some_and(|end| end <= size)
@@ -101,7 +102,7 @@ impl Crop {
     }
 }
 
-/// A crop that reaches beyond the frame.
+/// The crop reaches beyond the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error(
     "the crop {},{},{},{} reaches beyond the frame of {width}x{height}",
@@ -119,7 +120,7 @@ pub struct CropError {
 /// Samples that do not make a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum FrameError {
-    /// A frame without pixels.
+    /// The frame has no pixels.
     #[error("a frame of {width}x{height} has no pixels")]
     Empty {
         /// Declared width.
@@ -127,12 +128,12 @@ pub enum FrameError {
         /// Declared height.
         height: usize,
     },
-    /// More or fewer samples than the size says.
+    /// The number of samples does not match the size.
     #[error("{found} samples for a frame that needs {expected}")]
     SampleCount {
         /// Samples given.
         found: usize,
-        /// Samples that width, height and channels ask for.
+        /// Number of samples for this width, height and number of channels.
         expected: usize,
     },
 }
@@ -148,7 +149,7 @@ pub struct BadPixel {
     pub y: usize,
     /// The value: NaN or an infinity.
     pub value: f32,
-    /// Pixels of the frame with at least one such value.
+    /// Number of pixels of the frame with at least one such value.
     pub pixels: u64,
 }
 
@@ -166,7 +167,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Puts samples and their size together. Integer samples are encoded, floats are linear light.
+    /// Makes a frame of samples. Integer samples are taken as encoded, floats as linear light.
     ///
     /// # Errors
     /// When there are no pixels, or not `width * height * channels` samples.
@@ -189,19 +190,20 @@ impl Frame {
         Ok(Self { width, height, channels, samples, encoded, crop })
     }
 
-    /// The same frame with samples that are encoded for display, floats too: the values of an 8- or
-    /// 16-bit file that were computed with, and would lose by being rounded.
+    /// Marks the samples as encoded for display, even if they are floats. Such floats come from
+    /// calculations with the codes of an 8- or 16-bit file, and rounding them would lose precision.
     #[must_use]
     pub fn encoded(self) -> Self {
         Self { encoded: true, ..self }
     }
 
-    /// Whether the samples are encoded for display, unless the user says otherwise.
+    /// Whether the samples are encoded for display; the user's choice of transfer function
+    /// overrides it.
     pub fn is_encoded(&self) -> bool {
         self.encoded
     }
 
-    /// The same frame with only a rectangle of it visible; no sample is copied.
+    /// The same frame with only a rectangle of it visible. No sample is copied.
     ///
     /// # Errors
     /// When the rectangle is empty or reaches beyond the frame.
@@ -230,28 +232,28 @@ impl Frame {
         self.channels
     }
 
-    /// All samples, those outside the visible part too.
+    /// All samples, including those outside the visible part.
     pub fn samples(&self) -> &Samples {
         &self.samples
     }
 
-    /// Bytes of memory the samples take.
+    /// The memory of the samples, in bytes.
     pub fn bytes(&self) -> usize {
         self.samples.len() * self.samples.size()
     }
 
-    /// Where, in the samples of one plane (or among interleaved pixels), the visible part of
-    /// row `y` starts.
+    /// Index where the visible part of row `y` starts, among the samples of one plane or among
+    /// interleaved pixels.
     pub(crate) fn row_start(&self, y: usize) -> usize {
         (self.crop.y + y) * self.width + self.crop.x
     }
 
-    /// Samples of one whole plane.
+    /// The number of samples of one whole plane.
     pub(crate) fn plane_len(&self) -> usize {
         self.width * self.height
     }
 
-    /// The sample of one channel at a visible pixel, as a number: a code, or the float itself.
+    /// The sample of one channel at a visible pixel, as a number: the code, or the float itself.
     pub fn sample(&self, channel: usize, x: usize, y: usize) -> f32 {
         let pixel = self.row_start(y) + x;
         let interleaved = pixel * self.channels.count() + channel;
@@ -268,7 +270,8 @@ impl Frame {
         self.sample(channel, x, y).is_finite()
     }
 
-    /// Whether row `y` of `channel` may hold a NaN or an infinity: a quick look at the bits.
+    /// Whether row `y` of `channel` may hold a NaN or an infinity. This is a quick check of the
+    /// bits.
     fn row_has_bad(&self, channel: usize, y: usize) -> bool {
         const F16_EXPONENT: u16 = 0x7c00;
         const F32_EXPONENT: u32 = 0x7f80_0000;
@@ -276,7 +279,7 @@ impl Frame {
         let row = start..start + self.width();
         match &self.samples {
             Samples::U8(_) | Samples::U16(_) => false,
-            // Folds, not `any`: without an early way out the loop vectorises.
+            // A fold instead of `any`: the loop vectorises only without an early exit.
             Samples::F16(s) => s[row]
                 .iter()
                 .fold(false, |bad, v| bad | (v.to_bits() & F16_EXPONENT == F16_EXPONENT)),
@@ -286,7 +289,8 @@ impl Frame {
         }
     }
 
-    /// The first pixel, in reading order, that holds a NaN or an infinity, and how many do.
+    /// The first pixel, in reading order, that holds a NaN or an infinity, with the number of such
+    /// pixels.
     pub fn bad_pixel(&self) -> Option<BadPixel> {
         if self.samples.is_integer() {
             return None;
@@ -330,7 +334,7 @@ impl Frame {
         Mask::new(width, height, valid).unwrap_or_else(|| unreachable!("one flag a pixel"))
     }
 
-    /// Smallest and largest finite sample of the visible part.
+    /// The smallest and the largest finite sample of the visible part.
     pub fn range(&self) -> (f32, f32) {
         let rows = (0..self.height()).into_par_iter().with_min_len(BLOCK_ROWS);
         let of_row = |y: usize| {
@@ -350,14 +354,15 @@ impl Frame {
     }
 }
 
-/// The range of no value at all.
+/// The range of an empty set of values.
 const NO_RANGE: (f32, f32) = (f32::INFINITY, f32::NEG_INFINITY);
 
 fn wider(a: (f32, f32), b: (f32, f32)) -> (f32, f32) {
     (a.0.min(b.0), a.1.max(b.1))
 }
 
-/// The range of the finite values: lanes side by side, as one value after the other would not vectorise.
+/// The range of the finite values. It works on several lanes at once, because a loop over single
+/// values would not vectorise.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn range_of(values: &[f32]) -> (f32, f32) {
     const LANES: usize = 16;
@@ -379,9 +384,9 @@ fn range_of(values: &[f32]) -> (f32, f32) {
 mod tests {
     use super::*;
 
-    /// Every place in a row counts, and what is not finite does not.
+    /// Every position in a row counts, and values that are not finite are ignored.
     #[test]
-    fn the_range_is_of_the_finite_samples_that_are_seen() {
+    fn the_range_covers_visible_finite_samples() {
         for at in 0..3 * 37 {
             let mut values = vec![0.5f32; 3 * 37];
             values[at] = -2.0;

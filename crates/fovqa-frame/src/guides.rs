@@ -1,5 +1,5 @@
-//! What a renderer knows of a frame beside its colour: where pixels come from, and how far away
-//! they are.
+//! Motion and depth of a frame: where its pixels were in the previous frame, and how far away they
+//! are.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use half::slice::HalfFloatSliceExt;
 
 use crate::frame::{Crop, CropError, FrameError};
 
-/// The samples of a plane, row by row, in the type of their file.
+/// The samples of a plane, row by row, in the type of the file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PlaneSamples {
     /// Half floats.
@@ -37,7 +37,7 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// Puts samples and their size in pixels together.
+    /// Makes a plane of samples and a size in pixels.
     ///
     /// # Errors
     /// When there are no pixels, or not `width * height` samples.
@@ -54,7 +54,7 @@ impl Plane {
         Ok(Self { width, height, samples, crop })
     }
 
-    /// The same plane with only a rectangle of it visible; no sample is copied.
+    /// The same plane with only a rectangle of it visible. No sample is copied.
     ///
     /// # Errors
     /// When the rectangle is empty or reaches beyond the plane.
@@ -78,12 +78,12 @@ impl Plane {
         (self.width, self.height)
     }
 
-    /// All samples, those outside the visible part too.
+    /// All samples, including those outside the visible part.
     pub fn samples(&self) -> &PlaneSamples {
         &self.samples
     }
 
-    /// Bytes of memory the samples take.
+    /// The memory of the samples, in bytes.
     pub fn bytes(&self) -> usize {
         match &self.samples {
             PlaneSamples::F16(s) => size_of_val(s.as_slice()),
@@ -91,7 +91,7 @@ impl Plane {
         }
     }
 
-    /// Where the visible part of row `y` starts among the samples.
+    /// Index of the sample where the visible part of row `y` starts.
     fn row_start(&self, y: usize) -> usize {
         (self.crop.y + y) * self.width + self.crop.x
     }
@@ -109,7 +109,7 @@ impl Plane {
         }
     }
 
-    /// Copies the visible columns `xs` of the visible row `y` to `out`, a sample for a sample.
+    /// Copies the visible columns `xs` of the visible row `y` to `out`, one sample per pixel.
     ///
     /// # Panics
     /// When these pixels are not all visible, or `out` is not as long as `xs`.
@@ -124,8 +124,9 @@ impl Plane {
     }
 }
 
-/// Backward motion: a pixel's position in the previous frame is its position in this one plus its
-/// motion, x to the right and y down. Where there is none, the samples are NaN.
+/// Backward motion: the position of a pixel in the previous frame is its position in this frame
+/// plus its motion. x points to the right and y down. Where the motion is unknown, the samples are
+/// NaN.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     x: Plane,
@@ -135,21 +136,21 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Motion whose pixels are `[x, y] * scale`. `None` unless both planes show the same part of
-    /// frames of one size.
+    /// Motion in pixels as `[x, y] * scale`. `None` unless both planes show the same part of frames
+    /// of one size.
     pub fn new(x: Plane, y: Plane, scale: [f64; 2]) -> Option<Self> {
         let alike = x.file_size() == y.file_size() && x.crop == y.crop;
         alike.then_some(Self { x, y, scale, offset: [0.0; 2] })
     }
 
-    /// The same, for planes in which `offset` stands for no motion: pixels are
-    /// `([x, y] - offset) * scale`.
+    /// The same motion for planes in which the sample `offset` stands for no motion: in pixels it
+    /// is `([x, y] - offset) * scale`.
     #[must_use]
     pub fn with_offset(self, offset: [f32; 2]) -> Self {
         Self { offset, ..self }
     }
 
-    /// The same motion with only a rectangle of it visible; no sample is copied.
+    /// The same motion with only a rectangle of it visible. No sample is copied.
     ///
     /// # Errors
     /// When the rectangle is empty or reaches beyond the frame.
@@ -172,20 +173,20 @@ impl Motion {
         self.x.file_size()
     }
 
-    /// Bytes of memory the samples take.
+    /// The memory of the samples, in bytes.
     pub fn bytes(&self) -> usize {
         self.x.bytes() + self.y.bytes()
     }
 
-    /// Pixels of motion for one unit of a sample as [`Self::fill_row`] gives it, across and down;
-    /// negative where the file's axis points the other way.
+    /// Pixels of motion per unit of the samples that [`Self::fill_row`] returns, across and down. A
+    /// scale is negative where the axis of the file points the other way.
     pub fn scale(&self) -> [f64; 2] {
         self.scale
     }
 
-    /// Copies the samples of the visible columns `xs` of the visible row `y`, without the scale:
-    /// the motion in pixels is `out_x * scale()[0]` and `out_y * scale()[1]`. The file's samples
-    /// as they are, or, where another sample than 0 stands for no motion, less that.
+    /// Copies the samples of the visible columns `xs` of the visible row `y`. The offset is
+    /// subtracted, but the scale is not applied: the motion in pixels is `out_x * scale()[0]` and
+    /// `out_y * scale()[1]`.
     ///
     /// # Panics
     /// When these pixels are not all visible, or the slices are not as long as `xs`.
@@ -211,17 +212,17 @@ impl Motion {
     }
 }
 
-/// What there is beside the colour of a frame.
+/// The motion and depth of a frame, as far as they exist.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Guides {
-    /// Where its pixels were in the previous frame.
+    /// The motion from the previous frame.
     pub motion: Option<Motion>,
-    /// How far away they are, in the renderer's units; NaN where there is none.
+    /// The distance of each pixel in the renderer's units; NaN where there is none.
     pub depth: Option<Plane>,
 }
 
 impl Guides {
-    /// The same guides with only a rectangle of them visible; no sample is copied.
+    /// The same motion and depth with only a rectangle visible. No sample is copied.
     ///
     /// # Errors
     /// When the rectangle is empty or reaches beyond the frame.
@@ -231,7 +232,7 @@ impl Guides {
         Ok(Self { motion, depth })
     }
 
-    /// Bytes of memory the samples take.
+    /// The memory of the samples, in bytes.
     pub fn bytes(&self) -> usize {
         self.motion.as_ref().map_or(0, Motion::bytes) + self.depth.as_ref().map_or(0, Plane::bytes)
     }

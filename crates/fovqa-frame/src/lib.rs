@@ -1,26 +1,26 @@
 //! Mathematics on pixels: frames as decoded, transfer functions, tone maps, luma, masks and row
-//! blocks. Knows nothing of files or eyes.
+//! blocks. This crate knows nothing about files or eyes.
 //!
 //! | word | meaning |
 //! | --- | --- |
 //! | frame | decoded samples of one picture, one (gray) or three (RGB) channels |
-//! | signal | what metrics see: display-encoded, in `[0, peak]` |
+//! | signal | the values that metrics compare: display-encoded, in `[0, peak]` |
 //! | plane | one channel of the signal, `f32`, row by row |
 //! | mask | which pixels count |
-//! | guides | motion and depth of a frame, raw as decoded |
-//! | source | a sequence of frames, wherever they come from |
+//! | guides | motion and depth of a frame, as decoded |
+//! | source | a sequence of frames from any origin |
 
 mod blocks;
 mod chromaticities;
 mod codes;
 mod conversion;
+mod display_range;
 mod frame;
 mod guides;
-mod light;
 mod luma;
+mod luminance;
 mod mask;
 mod pair;
-mod shown_light;
 mod side;
 mod signal;
 mod signal_params;
@@ -30,13 +30,13 @@ pub mod transfer;
 
 pub use blocks::{BLOCK_ROWS, map_row_blocks};
 pub use chromaticities::Chromaticities;
+pub use display_range::DisplayRange;
 pub use frame::{BadPixel, Channels, Crop, CropError, Frame, FrameError, Samples};
 pub use guides::{Guides, Motion, Plane, PlaneSamples};
-pub use light::{LightTables, LinearLight, LuminanceScratch, LuminanceSignal};
 pub use luma::{LumaKind, LumaScratch, LumaSignal};
+pub use luminance::{LinearInput, LuminanceScratch, LuminanceSignal, LuminanceTables};
 pub use mask::Mask;
 pub use pair::{PairSignal, PairTile, Part};
-pub use shown_light::ShownLight;
 pub use signal::SignalTables;
 pub use signal_params::{Luma, SignalChannels, SignalParams, Transfer};
 pub use tonemap::ToneMap;

@@ -1,6 +1,7 @@
-//! One picture as one plane, for what is measured of a picture alone: its luma, or its luminance.
+//! A picture as one plane, for profiles of a single picture: its luma, or its luminance.
 //!
-//! In `f64`: the differences of neighbours that wavelets take are a small part of the values.
+//! Values are `f64`, because the differences of neighbours that wavelets take are small compared
+//! with the values.
 
 use std::ops::Range;
 
@@ -13,14 +14,14 @@ use crate::signal::SignalTables;
 use crate::signal_params::{Luma, Transfer};
 use crate::transfer::{pq, srgb};
 
-/// What a pixel is reduced to.
+/// The number that each pixel is reduced to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LumaKind {
     /// Y = 0.2126 R + 0.7152 G + 0.0722 B of the display-encoded signal, 0 to 1.
     #[default]
     Luma,
-    /// The same sum of linear light, after exposure and before the tone map. Of encoded input,
-    /// decoded: 0 to 1, or (PQ) cd/m².
+    /// The same sum of linear light, after exposure and before the tone map. Encoded input is
+    /// decoded: to 0 to 1, or to cd/m² (PQ).
     Luminance,
 }
 
@@ -33,12 +34,12 @@ pub struct LumaSignal<'a> {
 
 #[derive(Debug)]
 enum LumaSource<'a> {
-    /// The signal, and what its peak is divided by to be 1.
+    /// The signal, and the divisor that brings its peak to 1.
     Encoded(Side<'a>, f64),
     Linear(Linear<'a>),
 }
 
-/// Samples with the way to linear light.
+/// Samples with their conversion to linear light.
 #[derive(Debug)]
 enum Linear<'a> {
     Codes8(&'a [u8], Box<[f64]>),
@@ -47,7 +48,7 @@ enum Linear<'a> {
     Float(&'a [f32], Decoder),
 }
 
-/// From a value to linear light.
+/// Converts a value to linear light.
 #[derive(Debug, Clone, Copy)]
 struct Decoder {
     transfer: Transfer,
@@ -70,19 +71,19 @@ impl Decoder {
     }
 }
 
-/// Room for the channels of a stretch of a row.
+/// A buffer for the channels of a stretch of a row.
 #[derive(Debug, Clone)]
 pub struct LumaScratch([Vec<f32>; 3]);
 
 impl LumaScratch {
-    /// Room for up to `columns` pixels.
+    /// A buffer for up to `columns` pixels.
     pub fn new(columns: usize) -> Self {
         Self(std::array::from_fn(|_| vec![0.0; columns]))
     }
 }
 
 impl<'a> LumaSignal<'a> {
-    /// A frame by its luma or luminance.
+    /// Reads a frame as luma or luminance.
     pub fn new(frame: &'a Frame, tables: &'a SignalTables, kind: LumaKind) -> Self {
         let source = match kind {
             LumaKind::Luma => {
@@ -111,7 +112,7 @@ impl<'a> LumaSignal<'a> {
         self.frame.height()
     }
 
-    /// Reads the columns `xs` of row `y`. NaN and infinity are 0 and 1 in luma; luminance keeps
+    /// Reads the columns `xs` of row `y`. In luma, NaN becomes 0 and infinity 1; luminance keeps
     /// them.
     pub fn fill_row(&self, y: usize, xs: Range<usize>, scratch: &mut LumaScratch, out: &mut [f64]) {
         let columns = xs.len();
@@ -155,7 +156,7 @@ impl<'a> LumaSignal<'a> {
     }
 }
 
-/// [`Luma::WEIGHTS`] as they are written, in `f64`.
+/// [`Luma::WEIGHTS`] in `f64`, with the digits of the standard.
 const WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
 const _: () =
     assert!(WEIGHTS[0] as f32 == Luma::WEIGHTS[0] && WEIGHTS[2] as f32 == Luma::WEIGHTS[2]);
@@ -201,7 +202,7 @@ mod tests {
         let mut scratch = LumaScratch::new(frame.width());
         let rows = (0..frame.height()).map(|y| {
             let mut row = vec![0.0; frame.width()];
-            // In two stretches, as tiles read them.
+            // The row is read in two stretches, as tiles read it.
             let middle = frame.width() / 2;
             signal.fill_row(y, 0..middle, &mut scratch, &mut row[..middle]);
             signal.fill_row(y, middle..frame.width(), &mut scratch, &mut row[middle..]);

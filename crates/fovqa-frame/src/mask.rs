@@ -1,6 +1,6 @@
-//! Which pixels count: a lens mask, or the pixels a renderer left finite.
+//! Masks: which pixels count, from a lens mask or because their values are finite.
 
-/// One flag a pixel, row by row: `true` where the pixel counts.
+/// One flag per pixel, row by row: `true` where the pixel counts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mask {
     width: usize,
@@ -9,7 +9,7 @@ pub struct Mask {
 }
 
 impl Mask {
-    /// A mask from one flag a pixel. `None` unless there are `width * height` flags.
+    /// A mask from one flag per pixel. `None` unless there are `width * height` flags.
     pub fn new(width: usize, height: usize, valid: Vec<bool>) -> Option<Self> {
         (Some(valid.len()) == width.checked_mul(height)).then_some(Self { width, height, valid })
     }
@@ -29,12 +29,12 @@ impl Mask {
         &self.valid[y * self.width..(y + 1) * self.width]
     }
 
-    /// How many pixels do not count.
+    /// The number of pixels that do not count.
     pub fn left_out(&self) -> u64 {
         self.valid.iter().filter(|&&valid| !valid).count() as u64
     }
 
-    /// Keeps only what counts in both masks.
+    /// Keeps only the pixels that count in both masks.
     ///
     /// # Panics
     /// When the masks differ in size.
@@ -52,7 +52,8 @@ impl Mask {
         Mask { width, height, valid }
     }
 
-    /// The blocks of 2x2 pixels that count wholly; an odd last column or row is dropped.
+    /// The mask of 2x2 blocks: a block counts if all of its pixels count. An odd last column or row
+    /// is dropped.
     #[must_use]
     pub fn halved(&self) -> Mask {
         let (width, height) = (self.width / 2, self.height / 2);
@@ -64,13 +65,14 @@ impl Mask {
         Mask { width, height, valid: rows.collect() }
     }
 
-    /// The centres of windows of `2 radius + 1` pixels a side in which every pixel counts.
-    /// Windows that do not fit into the picture are out as well.
+    /// The mask of window centres: a pixel counts if all pixels of the window around it count,
+    /// which has `2 radius + 1` pixels on a side. Windows that do not fit into the picture do not
+    /// count.
     #[must_use]
     pub fn eroded(&self, radius: usize) -> Mask {
         let (w, h, side) = (self.width, self.height, 2 * radius + 1);
         let mut valid = vec![false; w * h];
-        // For each column, how many valid pixels stand in a run that ends in the current row.
+        // For each column, the number of consecutive valid pixels that end in the current row.
         let mut run = vec![0usize; w];
         for y in 0..h {
             for (run, &valid) in run.iter_mut().zip(self.row(y)) {

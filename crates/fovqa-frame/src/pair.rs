@@ -1,8 +1,8 @@
-//! Reference and test side by side, as their sum and their difference.
+//! Reference and test together, as their sum and their difference.
 //!
-//! Metrics of fidelity need nothing else: the squared error is the difference squared, and SSIM's
-//! moments follow from those of sum and difference (`2 ab = ((a+b)² - (a-b)²) / 2`). It keeps
-//! equal pictures equal to the last bit, and integer codes exact.
+//! Fidelity metrics need nothing else: the squared error is the square of the difference, and
+//! SSIM's moments follow from those of sum and difference (`2 ab = ((a+b)² - (a-b)²) / 2`). With
+//! this form, equal pictures stay equal to the last bit, and integer codes stay exact.
 
 use std::ops::Range;
 
@@ -25,18 +25,18 @@ pub struct PairSignal<'a> {
     peak: f32,
 }
 
-/// A tile of a pair: some rows of some columns, for each plane the centred sum `a + b - peak`
-/// and the difference `a - b`.
+/// A tile of a pair: some rows of some columns. For each plane it holds the centred sum
+/// `a + b - peak` and the difference `a - b`.
 #[derive(Debug)]
 pub struct PairTile {
     values: Vec<f32>,
-    /// Where the first row starts: at the border of a cache line, like all others.
+    /// Index where the first row starts. Every row starts at the border of a cache line.
     origin: usize,
     stride: usize,
     rows: usize,
 }
 
-/// Sum or difference.
+/// The sum or the difference of the pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     /// `a + b - peak`.
@@ -45,15 +45,15 @@ pub enum Part {
     Difference,
 }
 
-/// Planes a tile has room for: luma is computed from three.
+/// The number of planes that a tile has room for: luma is computed from three.
 const TILE_PLANES: usize = 3;
 
 impl PairTile {
-    /// Room for `rows` rows of up to `columns` pixels.
+    /// A tile for `rows` rows of up to `columns` pixels.
     pub fn new(columns: usize, rows: usize) -> Self {
         const LINE_BYTES: usize = 64;
         const LINE: usize = LINE_BYTES / size_of::<f32>();
-        // A line more than needed, so that rows do not all fall onto the same cache sets.
+        // One cache line more than needed, so that the rows do not all map to the same cache sets.
         let stride = columns.next_multiple_of(LINE) + LINE;
         let values = vec![0.0; TILE_PLANES * 2 * rows * stride + LINE];
         let origin = values.as_ptr().align_offset(LINE_BYTES).min(LINE);
@@ -90,10 +90,10 @@ impl PairTile {
 }
 
 impl<'a> PairSignal<'a> {
-    /// Puts two frames side by side.
+    /// Combines two frames to a pair.
     ///
     /// # Panics
-    /// When their sizes differ: whoever pairs frames has to have said so before.
+    /// When their sizes differ: callers must check this first.
     pub fn new(reference: &'a Frame, test: &'a Frame, tables: &'a SignalTables) -> Self {
         let (width, height) = (reference.width(), reference.height());
         assert_eq!((width, height), (test.width(), test.height()), "frames of one size");
@@ -116,7 +116,7 @@ impl<'a> PairSignal<'a> {
             test: side(test),
             width,
             height,
-            // Three equal channels score as one.
+            // Three equal channels have the same score as one.
             planes: if gray || luma { 1 } else { 3 },
             luma: luma && !gray,
             peak,
@@ -133,17 +133,17 @@ impl<'a> PairSignal<'a> {
         self.height
     }
 
-    /// Planes of the signal: 1 or 3.
+    /// The number of planes of the signal, 1 or 3.
     pub fn planes(&self) -> usize {
         self.planes
     }
 
-    /// The signal's largest value: 1, or that of the integer codes both frames hold.
+    /// The largest value of the signal: 1, or the largest integer code that both frames can hold.
     pub fn peak(&self) -> f32 {
         self.peak
     }
 
-    /// Whether sums and differences are whole numbers of at most 255 to either side.
+    /// Whether sums and differences are whole numbers from -255 to 255.
     pub fn is_eight_bit(&self) -> bool {
         self.peak <= 255.0 && self.peak > 1.0 && !self.luma
     }
@@ -158,9 +158,10 @@ impl<'a> PairSignal<'a> {
             combine(sum, difference, self.peak);
         }
         if self.luma {
-            // Of sum and difference rather than of the pictures: an exact difference stays small.
-            weigh(sums);
-            weigh(differences);
+            // Luma is computed from sum and difference rather than from the pictures, so that a
+            // small exact difference keeps its precision.
+            weighted_sum(sums);
+            weighted_sum(differences);
         }
     }
 }
@@ -173,7 +174,7 @@ fn combine(a: &mut [f32], b: &mut [f32], peak: f32) {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn weigh(planes: [&mut [f32]; TILE_PLANES]) {
+fn weighted_sum(planes: [&mut [f32]; TILE_PLANES]) {
     let [wr, wg, wb] = Luma::WEIGHTS;
     let [r, g, b] = planes;
     for ((r, g), b) in r.iter_mut().zip(g).zip(b) {

@@ -1,4 +1,5 @@
-//! One picture of a pair, or one alone: its samples, stretch by stretch, as the signal.
+//! One picture, alone or as part of a pair: its samples, converted to the signal in stretches of
+//! rows.
 
 use std::ops::Range;
 
@@ -8,7 +9,7 @@ use crate::codes::within_unit;
 use crate::conversion::Conversion;
 use crate::frame::{Channels, Frame};
 
-/// A frame with the way to its signal.
+/// A frame with the conversion of its samples.
 #[derive(Debug)]
 pub(crate) struct Side<'a> {
     frame: &'a Frame,
@@ -22,7 +23,7 @@ impl<'a> Side<'a> {
 }
 
 impl Side<'_> {
-    /// Reads a stretch of a row into one plane, or three.
+    /// Reads a stretch of a row into one plane, or into three.
     pub(crate) fn fill(&self, y: usize, xs: Range<usize>, planes: &mut [&mut [f32]]) {
         let from = self.frame.row_start(y) + xs.start;
         let pixels = from..from + xs.len();
@@ -60,8 +61,8 @@ impl Side<'_> {
                 let light = |v| curve.at(to_signal.map(v));
                 channels.for_each(|c| each(&s[planar(c)], planes[c], light));
             }
-            Conversion::Absolute(s, light) => {
-                channels.for_each(|c| each(&s[planar(c)], planes[c], |v| light.shown(v)));
+            Conversion::Absolute(s, range) => {
+                channels.for_each(|c| each(&s[planar(c)], planes[c], |v| range.displayed(v)));
             }
         }
         if !colour && let [gray, others @ ..] = planes {
@@ -89,8 +90,8 @@ fn each(values: &[f32], out: &mut [f32], of: impl Fn(f32) -> f32) {
     }
 }
 
-/// Takes interleaved codes apart: as many into the first plane as it has pixels (gray), or three
-/// into three.
+/// Separates interleaved codes: either one code per pixel into the first plane (gray), or three
+/// codes per pixel into three planes.
 #[inline(always)]
 fn take_apart<T: Copy>(codes: &[T], planes: &mut [&mut [f32]], value: impl Fn(T) -> f32) {
     if let [r, g, b] = planes

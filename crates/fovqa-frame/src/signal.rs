@@ -1,9 +1,9 @@
-//! From samples to the signal metrics see: display-encoded, per channel.
+//! Converts samples to the signal that metrics compare: display-encoded, per channel.
 //!
-//! Encoded input (PNG and JPEG, unless told otherwise) is used as it is. Linear input
-//! (OpenEXR, unless told otherwise) gets exposure, then the tone map per channel, then the sRGB
-//! encoding. NaN becomes 0 and an infinity the end of the range, so that a masked pixel cannot
-//! leak into its neighbours.
+//! Encoded input (PNG and JPEG, unless told otherwise) is used as it is. Linear input (OpenEXR,
+//! unless told otherwise) gets exposure, then the tone map per channel, then the sRGB encoding. NaN
+//! becomes 0 and infinity becomes the end of the range, so that a masked pixel cannot affect its
+//! neighbours.
 
 use std::sync::OnceLock;
 
@@ -15,7 +15,8 @@ use crate::frame::{Frame, Samples};
 use crate::signal_params::{SignalParams, Transfer};
 use crate::transfer::srgb;
 
-/// The way from a sample to the signal, tabulated once where the sample has few values.
+/// The conversion from samples to the signal, tabulated once where samples have few possible
+/// values.
 #[derive(Debug)]
 pub struct SignalTables {
     params: SignalParams,
@@ -25,24 +26,24 @@ pub struct SignalTables {
 }
 
 impl SignalTables {
-    /// Prepares the conversion; tables are built when a frame first needs them.
+    /// Prepares the conversion. Tables are built when a frame first needs them.
     pub fn new(params: SignalParams) -> Self {
         Self { params, codes8: OnceLock::new(), codes16: OnceLock::new(), half: OnceLock::new() }
     }
 
-    /// The parameters these tables stand for.
+    /// The parameters of these tables.
     pub fn params(&self) -> &SignalParams {
         &self.params
     }
 
-    /// Whether a frame's codes are the signal: then two such frames are compared in exact
+    /// Whether a frame's codes are the signal already. Two such frames are compared in exact
     /// integers.
     pub(crate) fn codes_are_signal(&self, frame: &Frame) -> bool {
         frame.samples().is_integer() && self.params.transfer_of(frame) != Transfer::Linear
     }
 
-    /// The source of a frame whose codes are the signal, in units in which both frames of a pair
-    /// have the peak `peak`: 255 or 65535.
+    /// The conversion of a frame whose codes are the signal, in units in which both frames of a
+    /// pair have the peak `peak`, 255 or 65535.
     pub(crate) fn codes(frame: &Frame, peak: f32) -> Option<Conversion<'_>> {
         match frame.samples() {
             Samples::U8(s) => Some(Conversion::Codes8(s, peak / 255.0)),
@@ -51,7 +52,7 @@ impl SignalTables {
         }
     }
 
-    /// The source of any frame, with peak 1.
+    /// The conversion of any frame, with peak 1.
     pub(crate) fn unit<'a>(&'a self, frame: &'a Frame) -> Conversion<'a> {
         let linear = self.params.transfer_of(frame) == Transfer::Linear;
         let gain = libm::exp2(self.params.exposure_stops);

@@ -9,13 +9,13 @@ use crate::tonemap::ToneMap;
 words! {
     /// How the values of a file are encoded.
     pub enum Transfer {
-        /// sRGB: used as they are.
+        /// sRGB-encoded; values are used as they are.
         Srgb "srgb" "sRGB-encoded";
         /// Linear light: exposure, tone map and sRGB encoding follow.
         Linear "linear" "Linear light: exposure, tone map and sRGB encoding follow";
-        /// SMPTE ST 2084 codes: used as they are.
+        /// SMPTE ST 2084 codes; values are used as they are.
         Pq "pq" "SMPTE ST 2084 codes, used as they are";
-        /// A power of 2.2: used as they are.
+        /// A power of 2.2; values are used as they are.
         Gamma22 "gamma2.2" "A power of 2.2, used as it is";
     }
 }
@@ -25,30 +25,30 @@ impl OrAuto for Transfer {
 }
 
 words! {
-    /// What metrics see of a picture.
+    /// The channels of a picture that metrics compare.
     #[derive(Default)]
     pub enum SignalChannels {
         /// Three channels; a gray picture stands for three equal ones.
         #[default]
         Rgb "rgb" "Red, green and blue";
-        /// One: [`Luma`].
+        /// One channel, see [`Luma`].
         Luma "luma" "0.2126 R + 0.7152 G + 0.0722 B of the encoded signal";
     }
 }
 
-/// Weights of luma, `Y = 0.2126 R + 0.7152 G + 0.0722 B` of the encoded signal (Rec. ITU-R BT.709).
+/// The luma `Y = 0.2126 R + 0.7152 G + 0.0722 B` of the encoded signal (Rec. ITU-R BT.709).
 #[derive(Debug, Clone, Copy)]
 pub struct Luma;
 
 impl Luma {
-    /// Red, green, blue.
+    /// Weights of red, green and blue.
     pub const WEIGHTS: [f32; 3] = [0.2126, 0.7152, 0.0722];
 }
 
 /// How samples become the signal.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SignalParams {
-    /// `None`: sRGB for encoded frames, linear for others.
+    /// The transfer function; `None` means sRGB for encoded frames and linear for others.
     pub transfer: Option<Transfer>,
     /// Exposure of linear input, in stops.
     pub exposure_stops: f64,
@@ -59,7 +59,7 @@ pub struct SignalParams {
 }
 
 impl SignalParams {
-    /// The transfer function of a frame: the one asked for, or that of its kind of file.
+    /// The transfer function of a frame: the user's choice, or the default for its kind of file.
     pub fn transfer_of(&self, frame: &Frame) -> Transfer {
         self.transfer.unwrap_or(if frame.is_encoded() { Transfer::Srgb } else { Transfer::Linear })
     }

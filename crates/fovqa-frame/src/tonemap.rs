@@ -1,4 +1,4 @@
-//! Tone maps: linear light of any height to `[0, 1]`, each channel on its own.
+//! Tone maps: from linear light without an upper limit to `[0, 1]`, each channel on its own.
 
 use fovqa_params::words;
 
@@ -17,13 +17,14 @@ words! {
 }
 
 impl ToneMap {
-    /// Maps one linear value; an infinity goes to 1, so a firefly is white and no more.
+    /// Maps one linear value. Infinity becomes 1, so that an extremely bright pixel is only white.
     #[inline]
     pub fn map(self, linear: f32) -> f32 {
         let x = linear.max(0.0);
         match self {
             ToneMap::Clamp => x.min(1.0),
-            // Beyond this x / (1 + x) is 1 in f32 anyway; it keeps infinity from becoming NaN.
+            // Beyond this limit x / (1 + x) is 1 in f32 anyway. Without it, infinity would become
+            // NaN.
             ToneMap::Reinhard => {
                 let x = x.min(1e9);
                 x / (1.0 + x)

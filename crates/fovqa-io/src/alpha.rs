@@ -5,13 +5,13 @@ use fovqa_params::words;
 use crate::error::ReadErrorKind;
 
 words! {
-    /// What to do with alpha that is not 1 everywhere.
+    /// How to treat alpha that is not 1 everywhere.
     #[derive(Default)]
     pub enum AlphaPolicy {
-        /// An error that names the first such pixel.
+        /// Report an error that names the first such pixel.
         #[default]
         Error "error" "An error that names the first pixel that is not opaque";
-        /// Take the colours as they are.
+        /// Use the colours as they are.
         Ignore "ignore" "Colours are taken as they are";
         /// Lay the picture over black: PNG colours are multiplied by alpha (as encoded, like a
         /// viewer does), OpenEXR colours are premultiplied already.
@@ -19,7 +19,8 @@ words! {
     }
 }
 
-/// Looks through alpha values (row by row, 1 = opaque) for any that is not 1.
+/// Checks that all alpha values are 1 (row by row, 1 = opaque). The error names the first one that
+/// is not.
 pub(crate) fn require_opaque(
     alpha: impl Iterator<Item = f32>,
     width: usize,

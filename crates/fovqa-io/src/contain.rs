@@ -1,4 +1,4 @@
-//! Panics of decoder libraries, turned into errors.
+//! Turns panics of decoder libraries into errors.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -7,13 +7,13 @@ thread_local! {
     static CONTAINED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether a panic on this thread is about to become an error, so that a panic hook need not
+/// Whether a panic on this thread will become an error, so that a panic hook does not need to
 /// report it.
 pub fn is_contained() -> bool {
     CONTAINED.get()
 }
 
-/// Runs a decoder; `None` when it panicked.
+/// Runs a decoder. `None` if it panicked.
 pub fn contained<T>(work: impl FnOnce() -> T) -> Option<T> {
     let before = CONTAINED.replace(true);
     let result = catch_unwind(AssertUnwindSafe(work));

@@ -1,4 +1,4 @@
-//! One file to one frame.
+//! Reads one file as one frame.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Seek};
@@ -18,16 +18,16 @@ use crate::{exr, jpeg, png};
 
 const PNG_MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 const JPEG_MAGIC: &[u8] = b"\xff\xd8\xff";
-/// Reads a PNG, JPEG or OpenEXR file; its first bytes tell which, not its name.
+/// Reads a PNG, JPEG or OpenEXR file. The format is recognised by the first bytes, not by the name.
 ///
 /// # Errors
-/// When the file cannot be read, is none of these, is damaged or too large, or does not fit the
+/// When the file cannot be read, has another format, is damaged or too large, or does not fit the
 /// options. A decoder that panics is an error too.
 pub fn read_frame(path: &Path, options: &ReadOptions) -> Result<Decoded, ReadError> {
     open(path).and_then(|file| decode(file, options)).map_err(|kind| kind.at(path))
 }
 
-/// The same, and the identity of the bytes that were decoded.
+/// Reads a file as [`read_frame`] does, and returns the identity of the decoded bytes as well.
 ///
 /// # Errors
 /// As [`read_frame`].
@@ -59,10 +59,10 @@ fn decode_by_magic(file: File, options: &ReadOptions) -> Result<Decoded, ReadErr
 }
 
 /// The size of the frame in a file: its declared width and height, or those of its display window.
-/// Reads its header alone.
+/// Only the header is read.
 ///
 /// # Errors
-/// When the header cannot be read; whether the rest can is not known then.
+/// When the header cannot be read. The rest of the file is not checked.
 pub fn frame_size(path: &Path) -> Result<(usize, usize), ReadError> {
     let read = || {
         let file = open(path)?;

@@ -1,4 +1,4 @@
-//! A frame that was read from a file, with remarks, motion and depth.
+//! A frame that was read from a file, with its notes, motion and depth.
 
 use fovqa_frame::{Frame, Guides};
 
@@ -6,36 +6,36 @@ use crate::guides::search::GuideSearch;
 use crate::note::Note;
 use crate::read_options::ReadOptions;
 
-/// A frame and remarks about its file.
+/// A frame that was read from a file, with everything found beside it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decoded {
     /// The frame.
     pub frame: Frame,
-    /// Remarks.
+    /// Notes about the file.
     pub notes: Vec<Note>,
-    /// Motion and depth, where they were asked for and are there.
+    /// Motion and depth, if they were asked for and exist.
     pub guides: Guides,
-    /// What was looked for to find them.
+    /// The channels that were looked for as motion and depth.
     pub guide_search: GuideSearch,
-    /// Width of a pixel over its height, as the file declares it; 1 where it declares nothing.
+    /// Ratio of a pixel's width to its height, as the file declares it; 1 if it declares none.
     pub pixel_aspect: f32,
 }
 
 impl Decoded {
-    /// A frame of a file that cannot hold guides.
+    /// A frame from a file format that cannot hold motion or depth.
     pub(crate) fn without_guides(frame: Frame, notes: Vec<Note>, options: &ReadOptions) -> Self {
-        let guide_search = GuideSearch::in_vain(&options.guides);
+        let guide_search = GuideSearch::without_channels(&options.guides);
         Self { frame, notes, guides: Guides::default(), guide_search, pixel_aspect: 1.0 }
     }
 }
 
-/// Motion and depth that were read from a file, with remarks about the file.
+/// Motion and depth that were read from a file, with notes about the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DecodedGuides {
-    /// The guides; whatever was asked for is there.
+    /// Motion and depth; everything that was asked for exists.
     pub guides: Guides,
-    /// Remarks.
+    /// Notes about the file.
     pub notes: Vec<Note>,
-    /// Which channels they are.
+    /// The channels from which they were read.
     pub search: GuideSearch,
 }

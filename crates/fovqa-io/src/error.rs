@@ -1,4 +1,4 @@
-//! What can be wrong with a file.
+//! Errors of files that cannot be read.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -21,36 +21,36 @@ pub struct ReadError {
 /// Why a file could not be read as a frame.
 #[derive(Debug, Error)]
 pub enum ReadErrorKind {
-    /// A device, a pipe or the like.
+    /// It is not a regular file but a device, a pipe or the like.
     #[error("it is not a regular file")]
     NotRegular,
-    /// A link to something that is not there, as git-annex and DVC leave them.
+    /// It is a link to a file that does not exist, as git-annex and DVC leave them.
     #[error("it is a link to {}, which is not there", .0.display())]
     Dangling(PathBuf),
-    /// The operating system refused.
+    /// The operating system reports an error.
     #[error("{}", io_reason(.0))]
     Io(#[from] io::Error),
-    /// Neither PNG, JPEG nor OpenEXR by its first bytes.
+    /// Its first bytes are not those of PNG, JPEG or OpenEXR.
     #[error("this is not a PNG, JPEG or OpenEXR file")]
     NotAnImage,
-    /// The decoder gave up.
+    /// The decoder cannot decode it.
     #[error("the {format} data is damaged or cut short: {detail}")]
     Damaged {
-        /// `PNG`, `JPEG` or OpenEXR.
+        /// `PNG`, `JPEG` or `OpenEXR`.
         format: &'static str,
-        /// The decoder's words.
+        /// The decoder's message.
         detail: String,
     },
-    /// A file that is whole, but of a kind that is not read.
+    /// The file is intact, but of a kind that fovqa does not read.
     #[error("it is an OpenEXR file of a kind that is not read: {detail}")]
     Unsupported {
-        /// The decoder's words.
+        /// The decoder's message.
         detail: String,
     },
-    /// A JPEG that may be whole, but of a kind that is not read.
+    /// The JPEG may be intact, but is of a kind that fovqa does not read.
     #[error("it is a JPEG of a kind that is not read: {0}")]
     UnsupportedJpeg(JpegKind),
-    /// More pixels than the limit.
+    /// It has more pixels than the limit.
     #[error(
         "it declares {width}x{height} pixels, more than the limit of {limit_megapixels} megapixels"
     )]
@@ -59,110 +59,110 @@ pub enum ReadErrorKind {
         width: u64,
         /// Declared height.
         height: u64,
-        /// The limit.
+        /// The limit in megapixels.
         limit_megapixels: u64,
     },
-    /// One block of more bytes than the largest frame.
+    /// One block has more bytes than the largest frame.
     #[error("it declares blocks of {bytes} bytes, more than the largest frame may have")]
     BlockTooLarge {
-        /// Bytes of one block with all its channels.
+        /// Size of one block with all its channels, in bytes.
         bytes: u64,
     },
-    /// Alpha that is not 1 everywhere.
+    /// Alpha is not 1 everywhere.
     #[error(
         "its alpha is not 1 everywhere ({transparent} pixels, the first at ({x}, {y}) with {value})"
     )]
     Alpha {
-        /// Pixels whose alpha is not 1.
+        /// Number of pixels whose alpha is not 1.
         transparent: u64,
-        /// Column of the first.
+        /// Column of the first one.
         x: usize,
-        /// Row of the first.
+        /// Row of the first one.
         y: usize,
-        /// Its alpha, 0 to 1.
+        /// Alpha of the first one, 0 to 1.
         value: f32,
     },
-    /// Alpha that is 0 everywhere.
+    /// Alpha is 0 everywhere.
     #[error("its alpha is 0 everywhere, as engines leave it when they capture without alpha")]
     AllTransparent,
-    /// Deep data.
+    /// It holds deep data.
     #[error("it holds deep data, which has no single colour a pixel")]
     Deep,
-    /// No colour channels.
+    /// It has no colour channels.
     #[error("it has no colour: no layer has R, G and B, or Y alone; its channels are {channels}")]
     NoColour {
-        /// The channels there are.
+        /// The channels that it has.
         channels: String,
     },
-    /// A luminance whose chroma is not there or not read.
+    /// A layer has a luminance whose chroma channels are missing or not supported.
     #[error(
         "its layer {layer} has the channels {channels}, an encoding of colour that is not read"
     )]
     OtherEncoding {
         /// The layer.
         layer: String,
-        /// The channels.
+        /// The channels of the layer.
         channels: String,
     },
-    /// A layer of Cryptomatte that was asked for as colour.
+    /// A layer of Cryptomatte was asked for as colour.
     #[error("its layer {layer:?} holds the IDs of a Cryptomatte, which are no colour")]
     Cryptomatte {
         /// The layer.
         layer: String,
     },
-    /// Headers with too many attributes, or too long ones.
+    /// Its headers have too many or too long attributes.
     #[error("its header has {what}, more than the limit of {limit}")]
     Header {
-        /// What there is too much of.
+        /// What exceeds the limit.
         what: String,
         /// The limit.
         limit: String,
     },
-    /// Several colour layers.
+    /// It has several colour layers.
     #[error("it has several colour layers: {layers}")]
     SeveralLayers {
-        /// Their names.
+        /// Names of the layers.
         layers: String,
     },
-    /// A layer that is not there.
+    /// The layer does not exist.
     #[error("it has no colour layer {wanted:?}; it has: {layers}")]
     NoSuchLayer {
-        /// What was asked for.
+        /// The layer that was asked for.
         wanted: String,
-        /// What is there.
+        /// The layers that exist.
         layers: String,
     },
-    /// Channels at a lower resolution than the picture.
+    /// A channel has a lower resolution than the picture.
     #[error("channel {channel} is subsampled, and files with such channels are not read")]
     Subsampled {
         /// The channel.
         channel: String,
     },
-    /// Data window and display window without a common pixel.
+    /// Data window and display window have no pixel in common.
     #[error("its data window {data} lies outside its display window {display}")]
     DisjointWindows {
-        /// Data window as `WxH+X+Y`.
+        /// The data window as `WxH+X+Y`.
         data: String,
-        /// Display window as `WxH+X+Y`.
+        /// The display window as `WxH+X+Y`.
         display: String,
     },
-    /// Chromaticities that span no colour space.
+    /// The chromaticities do not span a colour space.
     #[error("its chromaticities attribute does not span a colour space")]
     Chromaticities,
-    /// A file of motion or depth that is not OpenEXR.
+    /// A file of motion or depth is not OpenEXR.
     #[error("this is not an OpenEXR file, the only kind that motion and depth are read from")]
     NotOpenExr,
-    /// No motion, or no depth.
+    /// It has no motion, or no depth.
     #[error("it has no {what}, which was looked for as {wanted}; its channels are {channels}")]
     NoGuide {
         /// `motion` or `depth`.
         what: &'static str,
         /// The names that were looked for.
         wanted: String,
-        /// The channels there are.
+        /// The channels that exist.
         channels: String,
     },
-    /// Several channels that could be the motion, or the depth.
+    /// Several channels could be the motion, or the depth.
     #[error("several of its channels could be the {what}: {channels}")]
     SeveralGuides {
         /// `motion` or `depth`.
@@ -170,7 +170,7 @@ pub enum ReadErrorKind {
         /// These channels.
         channels: String,
     },
-    /// Motion, or depth, of another view or layer alone.
+    /// Motion, or depth, exists only for another view or layer.
     #[error("it has no {what} of the colour's view and layer, only {channels}")]
     GuidesElsewhere {
         /// `motion` or `depth`.
@@ -178,7 +178,7 @@ pub enum ReadErrorKind {
         /// These channels.
         channels: String,
     },
-    /// Parts whose pixels do not lie on each other.
+    /// Parts have different display windows, so that their pixels do not coincide.
     #[error("its parts have different display windows")]
     DisplayWindows,
 }
@@ -188,8 +188,8 @@ impl ReadErrorKind {
         ReadError { path: path.to_owned(), kind: self }
     }
 
-    /// How to mend it. Settings stand in braces, `{alpha=ignore}`: whoever shows it knows how its
-    /// user writes them.
+    /// How to correct the error. Settings are in braces, as in `{alpha=ignore}`: the caller shows
+    /// them in the user's notation.
     pub fn help(&self) -> &'static str {
         match self {
             Self::Io(error) if error.kind() == io::ErrorKind::NotFound => {
@@ -237,7 +237,7 @@ impl ReadErrorKind {
     }
 }
 
-/// Names with commas between them, not more than a message holds.
+/// Names separated by commas, limited to what a message can hold.
 pub(crate) fn listed(names: impl Iterator<Item = String>) -> String {
     const SHOWN: usize = 24;
     let names: Vec<String> = names.collect();

@@ -1,4 +1,4 @@
-//! Files on disk as a source of frames: a file a frame.
+//! Files on disk as a source of frames, with one file per frame.
 
 use std::path::{Path, PathBuf};
 
@@ -14,18 +14,18 @@ use crate::read_guides::{read_guides, read_guides_and_hash};
 use crate::read_options::ReadOptions;
 use crate::sequence::{FileListing, shown};
 
-/// How a source of files is read.
+/// Options for reading a source of files.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SourceOptions {
-    /// The folder from which results show paths.
+    /// The folder to which the paths in results are relative.
     pub base: PathBuf,
-    /// How each file is read.
+    /// Options for reading each file.
     pub read: ReadOptions,
-    /// Whether size and hash of every file are taken.
+    /// Whether size and hash of every file are computed.
     pub hash: bool,
 }
 
-/// Files on disk.
+/// A source of files on disk.
 #[derive(Debug)]
 pub(crate) struct Files {
     listing: Listing,
@@ -50,7 +50,7 @@ impl Files {
         })
     }
 
-    /// An error as results show its file.
+    /// The error with the file's name as results show it.
     fn error(&self, error: ReadError) -> SourceError {
         let path = PathBuf::from(shown(&self.options.base, &error.path));
         SourceError::from(ReadError { path, ..error })
@@ -130,7 +130,8 @@ impl Source for Files {
 }
 
 impl Files {
-    /// What a user has named and a file does not have; what is only looked for need not be there.
+    /// The channels that the user has named but a file does not have. Channels that are looked for
+    /// automatically may be missing.
     fn missing(&self, path: &Path, wanted: &GuideOptions, search: &GuideSearch) -> MissingGuides {
         let named_motion = !matches!(wanted.motion, MotionChannels::None | MotionChannels::Auto);
         let named_depth = !matches!(wanted.depth, DepthChannels::None | DepthChannels::Auto);

@@ -1,4 +1,4 @@
-//! What tells one version of an input from another: its size and its SHA-256.
+//! The identity of an input: its size and its SHA-256.
 
 use std::fmt::Write;
 use std::io::{self, Read};
@@ -12,17 +12,17 @@ use crate::small_file::open_regular_file;
 /// Size and hash of a file's bytes.
 ///
 /// # Errors
-/// When it cannot be read.
+/// When the file cannot be read.
 pub fn id_of_file(path: &Path) -> io::Result<InputId> {
     id_of(open_regular_file(path)?)
 }
 
-/// Size and hash of everything a reader still has.
+/// Size and hash of all remaining bytes of a reader.
 ///
 /// # Errors
-/// When the reader has one.
+/// When the reader reports an error.
 pub fn id_of(mut reader: impl Read) -> io::Result<InputId> {
-    /// Fits the second-level cache, and keeps system calls rare.
+    /// A buffer size that fits into the second-level cache and needs few system calls.
     const CHUNK: usize = 128 << 10;
     let mut chunk = vec![0; CHUNK];
     let (mut hash, mut bytes) = (Sha256::new(), 0);
@@ -49,7 +49,7 @@ pub fn id_of(mut reader: impl Read) -> io::Result<InputId> {
 mod tests {
     use super::*;
 
-    /// FIPS 180-4's own example.
+    /// The expected hash is the example of FIPS 180-4.
     #[test]
     fn the_hash_is_that_of_the_standard() {
         let id = id_of(&b"abc"[..]).unwrap();

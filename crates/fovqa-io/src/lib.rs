@@ -1,8 +1,8 @@
-//! Files to frames, and pictures to files: PNG, JPEG and OpenEXR, with motion and depth where OpenEXR has them, sequences
-//! of them, y4m video, and limits on what is read.
+//! Reads frames from files and writes pictures to files: PNG, JPEG and OpenEXR (with motion and
+//! depth), sequences of them, and y4m video, with limits on what is read.
 //!
-//! Every decoder's mistake (an error, a panic, a declared size beyond reason) ends as a
-//! [`ReadError`] that names the file: one bad file never takes the others with it.
+//! Every failure of a decoder (an error, a panic, a declared size beyond reason) becomes a
+//! [`ReadError`] that names the file, so that one bad file never affects the others.
 
 mod alpha;
 mod contain;
@@ -33,8 +33,8 @@ pub use decoded::{Decoded, DecodedGuides};
 pub use error::{ReadError, ReadErrorKind};
 pub use files::SourceOptions;
 pub use guides::{
-    DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels, MotionUnit, NamedMotion,
-    Sought,
+    ChannelSearch, DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels,
+    MotionUnit, NamedMotion,
 };
 pub use input_id::{id_of, id_of_file};
 pub use jpeg::kind::JpegKind;

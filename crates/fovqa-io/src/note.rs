@@ -1,35 +1,36 @@
-//! Remarks about a file that can be read, but whose reader should know something.
+//! Notes about files that can be read, but have a property that the user should know.
 
-/// Something about a file that its reader should know, though it can be read.
+/// A property of a file that the user should know, although the file can be read.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Note {
-    /// Colour chunks that are not applied: their names.
+    /// The named colour chunks are not applied.
     ColourChunks(String),
-    /// The data window does not cover the display window; the rest is 0.
+    /// The data window does not cover the display window; the other pixels are 0.
     UncoveredPixels,
     /// Chromaticities were converted to Rec.709.
     ConvertedPrimaries,
-    /// An EXIF orientation that is not applied.
+    /// An Exif orientation is not applied.
     Orientation,
     /// Inks were converted to RGB without a colour profile.
     Inks,
-    /// The data window of motion or depth does not cover the display window; the rest is NaN.
+    /// The data window of motion or depth does not cover the display window; the other pixels are
+    /// NaN.
     UncoveredGuides,
-    /// Motion or depth is there, but not for the colour's view or layer, and is not taken.
+    /// Motion or depth exists only for another view or layer than the colour, and is not read.
     GuidesElsewhere {
         /// `motion` or `depth`.
         what: &'static str,
-        /// The channels there are.
+        /// The channels that exist.
         channels: String,
     },
-    /// Motion as Unreal encodes it, whose scale has no official source.
+    /// Motion is encoded as Unreal writes it, and its scale has no official source.
     UnrealMotion,
-    /// Motion in R and G of a file of its own, taken as Falcor writes it.
+    /// The motion in R and G of a separate file is read as Falcor writes it.
     AssumedFalcor,
 }
 
 impl Note {
-    /// The note as one sentence; settings stand in braces, as in [`ReadErrorKind::help`].
+    /// The note as one sentence. Settings are in braces, as in [`ReadErrorKind::help`].
     pub fn in_words(&self) -> String {
         match self {
             Note::ColourChunks(names) => {

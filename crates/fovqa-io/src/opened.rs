@@ -1,4 +1,4 @@
-//! Opening a regular file, its first bytes, and the identity of what was read.
+//! Opens a regular file, reads its first bytes and computes its identity.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Seek};
@@ -12,16 +12,16 @@ use crate::input_id::id_of;
 /// The first bytes of every OpenEXR file.
 pub(crate) const EXR_MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 
-/// What is decoded of a file, with the identity of its bytes.
+/// The result of decoding a file, with the identity of its bytes if `hash` is set.
 pub(crate) fn hashed<T>(
     path: &Path,
     decode: impl FnOnce(File) -> Result<T, ReadErrorKind>,
 ) -> Result<(T, InputId), ReadError> {
     let read = || {
         let mut file = open(path)?;
-        // One more pass over the file, whose pages are in memory from then on: no decoder reads all
-        // of its bytes in order. The same open file, so that another one put in its place is not
-        // taken for it.
+        // Hashing needs one more pass over the file, because no decoder reads all bytes in order;
+        // the file is in the page cache afterwards. The same open file is used, so that a file that
+        // replaces it in the meantime is not hashed instead.
         let id = id_of(&mut file)?;
         file.rewind()?;
         Ok((decode(file)?, id))
@@ -40,16 +40,16 @@ pub(crate) fn open(path: &Path) -> Result<File, ReadErrorKind> {
     if kind.is_dir() {
         return Err(std::io::Error::from(std::io::ErrorKind::IsADirectory).into());
     }
-    // Before it is opened, which a pipe without a writer would never end.
+    // This is checked before opening, because opening a pipe without a writer would wait forever.
     if !kind.is_file() {
         return Err(ReadErrorKind::NotRegular);
     }
     Ok(File::open(path)?)
 }
 
-/// A file, and its first bytes.
+/// A buffered reader of a file, and the file's first bytes.
 pub(crate) fn buffered(file: File) -> Result<(BufReader<File>, Vec<u8>), ReadErrorKind> {
-    /// Large enough to keep system calls rare, small enough for the second-level cache.
+    /// Large enough to need few system calls, small enough for the second-level cache.
     const BUFFER: usize = 256 << 10;
     let mut file = BufReader::with_capacity(BUFFER, file);
     let mut magic = Vec::with_capacity(8);

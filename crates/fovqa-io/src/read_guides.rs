@@ -1,4 +1,4 @@
-//! Files that hold motion or depth and need no colour.
+//! Reads files that hold motion or depth and need no colour.
 
 use std::fs::File;
 use std::path::Path;
@@ -12,17 +12,17 @@ use crate::exr;
 use crate::opened::{EXR_MAGIC, buffered, hashed, open};
 use crate::read_options::ReadOptions;
 
-/// Reads motion and depth, as `options.guides` asks for them, from an OpenEXR file that need not
-/// have colour; `options.layer` tells which of several layers is meant, if there are several.
+/// Reads motion and depth, as `options.guides` asks for them, from an OpenEXR file that may have no
+/// colour. If the file has several layers, `options.layer` selects one.
 ///
 /// # Errors
-/// When the file cannot be read, is not OpenEXR, is damaged or too large, or lacks a channel
-/// that was asked for. A decoder that panics is an error too.
+/// When the file cannot be read, is not OpenEXR, is damaged or too large, or lacks a channel that
+/// was asked for. A decoder that panics is an error too.
 pub fn read_guides(path: &Path, options: &ReadOptions) -> Result<DecodedGuides, ReadError> {
     open(path).and_then(|file| decode(file, options)).map_err(|kind| kind.at(path))
 }
 
-/// The same, and the identity of the bytes that were decoded.
+/// Reads a file as [`read_guides`] does, and returns the identity of the decoded bytes as well.
 ///
 /// # Errors
 /// As [`read_guides`].

@@ -1,4 +1,4 @@
-//! How files are read.
+//! Options for reading files.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,25 +7,25 @@ use crate::error::ReadErrorKind;
 use crate::guides::options::GuideOptions;
 use crate::y4m::options::Y4mOptions;
 
-/// How files are read.
+/// Options for reading files.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReadOptions {
-    /// The colour layer of OpenEXR files that have several.
+    /// The colour layer to read from OpenEXR files that have several.
     pub layer: Option<String>,
-    /// What to do with alpha.
+    /// How to treat alpha.
     pub alpha: AlphaPolicy,
-    /// Most pixels a file may declare, in millions.
+    /// The largest number of pixels that a file may declare, in millions.
     pub max_megapixels: u64,
-    /// Motion and depth to read beside the colour.
+    /// The motion and depth to read with the colour.
     pub guides: GuideOptions,
-    /// What is of one format alone.
+    /// Options for single formats.
     #[serde(default)]
     pub formats: FormatOptions,
 }
 
 impl Default for ReadOptions {
-    /// No layer, alpha an error, no guides, 256 megapixels: three times the retinal resolution of
-    /// the papers (11520x6480), 768 MB of 8-bit RGB.
+    /// No layer; alpha is an error; no motion or depth; at most 256 megapixels, which is three
+    /// times the retinal resolution of the papers (11520x6480), or 768 MB of 8-bit RGB.
     fn default() -> Self {
         Self {
             layer: None,
@@ -38,7 +38,7 @@ impl Default for ReadOptions {
 }
 
 impl ReadOptions {
-    /// Refuses a declared size before anything is allocated for it.
+    /// Refuses a declared size that is too large, before anything is allocated for it.
     pub(crate) fn check_size(&self, width: u64, height: u64) -> Result<(), ReadErrorKind> {
         let limit = self.max_megapixels.saturating_mul(1_000_000);
         if width.saturating_mul(height) > limit {
@@ -48,19 +48,20 @@ impl ReadOptions {
         Ok(())
     }
 
-    /// Refuses a block that no frame within the limit could have: decoders allocate it whole.
+    /// Refuses a block that is larger than any frame within the limit could have: decoders allocate
+    /// blocks as a whole.
     pub(crate) fn check_block(&self, bytes: u64) -> Result<(), ReadErrorKind> {
-        /// Three floats and something to spare for each pixel of the largest frame.
+        /// Three floats for each pixel of the largest frame, and some reserve.
         const BYTES_A_PIXEL: u64 = 16;
         let limit = self.max_megapixels.saturating_mul(1_000_000 * BYTES_A_PIXEL);
         if bytes > limit { Err(ReadErrorKind::BlockTooLarge { bytes }) } else { Ok(()) }
     }
 }
 
-/// Settings that belong to a single format, one field per format.
+/// Options that concern a single format, one field per format.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct FormatOptions {
-    /// Video as YUV4MPEG2.
+    /// Options for YUV4MPEG2 video.
     #[serde(flatten)]
     pub y4m: Y4mOptions,
 }

@@ -1,4 +1,4 @@
-//! Small files that are read whole: experiments, gaze traces, baselines, files of results.
+//! Small files that are read as a whole: experiments, gaze traces, baselines, results.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -6,25 +6,25 @@ use std::path::Path;
 
 /// Opens a regular file.
 ///
-/// Nothing else is waited for: opening a pipe without a writer never ends, a device may have no end,
-/// and what is read must be there to be read again, for its hash.
+/// Other kinds are refused, because opening a pipe without a writer waits forever, a device may
+/// have no end, and the content must be readable a second time for its hash.
 ///
 /// # Errors
-/// When it is not there, cannot be read, or is something else than a file.
+/// When it does not exist, cannot be read, or is not a regular file.
 pub fn open_regular_file(path: &Path) -> io::Result<File> {
-    // Before it is opened, which is what does not end.
+    // This is checked before opening, since opening may wait forever.
     refuse_special(&std::fs::metadata(path)?)?;
     let file = File::open(path)?;
-    // Another thing may have taken its place.
+    // Another entry may have replaced it in the meantime.
     refuse_special(&file.metadata()?)?;
     Ok(file)
 }
 
-/// Reads a regular file of at most so many bytes, without the byte order mark of UTF-8 that some
-/// editors put in front.
+/// Reads a regular file of at most `most_bytes` bytes. The UTF-8 byte order mark that some editors
+/// write at its start is removed.
 ///
 /// # Errors
-/// As [`open_regular_file`], and when it is larger.
+/// As [`open_regular_file`], and when the file is larger.
 pub fn read_small_file(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
     let file = open_regular_file(path)?;
     let too_large = || {
@@ -35,13 +35,14 @@ pub fn read_small_file(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
     if length > most_bytes {
         return Err(too_large());
     }
-    // Files of /proc and such have a length of 0 and more to read. Interruptions are tried again.
+    // Files in /proc and similar folders have a length of 0 but can be read. Interrupted reads are
+    // repeated.
     let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
     file.take(most_bytes.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most_bytes { Err(too_large()) } else { Ok(unmarked(bytes)) }
 }
 
-/// The first bytes of a regular file, as many as there are up to a limit, without a byte order mark.
+/// The first bytes of a regular file, up to a limit, without a byte order mark.
 ///
 /// # Errors
 /// As [`open_regular_file`].
@@ -51,7 +52,7 @@ pub fn read_head(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
     Ok(unmarked(bytes))
 }
 
-/// The bytes without a byte order mark.
+/// Removes a byte order mark.
 fn unmarked(mut bytes: Vec<u8>) -> Vec<u8> {
     if bytes.starts_with(b"\xef\xbb\xbf") {
         bytes.drain(..3);

@@ -1,4 +1,4 @@
-//! The list of sources that a path argument may stand for.
+//! The kinds of sources that a path argument may stand for.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -10,22 +10,23 @@ use crate::files::{Files, SourceOptions};
 use crate::sequence::{FileListing, ListingError, list_below, shown};
 use crate::y4m::{VideoKind, is_video_name, open_video, standard_input, video_kind};
 
-/// A path argument without a source.
+/// A path argument that cannot be opened as a source.
 #[derive(Debug, Error)]
 pub enum OpenError {
-    /// It stands for nothing, or for more than can be told apart.
+    /// It stands for nothing, or for files that cannot be ordered.
     #[error(transparent)]
     Listing(#[from] ListingError),
-    /// It is there, and no sequence of frames.
+    /// It exists but is not a sequence of frames.
     #[error(transparent)]
     Source(#[from] SourceError),
 }
 
-/// The source of a path argument: a video (`*.y4m`, or what begins like one), `-` for a video on standard
-/// input, an image, a folder, a glob or a pattern. Wildcards in the folder of `options.base` are none.
+/// Opens the source of a path argument: a video (`*.y4m`, or a file that begins like one), `-` for
+/// a video on standard input, an image, a folder, a glob or a pattern. Wildcard characters in the
+/// folder `options.base` have no special meaning.
 ///
 /// # Errors
-/// When the argument stands for nothing, or for something that is no sequence of frames.
+/// When the argument stands for nothing, or for something that is not a sequence of frames.
 pub fn open_source(argument: &Path, options: SourceOptions) -> Result<Arc<dyn Source>, OpenError> {
     if argument == Path::new("-") {
         return Ok(standard_input(&options.read)?);

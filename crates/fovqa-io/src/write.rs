@@ -1,4 +1,4 @@
-//! Pictures to files, in memory: whoever writes them to disk does so whole.
+//! Encodes pictures as files in memory. The caller writes them to disk as a whole.
 
 use std::io::{self, Cursor};
 
@@ -9,10 +9,10 @@ use half::f16;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
-/// An 8-bit RGB PNG of interleaved codes.
+/// Encodes interleaved codes as an 8-bit RGB PNG.
 ///
 /// # Errors
-/// When the codes are not `3 * width * height`.
+/// When the number of codes is not `3 * width * height`.
 pub fn png_rgb8(width: usize, height: usize, codes: &[u8]) -> io::Result<Vec<u8>> {
     let mut file = Vec::new();
     if codes.len() != 3 * width * height {
@@ -24,7 +24,7 @@ pub fn png_rgb8(width: usize, height: usize, codes: &[u8]) -> io::Result<Vec<u8>
     Ok(file)
 }
 
-/// An OpenEXR file of one channel `Y`, row by row.
+/// Encodes values, row by row, as an OpenEXR file with one channel `Y`.
 ///
 /// # Errors
 /// When there are not `width * height` values.
@@ -32,7 +32,7 @@ pub fn exr_gray(width: usize, height: usize, values: &[f32]) -> io::Result<Vec<u
     exr_of((width, height), FlatSamples::F32(values.to_vec()))
 }
 
-/// The same, rounded to half floats.
+/// Encodes values as [`exr_gray`] does, rounded to half floats.
 ///
 /// # Errors
 /// When there are not `width * height` values.
@@ -64,7 +64,7 @@ mod tests {
     use fovqa_frame::{Channels, Samples};
 
     #[test]
-    fn what_is_written_is_read_again() {
+    fn written_pictures_are_read_back() {
         let folder = tempfile::tempdir().unwrap();
         let read = |name: &str, bytes: Vec<u8>| {
             let path = folder.path().join(name);

@@ -1,4 +1,4 @@
-//! A method at a budget: its free parameter solved for a share of samples.
+//! A method at a sample budget: its free parameter is solved for a given share of samples.
 
 use fovqa_params::words;
 use thiserror::Error;
@@ -9,83 +9,84 @@ use crate::registry::Method;
 use crate::setting::Setting;
 
 words! {
-    /// Which samples a budget counts, over the frame's pixels.
+    /// The samples that a budget counts, as a share of the frame's pixels.
     #[derive(Default)]
-    pub enum BudgetOf {
-        /// All of the buffer, with what VaFR has beyond 60°.
+    pub enum BudgetSamples {
+        /// All samples of the buffer, including those of VaFR beyond 60°.
         #[default]
         Buffer "buffer" "All that are shaded";
-        /// Those that fall into the frame.
+        /// The samples that fall into the frame.
         OnScreen "on_screen" "Those that fall into the frame";
     }
 }
 
-/// A method at a budget.
+/// A method whose free parameter was solved for a budget.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Budgeted {
-    /// The method with its free parameter solved.
+    /// The method with the solved parameter.
     pub method: Method,
-    /// The parameter that was solved.
+    /// Name of the parameter that was solved.
     pub parameter: &'static str,
     /// Its value as TOML.
     pub value: String,
 }
 
-/// A budget that cannot be had.
+/// A budget that a method cannot meet.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum BudgetError {
-    /// A method whose samples are what they are.
+    /// The method has no parameter that changes its number of samples.
     #[error("{method} has no parameter that a budget could set")]
     NotFree {
-        /// The method.
+        /// The method's label.
         method: &'static str,
     },
-    /// Out of reach.
+    /// The budget cannot be reached.
     #[error(
         "{method} cannot shade {wanted} of the frame's pixels: with {parameter} it reaches from \
          {} to {}", written(*least), written(*most)
     )]
     OutOfReach {
-        /// The method.
+        /// The method's label.
         method: &'static str,
-        /// The share asked for.
+        /// The share that was asked for.
         wanted: f64,
         /// The free parameter.
         parameter: &'static str,
-        /// The least share.
+        /// The smallest possible share.
         least: f64,
-        /// The largest share.
+        /// The largest possible share.
         most: f64,
     },
-    /// A method that cannot be applied at all.
+    /// The method cannot be applied to the frame.
     #[error(transparent)]
     Method(#[from] MethodError),
 }
 
-/// A share with four digits.
+/// A share with four decimal digits.
 fn written(share: f64) -> String {
     if (1e-3..1e4).contains(&share) { format!("{share:.4}") } else { format!("{share:.3e}") }
 }
 
-/// A free parameter: from the sparsest to the densest.
-struct Free {
+/// A free parameter with its range, from the sparsest sampling to the densest.
+struct FreeParameter {
     name: &'static str,
     ends: [f64; 2],
     set: fn(&mut Method, f64),
 }
 
 impl Method {
-    /// The method with its free parameter such that it shades a share of the frame's pixels:
-    /// RMFR, KFR, LaFR: σ; DEAMP: one factor on all σ; VaFR: the factor on f; Guenter: the outermost
-    /// scale; CPS: T; linear: `outer_deg`; Visual-Polar: samples per pixel. Solved on ideal sizes.
+    /// Solves the free parameter such that the method shades a share of the frame's pixels. It is σ
+    /// for RMFR, KFR and LaFR; a common factor on all σ for DEAMP; the factor on f for VaFR; the
+    /// outermost scale for Guenter; T for CPS; `outer_deg` for the linear fall-off; samples per
+    /// pixel for Visual-Polar. Buffer sizes are ideal, not rounded.
     ///
     /// # Errors
-    /// When the method has no free parameter, cannot be applied, or does not reach the share.
+    /// When the method has no free parameter, cannot be applied, or cannot reach the share.
     pub fn at_budget(
         &self,
         setting: &Setting,
         share: f64,
-        of: BudgetOf,
+        of: BudgetSamples,
     ) -> Result<Budgeted, BudgetError> {
         if let Self::Guenter(params) = self
             && params.fit == Fit::Optimised
@@ -104,8 +105,8 @@ impl Method {
         let share_of = |value: f64| -> Result<f64, BudgetError> {
             let counts = with(value).apply(setting)?.counts();
             let samples = match of {
-                BudgetOf::Buffer => counts.whole(),
-                BudgetOf::OnScreen => counts.samples_on_screen,
+                BudgetSamples::Buffer => counts.whole(),
+                BudgetSamples::OnScreen => counts.samples_on_screen,
             };
             Ok(samples / setting.pixels())
         };
@@ -120,7 +121,7 @@ impl Method {
                 most,
             });
         }
-        // Shares change with powers of the parameter, so that halving works on its logarithm.
+        // Shares change with powers of the parameter, so the bisection works on its logarithm.
         for _ in 0..100 {
             let middle = (sparse * dense).sqrt();
             if share_of(middle)? < share {
@@ -138,10 +139,10 @@ impl Method {
         Ok(Budgeted { method, parameter, value })
     }
 
-    fn free(&self) -> Option<Free> {
-        /// σ and factors may be anything between these.
+    fn free(&self) -> Option<FreeParameter> {
+        /// The range of σ and of factors, from the sparsest sampling to the densest.
         const WIDE: [f64; 2] = [1000.0, 0.1];
-        let free = |name, ends, set| Some(Free { name, ends, set });
+        let free = |name, ends, set| Some(FreeParameter { name, ends, set });
         match self {
             Self::Full => None,
             Self::Vafr(_) => free("factor", [1e-3, 1000.0], |method, value| {
@@ -171,14 +172,15 @@ impl Method {
                 free("a factor on sigmas", ends, |method, value| {
                     if let Self::Deamp(params) = method {
                         for sigma in &mut params.sigmas {
-                            // The ends of the factor, multiplied back, may be rounded over them.
+                            // The limits of the factor multiplied by σ may exceed the limits of σ
+                            // by a rounding error.
                             *sigma = (*sigma * value).clamp(WIDE[1], WIDE[0]);
                         }
                     }
                 })
             }
             Self::Guenter(params) => {
-                // No finer than the layer inside it.
+                // The scale is at least that of the layer inside it.
                 let finest = params.scales.get(1).copied().unwrap_or(1.0);
                 free("the outermost of scales", [1000.0, finest], |method, value| {
                     if let Self::Guenter(params) = method

@@ -1,10 +1,11 @@
 //! Coarse pixel shading (Patney et al. 2016, section 4.3).
 //!
-//! Rates of 1, ½ and ¼ per axis. The requested rate is 1 up to e_f and falls linearly to ¼ over T
-//! degrees: clamp(1 - 0.75 (e - e_f) / T, ¼, 1); it is taken to the smallest rate not below it
-//! (`ceil`), to the `nearest`, or as it is (`continuous`). The normalised rate S = (1 - request) / 0.75
-//! feeds the temporal filter. A quad covers 2x2, 4x4 or 8x8 pixels: its samples are a quarter as many
-//! quads, of the display's pixels likewise, so that shares are the same.
+//! The rates are 1, ½ and ¼ per axis. The requested rate is 1 up to e_f and falls linearly to ¼
+//! over T degrees: clamp(1 - 0.75 (e - e_f) / T, ¼, 1). It is rounded up to the next rate (`ceil`),
+//! rounded to the `nearest` one, or used unrounded (`continuous`). The normalised rate S = (1 -
+//! request) / 0.75 is the input of the temporal filter. A quad covers 2x2, 4x4 or 8x8 pixels, so
+//! the number of quads is a quarter of the number of samples. The same holds for the display's
+//! pixels, so shares are the same.
 
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
@@ -12,26 +13,27 @@ use crate::foveation::{Counts, Foveation, Rates};
 use crate::info::MethodInfo;
 use crate::setting::{Place, Setting, up_to};
 
-/// How a requested rate becomes one the hardware has.
+/// How a requested rate is rounded to a rate of the hardware.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Quantise {
-    /// The smallest not below it.
+    /// The smallest rate that is not below the request.
     #[default]
     Ceil,
-    /// The nearest; halfway, the larger.
+    /// The nearest rate; the larger one of two that are equally near.
     Nearest,
-    /// As it is.
+    /// No rounding.
     Continuous,
 }
 
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Params {
-    /// e_f, up to which all is shaded, degrees. Default 15 (head-mounted; 7.5 on a desktop).
+    /// e_f, the eccentricity in degrees up to which every pixel is shaded. Default 15
+    /// (head-mounted; 7.5 on a desktop).
     pub foveal_deg: f64,
-    /// T, over which the rate falls, degrees. Default 20.
+    /// T, the range in degrees over which the rate falls. Default 20.
     pub transition_deg: f64,
-    /// How a requested rate becomes one the hardware has.
+    /// How a requested rate is rounded to a rate of the hardware.
     pub quantise: Quantise,
 }
 
@@ -87,10 +89,10 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
     ],
 };
 
-/// The least rate per axis.
+/// The smallest rate per axis.
 const LEAST: f64 = 0.25;
 
-/// Coarse pixel shading of a frame.
+/// Coarse pixel shading, applied to a frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Cps {
     setting: Setting,
@@ -98,7 +100,7 @@ pub struct Cps {
 }
 
 impl Cps {
-    /// Applies the method.
+    /// Applies the method to a frame and a gaze.
     pub fn new(params: &Params, setting: &Setting) -> Self {
         Self { setting: *setting, params: *params }
     }
@@ -110,7 +112,8 @@ impl Cps {
         (1.0 - (1.0 - LEAST) * beyond).clamp(LEAST, 1.0)
     }
 
-    /// The normalised rate S of the temporal filter, 0 where all is shaded, 1 at the coarsest.
+    /// The normalised rate S of the temporal filter: 0 where every pixel is shaded, 1 at the
+    /// coarsest rate.
     pub fn normalised(&self, eccentricity_deg: f64) -> f64 {
         (1.0 - self.request(eccentricity_deg)) / (1.0 - LEAST)
     }
@@ -137,7 +140,8 @@ impl Foveation for Cps {
 
     fn counts(&self) -> Counts {
         let Params { foveal_deg, transition_deg, .. } = self.params;
-        // Where the request passes 1, 3/4, 1/2, 3/8 and 1/4: some form of rounding steps there.
+        // The request is 1, 3/4, 1/2, 3/8 and 1/4 there: the rate has a step at each for one of the
+        // rounding modes.
         let breaks: Vec<f64> = [0.0, 1.0 / 3.0, 2.0 / 3.0, 5.0 / 6.0, 1.0]
             .into_iter()
             .map(|share| foveal_deg + share * transition_deg)

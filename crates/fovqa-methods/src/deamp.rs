@@ -1,14 +1,16 @@
-//! DEAMP: dominant-eye-aware foveated rendering with nested rectangular mappings (Wang, Gu, Lu 2024).
+//! DEAMP: dominant-eye-aware foveated rendering with nested rectangular mappings (Wang, Gu, Lu
+//! 2024).
 //!
-//! Layers at half-angles e_1 < … < e_n, each an RMFR (Eq. 3-4) with its own σ_k; the last is always
-//! the whole frame. Half-sizes are tan e_k / tan e_n · W/2 and H/2 (`tan`, as the text and the
-//! published code do) or e_k / e_n · W/2 (`linear`, the reading that gives the paper's "75 %").
-//! Counts (Eq. 5-9): l_k = 2 r_k (f + W/2) / (σ_k (r_k + f)), V_k = l_xk l_yk - (σ_(k-1)/σ_k)²
-//! l_x(k-1) l_y(k-1), in all Σ V_k. Layers are centred on the gaze and clipped to the frame; with the
-//! gaze off centre A is taken per side as in RMFR, and counts are the integral of the density.
-//! Angles are those of the paper's 90° frame: in another they scale with it, which
-//! [`Foveation::note`] says. The σ of the dominant eye's middle layer is not printed; the other eye
-//! has a set of its own. Variants: 2L (one layer), 4L (22.5°, 45°), 6L (the default).
+//! The layers have half-angles e_1 < … < e_n. Each is an RMFR (Eq. 3-4) with its own σ_k; the last
+//! one is always the whole frame. Half-sizes are tan e_k / tan e_n · W/2 and H/2 (`tan`, as in the
+//! text and the published code) or e_k / e_n · W/2 (`linear`, the reading that gives the paper's
+//! "75 %"). Counts (Eq. 5-9): l_k = 2 r_k (f + W/2) / (σ_k (r_k + f)), V_k = l_xk l_yk -
+//! (σ_(k-1)/σ_k)² l_x(k-1) l_y(k-1), and the total is Σ V_k. Layers are centred on the gaze and
+//! clipped to the frame. With the gaze off centre, A is defined per side as in RMFR, and counts are
+//! the integral of the density. Angles are those of the paper's 90° frame; in another frame they
+//! are scaled with it, which [`Foveation::note`] reports. The σ of the dominant eye's middle layer
+//! is not printed; the other eye has its own values. Variants: 2L (one layer), 4L (22.5°, 45°), 6L
+//! (the default).
 
 use std::f64::consts::PI;
 
@@ -17,23 +19,23 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 use crate::error::MethodError;
 use crate::foveation::{Counts, Foveation, Mapping, Rates, Reach};
 use crate::info::MethodInfo;
-use crate::rmfr::Squeeze;
+use crate::rmfr::AxisMapping;
 use crate::setting::{Place, Setting, up_to};
 
-/// How the angles of layers become sizes.
+/// How the angles of layers are converted to sizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Projection {
-    /// In proportion to their tangents.
+    /// Sizes are proportional to the tangents.
     #[default]
     Tan,
-    /// In proportion to the angles.
+    /// Sizes are proportional to the angles.
     Linear,
 }
 
 /// Parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Params {
-    /// σ of each layer, the innermost first. Default 2.51, 3.6, 4.8 (the dominant eye's).
+    /// σ of each layer, the innermost first. Default 2.51, 3.6, 4.8 (those of the dominant eye).
     pub sigmas: Vec<f64>,
     /// Half-angles of the layers in degrees. Default 10, 22.5, 45.
     pub bounds_deg: Vec<f64>,
@@ -41,7 +43,7 @@ pub struct Params {
     pub fx: f64,
     /// f along y as a share of the height. Default 0.38.
     pub fy: f64,
-    /// How angles become sizes.
+    /// How angles are converted to sizes.
     pub projection: Projection,
 }
 
@@ -123,18 +125,18 @@ struct Layer {
     half_px: [f64; 2],
 }
 
-/// DEAMP over a frame.
+/// DEAMP, applied to a frame.
 #[derive(Debug, Clone)]
 pub struct Deamp {
     setting: Setting,
-    axes: [Squeeze; 2],
+    axes: [AxisMapping; 2],
     layers: Vec<Layer>,
     bounds_deg: Vec<f64>,
     projection: Projection,
 }
 
 impl Deamp {
-    /// Applies the method.
+    /// Applies the method to a frame and a gaze.
     ///
     /// # Errors
     /// When there is not one σ for each bound, or the bounds do not rise inside (0°, 90°).
@@ -157,7 +159,8 @@ impl Deamp {
                 "bounds_deg {bounds_deg:?} do not rise between 0° and 90°, both excluded"
             ));
         }
-        let axes = [Squeeze::new(setting, 0, params.fx), Squeeze::new(setting, 1, params.fy)];
+        let axes =
+            [AxisMapping::new(setting, 0, params.fx), AxisMapping::new(setting, 1, params.fy)];
         let mut deamp = Self {
             setting: *setting,
             axes,
@@ -173,7 +176,7 @@ impl Deamp {
         Ok(deamp)
     }
 
-    /// Half width and height of a box of a half-angle in degrees, in pixels.
+    /// Half width and half height, in pixels, of the box with this half-angle in degrees.
     fn half_px(&self, half_angle_deg: f64) -> [f64; 2] {
         let whole = self.bounds_deg[self.bounds_deg.len() - 1];
         let tan = |deg: f64| libm::tan(deg * (PI / 180.0));
@@ -184,14 +187,16 @@ impl Deamp {
         self.setting.size_px().map(|side| side / 2.0 * share)
     }
 
-    /// The part of a box around the gaze that a layer may fill: to its border, or all of the frame.
+    /// The part of a box around the gaze that a layer fills: up to its border, or to that of the
+    /// frame for the last layer.
     fn clipped(&self, layer: usize, half_px: [f64; 2]) -> [f64; 2] {
         let whole = layer + 1 == self.layers.len();
         let limit = if whole { [f64::INFINITY; 2] } else { self.layers[layer].half_px };
         [0, 1].map(|i| half_px[i].min(limit[i]))
     }
 
-    /// Width and height, in samples of a layer, of a box around the gaze, clipped to the frame.
+    /// Width and height, in samples of a layer, of a box around the gaze that is clipped to the
+    /// frame.
     fn extent(&self, layer: usize, half_px: [f64; 2]) -> [f64; 2] {
         let sigma = self.layers[layer].sigma;
         [0, 1].map(|i| {
@@ -201,7 +206,8 @@ impl Deamp {
         })
     }
 
-    /// Samples within a box of half-sizes around the gaze, without what a finer layer covers.
+    /// The number of samples within a box around the gaze, given by its half-sizes. Samples that a
+    /// finer layer covers are left out.
     fn within(&self, half_px: [f64; 2]) -> f64 {
         let area = |layer: usize, half: [f64; 2]| {
             let [x, y] = self.extent(layer, half);
@@ -218,18 +224,18 @@ impl Deamp {
             .sum()
     }
 
-    /// The share of the frame's pixels that is shaded within a half-angle in degrees, up to the last
-    /// of the bounds (Fig. 5b).
+    /// The share of the frame's pixels that is shaded within a half-angle in degrees, up to the
+    /// last bound (Fig. 5b).
     pub fn share_within(&self, half_angle_deg: f64) -> f64 {
         self.within(self.half_px(half_angle_deg)) / self.setting.pixels()
     }
 
-    /// The largest half-angle of the method's own scale in degrees: the last bound.
+    /// The largest half-angle of the method's own scale in degrees, which is the last bound.
     pub fn whole_deg(&self) -> f64 {
         self.bounds_deg[self.bounds_deg.len() - 1]
     }
 
-    /// The share of the frame's area that belongs to the outermost layer, the gaze in the centre.
+    /// The share of the frame's area that belongs to the outermost layer, for a gaze in the centre.
     pub fn outer_share(&self) -> f64 {
         let inner = self.layers.len().checked_sub(2).map(|k| self.layers[k].half_px);
         1.0 - inner.map_or(0.0, |[x, y]| 4.0 * x * y / self.setting.pixels())
@@ -240,7 +246,7 @@ impl Deamp {
         [0, 1].map(|i| self.axes[i].slope(offset[i], place.direction[i]) / sigma)
     }
 
-    /// Where a layer's buffer begins, in the axis' own units.
+    /// The start of a layer's buffer, in the units of the axis mapping.
     fn origin(&self, layer: usize) -> [f64; 2] {
         let half = self.clipped(layer, [f64::INFINITY; 2]);
         [0, 1].map(|i| self.axes[i].forward(-half[i].min(self.axes[i].side_px(-1.0))))

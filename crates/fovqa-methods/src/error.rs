@@ -1,19 +1,19 @@
-//! What is wrong with a method or its setting.
+//! Errors of methods and their settings.
 
 use thiserror::Error;
 
 /// A method that cannot be applied.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MethodError {
-    /// A frame, focal length or gaze that cannot be.
+    /// The frame, focal length or gaze is not possible.
     #[error("{0}")]
     Setting(String),
-    /// Parameters that do not go together, or not with the frame.
+    /// The parameters contradict each other or do not fit the frame.
     #[error("{method}: {message}")]
     Params {
-        /// The method.
+        /// The method's label.
         method: &'static str,
-        /// What is wrong, and what would do.
+        /// What is wrong, and how to correct it.
         message: String,
     },
 }

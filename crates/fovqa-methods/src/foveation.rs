@@ -1,10 +1,10 @@
-//! What every method answers once it is applied to a frame and a gaze.
+//! The interface of a method that is applied to a frame and a gaze.
 
 use std::fmt::Debug;
 
 use crate::setting::Place;
 
-/// Samples per pixel along the line from the gaze and across it.
+/// Samples per pixel in two directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rates {
     /// Along the line from the gaze.
@@ -19,36 +19,37 @@ impl Rates {
         Self { radial: rate, tangential: rate }
     }
 
-    /// The rates of a separable method with samples per pixel along x and y, J = diag(j): |J d|
-    /// along a direction, |J d⊥| across it.
+    /// The rates of a separable method, from its samples per pixel along x and y: with J = diag(j),
+    /// |J d| along a direction and |J d⊥| across it.
     pub(crate) fn separable([jx, jy]: [f64; 2], [dx, dy]: [f64; 2]) -> Self {
         Self { radial: libm::hypot(jx * dx, jy * dy), tangential: libm::hypot(jx * dy, jy * dx) }
     }
 }
 
-/// How many samples a method shades in a frame. Numbers are ideal: a real buffer has whole sides.
+/// The numbers of samples that a method shades in a frame. They are ideal: a real buffer has
+/// integer sides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Counts {
     /// Width and height of each reduced buffer in samples, the innermost first.
     pub buffers: Vec<[f64; 2]>,
-    /// What the papers count.
+    /// The number of samples as the papers count them.
     pub samples: f64,
-    /// Those of these and of the ones beyond that fall into the frame.
+    /// The number of samples that fall into the frame, including those of `samples_beyond`.
     pub samples_on_screen: f64,
-    /// What a frame wider than the method's own field needs beyond `samples` (VaFR beyond 60°).
+    /// Additional samples for a frame that is wider than the method's own field (VaFR beyond 60°).
     pub samples_beyond: f64,
-    /// Samples that are shaded and seen: the integral of the density over the frame, without what is
-    /// shaded and then covered by a finer layer, and without what is reprojected.
+    /// The number of samples that are shaded and visible: the integral of the density over the
+    /// frame, without samples that a finer layer covers or that are reprojected.
     pub samples_seen: f64,
 }
 
 impl Counts {
-    /// All that a frame costs: the papers' count, and what lies beyond the method's own field.
+    /// The total cost of a frame: the papers' count plus the samples beyond the method's own field.
     pub fn whole(&self) -> f64 {
         self.samples + self.samples_beyond
     }
 
-    /// Counts of a method that has no buffer, but chooses among the frame's own pixels.
+    /// The counts of a method that has no buffer, but selects among the frame's own pixels.
     pub(crate) fn of_pixels(samples: f64) -> Self {
         Self {
             buffers: Vec::new(),
@@ -59,7 +60,7 @@ impl Counts {
         }
     }
 
-    /// Counts of a method whose every sample is shaded once.
+    /// The counts of a method that shades each of its samples once.
     pub(crate) fn of(buffer: [f64; 2], samples_on_screen: f64) -> Self {
         Self {
             buffers: vec![buffer],
@@ -76,16 +77,16 @@ impl Counts {
 pub enum Reach {
     /// To any eccentricity.
     Any,
-    /// To the frame's border in the direction of the curve.
+    /// Up to the frame's border in the direction of the curve.
     Border,
-    /// To the frame's farthest corner.
+    /// Up to the frame's farthest corner.
     Corner,
 }
 
 /// A method applied to a frame and a gaze.
 pub trait Foveation: Debug + Send + Sync {
     /// Samples per pixel at a place, along the line from the gaze and across it; `None` where the
-    /// method has none.
+    /// method has no samples.
     fn rates(&self, place: Place) -> Option<Rates>;
 
     /// Samples per pixel of area at a place.
@@ -93,11 +94,11 @@ pub trait Foveation: Debug + Send + Sync {
         self.rates(place).map_or(0.0, |rates| rates.radial * rates.tangential)
     }
 
-    /// How many samples there are.
+    /// The numbers of samples.
     fn counts(&self) -> Counts;
 
-    /// Share of the samples at any place that is shaded, from 0 to 1. The others are reprojected from
-    /// the other eye: the density counts them, and the numbers of samples do not.
+    /// The share of the samples at any place that is shaded, from 0 to 1. The others are
+    /// reprojected from the other eye: the density includes them, and the counts do not.
     fn shaded_share(&self) -> f64 {
         1.0
     }
@@ -107,41 +108,42 @@ pub trait Foveation: Debug + Send + Sync {
         Reach::Any
     }
 
-    /// Where samples stand; `None` for a method that chooses among the frame's own pixels.
+    /// The mapping of samples to the screen; `None` for a method that selects among the frame's own
+    /// pixels.
     fn mapping(&self) -> Option<&dyn Mapping> {
         None
     }
 
-    /// What has to be said wherever the method is shown in this setting.
+    /// A note that must accompany the method in this setting wherever it is shown.
     fn note(&self) -> Option<String> {
         None
     }
 }
 
-/// From the screen to reduced buffers and back. Coordinates of a buffer begin at its top-left
-/// corner; a sample's centre is at +0.5.
+/// The mapping between the screen and reduced buffers. Coordinates of a buffer begin at its
+/// top-left corner; a sample's centre is at +0.5.
 pub trait Mapping {
-    /// How many buffers there are, the innermost first.
+    /// The number of buffers, which are ordered from the innermost on.
     fn layers(&self) -> usize {
         1
     }
 
-    /// The layer whose samples are seen at a place: at a bound the inner one.
+    /// The layer whose samples are visible at a place; at a bound it is the inner one.
     fn layer_at(&self, _place: Place) -> usize {
         0
     }
 
-    /// Width and height of a layer's buffer, ideal.
+    /// Ideal width and height of a layer's buffer, in samples.
     fn buffer(&self, layer: usize) -> [f64; 2];
 
-    /// The buffer's coordinates of a place.
+    /// The buffer coordinates of a place.
     fn to_buffer(&self, layer: usize, place: Place) -> [f64; 2];
 
-    /// The place of a buffer's coordinates.
+    /// The place with these buffer coordinates.
     fn to_screen(&self, layer: usize, buffer: [f64; 2]) -> Place;
 
     /// Whether the buffer's columns are distances and its rows angles. Columns may have different
-    /// numbers of rows, so that a row's number changes along a line from the gaze too: work at equal
-    /// angle there, not at equal row.
+    /// numbers of rows, so that the row number also changes along a line from the gaze. Callers
+    /// must therefore work at equal angle, not at equal row.
     fn is_polar(&self) -> bool;
 }

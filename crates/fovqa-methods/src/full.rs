@@ -1,10 +1,10 @@
-//! The display's own rate: every pixel shaded once. What others are held against.
+//! Full shading: every pixel of the display is shaded once. Other methods are compared with it.
 
 use crate::foveation::{Counts, Foveation, Mapping, Rates};
 use crate::info::MethodInfo;
 use crate::setting::{Place, Setting};
 
-/// Its entry in the list of methods.
+/// The entry in the list of methods.
 pub(crate) const INFO: MethodInfo = MethodInfo {
     key: "full",
     label: "Full",
@@ -13,14 +13,14 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
     params: &[],
 };
 
-/// Every pixel of a frame.
+/// Full shading, applied to a frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Full {
     setting: Setting,
 }
 
 impl Full {
-    /// Full shading of a frame.
+    /// Applies full shading to a frame.
     pub fn new(setting: &Setting) -> Self {
         Self { setting: *setting }
     }

@@ -1,12 +1,13 @@
 //! Three nested layers (Guenter et al. 2012, "hyperbolic" in RMFR's comparison).
 //!
-//! Layers at e_1 and e_2 with linear scales s_1, s_2, s_3; discs that are blended over the last
-//! `transition_deg` before each bound by t² (3 - 2t). Curves show the unblended rate. `fixed` takes
-//! bounds and scales as they are; `optimised` minimises the samples with s_2 = ω(e_1)/ω*,
-//! s_3 = ω(e_2)/ω*, ω(e) = m e + ω₀ and ω* = atan(2 c_r) in degrees, at least 1 (a display that shows
-//! less than acuity is not supersampled: ours), both angles on a grid of 0.25°, ties to the smaller
-//! e_1. Two counts: what is rendered (squares of side 2 r_k clipped to the frame, the fovea
-//! repeated), and what is seen of it.
+//! Layers end at e_1 and e_2 and have the linear scales s_1, s_2, s_3. They are discs that are
+//! blended over the last `transition_deg` before each bound by t² (3 - 2t); curves show the
+//! unblended rate. `fixed` uses bounds and scales as they are given. `optimised` minimises the
+//! number of samples with s_2 = ω(e_1)/ω*, s_3 = ω(e_2)/ω*, ω(e) = m e + ω₀ and ω* = atan(2 c_r) in
+//! degrees. Scales are at least 1 (our choice: a display that shows less than acuity is not
+//! supersampled), both angles are on a grid of 0.25°, and ties are decided for the smaller e_1.
+//! There are two counts: the rendered samples (squares of side 2 r_k clipped to the frame, with the
+//! fovea repeated), and the visible ones among them.
 
 use std::f64::consts::PI;
 
@@ -17,13 +18,13 @@ use crate::foveation::{Counts, Foveation, Mapping, Rates};
 use crate::info::MethodInfo;
 use crate::setting::{Place, Setting, up_to};
 
-/// How bounds and scales are found.
+/// How bounds and scales are determined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Fit {
-    /// As they are given.
+    /// They are used as given.
     #[default]
     Fixed,
-    /// For the fewest samples at a given acuity.
+    /// They are optimised for the fewest samples at a given acuity.
     Optimised,
 }
 
@@ -36,7 +37,7 @@ pub struct Params {
     pub scales: Vec<f64>,
     /// Width of the blend before a bound, in degrees. Default 2.
     pub transition_deg: f64,
-    /// How bounds and scales are found.
+    /// How bounds and scales are determined.
     pub fit: Fit,
     /// Slope of the minimum angle of resolution, for `optimised`. Default 0.0275.
     pub m: f64,
@@ -128,7 +129,7 @@ const GRID_DEG: f64 = 0.25;
 const LAST_STEP: f64 = 359.0;
 const MOST_SCALE: f64 = 1000.0;
 
-/// Three nested layers over a frame.
+/// Three nested layers, applied to a frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Guenter {
     setting: Setting,
@@ -139,7 +140,7 @@ pub struct Guenter {
 }
 
 impl Guenter {
-    /// Applies the method.
+    /// Applies the method to a frame and a gaze.
     ///
     /// # Errors
     /// When there are not two bounds that rise inside (0°, 90°) and three scales.
@@ -178,7 +179,7 @@ impl Guenter {
             (setting.eccentricity_deg(setting.corner_px()) / GRID_DEG).ceil().clamp(2.0, LAST_STEP);
         let steps = 1..=(last as u32);
         let at = |step: u32| f64::from(step) * GRID_DEG;
-        // What a layer costs depends on its own bound and the one inside it alone.
+        // The cost of a layer depends only on its own bound and the one inside it.
         let squares: Vec<f64> =
             steps.clone().map(|i| square(setting, setting.radius_px(at(i)))).collect();
         let mut best = (f64::INFINITY, [at(1), at(2)]);
@@ -197,7 +198,7 @@ impl Guenter {
         Self::with(setting, bounds_deg, [1.0, scale(bounds_deg[0]), scale(bounds_deg[1])], true)
     }
 
-    /// Parameters that give these layers as they are.
+    /// Parameters that describe these layers with `fixed`.
     pub(crate) fn fixed(&self, params: &Params) -> Params {
         Params {
             bounds_deg: self.bounds_deg.to_vec(),
@@ -217,7 +218,8 @@ impl Guenter {
         self.scales
     }
 
-    /// Samples of discs instead of squares, the fovea repeated: RMFR's other count.
+    /// The number of samples with discs instead of squares and with the fovea repeated, which is
+    /// RMFR's other count.
     pub fn samples_in_discs(&self) -> f64 {
         let disc = |r: f64| self.setting.integrate(&[0.0, r], |at| f64::from(at <= r));
         disc(self.radii_px[0]) / (self.scales[0] * self.scales[0])
@@ -225,14 +227,16 @@ impl Guenter {
             + self.setting.pixels() / (self.scales[2] * self.scales[2])
     }
 
-    /// The box of a layer on each side of the gaze, clipped to the frame: negative and positive.
+    /// The extent of a layer's box on each side of the gaze, clipped to the frame: negative and
+    /// positive side.
     fn sides_px(&self, layer: usize, axis: usize) -> [f64; 2] {
         let radius = self.radii_px.get(layer).copied().unwrap_or(f64::INFINITY);
         [-1.0, 1.0].map(|sign| self.setting.side_px(axis, sign).min(radius))
     }
 }
 
-/// Pixels of a square of a half-side around the gaze, clipped to the frame.
+/// The number of pixels in a square around the gaze, given by half its side and clipped to the
+/// frame.
 fn square(setting: &Setting, half_px: f64) -> f64 {
     let extent = |axis: usize| {
         setting.side_px(axis, -1.0).min(half_px) + setting.side_px(axis, 1.0).min(half_px)

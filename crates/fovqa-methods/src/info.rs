@@ -1,18 +1,18 @@
-//! What a method is called, where it comes from, and which parameters it has.
+//! Metadata of a method: its names, its source and its parameters.
 
 use fovqa_params::ParamInfo;
 
 /// Metadata of a method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MethodInfo {
-    /// Its name in results and, with `-` for `_` if one likes, on the command line.
+    /// The name in results and on the command line, where `-` may replace `_`.
     pub key: &'static str,
-    /// Its name in tables and figures.
+    /// The name in tables and figures.
     pub label: &'static str,
-    /// One line on what it is.
+    /// A description in one line.
     pub about: &'static str,
-    /// Where it comes from.
+    /// The publication that defines it.
     pub source: &'static str,
-    /// Its parameters.
+    /// The parameters it accepts.
     pub params: &'static [ParamInfo],
 }

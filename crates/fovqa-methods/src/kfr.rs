@@ -1,10 +1,10 @@
-//! Kernel foveated rendering (Meng et al. 2018), the log-polar mapping with a kernel; with σ = 1.8
-//! what VaFR calls LMFR.
+//! Kernel foveated rendering (Meng et al. 2018): the log-polar mapping with a kernel. With σ = 1.8
+//! it is what VaFR calls LMFR.
 //!
 //! Mapping (VaFR, Eq. 14): z = ln r / ln L, u = w z^α, v = θ/360 h, w = W/σ, h = H/σ. Some public
-//! code raises z to 1/α on the way into the buffer, which puts half of it inside r < 1.6 px.
-//! Rates (VaFR, Eq. 16 and 20): radial ½ α z^(α-1) w π / (180 ln L sin e cos e), tangential
-//! h / (720 sin e cos e) cycles per degree; of Eq. 20 the right-hand side holds, its middle term is
+//! code raises z to 1/α on the way into the buffer, which puts half of it inside r < 1.6 px. Rates
+//! (VaFR, Eq. 16 and 20): radial ½ α z^(α-1) w π / (180 ln L sin e cos e), tangential h / (720 sin
+//! e cos e) cycles per degree. In Eq. 20 the right-hand side is correct, but the middle term is
 //! twice too large.
 
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
@@ -18,7 +18,8 @@ use crate::setting::{Place, Setting};
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Params {
-    /// The buffer's sides are the frame's over σ. Default 2.6 (RMFR's comparison; 1.8 in VaFR's).
+    /// σ: the buffer's sides are the frame's divided by it. Default 2.6 (as in RMFR's comparison;
+    /// 1.8 in VaFR's).
     pub sigma: f64,
     /// Exponent of the kernel. Default 4.
     pub alpha: f64,
@@ -62,7 +63,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
     ],
 };
 
-/// Kernel foveated rendering of a frame.
+/// Kernel foveated rendering, applied to a frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Kfr {
     polar: LogPolar,
@@ -70,7 +71,7 @@ pub struct Kfr {
 }
 
 impl Kfr {
-    /// Applies the method.
+    /// Applies the method to a frame and a gaze.
     ///
     /// # Errors
     /// When no corner of the frame is farther than a pixel from the gaze.

@@ -1,11 +1,12 @@
 //! Log-polar foveated rendering with two kernels (Shi et al. 2023, "LaFR"), as VaFR quotes it.
 //!
-//! VaFR's Eq. 15 has no real value as printed; this is the consistent form. With Z = z(e_f):
+//! VaFR's Eq. 15 has no real value as printed; this file uses the consistent form. With Z = z(e_f):
 //! F = 1 - log_Z(α Z^(1-a) / (1-a)), U_f = (Z (1-F))^(1/F). Inside e_f: U = ((1-F) z)^(1/F).
-//! Outside: U = g^(β/0.7) (1 - U_f) + U_f, g = (2 acos Q - π) / π, Q = (1/z - 1/Z) / (1/Z - 1).
-//! u = w U, v = θ/360 h. Rates are dU/de; the outer branch carries (β/0.7) g^(β/0.7 - 1), and Eq. 17
-//! as printed is twice too large there. a = 1/4 is an inference, from LMFR's α = 4. The rate jumps at
-//! e_f: the discontinuity VaFR shows. For β > 0.7 the outer rate begins at 0, for β < 0.7 at infinity.
+//! Outside: U = g^(β/0.7) (1 - U_f) + U_f, g = (2 acos Q - π) / π, Q = (1/z - 1/Z) / (1/Z - 1). u =
+//! w U, v = θ/360 h. Rates are dU/de. The outer branch has the factor (β/0.7) g^(β/0.7 - 1), and
+//! Eq. 17 as printed is twice too large there. a = 1/4 is inferred from LMFR's α = 4. The rate
+//! jumps at e_f, which is the discontinuity that VaFR shows. For β > 0.7 the outer rate begins at
+//! 0, for β < 0.7 at infinity.
 
 use std::f64::consts::PI;
 
@@ -20,15 +21,16 @@ use crate::setting::{Place, Setting, up_to};
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Params {
-    /// δ: the buffer's sides are the frame's over it. 1.8 for quality (default), 2.2 for speed.
+    /// δ: the buffer's sides are the frame's divided by it. 1.8 for quality (default), 2.2
+    /// for speed.
     pub sigma: f64,
-    /// Default 1/4.
+    /// a in the formula for F. Default 1/4.
     pub a: f64,
-    /// Default 0.85.
+    /// α in the formula for F. Default 0.85.
     pub alpha: f64,
-    /// Default 0.7.
+    /// β in the exponent of the outer kernel. Default 0.7.
     pub beta: f64,
-    /// Where the inner kernel ends, e_f in degrees. Default 4.89.
+    /// e_f, the eccentricity in degrees where the inner kernel ends. Default 4.89.
     pub foveal_deg: f64,
 }
 
@@ -91,11 +93,11 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
     ],
 };
 
-/// Log-polar foveated rendering with two kernels, of a frame.
+/// Log-polar foveated rendering with two kernels, applied to a frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Lafr {
     polar: LogPolar,
-    /// Distance in pixels of e_f, and Z there.
+    /// The distance of e_f in pixels, and Z there.
     foveal_px: f64,
     foveal_z: f64,
     /// F and U_f.
@@ -106,7 +108,7 @@ pub struct Lafr {
 }
 
 impl Lafr {
-    /// Applies the method.
+    /// Applies the method to a frame and a gaze.
     ///
     /// # Errors
     /// When e_f lies within a pixel of the gaze or outside the frame, or the kernels do not meet.
@@ -147,7 +149,7 @@ impl Lafr {
         ((1.0 / z - 1.0 / self.foveal_z) / (1.0 / self.foveal_z - 1.0)).clamp(-1.0, 0.0)
     }
 
-    /// U of z.
+    /// U as a function of z.
     fn kernel(&self, z: f64) -> f64 {
         if z <= self.foveal_z {
             return libm::pow((1.0 - self.f) * z, 1.0 / self.f);
@@ -156,7 +158,7 @@ impl Lafr {
         libm::pow(g, self.power) * (1.0 - self.foveal_u) + self.foveal_u
     }
 
-    /// z of U.
+    /// z as a function of U.
     fn inverse(&self, u: f64) -> f64 {
         if u <= self.foveal_u {
             return libm::pow(u, self.f) / (1.0 - self.f);

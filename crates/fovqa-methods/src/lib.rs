@@ -1,14 +1,15 @@
-//! Foveation methods as pure mathematics: where a method's samples stand on the screen, how densely,
-//! and how many there are. Knows nothing of images.
+//! Foveation methods as pure mathematics: the positions of a method's samples on the screen, their
+//! density and their number. This crate knows nothing about images.
 //!
-//! [`Method`] is the registry: a method with its parameters, set by name. [`Method::apply`] applies it
-//! to a [`Setting`] (a frame, its focal length and the gaze), and gives a [`Foveation`]: rates,
-//! density, counts and, where the method has a reduced buffer, its [`Mapping`]. [`curves`] computes the
-//! shading rate over eccentricity and compares it with acuity. One file per method,
-//! each in the same order: source and misprints, parameters, mapping, inverse, rates, counts.
+//! [`Method`] is the registry: a method with its parameters, which are set by name.
+//! [`Method::apply`] applies it to a [`Setting`] (a frame, its focal length and the gaze), and
+//! returns a [`Foveation`]: rates, density, counts and, where the method has a reduced buffer, its
+//! [`Mapping`]. [`curves`] computes the shading rate over eccentricity and compares it with acuity.
+//! There is one file per method, each in the same order: source and misprints, parameters, mapping,
+//! inverse, rates, counts.
 //!
-//! Places are measured from the gaze, in pixels, x to the right and y down; angles are degrees.
-//! A method's own eccentricity is the planar one, e = atan(r / f), as a renderer computes it.
+//! Places are measured from the gaze, in pixels, x to the right and y down; angles are degrees. A
+//! method's own eccentricity is the planar one, e = atan(r / f), as a renderer computes it.
 //!
 //! ```
 //! use fovqa_methods::{Method, Place, Setting};
@@ -47,7 +48,7 @@ mod setting;
 pub mod vafr;
 pub mod visual_polar;
 
-pub use budget::{BudgetError, BudgetOf, Budgeted};
+pub use budget::{BudgetError, BudgetSamples, Budgeted};
 pub use error::MethodError;
 pub use foveation::{Counts, Foveation, Mapping, Rates, Reach};
 pub use info::MethodInfo;

@@ -1,8 +1,8 @@
 //! Linear fall-off of the sampling probability (Weier et al. 2016, as RMFR compares with it).
 //!
 //! The probability that a pixel is sampled is 1 inside `inner_deg`, falls linearly in degrees to
-//! `p_min` at `outer_deg`, and stays there. It is a density of area: the rate per axis is its square
-//! root.
+//! `p_min` at `outer_deg`, and is constant beyond. It is a density per area: the rate per axis is
+//! its square root.
 
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
@@ -14,11 +14,11 @@ use crate::setting::{Place, Setting};
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Params {
-    /// Where it begins to fall, degrees. Default 10.
+    /// The eccentricity in degrees where the fall begins. Default 10.
     pub inner_deg: f64,
-    /// Where it ends, degrees. Default 20.
+    /// The eccentricity in degrees where it ends. Default 20.
     pub outer_deg: f64,
-    /// The least probability. Default 0.047.
+    /// The smallest probability. Default 0.047.
     pub p_min: f64,
 }
 
@@ -67,7 +67,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
     ],
 };
 
-/// Linear fall-off over a frame.
+/// Linear fall-off, applied to a frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Linear {
     setting: Setting,
@@ -75,7 +75,7 @@ pub struct Linear {
 }
 
 impl Linear {
-    /// Applies the method.
+    /// Applies the method to a frame and a gaze.
     ///
     /// # Errors
     /// When the fall ends before it begins.

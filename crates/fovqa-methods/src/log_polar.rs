@@ -1,5 +1,5 @@
-//! What kernel foveated rendering and log-polar foveated rendering share: the normalised logarithm
-//! of the distance, and a buffer of w x h.
+//! The part that kernel foveated rendering and log-polar foveated rendering have in common: the
+//! normalised logarithm of the distance, and a buffer of w x h samples.
 
 use std::f64::consts::TAU;
 
@@ -7,10 +7,11 @@ use crate::error::MethodError;
 use crate::foveation::Counts;
 use crate::setting::{Place, Setting};
 
-/// z = ln r / ln L, L the distance from the gaze to the farthest corner, and a buffer of W/σ x H/σ.
+/// z = ln r / ln L, where L is the distance from the gaze to the farthest corner, and a buffer of
+/// W/σ x H/σ.
 ///
-/// Inside one pixel r counts as 1: without that ln r is negative, and its even powers fold the
-/// pixel's inside back over the buffer.
+/// Inside one pixel, r is set to 1. Otherwise ln r would be negative, and its even powers would map
+/// the inside of the pixel to the buffer a second time.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LogPolar {
     setting: Setting,
@@ -37,7 +38,7 @@ impl LogPolar {
         Ok(Self { setting: *setting, ln_corner: libm::log(corner_px), size })
     }
 
-    /// z of a distance.
+    /// z at a distance.
     pub(crate) fn z(&self, radius_px: f64) -> f64 {
         libm::log(radius_px.max(1.0)) / self.ln_corner
     }
@@ -65,7 +66,7 @@ impl LogPolar {
         self.size[1] / (TAU * radius_px)
     }
 
-    /// Counts, of the share U(z) of the buffer's width that lies within a distance.
+    /// The counts, from the share U(z) of the buffer's width that lies within a distance.
     pub(crate) fn counts(&self, breaks_px: &[f64], share: impl Fn(f64) -> f64) -> Counts {
         let [w, h] = self.size;
         let breaks: Vec<f64> = std::iter::once(1.0).chain(breaks_px.iter().copied()).collect();

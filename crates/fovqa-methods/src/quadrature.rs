@@ -1,4 +1,4 @@
-//! Integrals by Gauss and Legendre.
+//! Integrals by Gauss-Legendre quadrature.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -11,7 +11,7 @@ static RULE: LazyLock<[(f64, f64); NODES]> = LazyLock::new(|| {
         let n = NODES as f64;
         let mut x = libm::cos(PI * (i as f64 + 0.75) / (n + 0.5));
         let mut slope = 1.0;
-        // Newton's steps towards a root of the Legendre polynomial.
+        // Newton's method for a root of the Legendre polynomial.
         for _ in 0..100 {
             let (mut p, mut before) = (1.0, 0.0);
             for k in 0..NODES {
@@ -35,21 +35,21 @@ pub(crate) fn smooth(from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
     RULE.iter().map(|&(x, weight)| weight * f(middle + half * x)).sum::<f64>() * half
 }
 
-/// The integral of a function that may begin like a square root: smooth in s where
-/// x = from + (to - from) s².
+/// The integral of a function that may behave like a square root at its start. The substitution x =
+/// from + (to - from) s² makes it smooth in s.
 pub(crate) fn rooted(from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
     let length = to - from;
     smooth(0.0, 1.0, |s| f(from + length * s * s) * 2.0 * s) * length
 }
 
-/// The integral of a function that may begin and end like a square root.
+/// The integral of a function that may behave like a square root at its start and at its end.
 pub(crate) fn rooted_at_both(from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
     let half = (to - from) / 2.0;
     let turned = |t: f64| f(from + half * (1.0 - libm::cos(t))) * libm::sin(t);
     smooth(0.0, PI, turned) * half
 }
 
-/// The integral over pieces between breaks, which rise.
+/// The sum of the integrals between breaks, which rise.
 pub(crate) fn pieces(breaks: &[f64], f: impl Fn(f64) -> f64) -> f64 {
     breaks.windows(2).map(|ends| smooth(ends[0], ends[1], &f)).sum()
 }

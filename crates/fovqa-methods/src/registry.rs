@@ -1,4 +1,4 @@
-//! The list of all methods.
+//! The registry of methods.
 
 use fovqa_params::{ParamError, ParamValue, find};
 
@@ -20,7 +20,7 @@ use crate::visual_polar::{self, VisualPolar};
 /// A method with its parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Method {
-    /// Every pixel.
+    /// Full shading of every pixel.
     Full,
     /// Visual acuity consistent foveated rendering.
     Vafr(vafr::Params),
@@ -38,12 +38,12 @@ pub enum Method {
     Linear(linear::Params),
     /// Coarse pixel shading.
     Cps(cps::Params),
-    /// Visual-Polar space, a reconstruction.
+    /// Visual-Polar space, reconstructed from the paper's description.
     VisualPolar(visual_polar::Params),
 }
 
 impl Method {
-    /// All methods with their defaults, in the order of tables.
+    /// All methods with their default parameters, in the order of tables.
     pub fn all() -> [Method; 10] {
         [
             Self::Full,
@@ -59,13 +59,13 @@ impl Method {
         ]
     }
 
-    /// The method of a name, with its defaults; `-` and `_` are alike.
+    /// The method of a name, with its default parameters; `-` and `_` are alike.
     pub fn find(name: &str) -> Option<Method> {
         let name = name.replace('-', "_").to_lowercase();
         Self::all().into_iter().find(|method| method.info().key == name)
     }
 
-    /// Its entry.
+    /// The metadata of this method.
     pub fn info(&self) -> &'static MethodInfo {
         match self {
             Self::Full => &full::INFO,
@@ -81,7 +81,7 @@ impl Method {
         }
     }
 
-    /// Its name in results.
+    /// The method's name in results.
     pub fn key(&self) -> &'static str {
         self.info().key
     }
@@ -89,7 +89,7 @@ impl Method {
     /// Sets one parameter.
     ///
     /// # Errors
-    /// When the method has no such parameter, or the value is not one of its values.
+    /// When the method has no such parameter, or the parameter does not accept the value.
     pub fn set(&mut self, param: &str, value: &ParamValue) -> Result<(), ParamError> {
         let info = self.info();
         let (known, value) = find(info.key, info.params, param, value)?;
@@ -105,13 +105,13 @@ impl Method {
             Self::Cps(params) => params.set(known.name, &value),
             Self::VisualPolar(params) => params.set(known.name, &value),
         };
-        set.ok_or_else(|| known.refuses(info.key, &value))
+        set.ok_or_else(|| known.value_error(info.key, &value))
     }
 
     /// Applies the method to a frame and a gaze.
     ///
     /// # Errors
-    /// When parameters do not go together, or not with the frame.
+    /// When the parameters contradict each other or do not fit the frame.
     pub fn apply(&self, setting: &Setting) -> Result<Box<dyn Foveation>, MethodError> {
         Ok(match self {
             Self::Full => Box::new(Full::new(setting)),

@@ -1,10 +1,10 @@
 //! Rectangular mapping-based foveated rendering (Ye et al. 2022).
 //!
-//! Mapping (Eq. 4-7, and Eq. 3-4 of DEAMP), per axis: t = screen - gaze, A the distance from the gaze
-//! to the border on that side, f in pixels: u = (gaze + t (f + A) / (|t| + f)) / σ. Inverse:
-//! q = σu - gaze, t = f q / (f + A - |q|). In Eq. 4 the x of (1 - x/W) and x/W must be the gaze;
-//! Eq. 6, and Eq. 4 of DEAMP, give t: the gaze is to be added. Density per axis: f (f + A) /
-//! ((|t| + f)² σ); samples W H / σ².
+//! Mapping (Eq. 4-7, and Eq. 3-4 of DEAMP), per axis: with t = screen - gaze, A the distance from
+//! the gaze to the border on that side, and f in pixels, u = (gaze + t (f + A) / (|t| + f)) / σ.
+//! Inverse: q = σu - gaze, t = f q / (f + A - |q|). In Eq. 4 the x of (1 - x/W) and x/W must be the
+//! gaze. Eq. 6, and Eq. 4 of DEAMP, give t, to which the gaze must be added. The density per axis
+//! is f (f + A) / ((|t| + f)² σ), and the number of samples is W H / σ².
 
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
@@ -15,7 +15,7 @@ use crate::setting::{Place, Setting};
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Params {
-    /// The buffer's sides are the frame's over σ. Default 2.6.
+    /// σ: the buffer's sides are the frame's divided by it. Default 2.6.
     pub sigma: f64,
     /// f along x as a share of the width. Default 0.38.
     pub fx: f64,
@@ -68,27 +68,27 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
     ],
 };
 
-/// R Fig. 3: where a point at `d` in [-1, 1] of a half axis goes, d_i = f d / (f - |d|), for f > 1.
-/// Divide by the value at 1, f / (f - 1), to compare shapes.
+/// RMFR, Fig. 3: the mapping of a half axis, d_i = f d / (f - |d|), for `d` in [-1, 1] and f > 1.
+/// To compare shapes, divide by the value at 1, f / (f - 1).
 pub fn half_axis(f: f64, d: f64) -> f64 {
     f * d / (f - d.abs())
 }
 
-/// One axis of the mapping, before it is scaled by 1/σ.
+/// The mapping of one axis, before it is scaled by 1/σ.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Squeeze {
+pub(crate) struct AxisMapping {
     f_px: f64,
     /// A on the negative and the positive side.
     sides_px: [f64; 2],
 }
 
-impl Squeeze {
+impl AxisMapping {
     pub(crate) fn new(setting: &Setting, axis: usize, share: f64) -> Self {
         let sides_px = [setting.side_px(axis, -1.0), setting.side_px(axis, 1.0)];
         Self { f_px: share * setting.size_px()[axis], sides_px }
     }
 
-    /// A on the side of a sign; 0 counts as positive.
+    /// A on the side of `sign`; 0 counts as positive.
     pub(crate) fn side_px(&self, sign: f64) -> f64 {
         self.sides_px[usize::from(sign >= 0.0)]
     }
@@ -103,7 +103,7 @@ impl Squeeze {
         self.f_px * q / (self.f_px + self.side_px(q) - q.abs())
     }
 
-    /// f (f + A) / (|t| + f)², of the side towards which `sign` points where t is 0.
+    /// f (f + A) / (|t| + f)². If t is 0, `sign` decides the side.
     pub(crate) fn slope(&self, t: f64, sign: f64) -> f64 {
         let a = self.side_px(if t == 0.0 { sign } else { t });
         let from = t.abs() + self.f_px;
@@ -111,18 +111,19 @@ impl Squeeze {
     }
 }
 
-/// Rectangular mapping-based foveated rendering of a frame.
+/// Rectangular mapping-based foveated rendering, applied to a frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Rmfr {
     setting: Setting,
     sigma: f64,
-    axes: [Squeeze; 2],
+    axes: [AxisMapping; 2],
 }
 
 impl Rmfr {
-    /// Applies the method.
+    /// Applies the method to a frame and a gaze.
     pub fn new(params: &Params, setting: &Setting) -> Self {
-        let axes = [Squeeze::new(setting, 0, params.fx), Squeeze::new(setting, 1, params.fy)];
+        let axes =
+            [AxisMapping::new(setting, 0, params.fx), AxisMapping::new(setting, 1, params.fy)];
         Self { setting: *setting, sigma: params.sigma, axes }
     }
 

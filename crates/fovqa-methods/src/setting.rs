@@ -1,4 +1,4 @@
-//! What a method is applied to: a frame, its focal length and the gaze.
+//! The setting to which a method is applied: a frame, its focal length and the gaze.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,34 +7,36 @@ use fovqa_vision::View;
 use crate::error::MethodError;
 use crate::quadrature;
 
-/// A place within so much of a bound, relatively, is at the bound: its distance was computed from the
-/// very eccentricity, and has been rounded.
+/// Relative tolerance of bounds: a place this near to a bound counts as being at the bound, because
+/// its distance was computed from the eccentricity of the bound and has been rounded.
 const ROUNDING: f64 = 1e-10;
 
-/// Whether a value is not above a bound.
+/// Whether a value is at most a bound, within rounding.
 pub(crate) fn up_to(value: f64, bound: f64) -> bool {
     value <= bound * (1.0 + ROUNDING)
 }
 
-/// A place on the screen, seen from the gaze.
+/// A place on the screen, relative to the gaze.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     /// Distance from the gaze in pixels.
     pub radius_px: f64,
-    /// Unit vector from the gaze; at the gaze itself the direction in which rates are taken.
+    /// Unit vector from the gaze. At the gaze itself it is the direction in which rates are
+    /// measured.
     pub direction: [f64; 2],
 }
 
 impl Place {
-    /// The place at an offset from the gaze in pixels. At the gaze the direction is to the right.
+    /// The place at an offset from the gaze in pixels. At the gaze itself the direction is to the
+    /// right.
     pub fn at([x, y]: [f64; 2]) -> Self {
         let radius_px = libm::hypot(x, y);
         let direction = if radius_px > 0.0 { [x / radius_px, y / radius_px] } else { [1.0, 0.0] };
         Self { radius_px, direction }
     }
 
-    /// The place at a distance in a direction, in degrees from +x towards +y. Multiples of 90° are
-    /// exact.
+    /// The place at a distance in pixels and a direction in degrees from +x towards +y. Multiples
+    /// of 90° are exact.
     pub fn polar(radius_px: f64, direction_deg: f64) -> Self {
         let turn = libm::fmod(libm::fmod(direction_deg, 360.0) + 360.0, 360.0);
         let quarter = (turn / 90.0).floor();
@@ -60,7 +62,7 @@ impl Place {
         }
         let deg = libm::atan2(self.direction[1], self.direction[0]) * (180.0 / PI);
         let positive = if deg < 0.0 { deg + 360.0 } else { deg };
-        // A tiny negative angle rounds up to 360.
+        // A tiny negative angle is rounded to 360.
         if positive >= 360.0 { 0.0 } else { positive }
     }
 }
@@ -74,11 +76,11 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// A view seen with a gaze in pixels. Inside a method's mapping a gaze outside of the frame is
-    /// clamped to it; where pixels are not square, the focal length is the geometric mean.
+    /// The setting of a view and a gaze in pixels. A gaze outside the frame is clamped to it. If
+    /// pixels are not square, the focal length is the geometric mean.
     ///
     /// # Errors
-    /// When the frame has no pixels, the focal length is not positive, or the gaze no number.
+    /// When the frame has no pixels, the focal length is not positive, or the gaze is not finite.
     pub fn new(view: &View, gaze_px: [f64; 2]) -> Result<Self, MethodError> {
         let focal_px = view.mean_focal_px();
         let message = if view.width == 0 || view.height == 0 {
@@ -103,7 +105,7 @@ impl Setting {
         self.size_px
     }
 
-    /// Pixels of the frame.
+    /// The number of pixels of the frame.
     pub fn pixels(&self) -> f64 {
         self.size_px[0] * self.size_px[1]
     }
@@ -113,12 +115,12 @@ impl Setting {
         self.focal_px
     }
 
-    /// The gaze within the frame, in pixels from its top-left corner.
+    /// The gaze, clamped to the frame, in pixels from its top-left corner.
     pub fn gaze_px(&self) -> [f64; 2] {
         self.gaze_px
     }
 
-    /// Planar eccentricity in degrees of a distance in pixels (VaFR, Eq. 3).
+    /// The planar eccentricity in degrees at a distance in pixels (VaFR, Eq. 3).
     pub fn eccentricity_deg(&self, radius_px: f64) -> f64 {
         libm::atan2(radius_px, self.focal_px) * (180.0 / PI)
     }
@@ -128,19 +130,19 @@ impl Setting {
         self.focal_px * libm::tan(eccentricity_deg * (PI / 180.0))
     }
 
-    /// Distance from the gaze to the border along an axis (0: x, 1: y), on the side of a sign;
-    /// 0 counts as positive.
+    /// Distance in pixels from the gaze to the border along an axis (0: x, 1: y), on the side of
+    /// `sign`; 0 counts as positive.
     pub fn side_px(&self, axis: usize, sign: f64) -> f64 {
         if sign < 0.0 { self.gaze_px[axis] } else { self.size_px[axis] - self.gaze_px[axis] }
     }
 
-    /// Distance from the gaze to the farthest corner.
+    /// Distance in pixels from the gaze to the farthest corner.
     pub fn corner_px(&self) -> f64 {
         let far = |axis| self.side_px(axis, -1.0).max(self.side_px(axis, 1.0));
         libm::hypot(far(0), far(1))
     }
 
-    /// Distance from the gaze to the border in a direction, a unit vector.
+    /// Distance in pixels from the gaze to the border in a direction, which is a unit vector.
     pub fn edge_px(&self, direction: [f64; 2]) -> f64 {
         let to_side = |axis: usize| {
             let d = direction[axis];
@@ -149,20 +151,20 @@ impl Setting {
         to_side(0).min(to_side(1))
     }
 
-    /// The integral over the frame of a density that depends on the distance from the gaze alone.
-    /// `breaks_px` are distances where it is not smooth; nearer than the first it is not asked.
+    /// The integral over the frame of a density that depends only on the distance from the gaze.
+    /// `breaks_px` are distances where it is not smooth; the integral starts at the first of them.
     pub(crate) fn integrate(&self, breaks_px: &[f64], density: impl Fn(f64) -> f64) -> f64 {
         let from = breaks_px.first().copied().unwrap_or(0.0);
         let corner = self.corner_px();
         let mut places: Vec<f64> = breaks_px.to_vec();
-        // Where the arcs change their form.
+        // The arcs within the frame change their form at these distances.
         let sides = |axis| [self.side_px(axis, -1.0), self.side_px(axis, 1.0)];
         for x in sides(0) {
             for y in sides(1) {
                 places.extend([x, y, libm::hypot(x, y)]);
             }
         }
-        // Densities fall over decades of distance.
+        // Densities fall over decades of distance, so the pieces double in length.
         let mut step = 1.0;
         while step < corner {
             places.push(step);
@@ -177,10 +179,10 @@ impl Setting {
             .sum()
     }
 
-    /// The integral over the frame of a density that depends on the distance from the gaze alone,
-    /// by what lies within a distance all around: the mean of `within` over the border's distances.
-    /// For densities that are infinite somewhere, and `within` is not. `breaks_px` are distances
-    /// where it is not smooth.
+    /// The integral over the frame of a density that depends only on the distance from the gaze,
+    /// from `within`, the integral over a full disc of a radius: it is the mean of `within` over
+    /// the border's distances in all directions. This is for densities that are infinite somewhere
+    /// while `within` is not. `breaks_px` are distances where it is not smooth.
     pub(crate) fn integrate_within(&self, breaks_px: &[f64], within: impl Fn(f64) -> f64) -> f64 {
         let mut angles = vec![0.0, TAU];
         let axes = [(0, 1.0), (1, 1.0), (0, -1.0), (1, -1.0)];
@@ -201,15 +203,15 @@ impl Setting {
         pieces.map(|ends| quadrature::rooted_at_both(ends[0], ends[1], at)).sum::<f64>() / TAU
     }
 
-    /// Seen from the gaze towards a side: the distance to the next side, to the left (-1) or to the
-    /// right (1) in the sense of rising angles.
+    /// The distance from the gaze to the side next to another side, as seen in its direction: on
+    /// the side of falling angles (-1) or of rising angles (1).
     fn beside_px(&self, axis: usize, sign: f64, side: f64) -> f64 {
-        // From +x angles rise towards +y, from +y towards -x.
+        // Angles rise from +x towards +y, and from +y towards -x.
         let towards = if axis == 0 { side * sign } else { -side * sign };
         self.side_px(1 - axis, towards)
     }
 
-    /// The angle, in radians, of the part of a circle around the gaze that lies in the frame.
+    /// The angle in radians of the part of a circle around the gaze that lies in the frame.
     fn arc(&self, radius_px: f64) -> f64 {
         let mut arc = 0.0;
         for x in [self.side_px(0, -1.0), self.side_px(0, 1.0)] {

@@ -1,4 +1,4 @@
-//! Properties that every method has, and the papers' counts.
+//! Properties that every method has, and the counts of the papers.
 
 mod bounds;
 mod counting;
@@ -13,8 +13,8 @@ use crate::deamp::Deamp;
 use crate::guenter::Guenter;
 use crate::vafr::Vafr;
 use crate::{
-    BudgetError, BudgetOf, Foveation, Mapping, Method, Place, Rates, Setting, deamp, guenter, rmfr,
-    vafr,
+    BudgetError, BudgetSamples, Foveation, Mapping, Method, Place, Rates, Setting, deamp, guenter,
+    rmfr, vafr,
 };
 
 fn view(width: usize, height: usize, fov_vertical_deg: f64) -> View {
@@ -30,7 +30,7 @@ fn centred(width: usize, height: usize, fov_vertical_deg: f64) -> Setting {
     setting(width, height, fov_vertical_deg, [width as f64 / 2.0, height as f64 / 2.0])
 }
 
-/// A method with parameters as on the command line.
+/// A method with parameters that are set by name.
 fn method(name: &str, params: &[(&str, ParamValue)]) -> Method {
     let mut method = Method::find(name).unwrap();
     for (param, value) in params {
@@ -43,7 +43,7 @@ fn number(n: f64) -> ParamValue {
     ParamValue::Number(n)
 }
 
-/// Every method that maps, and variants whose mappings have other branches.
+/// Every method that has a mapping, and variants whose mappings have other branches.
 fn mapped() -> Vec<Method> {
     let ratio = ParamValue::Pairs(vec![[5.0, 1.0], [30.0, 0.5]]);
     let angle = ParamValue::Text("angle".into());
@@ -61,7 +61,7 @@ fn mapped() -> Vec<Method> {
     methods
 }
 
-/// Rates from the mapping itself, by central differences.
+/// Rates computed from the mapping itself, by central differences.
 fn numerical(mapping: &dyn Mapping, layer: usize, place: Place) -> Rates {
     let h = place.radius_px * 1e-4;
     let [x, y] = place.offset_px();
@@ -72,7 +72,8 @@ fn numerical(mapping: &dyn Mapping, layer: usize, place: Place) -> Rates {
             Place::at([x + along * dx - across * dy, y + along * dy + across * dx]),
         )
     };
-    // Of fourth order, so that the steps may be large against rounding.
+    // The differences are of fourth order, so that steps can be large compared with rounding
+    // errors.
     let slope = |at: &dyn Fn(f64) -> [f64; 2]| -> [f64; 2] {
         let [a, b, c, d] = [at(-2.0 * h), at(-h), at(h), at(2.0 * h)];
         [0, 1].map(|i| (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * h))
@@ -101,7 +102,7 @@ proptest! {
         let (w, h) = (width as f64, height as f64);
         let gaze_px = [gaze.0 * w, gaze.1 * h];
         let setting = setting(width, height, fov, gaze_px);
-        // What a small frame cannot have is refused, not mapped.
+        // A method that does not fit a small frame is refused.
         let Ok(foveation) = mapped()[which].apply(&setting) else { return Ok(()) };
         let Some(mapping) = foveation.mapping() else { return Ok(()) };
         let place = Place::at([point.0 * w - gaze_px[0], point.1 * h - gaze_px[1]]);
@@ -115,8 +116,8 @@ proptest! {
         prop_assert!(buffer[0] >= -1e-6 && buffer[0] <= bw * (1.0 + 1e-9) + 1e-6);
         prop_assert!(buffer[1] >= -1e-6 && buffer[1] <= bh * (1.0 + 1e-9) + 1e-6);
 
-        // Away from borders, the seam at θ = 0 and the bounds of pieces, where one side's slope is
-        // not the other's.
+        // Places near borders, the seam at θ = 0 and the bounds of pieces are left out, because the
+        // slopes on both sides differ there.
         let near = |factor: f64| {
             let moved = Place { radius_px: place.radius_px * factor, ..place };
             foveation.rates(moved)
@@ -129,7 +130,8 @@ proptest! {
         let axis = place.direction.iter().any(|d| d.abs() < 0.01);
         let inside = place.radius_px * 1.01 < setting.edge_px(place.direction);
         prop_assume!(smooth && !seam && !axis && inside);
-        // Nor where a knot of acuity lies within the steps: there the rate itself bends.
+        // Places with a knot of acuity within the steps are left out as well, because the rate
+        // itself bends there.
         let (Some(before), Some(behind)) = (near(1.0 - 3e-4), near(1.0 + 3e-4)) else {
             return Ok(());
         };
@@ -148,7 +150,7 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
-    /// Densities, summed over a grid, are the counts.
+    /// The sums of densities over a grid equal the counts.
     #[test]
     fn counts_are_the_integral_of_the_density(
         which in 0..Method::all().len(), gaze in (0.0..1.0f64, 0.0..1.0f64),
@@ -181,7 +183,8 @@ fn vafr_over(knots_cpd: [f64; 5], cap: Option<f64>, columns: vafr::Columns) -> V
 const FALLING: [f64; 5] = [40.0, 10.0, 6.0, 5.0, 4.0];
 const FLAT: [f64; 5] = [40.0, 10.0, 6.0, 5.0, 5.0];
 
-/// V: 1,061,735 samples; 932 x 1800, widest at 45°; 1,267,241 isotropic in angle.
+/// VaFR: 1,061,735 samples; 932 x 1800, the longest column at 45°; 1,267,241 samples isotropic in
+/// angle.
 #[test]
 fn vafr_has_the_papers_counts() {
     let falling = vafr_over(FALLING, None, vafr::Columns::Paper);
@@ -195,7 +198,7 @@ fn vafr_has_the_papers_counts() {
     assert!((flat.longest_column(60.0).0 - 45.0).abs() < 1e-6);
     let angle = vafr_over(FALLING, None, vafr::Columns::Angle);
     assert!((angle.counts().samples - 1_267_241.0).abs() < 1.0, "{}", angle.counts().samples);
-    // A device saves 17.5 and 4.1 % of the samples at 9 and 18 cpd.
+    // The cap by a device saves 17.5 and 4.1 % of the samples at 9 and 18 cpd.
     for (cap, saved) in [(9.0, 0.175), (18.0, 0.041)] {
         let capped = vafr_over(FALLING, Some(cap), vafr::Columns::Paper).counts().samples;
         assert!((1.0 - capped / falling.counts().samples - saved).abs() < 5e-4);
@@ -204,7 +207,7 @@ fn vafr_has_the_papers_counts() {
 
 /// A frame of 110° at 16:9 has 40 % of its pixels beyond 60°.
 #[test]
-fn vafr_goes_on_beyond_its_field() {
+fn vafr_continues_beyond_its_field() {
     let setting = centred(2560, 1440, 110.0);
     let extended = vafr_over(FALLING, None, vafr::Columns::Paper).counts();
     let corner = setting.eccentricity_deg(setting.corner_px());
@@ -236,7 +239,7 @@ fn samples_of_the_rectangular_mappings() {
     let square = centred(1600, 1600, 90.0);
     let share = |method: &Method| method.apply(&square).unwrap().counts().samples / square.pixels();
     assert!((share(&Method::find("rmfr").unwrap()) - 0.147_929).abs() < 1e-6);
-    // Equal σ telescope to σ².
+    // With equal σ the sum telescopes to σ².
     let equal = ParamValue::List(vec![2.6, 2.6, 2.6]);
     assert!((share(&method("deamp", &[("sigmas", equal)])) - 0.147_929).abs() < 1e-6);
     let deamp = |projection| {
@@ -255,7 +258,7 @@ fn samples_of_the_rectangular_mappings() {
     assert!(wide.note().unwrap().contains("45° is 52.12° x 55.00°"), "{:?}", wide.note());
 }
 
-/// R Fig. 11: the mean densities of a frame of 1440x1600 at 110°.
+/// RMFR, Fig. 11: the mean densities of a frame of 1440x1600 at 110°.
 #[test]
 fn mean_densities_of_the_comparison() {
     let setting = centred(1440, 1600, 110.0);
@@ -267,7 +270,7 @@ fn mean_densities_of_the_comparison() {
     assert!((mean("linear") - 0.078).abs() < 5e-4);
     let guenter = Guenter::new(&guenter::Params::default(), &setting).unwrap();
     assert!((guenter.samples_in_discs() / setting.pixels() - 0.034).abs() < 5e-4);
-    // Squares of side 2r, clipped, with what is covered.
+    // Clipped squares of side 2r, including covered samples.
     let [r1, r2] = [10.0, 20.0].map(|e| setting.radius_px(e));
     let squares = 4.0 * r1 * r1 + r2 * r2 + setting.pixels() / (12.35 * 12.35);
     assert!((guenter.counts().samples / squares - 1.0).abs() < 1e-12);
@@ -298,13 +301,13 @@ fn guenter_optimises_on_its_grid() {
 }
 
 #[test]
-fn kfr_off_centre_shades_what_nobody_sees() {
+fn kfr_off_centre_shades_samples_outside_the_frame() {
     let kfr = Method::find("kfr").unwrap();
     let centre = kfr.apply(&centred(1440, 1600, 110.0)).unwrap().counts();
     let corner = kfr.apply(&setting(1440, 1600, 110.0, [0.0, 0.0])).unwrap().counts();
     assert!(centre.samples_on_screen < centre.samples);
     assert!((corner.samples - centre.samples).abs() < 1e-6);
-    // A quarter of the angles, less what is beyond the border.
+    // A quarter of the angles, minus the part beyond the border.
     assert!(
         corner.samples_on_screen < 0.25 * corner.samples
             && corner.samples_on_screen > 0.2 * corner.samples
@@ -326,7 +329,7 @@ fn coarse_pixels_have_the_normalised_rate_of_the_filter() {
         let rates = cps.apply(&setting).unwrap().rates(Place::at([setting.radius_px(e), 0.0]));
         rates.unwrap().radial
     };
-    // Requests 0.8125, 0.7, 0.4, 0.3 at 20°, 23°, 31°, 33 2/3°.
+    // The requests are 0.8125, 0.7, 0.4, 0.3 at 20°, 23°, 31°, 33 2/3°.
     for (e, ceil, nearest) in
         [(20.0, 1.0, 1.0), (23.0, 1.0, 0.5), (31.0, 0.5, 0.5), (33.5, 0.5, 0.25)]
     {
@@ -360,10 +363,10 @@ fn the_papers_figure_of_a_half_axis() {
 }
 
 #[test]
-fn a_budget_is_met_or_its_range_is_said() {
+fn a_budget_is_met_or_the_error_states_its_range() {
     let setting = centred(1440, 1600, 110.0);
     for method in Method::all() {
-        for of in [BudgetOf::Buffer, BudgetOf::OnScreen] {
+        for of in [BudgetSamples::Buffer, BudgetSamples::OnScreen] {
             let found = match method.at_budget(&setting, 0.12, of) {
                 Err(BudgetError::NotFree { method }) => {
                     assert_eq!(method, "full");
@@ -373,21 +376,21 @@ fn a_budget_is_met_or_its_range_is_said() {
             };
             let counts = found.apply(&setting).unwrap().counts();
             let samples = match of {
-                BudgetOf::Buffer => counts.samples + counts.samples_beyond,
-                BudgetOf::OnScreen => counts.samples_on_screen,
+                BudgetSamples::Buffer => counts.samples + counts.samples_beyond,
+                BudgetSamples::OnScreen => counts.samples_on_screen,
             };
-            // CPS moves in steps of whole rates, but its radii are continuous.
+            // The rates of CPS have steps, but its radii are continuous.
             let share = samples / setting.pixels();
             assert!((share / 0.12 - 1.0).abs() < 1e-9, "{}: {share}", method.key());
         }
     }
-    let error = Method::find("guenter").unwrap().at_budget(&setting, 0.9, BudgetOf::Buffer);
+    let error = Method::find("guenter").unwrap().at_budget(&setting, 0.9, BudgetSamples::Buffer);
     let error = error.unwrap_err().to_string();
     assert!(error.contains("from 0.03") && error.contains("the outermost of scales"), "{error}");
-    assert!(method("rmfr", &[]).at_budget(&setting, f64::NAN, BudgetOf::Buffer).is_err());
+    assert!(method("rmfr", &[]).at_budget(&setting, f64::NAN, BudgetSamples::Buffer).is_err());
 }
 
-/// θ is 0 at the gaze, whatever direction a curve has there.
+/// At the gaze θ is 0, whatever the direction of the curve.
 #[test]
 fn the_gaze_itself_has_no_angle() {
     let kfr = Method::find("kfr").unwrap().apply(&centred(1440, 1600, 110.0)).unwrap();
@@ -395,9 +398,9 @@ fn the_gaze_itself_has_no_angle() {
     assert!(u.abs() < 1e-12 && v.abs() < 1e-12, "{u} {v}");
 }
 
-/// Also where the corner is nearly at 90°, or acuity so poor that scales would have no end.
+/// This includes a corner at almost 90°, and acuity so poor that scales would be unbounded.
 #[test]
-fn what_guenter_optimises_can_be_taken_as_it_is() {
+fn optimised_guenter_layers_can_be_used_as_fixed() {
     for (setting, m) in [(centred(2000, 2000, 179.9), 0.0275), (centred(11520, 6480, 110.0), 1.0)] {
         let params = guenter::Params { fit: guenter::Fit::Optimised, m, ..Default::default() };
         let best = Guenter::new(&params, &setting).unwrap();
@@ -414,7 +417,7 @@ fn what_guenter_optimises_can_be_taken_as_it_is() {
 }
 
 #[test]
-fn refuses_what_does_not_go_together() {
+fn refuses_contradicting_parameters() {
     let list = |l: &[f64]| ParamValue::List(l.to_vec());
     let over = |name: &str, params: &[(&str, ParamValue)], words: &[&str]| {
         let error =
@@ -450,7 +453,7 @@ fn refuses_what_does_not_go_together() {
     assert!(method("kfr", &[]).apply(&tiny).unwrap_err().to_string().contains("more than 1 px"));
     let nothing = View { width: 0, ..view(8, 8, 90.0) };
     assert!(Setting::new(&nothing, [0.0, 0.0]).unwrap_err().to_string().contains("0x8"));
-    // A gaze outside is clamped to the frame.
+    // A gaze outside the frame is clamped to it.
     assert_eq!(
         setting(100, 80, 90.0, [-5.0, 900.0]).gaze_px().map(f64::to_bits),
         [0.0, 80.0].map(f64::to_bits)

@@ -1,15 +1,17 @@
 //! VaFR, visual acuity consistent foveated rendering (Zhang, Gai, Li).
 //!
-//! Mapping (Eq. 3-12, 19): e = atan(c_r r), u = u(e) = ∫ 2f de, the column at e has
-//! l(e) = 360 Δ(e) sin 2e f(e) rows, v = θ/360 l(e). Inverse: e(u), r = tan e / c_r. Rates: radial f,
-//! tangential Δ f, where both are divided by the radial dr/de (Eq. 6 and 20); in true visual angle the
-//! tangential one is f cos e, so that Eq. 6's "identical rates" hold in the paper's convention alone.
-//! `columns = "angle"` makes them identical in angle instead: l = 720 Δ sin e f. The logarithm printed
-//! for u is singular where acuity is flat; here it is log1p. Since v depends on e, a line of constant
-//! θ moves by up to 2π rows a column near the gaze: work at equal θ, not at equal v.
+//! Mapping (Eq. 3-12, 19): e = atan(c_r r), u = u(e) = ∫ 2f de, the column at e has l(e) = 360 Δ(e)
+//! sin 2e f(e) rows, v = θ/360 l(e). Inverse: e(u), r = tan e / c_r. The rates are f (radial) and Δ
+//! f (tangential), where both are divided by the radial dr/de (Eq. 6 and 20). In true visual angle
+//! the tangential rate is f cos e, so that Eq. 6's "identical rates" hold only in the paper's
+//! convention. `columns = "angle"` makes them identical in angle instead: l = 720 Δ sin e f. The
+//! logarithm printed for u is singular where acuity is constant; this code uses log1p. Since v
+//! depends on e, a line of constant θ moves by up to 2π rows per column near the gaze. Work at
+//! equal θ, not at equal v.
 //!
-//! Samples are ∫ l du up to 60°, the paper's count. The paper mixes two sets of knots: its sample
-//! count is that of f(60°) = 4, its buffer of 932 x 1800 that of f(60°) = 5.
+//! The number of samples is ∫ l du up to 60°, which is the paper's count. The paper mixes two sets
+//! of knots: its number of samples is that of f(60°) = 4, its buffer of 932 x 1800 that of f(60°) =
+//! 5.
 
 use std::f64::consts::PI;
 
@@ -22,10 +24,10 @@ use crate::info::MethodInfo;
 use crate::quadrature;
 use crate::setting::{Place, Setting, up_to};
 
-/// Where the paper's field ends, in degrees.
+/// The end of the paper's field, in degrees.
 pub const FIELD_DEG: f64 = 60.0;
 
-/// In which sense a column's samples are as dense as the columns.
+/// The sense in which a column's samples are as dense as the columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Columns {
     /// In the paper's convention.
@@ -35,47 +37,48 @@ pub enum Columns {
     Angle,
 }
 
-/// What happens beyond 60°.
+/// How the method continues beyond 60°.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Beyond {
-    /// The buffer goes on to the farthest corner.
+    /// The buffer continues to the farthest corner.
     #[default]
     Extend,
-    /// The last column is shown.
+    /// The last column is repeated.
     Clamp,
-    /// Nothing is.
+    /// Nothing is shown.
     Black,
 }
 
 /// Parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Params {
-    /// The acuity model f follows.
+    /// The acuity model that f follows.
     pub acuity: Acuity,
-    /// Knots of the piecewise model, and a cap by the device.
+    /// Knots of the piecewise model, and the cap by a device.
     pub piecewise: PiecewiseParams,
-    /// In which sense rows are as dense as columns.
+    /// The sense in which rows are as dense as columns.
     pub columns: Columns,
-    /// Δ(e), tangential over radial rate: knots of eccentricity and ratio, linear between, constant
-    /// outside. Default 1 everywhere.
+    /// Δ(e), the ratio of the tangential to the radial rate: knots of eccentricity and ratio,
+    /// linear in between and constant outside. Default 1 everywhere.
     pub ratio: Vec<[f64; 2]>,
-    /// What happens beyond 60°.
+    /// How the method continues beyond 60°.
     pub beyond: Beyond,
-    /// VaFR_Rep (5.1): the share of the right eye that is shaded anew after reprojection.
+    /// VaFR_Rep (5.1): the share of the right eye's samples that are shaded again after
+    /// reprojection.
     pub reprojected_share: Option<f64>,
-    /// A factor on f; samples grow with its square.
+    /// A factor on f; the number of samples grows with its square.
     pub factor: f64,
 }
 
-/// Which acuity model.
+/// The acuity model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Acuity {
-    /// Knots.
+    /// The piecewise model with the given knots.
     #[default]
     Piecewise,
     /// The linear model with its defaults.
     LinearMar,
-    /// Geisler and Perry's with its defaults.
+    /// Geisler and Perry's model with its defaults.
     GeislerPerry,
 }
 
@@ -134,7 +137,7 @@ impl Params {
             Acuity::GeislerPerry => AcuityModel::GeislerPerry(GeislerPerry::default()),
         };
         let curve = model.curve().map_err(|error| refused(error.to_string()))?;
-        // A device caps any model, not only that of knots.
+        // A device limits any model, not only the piecewise one.
         Ok(match (self.acuity, self.piecewise.cap_cpd) {
             (Acuity::LinearMar | Acuity::GeislerPerry, Some(cap_cpd)) => curve.capped(cap_cpd),
             _ => curve,
@@ -209,7 +212,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
     ],
 };
 
-/// VaFR over a frame.
+/// VaFR, applied to a frame.
 #[derive(Debug, Clone)]
 pub struct Vafr {
     setting: Setting,
@@ -217,17 +220,18 @@ pub struct Vafr {
     factor: f64,
     columns: Columns,
     ratio: Vec<[f64; 2]>,
-    /// Where the buffer ends, in degrees.
+    /// The end of the buffer, in degrees.
     end_deg: f64,
-    /// What reprojection leaves of the counts.
+    /// The share of the samples that reprojection leaves to shade.
     shaded: f64,
 }
 
 impl Vafr {
-    /// Applies the method.
+    /// Applies the method to a frame and a gaze.
     ///
     /// # Errors
-    /// When knots are no curve, or ratios do not rise in eccentricity or are out of range.
+    /// When the knots do not make a curve, or ratios do not rise in eccentricity or are out of
+    /// range.
     pub fn new(params: &Params, setting: &Setting) -> Result<Self, MethodError> {
         let curve = params.curve()?;
         let ratio = params.ratio.clone();
@@ -254,7 +258,7 @@ impl Vafr {
         })
     }
 
-    /// f at an eccentricity in degrees, times the factor.
+    /// f at an eccentricity in degrees, multiplied by the factor.
     fn rate_cpd(&self, e: f64) -> f64 {
         self.factor * self.curve.cutoff_cpd(e)
     }
@@ -269,12 +273,12 @@ impl Vafr {
         }
     }
 
-    /// u(e): columns between the gaze and an eccentricity in degrees.
+    /// u(e): the number of columns between the gaze and an eccentricity in degrees.
     pub fn columns_to(&self, e: f64) -> f64 {
         self.factor * self.curve.samples_to(e)
     }
 
-    /// l(e): rows of the column at an eccentricity in degrees.
+    /// l(e): the number of rows of the column at an eccentricity in degrees.
     pub fn rows_at(&self, e: f64) -> f64 {
         let angle = e * (PI / 180.0);
         let around = match self.columns {
@@ -284,7 +288,7 @@ impl Vafr {
         around * self.ratio(e) * self.rate_cpd(e)
     }
 
-    /// Eccentricities from one to another between which everything is smooth.
+    /// Eccentricities between which everything is smooth, within a range in degrees.
     fn breaks_deg(&self, from: f64, to: f64) -> Vec<f64> {
         let knots = self.curve.knots_deg().chain(self.ratio.iter().map(|knot| knot[0]));
         let mut breaks: Vec<f64> = knots.filter(|e| *e > from && *e < to).collect();
@@ -293,13 +297,14 @@ impl Vafr {
         breaks
     }
 
-    /// Samples between two eccentricities in degrees: ∫ l(e) 2f(e) de, all around.
+    /// The number of samples between two eccentricities in degrees: ∫ l(e) 2f(e) de.
     pub fn samples_between(&self, from: f64, to: f64) -> f64 {
         let breaks = self.breaks_deg(from, to);
         quadrature::pieces(&breaks, |e| self.rows_at(e) * 2.0 * self.rate_cpd(e))
     }
 
-    /// The longest column up to an eccentricity in degrees: where it is, and its rows.
+    /// The longest column up to an eccentricity in degrees: its eccentricity and its number of
+    /// rows.
     pub fn longest_column(&self, to: f64) -> (f64, f64) {
         const SCAN: usize = 64;
         let longest = |(a, l): (f64, f64), b: f64| {
@@ -310,7 +315,7 @@ impl Vafr {
             let step = (ends[1] - ends[0]) / SCAN as f64;
             let at = |i: usize| ends[0] + i as f64 * step;
             let (near, _) = (0..=SCAN).map(at).fold((ends[0], 0.0), longest);
-            // The function is smooth and has one hump between the neighbours.
+            // The function is smooth and has a single maximum between the neighbours.
             let (mut low, mut high) = ((near - step).max(ends[0]), (near + step).min(ends[1]));
             for _ in 0..100 {
                 let third = (high - low) / 3.0;
@@ -331,7 +336,7 @@ impl Vafr {
 }
 
 impl Mapping for Vafr {
-    /// Of a frame that reaches beyond 60°, with the columns out there.
+    /// In a frame that extends beyond 60°, the buffer includes the columns out there.
     fn buffer(&self, _layer: usize) -> [f64; 2] {
         [self.columns_to(self.end_deg), self.longest_column(self.end_deg).1]
     }

@@ -1,10 +1,11 @@
-//! Visual-Polar space (Koskela et al. 2019): a reconstruction from the paper's words, of low
-//! confidence.
+//! Visual-Polar space (Koskela et al. 2019): a reconstruction from the paper's description, with
+//! low confidence.
 //!
-//! Density of samples ∝ v(e): 1 for e ≤ 5.79°, else 7.49 / (0.3 e + 1)². A polar buffer whose rows
-//! shrink linearly towards the gaze inside 5.79°, so that density is uniform there. Density is C v
-//! with C = 0.4 / mean(v) over the frame; above 1 the gaze is supersampled. Outside, the number of
-//! samples around is constant, chosen (ours) so that both rates are equal at 5.79° and inside.
+//! The density of samples is proportional to v(e): 1 for e ≤ 5.79°, else 7.49 / (0.3 e + 1)². The
+//! buffer is polar, and its rows shrink linearly towards the gaze inside 5.79°, so that the density
+//! is uniform there. The density is C v with C = 0.4 / mean(v) over the frame; above 1 the gaze is
+//! supersampled. Outside, the number of samples around the gaze is constant. Our choice of this
+//! number makes both rates equal at 5.79° and inside.
 
 use std::f64::consts::TAU;
 
@@ -51,10 +52,10 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
     }],
 };
 
-/// Where density begins to fall, in degrees.
+/// The eccentricity in degrees where the density begins to fall.
 const INNER_DEG: f64 = 5.79;
 
-/// Relative visual acuity by area.
+/// Relative visual acuity per area.
 fn acuity(eccentricity_deg: f64) -> f64 {
     if eccentricity_deg <= INNER_DEG {
         1.0
@@ -64,26 +65,27 @@ fn acuity(eccentricity_deg: f64) -> f64 {
     }
 }
 
-/// How many distances columns are known at between the inner circle and the farthest corner.
+/// The number of distances, between the inner circle and the farthest corner, at which the number
+/// of columns is stored.
 const KNOTS: usize = 64;
 
-/// Visual-Polar sampling of a frame.
+/// Visual-Polar sampling, applied to a frame.
 #[derive(Debug, Clone)]
 pub struct VisualPolar {
     setting: Setting,
     /// C.
     density: f64,
     inner_px: f64,
-    /// Rows outside of the inner circle.
+    /// The number of rows outside the inner circle.
     rows: f64,
-    /// Distances beyond the inner circle, and the columns up to each; alone where no corner is
-    /// beyond it.
+    /// Distances beyond the inner circle, and the number of columns up to each; a single one if no
+    /// corner is beyond the circle.
     knots: Vec<(f64, f64)>,
     samples_per_pixel: f64,
 }
 
 impl VisualPolar {
-    /// Applies the method.
+    /// Applies the method to a frame and a gaze.
     pub fn new(params: &Params, setting: &Setting) -> Self {
         let inner_px = setting.radius_px(INNER_DEG);
         let acuity_at = |r| acuity(setting.eccentricity_deg(r));
@@ -100,7 +102,7 @@ impl VisualPolar {
         };
         let corner_px = setting.corner_px();
         if corner_px > inner_px {
-            // In equal steps of the logarithm: acuity falls with it.
+            // Steps are equal in the logarithm of the distance, with which acuity falls.
             let step = libm::log(corner_px / inner_px) / KNOTS as f64;
             for i in 1..=KNOTS {
                 let (before, columns) = polar.knots[i - 1];
@@ -120,7 +122,7 @@ impl VisualPolar {
         quadrature::smooth(from, to, |r| self.columns_slope(r))
     }
 
-    /// Columns up to a distance.
+    /// The number of columns up to a distance.
     fn columns_to(&self, r: f64) -> f64 {
         if r <= self.inner_px {
             return r * self.density.sqrt();
@@ -129,7 +131,7 @@ impl VisualPolar {
         knot.1 + self.columns_between(knot.0, r)
     }
 
-    /// The distance with so many columns before it.
+    /// The distance up to which there are `columns` columns.
     fn radius_px(&self, columns: f64) -> f64 {
         let inner = self.knots[0];
         if columns <= inner.1 {
@@ -138,7 +140,7 @@ impl VisualPolar {
         let next = self.knots.partition_point(|knot| knot.1 <= columns).max(1);
         let knot = self.knots[next - 1];
         let mut r = knot.0;
-        // Newton's steps; the slope changes by a few percent between two knots.
+        // Newton's method; the slope changes by a few percent between two knots.
         for _ in 0..50 {
             let off = knot.1 + self.columns_between(knot.0, r) - columns;
             let step = off / self.columns_slope(r);
@@ -150,13 +152,14 @@ impl VisualPolar {
         r
     }
 
-    /// Rows of the column at a distance: linearly fewer towards the gaze inside the inner circle.
+    /// The number of rows of the column at a distance. Inside the inner circle it falls linearly
+    /// towards the gaze.
     fn rows_at(&self, r: f64) -> f64 {
         self.rows * (r / self.inner_px).min(1.0)
     }
 }
 
-/// Acuity as it falls outside of the inner circle: at its border too, where it begins with 0.9998.
+/// Acuity as it falls outside the inner circle; at the border of the circle it is 0.9998.
 fn acuity_beyond(eccentricity_deg: f64) -> f64 {
     acuity(eccentricity_deg.max(INNER_DEG.next_up()))
 }
@@ -198,7 +201,7 @@ impl Foveation for VisualPolar {
         let on_screen = self.samples_per_pixel * self.setting.pixels();
         let corner_px = self.setting.corner_px();
         let inner = self.inner_px.min(corner_px);
-        // A triangle of rows inside the circle, a rectangle outside.
+        // The area of a triangle of rows inside the circle, and of a rectangle outside.
         let inside = self.rows_at(inner) * self.columns_to(inner) / 2.0;
         let outside = self.rows * (buffer[0] - self.columns_to(inner));
         Counts {

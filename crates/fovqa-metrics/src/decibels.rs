@@ -1,8 +1,8 @@
-//! Decibels of squared errors, and back.
+//! Converts squared errors to decibels and back.
 
 /// PSNR in dB of a mean squared error with peak 1; infinite for 0.
 pub(crate) fn psnr_db(mse: f64) -> f64 {
-    // Subtracted from 0, so that an error of 1 gives 0 dB and not -0.
+    // The term is subtracted from 0, so that an error of 1 gives 0 dB and not -0.
     if mse == 0.0 { f64::INFINITY } else { 0.0 - 10.0 * libm::log10(mse) }
 }
 

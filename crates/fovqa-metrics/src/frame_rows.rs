@@ -1,5 +1,5 @@
-//! The values of a frame in packed form. A run keeps them to its end, and frames with the same keys share one
-//! list of these.
+//! The values of a frame in packed form. A run keeps them to its end, and frames with the same keys
+//! share one list of keys.
 
 use std::sync::Arc;
 
@@ -12,26 +12,26 @@ use crate::spool::{Numbers, Spool};
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct FrameRows {
     layout: Layout,
-    /// Values, each with its parts behind it, as bits.
+    /// The values, each followed by its parts, as bits.
     numbers: Numbers,
 }
 
-/// The keys of a frame's values, with the parts that each has. Frames share it.
+/// The keys of a frame's values, with the number of parts of each. Frames share it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Layout(Arc<[Place]>);
+pub struct Layout(Arc<[ValuePlace]>);
 
-/// Where a value stands.
+/// The place of a value in the packed numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Place {
-    /// Where the key stands among others.
+struct ValuePlace {
+    /// The position of the key in the order of results.
     order: u64,
     key: Key,
     shape: Shape,
-    /// Of its first number.
+    /// Index of its first number.
     at: u32,
 }
 
-/// What numbers there are of a value.
+/// The numbers that are stored for a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Shape {
     /// The value alone.
@@ -53,7 +53,7 @@ impl Shape {
         }
     }
 
-    /// How many numbers the parts are.
+    /// The number of parts.
     fn parts(self) -> usize {
         match self {
             Shape::Value => 0,
@@ -64,36 +64,36 @@ impl Shape {
 }
 
 impl Layout {
-    /// The layout of keys in the order of results, each with how many numbers its parts are; `None`
-    /// where there is no such order, or there are no such parts.
+    /// The layout of keys in the order of results, each with its number of parts. `None` if there
+    /// is no such order, or no such number of parts.
     pub fn new(keys: impl IntoIterator<Item = (Key, usize)>) -> Option<Self> {
         let mut at = 0;
         let place = |(key, parts): (Key, usize)| {
             let shape = Shape::ALL.into_iter().find(|shape| shape.parts() == parts)?;
-            let place = Place { order: key.order(), key, shape, at };
+            let place = ValuePlace { order: key.order(), key, shape, at };
             at += 1 + parts as u32;
             Some(place)
         };
-        let places: Vec<Place> = keys.into_iter().map(place).collect::<Option<_>>()?;
+        let places: Vec<ValuePlace> = keys.into_iter().map(place).collect::<Option<_>>()?;
         places.is_sorted_by(|a, b| a.order < b.order).then(|| Self(places.into()))
     }
 
-    /// Its keys, each with how many numbers its parts are.
+    /// Its keys, each with its number of parts.
     pub fn keys(&self) -> impl Iterator<Item = (Key, usize)> + '_ {
         self.0.iter().map(|place| (place.key, place.shape.parts()))
     }
 
-    /// Whether it is another one, or the same.
+    /// Whether two layouts are equal.
     pub fn is(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0) || self == other
     }
 }
 
-/// The most numbers of a value: with three parts.
+/// The most numbers that one value needs: it has three parts.
 const MOST_NUMBERS: usize = 4;
 
 /// A value from its numbers.
-fn row(&Place { key, shape, .. }: &Place, numbers: &[u64]) -> Row {
+fn row(&ValuePlace { key, shape, .. }: &ValuePlace, numbers: &[u64]) -> Row {
     let value = (numbers[0] != NOTHING).then(|| f64::from_bits(numbers[0]));
     let number = |index: usize| f64::from_bits(numbers[index]);
     let parts = match shape {
@@ -106,28 +106,29 @@ fn row(&Place { key, shape, .. }: &Place, numbers: &[u64]) -> Row {
     Row { key, value, parts }
 }
 
-/// The bits of no value: those of a NaN that no arithmetic gives.
+/// The bits for a missing value: a NaN that no arithmetic produces.
 const NOTHING: u64 = 0x7ff8_0000_6e6f_6e65;
 
-/// Packs the values of frames. Has the lists of keys of the last frames, to be shared by those after them;
-/// and writes the values of most frames to a temporary file.
+/// Packs the values of frames. Later frames share the lists of keys of the last frames, and the values of most
+/// frames are written to a temporary file.
 #[derive(Debug, Clone, Default)]
 pub struct Layouts {
     known: Vec<Known>,
     spool: Spool,
 }
 
-/// A list of keys as it came, and in the order of results.
+/// A list of keys as it came, and its order in results.
 #[derive(Debug, Clone)]
 struct Known {
     came: Vec<(Key, Shape)>,
-    /// The places of the sorted keys among those that came.
+    /// The indices of the sorted keys in the list as it came.
     order: Vec<u32>,
     layout: Layout,
 }
 
 impl Layouts {
-    /// A few kinds of frames take turns: the first has no differences over time, others have no SSIM.
+    /// A few kinds of frames alternate: the first frame has no temporal differences, others have no
+    /// SSIM.
     const KEPT: usize = 4;
 
     /// Packs the values of a frame.
@@ -167,7 +168,7 @@ impl Layouts {
         Some(FrameRows { layout: layout.clone(), numbers: self.spool.keep(numbers) })
     }
 
-    /// The list of keys of these rows. Most often it is that of the frame before.
+    /// The list of keys of these rows, which is usually that of the frame before.
     fn known(&mut self, rows: &Rows) -> &Known {
         let came = || rows.iter().map(|row| (row.key, Shape::of(row.parts)));
         let index = self.known.iter().position(|known| came().eq(known.came.iter().copied()));
@@ -188,11 +189,11 @@ impl Known {
         let sorted = order.iter().map(|at| came[*at as usize]);
         let mut at = 0;
         let place = |(key, shape): (Key, Shape)| {
-            let place = Place { order: key.order(), key, shape, at };
+            let place = ValuePlace { order: key.order(), key, shape, at };
             at += 1 + shape.parts() as u32;
             place
         };
-        let places: Vec<Place> = sorted.map(place).collect();
+        let places: Vec<ValuePlace> = sorted.map(place).collect();
         debug_assert!(places.is_sorted_by(|a, b| a.order < b.order), "one row per key");
         Self { layout: Layout(places.into()), came, order }
     }
@@ -210,18 +211,18 @@ impl FrameRows {
         Layouts::default().read(layout, numbers)
     }
 
-    /// What its values are of.
+    /// The layout of its values.
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
 
-    /// All of them.
+    /// All rows.
     pub fn iter(&self) -> impl Iterator<Item = Row> + Clone + '_ {
         let numbers = self.numbers.all();
         self.layout.0.iter().map(move |place| row(place, &numbers[place.at as usize..]))
     }
 
-    /// Those of some keys.
+    /// The rows of the wanted keys.
     pub fn of_keys(&self, wanted: impl Fn(&Key) -> bool) -> impl Iterator<Item = Row> {
         let numbers = self.numbers.all();
         let wanted = self.layout.0.iter().filter(move |place| wanted(&place.key));
@@ -248,17 +249,17 @@ impl FrameRows {
         frames.filter_map(move |rows| rows.find(order))
     }
 
-    /// The value of a key; `None` where there is no row, or nothing to have a value of.
+    /// The value of a key; `None` if there is no such row or the row has no value.
     pub fn value(&self, key: Key) -> Option<f64> {
         self.get(key)?.value
     }
 
-    /// The number of a key; 0 without a row.
+    /// The number of a key; 0 if there is no such row.
     pub fn number(&self, key: Key) -> u64 {
         self.value(key).map_or(0, |value| value as u64)
     }
 
-    /// Whether there is a row of a metric.
+    /// Whether a metric has a row.
     pub fn has(&self, metric: Metric) -> bool {
         self.layout.0.iter().any(|place| place.key.metric() == Some(metric))
     }
@@ -293,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_packed_is_the_same() {
+    fn packed_values_are_unchanged() {
         let mut layouts = Layouts::default();
         let packed = layouts.pack(&rows(0.5));
         let mut sorted: Vec<Row> = rows(0.5).iter().copied().collect();
@@ -312,7 +313,7 @@ mod tests {
         assert!(Layout::new(twice).is_none() && Layout::new([(Key::of(Metric::Mse), 1)]).is_none());
         let other = layouts.pack(&rows(0.25));
         assert!(Arc::ptr_eq(&packed.layout.0, &other.layout.0), "what they are of is kept once");
-        // Also where another frame has no value, and behind frames of other kinds.
+        // This holds as well if another frame has no value, and after frames of other kinds.
         for metric in [Metric::Psnr, Metric::Fssim, Metric::Fpsnr] {
             let mut alone = Rows::default();
             alone.push(Key::of(metric), Some(1.0), Parts::Mean { sum: 1.0, weight: 1.0 });
@@ -349,7 +350,8 @@ mod tests {
         assert!(!both.has(Metric::MsSsim), "the other eye was not asked for it");
     }
 
-    /// Errors by pixels, wavelets by coefficients, FPSNR by its weight; other scores are averaged.
+    /// Errors are pooled by pixels, wavelets by coefficients and FPSNR by its weight; other scores
+    /// are averaged.
     #[test]
     fn both_eyes_are_pooled_as_each_statistic_says() {
         let haar = |statistic: &str| {

@@ -10,36 +10,36 @@ use crate::pooling::Statistic;
 /// The description of a metric.
 #[derive(Debug, Clone, Copy)]
 pub struct MetricInfo {
-    /// Its name in results and, with `-` for `_` if one likes, on the command line.
+    /// The name in results and on the command line, where `-` may replace `_`.
     pub key: &'static str,
-    /// Its name in tables.
+    /// The name in tables.
     pub label: &'static str,
-    /// Version of its values: another one for whatever changes them.
+    /// Version of the metric's values. It changes with every change of the values.
     pub version: u32,
-    /// Its unit; empty for a plain number.
+    /// The unit; empty for a number without unit.
     pub unit: &'static str,
-    /// What it is of.
+    /// The kind of metric.
     pub kind: MetricKind,
-    /// Its direction.
+    /// The direction in which values are better.
     pub better: Better,
-    /// Whether it has a value per eccentricity band.
+    /// Whether it has a value for each eccentricity band.
     pub per_band: bool,
-    /// What it needs beside the frames.
+    /// The inputs that it needs besides the frames.
     pub needs: Needs,
-    /// Its statistics, and how each is pooled.
+    /// Its statistics, with the way in which each is pooled.
     pub statistics: &'static [Statistic],
-    /// The map it has of a pair.
+    /// The map of a pair, if the metric has one.
     pub map: Option<&'static MapInfo>,
-    /// One line on what it is.
+    /// A description in one line.
     pub about: &'static str,
-    /// Where it comes from.
+    /// The publication that defines it.
     pub source: &'static str,
-    /// Its parameters.
+    /// The parameters it accepts.
     pub params: &'static [ParamInfo],
 }
 
 impl MetricInfo {
-    /// What most metrics of fidelity say, for theirs to begin with.
+    /// Defaults for the description of a fidelity metric.
     pub(crate) const FIDELITY: Self = Self {
         key: "",
         label: "",
@@ -56,7 +56,8 @@ impl MetricInfo {
         params: &[],
     };
 
-    /// What profiles say: they are of bands, and so need a view.
+    /// Defaults for the description of a profile. Profiles describe bands and therefore need a
+    /// view.
     pub(crate) const PROFILE: Self = Self {
         kind: MetricKind::Profile,
         better: Better::Neither,
@@ -66,21 +67,21 @@ impl MetricInfo {
     };
 }
 
-/// What a metric needs beside the two frames of a pair.
+/// The inputs that a metric needs besides the two frames of a pair.
 #[derive(Debug, Clone, Copy)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a need of its own")]
 pub struct Needs {
-    /// A view, even without bands.
+    /// A view, even if there are no bands.
     pub view: bool,
-    /// Luminance: the display's photometry.
+    /// Luminance, which requires the display's photometry.
     pub luminance: bool,
     /// The foveal weight of every pixel.
     pub foveal_weight: bool,
-    /// Motion vectors and depth, where the renderer has left some.
+    /// Motion vectors and depth, if the renderer has written them.
     pub guides: bool,
     /// Frames before the present one.
     pub lead_in: LeadIn,
-    /// Every pixel: it is not defined where some are left out.
+    /// Every pixel: the metric is not defined where pixels are left out.
     pub every_pixel: bool,
 }
 
@@ -95,7 +96,7 @@ impl Needs {
         every_pixel: false,
     };
 
-    /// What at least one of some metrics needs.
+    /// The inputs that at least one of these metrics needs.
     pub fn of(metrics: &[Metric]) -> Self {
         let needs = || metrics.iter().map(|metric| metric.info().needs);
         Self {

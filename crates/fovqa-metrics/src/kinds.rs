@@ -1,17 +1,19 @@
-//! What kinds of metrics there are, and which values are better.
+//! The kinds of metrics, and the directions in which values are better.
 
-/// What a metric measures.
+/// The kind of a metric.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MetricKind {
-    /// A test against its reference: one number.
+    /// Compares a test with its reference and gives one number.
     Fidelity,
-    /// One picture by eccentricity: of reference and test alike, and their ratio.
+    /// Describes one picture by eccentricity. It is measured for reference and test, and reported
+    /// with their ratio.
     Profile,
-    /// One sequence over time: of reference and test alike, and their ratio.
+    /// Describes one sequence over time. It is measured for reference and test, and reported with
+    /// their ratio.
     Temporal,
 }
 
-/// Which way a metric points.
+/// The direction in which a metric's values are better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Better {
     /// Larger is better.
@@ -22,13 +24,13 @@ pub enum Better {
     Neither,
 }
 
-/// How many frames of its sequence a metric has to have seen before the one it measures.
+/// The number of frames that a metric must have seen before the frame that it measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LeadIn {
-    /// None: each frame stands by itself.
+    /// None: each frame is measured alone.
     None,
-    /// The one before.
+    /// The frame before.
     Frame,
-    /// As many as its filters reach over.
+    /// As many frames as its filters cover.
     Filters,
 }

@@ -1,9 +1,10 @@
-//! The measures themselves: numbers out of pairs of frames. Knows nothing of files.
+//! The metrics: numbers from pairs of frames. This crate knows nothing about files.
 //!
-//! [`Metric`] is the registry: what there is, with units, direction, parameters and source.
-//! [`Scorer`] computes every metric of fidelity asked for in one pass over the rows of a pair,
-//! [`Profiler`] every profile in one over a picture, [`temporal`] compares a picture with the one before
-//! it. Each metric's formula stands in a file of its own under `fidelity/`, `profile/` or `temporal/`.
+//! [`Metric`] is the registry of metrics, with units, directions, parameters and sources.
+//! [`Scorer`] computes all fidelity metrics that are asked for in one pass over the rows of a pair,
+//! and [`Profiler`] all profiles in one pass over a picture. [`temporal`] compares a picture with
+//! the one before it. Each metric's formula has a file of its own in `fidelity/`, `profile/` or
+//! `temporal/`.
 
 mod decibels;
 mod fidelity;

@@ -1,70 +1,70 @@
-//! A value for every pixel of a frame, or for every block of pixels, and its picture in colours.
+//! Maps: a value for every pixel or block of pixels of a frame, and its picture in colours.
 
 use multiversion::multiversion;
 
 /// A map of a pair of frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
-    /// What it is called, in the names of files.
+    /// The map's name in file names.
     pub name: &'static str,
-    /// Values in a row.
+    /// The number of values in a row.
     pub width: usize,
-    /// Rows.
+    /// The number of rows.
     pub height: usize,
-    /// The values, row by row; NaN where there is none.
+    /// The values, row by row; NaN where there is no value.
     pub values: Vec<f32>,
-    /// Whether half floats hold them well enough.
+    /// Whether half floats are precise enough for the values.
     pub is_half: bool,
-    /// Its pictures.
+    /// The map in colours, in one or more pictures.
     pub pictures: Vec<MapPicture>,
 }
 
 /// A map in colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapPicture {
-    /// What is added to the map's name, where there are several.
+    /// A suffix for the map's name, if there are several pictures.
     pub name: Option<&'static str>,
     /// Interleaved 8-bit codes of red, green and blue.
     pub codes: Vec<u8>,
 }
 
-/// What a metric says of its map.
+/// The description of a metric's map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MapInfo {
-    /// What it is called, in the names of files.
+    /// The map's name in file names.
     pub name: &'static str,
-    /// Side of the block of pixels that a value is of.
+    /// Side of the block of pixels that each value describes.
     pub block: u64,
-    /// One line on its values.
+    /// A description of the values in one line.
     pub about: &'static str,
-    /// How they are coloured.
+    /// The colour scale.
     pub scale: MapScale,
 }
 
-/// Which values have the darkest and the brightest colour. It is the same for every frame, so that pictures
-/// can be compared.
+/// The values with the darkest and the brightest colour. They are the same for every frame, so that
+/// pictures can be compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MapScale {
-    /// In equal steps, from the value of no difference to one as large as it gets.
+    /// Equal steps, from the value for no difference to that for the largest difference.
     Linear {
-        /// The darkest.
+        /// The value with the darkest colour.
         none: f32,
-        /// The brightest.
+        /// The value with the brightest colour.
         most: f32,
     },
-    /// In equal steps of the logarithm.
+    /// Equal steps of the logarithm.
     Logarithmic {
-        /// The darkest: this, and whatever is below.
+        /// The value with the darkest colour; lower values have the same colour.
         none: f32,
-        /// The brightest.
+        /// The value with the brightest colour.
         most: f32,
     },
-    /// In colours of its own.
+    /// The metric colours its map itself.
     Own,
 }
 
 impl MapInfo {
-    /// The map of these values, in the colours of its scale.
+    /// A map of these values, in the colours of this scale.
     pub(crate) fn colored(&self, (width, height): (usize, usize), values: Vec<f32>) -> Map {
         let codes = values.iter().flat_map(|value| self.scale.color(*value)).collect();
         let pictures = vec![MapPicture { name: None, codes }];
@@ -81,7 +81,7 @@ const COLORS: [[f32; 3]; 5] = [
     [252.0, 253.0, 191.0],
 ];
 
-/// Where there is no value.
+/// The colour for pixels without a value.
 const NOTHING: [u8; 3] = [128; 3];
 
 impl MapScale {
@@ -103,7 +103,7 @@ impl MapScale {
     }
 }
 
-/// Multiplies a row.
+/// Multiplies a row by a factor.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 pub(crate) fn scaled(values: &[f32], by: f32, out: &mut [f32]) {
     for (out, value) in out.iter_mut().zip(values) {
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn what_differs_more_is_brighter() {
+    fn larger_differences_are_brighter() {
         let linear = MapScale::Linear { none: 1.0, most: 0.0 };
         let logarithmic = MapScale::Logarithmic { none: 1e-6, most: 1.0 };
         let values: Vec<f32> = (0..=100).map(|i| i as f32 / 100.0).collect();

@@ -1,13 +1,13 @@
-//! The list of all metrics: one line per metric. Everything else about a metric stands in its own file.
+//! The list of all metrics: one line per metric. Everything else about a metric is in its own file.
 
 use serde::{Deserialize, Serialize};
 
-// A metric that shares a pass with no other is named in this file alone.
-#[path = "fidelity/gmsd.rs"]
+// A metric that shares its pass with no other metric needs to be named only in this file.
+#[path = "fidelity/gmsd/mod.rs"]
 pub(crate) mod gmsd;
 
-/// Hands the list to another macro: the metric, the name of its parameters, its file. Metrics stand in
-/// the order of tables.
+/// Passes the list to another macro: the metric, the name of its parameters, and its file. Metrics
+/// are in the order of tables.
 macro_rules! for_all_metrics {
     ($then:ident) => {
         $then! {
@@ -21,11 +21,11 @@ macro_rules! for_all_metrics {
             MsSsim, ms_ssim: fidelity::ms_ssim;
             /// Foveal peak signal-to-noise ratio; FSSIM uses its weight.
             Fpsnr, fpsnr: fidelity::fpsnr;
-            /// Structural similarity under the foveal weight.
+            /// Structural similarity with the foveal weight.
             Fssim, fssim: fidelity::fssim;
             /// Gradient magnitude similarity deviation.
             Gmsd, gmsd: metric::gmsd;
-            /// FovVideoVDP; PU-PSNR sees light as it does.
+            /// FovVideoVDP; PU-PSNR uses the same luminance.
             Fvvdp, fvvdp: fidelity::fvvdp;
             /// Peak signal-to-noise ratio of perceptually uniform luminance.
             PuPsnr, pu_psnr: fidelity::pu_psnr;
@@ -42,7 +42,7 @@ pub(crate) use for_all_metrics;
 
 macro_rules! declare {
     ($($(#[$about:meta])* $metric:ident, $params:ident: $($file:ident)::+;)*) => {
-        /// A metric; in JSON its key.
+        /// A metric. In JSON it is written as its key.
         #[derive(
             Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
         )]

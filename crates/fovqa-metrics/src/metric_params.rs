@@ -1,4 +1,4 @@
-//! The parameters of a metric, and what follows from them.
+//! The parameters of a metric, and the properties that depend on them.
 
 use fovqa_params::{ParamError, ParamValue};
 
@@ -6,13 +6,14 @@ use crate::fidelity::score_error::ScoreError;
 use crate::fidelity::scored::Scored;
 use crate::pair_input::PairInput;
 
-/// The parameters of one metric: defaults, how they are set by name, and what the metric needs with them.
+/// The parameters of one metric: defaults, setting by name, and the needs of the metric with these
+/// parameters.
 pub(crate) trait MetricParams: Default + Clone + PartialEq {
     /// Whether the metric measures pairs in a pass of its own ([`Self::measure`]).
     const HAS_OWN_PASS: bool = false;
 
-    /// Sets a parameter to a value that the metric's table of parameters allows; `None` where this
-    /// value cannot be set.
+    /// Sets a parameter to a value that the metric's parameter table allows; `None` if this value
+    /// cannot be set.
     fn set(&mut self, _name: &str, _value: &ParamValue) -> Option<()> {
         None
     }
@@ -28,7 +29,8 @@ pub(crate) trait MetricParams: Default + Clone + PartialEq {
         1
     }
 
-    /// How many levels of blocks need bands: blocks of 2x2 pixels and, level by level, of 2x2 of those.
+    /// The number of block levels that need bands: level 1 has blocks of 2x2 pixels, and each
+    /// further level doubles their side.
     fn block_levels(&self) -> usize {
         0
     }

@@ -1,4 +1,4 @@
-//! A pair of frames, as a metric with a pass of its own is given it.
+//! The input of a metric with its own pass: a pair of frames.
 
 use fovqa_frame::{Frame, SignalTables};
 
@@ -11,12 +11,12 @@ pub struct PairInput<'a> {
     pub reference: &'a Frame,
     /// The test, of the same size.
     pub test: &'a Frame,
-    /// From samples to the signal.
+    /// The conversion from samples to the signal.
     pub tables: &'a SignalTables,
-    /// Which pixels count, and into which band.
+    /// The pixels that count, with the band of each.
     pub regions: &'a Regions<'a>,
-    /// Bands of the blocks of each level that the metric needs ([`crate::Params::block_levels`]), without
-    /// those that a mask leaves out.
+    /// The bands of the blocks of each level that the metric needs
+    /// ([`crate::Params::block_levels`]), without blocks that a mask leaves out.
     pub blocks: &'a BlockRegions<'a>,
     /// Whether a map is asked for.
     pub map: bool,

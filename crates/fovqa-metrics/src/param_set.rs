@@ -1,4 +1,4 @@
-//! Parameters of metrics as they were set: what a plan keeps and writes down.
+//! The parameters of metrics as the user has set them, which a plan stores.
 
 use std::collections::BTreeMap;
 use std::ops::Deref;
@@ -10,9 +10,11 @@ use serde::ser::{Serialize, Serializer};
 use crate::metric::Metric;
 use crate::registry::Params;
 
-/// The parameters of all metrics, and which of them were set by name. The others have their defaults.
+/// The parameters of all metrics, and which of them were set by name. The others have their
+/// defaults.
 ///
-/// Written down it is a table of the parameters that were set, by metric: `{"ssim": {"sigma": 2.0}}`.
+/// It is serialised as a table of the parameters that were set, by metric:
+/// `{"ssim": {"sigma": 2.0}}`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParamSet {
     params: Params,
@@ -23,7 +25,7 @@ impl ParamSet {
     /// Sets one parameter.
     ///
     /// # Errors
-    /// When the metric has no such parameter, or the value is not one of its values.
+    /// When the metric has no such parameter, or the parameter does not accept the value.
     pub fn set(
         &mut self,
         metric: Metric,
@@ -36,7 +38,7 @@ impl ParamSet {
         Ok(())
     }
 
-    /// The value a parameter was set to; `None`: it has its default.
+    /// The value that a parameter was set to; `None` if it has its default.
     pub fn value(&self, metric: Metric, param: &str) -> Option<&ParamValue> {
         let mut set = self.set.iter();
         set.find(|((m, name), _)| (*m, *name) == (metric, param)).map(|(_, value)| value)
@@ -82,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_set_is_written_and_read() {
+    fn parameters_that_were_set_are_written_and_read() {
         let mut set = ParamSet::default();
         set.set(Metric::Ssim, "sigma", &ParamValue::Number(0.1 + 0.2)).unwrap();
         set.set(Metric::Fvvdp, "foveated", &ParamValue::Flag(false)).unwrap();

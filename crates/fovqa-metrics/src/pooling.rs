@@ -1,10 +1,11 @@
-//! How values are pooled over the bands of a frame, the two eyes, and the frames of a sequence. Each metric
-//! declares once, beside its code, how its statistics pool ([`Statistic`]); [`pool`] does it, for everybody.
+//! How values are pooled over the bands of a frame, the two eyes, and the frames of a sequence.
+//! Each metric declares once, beside its code, how its statistics are pooled ([`Statistic`]);
+//! [`pool`] does it.
 
 use crate::decibels::{mse_of_db, psnr_db};
 use crate::kinds::Better;
 
-/// A statistic of a metric: one of the numbers it gives of a frame, a band or a level.
+/// A statistic of a metric: one of the numbers that it gives for a frame, a band or a level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub struct Statistic {
@@ -16,15 +17,16 @@ pub struct Statistic {
     pub eyes: Pooling,
     /// How the values of several frames are combined, besides their mean, minimum and maximum.
     pub frames: Pooling,
-    /// The weight of a band, where only results.csv is at hand, which has no sums.
+    /// The weight of a band when only results.csv is available, which has no sums.
     pub weight: Weight,
-    /// Whether it is a whole number: how many of something there are.
+    /// Whether it is a count of something.
     pub is_count: bool,
-    /// Whether results have the ratio of test to reference; of statistics that each picture has.
+    /// Whether results have the ratio of test to reference. It applies to statistics of single
+    /// pictures.
     pub has_ratio: bool,
     /// Whether higher or lower is better, where that differs from the metric.
     pub better: Option<Better>,
-    /// Whether it describes the whole frame and yet depends on the edges of the bands.
+    /// Whether it describes the whole frame but depends on the band edges.
     pub is_of_bands: bool,
     /// Whether it has a row in results.csv.
     pub has_row: bool,
@@ -43,24 +45,24 @@ pub enum Pooling {
     Decibels,
     /// The standard deviation of all samples together, with the divisor N - 1.
     Deviation,
-    /// The largest.
+    /// The largest value.
     Max,
     /// The sum.
     Sum,
 }
 
-/// Where results.csv has the weight of a band.
+/// The source of a band's weight in results.csv.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
-    /// Its number of pixels.
+    /// The band's number of pixels.
     Pixels,
-    /// Another statistic of the metric, of the same level.
+    /// Another statistic of the metric, on the same level.
     Statistic(&'static str),
     /// For a deviation: the number of samples, and their mean.
     Moments {
-        /// Statistic of the number.
+        /// The statistic with the number of samples.
         count: &'static str,
-        /// Statistic of the mean.
+        /// The statistic with their mean.
         mean: &'static str,
     },
 }
@@ -85,53 +87,53 @@ impl Statistic {
         }
     }
 
-    /// How many of something there are.
+    /// A count of something.
     pub(crate) const fn count(name: &'static str) -> Self {
         let of = Self { is_count: true, has_ratio: false, ..Self::named(name) };
         of.pooled(Pooling::Sum).over_frames(Pooling::Sum)
     }
 
-    /// Pooled in this way over bands and eyes.
+    /// Sets the pooling over bands and eyes.
     pub(crate) const fn pooled(self, pooling: Pooling) -> Self {
         Self { bands: pooling, eyes: pooling, ..self }
     }
 
-    /// Pooled in this way over bands.
+    /// Sets the pooling over bands.
     pub(crate) const fn over_bands(self, pooling: Pooling) -> Self {
         Self { bands: pooling, ..self }
     }
 
-    /// Pooled in this way over eyes.
+    /// Sets the pooling over eyes.
     pub(crate) const fn over_eyes(self, pooling: Pooling) -> Self {
         Self { eyes: pooling, ..self }
     }
 
-    /// Pooled in this way over frames.
+    /// Sets the pooling over frames.
     pub(crate) const fn over_frames(self, pooling: Pooling) -> Self {
         Self { frames: pooling, ..self }
     }
 
-    /// With this weight in results.csv.
+    /// Sets the weight in results.csv.
     pub(crate) const fn weighted_by(self, weight: Weight) -> Self {
         Self { weight, ..self }
     }
 
-    /// With its own direction: higher or lower is better.
+    /// Sets a direction of its own: whether higher or lower is better.
     pub(crate) const fn pointing(self, better: Better) -> Self {
         Self { better: Some(better), ..self }
     }
 
-    /// Dependent on the edges of the bands.
+    /// Declares that it depends on the band edges.
     pub(crate) const fn of_bands(self) -> Self {
         Self { is_of_bands: true, ..self }
     }
 
-    /// Without a ratio of test to reference.
+    /// Declares that it has no ratio of test to reference.
     pub(crate) const fn without_ratio(self) -> Self {
         Self { has_ratio: false, ..self }
     }
 
-    /// Without a row in results.
+    /// Declares that it has no row in results.
     pub(crate) const fn without_row(self) -> Self {
         Self { has_row: false, ..self }
     }
@@ -147,22 +149,22 @@ impl Statistic {
     }
 }
 
-/// What is needed to pool a value without loss.
+/// The numbers that are needed to pool a value without loss.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Parts {
     /// The value alone.
     #[default]
     Value,
-    /// Of a mean: its sum and its weight.
+    /// For a mean: its sum and its weight.
     Mean {
         /// The sum.
         sum: f64,
-        /// What divides it.
+        /// The divisor of the sum.
         weight: f64,
     },
-    /// Of a deviation: N, Σ and Σ².
+    /// For a deviation: N, Σ and Σ².
     Deviation {
-        /// How many values.
+        /// The number of values.
         count: f64,
         /// Their sum.
         sum: f64,
@@ -172,8 +174,8 @@ pub enum Parts {
 }
 
 impl Parts {
-    /// The parts of a value from results.csv, by its weight; `mean` is that of the samples of a
-    /// deviation.
+    /// The parts of a value from results.csv, by its weight. For a deviation, `mean` is the mean of
+    /// its samples.
     pub fn of_value(pooling: Pooling, value: Option<f64>, weight: f64, mean: f64) -> Self {
         match (pooling, value) {
             (Pooling::Mean, Some(value)) => Self::Mean { sum: value * weight, weight },
@@ -215,7 +217,7 @@ impl Parts {
         }
     }
 
-    /// The value that they make; `None` where there is nothing to make it of.
+    /// The value of these parts; `None` if there is nothing to compute it from.
     fn value(&self, pooling: Pooling) -> Option<f64> {
         match *self {
             Self::Value => None,
@@ -228,8 +230,8 @@ impl Parts {
     }
 }
 
-/// The standard deviation of `count` values with this sum and this sum of squares; `None` of fewer than
-/// two.
+/// The standard deviation of `count` values with this sum and this sum of squares; `None` for fewer
+/// than two values.
 pub(crate) fn deviation(count: f64, sum: f64, squares: f64) -> Option<f64> {
     let squared = squares - sum * sum / count;
     (count >= 2.0).then(|| (squared.max(0.0) / (count - 1.0)).sqrt())
@@ -250,7 +252,7 @@ pub fn pool(
             max = f64::max(max, value);
             (scored, last) = (scored + 1, value);
         }
-        // What has no value of its own may still have samples.
+        // A value may be missing although it has samples.
         if value.is_some() || !more.is_empty() {
             measured += 1;
             parts = match parts {
@@ -282,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn means_are_of_sums_and_scores_of_values() {
+    fn means_pool_sums_and_scores_pool_values() {
         let values = [mean(1.0, 4.0), mean(6.0, 12.0), (None, Parts::Value)];
         let (value, parts) = pool(Pooling::Mean, values);
         assert_eq!((value, parts), (Some(7.0 / 16.0), Parts::Mean { sum: 7.0, weight: 16.0 }));
@@ -295,13 +297,13 @@ mod tests {
     }
 
     #[test]
-    fn decibels_are_of_the_error_not_of_the_decibels() {
+    fn decibels_are_computed_from_the_pooled_error() {
         let frame = |mse: f64, pixels: f64| {
             (Some(psnr_db(mse)), Parts::Mean { sum: mse * pixels, weight: pixels })
         };
         let (value, _) = pool(Pooling::Decibels, [frame(0.01, 100.0), frame(0.0, 300.0)]);
         assert!((value.unwrap() - psnr_db(0.0025)).abs() < 1e-12);
-        // As well of results, which have the decibels and a weight.
+        // Values from results give the same, from decibels and a weight.
         let read = |mse: f64, pixels: f64| {
             let value = psnr_db(mse);
             (Some(value), Parts::of_value(Pooling::Decibels, Some(value), pixels, 0.0))
@@ -333,7 +335,7 @@ mod tests {
         };
         let (pooled, _) = pool(Pooling::Deviation, [read(left), read(right)]);
         assert!((pooled.unwrap() - whole).abs() < 1e-12);
-        // One value has no deviation, and counts among others.
+        // A single value has no deviation, but counts among others.
         let (one, rest) = values.split_at(1);
         let alone = || (None, Parts::of_value(Pooling::Deviation, None, 1.0, one[0]));
         let (pooled, _) = pool(Pooling::Deviation, [alone(), read(rest)]);

@@ -1,31 +1,32 @@
-//! Which pixels are summed into which band: the bands of the view, less what a mask leaves out.
+//! The assignment of pixels to bands: the bands of the view, without the pixels that a mask leaves
+//! out.
 
 use std::borrow::Cow;
 
 use fovqa_frame::Mask;
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, Run};
 
-/// The band of a pixel that is in no sum at all. Pixels outside all bands still count for the
-/// whole frame; their band is the number of bands.
+/// The band of a pixel that is in no sum at all. A pixel outside all bands still counts for the
+/// whole frame; its band is the number of bands.
 pub(crate) const LEFT_OUT: u16 = u16::MAX;
 
-/// Bands of pixels, and of the windows centred on them.
+/// The bands of pixels, and of the windows centred on them.
 #[derive(Debug, Clone)]
 pub struct Regions<'a> {
     pixels: Cow<'a, BandMap>,
-    /// `None` where the pixels' own will do: without a mask, a window counts where it fits.
+    /// `None` if the bands of the pixels apply: without a mask, a window counts wherever it fits.
     windows: Option<BandMap>,
     left_out: u64,
 }
 
 impl<'a> Regions<'a> {
-    /// Every pixel counts.
+    /// Regions in which every pixel counts.
     pub fn unmasked(bands: &'a BandMap) -> Self {
         Self { pixels: Cow::Borrowed(bands), windows: None, left_out: 0 }
     }
 
-    /// Only the pixels of a mask count, and only windows of radius `window_radius` that lie
-    /// wholly within it.
+    /// Regions in which only the pixels of a mask count, and only windows of radius `window_radius`
+    /// that lie completely within it.
     pub fn masked(bands: &BandMap, mask: &Mask, window_radius: usize) -> Regions<'static> {
         let clean = mask.eroded(window_radius);
         Regions {
@@ -35,27 +36,27 @@ impl<'a> Regions<'a> {
         }
     }
 
-    /// How many bands there are.
+    /// The number of bands.
     pub(crate) fn bands(&self) -> usize {
         self.pixels.bands()
     }
 
-    /// Rows of the frames these are regions of.
+    /// The number of rows of the frames.
     pub(crate) fn rows(&self) -> usize {
         self.pixels.rows()
     }
 
-    /// Whether a mask is at work.
+    /// Whether there is a mask.
     pub(crate) fn is_masked(&self) -> bool {
         self.windows.is_some()
     }
 
-    /// Pixels the mask leaves out.
+    /// The number of pixels that the mask leaves out.
     pub fn left_out(&self) -> u64 {
         self.left_out
     }
 
-    /// Pixels of each band, then those outside all bands.
+    /// The number of pixels in each band, then the number outside all bands.
     pub(crate) fn pixels(&self) -> Vec<u64> {
         self.pixels.pixels()
     }
@@ -69,18 +70,18 @@ impl<'a> Regions<'a> {
     }
 }
 
-/// Bands of the blocks of each level of a wavelet transform, which every level halves: level 1 has
-/// blocks of 2x2 pixels.
+/// The bands of the blocks of each level of a wavelet transform. Level 1 has blocks of 2x2 pixels,
+/// and every level halves the number of blocks in both directions.
 #[derive(Debug, Clone, Default)]
 pub struct BlockRegions<'a>(Cow<'a, [BandMap]>);
 
 impl<'a> BlockRegions<'a> {
-    /// Every block counts. One map a level, as of [`BlockRegions::maps`].
+    /// Regions in which every block counts, with one map per level as from [`BlockRegions::maps`].
     pub fn unmasked(maps: &'a [BandMap]) -> Self {
         Self(Cow::Borrowed(maps))
     }
 
-    /// Only blocks whose every pixel is in the mask count.
+    /// Regions in which only blocks count that lie completely within the mask.
     pub fn masked(maps: &[BandMap], mask: &Mask) -> BlockRegions<'static> {
         let mut clean = mask.clone();
         let maps = maps.iter().map(|map| {
@@ -90,7 +91,7 @@ impl<'a> BlockRegions<'a> {
         BlockRegions(Cow::Owned(maps.collect()))
     }
 
-    /// The maps of `levels` levels for pictures of a size, cropped at the right and bottom to whole
+    /// The maps of `levels` levels, for pictures that are cropped at the right and bottom to whole
     /// blocks of the last level.
     pub fn maps(eccentricity: &Eccentricity, edges: &BandEdges, levels: usize) -> Vec<BandMap> {
         let (width, height) = (eccentricity.view().width, eccentricity.view().height);
@@ -101,7 +102,7 @@ impl<'a> BlockRegions<'a> {
         maps.collect()
     }
 
-    /// The same without bands: every block is outside.
+    /// Such maps without bands: every block is outside.
     pub fn maps_without_bands((width, height): (usize, usize), levels: usize) -> Vec<BandMap> {
         let side = |side: usize, level: usize| (side >> levels) << (levels - level);
         let map = |level| BandMap::without_bands(side(width, level), side(height, level));
@@ -112,7 +113,7 @@ impl<'a> BlockRegions<'a> {
         self.0.len()
     }
 
-    /// Blocks of a level across the picture.
+    /// The number of blocks of a level across the picture.
     pub(crate) fn columns(&self, level: usize) -> usize {
         match self.0[level - 1].rows() {
             0 => 0,
@@ -120,12 +121,12 @@ impl<'a> BlockRegions<'a> {
         }
     }
 
-    /// Blocks of a level down the picture.
+    /// The number of blocks of a level down the picture.
     pub(crate) fn rows(&self, level: usize) -> usize {
         self.0[level - 1].rows()
     }
 
-    /// Blocks of a level in each band, then in none.
+    /// The number of blocks of a level in each band, then outside all bands.
     pub(crate) fn counts(&self, level: usize) -> Vec<u64> {
         self.0[level - 1].pixels()
     }
@@ -136,7 +137,7 @@ impl<'a> BlockRegions<'a> {
 }
 
 fn intersection(bands: &BandMap, mask: &Mask) -> BandMap {
-    // Of blocks, the mask has those that a crop leaves out as well.
+    // The mask of blocks also includes blocks that the crop leaves out.
     BandMap::from_rows(bands.bands(), bands.rows(), |y, runs| {
         let first = runs.len();
         let mut from = 0;
@@ -153,7 +154,7 @@ fn intersection(bands: &BandMap, mask: &Mask) -> BandMap {
     })
 }
 
-/// The stretches of runs that fall into the columns `xs`: `(from, to, band)`.
+/// The parts of runs that lie in the columns `xs`, as `(from, to, band)`.
 pub(crate) fn clipped(
     runs: &[Run],
     xs: std::ops::Range<usize>,

@@ -1,4 +1,4 @@
-//! What follows from the list of metrics: the entry of each, and the parameters of all.
+//! The registry of metrics: the description of each, and the parameters of all.
 
 use fovqa_params::{ParamError, ParamValue, find};
 
@@ -15,7 +15,7 @@ use crate::{fidelity, metric, profile, temporal};
 macro_rules! registry {
     ($($(#[$about:meta])* $metric:ident, $params:ident: $($file:ident)::+;)*) => {
         impl Metric {
-            /// Its entry.
+            /// The description of this metric.
             pub fn info(self) -> &'static MetricInfo {
                 match self {
                     $(Metric::$metric => &$($file)::+::INFO,)*
@@ -63,8 +63,8 @@ macro_rules! registry {
                 }
             }
 
-            /// How many levels of blocks need bands for a metric: blocks of 2x2 pixels and, level by level,
-            /// of 2x2 of those.
+            /// The number of block levels that need bands for a metric: level 1 has blocks of 2x2
+            /// pixels, and each further level doubles their side.
             pub fn block_levels(&self, metric: Metric) -> usize {
                 match metric {
                     $(Metric::$metric => self.$params.block_levels(),)*
@@ -88,7 +88,7 @@ macro_rules! registry {
 for_all_metrics!(registry);
 
 impl Metric {
-    /// The metrics of a run that names none; temporal ones are of sequences alone.
+    /// The metrics of a run that names none. Temporal ones apply only to sequences.
     pub const DEFAULT: [Metric; 7] = [
         Metric::Mse,
         Metric::Psnr,
@@ -110,7 +110,7 @@ impl Metric {
         self.info().key
     }
 
-    /// Whether it belongs to a kind.
+    /// Whether it is of a kind.
     pub fn is(self, kind: MetricKind) -> bool {
         self.info().kind == kind
     }
@@ -146,7 +146,7 @@ impl Params {
     /// Sets one parameter.
     ///
     /// # Errors
-    /// When the metric has no such parameter, or the value is not one of its values.
+    /// When the metric has no such parameter, or the parameter does not accept the value.
     pub fn set(
         &mut self,
         metric: Metric,
@@ -156,12 +156,12 @@ impl Params {
         let info = metric.info();
         let (known, value) = find(info.key, info.params, param, value)?;
         let set = self.set_known(metric, known.name, &value);
-        set.ok_or_else(|| known.refuses(info.key, &value))
+        set.ok_or_else(|| known.value_error(info.key, &value))
     }
 }
 
 impl Params {
-    /// The metrics that do not fit frames of a size, and why.
+    /// The metrics that do not fit frames of a size, with the reasons.
     pub fn unfit(
         &self,
         metrics: &[Metric],
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_is_not_there_or_out_of_range() {
+    fn refuses_unknown_names_and_values_out_of_range() {
         let mut params = Params::default();
         let number = ParamValue::Number;
         assert!(matches!(

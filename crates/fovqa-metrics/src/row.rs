@@ -1,7 +1,7 @@
-//! The one form of every measured value: its key, the value, and what is needed to pool it.
+//! The common form of every measured value: its key, the value, and the numbers needed to pool it.
 //!
-//! Rows belong to one frame. The frame's number is stored with the frame; scene, method and eye are stored
-//! with the sequence.
+//! Rows belong to one frame. The frame's number is stored with the frame; scene, method and eye are
+//! stored with the sequence.
 
 use std::cmp::Ordering;
 
@@ -12,26 +12,26 @@ use crate::pooling::{Parts, Statistic};
 /// What a value measures, without its eye and frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Key {
-    /// What is measured, or counted.
+    /// The metric or count that the value belongs to.
     pub subject: Subject,
-    /// Its statistic: index in those of the metric.
+    /// Index of its statistic in the metric's table.
     statistic: u8,
-    /// Of which picture.
+    /// The picture that the value describes.
     pub image: Image,
-    /// Level of the wavelet, or band of spatial frequency, from 1 on.
+    /// Level of the wavelet, or index of the spatial-frequency band, from 1 on.
     pub level: Option<u8>,
-    /// Index of the eccentricity band; `None`: the whole frame.
+    /// Index of the eccentricity band; `None` for the whole frame.
     pub band: Option<u16>,
 }
 
-/// What is measured, or counted.
+/// The metric or count that a value belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Subject {
-    /// Pixels that count, of a band.
+    /// The number of pixels of a band that count.
     Pixels,
-    /// Pixels that count and lie outside all bands.
+    /// The number of pixels that count and lie outside all bands.
     PixelsOutsideBands,
-    /// Pixels that a mask leaves out.
+    /// The number of pixels that a mask leaves out.
     PixelsLeftOut,
     /// A metric.
     Metric(Metric),
@@ -40,19 +40,19 @@ pub enum Subject {
 /// Which picture a value describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub enum Image {
-    /// Of test and reference together.
+    /// Test and reference together.
     #[default]
     Pair,
-    /// Of the reference.
+    /// The reference.
     Reference,
-    /// Of the test.
+    /// The test.
     Test,
-    /// Test over reference.
+    /// The ratio of test to reference.
     Ratio,
 }
 
 impl Image {
-    /// All, in the order of results.
+    /// All values, in the order of results.
     pub const ALL: [Image; 4] = [Image::Pair, Image::Reference, Image::Test, Image::Ratio];
 
     /// Its name in results.
@@ -71,7 +71,7 @@ impl Image {
     }
 }
 
-/// Pixels are counted.
+/// The statistic of pixel counts.
 const PIXELS: Statistic = Statistic::count("");
 
 impl Subject {
@@ -111,49 +111,49 @@ impl Subject {
 }
 
 impl Key {
-    /// The metric's first statistic, for the whole frame and the pair.
+    /// The key of the metric's first statistic, for the whole frame and the pair.
     pub fn of(metric: Metric) -> Self {
         Self::pixels(Subject::Metric(metric))
     }
 
-    /// A number of pixels of the whole frame.
+    /// The key of a number of pixels of the whole frame.
     pub fn pixels(subject: Subject) -> Self {
         Self { subject, statistic: 0, image: Image::Pair, level: None, band: None }
     }
 
-    /// A statistic by its name; `None` where the metric has none of it.
+    /// The key of a statistic by its name; `None` if the metric has no such statistic.
     pub fn named(subject: Subject, statistic: &str) -> Option<Self> {
         let index = subject.statistics().iter().position(|known| known.name == statistic)?;
         Some(Self { statistic: u8::try_from(index).ok()?, ..Self::pixels(subject) })
     }
 
-    /// The same of a statistic by its place in the metric's table.
+    /// The same key for another statistic, by its index in the metric's table.
     pub(crate) fn nth(self, statistic: usize) -> Self {
         debug_assert!(statistic < self.subject.statistics().len(), "a statistic of the metric");
         Self { statistic: statistic as u8, ..self }
     }
 
-    /// The same in a band.
+    /// The same key for a band.
     #[must_use]
     pub fn in_band(self, band: usize) -> Self {
         debug_assert!(band < usize::from(u16::MAX), "as many bands as a map of them may have");
         Self { band: Some(band as u16), ..self }
     }
 
-    /// The same on a level.
+    /// The same key for a level.
     #[must_use]
     pub fn on_level(self, level: usize) -> Self {
         debug_assert!(u8::try_from(level).is_ok(), "a level halves the frame");
         Self { level: Some(level as u8), ..self }
     }
 
-    /// The same of a picture.
+    /// The same key for a picture.
     #[must_use]
     pub fn of_image(self, image: Image) -> Self {
         Self { image, ..self }
     }
 
-    /// The metric; `None` of a number of pixels.
+    /// The metric; `None` for a number of pixels.
     pub fn metric(&self) -> Option<Metric> {
         self.subject.metric()
     }
@@ -168,9 +168,10 @@ impl Key {
         self.image == Image::Pair && self.statistic().name.is_empty() && self.metric().is_some()
     }
 
-    /// The position among the rows of a frame: the whole frame, then bands, then levels with bands; in
-    /// each of these pixel counts, other counts, scores, other statistics of the pair, and statistics of
-    /// each picture. One number, as rows are sorted and looked up by it.
+    /// The position among the rows of a frame: first the whole frame, then bands, then levels with
+    /// bands. Within each of these, the order is pixel counts, other counts, scores, other
+    /// statistics of the pair, and statistics of each picture. It is a single number because rows
+    /// are sorted and looked up by it.
     pub(crate) fn order(&self) -> u64 {
         let (subject, counted) = match self.subject {
             Subject::Pixels => (0, false),
@@ -195,7 +196,7 @@ impl Key {
         };
         let level = self.level.map_or(0, u64::from);
         let outer_level = if area == 3 { level } else { 0 };
-        // Each in as many bits as it has.
+        // Each part has as many bits as it needs.
         let parts = [
             (area, 2),
             (outer_level, 8),
@@ -225,16 +226,16 @@ impl Ord for Key {
 /// A measured value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// What it is of.
+    /// The description of the value.
     pub key: Key,
-    /// The value; `None` where there is nothing to have one of.
+    /// The value; `None` if there is nothing to measure.
     pub value: Option<f64>,
-    /// What is needed to pool it.
+    /// The numbers that are needed to pool it.
     pub parts: Parts,
 }
 
 impl Row {
-    /// The value, and the numbers of its parts behind it.
+    /// The value, followed by the numbers of its parts.
     pub fn numbers(&self) -> impl Iterator<Item = Option<f64>> + use<> {
         let parts = match self.parts {
             Parts::Value => [None; 3],
@@ -245,7 +246,7 @@ impl Row {
     }
 }
 
-/// Values of a frame, in the order in which they are measured.
+/// The values of a frame, in the order in which they are measured.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Rows(Vec<Row>);
 
@@ -260,22 +261,22 @@ impl Rows {
         self.push(key, Some(value), Parts::Value);
     }
 
-    /// Adds a number of something.
+    /// Adds a count.
     pub fn count(&mut self, key: Key, count: u64) {
         self.score(key, count as f64);
     }
 
-    /// Adds all of another set.
+    /// Adds all values of another set.
     pub fn extend(&mut self, other: &Rows) {
         self.0.extend_from_slice(&other.0);
     }
 
-    /// All of them.
+    /// All rows.
     pub(crate) fn as_slice(&self) -> &[Row] {
         &self.0
     }
 
-    /// All of them.
+    /// All rows.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &Row> {
         self.0.iter()
     }
@@ -285,12 +286,12 @@ impl Rows {
         self.0.iter().find(|row| row.key == key)
     }
 
-    /// The value of a key; `None` where there is no row, or nothing to have a value of.
+    /// The value of a key; `None` if there is no such row or the row has no value.
     pub fn value(&self, key: Key) -> Option<f64> {
         self.get(key)?.value
     }
 
-    /// The number of a key; 0 without a row.
+    /// The number of a key; 0 if there is no such row.
     pub fn number(&self, key: Key) -> u64 {
         self.value(key).map_or(0, |value| value as u64)
     }
@@ -343,7 +344,7 @@ mod tests {
         let pixels = Key::pixels(Subject::Pixels);
         let order = [
             psnr,
-            // Scores before statistics, whatever the order of metrics.
+            // Scores come before statistics, whatever the order of metrics.
             Key::of(Metric::PuPsnr),
             named(Metric::Fvvdp, "q"),
             sustained.on_level(1),

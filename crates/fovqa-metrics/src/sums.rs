@@ -5,10 +5,10 @@ use multiversion::multiversion;
 use crate::regions::clipped;
 use fovqa_vision::Run;
 
-/// Accumulators of a sum: two vectors of the widest kind.
+/// The number of accumulators of a sum: two vectors of the widest kind.
 const LANES: usize = 16;
 
-/// The lanes' sum, halves onto halves.
+/// The sum of the lanes, added in halves.
 #[inline(always)]
 fn total(mut lanes: [f64; LANES]) -> f64 {
     let mut width = LANES;
@@ -21,7 +21,7 @@ fn total(mut lanes: [f64; LANES]) -> f64 {
     lanes[0]
 }
 
-/// The sum of a row. Lane by lane, so that any vector width adds in the same order.
+/// The sum of a row, added lane by lane in the same order for any vector width.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 pub(crate) fn sum(values: &[f32]) -> f64 {
     let mut lanes = [0.0f64; LANES];
@@ -54,18 +54,18 @@ pub(crate) fn sum_of_products(a: &[f32], b: &[f32]) -> f64 {
     total(lanes)
 }
 
-/// Adds a row, whose first value stands in column `x`, to the sums of the bands it crosses.
+/// Adds a row, which starts in column `x`, to the sums of the bands that it crosses.
 pub(crate) fn add_by_band(values: &[f32], x: usize, runs: &[Run], sums: &mut [f64]) {
     for (from, to, band) in clipped(runs, x..x + values.len()) {
         sums[usize::from(band)] += sum(&values[from - x..to - x]);
     }
 }
 
-/// Over the row's values that are in any region: the sum of values times weights, and that of the
-/// weights.
+/// The sum of values times weights, and the sum of weights, over the values of the row that are in
+/// any region.
 pub(crate) fn weighted(values: &[f32], weights: &[f32], x: usize, runs: &[Run]) -> (f64, f64) {
     let mut sums = (0.0, 0.0);
-    // Without a mask the whole row is one stretch, whatever the bands.
+    // Without a mask the whole row is one stretch, whatever its bands are.
     if !runs.iter().any(|run| run.band == crate::regions::LEFT_OUT) {
         return (sum_of_products(values, weights), sum(weights));
     }

@@ -1,5 +1,5 @@
-//! FovVideoVDP against the reference program: every case of the golden values, frame by frame and band by
-//! band, through the library.
+//! Compares FovVideoVDP with the reference program, for every case of the golden values, frame by
+//! frame and band by band, through the library's API.
 
 #![allow(clippy::unwrap_used, reason = "a test fails where a golden value is missing")]
 
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use fovqa_frame::{Frame, LightTables, SignalParams, Transfer};
+use fovqa_frame::{Frame, LuminanceTables, SignalParams, Transfer};
 use fovqa_metrics::fvvdp::{
     ColorSpace, Fvvdp, FvvdpFrame, Geometry, Grid, Padding, Params, Photometry, Stream, Time, jod,
 };
@@ -19,7 +19,7 @@ use fovqa_vision::{
 };
 use serde_json::Value;
 
-/// Required is 0.01; the reference program's own rounding is 1e-4.
+/// The required tolerance is 0.01; the reference program's own rounding error is 1e-4.
 const JOD: f64 = 3e-4;
 
 fn photometry(case: &FvvdpCase, display: &Display) -> Photometry {
@@ -47,7 +47,7 @@ fn photometry(case: &FvvdpCase, display: &Display) -> Photometry {
     Photometry::new(luminance)
 }
 
-/// The geometry of frames stretched over the display of a case.
+/// The geometry of frames that are stretched over the display of a case.
 fn geometry(case: &FvvdpCase, display: &Display) -> Geometry {
     let Some(given) = &case.geometry else {
         let spec = ViewSpec::Display(display.clone());
@@ -77,13 +77,13 @@ fn geometry(case: &FvvdpCase, display: &Display) -> Geometry {
     Geometry::new(view, Some(Geometry::new(own, None).pixels_per_degree))
 }
 
-struct Found {
+struct CaseScores {
     jod: f64,
     frames: Vec<FvvdpFrame>,
     pu_psnr_db: Vec<f64>,
 }
 
-fn found(golden: &Golden, case: &FvvdpCase, keep: bool) -> Found {
+fn found(golden: &Golden, case: &FvvdpCase, keep: bool) -> CaseScores {
     let display = find_display(&case.display).unwrap();
     let geometry = geometry(case, display);
     assert!((geometry.pixels_per_degree / case.ppd - 1.0).abs() < 1e-6, "{}", case.id);
@@ -137,10 +137,10 @@ fn found(golden: &Golden, case: &FvvdpCase, keep: bool) -> Found {
     };
     let q = frames.iter().map(|frame| frame.q).sum::<f64>() / frames.len() as f64;
     let pu_psnr_db = pictures[0].iter().zip(&pictures[1]).map(pu).collect();
-    Found { jod: jod(q), frames, pu_psnr_db }
+    CaseScores { jod: jod(q), frames, pu_psnr_db }
 }
 
-fn luminance(frames: &[Frame], tables: &LightTables) -> Vec<Arc<Grid>> {
+fn luminance(frames: &[Frame], tables: &LuminanceTables) -> Vec<Arc<Grid>> {
     frames.iter().map(|frame| Arc::new(Grid::luminance(frame, tables))).collect()
 }
 

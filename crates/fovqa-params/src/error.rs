@@ -1,30 +1,30 @@
-//! What is wrong with a parameter.
+//! Errors about parameters and their values.
 
 use thiserror::Error;
 
-/// A parameter that is not there, or a value it cannot take.
+/// A parameter that does not exist, or a value that the parameter does not accept.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ParamError {
-    /// No such parameter.
+    /// There is no parameter of this name.
     #[error("{owner} has no parameter {param:?}; {known}")]
     Unknown {
         /// The metric, model or method.
         owner: &'static str,
-        /// What was given.
+        /// The name that was given.
         param: String,
-        /// What there is.
+        /// The names that exist.
         known: String,
     },
-    /// A value out of its range or of another type.
+    /// The value is out of range or has another type.
     #[error("{owner}.{param} cannot be {value}: {expected}")]
     Value {
         /// The metric, model or method.
         owner: &'static str,
-        /// The parameter.
+        /// The parameter's name.
         param: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: String,
-        /// What it may be.
+        /// The values that the parameter accepts.
         expected: String,
     },
 }

@@ -1,30 +1,30 @@
-//! What there is to say about a parameter.
+//! The description of a parameter: its name, default, accepted values and meaning.
 
 use crate::{ParamError, ParamValue};
 
-/// A parameter.
+/// The description of one parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParamInfo {
-    /// Its name.
+    /// The parameter's name.
     pub name: &'static str,
-    /// Its default, as TOML.
+    /// The default, written as TOML.
     pub default: &'static str,
-    /// What it may be.
+    /// The values it accepts.
     pub values: ParamValues,
-    /// What it is, with its unit.
+    /// What it means, with its unit.
     pub about: &'static str,
 }
 
-/// What a parameter may be.
+/// The values that a parameter accepts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ParamValues {
-    /// A number from the first to the second.
+    /// A number from the first bound to the second, both included.
     Number(f64, f64),
-    /// The same, or a word such as `off`.
+    /// A number within the bounds, or a word such as `off`.
     NumberOr(f64, f64, &'static str),
-    /// A whole number from the first to the second.
+    /// A whole number from the first bound to the second, both included.
     Whole(u32, u32),
-    /// The same, or a word such as `auto`.
+    /// A whole number within the bounds, or a word such as `auto`.
     WholeOr(u32, u32, &'static str),
     /// `true` or `false`.
     Flag,
@@ -54,8 +54,8 @@ impl std::fmt::Display for ParamValues {
 }
 
 impl ParamValues {
-    /// Whether a value is one of these.
-    pub fn accept(&self, value: &ParamValue) -> bool {
+    /// Whether `value` is one of these values.
+    pub fn accepts(&self, value: &ParamValue) -> bool {
         match (self, value) {
             (Self::Number(min, max) | Self::NumberOr(min, max, _), ParamValue::Number(n)) => {
                 (*min..=*max).contains(n)
@@ -79,11 +79,11 @@ impl ParamValues {
     }
 }
 
-/// The parameter of a name, `-` and `_` alike, and its value with words spelled as the parameter
-/// has them.
+/// Finds a parameter by name (`-` and `_` are alike) and checks its value. Words are returned in
+/// the spelling of the parameter's list.
 ///
 /// # Errors
-/// When there is no such parameter, or the value is none of its values.
+/// When there is no such parameter, or the parameter does not accept the value.
 pub fn find(
     owner: &'static str,
     params: &'static [ParamInfo],
@@ -104,12 +104,16 @@ pub fn find(
         ParamValue::Text(text) => ParamValue::Text(text.replace('-', "_")),
         value => value.clone(),
     };
-    if known.values.accept(&value) { Ok((known, value)) } else { Err(known.refuses(owner, &value)) }
+    if known.values.accepts(&value) {
+        Ok((known, value))
+    } else {
+        Err(known.value_error(owner, &value))
+    }
 }
 
 impl ParamInfo {
-    /// The error for a value that is none of this parameter's.
-    pub fn refuses(&self, owner: &'static str, value: &ParamValue) -> ParamError {
+    /// The error for a value that this parameter does not accept.
+    pub fn value_error(&self, owner: &'static str, value: &ParamValue) -> ParamError {
         ParamError::Value {
             owner,
             param: self.name,
@@ -118,7 +122,7 @@ impl ParamInfo {
         }
     }
 
-    /// Its default as a value.
+    /// The default as a value.
     pub fn default_value(&self) -> ParamValue {
         let default = self.default;
         if let Ok(flag) = default.parse::<bool>() {
@@ -161,10 +165,10 @@ mod tests {
     #[test]
     fn pairs_are_pairs_or_the_word() {
         let values = ParamValues::PairsOr("none");
-        assert!(values.accept(&ParamValue::Text("none".into())));
-        assert!(values.accept(&ParamValue::Pairs(vec![[0.0, 1.0]])));
-        assert!(!values.accept(&ParamValue::Pairs(vec![[0.0, f64::NAN]])));
-        assert!(!values.accept(&ParamValue::List(vec![1.0])));
+        assert!(values.accepts(&ParamValue::Text("none".into())));
+        assert!(values.accepts(&ParamValue::Pairs(vec![[0.0, 1.0]])));
+        assert!(!values.accepts(&ParamValue::Pairs(vec![[0.0, f64::NAN]])));
+        assert!(!values.accepts(&ParamValue::List(vec![1.0])));
         assert_eq!(PARAMS[1].default_value(), ParamValue::Text("none".into()));
     }
 }

@@ -1,6 +1,6 @@
-//! Parameters that users set by name, `--set ssim.sigma=1.5` or a key in a TOML table: what each may
-//! be, its default and its unit. Metrics, acuity models and foveation methods describe theirs with
-//! [`ParamInfo`] and take them as [`ParamValue`].
+//! Parameters that users set by name, with `--set ssim.sigma=1.5` or as a key in a TOML table:
+//! their accepted values, default and unit. Metrics, acuity models and foveation methods describe
+//! their parameters with [`ParamInfo`] and receive them as [`ParamValue`].
 
 mod error;
 mod info;
@@ -12,6 +12,6 @@ pub use info::{ParamInfo, ParamValues, find};
 pub use value::ParamValue;
 pub use words::{OrAuto, Words, words_of};
 
-// For [`words!`].
+// The macro `words!` uses it in other crates.
 #[doc(hidden)]
 pub use serde;

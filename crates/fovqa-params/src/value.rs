@@ -1,8 +1,8 @@
-//! A value as a user writes it.
+//! The value of a parameter as a user writes it.
 
 use serde::{Deserialize, Serialize};
 
-/// A value as a user writes it.
+/// The value of a parameter as a user writes it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum ParamValue {
@@ -30,7 +30,7 @@ impl ParamValue {
         }
     }
 
-    /// The number.
+    /// The number, if the value is one.
     pub fn number(&self) -> Option<f64> {
         match self {
             ParamValue::Number(number) => Some(*number),
@@ -38,7 +38,7 @@ impl ParamValue {
         }
     }
 
-    /// Whether it is `true`.
+    /// The flag, if the value is one.
     pub fn flag(&self) -> Option<bool> {
         match self {
             ParamValue::Flag(flag) => Some(*flag),
@@ -46,7 +46,7 @@ impl ParamValue {
         }
     }
 
-    /// The list.
+    /// The list, if the value is one.
     pub fn list(&self) -> Option<Vec<f64>> {
         match self {
             ParamValue::List(list) => Some(list.clone()),
@@ -54,7 +54,7 @@ impl ParamValue {
         }
     }
 
-    /// The pairs; an empty list has none.
+    /// The pairs, if the value is a list of pairs. An empty list has no pairs.
     pub fn pairs(&self) -> Option<Vec<[f64; 2]>> {
         match self {
             ParamValue::Pairs(pairs) => Some(pairs.clone()),
@@ -63,7 +63,7 @@ impl ParamValue {
         }
     }
 
-    /// The word.
+    /// The word, if the value is one.
     pub fn text(&self) -> Option<&str> {
         match self {
             ParamValue::Text(text) => Some(text),

@@ -1,24 +1,24 @@
-//! Settings that are one of a few words: the words stand once, beside the type they belong to, and the
-//! command line, the experiment file, its schema and `run.json` take them from there.
+//! Settings that take one of a few words. The words are written once, beside the type they belong
+//! to; the command line, the experiment file, its schema and `run.json` take them from there.
 
-/// One of a few words. [`words!`](crate::words!) defines such a type.
+/// A type whose values are a few words. [`words!`](crate::words!) defines such a type.
 pub trait Words: Copy + PartialEq + Send + Sync + 'static {
     /// All values, in the order in which help shows them.
     fn all() -> Vec<Self>;
 
-    /// The word, as it is written everywhere.
+    /// The word of this value, as it is written everywhere.
     fn word(self) -> &'static str;
 
     /// What it means, in one line of help.
     fn about(self) -> &'static str;
 
-    /// The value of a word.
+    /// The value of a word, if there is one.
     fn find(word: &str) -> Option<Self> {
         Self::all().into_iter().find(|value| value.word() == word)
     }
 }
 
-/// Words of which none need be given: `auto` leaves the choice to the input.
+/// A setting that may also be left to the input, with the word `auto`.
 pub trait OrAuto: Words {
     /// What `auto` means, in one line of help.
     const AUTO: &'static str;
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     words! {
-        /// Sides.
+        /// Test words.
         #[expect(unreachable_pub, reason = "all of these are public")]
         pub enum Side {
             /// Left.

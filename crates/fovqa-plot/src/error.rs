@@ -1,10 +1,10 @@
-//! What can go wrong between a figure and its picture.
+//! Errors of drawing a figure.
 
 use std::error::Error;
 
 use thiserror::Error;
 
-/// Why a figure could not be drawn.
+/// The reason why a figure could not be drawn.
 #[derive(Debug, Error)]
 pub enum PlotError {
     /// A series of bars or boxes does not fit the groups of its chart.
@@ -12,42 +12,42 @@ pub enum PlotError {
     Groups {
         /// The series.
         series: String,
-        /// Its values.
+        /// Its number of values.
         found: usize,
-        /// The groups.
+        /// The number of groups.
         expected: usize,
     },
-    /// The values of a picture are not one for each cell.
+    /// The number of a picture's values differs from its number of cells.
     #[error("the picture \"{panel}\" has {found} values for {columns} x {rows} cells")]
     Cells {
         /// The title of the picture.
         panel: String,
-        /// Its values.
+        /// Its number of values.
         found: usize,
-        /// Cells of a row.
+        /// The number of cells in a row.
         columns: usize,
-        /// Rows.
+        /// The number of rows.
         rows: usize,
     },
-    /// A picture has no part of the plane to lie over.
+    /// A picture does not cover a part of the plane.
     #[error("the picture \"{panel}\" needs ranges of finite numbers, from left to right")]
     Extent {
         /// The title of the picture.
         panel: String,
     },
-    /// The drawing library refused.
+    /// The drawing library reports an error.
     #[error("the SVG could not be written")]
     Draw(#[source] Box<dyn Error + Send + Sync>),
-    /// The text to make a PNG of is no SVG.
+    /// The text for a PNG is not SVG.
     #[error("the SVG could not be read")]
     Svg(#[source] Box<dyn Error + Send + Sync>),
-    /// A scale that makes no picture.
+    /// The scale does not make a picture.
     #[error(
         "the scale {scale} makes a PNG of {width} x {height} pixels, not of 1 to {} a side",
         crate::limits::MAX_SIDE_PX
     )]
     Size {
-        /// Pixels of the PNG for each of the SVG.
+        /// PNG pixels per SVG pixel.
         scale: f32,
         /// Width in pixels, rounded up.
         width: f32,
@@ -60,7 +60,7 @@ pub enum PlotError {
 }
 
 impl PlotError {
-    /// Holds the number of a series' values to the number of groups.
+    /// Checks that a series has one value per group.
     pub(crate) fn check_groups(
         series: &str,
         found: usize,

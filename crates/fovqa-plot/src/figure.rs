@@ -26,14 +26,14 @@ pub enum Figure {
 }
 
 impl Figure {
-    /// The figure as an SVG document: the same text for the same figure, on any machine.
+    /// The figure as an SVG document, which is the same on any machine.
     ///
-    /// Of a name too long for three lines the picture shows the beginning; the [CSV](Self::csv)
-    /// has all of it.
+    /// If a name is too long for three lines, the picture shows its beginning. The [CSV](Self::csv)
+    /// has the full name.
     ///
     /// # Errors
-    /// When a series does not have one value for each group, or a picture one for each cell of a
-    /// part of the plane.
+    /// When a series does not have one value per group, or a picture does not have one value per
+    /// cell or does not cover a part of the plane.
     pub fn svg(&self) -> Result<String, PlotError> {
         svg::write(&self.draw()?)
     }
@@ -48,10 +48,11 @@ impl Figure {
         }
     }
 
-    /// The data of the figure as CSV, a row for each value: `series,x,y`, `panel,series,x,y`,
-    /// `group,series,value`, or `panel,x,y,value` at the middle of a cell. A missing value is an empty field, an infinite one `inf` or `-inf`. A
-    /// span has two rows, one for each end, with an empty `y`, after the series of its chart. Areas
-    /// between curves have none: their edges are curves already.
+    /// The data of the figure as CSV, with one row per value: `series,x,y`, `panel,series,x,y`,
+    /// `group,series,value`, or `panel,x,y,value` at the centre of a cell. A missing value is an
+    /// empty field, and an infinite value is `inf` or `-inf`. A span has two rows, one for each
+    /// end, with an empty `y`, after the series of its chart. Areas between curves have no rows,
+    /// because their edges are curves already.
     pub fn csv(&self) -> String {
         match self {
             Self::Line(chart) => tidy::line(chart),

@@ -1,9 +1,11 @@
-//! Series to figures as SVG, and PNG from the SVG: curves, bars and distributions, made for half
-//! the width of a page of a paper, panels of curves for the whole of it, and pictures for either.
+//! Draws series as figures in SVG, and converts the SVG to PNG. Curves, bars and distributions have
+//! half the width of a paper's page, panels of curves have the full width, and pictures have
+//! either.
 //!
 //! A figure is plain data ([`LineChart`], [`BarChart`], [`SpreadChart`], [`PanelChart`],
-//! [`RasterChart`]); nothing here knows what was measured. The same figure gives the same bytes on every machine and thread: text is measured
-//! and set in a bundled font, and no place depends on a function that differs between platforms.
+//! [`RasterChart`]); nothing here knows what was measured. The same figure gives the same bytes on
+//! every machine and thread: text is measured and set in a bundled font, and no position depends on
+//! a function that differs between platforms.
 //!
 //! ```
 //! use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look, png};

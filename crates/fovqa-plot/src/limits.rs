@@ -1,4 +1,5 @@
 //! Limits of pictures.
 
-/// The longest side of a PNG: a figure over two pages' width at 1200 dpi, and 1 GiB of pixels.
+/// The longest side of a PNG in pixels: that of a figure wider than two pages at 1200 dpi, with 1
+/// GiB of pixels.
 pub(crate) const MAX_SIDE_PX: f32 = 16384.0;

@@ -1,5 +1,5 @@
-//! The data of a figure as CSV, tidy: a row for each value. RFC 4180 but for the line ends, which
-//! are LF alone.
+//! The data of a figure as tidy CSV, with one row per value. The format is RFC 4180 except for the
+//! line ends, which are LF only.
 
 use crate::charts::bar::BarChart;
 use crate::charts::line::LineChart;
@@ -7,17 +7,17 @@ use crate::charts::panels::PanelChart;
 use crate::charts::raster::RasterChart;
 use crate::charts::spread::SpreadChart;
 
-/// A number so that it reads back as the same, and as a float: "1.0".
+/// Writes a number such that it is read back as the same float: "1.0".
 fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
-/// A value, or nothing where there is none.
+/// A value, or an empty field if there is none.
 fn optional(value: Option<f64>) -> String {
     value.filter(|value| !value.is_nan()).map(number).unwrap_or_default()
 }
 
-/// A name, in quotes where it needs them.
+/// A name, in quotes if it needs them.
 fn name(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
@@ -73,7 +73,8 @@ pub(crate) fn bar(chart: &BarChart) -> String {
     csv
 }
 
-/// The values at the middle of their cells; without the lines, which are drawn for the eye.
+/// The values at the centres of their cells. Lines are not included, because they are only a visual
+/// aid.
 pub(crate) fn raster(chart: &RasterChart) -> String {
     let mut csv = "panel,x,y,value\n".to_owned();
     for panel in &chart.panels {
@@ -81,7 +82,7 @@ pub(crate) fn raster(chart: &RasterChart) -> String {
         let middle = |(from, to): (f64, f64), cell: usize, cells: usize| {
             let share = (cell as f64 + 0.5) / cells as f64;
             let at = from * (1.0 - share) + to * share;
-            // Of a place that is a third of something seven digits are enough.
+            // Seven digits are enough for a position such as a third of something.
             number(format!("{at:.6e}").parse().unwrap_or(at))
         };
         for (r, values) in panel.values.chunks(panel.columns.max(1)).enumerate() {

@@ -1,4 +1,4 @@
-//! Eccentricity bands: half-open ranges in degrees, and which pixels fall into which.
+//! Eccentricity bands: half-open ranges in degrees, and the band of each pixel.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -13,30 +13,30 @@ pub const DEFAULT_BAND_DEG: f64 = 5.0;
 #[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
 pub struct BandEdges(Vec<f64>);
 
-/// Edges that make no bands.
+/// Edges that do not make bands.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum BandEdgesError {
-    /// Fewer than two edges.
+    /// There are fewer than two edges.
     #[error("bands need at least two edges")]
     TooFew,
-    /// More bands than anybody plots.
+    /// There are more than [`BandEdges::MAX_BANDS`] bands.
     #[error("{found} bands are more than the {} there may be", BandEdges::MAX_BANDS)]
     TooMany {
-        /// Bands asked for.
+        /// Number of bands asked for.
         found: usize,
     },
-    /// An edge that is not a number from 0° to 180°.
+    /// An edge is not a number from 0° to 180°.
     #[error("the band edge {edge_deg} is not between 0° and 180°")]
     OutOfRange {
         /// The edge.
         edge_deg: f64,
     },
-    /// Edges out of order.
+    /// The edges do not rise.
     #[error("the band edge {edge_deg} does not lie above the one before it, {before_deg}")]
     NotRising {
-        /// The edge.
+        /// The edge that does not rise.
         edge_deg: f64,
-        /// The one before.
+        /// The edge before it.
         before_deg: f64,
     },
 }
@@ -56,13 +56,14 @@ impl From<BandEdges> for Vec<f64> {
 }
 
 impl BandEdges {
-    /// The most bands there may be.
+    /// The largest number of bands.
     pub const MAX_BANDS: usize = 1000;
 
-    /// Bands between given edges.
+    /// Bands between the given edges.
     ///
     /// # Errors
-    /// When there are fewer than two edges, or they do not rise, or leave 0° to 180°.
+    /// When there are fewer than two edges, too many of them, or they do not rise within 0° to
+    /// 180°.
     pub fn new(edges_deg: Vec<f64>) -> Result<Self, BandEdgesError> {
         if edges_deg.len() < 2 {
             return Err(BandEdgesError::TooFew);
@@ -85,12 +86,12 @@ impl BandEdges {
         Self((0..=last).map(|i| i as f64 * DEFAULT_BAND_DEG).collect())
     }
 
-    /// How many bands.
+    /// The number of bands.
     pub fn count(&self) -> usize {
         self.0.len() - 1
     }
 
-    /// Each band's `(from_deg, to_deg)`.
+    /// The `(from_deg, to_deg)` of each band.
     pub fn iter(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.0.windows(2).map(|pair| (pair[0], pair[1]))
     }
@@ -101,12 +102,11 @@ impl BandEdges {
 pub struct Run {
     /// First column beyond the run; it starts where the one before it ends.
     pub end: u32,
-    /// Index of the band; the number of bands where the pixels fall into none.
+    /// Index of the band; for pixels outside all bands, the number of bands.
     pub band: u16,
 }
 
-/// Which pixel (or block of pixels) falls into which band: for each row its runs, from left to
-/// right.
+/// The band of each pixel (or block of pixels), stored as the runs of each row from left to right.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BandMap {
     bands: usize,
@@ -121,28 +121,28 @@ impl BandMap {
         Self::of_blocks(eccentricity, edges, 1, [width, height])
     }
 
-    /// The bands of square blocks of `side` pixels, `count` of them across and down from the
-    /// top-left corner, each by its centre.
+    /// The bands of square blocks of `side` pixels. `count` is the number of blocks across and down
+    /// from the top-left corner; the centre of a block decides its band.
     pub fn of_blocks(
         eccentricity: &Eccentricity,
         edges: &BandEdges,
         side: usize,
         count: [usize; 2],
     ) -> Self {
-        let decide = Decide::new(eccentricity, edges, side);
+        let counter = EdgeCounter::new(eccentricity, edges, side);
         let mut ends = [vec![0; edges.0.len() + 1], vec![0; edges.0.len() + 1]];
         let [columns, rows] = count;
         Self::from_rows(edges.count(), rows, |y, runs| {
-            RowRuns::new(&decide, y, &mut ends, runs).fill(columns);
+            RowRuns::new(&counter, y, &mut ends, runs).fill(columns);
         })
     }
 
-    /// No bands at all: every pixel outside.
+    /// A map without bands: every pixel is outside.
     pub fn without_bands(width: usize, height: usize) -> Self {
         Self::from_rows(0, height, |_, runs| runs.push(Run { end: width as u32, band: 0 }))
     }
 
-    /// A map from a function that appends the runs of row `y`.
+    /// A map from a function that appends the runs of row `y` to a list.
     pub fn from_rows(
         bands: usize,
         height: usize,
@@ -158,27 +158,27 @@ impl BandMap {
         Self { bands, starts, runs }
     }
 
-    /// Bytes of memory it takes.
+    /// The memory it takes, in bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(self.starts.as_slice()) + size_of_val(self.runs.as_slice())
     }
 
-    /// How many bands there are.
+    /// The number of bands.
     pub fn bands(&self) -> usize {
         self.bands
     }
 
-    /// How many rows there are.
+    /// The number of rows.
     pub fn rows(&self) -> usize {
         self.starts.len() - 1
     }
 
-    /// The runs of row `y`, which cover it.
+    /// The runs of row `y`. Together they cover the row.
     pub fn row(&self, y: usize) -> &[Run] {
         &self.runs[self.starts[y]..self.starts[y + 1]]
     }
 
-    /// Pixels in each band, then pixels in none.
+    /// The number of pixels in each band, then the number of pixels outside all bands.
     pub fn pixels(&self) -> Vec<u64> {
         let mut pixels = vec![0; self.bands + 1];
         for y in 0..self.rows() {
@@ -194,21 +194,22 @@ impl BandMap {
     }
 }
 
-/// Well above the rounding of a key, so that a pixel nearer than this to an edge is decided by its
-/// eccentricity proper.
+/// Relative distance of a key from an edge, well above the rounding error of a key. A pixel nearer
+/// to an edge than this is decided by its exact eccentricity.
 const NEAR: f64 = 1e-12;
 
-struct Decide<'a> {
+struct EdgeCounter<'a> {
     eccentricity: &'a Eccentricity,
     keys: Vec<f64>,
-    /// For each number of edges below, the keys between which it is that, clear of any edge.
+    /// For each number of edges below a key: the open range of keys that have this number and are
+    /// not near any edge.
     clear: Vec<(f64, f64)>,
     edges_deg: &'a [f64],
-    /// Side of what is decided on: 1 for pixels.
+    /// Side of the blocks whose band is decided, in pixels; 1 for single pixels.
     side_px: f64,
 }
 
-impl<'a> Decide<'a> {
+impl<'a> EdgeCounter<'a> {
     fn new(eccentricity: &'a Eccentricity, edges: &'a BandEdges, side: usize) -> Self {
         let keys: Vec<_> = edges.0.iter().map(|&deg| eccentricity.key_of_deg(deg)).collect();
         let from = keys.iter().map(|edge| edge * (1.0 + 2.0 * NEAR));
@@ -222,7 +223,7 @@ impl<'a> Decide<'a> {
         (index as f64 + 0.5) * self.side_px
     }
 
-    /// How many edges lie at or below the eccentricity of a point.
+    /// The number of edges at or below the eccentricity of a point.
     fn edges_below(&self, key: f64, [x_px, y_px]: [f64; 2]) -> usize {
         let below = self.keys.partition_point(|edge| *edge <= key);
         let is_near = |edge: Option<&f64>| edge.is_some_and(|e| (e - key).abs() <= NEAR * key);
@@ -235,47 +236,49 @@ impl<'a> Decide<'a> {
     }
 }
 
-/// The runs of one row being found.
+/// Collects the runs of one row.
 struct RowRuns<'a> {
-    decide: &'a Decide<'a>,
+    counter: &'a EdgeCounter<'a>,
     y_px: f64,
-    /// Where a run last ended, in this row or one above, for each number of edges below it; first
-    /// where eccentricity falls, then where it rises.
+    /// The column where a run last ended, in this row or in one above, by the number of edges below
+    /// it. The first list is for falling eccentricity, the second for rising.
     ends: &'a mut [Vec<usize>; 2],
-    /// Those of the rows above, then those of this one from `first`.
+    /// The runs of the rows above, then those of this row from index `first`.
     runs: &'a mut Vec<Run>,
     first: usize,
-    /// Edges below the last pixel.
+    /// The number of edges below the last pixel.
     below: usize,
 }
 
 impl<'a> RowRuns<'a> {
     fn new(
-        decide: &'a Decide<'a>,
+        counter: &'a EdgeCounter<'a>,
         y: usize,
         ends: &'a mut [Vec<usize>; 2],
         runs: &'a mut Vec<Run>,
     ) -> Self {
-        Self { decide, y_px: decide.centre_px(y), ends, first: runs.len(), runs, below: 0 }
+        Self { counter, y_px: counter.centre_px(y), ends, first: runs.len(), runs, below: 0 }
     }
 
-    /// How many edges lie at or below the eccentricity of the centre of a pixel, or block. Sooner
-    /// if as many as expected: by a branch, which the processor foresees.
+    /// The number of edges at or below the eccentricity of the centre of a pixel or block. It is
+    /// found faster if it is `expected`, by a branch that the processor predicts well.
     fn edges_below(&self, x: usize, expected: usize) -> usize {
-        let x_px = self.decide.centre_px(x);
-        let key = self.decide.eccentricity.key(x_px, self.y_px);
-        let (from, to) = self.decide.clear[expected];
+        let x_px = self.counter.centre_px(x);
+        let key = self.counter.eccentricity.key(x_px, self.y_px);
+        let (from, to) = self.counter.clear[expected];
         if from < key && key < to {
             return expected;
         }
-        self.decide.edges_below(key, [x_px, self.y_px])
+        self.counter.edges_below(key, [x_px, self.y_px])
     }
 
-    /// Along a row eccentricity turns once at most and is monotone to each side: a stretch with
-    /// the same band at both ends has no other in between.
+    /// Finds all runs of the row. Along a row, eccentricity has at most one turning point and is
+    /// monotone on each side of it, so a stretch with the same band at both ends lies in that band
+    /// entirely.
     fn fill(&mut self, width: usize) {
-        let turn = self.decide.eccentricity.turning_x_px(self.y_px) / self.decide.side_px - 0.5;
-        // Two pixels to each side of the turn are looked at one by one: its own rounding.
+        let turn = self.counter.eccentricity.turning_x_px(self.y_px) / self.counter.side_px - 0.5;
+        // The pixels near the turning point are decided one by one, because its own position is
+        // rounded.
         let turn =
             if turn.is_finite() { turn.floor().clamp(-8.0, width as f64 + 8.0) } else { -8.0 };
         let near = |offset: f64| ((turn + offset).max(0.0) as usize).min(width);
@@ -302,9 +305,10 @@ impl<'a> RowRuns<'a> {
         self.push(to, last.1);
     }
 
-    /// The first pixel with other edges below than `inside`, up to `outside`, which has others.
-    /// Rows are alike: looks where the run above ended, ever farther from there until the end is
-    /// passed, and then halves what is left.
+    /// The first pixel after `inside` whose number of edges below it differs; `outside` is a later
+    /// pixel for which it differs. Neighbouring rows are alike, so the search starts where the run
+    /// of the row above ended, takes growing steps until it has passed the end, and then halves the
+    /// remaining range.
     fn next_run(
         &self,
         (mut inside, below): (usize, usize),
@@ -331,10 +335,10 @@ impl<'a> RowRuns<'a> {
         outside
     }
 
-    /// Ends a run at column `end`, or lengthens the one before it.
+    /// Ends a run at column `end`, or extends the previous run if it has the same band.
     fn push(&mut self, end: usize, edges_below: usize) {
         self.below = edges_below;
-        let bands = self.decide.edges_deg.len() - 1;
+        let bands = self.counter.edges_deg.len() - 1;
         let inside = (1..=bands).contains(&edges_below);
         let band = if inside { edges_below - 1 } else { bands } as u16;
         match self.runs[self.first..].last_mut() {
@@ -426,7 +430,7 @@ mod tests {
             let gaze_px = if on_grid { gaze_px.map(|v| v.floor() + 0.5) } else { gaze_px };
             let e = Eccentricity::new(view, gaze_px, kind);
             let centre = |index: usize| (index as f64 + 0.5) * side as f64;
-            // Exactly on a pixel, or the least bit to one side of it.
+            // The gaze is exactly on a pixel, or the smallest step of a float to one side of it.
             let on_pixels = on_pixels.iter().map(|&(x, y, aside)| {
                 let deg = e.at_deg(centre(x % width), centre(y % height));
                 match aside {
@@ -459,7 +463,8 @@ mod tests {
 
     #[test]
     fn a_pixel_on_an_edge_belongs_to_the_band_above() {
-        // Planar, focal length 4 px: the pixel 4 px from the gaze lies at 45° exactly.
+        // Planar eccentricity with a focal length of 4 px: the pixel 4 px from the gaze lies at
+        // exactly 45°.
         let view =
             ViewSpec::PixelPitch { distance_m: 0.004, pitch_mm: 1.0 }.resolve(16, 1).unwrap().view;
         let e = Eccentricity::new(view, [8.5, 0.5], EccentricityKind::Planar);
@@ -476,7 +481,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_edges_that_make_no_bands() {
+    fn refuses_edges_that_do_not_make_bands() {
         assert_eq!(BandEdges::new(vec![0.0]), Err(BandEdgesError::TooFew));
         for bad in [vec![0.0, f64::NAN], vec![-1.0, 5.0], vec![0.0, 181.0]] {
             assert!(matches!(BandEdges::new(bad), Err(BandEdgesError::OutOfRange { .. })));

@@ -8,47 +8,49 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 words! {
-    /// How a display turns the values it is given into light.
+    /// How a display turns encoded values into luminance.
     pub enum Eotf {
         /// IEC 61966-2-1.
         Srgb "srgb" "IEC 61966-2-1";
-        /// A power, [`Luminance::gamma`].
+        /// A power function with the exponent [`Luminance::gamma`].
         Gamma "gamma" "A power";
-        /// SMPTE ST 2084: values are luminance, encoded.
+        /// SMPTE ST 2084: values are encoded absolute luminance.
         Pq "pq" "SMPTE ST 2084";
-        /// Values are light already, in cd/m².
+        /// Values are luminance already, in cd/m².
         Linear "linear" "Light already, in cd/m²";
-        /// The same, with nothing added to it: light that was measured, not shown.
+        /// Values are measured luminance in cd/m²: the display adds neither black level nor
+        /// reflections.
         Absolute "absolute" "Light that was measured, in cd/m²";
     }
 }
 
 impl Eotf {
-    /// Whether a value stands for a share of the display's white, rather than for an amount of light.
+    /// Whether a value stands for a share of the display's white, rather than for an absolute
+    /// luminance.
     pub fn is_relative(self) -> bool {
         matches!(self, Self::Srgb | Self::Gamma)
     }
 }
 
-/// What a display shows, in light.
+/// The photometry of a display.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Luminance {
-    /// White, in cd/m².
+    /// Luminance of white, in cd/m².
     pub peak_cd_m2: f64,
-    /// Peak over black, in the dark; 500 where neither this nor `min_cd_m2` is given.
+    /// Contrast in the dark, peak over black. The default is 500 if `min_cd_m2` is missing as well.
     pub contrast: Option<f64>,
-    /// Black in the dark, in cd/m². It goes before `contrast`.
+    /// Luminance of black in the dark, in cd/m². If it is given, `contrast` is ignored.
     pub min_cd_m2: Option<f64>,
-    /// Light falling on the screen, in lux.
+    /// Illuminance on the screen, in lux.
     #[serde(default)]
     pub ambient_lux: f64,
-    /// Share of that light which the screen reflects.
+    /// Share of the ambient light that the screen reflects, from 0 to 1.
     #[serde(default = "usual_reflectivity")]
     pub reflectivity: f64,
-    /// Encoding of its input.
+    /// Encoding of the display's input.
     pub eotf: Eotf,
-    /// The power of [`Eotf::Gamma`].
+    /// The exponent of [`Eotf::Gamma`].
     #[serde(default = "usual_gamma")]
     pub gamma: f64,
 }
@@ -61,27 +63,27 @@ fn usual_gamma() -> f64 {
     Luminance::GAMMA
 }
 
-/// Photometry that cannot be.
+/// Photometry that is not possible.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("the display's {what} of {found} is not {expected}")]
 pub struct LuminanceError {
-    /// Which number.
+    /// Name of the number that is wrong.
     pub what: &'static str,
-    /// What was given.
+    /// The value that was given.
     pub found: f64,
-    /// What it may be.
+    /// The values that are possible.
     pub expected: &'static str,
 }
 
 impl Luminance {
-    /// Reflectivity where none is given (FovVideoVDP 1.2).
+    /// Default reflectivity (FovVideoVDP 1.2).
     pub const REFLECTIVITY: f64 = 0.005;
-    /// Gamma where none is given.
+    /// Default gamma.
     pub const GAMMA: f64 = 2.2;
-    /// Contrast where neither it nor black is given (FovVideoVDP 1.2).
+    /// Default contrast if neither contrast nor black is given (FovVideoVDP 1.2).
     pub const CONTRAST: f64 = 500.0;
 
-    /// A display of a peak, in the dark, with everything else as it is by default.
+    /// A display with this peak luminance, in the dark, with defaults for everything else.
     pub fn of_peak(peak_cd_m2: f64) -> Self {
         Self {
             peak_cd_m2,
@@ -94,8 +96,9 @@ impl Luminance {
         }
     }
 
-    /// Black, cd/m²: what the panel leaks, and the light that the screen reflects,
-    /// `ambient_lux / π · reflectivity` (FovVideoVDP 1.2). What was measured has nothing added to it.
+    /// The luminance of black in cd/m²: the panel's own black plus the reflected light
+    /// `ambient_lux / π · reflectivity` (FovVideoVDP 1.2). It is 0 for measured luminance
+    /// ([`Eotf::Absolute`]).
     pub fn black_cd_m2(&self) -> f64 {
         if self.eotf == Eotf::Absolute {
             return 0.0;
@@ -105,10 +108,11 @@ impl Luminance {
         self.ambient_lux / PI * self.reflectivity + leak
     }
 
-    /// Checks that such a display can be.
+    /// Checks that such a display is possible.
     ///
     /// # Errors
-    /// The first number that is out of its range, or a black that is as bright as white.
+    /// When a number is out of its range (the error names the first one), or black is as bright as
+    /// white.
     pub fn check(&self) -> Result<(), LuminanceError> {
         let error = |what, found, expected| Err(LuminanceError { what, found, expected });
         let within = |value: f64, from: f64, to: f64| (from..=to).contains(&value);
@@ -144,19 +148,19 @@ impl Luminance {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Display {
-    /// Its name, with `_`.
+    /// The preset's name, written with `_`.
     pub name: String,
     /// Width and height in pixels.
     pub resolution: [usize; 2],
-    /// Its optics.
+    /// Its geometry.
     pub geometry: Geometry,
-    /// Its photometry, where it is known.
+    /// Its photometry, if it is known.
     pub luminance: Option<Luminance>,
-    /// Where the numbers come from.
+    /// The publication or data sheet of the numbers.
     pub source: String,
 }
 
-/// Where the display stands in the visual field.
+/// The part of the visual field that the display fills.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Geometry {
@@ -164,21 +168,21 @@ pub enum Geometry {
     Screen {
         /// Diagonal in inches.
         diagonal_in: f64,
-        /// Distance of the eye in metres.
+        /// Distance from the eye in metres.
         distance_m: f64,
     },
-    /// Diagonal field of view in degrees, square pixels.
+    /// Diagonal field of view in degrees; pixels are square.
     FovDiagonalDeg(f64),
-    /// Vertical field of view in degrees, square pixels.
+    /// Vertical field of view in degrees; pixels are square.
     FovVerticalDeg(f64),
     /// Horizontal and vertical field of view in degrees.
     FovDeg([f64; 2]),
-    /// Pixels per degree at the centre, square pixels.
+    /// Pixels per degree at the centre; pixels are square.
     PixelsPerDegree(f64),
 }
 
 impl Display {
-    /// Focal length in pixels of the display, along x and y.
+    /// Focal lengths in pixels of the display, along x and y.
     pub fn focal_px(&self) -> [f64; 2] {
         let [w, h] = self.resolution.map(|side| side as f64);
         let focal =
@@ -195,13 +199,12 @@ impl Display {
         }
     }
 
-    /// Pixels that one degree takes at the centre, as FovVideoVDP counts them:
-    /// `1 / (2 atan(pixel / 2))`.
+    /// Pixels per degree at the centre, as FovVideoVDP counts them: `1 / (2 atan(pixel / 2))`.
     pub fn central_pixels_per_degree(&self) -> f64 {
         0.5 / libm::atan(0.5 / self.focal_px()[0]).to_degrees()
     }
 
-    /// The geometry in words, for lists.
+    /// The geometry in words, for lists of displays.
     pub fn geometry_in_words(&self) -> String {
         match self.geometry {
             Geometry::Screen { diagonal_in, distance_m } => {
@@ -223,7 +226,7 @@ struct File {
 
 static DISPLAYS: LazyLock<Vec<Display>> = LazyLock::new(|| {
     let file: Result<File, _> = toml::from_str(include_str!("../../../configs/displays.toml"));
-    // Embedded, and parsed by a test: it cannot fail for a user.
+    // The file is embedded and a test parses it, so this cannot fail for a user.
     file.unwrap_or_else(|error| panic!("configs/displays.toml: {error}")).display
 });
 
@@ -242,7 +245,7 @@ pub fn find_display(name: &str) -> Option<&'static Display> {
 mod tests {
     use super::*;
 
-    /// FovVideoVDP's own figures for its presets.
+    /// The expected values are FovVideoVDP's own for its presets.
     #[test]
     fn pixels_per_degree_are_those_of_fovvideovdp() {
         for (name, ppd) in [
@@ -261,9 +264,9 @@ mod tests {
         }
     }
 
-    /// FovVideoVDP's own figures again.
+    /// The expected values are FovVideoVDP's own.
     #[test]
-    fn black_is_leaked_and_reflected_light() {
+    fn black_is_panel_black_plus_reflections() {
         for (name, black) in [
             ("standard_4k", 0.597_887_358),
             ("standard_hdr_pq", 0.017_415_494_3),

@@ -1,20 +1,20 @@
-//! Views that are possible and yet most likely a slip: an angle in another unit, a length in another
-//! unit, sides in another order.
+//! Warnings about views that are possible but most likely a mistake: an angle or a length in
+//! another unit, or sides in another order.
 
 use crate::view::{View, ViewSpec};
 
-/// A full angle that no headset or screen fills, degrees.
+/// No headset or screen fills a larger full angle, in degrees.
 const WIDEST_DEG: f64 = 170.0;
 
-/// More pixels per degree than any display has; the eye tells about 60 apart, twice that at best.
+/// No display has more pixels per degree. The eye resolves about 60, at best twice as many.
 const DENSEST_PPD: f64 = 250.0;
 
-/// Pixels whose sides differ by more are not those of an eye buffer.
+/// Eye buffers do not have pixels with a larger ratio of sides.
 const OBLONG: f64 = 1.1;
 
 impl ViewSpec {
-    /// What is doubtful about a view that these numbers give: one sentence each, with what may have been
-    /// meant. Empty for a display preset, whose numbers are known.
+    /// Describes what is doubtful about a view that was given in this way: one sentence per doubt,
+    /// with what may have been meant. A display preset has no doubts, since its numbers are known.
     pub fn doubts(&self, view: &View) -> Vec<String> {
         let [across, down] = field_deg(view);
         let ppd = view.pixels_per_degree();
@@ -70,7 +70,7 @@ impl ViewSpec {
     }
 }
 
-/// The full angles across and down, degrees.
+/// The full angles across and down, in degrees.
 fn field_deg(view: &View) -> [f64; 2] {
     let sides = [view.width as f64, view.height as f64];
     std::array::from_fn(|axis| {
@@ -79,15 +79,15 @@ fn field_deg(view: &View) -> [f64; 2] {
     })
 }
 
-/// The longer side of a pixel over the shorter one.
+/// The longer side of a pixel divided by the shorter one.
 fn aspect([x, y]: [f64; 2]) -> f64 {
     (x / y).max(y / x)
 }
 
-/// The tangents of a frustum's sides, where these are far more likely to be angles in radians: their
-/// tangents make pixels square, and they themselves do not.
+/// Reads the sides of a frustum as angles in radians and returns their tangents, if this is far
+/// more likely: these tangents make square pixels, and the sides as they were given do not.
 fn radians(view: &View, sides: [f64; 4]) -> Option<[f64; 4]> {
-    /// Eye buffers are square to about a pixel of a thousand.
+    /// The pixels of eye buffers are square to within this ratio, about one pixel in a thousand.
     const SQUARE: f64 = 1.003;
     const NOT_SQUARE: f64 = 1.01;
     if sides.iter().any(|side| *side >= std::f64::consts::FRAC_PI_2) {
@@ -98,7 +98,7 @@ fn radians(view: &View, sides: [f64; 4]) -> Option<[f64; 4]> {
     (meant < SQUARE && aspect(view.focal_px) > NOT_SQUARE).then_some([l, r, u, d])
 }
 
-/// Four tangents as the command line takes them.
+/// Four tangents in the notation of the command line.
 fn listed(tangents: [f64; 4]) -> String {
     tangents.map(|tangent| format!("{tangent:.4}")).join(",")
 }
@@ -140,9 +140,9 @@ mod tests {
     }
 
     #[test]
-    fn slips_are_questioned_in_the_words_of_their_kind() {
+    fn likely_mistakes_are_described() {
         let radians = [-0.87f64, 0.73, 0.83, -0.83].map(|side| side.abs().tan());
-        // Frames as the runtime recommends them for these angles.
+        // The frame size that the runtime recommends for these angles.
         let height = 2000.0 * (radians[2] + radians[3]) / (radians[0] + radians[1]);
         for (spec, size, words) in [
             (frustum([-0.87, 0.73, 0.83, -0.83]), (2000, height.round() as usize), "in radians"),

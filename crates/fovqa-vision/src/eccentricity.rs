@@ -1,4 +1,4 @@
-//! Eccentricity: how far from the gaze a pixel falls, in degrees.
+//! Eccentricity: the angle between a pixel and the gaze, in degrees.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -10,19 +10,19 @@ use fovqa_params::words;
 use crate::view::View;
 
 words! {
-    /// How eccentricity is measured.
+    /// The definition of eccentricity.
     #[derive(Default)]
     pub enum EccentricityKind {
         /// The angle between the ray through the pixel and the ray through the gaze.
         #[default]
         Angular "angular" "The angle between the rays to the pixel and to the gaze";
-        /// The papers' shortcut `atan(r / focal_px)`, `r` the distance to the gaze in pixels. Exact
-        /// only for a gaze at the principal point.
+        /// The papers' shortcut `atan(r / focal_px)`, where `r` is the distance to the gaze in
+        /// pixels. It is exact only for a gaze at the principal point.
         Planar "planar" "The papers' shortcut, atan(distance in pixels / focal length)";
     }
 }
 
-/// Eccentricity over one view and one gaze.
+/// Eccentricity for one view and one gaze.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Eccentricity {
     view: View,
@@ -31,12 +31,12 @@ pub struct Eccentricity {
     planar: Planar,
 }
 
-/// What planar eccentricity is measured with: pixels of the full frame, also over a picture that is
-/// scaled unequally along x and y.
+/// The quantities for planar eccentricity. Distances are in pixels of the full frame, even over a
+/// picture that is scaled unequally along x and y.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Planar {
     focal_px: f64,
-    /// Pixels of the full frame in a pixel of the picture.
+    /// Size of a pixel of the picture, in pixels of the full frame.
     step_px: [f64; 2],
 }
 
@@ -48,14 +48,14 @@ impl Planar {
 }
 
 impl Eccentricity {
-    /// Eccentricity from a gaze in pixels, which may lie outside the frame.
+    /// Eccentricity relative to a gaze in pixels, which may lie outside the frame.
     pub fn new(view: View, gaze_px: [f64; 2], kind: EccentricityKind) -> Self {
         let planar = Planar { focal_px: view.mean_focal_px(), step_px: [1.0; 2] };
         Self { view, gaze_px, kind, planar }
     }
 
-    /// The same over a picture of another size in place of the frame, scaled along x and y. Each of
-    /// its pixels has the eccentricity of its place in the frame.
+    /// The same eccentricity for a picture of another size that replaces the frame, scaled along x
+    /// and y. Each of its pixels has the eccentricity of the corresponding position in the frame.
     #[must_use]
     pub fn scaled(&self, (width, height): (usize, usize), scale: [f64; 2]) -> Self {
         let by_scale = |[x, y]: [f64; 2]| [x * scale[0], y * scale[1]];
@@ -93,8 +93,7 @@ impl Eccentricity {
         radians * (180.0 / PI)
     }
 
-    /// |r x g|, r · g and |r| |g| of the pixel's ray r and the gaze ray g. The cross product is
-    /// taken of (r - g), so that it is exact near the gaze, where r and g nearly agree.
+    /// |r x g|, r · g and |r| |g| of the pixel's ray r and the gaze ray g. The cross product is computed from (r - g), so that it is exact near the gaze, where r and g are nearly equal.
     fn rays(&self, x_px: f64, y_px: f64) -> (f64, f64, f64) {
         let [fx, fy] = self.view.focal_px;
         let [cx, cy] = self.view.principal_px;
@@ -108,8 +107,8 @@ impl Eccentricity {
         (cross, dot, lengths)
     }
 
-    /// A number that grows with eccentricity and needs no arc functions: tan(e/2), or (planar)
-    /// tan(e).
+    /// A number that grows with eccentricity and needs no arc functions: tan(e/2) for angular and
+    /// tan(e) for planar eccentricity.
     pub(crate) fn key(&self, x_px: f64, y_px: f64) -> f64 {
         match self.kind {
             EccentricityKind::Angular => {
@@ -124,7 +123,7 @@ impl Eccentricity {
         }
     }
 
-    /// The [`Eccentricity::key`] of an eccentricity; infinite where no pixel can reach it.
+    /// The [`Eccentricity::key`] of an eccentricity in degrees; infinite if no pixel can reach it.
     pub(crate) fn key_of_deg(&self, deg: f64) -> f64 {
         let (end_deg, angle_deg) = match self.kind {
             EccentricityKind::Angular => (180.0, deg / 2.0),
@@ -133,13 +132,13 @@ impl Eccentricity {
         if deg >= end_deg { f64::INFINITY } else { libm::tan(angle_deg.to_radians()) }
     }
 
-    /// The column, in pixels, at which the eccentricity along a row has its only turning point.
-    /// To each side of it eccentricity is monotone. Not finite where there is none.
+    /// The column, in pixels, at which the eccentricity along a row has its only turning point. On
+    /// each side of it eccentricity is monotone. It is not finite if there is no turning point.
     pub(crate) fn turning_x_px(&self, y_px: f64) -> f64 {
         match self.kind {
             EccentricityKind::Planar => self.gaze_px[0],
             EccentricityKind::Angular => {
-                // cos e = (X gx + k) / sqrt(X² + m) up to a constant: its derivative vanishes
+                // cos e = (X gx + k) / sqrt(X² + m) up to a constant factor; its derivative is 0
                 // where gx m = X k.
                 let [fx, fy] = self.view.focal_px;
                 let [cx, cy] = self.view.principal_px;
@@ -150,8 +149,8 @@ impl Eccentricity {
         }
     }
 
-    /// The largest eccentricity of any pixel centre, in degrees. It lies on the frame's border:
-    /// neither form of eccentricity has a maximum inside.
+    /// The largest eccentricity of any pixel centre, in degrees. It lies on the border of the
+    /// frame: neither kind of eccentricity has a maximum inside.
     pub fn max_deg(&self) -> f64 {
         let (w, h) = (self.view.width, self.view.height);
         let border = (0..w)
@@ -168,28 +167,33 @@ impl Eccentricity {
         self.at_deg(at.0, at.1)
     }
 
-    /// Eccentricity in degrees of the pixel centres `xs` of row `y`, in `f32`: within 1e-5
-    /// relative of [`Eccentricity::at_deg`] and a thousandth of a pixel, for weights rather than for
-    /// decisions.
+    /// Eccentricity in degrees of the pixel centres `xs` of row `y`, in `f32`. It differs from
+    /// [`Eccentricity::at_deg`] by less than 1e-5 (relative) plus a thousandth of a pixel, which is
+    /// enough for weights but not for deciding bands.
     pub fn fill_row_deg(&self, y: usize, xs: Range<usize>, out: &mut [f32]) {
         let out = &mut out[..xs.len()];
         let [fx, fy] = self.view.focal_px;
         let dy_px = y as f64 + 0.5 - self.gaze_px[1];
-        // From the number of the column, so that a pixel has one value whatever row it is cut from.
+        // It is computed from the column number, so that the value of a pixel does not depend on
+        // the stretch it is part of.
         let start = xs.start as f32;
         let offset_px = (0.5 - self.gaze_px[0]) as f32;
         match self.kind {
             EccentricityKind::Planar => {
                 let f = self.planar.focal_px;
                 let [step, dy] = self.planar.offset_px([1.0 / f, dy_px / f]);
-                planar_row(Row { start, offset_px, step: step as f32, dy: dy as f32 }, out);
+                planar_row(RowStretch { start, offset_px, step: step as f32, dy: dy as f32 }, out);
             }
             EccentricityKind::Angular => {
                 let [cx, cy] = self.view.principal_px;
                 let gaze =
                     [((self.gaze_px[0] - cx) / fx) as f32, ((self.gaze_px[1] - cy) / fy) as f32];
-                let row =
-                    Row { start, offset_px, step: (1.0 / fx) as f32, dy: (dy_px / fy) as f32 };
+                let row = RowStretch {
+                    start,
+                    offset_px,
+                    step: (1.0 / fx) as f32,
+                    dy: (dy_px / fy) as f32,
+                };
                 angular_row(row, gaze, out);
             }
         }
@@ -198,20 +202,20 @@ impl Eccentricity {
 
 /// A stretch of a row, relative to the gaze.
 #[derive(Clone, Copy)]
-struct Row {
-    /// First column.
+struct RowStretch {
+    /// The first column.
     start: f32,
-    /// From a column to its pixel centre, from the gaze.
+    /// Offset from a column's number to its pixel centre, relative to the gaze.
     offset_px: f32,
-    /// Tangent of one pixel.
+    /// Tangent of the angle of one pixel.
     step: f32,
-    /// Tangent from the gaze down to the row.
+    /// Tangent of the angle from the gaze down to the row.
     dy: f32,
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn angular_row(row: Row, [gx, gy]: [f32; 2], out: &mut [f32]) {
-    let Row { start, offset_px, step, dy } = row;
+fn angular_row(row: RowStretch, [gx, gy]: [f32; 2], out: &mut [f32]) {
+    let RowStretch { start, offset_px, step, dy } = row;
     let g2 = 1.0 + gx * gx + gy * gy;
     let ry = dy + gy;
     for (i, out) in out.iter_mut().enumerate() {
@@ -221,22 +225,23 @@ fn angular_row(row: Row, [gx, gy]: [f32; 2], out: &mut [f32]) {
         let cross = (dx * dx + dy * dy + z * z).sqrt();
         let dot = 1.0 + rx * gx + ry * gy;
         let lengths = ((1.0 + rx * rx + ry * ry) * g2).sqrt();
-        // Below the axis of a very wide view lengths + dot may cancel; never to 0, but in f32.
+        // Below the axis of a very wide view, lengths and dot nearly cancel. The sum is never 0
+        // exactly, but it can be in f32.
         *out = 2.0 * atan_deg(cross, (lengths + dot).max(f32::MIN_POSITIVE));
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn planar_row(row: Row, out: &mut [f32]) {
-    let Row { start, offset_px, step, dy } = row;
+fn planar_row(row: RowStretch, out: &mut [f32]) {
+    let RowStretch { start, offset_px, step, dy } = row;
     for (i, out) in out.iter_mut().enumerate() {
         let dx = ((start + i as f32) + offset_px) * step;
         *out = atan_deg((dx * dx + dy * dy).sqrt(), 1.0);
     }
 }
 
-/// atan(y / x) in degrees for y ≥ 0, x > 0, without a branch. Abramowitz and Stegun 4.4.49,
-/// error 2e-8 on [0, 1].
+/// atan(y / x) in degrees for y ≥ 0, x > 0, without a branch. Abramowitz and Stegun 4.4.49; the
+/// error is 2e-8 on [0, 1].
 #[inline(always)]
 fn atan_deg(y: f32, x: f32) -> f32 {
     const C: [f32; 8] = [
@@ -268,7 +273,7 @@ mod tests {
         spec.resolve(width, height).unwrap().view
     }
 
-    /// The cross product literally, and the angle by atan2.
+    /// The literal definition: the cross product, and the angle by atan2.
     fn literal_deg(view: &View, gaze: [f64; 2], x: f64, y: f64) -> f64 {
         let ray = |x: f64, y: f64| {
             [
@@ -286,7 +291,7 @@ mod tests {
 
     #[test]
     fn the_papers_shortcut_is_wrong_off_centre() {
-        // 2560x1440, 110° vertical: 500 px inward from a gaze on the right edge.
+        // 2560x1440, 110° vertical: a pixel 500 px inward from a gaze on the right edge.
         let view = view(2560, 1440, 110.0);
         let gaze = [2560.0, 720.0];
         let at = |kind| Eccentricity::new(view, gaze, kind).at_deg(2060.0, 720.0);
@@ -296,7 +301,7 @@ mod tests {
 
     #[test]
     fn a_scaled_picture_has_the_eccentricity_of_the_frame() {
-        // Halved to 17x62 pixels: by 17/33 along x and 62/123 along y.
+        // Halved to 17x62 pixels: scaled by 17/33 along x and 62/123 along y.
         let (w, h) = (33.0, 123.0);
         let view = view(33, 123, 70.0);
         for kind in [EccentricityKind::Angular, EccentricityKind::Planar] {

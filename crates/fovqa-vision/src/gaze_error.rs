@@ -1,39 +1,39 @@
-//! Gaze traces that cannot be read, or do not fit the sequence.
+//! Errors of gaze traces: the file cannot be read, or it does not fit the sequence.
 
 use thiserror::Error;
 
 /// A gaze trace that cannot be read, or does not fit the sequence.
 #[derive(Debug, Error)]
 pub enum GazeTraceError {
-    /// Not CSV.
+    /// The file is not CSV.
     #[error("it is not a CSV table: {0}")]
     Csv(#[from] csv::Error),
-    /// A column that has to be there.
+    /// A required column is missing.
     #[error("it has no column {wanted}; its columns are: {found}")]
     Column {
-        /// What was looked for.
+        /// The column that was looked for.
         wanted: &'static str,
-        /// What is there.
+        /// The columns that exist.
         found: String,
-        /// What its columns look like.
+        /// The eye tracker whose export the columns look like.
         export: Option<Export>,
     },
-    /// A column that is there twice.
+    /// A column exists twice.
     #[error("it has the column {0} twice")]
     TwoColumns(&'static str),
-    /// A cell that is not a number.
+    /// A cell is not a number.
     #[error("line {line}: {column} is {found:?}, not {wanted}")]
     Number {
         /// Line of the file, from 1.
         line: u64,
         /// The column.
         column: &'static str,
-        /// The cell.
+        /// The text of the cell.
         found: String,
         /// What it should be.
         wanted: &'static str,
     },
-    /// Two rows for one frame.
+    /// Two rows belong to one frame.
     #[error("line {line}: there is a row for frame {frame} already")]
     Twice {
         /// Line of the file, from 1.
@@ -41,22 +41,22 @@ pub enum GazeTraceError {
         /// The frame's number.
         frame: i64,
     },
-    /// Rows out of order, or two for one moment.
+    /// Rows are out of order, or two rows have the same time.
     #[error("line {line}: {clock} {at} does not come after the {before} before it")]
     Order {
         /// Line of the file, from 1.
         line: u64,
         /// `frame` or `time_s`.
         clock: &'static str,
-        /// Its value.
+        /// The value of this row.
         at: f64,
-        /// The value before.
+        /// The value of the row before it.
         before: f64,
     },
-    /// A table without rows.
+    /// The table has no rows.
     #[error("it has no rows")]
     Empty,
-    /// Positions that are shares of the frame.
+    /// The positions are shares of the frame, not pixels.
     #[error(
         "all its positions lie within {from} to {to}: they look like shares of the frame, and x_px and y_px are pixels"
     )]
@@ -66,34 +66,34 @@ pub enum GazeTraceError {
         /// The largest coordinate.
         to: f64,
     },
-    /// Times without a frame rate.
+    /// The trace gives times, but there is no frame rate.
     #[error("it gives times, and a time names a frame only with a frame rate")]
     NoFps,
-    /// No gaze for a frame.
+    /// The trace has no gaze for a frame.
     #[error("it has no gaze for frame {frame}; it covers the frames {from} to {to}")]
     Missing {
         /// The frame's number.
         frame: i64,
-        /// Start of the trace.
+        /// First frame of the trace.
         from: i64,
-        /// End of the trace.
+        /// Last frame of the trace.
         to: i64,
     },
-    /// No gaze near the time of a frame.
+    /// The trace has no gaze near the time of a frame.
     #[error(
         "it has no gaze for frame {frame}, which is shown at {at_s} s; it covers time_s {from_s} to {to_s}, and times start at 0 with the first frame of the sequence"
     )]
     MissingTime {
         /// The frame's number.
         frame: i64,
-        /// Its time, seconds from the first frame.
+        /// Time of the frame, in seconds from the first frame.
         at_s: f64,
-        /// Start of the trace.
+        /// Start of the trace, in seconds.
         from_s: f64,
-        /// End of the trace.
+        /// End of the trace, in seconds.
         to_s: f64,
     },
-    /// A blink, or a frame the trace does not cover, with nothing before it to hold.
+    /// A frame is a blink, or not covered by the trace, and there is no earlier gaze to hold.
     #[error("frame {frame} has no gaze of its own, and there is none before it to hold")]
     NothingToHold {
         /// The frame's number.
@@ -101,7 +101,7 @@ pub enum GazeTraceError {
     },
 }
 
-/// Whose export a table looks like.
+/// The eye tracker whose export format a table looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Export {
     /// Tobii Pro Lab.
@@ -113,7 +113,7 @@ pub enum Export {
 }
 
 impl Export {
-    /// By the headings of the table.
+    /// Recognises the format by the headings of the table.
     pub(crate) fn of(headings: &[String]) -> Option<Self> {
         let has = |part: &str| headings.iter().any(|heading| heading.to_lowercase().contains(part));
         if has("norm_pos_x") || has("gaze x [px]") {
@@ -127,7 +127,7 @@ impl Export {
         }
     }
 
-    /// How to make a gaze trace of it.
+    /// How to convert the export to a gaze trace.
     fn help(self) -> &'static str {
         match self {
             Self::Tobii => {
@@ -148,7 +148,7 @@ impl Export {
 }
 
 impl GazeTraceError {
-    /// How to mend it; settings stand in braces.
+    /// How to correct the error. Settings are in braces.
     pub fn help(&self) -> &'static str {
         match self {
             Self::NoFps => "give {fps}",

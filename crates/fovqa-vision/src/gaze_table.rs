@@ -1,10 +1,10 @@
-//! The table of a gaze trace: its encoding, its separator, its columns, its rows.
+//! The table of a gaze trace: encoding, separator, columns and rows.
 
 use std::io::Read;
 
 use crate::gaze_error::{Export, GazeTraceError};
 
-/// What tells the rows of a trace apart.
+/// The column that orders the rows of a trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Clock {
     Frame,
@@ -20,30 +20,31 @@ impl Clock {
     }
 }
 
-/// A table that was read.
+/// A table as it was read.
 #[derive(Debug)]
 pub(crate) struct Table {
     pub(crate) clock: Clock,
-    pub(crate) rows: Vec<Row>,
-    /// Headings of columns about the quality of samples that are not applied.
+    pub(crate) rows: Vec<GazeRow>,
+    /// Headings of columns about the quality of samples, which are not applied.
     pub(crate) unused: Vec<String>,
 }
 
-/// A row: its frame or its time is what the table's clock says, the other one is 0.
+/// One row. Depending on the table's clock, either `frame` or `time_s` is set and the other one is
+/// 0.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Row {
+pub(crate) struct GazeRow {
     /// Line of the file, from 1.
     pub(crate) line: u64,
     pub(crate) frame: i64,
     pub(crate) time_s: f64,
-    /// `None`: a blink.
+    /// `None` for a blink.
     pub(crate) position_px: Option<[f64; 2]>,
 }
 
-/// Beyond this no position of a recording lies.
+/// No position of a recording is larger, in pixels.
 const LARGEST_PX: f64 = 1e9;
 
-/// Which column holds what.
+/// The index of each column.
 struct Columns {
     clock: (Clock, usize),
     x: usize,
@@ -77,7 +78,8 @@ impl Table {
     }
 }
 
-/// The text of a file in UTF-8 or UTF-16. What else is in it can only be in columns that are not read.
+/// The text of a file in UTF-8 or UTF-16. Other characters can only be in columns that are not
+/// read.
 fn decoded(bytes: &[u8]) -> String {
     let wide = |from: fn([u8; 2]) -> u16, bytes: &[u8]| {
         let units = bytes.chunks_exact(2).map(|unit| from([unit[0], unit[1]]));
@@ -94,11 +96,12 @@ fn decoded(bytes: &[u8]) -> String {
     }
 }
 
-/// The separator that makes the most columns of the heading.
+/// The separator that splits the heading into most columns.
 fn separator(text: &str) -> u8 {
     let heading = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
     let count = |separator: u8| heading.bytes().filter(|byte| *byte == separator).count();
-    // The comma where it is as frequent as another: the last of equals is the largest.
+    // The comma is chosen if another one is equally frequent: `max_by_key` returns the last of
+    // equal items.
     b";\t,".iter().copied().max_by_key(|separator| count(*separator)).unwrap_or(b',')
 }
 
@@ -125,7 +128,7 @@ fn columns(headings: &[String]) -> Result<Columns, GazeTraceError> {
     Ok(Columns { clock, x, y, valid: find("valid")? })
 }
 
-/// Headings for a message.
+/// Headings as a message shows them.
 fn shown(headings: &[String]) -> String {
     const SHOWN: usize = 24;
     let names: Vec<&str> = headings.iter().take(SHOWN).map(String::as_str).collect();
@@ -134,7 +137,7 @@ fn shown(headings: &[String]) -> String {
     format!("{}{more}", names.join(", "))
 }
 
-fn row(columns: &Columns, record: &csv::StringRecord) -> Result<Row, GazeTraceError> {
+fn row(columns: &Columns, record: &csv::StringRecord) -> Result<GazeRow, GazeTraceError> {
     let line = record.position().map_or(0, csv::Position::line);
     let wrong = |index: usize, column: &'static str, wanted: &'static str| {
         let found = record[index].chars().take(40).collect();
@@ -174,12 +177,12 @@ fn row(columns: &Columns, record: &csv::StringRecord) -> Result<Row, GazeTraceEr
     };
     let position = [pixels(columns.x, "x_px")?, pixels(columns.y, "y_px")?];
     let is_open = is_valid && position.iter().all(|value| !value.is_nan());
-    Ok(Row { line, frame, time_s, position_px: is_open.then_some(position) })
+    Ok(GazeRow { line, frame, time_s, position_px: is_open.then_some(position) })
 }
 
-/// A whole number, also where a program has written it as 12.0 or 1.2e1.
+/// A whole number, even if a program has written it as 12.0 or 1.2e1.
 fn whole(cell: &str) -> Option<i64> {
-    /// Up to here every whole number is a 64-bit float.
+    /// Up to this number, a 64-bit float represents every whole number.
     const EXACT: f64 = 9_007_199_254_740_992.0;
     let float = || cell.parse::<f64>().ok();
     let exact = |value: &f64| value.fract() == 0.0 && value.abs() <= EXACT;
@@ -211,7 +214,7 @@ mod tests {
             assert_eq!(rows(&wide(&text, u16::to_le_bytes)), want);
             assert_eq!(rows(&wide(&text, u16::to_be_bytes)), want);
         }
-        // What is not UTF-8 stands in a column that nobody reads.
+        // The text that is not UTF-8 is in a column that nobody reads.
         assert_eq!(rows(b"frame,size \xb5m,x_px,y_px\n3,9,1,20\n"), [(3, Some([1.0, 20.0]))]);
     }
 
@@ -236,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn exports_are_told_by_their_headings() {
+    fn exports_are_recognised_by_their_headings() {
         let export = |heading: &str| match Table::read(heading.as_bytes()) {
             Err(GazeTraceError::Column { export, .. }) => export,
             other => panic!("{other:?}"),

@@ -3,17 +3,17 @@
 use std::io::Read;
 
 use crate::gaze_error::GazeTraceError;
-use crate::gaze_table::{Clock, Row, Table};
+use crate::gaze_table::{Clock, GazeRow, Table};
 
-/// A gaze trace as its file holds it: rising frames or times, a position each.
+/// A gaze trace as its file holds it: a position for each frame or time, in rising order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GazeTrace {
     samples: Samples,
-    /// Columns about the quality of samples that are not applied.
+    /// Headings of columns about the quality of samples, which are not applied.
     unused: Vec<String>,
 }
 
-/// Frames or times, with a position each.
+/// Positions by frame or by time.
 #[derive(Debug, Clone, PartialEq)]
 enum Samples {
     Frames(Vec<Sample<i64>>),
@@ -23,10 +23,10 @@ enum Samples {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Sample<At> {
     at: At,
-    /// `None`: a blink.
+    /// `None` for a blink.
     position_px: Option<[f64; 2]>,
-    /// The position, or the last one before it that is no blink: not looked for frame by frame,
-    /// which would not end where an eye stays closed.
+    /// The position, or the last position before a blink. It is stored here because searching
+    /// backwards for every frame would take too long where an eye stays closed.
     held_px: Option<[f64; 2]>,
 }
 
@@ -35,17 +35,19 @@ struct Sample<At> {
 pub struct GazeAt {
     /// Position in pixels.
     pub px: [f64; 2],
-    /// Whether it was held over from an earlier frame (a blink, or beyond the trace).
+    /// Whether the position was held over from an earlier frame, because of a blink or because the
+    /// trace does not cover the frame.
     pub held: bool,
 }
 
-/// A frame's number and its place in the sequence, from 0: its time is that place over the frame rate.
+/// A frame's number and its index in the sequence, from 0. The frame's time is the index divided by
+/// the frame rate.
 pub type FrameAt = (i64, usize);
 
 impl GazeTrace {
-    /// Reads a CSV table with columns `frame` (or `time_s`), `x_px`, `y_px`; commas, semicolons or
-    /// tabs separate them, in UTF-8 or UTF-16. A NaN or an empty cell as a position is a blink, and so
-    /// is a row whose column `valid` says 0 or false; other columns are ignored.
+    /// Reads a CSV table with the columns `frame` (or `time_s`), `x_px`, `y_px`. Commas, semicolons
+    /// or tabs separate them; the encoding is UTF-8 or UTF-16. A row is a blink if a position is
+    /// NaN or empty, or if its column `valid` says 0 or false. Other columns are ignored.
     ///
     /// # Errors
     /// When it is not such a table, its rows do not rise, or its positions are shares of the frame.
@@ -77,13 +79,13 @@ impl GazeTrace {
         Ok(Self { samples, unused: table.unused })
     }
 
-    /// Columns of the table about the quality of samples, by their headings, that are not applied:
-    /// rows that are not to count need an empty position.
+    /// Headings of columns about the quality of samples, which are not applied: a row that must not
+    /// count needs an empty position.
     pub fn unused_quality_columns(&self) -> &[String] {
         &self.unused
     }
 
-    /// Whether all positions lie in the first pixel, and not all of them in its corner: they may be
+    /// Whether all positions lie in the first pixel, but not all in its corner. They may then be
     /// shares of the frame that were rounded.
     pub fn is_in_first_pixel(&self) -> bool {
         let held: Vec<[f64; 2]> = match &self.samples {
@@ -94,7 +96,7 @@ impl GazeTrace {
         held.iter().flatten().all(within) && held.iter().flatten().any(|at| *at > 0.0)
     }
 
-    /// The usual distance of two samples, seconds, of a trace that gives times.
+    /// The median interval between two samples in seconds, if the trace gives times.
     pub fn interval_s(&self) -> Option<f64> {
         let Samples::Times(samples) = &self.samples else { return None };
         let mut steps: Vec<f64> = samples.windows(2).map(|pair| pair[1].at - pair[0].at).collect();
@@ -102,9 +104,9 @@ impl GazeTrace {
         steps.get(steps.len() / 2).copied()
     }
 
-    /// The gaze of each of `frames`. A blink holds the gaze before it. Times start at 0 with place 0
-    /// of the sequence, and the sample nearest in time counts, if it is no farther than one frame away.
-    /// With `hold`, a frame the trace does not cover keeps the gaze before it.
+    /// The gaze of each of `frames`. A blink holds the gaze before it. If the trace gives times,
+    /// time 0 is that of index 0 of the sequence, and the nearest sample counts if it is at most
+    /// one frame away. With `hold`, a frame that the trace does not cover keeps the gaze before it.
     ///
     /// # Errors
     /// When a frame has no gaze, when the trace begins with a blink, or when it gives times and
@@ -135,11 +137,11 @@ impl GazeTrace {
             };
             match own {
                 Some(Some(px)) => Ok(GazeAt { px, held: false }),
-                // The last open eye before this frame, in the trace itself: frames may be a subset.
+                // The held gaze comes from the trace itself, since `frames` may be a subset.
                 None if !hold => Err(missing),
                 _ => match held {
                     Some(px) => Ok(GazeAt { px, held: true }),
-                    // A trace that begins after the frame is another mistake than a blink.
+                    // A trace that begins after the frame is a different mistake from a blink.
                     None if own.is_none() && matches!(self.samples, Samples::Times(_)) => {
                         Err(missing)
                     }
@@ -151,14 +153,14 @@ impl GazeTrace {
     }
 }
 
-fn order(row: &Row, clock: Clock, at: f64, before: f64) -> GazeTraceError {
+fn order(row: &GazeRow, clock: Clock, at: f64, before: f64) -> GazeTraceError {
     GazeTraceError::Order { line: row.line, clock: clock.column(), at, before }
 }
 
-/// Samples of rows whose frames or times rise.
+/// Makes samples of rows. `wrong` makes the error if frames or times do not rise.
 fn rising<At: Copy + PartialOrd>(
-    rows: Vec<(&Row, At)>,
-    wrong: impl Fn(&Row, At, At) -> GazeTraceError,
+    rows: Vec<(&GazeRow, At)>,
+    wrong: impl Fn(&GazeRow, At, At) -> GazeTraceError,
 ) -> Result<Vec<Sample<At>>, GazeTraceError> {
     let mut samples: Vec<Sample<At>> = Vec::with_capacity(rows.len());
     for (row, at) in rows {
@@ -172,8 +174,9 @@ fn rising<At: Copy + PartialOrd>(
     Ok(samples)
 }
 
-/// Refuses positions that are shares of the frame. Trackers give such from 0 to 1, and a little beyond
-/// where the eye looks past the screen; nobody looks at the first pixels of a frame all the time.
+/// Refuses positions that are shares of the frame. Eye trackers write shares from 0 to 1, and
+/// slightly beyond where the eye looks past the screen. Nobody looks at the first pixels of a frame
+/// all the time.
 fn shares(positions: impl Iterator<Item = [f64; 2]>) -> Result<(), GazeTraceError> {
     let (mut from, mut to, mut fractions) = (f64::INFINITY, f64::NEG_INFINITY, false);
     for value in positions.flatten() {
@@ -189,7 +192,7 @@ fn shares(positions: impl Iterator<Item = [f64; 2]>) -> Result<(), GazeTraceErro
 
 fn nearest(samples: &[Sample<f64>], time_s: f64, within_s: f64) -> Option<&Sample<f64>> {
     let distance = |s: &&Sample<f64>| (s.at - time_s).abs();
-    // Samples rise: the nearest is one of the two around the moment.
+    // Samples rise in time, so the nearest one is one of the two around `time_s`.
     let after = samples.partition_point(|s| s.at < time_s);
     samples[after.saturating_sub(1)..(after + 1).min(samples.len())]
         .iter()
@@ -197,7 +200,7 @@ fn nearest(samples: &[Sample<f64>], time_s: f64, within_s: f64) -> Option<&Sampl
         .filter(|s| distance(s) <= within_s)
 }
 
-/// The last open eye up to a moment.
+/// The last position with an open eye up to a moment.
 fn held_at<At>(samples: &[Sample<At>], is_past: impl Fn(&At) -> bool) -> Option<[f64; 2]> {
     let past = samples.partition_point(|sample| is_past(&sample.at));
     samples[..past].last()?.held_px
@@ -208,7 +211,7 @@ fn held_at<At>(samples: &[Sample<At>], is_past: impl Fn(&At) -> bool) -> Option<
 mod tests {
     use super::*;
 
-    /// Frames whose places are their numbers less that of the first.
+    /// Frames with their index in a sequence that begins at `first`.
     fn from(first: i64, frames: &[i64]) -> Vec<FrameAt> {
         frames.iter().map(|frame| (*frame, usize::try_from(frame - first).unwrap_or(0))).collect()
     }
@@ -222,7 +225,7 @@ mod tests {
         let t = trace("note,frame,time_s,x_px,y_px\na,0,0,1,2\nb,1,9,3,4\n").unwrap();
         let at = t.at_frames(&from(0, &[0, 1]), None, false).unwrap();
         assert_eq!(at[1], GazeAt { px: [3.0, 4.0], held: false });
-        // 1/72 s, as a file with six digits rounds it, is that of frame 1.
+        // 1/72 s, rounded to six digits in the file, is the time of frame 1.
         let t = trace("time_s,x_px,y_px\n0,1,1\n0.013889,2,2\n0.027778,3,3\n").unwrap();
         let at = t.at_frames(&from(5, &[5, 6, 7]), Some(72.0), false).unwrap();
         assert_eq!(at.iter().map(|g| g.px[0]).collect::<Vec<_>>(), [1.0, 2.0, 3.0]);
@@ -255,7 +258,7 @@ mod tests {
         let begun = std::time::Instant::now();
         let at = t.at_frames(&from(0, &frames), None, false).unwrap();
         assert!(at[1..].iter().all(|at| at.held && at.px == [1.0, 2.0]));
-        // Twenty thousand million steps otherwise.
+        // Searching backwards for every frame would take 2e10 steps.
         assert!(begun.elapsed() < std::time::Duration::from_secs(5), "{:?}", begun.elapsed());
     }
 
@@ -318,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn unix_times_are_no_times_of_the_sequence() {
+    fn unix_times_are_not_times_of_the_sequence() {
         let t = trace("time_s,x_px,y_px\n1700000000.0,9,9\n1700000000.011,9,9\n").unwrap();
         for hold in [false, true] {
             let error = t.at_frames(&[(7, 0)], Some(90.0), hold).unwrap_err();
@@ -330,7 +333,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_of_the_frame_are_no_pixels() {
+    fn shares_of_the_frame_are_not_pixels() {
         let table = |rows: &str| trace(&format!("frame,x_px,y_px\n{rows}"));
         for rows in ["0,0.5,0.5\n1,0.25,0.75\n", "0,0.5,0.5\n", "0,-0.1,0.5\n1,1.2,0.3\n"] {
             assert!(matches!(table(rows), Err(GazeTraceError::Shares { .. })), "{rows:?}");

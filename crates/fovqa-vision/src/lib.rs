@@ -26,4 +26,4 @@ pub use eccentricity::{Eccentricity, EccentricityKind};
 pub use gaze_error::{Export, GazeTraceError};
 pub use gaze_trace::{FrameAt, GazeAt, GazeTrace};
 pub use pixel_scale::{PixelScale, Tangential};
-pub use view::{Resolved, View, ViewError, ViewSpec};
+pub use view::{ResolvedView, View, ViewError, ViewSpec};

@@ -1,4 +1,5 @@
-//! How many pixels a degree has at a place on the screen, away from the gaze and around it.
+//! How many pixels one degree has at a position on the screen, along the line from the gaze and
+//! across it.
 
 use std::f64::consts::PI;
 
@@ -8,10 +9,10 @@ use crate::eccentricity::EccentricityKind;
 use crate::view::View;
 
 words! {
-    /// What a degree across the line from the gaze is.
+    /// What one degree means across the line from the gaze.
     #[derive(Default)]
     pub enum Tangential {
-        /// As along that line (VaFR divides its Eq. 6 and 20 by the radial dr/de).
+        /// As many pixels as along that line (VaFR divides its Eq. 6 and 20 by the radial dr/de).
         #[default]
         Paper "paper" "As along it, the papers' convention";
         /// A degree of visual angle.
@@ -19,24 +20,24 @@ words! {
     }
 }
 
-/// A place on the screen, and how large a degree is there.
+/// A position on the screen, and the number of pixels per degree there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PixelScale {
     /// Distance from the gaze in pixels.
     pub radius_px: f64,
     /// Pixels per degree along the line from the gaze.
     pub radial: f64,
-    /// Pixels per degree across it.
+    /// Pixels per degree across that line.
     pub tangential: f64,
 }
 
 impl PixelScale {
-    /// The place at an eccentricity in degrees, from the gaze in a direction, a unit vector in
-    /// pixels. `None` where no pixel of the plane is so far away.
+    /// The position at an eccentricity in degrees, in a direction from the gaze, which is a unit
+    /// vector in pixels. `None` where no pixel of the plane is at this eccentricity.
     ///
     /// `planar`: e = atan(r / f), so that a degree has (π/180) f / cos² e pixels along the line and
-    /// (π/180) f / cos e across it. `angular` takes the true angles between rays: a line through the
-    /// gaze is a great circle, on which the ray G + s D turns by |G x D| / |G + s D|² a pixel.
+    /// (π/180) f / cos e across it. `angular` uses the true angles between rays: a line through the
+    /// gaze is a great circle, on which the ray G + s D turns by |G x D| / |G + s D|² per pixel.
     pub fn at(
         view: &View,
         gaze_px: [f64; 2],
@@ -66,7 +67,7 @@ impl PixelScale {
                 let turned = norm(cross(gaze, along));
                 let (sin, cos) = (libm::sin(e), libm::cos(e));
                 let room = turned * cos - dot(gaze, along) * sin;
-                // So near the horizon a radius is nothing but rounding.
+                // This near to the horizon, a radius would consist of rounding errors only.
                 if room <= 1e-9 * turned {
                     return None;
                 }
@@ -110,7 +111,7 @@ mod tests {
     }
 
     proptest! {
-        /// Against eccentricity by numbers, at any gaze.
+        /// Compares the scale with numerical derivatives of eccentricity, for any gaze.
         #[test]
         fn is_the_derivative_of_eccentricity(
             gaze in (0.0..2560.0f64, 0.0..1440.0f64), direction_deg in 0.0..360.0f64,
@@ -130,7 +131,7 @@ mod tests {
             let slope = (at_deg(scale.radius_px + h) - at_deg(scale.radius_px - h)) / (2.0 * h);
             prop_assert!((slope * scale.radial - 1.0).abs() < 1e-6);
             if !planar {
-                // Across: the angle between the rays to two points beside the place.
+                // Across the line: the angle between the rays to two points beside the position.
                 let (x, y) = (gaze.0 + scale.radius_px * cos, gaze.1 + scale.radius_px * sin);
                 let beside = Eccentricity::new(view, [x - h * sin, y + h * cos], kind);
                 let angle = beside.at_deg(x + h * sin, y - h * cos) / (2.0 * h);
@@ -170,10 +171,12 @@ mod tests {
         assert!(at(EccentricityKind::Planar, 90.0).is_none());
     }
 
-    /// (π/180) f / cos² e along the line; across it the same by the paper, times cos e in angle.
+    /// (π/180) f / cos² e along the line. Across it, the papers' convention has the same value, and
+    /// the angle has it multiplied by cos e.
     #[test]
     fn the_two_conventions_across_the_line() {
-        // Pixels that are not square: planar eccentricity has their geometric mean.
+        // If pixels are not square, planar eccentricity uses the geometric mean of the focal
+        // lengths.
         let oblong = View { focal_px: [400.0, 900.0], ..view(90.0) };
         for e in [0.0, 10.0, 45.0, 60.0] {
             let at = |tangential| {
@@ -194,14 +197,16 @@ mod tests {
                 assert!((found - want).abs() <= 1e-12 * want, "{e}: {found} for {want}");
             }
         }
-        // The true angle has each axis' own: 45° along y is 900 px, along x 400 px.
+        // The true angle uses the focal length of its own axis: 45° is 900 px along y and 400 px
+        // along x.
         for (direction, want) in [([1.0, 0.0], 400.0), ([0.0, 1.0], 900.0)] {
             let gaze = oblong.principal_px;
             let kind = EccentricityKind::Angular;
             let at =
                 PixelScale::at(&oblong, gaze, kind, Tangential::Angle, direction, 45.0).unwrap();
             assert!((at.radius_px / want - 1.0).abs() < 1e-12);
-            // Along the line dr/de = f / cos² e = 2 f; across it 1 / cos e of the other axis.
+            // Along the line dr/de = f / cos² e = 2 f; across it, 1 / cos e times the focal length
+            // of the other axis.
             assert!((at.radial / (2.0 * want * PI / 180.0) - 1.0).abs() < 1e-12);
             let other = 360_000.0 / want;
             assert!((at.tangential / (2f64.sqrt() * other * PI / 180.0) - 1.0).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! The view: a pinhole eye buffer, and the ways to say which.
+//! The view: a pinhole eye buffer, and the ways to specify it.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -19,10 +19,10 @@ pub struct View {
 }
 
 impl View {
-    /// The focal length in pixels where one number is wanted: the geometric mean.
+    /// The focal length in pixels as a single number: the geometric mean of both axes.
     pub fn mean_focal_px(&self) -> f64 {
         let [x, y] = self.focal_px;
-        // Exactly the focal length where both are equal.
+        // The result is exactly the focal length if both are equal.
         if x.to_bits() == y.to_bits() { x } else { (x * y).sqrt() }
     }
 
@@ -37,44 +37,44 @@ impl View {
     }
 }
 
-/// The ways to give a view. Angles are full angles in degrees.
+/// The ways to specify a view. Angles are full angles in degrees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ViewSpec {
-    /// Horizontal or vertical field of view, or both. One alone: square pixels.
+    /// Horizontal or vertical field of view, or both. If only one is given, pixels are square.
     Fov {
-        /// Full horizontal angle.
+        /// Full horizontal angle in degrees.
         horizontal_deg: Option<f64>,
-        /// Full vertical angle.
+        /// Full vertical angle in degrees.
         vertical_deg: Option<f64>,
     },
     /// Diagonal field of view, corner to corner; square pixels.
     FovDiagonal {
-        /// Full diagonal angle.
+        /// Full diagonal angle in degrees.
         diagonal_deg: f64,
     },
-    /// Tangents of the half angles of an asymmetric frustum. All four positive away from the
-    /// axis, or signed as in OpenXR (left and down negative).
+    /// Tangents of the half angles of an asymmetric frustum. Either all four are positive away from
+    /// the axis, or they are signed as in OpenXR (left and down negative).
     Frustum {
-        /// Left of the axis.
+        /// Tangent to the left of the axis.
         left: f64,
-        /// Right of the axis.
+        /// Tangent to the right of the axis.
         right: f64,
-        /// Above the axis.
+        /// Tangent above the axis.
         up: f64,
-        /// Below the axis.
+        /// Tangent below the axis.
         down: f64,
     },
     /// A flat screen seen from in front of its centre; square pixels.
     PixelPitch {
-        /// Distance of the eye in metres.
+        /// Distance from the eye in metres.
         distance_m: f64,
         /// Size of a pixel in millimetres.
         pitch_mm: f64,
     },
     /// A flat screen of a given size that the frame fills.
     Screen {
-        /// Distance of the eye in metres.
+        /// Distance from the eye in metres.
         distance_m: f64,
         /// Width and height in metres.
         size_m: [f64; 2],
@@ -83,21 +83,21 @@ pub enum ViewSpec {
     Display(Display),
 }
 
-/// A view that cannot be.
+/// A view that is not possible.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ViewError {
-    /// An angle outside (0°, 180°).
+    /// An angle is outside (0°, 180°).
     #[error("the {which} field of view of {found_deg}° is not between 0° and 180°")]
     Fov {
-        /// Which angle.
+        /// Name of the angle.
         which: &'static str,
-        /// What was given.
+        /// The angle that was given, in degrees.
         found_deg: f64,
     },
-    /// No angle at all.
+    /// No angle is given.
     #[error("a field of view needs a horizontal or a vertical angle")]
     NoFov,
-    /// Tangents that do not open to both sides.
+    /// The tangents do not open to both sides.
     #[error(
         "the frustum tangents left {left}, right {right}, up {up}, down {down} do not open to \
          both sides of the axis"
@@ -112,7 +112,7 @@ pub enum ViewError {
         /// Lower tangent as given.
         down: f64,
     },
-    /// Tangents of more than 85°, which are likely angles.
+    /// Tangents of more than 85°, which are most likely angles in degrees.
     #[error(
         "a frustum whose tangents are {} sees more than 85° to one side; if these are degrees, the \
          tangents are {}",
@@ -122,32 +122,33 @@ pub enum ViewError {
         /// Left, right, up and down as given.
         given: [f64; 4],
     },
-    /// A focal length beyond reason.
+    /// A focal length is outside any sensible range.
     #[error("the view's focal length of {found_px} px is not between 0.001 and 100,000,000")]
     Focal {
-        /// What came out, in pixels.
+        /// The focal length that follows from the view, in pixels.
         found_px: f64,
     },
-    /// A length that is not positive.
+    /// A length is not positive.
     #[error("the {which} of {found} is not a positive length")]
     Length {
-        /// Which length.
+        /// Name of the length.
         which: &'static str,
-        /// What was given.
+        /// The value that was given.
         found: f64,
     },
 }
 
 /// A view for frames of a given size.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Resolved {
+pub struct ResolvedView {
     /// The view.
     pub view: View,
-    /// Set when a frame was stretched over a display of another size: the display's own size.
+    /// The display's own size, if the frame was stretched to fill a display of another size.
     pub stretched_from: Option<[usize; 2]>,
 }
 
-/// Focal lengths of any display there is, and of all a float can still tell apart.
+/// The range of focal lengths in pixels: it includes those of all displays, and a float still
+/// resolves all of it.
 const FOCAL_PX: std::ops::RangeInclusive<f64> = 1e-3..=1e8;
 
 impl ViewSpec {
@@ -162,9 +163,9 @@ impl ViewSpec {
     /// The view of a frame of `width` x `height` pixels.
     ///
     /// # Errors
-    /// When an angle is not inside (0°, 180°), a length not positive, a frustum closed, or the focal
-    /// length beyond reason.
-    pub fn resolve(&self, width: usize, height: usize) -> Result<Resolved, ViewError> {
+    /// When an angle is not inside (0°, 180°), a length is not positive, a frustum does not open,
+    /// or the focal length is outside any sensible range.
+    pub fn resolve(&self, width: usize, height: usize) -> Result<ResolvedView, ViewError> {
         let resolved = self.unbounded(width, height)?;
         match resolved.view.focal_px.iter().find(|f| !FOCAL_PX.contains(*f)) {
             Some(&found_px) => Err(ViewError::Focal { found_px }),
@@ -172,7 +173,7 @@ impl ViewSpec {
         }
     }
 
-    fn unbounded(&self, width: usize, height: usize) -> Result<Resolved, ViewError> {
+    fn unbounded(&self, width: usize, height: usize) -> Result<ResolvedView, ViewError> {
         let (w, h) = (width as f64, height as f64);
         let centred =
             |focal_px: [f64; 2]| View { width, height, focal_px, principal_px: [w / 2.0, h / 2.0] };
@@ -216,7 +217,7 @@ impl ViewSpec {
                 centred([fx * w / dw as f64, fy * h / dh as f64])
             }
         };
-        Ok(Resolved { view, stretched_from })
+        Ok(ResolvedView { view, stretched_from })
     }
 }
 
@@ -235,16 +236,16 @@ fn length(value: f64, which: &'static str) -> Result<f64, ViewError> {
     }
 }
 
-/// Numbers as a message shows them.
+/// Four numbers as a message shows them.
 fn with_commas(numbers: [f64; 4]) -> String {
     numbers.map(|number| ((number * 1e4).round() / 1e4).to_string()).join(", ")
 }
 
 fn frustum_sides(left: f64, right: f64, up: f64, down: f64) -> Result<[f64; 4], ViewError> {
-    /// The tangent of 85°: no eye buffer sees more to one side, and any half angle of 12° or more
-    /// that is given in degrees is above it.
+    /// The tangent of 85°. No eye buffer sees more to one side, and any half angle of 12° or more
+    /// that is given in degrees is larger.
     const STEEPEST: f64 = 11.430_052_302_761_343;
-    /// The tangent of 89.99°, and more than any angle in degrees.
+    /// The tangent of 89.99°, which is larger than any angle in degrees.
     const LARGEST: f64 = 6000.0;
     let sides =
         if left < 0.0 && down < 0.0 { [-left, right, up, -down] } else { [left, right, up, down] };
@@ -312,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_no_eye_sees() {
+    fn refuses_frequencies_that_no_eye_sees() {
         for bad in [0.0, -10.0, 180.0, f64::NAN] {
             let spec = ViewSpec::Fov { horizontal_deg: Some(bad), vertical_deg: None };
             assert!(spec.check().is_err(), "{bad}");

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args, ValueEnum};
 use fovqa_config::resolution as parse_resolution;
 use fovqa_methods::curves::{CurveBudget, CurveRange, CurveSetting, CurveSource, CurveSpec};
-use fovqa_methods::{BudgetOf, Method};
+use fovqa_methods::{BudgetSamples, Method};
 use fovqa_params::{ParamValue, Words};
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::{EccentricityKind, Tangential, ViewSpec};
@@ -78,8 +78,8 @@ pub(crate) struct CurvesArgs {
     #[arg(long, value_name = "SHARE", value_parser = finite, requires = "method")]
     budget: Option<f64>,
     /// Which samples the budget counts
-    #[arg(long, value_name = "WHICH", default_value = BudgetOf::default().word(), value_parser = words::<BudgetOf>(), requires = "budget")]
-    budget_of: BudgetOf,
+    #[arg(long, value_name = "WHICH", default_value = BudgetSamples::default().word(), value_parser = words::<BudgetSamples>(), requires = "budget")]
+    budget_of: BudgetSamples,
     /// Size of the frame [default: that of --display]
     #[arg(long, value_name = "WxH", value_parser = resolution)]
     resolution: Option<[usize; 2]>,
@@ -187,7 +187,7 @@ impl CurvesArgs {
         for (name, value) in &self.set {
             method.set(name, value).map_err(|error| error.to_string())?;
         }
-        let budget = self.budget.map(|share| CurveBudget { share, of: self.budget_of });
+        let budget = self.budget.map(|share| CurveBudget { share, samples: self.budget_of });
         let name = method.info().label.to_owned();
         CurveSpec::of_method(name, method, parameters, self.setting()?, budget)
     }

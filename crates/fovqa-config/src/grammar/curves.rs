@@ -1,6 +1,6 @@
 //! The keys of a file of curves.
 
-use fovqa_methods::BudgetOf;
+use fovqa_methods::BudgetSamples;
 use fovqa_params::words_of;
 use fovqa_vision::{EccentricityKind, Tangential};
 
@@ -54,7 +54,7 @@ static CURVE_TABLE: [Key; 5 + VIEW.len() + SCREENS.len()] = joined(&[
         ),
         key(
             "budget_of",
-            Kind::Words(words_of::<BudgetOf>),
+            Kind::Words(words_of::<BudgetSamples>),
             "which samples a budget counts: all, or those that fall into the frame",
         ),
     ],

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-use fovqa_frame::{Frame, LightTables};
+use fovqa_frame::{Frame, LuminanceTables};
 use fovqa_metrics::fvvdp::{
     DifferenceMap, Fvvdp, FvvdpFrame, FvvdpReference, FvvdpRegions, Grid, MapContext, Params,
     Photometry, Stream,
@@ -30,7 +30,7 @@ const CANDELA: &str = "no pixel of the reference is brighter than 1 cd/m², as l
 pub(super) struct LuminanceMeter {
     params: Params,
     photometry: Photometry,
-    tables: LightTables,
+    tables: LuminanceTables,
     pu_psnr: bool,
     maps: bool,
     /// Of the present frame, by its index.

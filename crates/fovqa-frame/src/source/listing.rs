@@ -1,13 +1,14 @@
-//! The frames of a source before any of them is read: names and numbers.
+//! The names and numbers of a source's frames, known before any frame is read.
 
 use std::ffi::OsString;
 
 /// The frames of a source, in order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Listing {
-    /// What the user called it, as results show it: a path, a pattern.
+    /// The user's argument as results show it: a path or a pattern.
     pub argument: String,
-    /// Whether that names one frame outright. Two such frames are a pair whatever their names.
+    /// Whether the argument names a single frame. Two such frames make a pair whatever their names
+    /// are.
     pub is_single: bool,
     /// The frames.
     pub frames: Frames,
@@ -18,7 +19,7 @@ pub struct Listing {
 /// The frames that a source has.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Frames {
-    /// Each with a name of its own.
+    /// Each frame has a name of its own.
     Named(Vec<Entry>),
     /// Frames without names, such as those of a video, counted from 0.
     Counted(Length),
@@ -27,33 +28,35 @@ pub enum Frames {
 /// How many frames a source without names has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Length {
-    /// So many.
+    /// The number of frames is known.
     Whole(usize),
-    /// So many, of which the last cannot be read. Whether there were more behind it, nobody knows.
+    /// This many frames, of which the last cannot be read. Whether more frames follow it is
+    /// unknown.
     Damaged(usize),
-    /// As many as will come: a stream.
+    /// A stream, whose length is unknown.
     Open,
 }
 
-/// A frame with a name.
+/// A frame that has a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Entry {
     /// The name, as results show it.
     pub name: String,
-    /// What another source may call the same frame: a file's name without its ending.
+    /// The name by which another source may have the same frame: a file's name without its
+    /// extension.
     pub stem: OsString,
-    /// Its number; `None` where the names do not tell the frames apart.
+    /// The frame's number; `None` if the names do not identify the frames by number.
     pub number: Option<i64>,
 }
 
 impl Listing {
-    /// Frames without names.
+    /// A listing of frames without names.
     pub fn counted(argument: String, length: Length) -> Self {
         let frames = Frames::Counted(length);
         Self { argument, is_single: false, frames, numbering: Numbering::ByPosition }
     }
 
-    /// How long it is, where its frames have no names.
+    /// The length of a source whose frames have no names.
     pub fn length(&self) -> Option<Length> {
         match self.frames {
             Frames::Named(_) => None,
@@ -61,7 +64,7 @@ impl Listing {
         }
     }
 
-    /// The frames with names; none, where they have none.
+    /// The frames with names; empty if the frames have none.
     pub fn entries(&self) -> &[Entry] {
         match &self.frames {
             Frames::Named(entries) => entries,
@@ -69,12 +72,12 @@ impl Listing {
         }
     }
 
-    /// What results call a frame: its name, or that of the whole source.
+    /// The name of a frame in results: its own name, or that of the whole source.
     pub fn name(&self, frame: usize) -> &str {
         self.entries().get(frame).map_or(&self.argument, |entry| &entry.name)
     }
 
-    /// What messages call a frame: no other one is called so.
+    /// The name of a frame in messages, which is unique.
     pub fn label(&self, frame: usize) -> String {
         match &self.frames {
             Frames::Named(_) => self.name(frame).to_owned(),
@@ -88,30 +91,31 @@ impl Listing {
 pub enum Numbering {
     /// Each name has a number of its own.
     ByName,
-    /// One name alone, with several numbers in it: the last one counts.
+    /// There is only one name and it has several numbers; the last one counts.
     LastOfSeveral(String),
-    /// No name has a number: frames count by their position.
+    /// No name has a number; the position of a frame is its number.
     ByPosition,
-    /// The names have numbers that do not tell the frames apart; frames count by their position.
+    /// The names have numbers that do not identify the frames; the position of a frame is its
+    /// number.
     Doubtful(Doubt),
 }
 
-/// Why the numbers in names do not tell the frames apart.
+/// Why the numbers in names do not identify the frames.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Doubt {
-    /// A name without a number among others that have one.
+    /// This name has no number while others have one.
     Without(String),
-    /// Two names of one number.
+    /// Two names have this same number.
     Twice(i64, String, String),
-    /// A number that does not fit into 64 bits.
+    /// The number in this name does not fit into 64 bits.
     TooLarge(String),
-    /// Names of different wording, each with several numbers.
+    /// Two names differ in their wording, and each has several numbers.
     Wording(String, String),
-    /// Names of one wording in which several numbers change.
+    /// The names have the same wording, but several numbers in them change.
     Several {
         /// Two of the names.
         names: [String; 2],
-        /// Patterns, one for each number that changes, `%d` in its place and `*` in those of the others.
+        /// One pattern per number that changes: `%d` in its place and `*` for the other numbers.
         patterns: Vec<String>,
     },
 }
@@ -138,7 +142,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn frames_without_names_are_told_apart_in_messages() {
+    fn frames_without_names_have_unique_labels() {
         let video = Listing::counted("a.y4m".to_owned(), Length::Whole(3));
         assert_eq!((video.name(2), video.label(2)), ("a.y4m", "a.y4m, frame 2".to_owned()));
         let entry = Entry { name: "a/1.png".to_owned(), stem: "1".into(), number: Some(1) };

@@ -1,4 +1,4 @@
-//! Frames, wherever they come from: files on disk, a video, pictures in memory, or something that makes them.
+//! Sources of frames: files on disk, a video, pictures in memory, or a generator.
 
 mod error;
 mod listing;
@@ -11,64 +11,65 @@ pub use picture::{InputId, MissingGuides, Picture, PictureGuides};
 use std::fmt::Debug;
 use std::path::PathBuf;
 
-/// A sequence of frames: what they are called, how they are numbered, and their pictures.
+/// A sequence of frames: their names, their numbers and their pictures.
 ///
-/// Frames are asked for by their place in the [listing](Source::listing), in any order and from several
-/// threads at once, unless the source [is read once](Source::is_read_once). How they are read (which layer
-/// of a file, what becomes of alpha) is settled when a source is made.
+/// Frames are read by their index in the [listing](Source::listing), in any order and from several
+/// threads at once, unless the source [can be read only once](Source::is_read_once). Options for
+/// reading, such as the layer of a file or the treatment of alpha, are fixed when a source is made.
 pub trait Source: Debug + Send + Sync {
     /// Its frames, in order.
     fn listing(&self) -> &Listing;
 
-    /// Width and height of a frame before any crop, as cheaply as they can be told.
+    /// Width and height of a frame before any crop. This reads as little of the frame as possible.
     ///
     /// # Errors
-    /// When they cannot be told.
+    /// When the size cannot be found out.
     fn size(&self, frame: usize) -> Result<(usize, usize), SourceError>;
 
-    /// Bytes of one pixel of its frames in memory: 3 for 8-bit RGB.
+    /// Memory for one pixel of its frames, in bytes: 3 for 8-bit RGB.
     fn bytes_per_pixel(&self) -> u64;
 
-    /// Reads a frame, with the motion and depth that are in it where `guides` says so.
+    /// Reads a frame. If `guides` is set, its motion and depth are read as well.
     ///
     /// # Errors
     /// When there is no such frame, or it cannot be read.
     fn read(&self, frame: usize, guides: bool) -> Result<Picture, SourceError>;
 
-    /// Reads the motion and the depth of a frame, of a source that has nothing else.
+    /// Reads the motion and depth of a frame from a source that holds only these.
     ///
     /// # Errors
     /// When there is no such frame, it cannot be read, or it has none.
     fn read_guides(&self, frame: usize) -> Result<PictureGuides, SourceError>;
 
-    /// What a frame is made of, by the names that results have for it.
+    /// The inputs from which a frame is made, with their names in results.
     fn origins(&self, frame: usize) -> Vec<(String, Origin)>;
 
-    /// Frames a second, where the source says so itself.
+    /// The frame rate in frames per second, if the source declares one.
     fn fps(&self) -> Option<f64> {
         None
     }
 
-    /// Whether each frame can be read but once, in order. Frames that are passed over are gone.
+    /// Whether each frame can be read only once, in order. A frame that is skipped cannot be read
+    /// later.
     fn is_read_once(&self) -> bool {
         false
     }
 
-    /// Whether there are frames behind those that have been read, in a source whose length is not known
-    /// before its end.
+    /// Whether there are more frames after those that have been read, in a source whose length is
+    /// not known before its end.
     ///
     /// # Errors
-    /// When that cannot be told.
+    /// When this cannot be found out.
     fn has_more(&self) -> Result<bool, SourceError> {
         Ok(false)
     }
 }
 
-/// What a frame is made of.
+/// An input from which a frame is made.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Origin {
     /// A file.
     File(PathBuf),
-    /// Something without a file, such as parameters: the same where this is the same.
+    /// Something without a file, such as parameters. Equal identities mean equal content.
     Made(InputId),
 }

@@ -1,28 +1,27 @@
-//! A frame that was read, with what was found beside it.
+//! A frame that was read, with its motion, depth and notes.
 
 use super::SourceError;
 use crate::{Frame, Guides};
 
-/// A frame that was read.
+/// A frame that was read, with everything found in its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
     /// The frame.
     pub frame: Frame,
-    /// Motion and depth, where they were asked for and are there.
+    /// Motion and depth, if they were asked for and exist.
     pub guides: Guides,
-    /// What was asked for by name and is not there.
+    /// Motion or depth that the user named but that does not exist.
     pub missing: MissingGuides,
-    /// What the user should know of it: a sentence each, with settings in braces as in
-    /// [`SourceError::help`].
+    /// Notes for the user: one sentence each, with settings in braces as in [`SourceError::help`].
     pub notes: Vec<String>,
-    /// What it was made of, by name, where the source was asked to tell.
+    /// The inputs it was made from, by name, if the source was asked for them.
     pub inputs: Vec<(String, InputId)>,
-    /// Width of a pixel over its height, as the frame declares it; 1 where it declares nothing.
+    /// Ratio of a pixel's width to its height, as the frame declares it; 1 if it declares none.
     pub pixel_aspect: f32,
 }
 
 impl Picture {
-    /// A frame and nothing beside it.
+    /// A picture with nothing but a frame.
     pub fn new(frame: Frame) -> Self {
         Self {
             frame,
@@ -35,27 +34,27 @@ impl Picture {
     }
 }
 
-/// Motion and depth that were asked for by name, and why they are not there.
+/// Motion and depth that the user named, and the reasons why they are missing.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MissingGuides {
-    /// The motion.
+    /// Why the motion is missing.
     pub motion: Option<SourceError>,
-    /// The depth.
+    /// Why the depth is missing.
     pub depth: Option<SourceError>,
 }
 
-/// Motion or depth without a picture.
+/// The motion and depth of a frame, without its colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PictureGuides {
-    /// What was asked for: all of it is there.
+    /// Motion and depth; everything that was asked for exists.
     pub guides: Guides,
-    /// As of [`Picture`].
+    /// Notes for the user, as in [`Picture`].
     pub notes: Vec<String>,
-    /// As of [`Picture`].
+    /// The inputs it was made from, as in [`Picture`].
     pub inputs: Vec<(String, InputId)>,
 }
 
-/// What tells one version of an input from another.
+/// The identity of an input, which distinguishes its versions.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct InputId {
     /// Length in bytes.

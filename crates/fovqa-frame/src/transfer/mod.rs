@@ -1,4 +1,4 @@
-//! Transfer functions, one file each.
+//! Transfer functions, one per file.
 
 mod chords;
 pub mod pq;

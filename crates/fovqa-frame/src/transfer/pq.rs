@@ -1,6 +1,6 @@
-//! PQ (SMPTE ST 2084, Rec. ITU-R BT.2100): codes of absolute luminance.
+//! PQ (SMPTE ST 2084, Rec. ITU-R BT.2100): encoded absolute luminance.
 
-/// Luminance of the code 1, cd/m².
+/// Luminance of code 1, in cd/m².
 pub const PEAK_CD_M2: f64 = 10_000.0;
 
 const M1: f64 = 2610.0 / 16384.0;
@@ -9,7 +9,7 @@ const C1: f64 = 3424.0 / 4096.0;
 const C2: f64 = 2413.0 / 4096.0 * 32.0;
 const C3: f64 = 2392.0 / 4096.0 * 32.0;
 
-/// A code in `[0, 1]` to luminance in cd/m², 0 to 10,000 (BT.2100, Table 4).
+/// Converts a code in `[0, 1]` to luminance in cd/m², 0 to 10,000 (BT.2100, Table 4).
 pub fn decode(code: f64) -> f64 {
     let power = libm::pow(code, 1.0 / M2);
     let linear = (power - C1).max(0.0) / (C2 - C3 * power);

@@ -1,14 +1,14 @@
-//! PU21 (Mantiuk, Azimi 2021, "PU21: A novel perceptually uniform encoding for adapting existing quality
-//! metrics for HDR", banding and glare): from luminance to units in which equal steps are about equally
-//! visible.
+//! PU21: from luminance to units in which equal steps are about equally visible (Mantiuk, Azimi
+//! 2021, "PU21: A novel perceptually uniform encoding for adapting existing quality metrics for
+//! HDR", banding and glare).
 
 use std::sync::LazyLock;
 
 use super::chords::Chords;
 
-/// Where the encoding begins, cd/m². Darker luminance is taken for this.
+/// The lowest luminance of the encoding, in cd/m². Darker values are clamped to it.
 pub const FLOOR_CD_M2: f64 = 0.005;
-/// Where it ends, cd/m². Brighter luminance is taken for this.
+/// The highest luminance of the encoding, in cd/m². Brighter values are clamped to it.
 pub const PEAK_CD_M2: f64 = 10_000.0;
 
 /// p0 to p6 of "banding_glare".
@@ -22,14 +22,15 @@ const P: [f64; 7] = [
     567.631_506_5,
 ];
 
-/// Luminance in cd/m² to PU21 units, 0 to 567.
+/// Converts luminance in cd/m² to PU21 units, 0 to 567.
 pub fn encode(luminance_cd_m2: f64) -> f64 {
     let power = libm::pow(luminance_cd_m2.clamp(FLOOR_CD_M2, PEAK_CD_M2), P[3]);
     P[6] * (libm::pow((P[0] + P[1] * power) / (1.0 + P[2] * power), P[4]) - P[5])
 }
 
-/// Chords from 2^-8, below the floor, to 2^14, above the peak. The error of one of 2^9 an octave,
-/// (2^-9)² / 8 of the curvature, is 3e-5 units at most: the step of an `f32` there.
+/// Chords from 2^-8, below the floor, to 2^14, above the peak. With 2^9 chords per octave, the
+/// error of a chord is (2^-9)² / 8 of the curvature: at most 3e-5 units, which is the step of an
+/// `f32` there.
 type EncodeChords = Chords<9, -8>;
 const OCTAVES: u32 = 22;
 
@@ -42,7 +43,7 @@ pub struct Encoder {
 }
 
 impl Encoder {
-    /// The encoder; its table is computed once a process.
+    /// The encoder. Its table is computed once per process.
     pub fn new() -> Self {
         Self { chords: &CHORDS }
     }
@@ -50,7 +51,7 @@ impl Encoder {
     /// Encodes one value, within 2e-4 units of [`encode`].
     #[inline]
     pub fn encode(self, luminance_cd_m2: f32) -> f32 {
-        // `max` first: of NaN and a number it is the number.
+        // `max` comes first: the maximum of NaN and a number is the number.
         self.chords.at(luminance_cd_m2.max(FLOOR_CD_M2 as f32).min(PEAK_CD_M2 as f32))
     }
 }
@@ -67,7 +68,7 @@ mod tests {
 
     #[test]
     fn known_values() {
-        // 100 cd/m² is 256 or so by design, and the floor is 0.
+        // By design 100 cd/m² is about 256, and the floor is 0.
         for (luminance, units) in [
             (0.005, 0.0),
             (0.1, 5.756_805_64),

@@ -1,25 +1,25 @@
-//! sRGB (IEC 61966-2-1): the encoding of 8- and 16-bit files, and of linear input once it is
-//! tone-mapped.
+//! sRGB (IEC 61966-2-1): the encoding of 8- and 16-bit files, and of linear input after the tone
+//! map.
 
 use std::sync::LazyLock;
 
 use super::chords::Chords;
 
-/// Where the linear toe of the encoding ends, in linear light.
+/// The end of the linear toe of the encoding, in linear light.
 const TOE_END: f64 = 0.003_130_8;
 
-/// Linear light in `[0, 1]` to the encoded value in `[0, 1]`.
+/// Converts linear light in `[0, 1]` to the encoded value in `[0, 1]`.
 pub fn encode(linear: f64) -> f64 {
     if linear <= TOE_END { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
 }
 
-/// An encoded value in `[0, 1]` to linear light in `[0, 1]`.
+/// Converts an encoded value in `[0, 1]` to linear light in `[0, 1]`.
 pub fn decode(encoded: f64) -> f64 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }
 
-/// Chords from 2^-9, just below the end of the toe, to 1. The error of one of 2^10 an octave,
-/// (2^-10)² / 8 of the curvature, is 3e-8 relative: below the step of an `f32`.
+/// Chords from 2^-9, just below the end of the toe, to 1. With 2^10 chords per octave, the error of
+/// a chord is (2^-10)² / 8 of the curvature: 3e-8 relative, which is below the step of an `f32`.
 type EncodeChords = Chords<10, -9>;
 const OCTAVES: u32 = 9;
 
@@ -32,7 +32,7 @@ pub struct Encoder {
 }
 
 impl Encoder {
-    /// The encoder; its table is computed once a process.
+    /// The encoder. Its table is computed once per process.
     pub fn new() -> Self {
         Self { chords: &CHORDS }
     }
@@ -43,7 +43,7 @@ impl Encoder {
         if linear >= 1.0 {
             return 1.0;
         }
-        // NaN goes this way too, and `max` makes it 0.
+        // NaN takes this branch too, and `max` makes it 0.
         if linear.is_nan() || linear <= TOE_END as f32 {
             return 12.92 * linear.max(0.0);
         }
@@ -68,7 +68,7 @@ mod tests {
         assert!((encode(1.0) - 1.0).abs() < 1e-15);
         for i in 0..=1000 {
             let v = f64::from(i) / 1000.0;
-            // The standard's two thresholds do not meet to the last digit.
+            // The two thresholds of the standard differ in their last digits.
             assert!((decode(encode(v)) - v).abs() < 1e-7);
         }
     }

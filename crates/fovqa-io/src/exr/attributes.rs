@@ -1,28 +1,29 @@
-//! A look at the headers before they are decoded: how many attributes there are, and how long.
+//! Checks the headers before they are decoded: the number of attributes and their lengths.
 //!
 //! The decoder keeps all attributes in memory, and a file may declare millions of them, or one of
-//! two gigabytes. Whole headers are far below these limits: a Cryptomatte manifest, the longest
-//! attribute that renderers write, has some megabytes.
+//! two gigabytes. Regular headers are far below these limits: the longest attribute that renderers
+//! write, a Cryptomatte manifest, has some megabytes.
 
 use std::io::{BufRead, Read, Seek, SeekFrom};
 
 use crate::error::ReadErrorKind;
 
-/// Most attributes of all headers together.
+/// The largest number of attributes of all headers together.
 const MOST_ATTRIBUTES: u64 = 65_536;
-/// Most bytes of one attribute, 16 MiB …
+/// The largest size of one attribute, in bytes.
 const MOST_BYTES: u64 = 16 << 20;
-/// … of one whose values take many times their bytes in memory: lists of channels and texts …
+/// The largest size of an attribute whose values take many times their bytes in memory (lists of
+/// channels and texts), in bytes.
 const MOST_LIST_BYTES: u64 = 1 << 20;
-/// … and of all together.
+/// The largest size of all attributes together, in bytes.
 const MOST_BYTES_IN_ALL: u64 = 64 << 20;
-/// Most bytes of a name (OpenEXR, "OpenEXR File Layout", section "Attribute Names").
+/// The longest name, in bytes (OpenEXR, "OpenEXR File Layout", section "Attribute Names").
 const LONGEST_NAME: u64 = 255;
 
-/// Checks the headers of a file, and leaves it where it was.
+/// Checks the headers of a file, and then restores its position.
 ///
 /// # Errors
-/// When they go beyond the limits, or end too early.
+/// When they exceed the limits, or end too early.
 pub(super) fn check(file: &mut (impl BufRead + Seek)) -> Result<(), ReadErrorKind> {
     let start = file.stream_position()?;
     let end = file.seek(SeekFrom::End(0))?;
@@ -34,7 +35,7 @@ pub(super) fn check(file: &mut (impl BufRead + Seek)) -> Result<(), ReadErrorKin
 
 struct Scan<'a, R> {
     file: &'a mut R,
-    /// Bytes of the file.
+    /// Length of the file in bytes.
     end: u64,
     attributes: u64,
     bytes: u64,
@@ -42,19 +43,19 @@ struct Scan<'a, R> {
 
 impl<R: BufRead + Seek> Scan<'_, R> {
     fn headers(&mut self) -> Result<(), ReadErrorKind> {
-        /// Bit of the version field that says that there are several headers.
+        /// The bit of the version field that says that the file has several parts.
         const SEVERAL_PARTS: u32 = 0x1000;
         let [_magic, version] = [self.word()?, self.word()?];
         loop {
             let empty = self.header()?;
-            // The list of several headers ends with an empty one.
+            // An empty header ends the list of several headers.
             if empty || version & SEVERAL_PARTS == 0 {
                 return Ok(());
             }
         }
     }
 
-    /// Whether a header had no attribute.
+    /// Reads a header, and returns whether it had no attribute.
     fn header(&mut self) -> Result<bool, ReadErrorKind> {
         let mut empty = true;
         loop {
@@ -95,12 +96,12 @@ impl<R: BufRead + Seek> Scan<'_, R> {
         if self.end.saturating_sub(at) < size {
             return Err(cut_short());
         }
-        // The largest attribute has far less bytes than an i64 can count.
+        // The largest attribute is far smaller than an `i64` can count.
         self.file.seek_relative(size as i64)?;
         Ok(())
     }
 
-    /// A text that ends with a zero byte.
+    /// Reads a text that ends with a zero byte.
     fn name(&mut self) -> Result<Vec<u8>, ReadErrorKind> {
         let mut name = Vec::new();
         self.file.by_ref().take(LONGEST_NAME + 1).read_until(0, &mut name)?;
@@ -175,7 +176,7 @@ mod tests {
         for end in 0..whole.len() {
             assert!(words(whole[..end].to_vec()).contains("ends too early"), "{end}");
         }
-        // Several parts end with an empty header.
+        // A file with several parts ends its headers with an empty one.
         let part = header(&[("a", "int", 4, 4)], true);
         assert!(words(part.clone()).contains("ends too early"));
         assert_eq!(words([&part[..], &[0]].concat()), "");

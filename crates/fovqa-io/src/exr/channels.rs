@@ -1,4 +1,4 @@
-//! The channels of all parts by name.
+//! The channels of all parts of a file, found by name.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -14,24 +14,24 @@ pub(crate) struct Channel {
     pub(crate) part: usize,
     /// Index among the channels of the part.
     pub(crate) index: usize,
-    /// Its name, with part and layer in front.
+    /// Its full name, with part and layer in front.
     pub(crate) name: String,
-    /// The same without the view.
+    /// Its full name without the view.
     plain: String,
     /// Its name within the part, without the view.
     pub(crate) own: String,
     /// The view it belongs to, in lower case.
     pub(crate) view: Option<String>,
-    /// Whether it stands in no layer of its part.
+    /// Whether it belongs to no layer of its part.
     pub(crate) bare: bool,
 }
 
-/// Which of its names a channel is found by.
+/// The form of a channel's name that is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum By {
-    /// The name as it stands in the file.
+pub(crate) enum NameForm {
+    /// The full name as it is in the file.
     Name,
-    /// That without the view, among the channels of the same view.
+    /// The full name without the view; only channels of the same view are compared.
     Plain,
 }
 
@@ -39,23 +39,24 @@ pub(crate) enum By {
 #[derive(Debug)]
 pub(crate) struct Channels {
     list: Vec<Channel>,
-    /// Where a name, in lower case, is in the list; for [`By::Plain`] with its view.
-    places: HashMap<(By, Option<String>, String), usize>,
+    /// The index in the list for each name in lower case. For [`NameForm::Plain`] the view is part of the
+    /// key.
+    places: HashMap<(NameForm, Option<String>, String), usize>,
 }
 
-/// Channels of one layer that have the names looked for.
+/// The channels of one layer that have the names looked for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Match<'a> {
-    /// What stands in front of these names, without the dot.
+    /// The prefix in front of these names, without the last dot.
     pub(crate) lead: &'a str,
-    /// Which of the channels' names that is.
-    pub(crate) by: By,
+    /// The form of the names that matches.
+    pub(crate) by: NameForm,
     /// The channels in the order of the names.
     pub(crate) channels: Vec<&'a Channel>,
 }
 
 impl Match<'_> {
-    /// The view the channels belong to.
+    /// The view of the channels.
     pub(crate) fn view(&self) -> Option<&str> {
         self.channels[0].view.as_deref()
     }
@@ -77,8 +78,8 @@ impl Channels {
                 let plain =
                     if layer.is_empty() { last.to_owned() } else { format!("{layer}.{last}") };
                 let keys = [
-                    (By::Name, None, name.to_ascii_lowercase()),
-                    (By::Plain, view.clone(), plain.to_ascii_lowercase()),
+                    (NameForm::Name, None, name.to_ascii_lowercase()),
+                    (NameForm::Plain, view.clone(), plain.to_ascii_lowercase()),
                 ];
                 for key in keys {
                     places.entry(key).or_insert(list.len());
@@ -102,7 +103,7 @@ impl Channels {
         self.list.iter().filter_map(|channel| channel.view.as_deref()).collect()
     }
 
-    /// The only channel.
+    /// The only channel, if there is exactly one.
     pub(crate) fn only(&self) -> Option<&Channel> {
         self.list.first().filter(|_| self.list.len() == 1)
     }
@@ -112,16 +113,16 @@ impl Channels {
         self.get(found.by, found.channels[0].view.as_ref(), found.lead, name)
     }
 
-    /// The channel `name` of the layer `lead`, by one of its names; the view counts for
-    /// [`By::Plain`] alone.
-    fn get(&self, by: By, view: Option<&String>, lead: &str, name: &str) -> Option<&Channel> {
+    /// The channel `name` of the layer `lead`, by the given form of its name. The view counts only
+    /// for [`NameForm::Plain`].
+    fn get(&self, by: NameForm, view: Option<&String>, lead: &str, name: &str) -> Option<&Channel> {
         let whole = if lead.is_empty() { name.to_owned() } else { format!("{lead}.{name}") };
-        let view = view.filter(|_| by == By::Plain).cloned();
+        let view = view.filter(|_| by == NameForm::Plain).cloned();
         self.places.get(&(by, view, whole.to_ascii_lowercase())).map(|&at| &self.list[at])
     }
 
-    /// The layers that have all of these channels, by the names of the file or, where those do not
-    /// match, without the views.
+    /// The layers that have all of these channels. Names are compared as they are in the file;
+    /// where they do not match, they are compared without the views.
     pub(crate) fn matching<'a>(&'a self, names: &'a [String]) -> impl Iterator<Item = Match<'a>> {
         let (first, others) = names.split_first().unwrap_or_else(|| unreachable!("some names"));
         self.list.iter().filter_map(move |channel| {
@@ -131,13 +132,13 @@ impl Channels {
                 let all = std::iter::once(Some(channel)).chain(others.iter().map(of));
                 Some(Match { lead, by, channels: all.collect::<Option<_>>()? })
             };
-            by(By::Name, &channel.name).or_else(|| by(By::Plain, &channel.plain))
+            by(NameForm::Name, &channel.name).or_else(|| by(NameForm::Plain, &channel.plain))
         })
     }
 }
 
-/// What stands in front of `name` in `whole`: nothing, or all up to a dot. `None` when it does not
-/// end in this name.
+/// The part of `whole` in front of `name`: nothing, or everything up to a dot. `None` if `whole`
+/// does not end in `name`.
 fn lead<'a>(whole: &'a str, name: &str) -> Option<&'a str> {
     let at = whole.len().checked_sub(name.len())?;
     let (lead, last) = whole.split_at_checked(at)?;

@@ -1,27 +1,27 @@
-//! Layers with R, G and B that hold no colour: Cryptomatte IDs, and what renderers write as motion
-//! and depth.
+//! Layers with R, G and B that do not hold colour: Cryptomatte IDs, and the motion and depth of
+//! known renderers.
 
 use ::exr::meta::attribute::AttributeValue;
 use ::exr::meta::header::Header;
 
 use crate::guides::GuidePreset;
 
-/// What a layer holds instead of colour.
+/// The content of a layer that is not colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Data {
-    /// IDs of objects and how much of a pixel they cover. Never a picture.
+    /// IDs of objects and their coverage of a pixel. Such a layer is never read as a picture.
     Cryptomatte,
-    /// Motion or depth by the name that a known renderer gives it. A picture only when it is asked
-    /// for by name.
+    /// Motion or depth, recognised by the name that a known renderer writes. It is read as a
+    /// picture only if the user names it.
     Guide,
 }
 
-/// How the data layers of a file are recognised.
+/// The names by which the data layers of a file are recognised.
 #[derive(Debug)]
 pub(crate) struct DataLayers {
-    /// Names of Cryptomatte layers, without the two digits of a level.
+    /// Names of Cryptomatte layers, without the two digits of the level.
     cryptomattes: Vec<String>,
-    /// Names of layers of motion and depth.
+    /// Names of layers with motion or depth.
     guides: Vec<String>,
 }
 
@@ -41,13 +41,13 @@ impl DataLayers {
             }
         });
         let mut cryptomattes: Vec<String> = cryptomattes.filter(|name| !name.is_empty()).collect();
-        // Each part of a file repeats them.
+        // Each part of a file repeats these attributes.
         cryptomattes.sort_unstable();
         cryptomattes.dedup();
         Self { cryptomattes, guides: GuidePreset::layers() }
     }
 
-    /// What a layer holds, where it is no colour. `name` has no view in it.
+    /// The content of a layer if it is not colour. `name` has no view in it.
     pub(crate) fn data(&self, name: &str) -> Option<Data> {
         let last = name.rsplit('.').next().unwrap_or_default();
         if self.is_cryptomatte(name) || is_usual(last) {
@@ -59,28 +59,29 @@ impl DataLayers {
         }
     }
 
-    /// The layers are `<name>00`, `<name>01` and so on; a preview may be there as `<name>`.
+    /// Whether a layer belongs to Cryptomatte. Such layers are `<name>00`, `<name>01` and so on; a
+    /// preview may be called `<name>`.
     fn is_cryptomatte(&self, layer: &str) -> bool {
         let level = level_of(layer);
         self.cryptomattes.iter().any(|name| {
             level == Some(name)
                 || layer == name
-                // Behind a layer or part, or behind what Unreal writes in front.
+                // The name may have a layer or part in front, or the prefix that Unreal writes.
                 || level.is_some_and(|level| level.ends_with(name.as_str()))
                 || layer.strip_suffix(name.as_str()).is_some_and(|rest| rest.ends_with('.'))
         })
     }
 }
 
-/// A name without the two digits of a Cryptomatte level behind it.
+/// A layer name without the two digits of a Cryptomatte level at its end.
 fn level_of(layer: &str) -> Option<&str> {
     let at = layer.len().checked_sub(2)?;
     let (name, digits) = layer.split_at_checked(at)?;
     digits.bytes().all(|digit| digit.is_ascii_digit()).then_some(name)
 }
 
-/// Whether a layer has the name of a Cryptomatte level in a file that has lost its attributes:
-/// `CryptoObject00`, `crypto_material01`, `uCryptoAsset02`, `Cryptomatte00`.
+/// Whether a layer has a usual name of a Cryptomatte level, for files that have lost their
+/// attributes: `CryptoObject00`, `crypto_material01`, `uCryptoAsset02`, `Cryptomatte00`.
 fn is_usual(last: &str) -> bool {
     let Some(name) = level_of(last).map(str::to_ascii_lowercase) else { return false };
     let name = name.strip_prefix('u').unwrap_or(&name);

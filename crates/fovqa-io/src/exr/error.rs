@@ -1,4 +1,4 @@
-//! How an OpenEXR file fails.
+//! Errors of the OpenEXR decoder.
 
 use std::io::ErrorKind;
 
@@ -16,7 +16,7 @@ pub(super) fn damaged(error: ::exr::error::Error) -> ReadErrorKind {
                 let detail = "the file ends too early".to_owned();
                 ReadErrorKind::Damaged { format: "OpenEXR", detail }
             }
-            // A place in the file that the file itself made up.
+            // The file points to a position that does not exist in it.
             ErrorKind::InvalidInput | ErrorKind::InvalidData => {
                 let detail = format!("it points to where nothing is: {error}");
                 ReadErrorKind::Damaged { format: "OpenEXR", detail }

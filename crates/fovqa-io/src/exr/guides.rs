@@ -1,20 +1,20 @@
-//! Motion and depth among the channels of a file.
+//! Finds motion and depth among the channels of a file.
 
 use ::exr::meta::header::Header;
 use fovqa_frame::{Guides, Motion, Plane};
 
-use super::channels::{By, Channel, Channels, Match};
+use super::channels::{Channel, Channels, Match, NameForm};
 use super::pixels::{Planes, Request};
 use super::views::Views;
 use super::window::Window;
 use crate::error::{ReadErrorKind, listed};
 use crate::guides::{
-    DepthChannels, DepthChoice, Encoding, GuideFile, GuideOptions, GuidePreset, GuideSearch,
-    MotionChannels, MotionChoice, Reach, Sought, in_one,
+    ChannelSearch, DepthChannels, DepthChoice, Encoding, GuideFile, GuideOptions, GuidePreset,
+    GuideSearch, LayerScope, MotionChannels, MotionChoice, joined_names,
 };
 use crate::note::Note;
 
-/// What was found.
+/// The channels that were found.
 #[derive(Debug, Default)]
 pub(crate) struct GuideChannels {
     motion: MotionFound,
@@ -23,24 +23,24 @@ pub(crate) struct GuideChannels {
     notes: Vec<Note>,
 }
 
-/// What motion and depth are looked for beside.
+/// The colour for which motion and depth are looked for.
 #[derive(Debug)]
-pub(crate) struct Beside<'a> {
+pub(crate) struct ColourContext<'a> {
     pub(crate) place: GuideFile,
-    /// Full name of the colour's layer, empty for none.
+    /// Full name of the colour's layer; empty if it has none.
     pub(crate) layer: &'a str,
-    /// Its view, in lower case.
+    /// The view of the colour, in lower case.
     pub(crate) view: Option<String>,
     /// Full names of all colour layers.
     pub(crate) layers: &'a [String],
 }
 
-/// Looks for what is asked for.
+/// Looks for the motion and depth that are asked for.
 pub(crate) fn find(
     headers: &[Header],
     views: &Views,
     options: &GuideOptions,
-    beside: &Beside<'_>,
+    beside: &ColourContext<'_>,
 ) -> Result<GuideChannels, ReadErrorKind> {
     if options.is_none() {
         return Ok(GuideChannels::default());
@@ -63,7 +63,7 @@ pub(crate) fn find(
     }
     match motion.as_ref().and_then(|(pair, _, preset)| Some((&pair[0], (*preset)?))) {
         Some((_, GuidePreset::Unreal)) => notes.push(Note::UnrealMotion),
-        // Others write R and G as well; only a name or a preset would tell.
+        // Other renderers write R and G as well; only a name or a preset would make it certain.
         Some((x, GuidePreset::Falcor))
             if options.motion == MotionChannels::Auto && x.own.eq_ignore_ascii_case("R") =>
         {
@@ -71,15 +71,15 @@ pub(crate) fn find(
         }
         _ => {}
     }
-    let found_motion = motion.as_ref().map(|(pair, ..)| in_one(&pair.each_ref().map(name)));
+    let found_motion = motion.as_ref().map(|(pair, ..)| joined_names(&pair.each_ref().map(name)));
     let found_depth = depth.as_ref().map(name);
     let search = GuideSearch {
-        motion: Sought::motion(&motions).map(|sought| Sought {
+        motion: ChannelSearch::motion(&motions).map(|sought| ChannelSearch {
             found: found_motion,
             elsewhere: motion_elsewhere,
             ..sought
         }),
-        depth: Sought::depth(&depths).map(|sought| Sought {
+        depth: ChannelSearch::depth(&depths).map(|sought| ChannelSearch {
             found: found_depth,
             elsewhere: depth_elsewhere,
             ..sought
@@ -93,13 +93,14 @@ fn name(channel: &Channel) -> String {
     channel.name.clone()
 }
 
-/// Channels that have the names, but belong to another view or layer than the colour, in words.
+/// The channels that have the right names but belong to another view or layer than the colour, as
+/// text.
 type Elsewhere = Option<String>;
 
 struct Finder<'a> {
     channels: &'a Channels,
     views: &'a Views,
-    beside: &'a Beside<'a>,
+    beside: &'a ColourContext<'a>,
     /// Full name of the colour's layer without its view.
     plain_layer: String,
     /// First components of the names of all colour layers, without views and in lower case.
@@ -109,7 +110,7 @@ struct Finder<'a> {
 }
 
 impl<'a> Finder<'a> {
-    fn new(channels: &'a Channels, views: &'a Views, beside: &'a Beside<'a>) -> Self {
+    fn new(channels: &'a Channels, views: &'a Views, beside: &'a ColourContext<'a>) -> Self {
         Self {
             channels,
             views,
@@ -120,12 +121,12 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// The first choice that is there.
+    /// The first choice that exists.
     fn motion(&self, choices: &[MotionChoice]) -> Result<(MotionFound, Elsewhere), ReadErrorKind> {
         let mut elsewhere = None;
         for choice in choices {
-            let matches = self.matching(&choice.channels, choice.reach, &[]);
-            let search = Search { reach: choice.reach, what: "motion", names: &choice.channels };
+            let matches = self.matching(&choice.channels, choice.scope, &[]);
+            let search = Search { scope: choice.scope, what: "motion", names: &choice.channels };
             if let Some(found) = self.one_of(&matches, &search, &mut elsewhere)? {
                 let pair = [found.channels[0].clone(), found.channels[1].clone()];
                 return Ok((Some((pair, choice.encoding, choice.preset)), None));
@@ -134,7 +135,7 @@ impl<'a> Finder<'a> {
         Ok((None, elsewhere))
     }
 
-    /// The first choice that is there and, where a bare name alone says so, not `taken`.
+    /// The first choice that exists. A bare name does not match a channel in `taken`.
     fn depth(
         &self,
         choices: &[DepthChoice],
@@ -143,10 +144,10 @@ impl<'a> Finder<'a> {
         let mut elsewhere = None;
         for choice in choices {
             let found = match choice {
-                DepthChoice::Channel(name, reach) => {
+                DepthChoice::Channel(name, scope) => {
                     let names = std::slice::from_ref(name);
-                    let matches = self.matching(names, *reach, taken);
-                    let search = Search { reach: *reach, what: "depth", names };
+                    let matches = self.matching(names, *scope, taken);
+                    let search = Search { scope: *scope, what: "depth", names };
                     let found = self.one_of(&matches, &search, &mut elsewhere)?;
                     found.map(|found| found.channels[0].clone())
                 }
@@ -162,33 +163,33 @@ impl<'a> Finder<'a> {
     fn matching<'b>(
         &'b self,
         names: &'b [String],
-        reach: Reach,
+        scope: LayerScope,
         taken: &[Channel],
     ) -> Vec<Match<'b>> {
-        let within_reach = |found: &Match<'_>| match reach {
-            Reach::Named | Reach::Any => true,
-            Reach::Own => self.is_own(found) && !taken.contains(found.channels[0]),
-            Reach::OwnWithout(other) => {
+        let in_scope = |found: &Match<'_>| match scope {
+            LayerScope::Named | LayerScope::Any => true,
+            LayerScope::Own => self.is_own(found) && !taken.contains(found.channels[0]),
+            LayerScope::OwnWithout(other) => {
                 self.is_own(found)
                     && !taken.contains(found.channels[0])
                     && self.channels.beside(found, other).is_none()
             }
         };
-        self.channels.matching(names).filter(within_reach).collect()
+        self.channels.matching(names).filter(in_scope).collect()
     }
 
-    /// The colour's layer as the names of a match are written.
+    /// The name of the colour's layer in the form that a match uses.
     fn layer(&self, found: &Match<'_>) -> &str {
         match found.by {
-            By::Name => self.beside.layer,
-            By::Plain => &self.plain_layer,
+            NameForm::Name => self.beside.layer,
+            NameForm::Plain => &self.plain_layer,
         }
     }
 
     fn is_own(&self, found: &Match<'_>) -> bool {
         match self.beside.place {
             GuideFile::Separate => found.channels[0].bare,
-            // Of which view it is, is decided later.
+            // The view is checked later.
             GuideFile::Colour => {
                 lies_in(self.layer(found), found.lead)
                     || self.several_views && lies_in(&self.plain_layer, &self.plain_lead(found))
@@ -196,22 +197,23 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// What stands in front of the names of a match, without the view.
+    /// The prefix of the names of a match, without the view.
     fn plain_lead(&self, found: &Match<'_>) -> String {
         self.views.without(found.lead)
     }
 
-    /// The only match of the colour's view, or the one nearest to the colour's layer. What belongs to
-    /// another view or layer goes to `elsewhere`.
+    /// The only match of the colour's view, or the one nearest to the colour's layer. Channels of
+    /// another view or layer are stored in `elsewhere`.
     fn one_of<'b>(
         &self,
         matches: &'b [Match<'b>],
         search: &Search<'_>,
         elsewhere: &mut Elsewhere,
     ) -> Result<Option<&'b Match<'b>>, ReadErrorKind> {
-        // A whole name, as a user gives it, leaves nothing to decide.
-        let is_whole = |found: &&Match<'_>| found.by == By::Name && found.lead.is_empty();
-        if let Some(whole) = matches.iter().find(is_whole).filter(|_| search.reach == Reach::Named)
+        // If the user gives a full name, it decides.
+        let is_whole = |found: &&Match<'_>| found.by == NameForm::Name && found.lead.is_empty();
+        if let Some(whole) =
+            matches.iter().find(is_whole).filter(|_| search.scope == LayerScope::Named)
         {
             return Ok(Some(whole));
         }
@@ -244,7 +246,8 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// The match whose layer has most in common with the colour's, where only one has.
+    /// The match whose layer has most components in common with the colour's, if it is the only
+    /// one.
     fn nearest<'b>(&self, matches: &[&'b Match<'b>]) -> Option<&'b Match<'b>> {
         let near = |found: &Match<'_>| {
             let (lead, layer) = (self.plain_lead(found), components(&self.plain_layer));
@@ -260,7 +263,7 @@ impl<'a> Finder<'a> {
     }
 
     /// Whether a match belongs to another Blender view layer, or to the layer of another picture,
-    /// whose name begins like it.
+    /// whose name has the same first component.
     fn is_of_another_layer(&self, found: &Match<'_>, names: &[String]) -> bool {
         if let Some((own, colour)) = self.view_layer(found, names).zip(self.view_layer_of_colour())
         {
@@ -270,15 +273,15 @@ impl<'a> Finder<'a> {
         !own.is_empty() && own != colour && self.first_of_layers.contains(&own)
     }
 
-    /// The view layer of a colour layer `ViewLayer.Combined`, in lower case.
+    /// The Blender view layer of a colour layer `ViewLayer.Combined`, in lower case.
     fn view_layer_of_colour(&self) -> Option<String> {
         let layer = self.plain_layer.to_ascii_lowercase();
         let (view_layer, pass) = layer.rsplit_once('.')?;
         (pass == "combined").then(|| last(view_layer))
     }
 
-    /// The view layer of the pass `ViewLayer.Vector` or `ViewLayer.Depth`, in lower case. A part may
-    /// have any name in front of it.
+    /// The Blender view layer of the pass `ViewLayer.Vector` or `ViewLayer.Depth`, in lower case. A
+    /// part may have any name in front of it.
     fn view_layer(&self, found: &Match<'_>, names: &[String]) -> Option<String> {
         let name = names.first()?.to_ascii_lowercase();
         if !["vector.", "depth."].iter().any(|pass| name.starts_with(pass)) {
@@ -287,16 +290,16 @@ impl<'a> Finder<'a> {
         let own = found.channels[0].own.to_ascii_lowercase();
         let view_layer = match own.strip_suffix(&name) {
             Some(view_layer) => last(view_layer.strip_suffix('.')?),
-            // The pass stands in the name of the part.
+            // The name of the part holds the pass.
             None => last(&self.plain_lead(found)),
         };
         (!view_layer.is_empty()).then_some(view_layer)
     }
 }
 
-/// What is looked for.
+/// The channels to look for.
 struct Search<'a> {
-    reach: Reach,
+    scope: LayerScope,
     what: &'static str,
     names: &'a [String],
 }
@@ -321,16 +324,16 @@ fn last(name: &str) -> String {
     name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase()
 }
 
-/// The channels of matches, in words.
+/// The channels of matches as text.
 fn sets(matches: &[&Match<'_>]) -> String {
     listed(matches.iter().map(|found| {
         let names: Vec<String> = found.channels.iter().map(|c| c.name.clone()).collect();
-        in_one(&names)
+        joined_names(&names)
     }))
 }
 
 impl GuideChannels {
-    /// What to read: the motion across, the motion down, the depth, as far as they are there. All
+    /// The requests for the motion across, the motion down and the depth, as far as they exist. All
     /// of them must have the display window of the part `beside`.
     pub(crate) fn requests(
         &self,
@@ -350,7 +353,7 @@ impl GuideChannels {
         requests.collect()
     }
 
-    /// The guides, from what the requests brought, and what there is to say about them.
+    /// The motion and depth from the planes that were read for the requests, with notes about them.
     pub(crate) fn guides(
         &self,
         requests: &[Request],
@@ -381,7 +384,7 @@ fn plane(mut planes: Planes, window: &Window) -> Result<Plane, ReadErrorKind> {
 fn motion(x: Plane, y: Plane, encoding: &Encoding) -> Result<Motion, ReadErrorKind> {
     let (width, height) = x.file_size();
     let motion = Motion::new(x, y, encoding.pixels([width, height]));
-    // The planes are those of one display window.
+    // `Motion::new` fails only if the planes have different display windows.
     let motion = motion.ok_or(ReadErrorKind::DisplayWindows)?;
     Ok(motion.with_offset([encoding.offset; 2]))
 }

@@ -1,9 +1,9 @@
-//! Which channels are the picture.
+//! Finds the channels of the picture.
 //!
-//! A layer is what channels share in front of their last dot, within one part. It is colour when
-//! it has R, G and B, or Y with RY and BY, or Y alone (without X, which would make it a vector).
-//! Blender writes `ViewLayer.Combined.R`, Unreal and Mitsuba `R` beside `albedo.R`, others name the
-//! part. Layers of data are no colour (see `data_layers.rs`).
+//! A layer is a group of channels of one part that share the prefix before their last dot. It is
+//! colour if it has R, G and B, or Y with RY and BY, or Y alone (without X, which would make it a
+//! vector). Blender writes `ViewLayer.Combined.R`, Unreal and Mitsuba write `R` beside `albedo.R`,
+//! others name the part. Data layers are not colour (see `data_layers.rs`).
 
 use ::exr::meta::header::Header;
 
@@ -11,10 +11,10 @@ use super::data_layers::{Data, DataLayers};
 use super::views::Views;
 use crate::error::{ReadErrorKind, listed};
 
-/// The name under which the channels without a prefix are asked for.
+/// The name by which users ask for the channels without a prefix.
 pub(super) const ROOT: &str = "root";
 
-/// The channels of a picture, by their indices.
+/// The channel indices of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Colour {
     /// R, G and B.
@@ -49,21 +49,22 @@ pub(crate) struct Layer {
 }
 
 impl Layer {
-    /// Part and prefix as one name, empty for channels that have neither.
+    /// Part and prefix as one name; empty for channels that have neither.
     pub(crate) fn full_name(&self) -> &str {
         if self.name == ROOT { "" } else { &self.name }
     }
 }
 
-/// A layer that has the channels of a picture, and what may keep it from being one.
+/// A layer that has the channels of a picture, and the reasons why it may not be one.
 struct Candidate {
     layer: Layer,
     data: Option<Data>,
-    /// Channels that belong to an encoding that is not read.
+    /// Channels of an encoding that is not supported.
     odd: Option<String>,
 }
 
-/// The colour layer asked for, or the only one; and the full names of all.
+/// The colour layer that was asked for, or else the only one, with the full names of all colour
+/// layers.
 pub(crate) fn choose(
     headers: &[Header],
     views: &Views,
@@ -102,8 +103,8 @@ pub(crate) fn choose(
     Ok((layer, names))
 }
 
-/// The layer of a name: that of the whole name, else the only picture whose name within its part,
-/// whose part or whose view has it.
+/// The layer of a name: the layer with this full name, or else the only picture with this name
+/// within its part, this part or this view.
 fn named<'a>(
     candidates: &'a [Candidate],
     pictures: &[&'a Candidate],
@@ -115,7 +116,8 @@ fn named<'a>(
         fitting.next().filter(|_| fitting.next().is_none()).copied()
     };
     let is_view = |view: &String| view.eq_ignore_ascii_case(wanted);
-    // The plain picture beside others of many layers: a reference, say.
+    // The channels without a prefix may be a picture beside those of many layers, for example a
+    // reference.
     let plain = || pictures.first().filter(|c| pictures.len() == 1 && c.layer.name == ROOT);
     candidates
         .iter()
@@ -139,7 +141,7 @@ fn candidates(part: usize, header: &Header, views: &Views, data: &DataLayers) ->
         (prefix, channel, index)
     });
     let mut split: Vec<(&str, &str, usize)> = split.collect();
-    // Channels stand in alphabetical order, which need not keep a layer's together.
+    // Channels are in alphabetical order, which may not keep those of a layer together.
     split.sort_by_key(|(prefix, ..)| *prefix);
     let part_name = part_name(header);
     let layers = split.chunk_by(|(a, ..), (b, ..)| a == b);
@@ -162,11 +164,11 @@ fn candidates(part: usize, header: &Header, views: &Views, data: &DataLayers) ->
     pictures.collect()
 }
 
-/// Chroma beside a luminance Y, in encodings that are not read.
+/// Chroma channels beside a luminance Y, in encodings that are not supported.
 const OTHER_CHROMA: [[&str; 2]; 5] =
     [["U", "V"], ["Cb", "Cr"], ["Pb", "Pr"], ["Co", "Cg"], ["I", "Q"]];
 
-/// The colour channels among those of a layer, and those of an encoding that is not read.
+/// The colour channels among those of a layer, and channels of an encoding that is not supported.
 fn colour(find: &dyn Fn(&[&str]) -> Option<usize>) -> Option<(Colour, Option<String>)> {
     let rgb = [["R", "red"], ["G", "green"], ["B", "blue"]].map(|names| find(&names));
     if let [Some(r), Some(g), Some(b)] = rgb {
@@ -194,7 +196,8 @@ fn layer_name(part: &str, prefix: &str) -> String {
     }
 }
 
-/// The name of a part in front of a layer's or a channel's, which may begin with it already.
+/// Puts the name of a part in front of a layer's or channel's name, unless that name begins with it
+/// already.
 pub(super) fn joined(part: &str, name: &str) -> String {
     let rest = name.strip_prefix(part);
     let repeated = rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
@@ -206,7 +209,7 @@ pub(super) fn joined(part: &str, name: &str) -> String {
     }
 }
 
-/// The name of a part, empty where it has none.
+/// The name of a part; empty if it has none.
 pub(super) fn part_name(header: &Header) -> String {
     let name = header.own_attributes.layer_name.as_ref().map(ToString::to_string);
     name.unwrap_or_default()

@@ -1,11 +1,11 @@
-//! Luminance and chroma to colour.
+//! Converts luminance and chroma to colour.
 //!
 //! RY = (R - Y) / Y, BY = (B - Y) / Y, and Y is the luminance of R, G and B in the primaries of the
-//! file (OpenEXR, "Technical Introduction to OpenEXR", section "Luminance/Chroma Images"). So
-//! R = (RY + 1) Y, B = (BY + 1) Y, G = (Y - w_r R - w_b B) / w_g.
+//! file (OpenEXR, "Technical Introduction to OpenEXR", section "Luminance/Chroma Images"). So R =
+//! (RY + 1) Y, B = (BY + 1) Y, G = (Y - w_r R - w_b B) / w_g.
 
-/// Turns three planes one behind the other, Y, RY and BY, into R, G and B. `weights` are those of
-/// the luminance.
+/// Converts three consecutive planes Y, RY and BY to R, G and B. `weights` are the luminance
+/// weights of the primaries.
 pub(super) fn to_rgb(mut values: Vec<f32>, weights: [f64; 3]) -> Vec<f32> {
     let plane = values.len() / 3;
     let (first, rest) = values.split_at_mut(plane);

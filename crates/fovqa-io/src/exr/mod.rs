@@ -1,5 +1,5 @@
-//! OpenEXR: one colour layer of one part, brought to the display window and to Rec.709, and the
-//! guides beside it.
+//! OpenEXR: reads one colour layer of one part in the display window, converted to Rec.709, with
+//! its motion and depth.
 
 mod attributes;
 mod channels;
@@ -27,7 +27,7 @@ use crate::guides::GuideFile;
 use crate::note::Note;
 use crate::read_options::ReadOptions;
 use error::{damaged, no_parts};
-use guides::Beside;
+use guides::ColourContext;
 use layers::Colour;
 use pixels::Request;
 use views::Views;
@@ -57,7 +57,7 @@ pub(crate) fn read(
     let primaries = primaries(header)?.filter(|_| !is_gray);
     let luminance_weights =
         chromaticities(header).unwrap_or(Chromaticities::REC709).luminance_weights();
-    let beside = Beside {
+    let beside = ColourContext {
         place: GuideFile::Colour,
         layer: layer.full_name(),
         view: layer.view.clone(),
@@ -73,7 +73,7 @@ pub(crate) fn read(
     let guide_planes = planes.split_off(1);
     let mut planes = planes.pop().unwrap_or_else(|| unreachable!("planes for each request"));
     if alpha.is_some() {
-        // Pixels without data are no part of the picture: they are opaque black.
+        // Pixels without data do not belong to the picture: they are opaque black.
         let alpha = planes.pop_as_f32().into_iter().enumerate();
         let alpha = alpha.map(|(i, a)| if window.has_data(i) { a } else { 1.0 });
         require_opaque(alpha, window.display_width)?;
@@ -105,7 +105,8 @@ pub(crate) fn read(
     Ok(Decoded { frame, notes, guides, guide_search: found.search, pixel_aspect })
 }
 
-/// Reads the guides of a file that need not have colour. All that was asked for has to be there.
+/// Reads the motion and depth of a file that may have no colour. Everything that is asked for must
+/// exist.
 pub(crate) fn read_guides(
     file: impl BufRead + Seek + Send,
     options: &ReadOptions,
@@ -116,7 +117,7 @@ pub(crate) fn read_guides(
     let layer = options.layer.as_deref().filter(|&layer| layer != layers::ROOT);
     let layer = layer.unwrap_or_default();
     let view = views.in_name(layer);
-    let beside = Beside { place: GuideFile::Separate, layer, view, layers: &[] };
+    let beside = ColourContext { place: GuideFile::Separate, layer, view, layers: &[] };
     let found = guides::find(headers, &views, &options.guides, &beside)?;
     let missing = found.search.missing_motion().or_else(|| found.search.missing_depth());
     if let Some(missing) = missing {
@@ -129,8 +130,8 @@ pub(crate) fn read_guides(
     Ok(DecodedGuides { guides, notes, search: found.search })
 }
 
-/// Reads the headers. Attributes and sizes are checked first: whatever else is wrong with the file,
-/// nothing may be allocated for them.
+/// Reads the headers. Attributes and sizes are checked first, so that nothing is allocated for a
+/// file that declares too much.
 fn reader<R: BufRead + Seek + Send>(
     mut file: R,
     options: &ReadOptions,
@@ -157,7 +158,7 @@ fn reader<R: BufRead + Seek + Send>(
     ::exr::block::read(file, false).map_err(damaged)
 }
 
-/// The primaries a file declares.
+/// The primaries that a file declares.
 fn chromaticities(header: &Header) -> Option<Chromaticities> {
     let given = header.shared_attributes.chromaticities?;
     let xy = |v: Vec2<f32>| [f64::from(v.0), f64::from(v.1)];
@@ -169,7 +170,7 @@ fn chromaticities(header: &Header) -> Option<Chromaticities> {
     })
 }
 
-/// The matrix to Rec.709, where the file has other primaries.
+/// The matrix to Rec.709, if the file has other primaries.
 fn primaries(header: &Header) -> Result<Option<[[f64; 3]; 3]>, ReadErrorKind> {
     match chromaticities(header) {
         Some(given) if !given.is_rec709() => {

@@ -1,4 +1,4 @@
-//! Chosen channels of some parts, block by block, into planes of the display window.
+//! Reads selected channels of some parts, block by block, into planes of the display window.
 
 use std::collections::BTreeSet;
 use std::io::{Read, Seek};
@@ -31,15 +31,15 @@ pub(crate) enum Planes {
 impl Planes {
     fn new(half: bool, planes: usize, size: usize) -> Self {
         if half {
-            // From zeroed memory, which the system hands out untouched: a file that declares a
-            // large frame and holds none must not cost its size.
+            // The memory is zeroed by the system only when it is first used, so a file that
+            // declares a large frame but holds no pixels does not cost the memory of that size.
             Planes::Half(vec![0u16; planes * size].reinterpret_into(), size)
         } else {
             Planes::Float(vec![0.0; planes * size], size)
         }
     }
 
-    /// Takes the last plane off.
+    /// Removes the last plane and returns it.
     pub(crate) fn pop_as_f32(&mut self) -> Vec<f32> {
         match self {
             Planes::Half(values, size) => {
@@ -50,7 +50,7 @@ impl Planes {
         }
     }
 
-    /// Makes pixels that hold no data NaN, in each plane.
+    /// Sets pixels that hold no data to NaN in each plane.
     pub(crate) fn blank(&mut self, uncovered: impl Iterator<Item = Range<usize>>) {
         for range in uncovered {
             match self {
@@ -90,7 +90,7 @@ impl Planes {
         }
     }
 
-    /// Writes samples in native byte order from position `at` on.
+    /// Writes samples in native byte order, starting at position `at`.
     fn put(&mut self, at: usize, kind: SampleType, bytes: &[u8]) {
         let halves =
             || bytes.as_chunks::<2>().0.iter().map(|b| f16::from_bits(u16::from_ne_bytes(*b)));
@@ -120,13 +120,13 @@ impl Planes {
     }
 }
 
-/// Chunks that are decompressed at the same time: enough for many cores …
+/// The number of chunks that are decompressed at the same time: enough for many cores.
 const CHUNKS_AT_ONCE: usize = 32;
 
-/// … and as long as they, with all their channels, stay small.
+/// The limit of the memory for these chunks with all their channels, in bytes.
 const BYTES_AT_ONCE: usize = 64 << 20;
 
-/// Channels of one part, to be read into planes of one type.
+/// The channels of one part that are read into planes of one type.
 #[derive(Debug)]
 pub(crate) struct Request {
     pub(crate) part: usize,
@@ -141,7 +141,7 @@ struct Filling<'a> {
     request: &'a Request,
     kinds: Vec<SampleType>,
     planes: Planes,
-    /// Samples read of each channel.
+    /// The number of samples read of each channel.
     read: Vec<usize>,
 }
 
@@ -155,7 +155,7 @@ impl<'a> Filling<'a> {
         Self { request, kinds, planes, read }
     }
 
-    /// Takes what it needs of a block of its part.
+    /// Copies the requested samples from a block of its part.
     fn take(&mut self, block: &UncompressedBlock, all: &ChannelList) {
         let Request { channels, window, .. } = self.request;
         for line in block.lines(all) {
@@ -180,8 +180,8 @@ impl<'a> Filling<'a> {
     }
 }
 
-/// Reads channels at full resolution, all requests in one pass over the blocks of their parts;
-/// the planes of a request stand in the order of its channels.
+/// Reads channels at full resolution, all requests in one pass over the blocks of their parts. The
+/// planes of a request are in the order of its channels.
 pub(crate) fn read(
     reader: Reader<impl Read + Seek + Send>,
     requests: &[Request],
@@ -192,7 +192,8 @@ pub(crate) fn read(
             tile.level_index == Vec2(0, 0) && requests.iter().any(|r| r.part == block.layer)
         })
         .map_err(damaged)?;
-    // Only now: the offset table has been read, so the file is at least that long.
+    // The planes are allocated only now: the offset table has been read, so the file is at least
+    // that long.
     let mut fillings: Vec<Filling> =
         requests.iter().map(|request| Filling::new(request, &meta)).collect();
     let at_once = chunks_at_once(&meta, requests);
@@ -219,7 +220,7 @@ pub(crate) fn read(
     fillings.into_iter().map(Filling::finish).collect()
 }
 
-/// How many chunks to decompress at the same time.
+/// The number of chunks to decompress at the same time.
 fn chunks_at_once(meta: &MetaData, requests: &[Request]) -> usize {
     let bytes = requests.iter().map(|request| {
         let header = &meta.headers[request.part];
@@ -241,11 +242,12 @@ fn decompress(chunk: Chunk, meta: &MetaData) -> Result<UncompressedBlock, ReadEr
 }
 
 /// Refuses a DWA chunk whose counters ask for more than its block can hold: the decoder allocates
-/// what they say, and a failed allocation cannot be contained.
+/// the memory they ask for, and a failed allocation cannot be caught.
 fn check_dwa_counters(chunk: &Chunk, meta: &MetaData) -> Result<(), ReadErrorKind> {
-    /// All but the last, which names the coder (ImfDwaCompressor, "DataSizesSingle").
+    /// The number of counters without the last one, which names the coder (ImfDwaCompressor,
+    /// "DataSizesSingle").
     const COUNTERS: usize = 10;
-    /// For tables and rules, whatever the size of the block.
+    /// Bytes for tables and rules, independent of the size of the block.
     const SLACK: u64 = 1 << 16;
     let Some(header) = meta.headers.get(chunk.layer_index) else { return Ok(()) };
     if !matches!(header.compression, Compression::DWAA(_) | Compression::DWAB(_)) {
@@ -259,15 +261,15 @@ fn check_dwa_counters(chunk: &Chunk, meta: &MetaData) -> Result<(), ReadErrorKin
     else {
         return Ok(());
     };
-    // Of this block: the last one, and those at the right border, may be smaller.
+    // The size of this block: the last block and those at the right border may be smaller.
     let block = header
         .get_block_data_indices(&chunk.compressed_block)
         .and_then(|tile| header.get_absolute_block_pixel_coordinates(tile))
         .map_err(damaged)?;
     let Vec2(w, h) = block.size;
-    // Whole 8x8 blocks of the cosine transform, at most 8 bytes a sample on the way.
+    // The cosine transform uses whole 8x8 blocks, with at most 8 bytes per sample.
     let samples = w.next_multiple_of(8) * h.next_multiple_of(8) * header.channels.list.len();
-    // A chunk of exactly the size of its pixels is stored as it is, without counters.
+    // A chunk with exactly the size of its pixels is stored uncompressed, without counters.
     if bytes.len() == w * h * header.channels.bytes_per_pixel {
         return Ok(());
     }

@@ -1,10 +1,11 @@
-//! Which view (eye or camera) a channel belongs to.
+//! Finds the view (eye or camera) of a channel.
 //!
-//! Three conventions, in this order: the `view` attribute of a part; in a part with a `multiView`
-//! attribute the name before the channel's own, where channels without a layer belong to the first
-//! view (OpenEXR, "Storing Multi-View Images in OpenEXR Files"); else a component of the name that
-//! is a view's name, or ends in `-` and a view's name, as Blender names its parts
-//! (`ViewLayer.Combined-right`). `left` and `right` are known as views in every file.
+//! There are three conventions, tried in this order: the `view` attribute of a part; in a part with
+//! a `multiView` attribute, the name component before the channel's own, where channels without a
+//! layer belong to the first view (OpenEXR, "Storing Multi-View Images in OpenEXR Files"); or else
+//! a component of the name that is a view's name, or ends in `-` and a view's name, as Blender
+//! names its parts (`ViewLayer.Combined-right`). `left` and `right` are known as views in every
+//! file.
 
 use ::exr::meta::header::Header;
 
@@ -32,8 +33,8 @@ impl Views {
         Self { names }
     }
 
-    /// The view of a channel or layer of a part, in lower case. `prefix` is what stands in front of
-    /// the channel's own name; `full` is the same with the name of the part in front.
+    /// The view of a channel or layer of a part, in lower case. `prefix` is the text in front of
+    /// the channel's own name; `full` is the prefix with the name of the part in front.
     pub(crate) fn of_layer(&self, header: &Header, prefix: &str, full: &str) -> Option<String> {
         let own = &header.own_attributes;
         let part = own.view_name.as_ref().map(ToString::to_string);
@@ -47,7 +48,7 @@ impl Views {
         self.in_name(full)
     }
 
-    /// The view that a name tells, in lower case.
+    /// The view that a name contains, in lower case.
     pub(crate) fn in_name(&self, name: &str) -> Option<String> {
         let told = |part: &str| self.names.iter().find(|view| split(part, view).is_some());
         name.rsplit('.').find_map(told).map(|view| view.to_ascii_lowercase())
@@ -62,7 +63,8 @@ impl Views {
     }
 }
 
-/// What a component has besides the name of a view; `None` where it does not tell this view.
+/// The rest of a name component without the name of a view; `None` if the component does not
+/// contain this view.
 fn split<'a>(component: &'a str, view: &str) -> Option<&'a str> {
     let at = component.len().checked_sub(view.len())?;
     let (rest, last) = component.split_at_checked(at)?;
@@ -77,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_view_is_a_component_or_stands_behind_a_hyphen() {
+    fn a_view_is_a_component_or_follows_a_hyphen() {
         let views = Views { names: vec!["left".into(), "right".into(), "cam2".into()] };
         let told = |name: &str| (views.in_name(name), views.without(name));
         for (name, view, without) in [

@@ -7,7 +7,7 @@ use ::exr::meta::header::Header;
 
 use crate::error::ReadErrorKind;
 
-/// The display window, and where the data window lies in it.
+/// The display window, and the position of the data window in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Window {
     pub(crate) display_width: usize,
@@ -66,8 +66,8 @@ impl Window {
         self.columns() == (0..self.display_width) && self.rows() == (0..self.display_height)
     }
 
-    /// The part of a line of samples inside the display window: where it goes, and its bytes. Its
-    /// first sample is at column `x` and row `y` of the data window.
+    /// The part of a line of samples that lies inside the display window: its position there, and
+    /// its bytes. The first sample of the line is at column `x` and row `y` of the data window.
     pub(crate) fn visible<'a>(
         &self,
         x: usize,
@@ -86,7 +86,7 @@ impl Window {
         Some((y as usize * self.display_width + columns.start, bytes))
     }
 
-    /// The pixels of the display window, in reading order, that hold no data, as ranges of indices.
+    /// The pixels of the display window that hold no data, as ranges of indices in reading order.
     pub(crate) fn uncovered(&self) -> impl Iterator<Item = Range<usize>> {
         let (width, columns, rows) = (self.display_width, self.columns(), self.rows());
         (0..self.display_height).flat_map(move |y| {
@@ -96,12 +96,12 @@ impl Window {
         })
     }
 
-    /// Pixels of the display window.
+    /// The number of pixels of the display window.
     pub(crate) fn display_len(&self) -> usize {
         self.display_width * self.display_height
     }
 
-    /// Pixels of the data window.
+    /// The number of pixels of the data window.
     pub(crate) fn data_len(&self) -> usize {
         self.data_size.0 * self.data_size.1
     }

@@ -1,54 +1,54 @@
-//! One name to look for, and where.
+//! One set of channel names to look for, and the layers in which to look.
 
 use super::encoding::Encoding;
 use super::options::NamedMotion;
 use super::preset::GuidePreset;
 
-/// Where guides are looked for.
+/// The file in which motion and depth are looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum GuideFile {
-    /// In the file of the colour.
+    /// The file of the colour.
     Colour,
-    /// In a file of their own, where a bare `X` or `R` can be nothing else.
+    /// A separate file, in which a bare `X` or `R` can only be motion or depth.
     Separate,
 }
 
-/// In which layers a name is looked for.
+/// The layers in which a name is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Reach {
-    /// In all; a channel of exactly this name goes before those of a layer.
+pub(crate) enum LayerScope {
+    /// All layers. A channel of exactly this name takes precedence over those of a layer.
     Named,
-    /// In all.
+    /// All layers.
     Any,
-    /// In the colour's layer and those it lies in; in a file without colour, where channels stand
-    /// in no layer of their part.
+    /// The colour's layer and the layers that contain it. In a file without colour: channels that
+    /// belong to no layer of their part.
     Own,
-    /// The same, unless this channel is beside it: then it is one of a vector.
+    /// The same layers, unless this other channel is beside it: then it is a component of a vector.
     OwnWithout(&'static str),
 }
 
-/// Motion channels to look for.
+/// Motion channels that are looked for.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MotionChoice {
-    /// Channels of one layer, all of which have to be there; the motion is in the first two.
+    /// Channels of one layer, all of which must exist. The motion is in the first two.
     pub(crate) channels: Vec<String>,
-    pub(crate) reach: Reach,
+    pub(crate) scope: LayerScope,
     pub(crate) encoding: Encoding,
-    /// The renderer that writes them so.
+    /// The renderer that writes these names.
     pub(crate) preset: Option<GuidePreset>,
 }
 
 impl MotionChoice {
-    /// Channels in pixels, x to the right and y down.
-    pub(crate) fn pixels(channels: &[&str], reach: Reach) -> Self {
+    /// Channels whose values are in pixels, x to the right and y down.
+    pub(crate) fn pixels(channels: &[&str], scope: LayerScope) -> Self {
         let channels = channels.iter().map(|&name| name.to_owned()).collect();
-        Self { channels, reach, encoding: Encoding::PIXELS, preset: None }
+        Self { channels, scope, encoding: Encoding::PIXELS, preset: None }
     }
 
-    /// Channels as a renderer encodes them.
-    pub(crate) fn of(preset: GuidePreset, channels: &[&str], reach: Reach) -> Self {
+    /// Channels whose values are encoded as the renderer writes them.
+    pub(crate) fn of(preset: GuidePreset, channels: &[&str], scope: LayerScope) -> Self {
         let encoding = preset.encoding();
-        Self { encoding, preset: Some(preset), ..Self::pixels(channels, reach) }
+        Self { encoding, preset: Some(preset), ..Self::pixels(channels, scope) }
     }
 }
 
@@ -56,20 +56,20 @@ impl From<&NamedMotion> for MotionChoice {
     fn from(named: &NamedMotion) -> Self {
         let &NamedMotion { ref channels, sign, scale, unit } = named;
         let encoding = Encoding { sign, scale, unit, offset: 0.0 };
-        Self { channels: channels.to_vec(), reach: Reach::Named, encoding, preset: None }
+        Self { channels: channels.to_vec(), scope: LayerScope::Named, encoding, preset: None }
     }
 }
 
-/// A depth channel to look for.
+/// A depth channel that is looked for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum DepthChoice {
-    Channel(String, Reach),
-    /// The only one of the file.
+    Channel(String, LayerScope),
+    /// The only channel of the file.
     Only,
 }
 
 impl DepthChoice {
-    pub(crate) fn new(channel: &str, reach: Reach) -> Self {
-        Self::Channel(channel.to_owned(), reach)
+    pub(crate) fn new(channel: &str, scope: LayerScope) -> Self {
+        Self::Channel(channel.to_owned(), scope)
     }
 }

@@ -1,10 +1,10 @@
-//! What the values of motion channels mean.
+//! The meaning of the values of motion channels.
 
 use super::options::MotionUnit;
 use super::preset::GuidePreset;
 
-/// What the values of motion channels mean: the motion in pixels is
-/// `(sample - offset) * sign * scale`, times the size of the unit in pixels.
+/// The meaning of the values of motion channels: the motion in pixels is
+/// `(sample - offset) * sign * scale`, multiplied by the size of the unit in pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Encoding {
     pub(crate) sign: [f64; 2],
@@ -15,11 +15,11 @@ pub(crate) struct Encoding {
 }
 
 impl Encoding {
-    /// Pixels, x to the right and y down.
+    /// Values are in pixels, x to the right and y down.
     pub(crate) const PIXELS: Self =
         Self { sign: [1.0; 2], scale: [1.0; 2], unit: MotionUnit::Pixels, offset: 0.0 };
 
-    /// Pixels for one unit of a sample, in a display window of `size`.
+    /// Pixels of motion per unit of a sample, in a display window of `size`.
     pub(crate) fn pixels(&self, size: [usize; 2]) -> [f64; 2] {
         std::array::from_fn(|i| {
             let unit = match self.unit {
@@ -32,8 +32,8 @@ impl Encoding {
     }
 }
 
-/// Frames for a difference of 1 from 0.5 in Unreal's motion. See [`GuidePreset::Unreal`] for where
-/// it comes from.
+/// The motion in frame sizes for a difference of 1 from 0.5 in Unreal's encoding.
+/// [`GuidePreset::Unreal`] names the source.
 const UNREAL_FRAMES: f64 = 2.0;
 
 impl GuidePreset {
@@ -50,7 +50,8 @@ impl GuidePreset {
         }
     }
 
-    /// Whether its motion is in pixels, x to the right and y down, as channels are that are only named.
+    /// Whether the motion is in pixels, x to the right and y down, which is also the default for
+    /// channels that the user names.
     pub fn is_plain(self) -> bool {
         self.encoding() == Encoding::PIXELS
     }

@@ -1,4 +1,4 @@
-//! Motion and depth: which channels they are, what their values mean, and files of their own.
+//! Motion and depth: their channels, the meaning of their values, and separate files for them.
 
 pub(crate) mod choice;
 mod encoding;
@@ -8,9 +8,9 @@ mod preset_channels;
 pub(crate) mod search;
 mod search_order;
 
-pub(crate) use choice::{DepthChoice, GuideFile, MotionChoice, Reach};
+pub(crate) use choice::{DepthChoice, GuideFile, LayerScope, MotionChoice};
 pub(crate) use encoding::Encoding;
 pub use options::{DepthChannels, GuideOptions, MotionChannels, MotionUnit, NamedMotion};
 pub use preset::GuidePreset;
-pub(crate) use search::in_one;
-pub use search::{GuideSearch, Sought};
+pub(crate) use search::joined_names;
+pub use search::{ChannelSearch, GuideSearch};

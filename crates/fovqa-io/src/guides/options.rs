@@ -1,76 +1,78 @@
-//! What to look for beside the colour.
+//! Options for the motion and depth that are read beside the colour.
 
 use fovqa_params::words;
 use serde::{Deserialize, Serialize};
 
 use super::preset::GuidePreset;
 
-/// Which channels hold the motion and the depth of a frame. By default neither is looked for.
+/// The channels that hold the motion and the depth of a frame. By default neither is read.
 ///
-/// Names are matched without regard to case, from a dot on: `Vector.X` is also
-/// `ViewLayer.Vector.X`, and the name of a part counts like a layer in front. Of several such
-/// channels the one of the colour's view is meant (see the parts and views of Blender's Multi-View)
-/// and, among those, the one whose layer has most of its first names in common with the colour's.
+/// Names are compared without regard to case, from the start or from a dot on: `Vector.X` also
+/// matches `ViewLayer.Vector.X`, and the name of a part counts like a layer in front. If several
+/// channels match, those of the colour's view are preferred (see the parts and views of Blender's
+/// Multi-View) and, among those, the one whose layer has most leading components in common with the
+/// colour's.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct GuideOptions {
-    /// The motion.
+    /// The motion channels.
     pub motion: MotionChannels,
-    /// The depth.
+    /// The depth channel.
     pub depth: DepthChannels,
 }
 
 impl GuideOptions {
-    /// Whether nothing is looked for.
+    /// Whether neither motion nor depth is read.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
 }
 
 /// The channels of backward motion: the position in the previous frame is the position in this
-/// one plus the motion.
+/// frame plus the motion.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MotionChannels {
-    /// Not read.
+    /// Motion is not read.
     #[default]
     None,
-    /// `motion.X` and `motion.Y` in pixels, else the names of the presets in the order of
-    /// [`GuidePreset::ALL`]. In a file of its own also `X`, `Y`, `Z` and `W` together as Blender
+    /// `motion.X` and `motion.Y` in pixels, or else the names of the presets in the order of
+    /// [`GuidePreset::ALL`]. In a separate file also `X`, `Y`, `Z` and `W` together as Blender
     /// writes them, `X` and `Y` in pixels, and `R` and `G` as Falcor writes them.
     Auto,
-    /// Those of a renderer.
+    /// The channels of a renderer.
     Preset(GuidePreset),
-    /// Those of these names.
+    /// The channels of these names.
     Named(NamedMotion),
-    /// Those of these names, across and down, encoded as a renderer does.
+    /// The channels of these names, across and down, encoded as the renderer writes them.
     NamedAs(GuidePreset, [String; 2]),
 }
 
-/// Channels of motion and what their values mean: the motion in pixels is
-/// `sample * sign * scale`, times the size of the unit in pixels.
+/// Motion channels and the meaning of their values: the motion in pixels is
+/// `sample * sign * scale`, multiplied by the size of the unit in pixels.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NamedMotion {
     /// The channels across and down.
     pub channels: [String; 2],
-    /// 1, or -1 where the axis points to the left or up, or where the motion is that from the
+    /// 1, or -1 if the axis points to the left or up, or if the motion is forward, from the
     /// previous frame to this one.
     pub sign: [f64; 2],
-    /// Units for one unit of a sample.
+    /// Units of motion per unit of a sample.
     pub scale: [f64; 2],
-    /// The unit.
+    /// The unit of motion.
     pub unit: MotionUnit,
 }
 
 words! {
-    /// What motion is counted in.
+    /// The unit of motion.
     #[derive(Default)]
     pub enum MotionUnit {
         /// Pixels.
         #[default]
         Pixels "pixels" "Pixels";
-        /// Widths and heights of the display window.
+        /// The width and the height of the display window.
         Frame "frame" "Widths and heights of the frame";
-        /// Halves of them: coordinates that go from -1 to 1 across the display window.
+        /// Half the width and half the height: coordinates run from -1 to 1 across the display
+        /// window.
         Ndc "ndc" "Halves of them: coordinates from -1 to 1";
     }
 }
@@ -79,14 +81,14 @@ words! {
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DepthChannels {
-    /// Not read.
+    /// Depth is not read.
     #[default]
     None,
-    /// `Z` of the colour's own layer, else the names of the presets in the order of
-    /// [`GuidePreset::ALL`]. In a file of its own also `Y`, `R` or the only channel.
+    /// `Z` of the colour's own layer, or else the names of the presets in the order of
+    /// [`GuidePreset::ALL`]. In a separate file also `Y`, `R` or the only channel.
     Auto,
-    /// That of a renderer.
+    /// The channel of a renderer.
     Preset(GuidePreset),
-    /// That of this name.
+    /// The channel of this name.
     Named(String),
 }

@@ -1,6 +1,6 @@
 //! The channel names that each renderer writes.
 
-use super::choice::{DepthChoice, GuideFile, MotionChoice, Reach};
+use super::choice::{DepthChoice, GuideFile, LayerScope, MotionChoice};
 use super::preset::GuidePreset;
 
 impl GuidePreset {
@@ -17,9 +17,9 @@ impl GuidePreset {
             ),
             Self::Mitsuba => (["motion.X", "motion.Y"], ["X", "Y"]),
         };
-        let mut choices = vec![MotionChoice::of(self, &names, Reach::Any)];
+        let mut choices = vec![MotionChoice::of(self, &names, LayerScope::Any)];
         if place == GuideFile::Separate {
-            choices.push(MotionChoice::of(self, &bare, Reach::Own));
+            choices.push(MotionChoice::of(self, &bare, LayerScope::Own));
         }
         choices
     }
@@ -41,7 +41,8 @@ impl GuidePreset {
         layers
     }
 
-    /// The renderer whose motion has these names in a layer, across and down, without regard to case.
+    /// The renderer that writes motion under these names within a layer, across and down, without
+    /// regard to case.
     pub fn of_motion(channels: &[String; 2]) -> Option<Self> {
         let ends = |whole: &str, name: &str| {
             let (whole, name) = (whole.to_ascii_lowercase(), name.to_ascii_lowercase());
@@ -61,9 +62,9 @@ impl GuidePreset {
             Self::Mitsuba => (&["T", "dd.y"], &["Y"]),
         };
         let mut choices: Vec<DepthChoice> =
-            names.iter().map(|name| DepthChoice::new(name, Reach::Any)).collect();
+            names.iter().map(|name| DepthChoice::new(name, LayerScope::Any)).collect();
         if place == GuideFile::Separate {
-            choices.extend(bare.iter().map(|name| DepthChoice::new(name, Reach::Own)));
+            choices.extend(bare.iter().map(|name| DepthChoice::new(name, LayerScope::Own)));
         }
         choices
     }

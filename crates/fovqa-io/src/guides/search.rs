@@ -1,37 +1,38 @@
-//! What was looked for, and what there is.
+//! The channels that were looked for, and the channels that exist.
 
 use super::choice::{DepthChoice, GuideFile, MotionChoice};
 use super::options::GuideOptions;
 use crate::error::{ReadErrorKind, listed};
 
-/// What was looked for beside the colour, and where it was found: material for a caller that
-/// needs guides, or says which channels it used.
+/// The motion and depth channels that were looked for beside the colour, and those that were found.
+/// Callers use it to report missing channels or to show which channels were read.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct GuideSearch {
-    /// The motion; `None` when it was not asked for.
-    pub motion: Option<Sought>,
-    /// The depth; `None` when it was not asked for.
-    pub depth: Option<Sought>,
-    /// The channels of the file, with part and layer in front. Empty when nothing was asked for,
-    /// and for files that are not OpenEXR.
+    /// The search for motion; `None` if it was not asked for.
+    pub motion: Option<ChannelSearch>,
+    /// The search for depth; `None` if it was not asked for.
+    pub depth: Option<ChannelSearch>,
+    /// The channels of the file, with part and layer in front. Empty if nothing was asked for, and
+    /// for files that are not OpenEXR.
     pub channels: Vec<String>,
 }
 
-/// One thing that was looked for.
+/// The search for the motion or for the depth.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Sought {
-    /// The names, the first choice first; those of a pair with ` + ` between them.
+pub struct ChannelSearch {
+    /// The names that were looked for, the first choice first. The two names of a pair are joined
+    /// by ` + `.
     pub wanted: Vec<String>,
-    /// The channels found, written likewise, with part and layer in front.
+    /// The channels that were found, joined in the same way, with part and layer in front.
     pub found: Option<String>,
-    /// Channels of these names that belong to another view or layer than the colour, where nothing else
-    /// was found.
+    /// Channels of these names that belong to another view or layer than the colour, if no others
+    /// were found.
     pub elsewhere: Option<String>,
 }
 
-impl Sought {
+impl ChannelSearch {
     pub(crate) fn motion(choices: &[MotionChoice]) -> Option<Self> {
-        Self::of(choices.iter().map(|choice| in_one(&choice.channels)))
+        Self::of(choices.iter().map(|choice| joined_names(&choice.channels)))
     }
 
     pub(crate) fn depth(choices: &[DepthChoice]) -> Option<Self> {
@@ -47,30 +48,30 @@ impl Sought {
     }
 }
 
-/// The names of channels that belong together.
-pub(crate) fn in_one(channels: &[String]) -> String {
+/// Joins the names of channels that belong together.
+pub(crate) fn joined_names(channels: &[String]) -> String {
     channels.join(" + ")
 }
 
 impl GuideSearch {
-    /// In a file that cannot hold what was asked for.
-    pub(crate) fn in_vain(options: &GuideOptions) -> Self {
-        let motion = Sought::motion(&options.motion.choices(GuideFile::Colour));
-        let depth = Sought::depth(&options.depth.choices(GuideFile::Colour));
+    /// The search in a file that cannot hold motion or depth.
+    pub(crate) fn without_channels(options: &GuideOptions) -> Self {
+        let motion = ChannelSearch::motion(&options.motion.choices(GuideFile::Colour));
+        let depth = ChannelSearch::depth(&options.depth.choices(GuideFile::Colour));
         Self { motion, depth, channels: Vec::new() }
     }
 
-    /// Why there is no motion, though it was asked for.
+    /// The error for motion that was asked for but is missing.
     pub fn missing_motion(&self) -> Option<ReadErrorKind> {
         self.missing("motion", self.motion.as_ref())
     }
 
-    /// Why there is no depth, though it was asked for.
+    /// The error for depth that was asked for but is missing.
     pub fn missing_depth(&self) -> Option<ReadErrorKind> {
         self.missing("depth", self.depth.as_ref())
     }
 
-    fn missing(&self, what: &'static str, sought: Option<&Sought>) -> Option<ReadErrorKind> {
+    fn missing(&self, what: &'static str, sought: Option<&ChannelSearch>) -> Option<ReadErrorKind> {
         let sought = sought.filter(|sought| sought.found.is_none())?;
         if let Some(channels) = sought.elsewhere.clone() {
             return Some(ReadErrorKind::GuidesElsewhere { what, channels });

@@ -1,26 +1,27 @@
-//! What the application segments say: JFIF, Exif, ICC profile, Adobe.
+//! The content of the application segments: JFIF, Exif, ICC profile, Adobe.
 
 use super::segments::{Segment, marker};
 use crate::exif::is_turned;
 
-/// What is known from application segments.
+/// The information from application segments.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Application {
-    /// There is a JFIF segment: three components are YCbCr.
+    /// Whether there is a JFIF segment: three components are then YCbCr.
     pub(super) jfif: bool,
-    /// The colour transform of Adobe's segment.
+    /// The colour transform in Adobe's segment.
     pub(super) adobe_transform: Option<u8>,
-    /// The Exif orientation is not "upright".
+    /// Whether the Exif orientation is not "upright".
     pub(super) turned: bool,
-    /// There is a colour profile.
+    /// Whether there is a colour profile.
     pub(super) profile: bool,
 }
 
 impl Application {
-    /// Takes what a segment says; those of any other application are of no concern.
+    /// Stores the information of a segment. Segments of other applications are ignored.
     pub(super) fn take(&mut self, segment: Segment<'_>) {
         const EXIF: &[u8] = b"Exif\0\0";
-        /// Bytes of JFIF's and of Adobe's segment; a shorter one is something else.
+        /// The length of JFIF's and of Adobe's segment in bytes; a shorter segment is something
+        /// else.
         const JFIF_LENGTH: usize = 14;
         const ADOBE_LENGTH: usize = 12;
         let Segment { marker, data } = segment;

@@ -1,31 +1,32 @@
-//! Bits of entropy-coded data, the highest first.
+//! The bits of entropy-coded data, from the highest bit of each byte on.
 
 use super::error::{Result, damaged};
 use super::huffman::Huffman;
 use crate::error::ReadErrorKind;
 
-/// Reads bits of the data between two markers.
+/// Reads the bits of the data between two markers.
 ///
-/// Behind the end come zeros. What was decoded counts only after [`Bits::check`].
+/// After the end of the data it returns zeros, so decoded values are valid only after
+/// [`Bits::check`].
 #[derive(Debug)]
 pub(super) struct Bits<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// The next bits, from the highest on.
+    /// The next bits, the first one highest.
     window: u64,
-    /// How many of them there are.
+    /// The number of bits in the window.
     count: u32,
-    /// How many of them, the last ones, are not of the data.
+    /// How many of these bits, at the end of the window, are beyond the data.
     beyond: u32,
 }
 
 impl<'a> Bits<'a> {
-    /// Of data without stuffed zeros.
+    /// Reads data from which stuffed zeros have been removed.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, at: 0, window: 0, count: 0, beyond: 0 }
     }
 
-    /// Makes sure of at least 56 bits: more than a code (16) and its value (15) take.
+    /// Fills the window to at least 56 bits: more than a code (16) and its value (15) need.
     #[inline(always)]
     fn refill(&mut self) {
         if let Some(next) = self.bytes.get(self.at..self.at + 8) {
@@ -42,7 +43,7 @@ impl<'a> Bits<'a> {
     fn refill_at_end(&mut self) {
         while self.count < 56 {
             if let Some(byte) = self.bytes.get(self.at) {
-                // What a refill of eight bytes has put there already are the same bits.
+                // A refill of eight bytes may have set these bits already, to the same values.
                 self.window |= u64::from(*byte) << (56 - self.count);
                 self.at += 1;
             } else {
@@ -58,16 +59,17 @@ impl<'a> Bits<'a> {
         self.count -= count;
     }
 
-    /// Up to 16 bits as a number.
+    /// The next `count` bits, up to 16, as a number.
     #[inline(always)]
     fn take(&mut self, count: u32) -> u32 {
-        // In two steps: a shift by all 64 bits is none.
+        // The shift is done in two steps, because a shift by all 64 bits is not possible.
         let value = (self.window >> 1 >> (63 - count)) as u32;
         self.consume(count);
         value
     }
 
-    /// The next code of a table and, behind it, as many bits as `size` says of it, 16 at most.
+    /// Reads the next symbol of a table. The window then also holds the bits of its value, for
+    /// `value` or `raw`.
     #[inline(always)]
     pub(super) fn symbol(&mut self, table: &Huffman) -> Result<u8> {
         self.refill();
@@ -87,25 +89,25 @@ impl<'a> Bits<'a> {
         }
     }
 
-    /// The value of `size` bits, up to 15, right behind a symbol: negative where the first bit is 0
-    /// (T.81, F.2.2.1).
+    /// Reads the value of `size` bits, up to 15, directly after a symbol. It is negative if its
+    /// first bit is 0 (T.81, F.2.2.1).
     #[inline(always)]
     pub(super) fn value(&mut self, size: u8) -> i32 {
         let size = u32::from(size);
         let bits = self.take(size) as i32;
-        // The largest bit is 0 for values below 0, which are then 2^size - 1 less.
+        // The first bit is 0 for negative values, which are stored with 2^size - 1 added.
         let below = (bits >> size.saturating_sub(1)) - 1;
         let span = (1 << size) - 1;
         bits - (below & span)
     }
 
-    /// Up to 15 bits right behind a symbol, as they are.
+    /// Reads up to 15 bits directly after a symbol, as an unsigned number.
     #[inline(always)]
     pub(super) fn raw(&mut self, count: u8) -> u32 {
         self.take(u32::from(count))
     }
 
-    /// One bit, anywhere.
+    /// Reads one bit at any position.
     #[inline(always)]
     pub(super) fn bit(&mut self) -> bool {
         if self.count == 0 {
@@ -114,16 +116,20 @@ impl<'a> Bits<'a> {
         self.take(1) == 1
     }
 
+    /// Checks that no bits beyond the data were read.
+    ///
     /// # Errors
-    /// When more bits were taken than there are.
+    /// When more bits were read than there are.
     #[inline(always)]
     pub(super) fn check(&self) -> Result<()> {
         if self.count < self.beyond { Err(too_short()) } else { Ok(()) }
     }
 
+    /// Checks that the data ends here.
+    ///
     /// # Errors
-    /// When more bits were taken than there are, or a whole byte is left over. What fills the last
-    /// byte up is no matter.
+    /// When more bits were read than there are, or a whole byte is left over. The padding of the
+    /// last byte is not checked.
     pub(super) fn finish(self) -> Result<()> {
         self.check()?;
         let left = (self.bytes.len() - self.at) * 8 + (self.count - self.beyond) as usize;
@@ -146,7 +152,7 @@ fn too_short() -> ReadErrorKind {
 mod tests {
     use super::*;
 
-    /// One bit: 0 for the symbol 3.
+    /// A table with the code 0 for the symbol 3.
     fn table() -> Huffman {
         let mut counts = [0; 16];
         counts[0] = 1;
@@ -155,7 +161,7 @@ mod tests {
 
     #[test]
     fn values_have_a_sign() {
-        // Symbol, 3 bits, four times: 7, 4, -4, -7; 16 bits.
+        // Four times a symbol and 3 bits: 7, 4, -4, -7; 16 bits in all.
         let bytes = [0b0111_0100, 0b0011_0000];
         let mut bits = Bits::new(&bytes);
         for wanted in [7, 4, -4, -7] {

@@ -1,7 +1,7 @@
-//! From components to gray or RGB.
+//! Converts components to gray or RGB.
 //!
-//! Which colours three or four components are is not in the frame: JFIF's and Adobe's markers say it,
-//! and failing them the components' names. The rules are libjpeg's.
+//! The frame header does not say which colours three or four components are. JFIF's and Adobe's
+//! markers say it, or else the identifiers of the components. The rules are those of libjpeg.
 
 use multiversion::multiversion;
 
@@ -11,21 +11,21 @@ use super::error::not_read;
 use super::frame_header::FrameHeader;
 use super::kind::JpegKind;
 
-/// What the components are.
+/// The meaning of the components.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Colours {
     Gray,
     Rgb,
-    /// Luma and two differences (ITU-R BT.601, full range, as in JFIF).
+    /// Luma and two colour differences (ITU-R BT.601, full range, as in JFIF).
     YCbCr,
-    /// Inks, stored as Adobe's programs do: 255 is none.
+    /// Inks, stored inverted as Adobe's programs do: 255 means no ink.
     Cmyk,
-    /// The same, the first three as luma and differences.
+    /// Inks of which the first three are stored as luma and colour differences.
     Ycck,
 }
 
 impl Colours {
-    /// Of a frame, by the markers in front of it.
+    /// The colours of a frame, by its header and the markers in front of it.
     ///
     /// # Errors
     /// When Adobe's marker has a transform that does not exist.
@@ -45,7 +45,7 @@ impl Colours {
         }
     }
 
-    /// Interleaved RGB of a row from its components; gray has nothing to convert.
+    /// Converts a row of components to interleaved RGB. Gray needs no conversion.
     pub(super) fn convert(self, row: &[Vec<u8>], out: &mut [u8]) {
         match (self, row) {
             (Self::Rgb, [r, g, b]) => interleave(r, g, b, out),
@@ -56,7 +56,7 @@ impl Colours {
             }
             (Self::Ycck, [y, cb, cr, k]) => {
                 from_ycbcr(y, cb, cr, out);
-                // What was converted as RGB are inks the other way round.
+                // The converted values are inverted inks.
                 for ink in out.iter_mut() {
                     *ink = 255 - *ink;
                 }
@@ -73,7 +73,7 @@ fn interleave(r: &[u8], g: &[u8], b: &[u8], out: &mut [u8]) {
     }
 }
 
-/// Lays black ink over the colours.
+/// Multiplies the colours by the black ink.
 fn darken(black: &[u8], out: &mut [u8]) {
     for (pixel, k) in out.as_chunks_mut::<3>().0.iter_mut().zip(black) {
         *pixel = pixel.map(|ink| ((u32::from(ink) * u32::from(*k) + 127) / 255) as u8);

@@ -1,29 +1,29 @@
-//! Which coefficients the scans of a file have brought.
+//! The coefficients that the scans of a file have delivered.
 
 use super::error::{Result, damaged};
 use super::frame_header::{Coding, FrameHeader};
 use super::quantisation::COEFFICIENTS;
 use super::scan_header::ScanHeader;
 
-/// For each component and coefficient, the lowest bit that is known.
+/// The lowest known bit for each component and coefficient.
 #[derive(Debug)]
 pub(super) struct Coverage(Vec<[Option<u8>; COEFFICIENTS]>);
 
 impl Coverage {
-    /// Of a frame without scans.
+    /// The coverage of a frame before its first scan.
     pub(super) fn new(frame: &FrameHeader) -> Self {
         Self(vec![[None; COEFFICIENTS]; frame.components.len()])
     }
 
-    /// Whether a component has had a scan.
+    /// Whether a scan has delivered data of a component.
     pub(super) fn has_begun(&self, component: usize) -> bool {
         self.0[component].iter().any(Option::is_some)
     }
 
-    /// Adds what a scan brings.
+    /// Adds the coefficients of a scan.
     ///
     /// # Errors
-    /// When it does not go on where the scans before it have ended.
+    /// When the scan does not continue where the scans before it have ended.
     pub(super) fn add(&mut self, coding: Coding, scan: &ScanHeader) -> Result<()> {
         let wrong = |what: &str| Err(damaged(format!("its scans are out of order: {what}")));
         let before = if scan.high == 0 { None } else { Some(scan.high) };
@@ -45,9 +45,11 @@ impl Coverage {
         Ok(())
     }
 
+    /// Checks that all coefficients are complete.
+    ///
     /// # Errors
-    /// When a bit of a coefficient has not come. A file may be written without its last scans, but
-    /// it cannot be told from one that was cut there; decoders make up what is missing.
+    /// When a bit of a coefficient is missing. A file may be written without its last scans, but it
+    /// cannot be distinguished from a truncated one; other decoders fill in the missing bits.
     pub(super) fn check_complete(&self) -> Result<()> {
         if self.0.iter().any(|known| known[0].is_none()) {
             return Err(damaged("the scan of a component is missing"));

@@ -1,4 +1,4 @@
-//! From a file's scans to the samples of its components.
+//! Decodes a file's scans to the samples of its components.
 
 use rayon::prelude::*;
 
@@ -17,22 +17,22 @@ use super::sequential::{Coefficients, impossible};
 use super::standard_huffman;
 use super::upsample::Plane;
 
-/// A file's components, decoded.
+/// The decoded components of a file.
 #[derive(Debug)]
 pub(super) struct Decoder {
     frame: FrameHeader,
     coverage: Coverage,
-    /// The quantisation table of each component, as of its first scan.
+    /// The quantisation table of each component, as it was in its first scan.
     steps: Vec<Steps>,
-    /// Coefficients of each component, block by block: of progressive files alone.
+    /// The coefficients of each component, block by block; used only for progressive files.
     coefficients: Vec<Vec<Coefficients>>,
     planes: Vec<Plane>,
 }
 
-/// Decodes all scans. The settings are those at the end of the file.
+/// Decodes all scans. The returned settings are those at the end of the file.
 ///
 /// # Errors
-/// When anything of them is damaged or missing.
+/// When data is damaged or missing.
 pub(super) fn decode(head: Head<'_>) -> Result<(Vec<Plane>, Settings)> {
     let Head { mut segments, frame, mut settings, scan } = head;
     let mut decoder = Decoder::new(frame);
@@ -65,7 +65,7 @@ fn plane(component: &Component) -> Plane {
     Plane { samples, stride: columns * BLOCK, size: component.size }
 }
 
-/// Samples of a row of blocks.
+/// Computes the samples of a row of blocks.
 fn draw(blocks: &[Coefficients], steps: &Steps, plane: &mut [u8], stride: usize) -> Result<()> {
     if idct::samples(blocks, steps, stride, plane) { Ok(()) } else { Err(impossible()) }
 }
@@ -79,7 +79,7 @@ impl Decoder {
                 blocks.map(|count| vec![[0; COEFFICIENTS]; count]).collect()
             }
         };
-        // The samples of progressive files have to wait.
+        // The samples of progressive files are computed after the last scan.
         let planes = match frame.coding {
             Coding::Sequential => frame.components.iter().map(plane).collect(),
             Coding::Progressive => Vec::new(),
@@ -116,7 +116,7 @@ impl Decoder {
         }
     }
 
-    /// Decodes a scan and turns its coefficients into samples, row by row of its units.
+    /// Decodes a scan and converts its coefficients to samples, one row of units after the other.
     fn sequential(&mut self, mut scan: Scan<'_>, order: &Order) -> Result<()> {
         let blocks_of_row = order.shares.iter().map(|share| share.within.0 * share.blocks.1);
         let mut strips: Vec<Vec<Coefficients>> =
@@ -141,7 +141,7 @@ impl Decoder {
         scan.finish()
     }
 
-    /// Decodes a scan into the coefficients of all scans before it.
+    /// Decodes a scan and adds it to the coefficients of the earlier scans.
     fn progressive(&mut self, mut scan: Scan<'_>, order: &Order) -> Result<()> {
         for y in 0..order.units.1 {
             let mut of_component: Vec<_> = self.coefficients.iter_mut().map(Some).collect();
@@ -159,7 +159,7 @@ impl Decoder {
         scan.finish()
     }
 
-    /// The samples of all components.
+    /// Returns the samples of all components.
     fn finish(mut self) -> Result<Vec<Plane>> {
         for ((component, blocks), steps) in self
             .frame

@@ -1,4 +1,4 @@
-//! How a JPEG fails.
+//! Errors of the JPEG decoder.
 
 use super::kind::JpegKind;
 use crate::error::ReadErrorKind;

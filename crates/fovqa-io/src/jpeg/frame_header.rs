@@ -4,15 +4,15 @@ use super::error::{Result, damaged, not_read};
 use super::kind::JpegKind;
 use super::segments::{marker, u16_at};
 
-/// Samples of a block's side.
+/// The side of a block in samples.
 pub(super) const BLOCK: usize = 8;
 
-/// How coefficients are coded.
+/// The coding of coefficients.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Coding {
-    /// All of a block at once: baseline and extended sequential.
+    /// All coefficients of a block at once: baseline and extended sequential.
     Sequential,
-    /// In several scans.
+    /// Coefficients in several scans.
     Progressive,
 }
 
@@ -22,15 +22,15 @@ pub(super) struct Component {
     pub(super) id: u8,
     /// Horizontal and vertical sampling factor, 1 to 4.
     pub(super) factors: (usize, usize),
-    /// Number of its quantisation table, 0 to 3.
+    /// The number of its quantisation table, 0 to 3.
     pub(super) quantisation: usize,
-    /// Samples across and down.
+    /// The number of samples across and down.
     pub(super) size: (usize, usize),
-    /// Blocks across and down that hold at least one of these samples.
+    /// The number of blocks, across and down, that hold at least one of these samples.
     pub(super) blocks: (usize, usize),
 }
 
-/// What the frame header says.
+/// The content of the frame header.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct FrameHeader {
     pub(super) coding: Coding,
@@ -41,7 +41,7 @@ pub(super) struct FrameHeader {
     pub(super) largest: (usize, usize),
 }
 
-/// Whether a marker starts a frame, of any kind.
+/// Whether a marker starts a frame of any kind.
 pub(super) fn starts_frame(marker: u8) -> bool {
     match marker {
         marker::DHT | marker::JPG | marker::DAC => false,
@@ -57,7 +57,7 @@ fn coding(marker: u8) -> Result<Coding> {
         marker::SOF2 => return Ok(Coding::Progressive),
         marker::SOF3 => JpegKind::Lossless,
         marker::SOF55 => JpegKind::JpegLs,
-        // SOF9 to SOF11; those from SOF13 on are differential too.
+        // SOF9 to SOF11. The kinds from SOF13 on are differential too.
         0xc9..=0xcb => JpegKind::Arithmetic,
         _ => JpegKind::Hierarchical,
     };
@@ -65,10 +65,10 @@ fn coding(marker: u8) -> Result<Coding> {
 }
 
 impl FrameHeader {
-    /// Reads the header; its height may be 0, and follows behind the first scan then.
+    /// Reads the header. Its height may be 0 and then follows after the first scan.
     ///
     /// # Errors
-    /// When it is of a kind that is not read, or contradicts itself.
+    /// When its kind is not supported, or it contradicts itself.
     pub(super) fn parse(marker: u8, data: &[u8]) -> Result<Self> {
         let coding = coding(marker)?;
         let short = || damaged("its frame header has a wrong length");
@@ -117,7 +117,7 @@ impl FrameHeader {
         Ok(header)
     }
 
-    /// The height once it is known, which for some files is behind the first scan.
+    /// Sets the height once it is known, which for some files is only after the first scan.
     pub(super) fn set_height(&mut self, height: usize) {
         self.height = height;
         let (max_h, max_v) = self.largest;
@@ -128,14 +128,15 @@ impl FrameHeader {
         }
     }
 
-    /// Units of an interleaved scan across and down.
+    /// The number of units of an interleaved scan across and down.
     pub(super) fn units(&self) -> (usize, usize) {
         let (max_h, max_v) = self.largest;
         (self.width.div_ceil(BLOCK * max_h), self.height.div_ceil(BLOCK * max_v))
     }
 
-    /// Refuses a size that so many bytes cannot hold, before memory is asked for: each block takes
-    /// at least one bit of a progressive file, that of its mean, and two of a sequential one.
+    /// Refuses a size that cannot fit into this number of bytes, before memory is allocated. Each
+    /// block takes at least one bit in a progressive file (for its mean), and two in a sequential
+    /// one.
     pub(super) fn check_length(&self, bytes: usize) -> Result<()> {
         let blocks: usize = self.components.iter().map(|c| c.blocks.0 * c.blocks.1).sum();
         let bits_per_block = match self.coding {

@@ -1,4 +1,4 @@
-//! A file up to its first scan, and the settings that segments make.
+//! Reads a file up to its first scan, and the settings that segments make.
 
 use super::application::Application;
 use super::error::{Result, damaged};
@@ -8,21 +8,21 @@ use super::intervals::Intervals;
 use super::quantisation::{self, Steps};
 use super::segments::{Segment, Segments, marker, u16_at};
 
-/// What segments have set so far.
+/// The settings that segments have made so far.
 #[derive(Debug, Default)]
 pub(super) struct Settings {
     pub(super) application: Application,
     pub(super) quantisation: [Option<Steps>; 4],
     pub(super) huffman: Tables,
-    /// Units of a restart interval; 0 for none.
+    /// The number of units in a restart interval; 0 for no restarts.
     pub(super) restart_interval: usize,
 }
 
 impl Settings {
-    /// Takes what a segment sets.
+    /// Applies the settings of a segment.
     ///
     /// # Errors
-    /// When it is damaged, or of a kind that cannot stand here.
+    /// When the segment is damaged, or not allowed here.
     pub(super) fn take(&mut self, segment: Segment<'_>) -> Result<()> {
         match segment.marker {
             marker::DQT => quantisation::parse(segment.data, &mut self.quantisation),
@@ -38,8 +38,8 @@ impl Settings {
                 self.application.take(segment);
                 Ok(())
             }
-            // What arithmetic coding sets has no meaning here; a restart marker behind the last
-            // interval does no harm.
+            // The settings of arithmetic coding have no meaning here, and a restart marker after
+            // the last interval does no harm.
             marker::COM | marker::DAC | marker::TEM | marker::RST0..=marker::RST7 => Ok(()),
             other => Err(damaged(format!("the marker 0xFF{other:02X} stands in a wrong place"))),
         }
@@ -49,7 +49,7 @@ impl Settings {
 /// A file up to the header of its first scan.
 #[derive(Debug)]
 pub(super) struct Head<'a> {
-    /// What follows.
+    /// The segments after the header of the first scan.
     pub(super) segments: Segments<'a>,
     pub(super) frame: FrameHeader,
     pub(super) settings: Settings,
@@ -58,10 +58,10 @@ pub(super) struct Head<'a> {
 }
 
 impl<'a> Head<'a> {
-    /// Reads up to the first scan, or beyond it where the height stands there.
+    /// Reads up to the first scan, or beyond it if the height follows there.
     ///
     /// # Errors
-    /// When the file is damaged up to there, or of a kind that is not read.
+    /// When the file is damaged before that point, or of a kind that is not supported.
     pub(super) fn read(bytes: &'a [u8]) -> Result<Self> {
         let mut segments = Segments::new(bytes);
         let mut settings = Settings::default();
@@ -93,7 +93,7 @@ impl<'a> Head<'a> {
     }
 }
 
-/// The height of a file whose frame header does not know it (T.81, B.2.5).
+/// The height of a file whose frame header does not give it (T.81, B.2.5).
 fn height_behind_scan(mut segments: Segments<'_>) -> Result<usize> {
     let scan = Intervals::read(segments.rest())?;
     segments.skip(scan.length);
@@ -106,7 +106,7 @@ fn height_behind_scan(mut segments: Segments<'_>) -> Result<usize> {
     }
 }
 
-/// The height that a segment declares behind the first scan.
+/// The height that a segment after the first scan declares.
 pub(super) fn declared_height(segment: Segment<'_>) -> Option<usize> {
     match (segment.marker, segment.data) {
         (marker::DNL, &[high, low]) => Some(u16::from_be_bytes([high, low]).into()),

@@ -3,19 +3,20 @@
 use super::error::{Result, damaged};
 use crate::error::ReadErrorKind;
 
-/// Codes of up to so many bits are found at once.
+/// Codes of up to this number of bits are found with one look-up.
 const LOOKUP_BITS: u32 = 9;
-/// The longest code.
+/// The length of the longest code.
 const LONGEST: usize = 16;
 
-/// One table, ready for decoding.
+/// One table, prepared for decoding.
 #[derive(Debug, Clone)]
 pub(super) struct Huffman {
-    /// By the first bits: the symbol, and above it the length of its code; 0 for longer codes.
+    /// Indexed by the first bits of the data: the symbol in the low byte, and above it the length
+    /// of its code; 0 for longer codes.
     lookup: Box<[u16; 1 << LOOKUP_BITS]>,
-    /// For each length, the first code that is longer, filled up to 16 bits.
+    /// For each length, the first longer code, padded to 16 bits.
     ends: [u32; LONGEST + 1],
-    /// For each length, what added to a code gives the place of its symbol.
+    /// For each length, the number that, added to a code, gives the index of its symbol.
     offsets: [i32; LONGEST + 1],
     symbols: Vec<u8>,
 }
@@ -23,17 +24,17 @@ pub(super) struct Huffman {
 /// The tables that a file has defined so far.
 #[derive(Debug, Default)]
 pub(super) struct Tables {
-    /// For means.
+    /// Tables for means.
     pub(super) dc: [Option<Huffman>; 4],
-    /// For all other coefficients.
+    /// Tables for all other coefficients.
     pub(super) ac: [Option<Huffman>; 4],
 }
 
 impl Huffman {
-    /// From the number of codes of each length and their symbols in order.
+    /// Makes a table from the number of codes of each length and their symbols in order.
     ///
     /// # Errors
-    /// When there are more codes than their lengths have room for.
+    /// When there are more codes than their lengths allow.
     pub(super) fn new(counts: &[u8; LONGEST], symbols: &[u8]) -> Result<Self> {
         let mut table = Self {
             lookup: Box::new([0; 1 << LOOKUP_BITS]),
@@ -54,7 +55,8 @@ impl Huffman {
                 }
                 code += 1;
             }
-            // The code of ones alone is reserved, so that no data looks like what fills a byte up.
+            // The code that consists only of ones is reserved, so that no data looks like the
+            // padding of a byte.
             if count > 0 && code >= 1 << length {
                 return Err(wrong());
             }
@@ -65,7 +67,8 @@ impl Huffman {
         Ok(table)
     }
 
-    /// The symbol that 16 bits start with, and the length of its code; 0 where there is none.
+    /// The symbol at the start of these 16 bits, and the length of its code, which is 0 if there is
+    /// none.
     #[inline(always)]
     pub(super) fn find(&self, bits: u16) -> (u8, u32) {
         let entry = self.lookup[usize::from(bits >> (16 - LOOKUP_BITS))];
@@ -86,8 +89,7 @@ impl Huffman {
         (0, 0)
     }
 
-    /// Whether a symbol is the number of bits of a mean's difference, as all symbols of such a
-    /// table have to be.
+    /// Whether every symbol is a possible number of bits, which is required in a table for means.
     fn has_only_sizes(&self) -> bool {
         self.symbols.iter().all(|size| *size <= 15)
     }
@@ -123,7 +125,7 @@ impl Tables {
         Ok(())
     }
 
-    /// The table for means with a number.
+    /// The table for means with this number.
     pub(super) fn means(&self, number: usize) -> Result<&Huffman> {
         let table = found(&self.dc, number)?;
         if !table.has_only_sizes() {
@@ -132,7 +134,7 @@ impl Tables {
         Ok(table)
     }
 
-    /// The table for all other coefficients with a number.
+    /// The table for all other coefficients with this number.
     pub(super) fn others(&self, number: usize) -> Result<&Huffman> {
         found(&self.ac, number)
     }
@@ -157,7 +159,7 @@ mod tests {
 
     #[test]
     fn codes_short_and_long() {
-        // 0, 10, then 110 and nine more bits: 12 bits in all.
+        // The codes 0, 10, then 110 and nine more bits: 12 bits in all.
         let table = Huffman::new(&counts(&[(1, 1), (2, 1), (12, 3)]), &[5, 6, 7, 8, 9]).unwrap();
         assert_eq!(table.find(0b0111_1111_1111_1111), (5, 1));
         assert_eq!(table.find(0b1011_1111_1111_1111), (6, 2));

@@ -1,8 +1,8 @@
-//! From coefficients to samples: the inverse discrete cosine transform.
+//! The inverse discrete cosine transform, from coefficients to samples.
 //!
-//! The factorisation is that of Loeffler, Ligtenberg and Moschytz ("Practical fast 1-D DCT algorithms
-//! with 11 multiplications", ICASSP 1989) in whole numbers, with as many fractional bits at each
-//! place as libjpeg's accurate method has: so samples are the same to the last bit.
+//! The factorisation is that of Loeffler, Ligtenberg and Moschytz ("Practical fast 1-D DCT
+//! algorithms with 11 multiplications", ICASSP 1989) in integers. At each step it has as many
+//! fractional bits as libjpeg's accurate method, so that samples are equal to the last bit.
 
 use std::num::Wrapping;
 
@@ -14,23 +14,24 @@ use super::sequential::Coefficients;
 
 /// Fractional bits of the constants.
 const FRACTION: usize = 13;
-/// Fractional bits that are kept between columns and rows.
+/// Fractional bits that are kept between the column and the row transform.
 const KEPT: usize = 2;
 
 /// The numbers of a block, row by row.
 type Block = [i32; COEFFICIENTS];
 
-/// A constant of the factorisation, with [`FRACTION`] bits.
+/// A constant of the factorisation, with [`FRACTION`] fractional bits.
 const fn fixed(value: f64) -> i32 {
     (value * (1 << FRACTION) as f64 + 0.5) as i32
 }
 
-/// The transform of each column, divided by a power of two and rounded; `bits` are those that go,
-/// [`FRACTION`] of which are of the constants. Numbers that no image has may wrap round.
+/// The transform of each column, divided by a power of two and rounded. `bits` is the number of
+/// bits that are removed, of which [`FRACTION`] come from the constants. Numbers that no valid
+/// image has may wrap around.
 #[inline(always)]
 fn columns(values: &Block, bits: usize) -> Block {
     let mut out = [0; COEFFICIENTS];
-    // One column per turn: the compiler makes one turn of eight of them.
+    // One column per iteration: the compiler vectorises it to eight columns at once.
     for x in 0..BLOCK {
         let at = |y: usize| values[y * BLOCK + x];
         let column = [at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)].map(Wrapping);
@@ -44,7 +45,8 @@ fn columns(values: &Block, bits: usize) -> Block {
     out
 }
 
-/// Sums and differences of these are the transform of eight numbers, from both ends inwards.
+/// Two halves whose sums and differences are the transform of eight numbers, from both ends
+/// inwards.
 #[inline(always)]
 fn halves(v: [Wrapping<i32>; BLOCK]) -> [[Wrapping<i32>; BLOCK / 2]; 2] {
     let times = |v: Wrapping<i32>, constant: i32| v * Wrapping(constant);
@@ -81,8 +83,8 @@ fn transposed(values: &Block) -> Block {
     out
 }
 
-/// The samples of a row of blocks, into rows of `stride` samples. `false` where a block holds a
-/// coefficient that no image has.
+/// Writes the samples of a row of blocks into rows of `stride` samples. `false` if a block holds a
+/// coefficient that no valid image has.
 #[must_use]
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 pub(super) fn samples(
@@ -109,12 +111,12 @@ pub(super) fn samples(
     true
 }
 
-/// Whether all coefficients are within what 8-bit samples can have: damage often makes means drift
-/// off, and Huffman codes do not show it.
+/// Whether all coefficients are possible for 8-bit samples. Damage often makes means drift away,
+/// and Huffman codes cannot detect it.
 #[inline(always)]
 fn is_possible(block: &Coefficients, steps: &Steps) -> bool {
-    // The largest coefficient of samples from -128 to 127 is 1024, and half a step is added when it
-    // is rounded. Twice as much leaves room for encoders that overshoot on purpose.
+    // The largest coefficient of samples from -128 to 127 is 1024, and rounding adds half a step.
+    // Twice this value leaves room for encoders that overshoot on purpose.
     const MOST: i32 = 2048;
     let excess = |(value, step): (&i16, &u16)| {
         let step = i32::from(*step);
@@ -123,7 +125,7 @@ fn is_possible(block: &Coefficients, steps: &Steps) -> bool {
     !block.iter().zip(steps).fold(false, |any, coefficient| any | excess(coefficient))
 }
 
-/// A block that is all mean.
+/// A block with only a mean.
 #[inline(always)]
 fn flat(mean: i32) -> u8 {
     sample((mean + 4) >> 3)
@@ -157,7 +159,7 @@ mod tests {
 
     use super::*;
 
-    /// By the definition (T.81, A.3.3).
+    /// The literal definition (T.81, A.3.3).
     fn literal(block: &Coefficients, steps: &Steps, x: usize, y: usize) -> f64 {
         let cosine = |at: usize, frequency: usize| {
             let scale = if frequency == 0 { 0.5f64.sqrt() } else { 1.0 };

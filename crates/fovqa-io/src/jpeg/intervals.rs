@@ -1,20 +1,20 @@
-//! The entropy-coded data of a scan, cut at its restart markers.
+//! The entropy-coded data of a scan, split at its restart markers.
 
 use super::error::{Result, damaged};
 use super::segments::marker;
 
-/// Data without stuffed zeros, in the stretches that restart markers leave.
+/// Data without stuffed zeros, split into the intervals between restart markers.
 #[derive(Debug)]
 pub(super) struct Intervals {
     bytes: Vec<u8>,
-    /// Where each stretch ends.
+    /// The end of each interval.
     ends: Vec<usize>,
-    /// Bytes of the file that all of it takes, up to the next marker.
+    /// The number of bytes in the file up to the next other marker.
     pub(super) length: usize,
 }
 
 impl Intervals {
-    /// Reads up to the next marker that starts no restart interval.
+    /// Reads up to the next marker that is not a restart marker.
     ///
     /// # Errors
     /// When there is none, or restart markers are out of order.
@@ -50,14 +50,14 @@ impl Intervals {
         Ok(intervals)
     }
 
-    /// The stretches, of which there have to be so many.
+    /// The data of the intervals, of which there must be exactly `count`.
     ///
     /// # Errors
     /// When there are more or fewer.
     pub(super) fn exactly(&self, count: usize) -> Result<impl Iterator<Item = &[u8]>> {
         let found = self.ends.len();
         let from = |i: usize| if i == 0 { 0 } else { self.ends[i - 1] };
-        // Some writers put a restart marker behind the last interval too.
+        // Some encoders write a restart marker after the last interval too.
         let one_too_many = found == count + 1 && from(count) == self.ends[count];
         if found != count && !one_too_many {
             return Err(damaged(format!(
@@ -84,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_well_formed() {
+    fn malformed_data_is_refused() {
         for data in [
             &[1, 2, 3][..],
             &[1, 0xff],

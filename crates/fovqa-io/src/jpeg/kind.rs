@@ -1,8 +1,8 @@
-//! Kinds of JPEG that are not read, although the file may be whole.
+//! Kinds of JPEG that are not supported, although the file may be intact.
 
 use std::fmt;
 
-/// What makes an intact JPEG one that is not read.
+/// The reason why an intact JPEG is not supported.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum JpegKind {
     /// Arithmetic instead of Huffman coding.
@@ -11,30 +11,30 @@ pub enum JpegKind {
     Lossless,
     /// Hierarchical coding: several frames of growing size.
     Hierarchical,
-    /// JPEG-LS, another standard with the same markers.
+    /// JPEG-LS, a different standard with the same markers.
     JpegLs,
     /// More or fewer than 8 bits per sample.
     Precision {
         /// Bits per sample.
         bits: u8,
     },
-    /// Neither 1, 3 nor 4 components.
+    /// The number of components is not 1, 3 or 4.
     Components {
-        /// How many.
+        /// The number of components.
         count: usize,
     },
-    /// A component whose resolution is no whole fraction of the image's.
+    /// The ratio of a component's resolution to the image's is not 1 divided by a whole number.
     Sampling {
         /// The sampling factors of the component, horizontal x vertical.
         factors: (usize, usize),
         /// The largest sampling factors of the file.
         largest: (usize, usize),
     },
-    /// A colour transform that Adobe's marker does not define for so many components.
+    /// Adobe's marker does not define this colour transform for this number of components.
     ColourTransform {
-        /// Its number.
+        /// The number of the transform.
         transform: u8,
-        /// The components of the file.
+        /// The number of components of the file.
         components: usize,
     },
 }
@@ -60,7 +60,7 @@ impl fmt::Display for JpegKind {
 }
 
 impl JpegKind {
-    /// How to make a file of it that is read.
+    /// How to convert the file to a supported kind.
     pub(crate) fn help(&self) -> &'static str {
         match self {
             Self::Arithmetic => {

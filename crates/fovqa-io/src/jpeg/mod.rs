@@ -1,10 +1,10 @@
 //! JPEG (ITU-T T.81): baseline, extended sequential and progressive files with Huffman coding and 8
-//! bits per sample, gray, RGB, YCbCr, CMYK and YCCK, with any order of scans and any sampling of
-//! whole ratios.
+//! bits per sample; gray, RGB, YCbCr, CMYK and YCCK; any order of scans and any sampling with whole
+//! ratios.
 //!
-//! Samples are those of libjpeg-turbo with its default settings, to the last bit. Unlike most
-//! decoders, this one refuses what it cannot be certain of: whatever is damaged in a way that the
-//! format shows is an error, and nothing is filled up or skipped.
+//! Samples are equal to those of libjpeg-turbo with its default settings, to the last bit. Unlike
+//! most decoders, this one refuses uncertain data: any damage that the format can show is an error,
+//! and nothing is filled in or skipped.
 
 mod application;
 mod bits;
@@ -40,13 +40,14 @@ use colour::Colours;
 use error::{Result, damaged};
 use head::Head;
 
-/// A JPEG is read whole; this is four bytes a pixel of the largest one by default.
+/// The largest file. A JPEG is read as a whole; this is four bytes per pixel of the largest picture
+/// with default limits.
 const MAX_BYTES: u64 = 1 << 30;
 
 /// Reads a file.
 ///
 /// # Errors
-/// When it is damaged, of a kind that is not read, or too large.
+/// When it is damaged, too large, or of a kind that is not supported.
 pub(crate) fn read(mut file: impl BufRead + Seek, options: &ReadOptions) -> Result<Decoded> {
     let mut bytes = Vec::new();
     file.by_ref().take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
@@ -79,9 +80,9 @@ pub(crate) fn read(mut file: impl BufRead + Seek, options: &ReadOptions) -> Resu
 /// The size that a file declares.
 ///
 /// # Errors
-/// When its header is damaged, or of a kind that is not read.
+/// When its header is damaged, or of a kind that is not supported.
 pub(crate) fn size(mut file: impl BufRead + Seek) -> Result<(usize, usize)> {
-    /// Most headers, and those with thumbnails and profiles.
+    /// Bytes that hold most headers, and those with thumbnails and profiles.
     const USUAL: [u64; 2] = [64 << 10, 4 << 20];
     let mut bytes = Vec::new();
     for part in USUAL {

@@ -1,4 +1,4 @@
-//! Components together: the samples of the image.
+//! Combines the components to the samples of the image.
 
 use rayon::prelude::*;
 
@@ -6,10 +6,10 @@ use super::colour::Colours;
 use super::frame_header::FrameHeader;
 use super::upsample::{Plane, Upsampled};
 
-/// Rows that one task puts together.
+/// The number of rows that one task combines.
 const ROWS: usize = 16;
 
-/// Gray samples, or interleaved RGB.
+/// The image as gray samples or interleaved RGB.
 pub(super) fn compose(frame: &FrameHeader, planes: &[Plane], colours: Colours) -> Vec<u8> {
     let width = frame.width;
     let components: Vec<Upsampled<'_>> = frame

@@ -6,7 +6,7 @@ use super::huffman::Huffman;
 use super::quantisation::ZIGZAG;
 use super::sequential::{Coefficients, beyond_block, impossible};
 
-/// Which coefficients a scan codes, in zigzag order, and down to which bit.
+/// The coefficients that a scan codes, in zigzag order, and the lowest bit that it codes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Band {
     pub(super) from: usize,
@@ -14,7 +14,8 @@ pub(super) struct Band {
     pub(super) low: u8,
 }
 
-/// The first scan of coefficients other than the mean. `run` counts the blocks that have none left.
+/// Decodes a block of the first scan of coefficients other than the mean. `run` counts the blocks
+/// that have no further coefficients.
 pub(super) fn first(
     bits: &mut Bits<'_>,
     table: &Huffman,
@@ -46,7 +47,7 @@ pub(super) fn first(
             return Err(beyond_block());
         }
         let value = bits.value(size) << band.low;
-        // Room is left for the bits of later scans.
+        // The limit leaves room for the bits of later scans.
         if value.abs() >= 1 << 14 {
             return Err(impossible());
         }
@@ -56,12 +57,13 @@ pub(super) fn first(
     bits.check()
 }
 
-/// How many blocks a run has, this one included.
+/// The number of blocks in a run, including this one.
 fn blocks_of_run(bits: &mut Bits<'_>, size: u8) -> u32 {
     (1 << size) + bits.raw(size)
 }
 
-/// A later scan: one more bit of the coefficients that are not 0, and new ones that are one bit.
+/// Decodes a block of a later scan: one more bit of the coefficients that are not 0, and new
+/// coefficients of one bit.
 pub(super) fn refine(
     bits: &mut Bits<'_>,
     table: &Huffman,
@@ -83,7 +85,7 @@ pub(super) fn refine(
             1 => bits.value(1) as i16 * one,
             _ => return Err(damaged("its data holds a new coefficient of more than one bit")),
         };
-        // Over the coefficients that are there already, and as many zeros as the run says.
+        // Skips the coefficients that are known already, and as many zeros as the run says.
         loop {
             if k > band.to {
                 return Err(beyond_block());

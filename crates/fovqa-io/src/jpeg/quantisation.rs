@@ -2,14 +2,14 @@
 
 use super::error::{Result, damaged};
 
-/// Coefficients of a block.
+/// The number of coefficients of a block.
 pub(super) const COEFFICIENTS: usize = 64;
 
-/// The step of each coefficient, row by row.
+/// The quantisation step of each coefficient, row by row.
 pub(super) type Steps = [u16; COEFFICIENTS];
 
-/// Where in a block, row by row, the coefficients stand that a file stores in zigzag order
-/// (figure A.6).
+/// The position in a block, row by row, of each coefficient in the zigzag order of a file (figure
+/// A.6).
 pub(super) const ZIGZAG: [u8; COEFFICIENTS] = zigzag();
 
 const fn zigzag() -> [u8; COEFFICIENTS] {
@@ -17,8 +17,8 @@ const fn zigzag() -> [u8; COEFFICIENTS] {
     let (mut x, mut y, mut i) = (0usize, 0usize, 0);
     while i < COEFFICIENTS {
         order[i] = (y * 8 + x) as u8;
-        // On diagonals of an even number upwards, on the others downwards; along the edges to the
-        // next diagonal.
+        // The order runs upwards on even diagonals and downwards on odd ones, and moves along the
+        // edges to the next diagonal.
         if (x + y).is_multiple_of(2) {
             if x == 7 {
                 y += 1;

@@ -11,7 +11,7 @@ use super::quantisation::COEFFICIENTS;
 use super::scan_header::ScanHeader;
 use super::sequential::{self, Coefficients};
 
-/// What a scan does to a block.
+/// The operation that a scan performs on a block.
 #[derive(Debug, Clone, Copy)]
 enum Step<'a> {
     Whole(&'a Huffman, &'a Huffman),
@@ -21,25 +21,26 @@ enum Step<'a> {
     Refine(&'a Huffman),
 }
 
-/// A scan that is being decoded.
+/// A scan while it is decoded.
 pub(super) struct Scan<'a> {
     order: &'a Order,
     intervals: Box<dyn Iterator<Item = &'a [u8]> + 'a>,
-    /// One for each component of the scan.
+    /// The operation for each component of the scan.
     steps: Vec<Step<'a>>,
     band: Band,
     interval: usize,
-    /// Units left in the interval.
+    /// The number of units left in the interval.
     left: usize,
     bits: Bits<'a>,
-    /// The mean before, by component of the scan.
+    /// The previous mean of each component of the scan.
     means: Vec<i32>,
-    /// Blocks without further coefficients.
+    /// The number of blocks that have no further coefficients.
     run: u32,
 }
 
 impl<'a> Scan<'a> {
-    /// Prepares a scan over `intervals`, each of `restart_interval` units (0: one for all of them).
+    /// Prepares a scan over `intervals`, each of `restart_interval` units; 0 means a single
+    /// interval for all units.
     ///
     /// # Errors
     /// When a table or an interval is missing.
@@ -88,7 +89,7 @@ impl<'a> Scan<'a> {
                 let (across, down) = share.blocks;
                 for v in 0..down {
                     for column in x * across..(x + 1) * across {
-                        // Blocks beyond the edges are coded too, but never seen.
+                        // Blocks beyond the edges are coded too, but not visible.
                         let seen = column < share.within.0 && y * down + v < share.within.1;
                         if seen {
                             self.decode(i, &mut blocks[i][v * share.within.0 + column])?;
@@ -139,6 +140,8 @@ impl<'a> Scan<'a> {
         std::mem::replace(&mut self.bits, next).finish()
     }
 
+    /// Ends the scan.
+    ///
     /// # Errors
     /// When the last interval has data left over.
     pub(super) fn finish(mut self) -> Result<()> {

@@ -1,9 +1,10 @@
-//! The scan header (ITU-T T.81, B.2.3): which components, and which part of their coefficients.
+//! The scan header (ITU-T T.81, B.2.3): the components of the scan and the part of their
+//! coefficients that it codes.
 
 use super::error::{Result, damaged};
 use super::frame_header::{Coding, FrameHeader};
 
-/// One component of a scan, by its place in the frame, and its Huffman tables.
+/// One component of a scan, by its index in the frame, and its Huffman tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct ScanComponent {
     pub(super) index: usize,
@@ -11,27 +12,28 @@ pub(super) struct ScanComponent {
     pub(super) ac: usize,
 }
 
-/// What a scan header says.
+/// The content of a scan header.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct ScanHeader {
     pub(super) components: Vec<ScanComponent>,
     /// First and last coefficient, in zigzag order.
     pub(super) from: usize,
     pub(super) to: usize,
-    /// The bit that earlier scans have come down to, plus 1; 0 when this is the first scan.
+    /// The lowest bit of earlier scans; 0 if this is the first scan.
     pub(super) high: u8,
-    /// The bit that this scan comes down to.
+    /// The lowest bit of this scan.
     pub(super) low: u8,
 }
 
-/// Most blocks that one unit of an interleaved scan may have.
+/// The largest number of blocks that one unit of an interleaved scan may have.
 const MOST_BLOCKS: usize = 10;
 
 impl ScanHeader {
     /// Reads the header of a scan of this frame.
     ///
     /// # Errors
-    /// When it names what the frame does not have, or asks for what its coding does not allow.
+    /// When it names components that the frame does not have, or values that its coding does not
+    /// allow.
     pub(super) fn parse(data: &[u8], frame: &FrameHeader) -> Result<Self> {
         let count = usize::from(*data.first().unwrap_or(&0));
         let (1..=4, true) = (count, data.len() == 4 + 2 * count) else {
@@ -66,7 +68,7 @@ impl ScanHeader {
         }
         match frame.coding {
             Coding::Sequential => {
-                // Some writers leave zeros here, which mean nothing in a sequential frame.
+                // Some encoders write zeros here, which have no meaning in a sequential frame.
                 if self.to == 0 {
                     self.to = 63;
                 }

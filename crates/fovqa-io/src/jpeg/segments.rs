@@ -1,4 +1,4 @@
-//! The markers of a JPEG file and the segments behind them (ITU-T T.81, B.1.1).
+//! The markers of a JPEG file and their segments (ITU-T T.81, B.1.1).
 
 use super::error::{Result, damaged};
 
@@ -32,15 +32,15 @@ pub(super) mod marker {
     pub(in crate::jpeg) const COM: u8 = 0xfe;
 }
 
-/// A marker and the parameters behind it.
+/// A marker and its parameters.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment<'a> {
     pub(super) marker: u8,
-    /// Without the two bytes of the length.
+    /// The parameters without the two bytes of the length.
     pub(super) data: &'a [u8],
 }
 
-/// Goes through a file from marker to marker.
+/// Reads a file from marker to marker.
 #[derive(Debug, Clone)]
 pub(super) struct Segments<'a> {
     bytes: &'a [u8],
@@ -48,12 +48,12 @@ pub(super) struct Segments<'a> {
 }
 
 impl<'a> Segments<'a> {
-    /// From the first byte of a file on.
+    /// Starts at the first byte of a file.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, at: 0 }
     }
 
-    /// What comes behind the last segment.
+    /// The bytes after the last segment.
     pub(super) fn rest(&self) -> &'a [u8] {
         &self.bytes[self.at..]
     }
@@ -63,10 +63,10 @@ impl<'a> Segments<'a> {
         self.at += bytes;
     }
 
-    /// The next marker with its parameters.
+    /// Reads the next marker with its parameters.
     ///
     /// # Errors
-    /// When the file ends in front of or within it, or something else stands there.
+    /// When the file ends before the end of the segment, or the next bytes are not a marker.
     pub(super) fn next(&mut self) -> Result<Segment<'a>> {
         let marker = self.next_marker()?;
         if matches!(marker, marker::TEM | marker::RST0..=marker::EOI) {
@@ -89,7 +89,7 @@ impl<'a> Segments<'a> {
             let bytes = rest.iter().position(|byte| *byte == 0xff).unwrap_or(rest.len());
             return Err(damaged(format!("{bytes} extraneous bytes stand in front of a marker")));
         }
-        // Any number of fill bytes may stand in front of a marker's code.
+        // A marker's code may follow any number of fill bytes.
         let Some(fill) = rest.iter().position(|byte| *byte != 0xff) else {
             return Err(damaged("its end-of-image marker is missing"));
         };
@@ -102,7 +102,7 @@ impl<'a> Segments<'a> {
     }
 }
 
-/// A big-endian number of 16 bits at a place of a segment.
+/// The big-endian 16-bit number at a position of a segment.
 pub(super) fn u16_at(data: &[u8], at: usize) -> Option<u16> {
     let bytes = data.get(at..at + 2)?;
     Some(u16::from_be_bytes([bytes[0], bytes[1]]))

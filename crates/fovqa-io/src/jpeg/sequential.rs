@@ -6,10 +6,10 @@ use super::huffman::Huffman;
 use super::quantisation::{COEFFICIENTS, ZIGZAG};
 use crate::error::ReadErrorKind;
 
-/// The coefficients of a block, row by row, not yet multiplied by their steps.
+/// The coefficients of a block, row by row, before the multiplication by their steps.
 pub(super) type Coefficients = [i16; COEFFICIENTS];
 
-/// The next mean, from the difference to the one before; its bits start with bit `low`.
+/// Decodes the next mean from its difference to the one before. Its lowest bit is bit `low`.
 #[inline(always)]
 pub(super) fn mean(bits: &mut Bits<'_>, table: &Huffman, before: &mut i32, low: u8) -> Result<i16> {
     let size = bits.symbol(table)?;
@@ -20,7 +20,7 @@ pub(super) fn mean(bits: &mut Bits<'_>, table: &Huffman, before: &mut i32, low: 
     i16::try_from(*before << low).map_err(|_| impossible())
 }
 
-/// Decodes a block into coefficients that are 0.
+/// Decodes a block into coefficients that are all 0.
 #[inline(always)]
 pub(super) fn block(
     bits: &mut Bits<'_>,
@@ -29,7 +29,7 @@ pub(super) fn block(
     before: &mut i32,
     out: &mut Coefficients,
 ) -> Result<()> {
-    /// Sixteen zeros and no value.
+    /// The symbol for sixteen zeros without a value.
     const ZEROS: u8 = 0xf0;
     const END: u8 = 0;
     out[0] = mean(bits, dc, before, 0)?;

@@ -1,4 +1,4 @@
-//! The Huffman tables of ITU-T T.81, annex K.3: frames of Motion JPEG leave them out.
+//! The Huffman tables of ITU-T T.81, annex K.3, which frames of Motion JPEG leave out.
 
 use super::error::Result;
 use super::huffman::{Huffman, Tables};
@@ -36,7 +36,7 @@ const RUNS_CHROMA: [u8; 162] = [
     0xe2, 0xe3, 0xe4, 0xe5, 0xe6, 0xe7, 0xe8, 0xe9, 0xea, 0xf2, 0xf3, 0xf4, 0xf5, 0xf6, 0xf7, 0xf8, 0xf9, 0xfa,
 ];
 
-/// Puts the tables for luma (0) and chroma (1) where a sequential file has defined none.
+/// Adds the tables for luma (0) and chroma (1) where a sequential file has defined none.
 pub(super) fn fill_in(tables: &mut Tables) -> Result<()> {
     let means = [&MEANS_LUMA, &MEANS_CHROMA];
     let others = [(&OTHERS_LUMA, &RUNS_LUMA), (&OTHERS_CHROMA, &RUNS_CHROMA)];

@@ -1,18 +1,18 @@
-//! Components of a lower resolution, brought to that of the image.
+//! Upsamples components to the resolution of the image.
 //!
 //! Where a component has half the resolution, its samples lie between those of the image, and the
-//! nearer one counts three times as much as the farther one; other ratios repeat samples. This is
-//! libjpeg's default ("fancy upsampling"), with its rounding.
+//! nearer sample has three times the weight of the farther one. Other ratios repeat samples. This
+//! is libjpeg's default ("fancy upsampling"), with its rounding.
 
 use multiversion::multiversion;
 
-/// A component's samples.
+/// The samples of a component.
 #[derive(Debug)]
 pub(super) struct Plane {
     pub(super) samples: Vec<u8>,
     /// Samples from one row to the next.
     pub(super) stride: usize,
-    /// Samples across and down that count; the rest fills blocks up.
+    /// The number of valid samples across and down; the others pad the blocks.
     pub(super) size: (usize, usize),
 }
 
@@ -22,16 +22,16 @@ impl Plane {
     }
 }
 
-/// How a component gets to the image's resolution.
+/// The upsampling of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Way {
-    /// Across.
+enum Interpolation {
+    /// Interpolation across.
     Half,
-    /// Down.
+    /// Interpolation down.
     HalfDown,
-    /// Both.
+    /// Interpolation in both directions.
     HalfBoth,
-    /// So many times across and down.
+    /// Repetition of samples, by these factors across and down.
     Repeat(usize, usize),
 }
 
@@ -39,35 +39,38 @@ enum Way {
 #[derive(Debug)]
 pub(super) struct Upsampled<'a> {
     plane: &'a Plane,
-    way: Way,
+    interpolation: Interpolation,
 }
 
 impl<'a> Upsampled<'a> {
-    /// Of a component with fewer samples than the image by whole factors across and down.
+    /// Upsamples a component whose resolution is the image's divided by whole `factors`, across and
+    /// down.
     pub(super) fn new(plane: &'a Plane, factors: (usize, usize)) -> Self {
-        /// Interpolation across needs more samples than these.
+        /// Interpolation across needs more samples than this.
         const NARROW: usize = 2;
-        let way = match factors {
-            (2, 1) if plane.size.0 > NARROW => Way::Half,
-            (2, 2) if plane.size.0 > NARROW => Way::HalfBoth,
-            (1, 2) => Way::HalfDown,
-            (across, down) => Way::Repeat(across, down),
+        let interpolation = match factors {
+            (2, 1) if plane.size.0 > NARROW => Interpolation::Half,
+            (2, 2) if plane.size.0 > NARROW => Interpolation::HalfBoth,
+            (1, 2) => Interpolation::HalfDown,
+            (across, down) => Interpolation::Repeat(across, down),
         };
-        Self { plane, way }
+        Self { plane, interpolation }
     }
 
-    /// Row `y` of the image, from a component's samples: into `out`, which is as wide as the image.
+    /// Writes row `y` of the image to `out`, which is as wide as the image.
     pub(super) fn row(&self, y: usize, sums: &mut Vec<u16>, out: &mut [u8]) {
-        match self.way {
-            Way::Repeat(1, down) => out.copy_from_slice(&self.plane.row(y / down)[..out.len()]),
-            Way::Repeat(across, down) => repeat(self.plane.row(y / down), across, out),
-            Way::Half => half(self.plane.row(y), out),
-            Way::HalfDown => {
+        match self.interpolation {
+            Interpolation::Repeat(1, down) => {
+                out.copy_from_slice(&self.plane.row(y / down)[..out.len()]);
+            }
+            Interpolation::Repeat(across, down) => repeat(self.plane.row(y / down), across, out),
+            Interpolation::Half => half(self.plane.row(y), out),
+            Interpolation::HalfDown => {
                 let (near, far) = self.rows(y);
-                // Rounded up and down in turn, so that nothing is shifted on average.
+                // Rows are rounded up and down in turn, so that the mean does not change.
                 half_down(near, far, if y.is_multiple_of(2) { 1 } else { 2 }, out);
             }
-            Way::HalfBoth => {
+            Interpolation::HalfBoth => {
                 let (near, far) = self.rows(y);
                 sums.clear();
                 sums.extend(near.iter().zip(far).map(|(n, f)| 3 * u16::from(*n) + u16::from(*f)));
@@ -76,7 +79,7 @@ impl<'a> Upsampled<'a> {
         }
     }
 
-    /// The nearer and the farther row of a component with half the rows.
+    /// The nearer and the farther row of a component with half the number of rows.
     fn rows(&self, y: usize) -> (&[u8], &[u8]) {
         let near = y / 2;
         let far = if y.is_multiple_of(2) { near.saturating_sub(1) } else { near + 1 };
@@ -97,7 +100,7 @@ fn half_down(near: &[u8], far: &[u8], rounding: u16, out: &mut [u8]) {
     }
 }
 
-/// `out` may be one sample shorter than twice the samples.
+/// Interpolates across. `out` may be one sample shorter than twice the samples.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn half(samples: &[u8], out: &mut [u8]) {
     let last = samples.len() - 1;
@@ -115,7 +118,7 @@ fn half(samples: &[u8], out: &mut [u8]) {
     }
 }
 
-/// The same of sums of four, with sixteenths.
+/// Interpolates across over the sums of four, in sixteenths.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn half_both(sums: &[u16], out: &mut [u8]) {
     let last = sums.len() - 1;
@@ -146,7 +149,8 @@ mod tests {
         (0..size.1).map(row).collect()
     }
 
-    /// By hand; the fourth column and the third row are what fills a block up.
+    /// The expected values are calculated by hand. The fourth column and the third row are padding
+    /// of a block.
     fn plane() -> Plane {
         let samples = vec![0, 40, 80, 255, 100, 140, 180, 255, 255, 255, 255, 255];
         Plane { samples, stride: 4, size: (3, 2) }

@@ -1,23 +1,23 @@
-//! The chunks of a PNG in front of its pixels that say what its colours mean.
+//! The PNG chunks in front of the pixels that define the meaning of the colours.
 
 use std::io::{Read, Seek, SeekFrom};
 
-/// Bytes of the signature; chunks follow.
+/// Length of the signature in bytes; chunks follow.
 const SIGNATURE: u64 = 8;
-/// Bytes of a chunk's length and name, and of its checksum.
+/// The length in bytes of a chunk's length field, its name, and its checksum.
 const LENGTH: usize = 4;
 const CHECKSUM: i64 = 4;
 
-/// What stands in front of the pixels.
+/// The content of the chunks in front of the pixels.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(super) struct Chunks {
     /// Names of the chunks that would change the image if they were applied.
     pub(super) colour: Vec<&'static str>,
-    /// Bytes of Exif data.
+    /// The size of the Exif data in bytes.
     pub(super) exif_bytes: u64,
 }
 
-/// sRGB's own values, in units of 1/100,000 (PNG, 11.3.2.1 and 11.3.2.2): the gamma, and x and y of
+/// The values of sRGB in units of 1/100,000 (PNG, 11.3.2.1 and 11.3.2.2): the gamma, and x and y of
 /// white, red, green and blue.
 const SRGB_GAMMA: u32 = 45_455;
 const SRGB_CHROMATICITIES: [u32; 8] =
@@ -25,7 +25,7 @@ const SRGB_CHROMATICITIES: [u32; 8] =
 /// Colour primaries, transfer function, matrix and range of sRGB (ITU-T H.273).
 const SRGB_CODE_POINTS: [u8; 4] = [1, 13, 0, 1];
 
-/// Whether a number is that of sRGB: writers round it differently.
+/// Whether a number equals that of sRGB, with a tolerance because programs round it differently.
 fn is_near(value: u32, srgb: u32, tolerance: u32) -> bool {
     value.abs_diff(srgb) <= tolerance
 }
@@ -44,12 +44,12 @@ fn are_srgb_chromaticities(data: &[u8]) -> bool {
 }
 
 impl Chunks {
-    /// Reads up to the pixels. What is cut short is the decoder's to find.
+    /// Reads up to the pixels. Truncated files are reported later, by the decoder.
     ///
     /// # Errors
     /// When the file cannot be read.
     pub(super) fn read(file: &mut (impl Read + Seek)) -> std::io::Result<Self> {
-        /// The largest chunk that is looked into.
+        /// The largest chunk whose content is read, in bytes.
         const LARGEST: usize = 32;
         let mut found = Self::default();
         let mut is_srgb = false;
@@ -75,10 +75,10 @@ impl Chunks {
                 b"eXIf" => found.exif_bytes += u64::from(length),
                 _ => {}
             }
-            // Relative, so that a reader's buffer stays what it is.
+            // The seek is relative, so that it does not discard the reader's buffer.
             file.seek_relative(i64::from(length) - data.len() as i64 + CHECKSUM)?;
         }
-        // These two speak only where nothing better does.
+        // These two chunks count only if there is no sRGB chunk.
         found.colour.retain(|name| !(is_srgb && matches!(*name, "gAMA" | "cHRM")));
         Ok(found)
     }

@@ -1,4 +1,4 @@
-//! PNG: 8 and 16 bits (fewer are widened), gray, RGB, palette, alpha, interlaced.
+//! PNG with 8 and 16 bits (fewer bits are widened): gray, RGB, palette, alpha, interlaced.
 
 mod chunks;
 mod samples;
@@ -16,17 +16,17 @@ use crate::read_options::ReadOptions;
 use chunks::Chunks;
 use samples::samples;
 
-/// Memory a PNG may ask for beside its picture and its Exif data.
+/// Memory that a PNG may need besides its picture and its Exif data, in bytes.
 const SMALL_THINGS_BYTES: u64 = 32 << 20;
-/// A few rows of the widest pixels.
+/// Bytes per pixel of a row, enough for a few rows of the widest pixels.
 const ROWS_BYTES_A_PIXEL: u64 = 64;
-/// The decoder takes up to twice as much as a chunk has.
+/// The decoder allocates up to twice the size of the chunk.
 const EXIF_ROOM: u64 = 2;
 
 /// Reads a file.
 ///
 /// # Errors
-/// When it is damaged or too large, or its alpha is not allowed for.
+/// When it is damaged or too large, or the options do not allow its alpha.
 pub(crate) fn read(
     mut file: impl BufRead + Seek,
     options: &ReadOptions,
@@ -36,11 +36,12 @@ pub(crate) fn read(
     let chunks = Chunks::read(&mut file)?;
     file.rewind()?;
     let mut reading = DecodeOptions::default();
-    // What says nothing about pixels may have any length: it is passed over.
+    // Chunks that do not concern pixels are skipped and may have any length.
     reading.set_ignore_text_chunk(true);
     reading.set_ignore_iccp_chunk(true);
     let mut decoder = Decoder::new_with_options(file, reading);
-    // Rows and small things: the picture's own buffer is ours, and its size has been checked.
+    // The limit covers rows and small chunks only: the buffer of the picture is ours, and its size
+    // has been checked.
     let bytes = SMALL_THINGS_BYTES
         .saturating_add(width as u64 * ROWS_BYTES_A_PIXEL)
         .saturating_add(chunks.exif_bytes.saturating_mul(EXIF_ROOM));
@@ -75,8 +76,8 @@ pub(crate) fn read(
     let frame = Frame::new(width, height, channels, samples)
         .map_err(|error| unexpected(&error.to_string()))?
         .encoded();
-    // Exif data may stand behind the pixels too. What else is wrong there is no matter, and the
-    // other frames of an animation are not looked at.
+    // Exif data may also follow after the pixels. Other errors there do not matter, and further
+    // frames of an animation are not read.
     if reader.info().animation_control.is_none() {
         let _ = reader.finish();
     }

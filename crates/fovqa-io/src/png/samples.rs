@@ -1,4 +1,4 @@
-//! From a PNG's codes, with or without alpha, to a frame's samples.
+//! Converts a PNG's codes, with or without alpha, to a frame's samples.
 
 use fovqa_frame::{Channels, Samples};
 
@@ -9,10 +9,10 @@ use crate::error::ReadErrorKind;
 pub(super) trait Code: Copy + PartialEq + Into<u32> {
     const MAX: Self;
 
-    /// As a frame has them.
+    /// The codes as the samples of a frame.
     fn samples(codes: Vec<Self>) -> Samples;
 
-    /// As a share of the largest code.
+    /// The code as a share of the largest code.
     fn share(self) -> f64 {
         f64::from(self.into()) / f64::from(Self::MAX.into())
     }
@@ -34,12 +34,12 @@ impl Code for u16 {
     }
 }
 
-/// Interleaved codes, the last of each pixel its alpha if there is one, as samples of colour alone.
-/// Over black they are encoded floats, one plane after the other, where any alpha is not 1: codes
-/// would round them.
+/// Converts interleaved codes to colour samples; if there is alpha, it is the last code of each
+/// pixel. Over black, where any alpha is not 1, samples are encoded floats in consecutive planes,
+/// because codes would round them.
 ///
 /// # Errors
-/// When alpha is not 1 everywhere, and the policy does not allow for it.
+/// When alpha is not 1 everywhere, and the policy does not allow it.
 pub(super) fn samples<C: Code>(
     mut codes: Vec<C>,
     channels: Channels,
@@ -68,7 +68,7 @@ pub(super) fn samples<C: Code>(
     Ok(C::samples(codes))
 }
 
-/// Encoded values times alpha.
+/// Encoded values multiplied by alpha.
 fn over_black<C: Code>(codes: &[C], colours: usize) -> Vec<f32> {
     let stride = colours + 1;
     let mut planes = Vec::with_capacity(codes.len() / stride * colours);

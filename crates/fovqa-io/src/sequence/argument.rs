@@ -1,4 +1,4 @@
-//! One path argument to a list of image files.
+//! Lists the image files that a path argument stands for.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,11 +8,11 @@ use super::listing::FileListing;
 use super::listing_error::ListingError;
 use super::wildcards::{WildcardError, fitting, is_glob};
 
-/// Endings of the files that count as images in folders and globs.
+/// Extensions of the files that count as images in folders and globs.
 const ENDINGS: [&str; 4] = ["png", "jpg", "jpeg", "exr"];
 
-/// The files an argument below a folder stands for, as [`list`]; wildcards in the folder's own name
-/// are none.
+/// The files that an argument below a folder stands for, as in [`list`]. Wildcard characters in the
+/// folder's own name have no special meaning.
 ///
 /// # Errors
 /// As [`list`].
@@ -23,18 +23,19 @@ pub fn list_below(folder: &Path, argument: &Path) -> Result<FileListing, Listing
     }
 }
 
-/// The files an argument stands for: a file, a folder, a glob (`*.exr`) or a pattern with a number
-/// (`gt.%04d.exr`, `gt.####.exr`). In folders and globs, files that are not images are passed over.
-/// What is named like an image is one of the files even where it cannot be read: a link to nothing or to
-/// a folder, a pipe.
+/// The files that an argument stands for: a file, a folder, a glob (`*.exr`) or a pattern with a
+/// number (`gt.%04d.exr`, `gt.####.exr`). In folders and globs, files that are not images are
+/// ignored. An entry with the name of an image is listed even if it cannot be read: a link to a
+/// missing file or to a folder, or a pipe.
 ///
 /// # Errors
-/// When nothing is there, it cannot be read, or two images share a stem.
+/// When nothing exists there, it cannot be read, or two images have the same stem.
 pub fn list(argument: &Path) -> Result<FileListing, ListingError> {
     listed(argument, Path::new(""), argument)
 }
 
-/// The files of an argument, which is `below` in `start`: only there, wildcards are some.
+/// The files of an argument, which is `below` in the folder `start`. Only `below` may have
+/// wildcards.
 fn listed(argument: &Path, start: &Path, below: &Path) -> Result<FileListing, ListingError> {
     if argument.is_file() {
         return Ok(FileListing::of_file(argument));
@@ -43,7 +44,7 @@ fn listed(argument: &Path, start: &Path, below: &Path) -> Result<FileListing, Li
         return images(argument, entries(argument)?);
     }
     let name = argument.file_name().unwrap_or_default();
-    // A link to nothing that has a wildcard in its name is that link.
+    // A broken link whose name contains a wildcard character is that link itself.
     let is_there = fs::symlink_metadata(argument).is_ok();
     match FramePattern::parse(&name.to_string_lossy()).filter(|_| !is_there) {
         Some(Ok(pattern)) => return numbered(argument, &pattern),
@@ -65,7 +66,7 @@ fn pattern_error(path: &Path, detail: &str) -> ListingError {
     ListingError::Pattern { path: path.to_owned(), detail: detail.to_owned() }
 }
 
-/// The images among the files that were found.
+/// The listing of the images among the files that were found.
 fn images(argument: &Path, paths: Vec<PathBuf>) -> Result<FileListing, ListingError> {
     let (images, others): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| is_image(path));
     if images.is_empty() {
@@ -79,7 +80,7 @@ fn is_image(path: &Path) -> bool {
     path.extension().is_some_and(|e| ENDINGS.iter().any(|ending| e.eq_ignore_ascii_case(ending)))
 }
 
-/// What a folder has, but for hidden entries and folders.
+/// The entries of a folder without hidden entries and folders.
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, ListingError> {
     let io_error = |error| ListingError::Io { path: folder.to_owned(), error };
     let mut paths = Vec::new();
@@ -91,12 +92,13 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, ListingError> {
             paths.push(path);
         }
     }
-    // The system has no order of its own, and messages name the first.
+    // The system returns no defined order, and messages name the first entry.
     paths.sort();
     Ok(paths)
 }
 
-/// Whether a path is a folder. A link to one that is named like a frame is not: it stands for a frame.
+/// Whether a path is a folder. A link to a folder does not count if it has the name of an image: it
+/// stands for a frame.
 fn is_folder(path: &Path) -> bool {
     if is_image(path) {
         path.symlink_metadata().is_ok_and(|entry| entry.is_dir())
@@ -105,7 +107,7 @@ fn is_folder(path: &Path) -> bool {
     }
 }
 
-/// The files beside an argument whose names fit its pattern.
+/// The files in the argument's folder whose names match its pattern.
 fn numbered(argument: &Path, pattern: &FramePattern) -> Result<FileListing, ListingError> {
     let parent = match argument.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -168,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn says_what_is_not_there() {
+    fn refuses_missing_paths_and_invalid_patterns() {
         let dir = folder_with(&["a.txt", "b.md"]);
         assert!(matches!(list(dir.path()), Err(ListingError::Empty { other_files: 2, .. })));
         assert!(matches!(list(&dir.path().join("nope")), Err(ListingError::NotFound(_))));
@@ -190,7 +192,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn what_cannot_be_read_is_a_frame_all_the_same() {
+    fn unreadable_entries_are_listed_as_frames() {
         use std::os::unix::fs::symlink;
         let dir = folder_with(&["f1.png", "f2.png"]);
         symlink("nowhere", dir.path().join("f3.png")).unwrap();

@@ -1,9 +1,9 @@
-//! The frame number of a file name: the run of digits that changes over the names of a folder.
+//! The frame number in a file name: the run of digits that changes over the names of a folder.
 //!
-//! One name alone says nothing of what changes; its last run of digits counts. A minus sign in front
-//! of the digits belongs to the number where a separator, or nothing, stands before it (`f.-0002`), and
-//! elsewhere where the same names occur without it (`f-0002` beside `f0000`). In `f-0001`, `f-0002`
-//! alone it is a separator.
+//! A single name does not show what changes, so its last run of digits counts. A minus sign in
+//! front of the digits belongs to the number if a separator, or nothing, stands before it
+//! (`f.-0002`), and otherwise if the same names occur without it (`f-0002` beside `f0000`). In
+//! `f-0001`, `f-0002` alone it is a separator.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,21 +12,22 @@ use fovqa_frame::source::{Doubt, Numbering};
 /// A run of digits in a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Run<'a> {
-    /// Bytes of the name in front of the digits, without a minus sign that belongs to them.
+    /// The byte position in the name where the number starts, including a minus sign that belongs
+    /// to it.
     start: usize,
     end: usize,
     minus: Minus,
-    /// Without leading zeros; empty is 0.
+    /// The digits without leading zeros; empty for 0.
     digits: &'a str,
 }
 
-/// What a minus sign in front of digits is.
+/// The meaning of a minus sign in front of digits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Minus {
-    /// None is there, or it stands before a 0.
+    /// There is no minus sign, or it is in front of a 0.
     Absent,
     Sign,
-    /// A separator, unless names without it show that it is none.
+    /// It is a separator, unless the same names without it show that it is a sign.
     Separator,
 }
 
@@ -42,7 +43,7 @@ impl Run<'_> {
     }
 }
 
-/// A name taken apart.
+/// A name and its runs of digits.
 struct Name<'a> {
     text: &'a str,
     runs: Vec<Run<'a>>,
@@ -75,7 +76,7 @@ impl<'a> Name<'a> {
         Self { text, runs }
     }
 
-    /// What stands between the numbers, with a mark for each of them.
+    /// The text between the numbers, with a mark for each number.
     fn wording(&self) -> String {
         let mut wording = String::new();
         let mut at = 0;
@@ -87,13 +88,13 @@ impl<'a> Name<'a> {
         wording + &self.text[at..]
     }
 
-    /// Takes the minus sign of a run for its own.
+    /// Makes the minus sign in front of a run part of its number.
     fn negate(&mut self, run: usize) {
         self.runs[run].minus = Minus::Sign;
         self.runs[run].start -= 1;
     }
 
-    /// The same name with a minus sign taken for that of a number, if there are names without it.
+    /// Takes a minus sign as part of the number if the same name without it is among `wordings`.
     fn signed(mut self, wordings: &BTreeSet<String>) -> Self {
         for run in 0..self.runs.len() {
             if self.runs[run].minus == Minus::Separator {
@@ -107,7 +108,7 @@ impl<'a> Name<'a> {
         self
     }
 
-    /// The pattern that takes one run for the frame's number, and anything for some others.
+    /// A pattern in which one run is the frame's number, and the runs `any` are wildcards.
     fn pattern(&self, number: usize, any: &[usize]) -> String {
         let mut pattern = String::new();
         let mut at = 0;
@@ -125,7 +126,7 @@ impl<'a> Name<'a> {
     }
 }
 
-/// `%04d` for a number that is padded, `%d` for another one.
+/// `%04d` for a number that is padded with zeros, `%d` for another one.
 fn field(text: &str, run: &Run<'_>, width: usize) -> String {
     if text[run.start..run.end].starts_with('0') && width > 1 {
         format!("%0{width}d")
@@ -134,8 +135,8 @@ fn field(text: &str, run: &Run<'_>, width: usize) -> String {
     }
 }
 
-/// The numbers of the frames whose files have these names (without their endings), and how they were
-/// found; no number has one where the names do not tell the frames apart.
+/// The frame numbers of files with these names (without extensions), and how they were found. All
+/// numbers are `None` if the names do not identify the frames by number.
 pub(crate) fn frame_numbers(names: &[&str]) -> (Vec<Option<i64>>, Numbering) {
     let none = |numbering| (vec![None; names.len()], numbering);
     let first: Vec<Name<'_>> = names.iter().map(|name| Name::new(name)).collect();
@@ -183,7 +184,7 @@ fn changing<'a>(names: &'a [Name<'_>]) -> Result<Vec<&'a Run<'a>>, Doubt> {
         }
     }
     match (places.as_slice(), other) {
-        // All names have the same numbers: the last is as good as any.
+        // All names have the same numbers, so any run will do; the last is used.
         ([], _) => Ok(from_end(0)),
         ([place], _) => Ok(columns.swap_remove(*place)),
         (_, Some(other)) => Err(Doubt::Wording(names[0].text.to_owned(), other.text.to_owned())),
@@ -201,7 +202,7 @@ fn changing<'a>(names: &'a [Name<'_>]) -> Result<Vec<&'a Run<'a>>, Doubt> {
     }
 }
 
-/// The values of runs, if each has its own.
+/// The values of runs, if each value occurs once.
 fn numbered(names: &[Name<'_>], runs: &[&Run<'_>]) -> Result<Vec<i64>, Doubt> {
     let mut seen: BTreeMap<i64, &str> = BTreeMap::new();
     let mut numbers = Vec::with_capacity(runs.len());
@@ -243,10 +244,10 @@ mod tests {
         assert_eq!(numbers(&["f9", "f10", "f11"]), [9, 10, 11]);
         assert_eq!(numbers(&["2024-05-01_120000_0001", "2024-05-01_120000_0002"]), [1, 2]);
         assert_eq!(numbers(&["render_1920x1080_7_of_8", "render_1920x1080_8_of_8"]), [7, 8]);
-        // A number that is written twice is one number.
+        // A number that occurs twice in each name counts as one number.
         assert_eq!(numbers(&["f0001_t0001", "f0002_t0002"]), [1, 2]);
         assert_eq!(numbers(&["f1_t0001", "f2_t0002"]), [1, 2]);
-        // Names of different wording whose numbers agree from either end.
+        // Names with different wording have the same numbers, counted from either end.
         assert_eq!(numbers(&["blue2", "red1"]), [2, 1]);
         assert_eq!(numbers(&["f1_final", "f2_final2"]), [1, 2]);
         assert_eq!(numbers(&["1699999999990", "1699999999991"])[1], 1_699_999_999_991);
@@ -282,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_certain_is_a_doubt() {
+    fn uncertain_numbers_are_doubtful() {
         let Doubt::Several { names, patterns } =
             doubt(&["f0001_t0017_4k", "f0001_t0033_4k", "f0002_t0050_4k"])
         else {

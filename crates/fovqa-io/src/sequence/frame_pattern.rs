@@ -1,28 +1,29 @@
-//! File names with a frame number left open: `gt.%04d.exr`, `gt.####.exr`, `gt.@@@@.exr`, `gt.$F4.exr`.
+//! File names with a placeholder for the frame number: `gt.%04d.exr`, `gt.####.exr`, `gt.@@@@.exr`,
+//! `gt.$F4.exr`.
 //!
-//! `*` and `?` stand for what changes besides the number: `f%04d_t*.png`.
+//! `*` and `?` stand for text that changes besides the number: `f%04d_t*.png`.
 
 use std::collections::BTreeMap;
 
 use fovqa_frame::source::{Doubt, Numbering};
 
-/// A file name with one number left open.
+/// A file name with a placeholder for one number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FramePattern {
     before: String,
-    /// Digits that the number has at least.
+    /// The minimum number of digits.
     width: usize,
     after: String,
 }
 
-/// What is wrong with a name that has a `%` or a `#` in it.
+/// The error for a name that has a `%` or a `#` but no valid placeholder.
 pub(crate) const NOT_ONE_FIELD: &str = "it needs one field such as %d, %04d, #### or $F4";
 
 impl FramePattern {
-    /// The pattern that a file name is; `None` when it has no field.
+    /// The pattern that a file name contains; `None` if it has no placeholder.
     ///
     /// # Errors
-    /// When a `%` is no field, or there is more than one.
+    /// When a `%` is not a valid placeholder, or there is more than one.
     pub fn parse(name: &str) -> Option<Result<Self, &'static str>> {
         let found = if name.contains('%') {
             printf(name)
@@ -45,13 +46,13 @@ impl FramePattern {
         Some(pattern.ok_or(NOT_ONE_FIELD))
     }
 
-    /// The number of a file name that fits; `None` for one that does not fit.
+    /// The number in a file name that matches the pattern; `None` if it does not match.
     pub fn number(&self, name: &str) -> Option<i64> {
         self.open(name).map(|(number, _)| number)
     }
 
-    /// The same, and whether a minus sign stands right behind a letter or digit, where it may be a
-    /// separator.
+    /// The number in a matching name, and whether its minus sign directly follows a letter or
+    /// digit, where it may be a separator.
     fn open(&self, name: &str) -> Option<(i64, bool)> {
         let bytes = name.as_bytes();
         let mut found: Option<(i64, bool)> = None;
@@ -69,7 +70,7 @@ impl FramePattern {
                 fits.then(|| digits.parse().ok()).flatten().map(|number| (number, false))
             };
             let number = match name[..start].strip_suffix('-') {
-                // Where the pattern itself has the minus sign, it is a separator.
+                // If the pattern itself ends with the minus sign, it is a separator.
                 Some(before) if !self.before.ends_with('-') || plain().is_none() => {
                     let glued = before.ends_with(|c: char| c.is_alphanumeric() || c == '-');
                     let open = self.before.ends_with(['*', '?']);
@@ -84,7 +85,7 @@ impl FramePattern {
                 _ => plain(),
             };
             match (number, found) {
-                // Two numbers of one name that could be meant.
+                // Two numbers in the name match, so it is not clear which one is meant.
                 (Some(_), Some(_)) => return None,
                 (Some(number), None) => found = Some(number),
                 (None, _) => {}
@@ -93,8 +94,9 @@ impl FramePattern {
         found
     }
 
-    /// Whether digits are as many as the field writes: at least its width, and more only without
-    /// leading zeros. A minus sign may count or not: `%04d` writes -002, Blender -0002.
+    /// Whether the number of digits is possible for the placeholder: at least its width, and more
+    /// only without leading zeros. The minus sign may count as a digit or not: `%04d` writes -002,
+    /// Blender writes -0002.
     fn is_wide(&self, digits: &str, negative: bool) -> bool {
         let plain = |width: usize| {
             digits.len() == width || (digits.len() > width && !digits.starts_with('0'))
@@ -102,11 +104,12 @@ impl FramePattern {
         plain(self.width) || (negative && self.width > 1 && digits.len() == self.width - 1)
     }
 
-    /// Those of these names that fit, by their index, with their numbers.
+    /// The names that match, by their index, with their numbers.
     pub(crate) fn select(&self, names: &[&str]) -> (Vec<(usize, i64)>, Numbering) {
         let open = names.iter().enumerate().filter_map(|(i, name)| Some((i, self.open(name)?)));
         let open: Vec<(usize, (i64, bool))> = open.collect();
-        // As for names without a pattern: behind a letter it is a sign beside names without it.
+        // As for names without a pattern, a minus sign after a letter is a sign only if there are
+        // names without it.
         let unsigned = open.iter().any(|(_, (number, _))| *number >= 0);
         let sure = open.into_iter().filter(|(_, (_, glued))| unsigned || !glued);
         let sure: Vec<(usize, i64)> = sure.map(|(index, (number, _))| (index, number)).collect();
@@ -120,7 +123,7 @@ impl FramePattern {
     }
 }
 
-/// Start, width and end of the one printf field.
+/// Start, width and end of the only printf placeholder.
 fn printf(name: &str) -> Option<(usize, usize, usize)> {
     let start = name.find('%')?;
     let rest = &name[start + 1..];
@@ -132,7 +135,7 @@ fn printf(name: &str) -> Option<(usize, usize, usize)> {
     (!rest[end..].contains('%')).then_some((start, wide, start + 1 + end + 1))
 }
 
-/// Start, width and end of the one run of a character.
+/// Start, width and end of the only run of a character.
 fn padded(name: &str, sign: char) -> Option<(usize, usize, usize)> {
     let start = name.find(sign)?;
     let width = name[start..].chars().take_while(|c| *c == sign).count();
@@ -140,21 +143,23 @@ fn padded(name: &str, sign: char) -> Option<(usize, usize, usize)> {
     (width < MOST_DIGITS && !name[end..].contains(sign)).then_some((start, width, end))
 }
 
-/// More than any number has.
+/// No number has more digits.
 const MOST_DIGITS: usize = 20;
 
 fn width(digits: &str) -> Option<usize> {
     digits.parse().ok().filter(|width| *width < MOST_DIGITS).map(|width: usize| width.max(1))
 }
 
-/// Whether a text fits a part of a pattern, in which `*` stands for any characters and `?` for one.
+/// Whether a text matches a part of a pattern, in which `*` stands for any characters and `?` for
+/// one.
 fn fits(pattern: &str, text: &str) -> bool {
     if !pattern.contains(['*', '?']) {
         return pattern == text;
     }
     let (pattern, text): (Vec<char>, Vec<char>) =
         (pattern.chars().collect(), text.chars().collect());
-    // Where the last star is, and up to where it reaches: more is tried where what follows fails.
+    // The position of the last star, and the end of the text that it matches. If the rest does not
+    // match, the star matches one character more.
     let (mut p, mut t, mut star) = (0, 0, None);
     while t < text.len() {
         match pattern.get(p) {
@@ -197,7 +202,7 @@ mod tests {
             assert_eq!(number(pattern, "f10.png"), Some(10), "{pattern}");
             assert_eq!(number(pattern, "f010.png"), None, "{pattern}");
         }
-        // One @ is a character of names; a # beside a printf field is one as well.
+        // A single @ is an ordinary character of a name, and so is a # beside a printf placeholder.
         assert_eq!(FramePattern::parse("a@b.png"), None);
         assert_eq!(number("#1_%03d.png", "#1_007.png"), Some(7));
     }

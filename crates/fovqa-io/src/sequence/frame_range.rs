@@ -6,8 +6,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A selection of frames by their numbers: from A up to, but without, B, every STEP-th, counted from A
-/// or, without A, from 0. Numbers may be negative.
+/// A selection of frames by their numbers: every STEP-th frame from A up to B, without B itself.
+/// Steps are counted from A or, if A is missing, from 0. Numbers may be negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct FrameRange {
@@ -16,7 +16,7 @@ pub struct FrameRange {
     step: u64,
 }
 
-/// Text that is not a range of frames.
+/// The text is not a range of frames.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
     "{0:?} is not a range of frames: write A..B or A..B:STEP, A and B may be left out, STEP is at least 1"
@@ -58,8 +58,8 @@ impl FromStr for FrameRange {
     type Err = FrameRangeError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        // Plain digits, of a number that fits, and a minus sign where one may be: nothing else that
-        // parses.
+        // Only plain digits of a number that fits, with an optional minus sign where it is allowed.
+        // `parse` alone would accept more.
         let number = |text: &str| {
             let digits = text.strip_prefix('-').unwrap_or(text);
             let plain = digits.len() <= 18 && digits.bytes().all(|b| b.is_ascii_digit());

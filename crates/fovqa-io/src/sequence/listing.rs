@@ -17,32 +17,32 @@ use super::shown::shown;
 pub struct FrameFile {
     /// The file.
     pub path: PathBuf,
-    /// Its name without the ending.
+    /// Its name without the extension.
     pub stem: OsString,
-    /// Its frame's number; `None` where the names do not tell the frames apart.
+    /// Its frame's number; `None` if the names do not identify the frames by number.
     pub number: Option<i64>,
 }
 
-/// What a path argument stands for.
+/// The files that a path argument stands for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileListing {
     /// The argument.
     pub argument: PathBuf,
-    /// Whether it names one file outright.
+    /// Whether the argument names a single file.
     pub is_file: bool,
-    /// The files, by their numbers, or else in natural order.
+    /// The files, ordered by their numbers, or else in natural order.
     pub files: Vec<FrameFile>,
     /// How the numbers were found.
     pub numbering: Numbering,
 }
 
 impl FileListing {
-    /// The listing of one file that is named outright.
+    /// The listing of an argument that names a single file.
     pub(super) fn of_file(path: &Path) -> Self {
         Self { is_file: true, ..Self::by_name(path, vec![path.to_owned()]) }
     }
 
-    /// The frames of the files, named as results show them below a folder.
+    /// The frames of the files, with names relative to a folder as in results.
     pub fn listing(&self, base: &Path) -> Listing {
         let entry = |file: &FrameFile| Entry {
             name: shown(base, &file.path),
@@ -57,10 +57,10 @@ impl FileListing {
         }
     }
 
-    /// The listing of files whose names have the numbers.
+    /// The listing of files whose names contain the numbers.
     ///
     /// # Errors
-    /// When two files share a stem.
+    /// When two files have the same stem.
     pub fn of_names(argument: &Path, paths: Vec<PathBuf>) -> Result<Self, ListingError> {
         Self::by_name(argument, paths).checked()
     }
@@ -81,7 +81,7 @@ impl FileListing {
     /// The listing of files whose numbers a pattern has found.
     ///
     /// # Errors
-    /// When two files share a stem.
+    /// When two files have the same stem.
     pub(super) fn of_pattern(
         argument: &Path,
         files: Vec<(PathBuf, i64)>,
@@ -96,14 +96,14 @@ impl FileListing {
         Self { argument: argument.to_owned(), is_file: false, files, numbering }.checked()
     }
 
-    /// The same in order, if each stem is there once.
+    /// Sorts the files and checks that each stem occurs once.
     fn checked(mut self) -> Result<Self, ListingError> {
         self.files.sort_by(|a, b| {
             a.number.cmp(&b.number).then_with(|| in_natural_order(&a.path, &b.path))
         });
         let mut stems: BTreeMap<String, &FrameFile> = BTreeMap::new();
         for file in &self.files {
-            // Stems that differ in capitals alone are one file to many systems.
+            // On many systems, stems that differ only in upper and lower case are the same file.
             let key = file.stem.to_string_lossy().to_lowercase();
             if let Some(other) = stems.insert(key, file) {
                 let utf8 = |file: &FrameFile| file.stem.to_str().is_some();

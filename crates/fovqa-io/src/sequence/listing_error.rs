@@ -1,4 +1,4 @@
-//! Path arguments that stand for no files.
+//! Errors of path arguments that do not stand for a sequence of files.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -8,24 +8,24 @@ use thiserror::Error;
 #[cfg(doc)]
 use crate::ReadErrorKind;
 
-/// A path argument that stands for nothing, or for more than can be told apart.
+/// A path argument that stands for nothing, or for files that cannot be ordered.
 #[derive(Debug, Error)]
 pub enum ListingError {
-    /// Nothing there.
+    /// Nothing exists at the path.
     #[error("{}: there is no such file or folder", .0.display())]
     NotFound(PathBuf),
-    /// A link to something that is not there.
+    /// It is a link to something that does not exist.
     #[error("{}: it is a link to {}, which is not there", link.display(), to.display())]
     Dangling {
         /// The link.
         link: PathBuf,
-        /// Where it points.
+        /// The target of the link.
         to: PathBuf,
     },
-    /// A device, a pipe or the like.
+    /// It is not a regular file but a device, a pipe or the like.
     #[error("{}: it is neither a file nor a folder", .0.display())]
     NotRegular(PathBuf),
-    /// The operating system refused.
+    /// The operating system reports an error.
     #[error("{}: it cannot be read: {error}", path.display())]
     Io {
         /// The folder.
@@ -33,18 +33,18 @@ pub enum ListingError {
         /// The reason.
         error: io::Error,
     },
-    /// A folder or pattern without an image.
+    /// The folder or pattern has no image.
     #[error("{}: {}", path.display(), nothing(*.other_files))]
     Empty {
         /// The argument.
         path: PathBuf,
-        /// Files of other types that are there.
+        /// Number of files of other types that exist there.
         other_files: usize,
     },
-    /// Two images of one stem.
+    /// Two images have the same stem.
     #[error("{} and {} have one stem: which is the frame?", .0.display(), .1.display())]
     SameStem(PathBuf, PathBuf),
-    /// A broken pattern.
+    /// The pattern is not valid.
     #[error("{}: it is not a pattern: {detail}", path.display())]
     Pattern {
         /// The argument.
@@ -63,7 +63,7 @@ fn nothing(other_files: usize) -> String {
 }
 
 impl ListingError {
-    /// Why a path is neither a file nor a folder.
+    /// The reason why a path is neither a file nor a folder.
     pub(super) fn nothing_at(argument: &Path) -> Self {
         let path = argument.to_owned();
         match std::fs::metadata(argument) {
@@ -78,7 +78,7 @@ impl ListingError {
         }
     }
 
-    /// The same of other paths: as results show them.
+    /// The same error with its paths as results show them.
     #[must_use]
     pub fn with_paths(self, shown: &dyn Fn(&Path) -> PathBuf) -> Self {
         match self {
@@ -92,7 +92,7 @@ impl ListingError {
         }
     }
 
-    /// How to mend it; settings stand in braces, as in [`ReadErrorKind::help`].
+    /// How to correct the error. Settings are in braces, as in [`ReadErrorKind::help`].
     pub fn help(&self) -> &'static str {
         match self {
             Self::NotFound(_) => "check the path; a relative one starts in {start}",

@@ -1,4 +1,5 @@
-//! Path arguments to pairs of files: folders, globs, patterns with a number, pairing, frame ranges.
+//! From path arguments to pairs of files: folders, globs, patterns with a number, pairing, frame
+//! ranges.
 
 mod argument;
 mod frame_number;
@@ -17,7 +18,7 @@ pub use frame_pattern::FramePattern;
 pub use frame_range::{FrameRange, FrameRangeError};
 pub use listing::{FileListing, FrameFile};
 pub use listing_error::ListingError;
-pub use pairing::{Alone, FramePair, PairingError, Pairs, pair};
+pub use pairing::{FramePair, PairingError, Pairs, Unpaired, pair};
 pub use shown::shown;
 pub use spacing::{MissingFrames, Spacing};
 pub use wildcards::{is_glob, literal};

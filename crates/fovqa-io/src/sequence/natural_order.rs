@@ -1,8 +1,8 @@
-//! Natural order: `frame9` before `frame10`.
+//! Natural order, in which `frame9` comes before `frame10`.
 
 use std::cmp::Ordering;
 
-/// Compares two names, runs of digits by their value.
+/// Compares two names; runs of digits are compared by their value.
 pub(crate) fn natural_cmp(a: &str, b: &str) -> Ordering {
     let (mut left, mut right) = (a, b);
     loop {
@@ -15,7 +15,7 @@ pub(crate) fn natural_cmp(a: &str, b: &str) -> Ordering {
         } else {
             let (mut l, mut r) = (left.chars(), right.chars());
             let order = match (l.next(), r.next()) {
-                // Names that differ only in leading zeros still need one order.
+                // Names that differ only in leading zeros still need a defined order.
                 (None, None) => return a.cmp(b),
                 (l, r) => l.cmp(&r),
             };

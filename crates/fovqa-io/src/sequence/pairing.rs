@@ -1,4 +1,4 @@
-//! Which frame of a test is which of the reference.
+//! Pairs the frames of a test with those of the reference.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,15 +7,16 @@ use thiserror::Error;
 
 use super::spacing::Spacing;
 
-/// A frame of the reference and the frame of a test that shows the same: their places in the two sources.
+/// A frame of the reference and the corresponding frame of a test, by their indices in the two
+/// sources.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FramePair {
-    /// The frame's number: that of the reference's name, or its position among the references,
-    /// from 0, where their names have none that tells them apart.
+    /// The frame's number: the number in the reference's name or, if the names do not identify the
+    /// frames by number, the index of the reference, from 0.
     pub number: i64,
-    /// Frame of the reference.
+    /// Index of the frame in the reference.
     pub reference: usize,
-    /// Frame of the test.
+    /// Index of the frame in the test.
     pub test: usize,
 }
 
@@ -27,47 +28,47 @@ pub struct Pairs {
     /// How the frames are numbered.
     pub numbering: Numbering,
     /// Frames without a partner.
-    pub alone: Alone,
+    pub alone: Unpaired,
 }
 
-/// Frames without a partner, by what messages call them, with their number where they have one.
+/// Frames without a partner: their numbers, if they have any, and their names as in messages.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Alone {
-    /// References without a test.
+pub struct Unpaired {
+    /// Frames of the reference that have no test.
     pub reference: Vec<(Option<i64>, String)>,
-    /// Tests without a reference.
+    /// Frames of the test that have no reference.
     pub test: Vec<(Option<i64>, String)>,
 }
 
-impl Alone {
-    /// Only the frames that are wanted; what has no number is.
+impl Unpaired {
+    /// Keeps only the frames that are wanted. Frames without a number are kept.
     pub fn retain(&mut self, wanted: impl Fn(i64) -> bool) {
         for side in [&mut self.reference, &mut self.test] {
             side.retain(|(number, _)| number.is_none_or(&wanted));
         }
     }
 
-    /// How many.
+    /// The number of frames without a partner.
     pub fn count(&self) -> usize {
         self.reference.len() + self.test.len()
     }
 }
 
-/// Frames that do not pair.
+/// Frames that cannot be paired.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PairingError {
-    /// Frames without a partner.
+    /// Some frames have no partner.
     #[error("{}", unpaired(.0))]
-    Unpaired(Alone),
-    /// Names in which several numbers change.
+    Unpaired(Unpaired),
+    /// Several numbers change in the names.
     #[error("{argument}: {}; either could be the number of the frame", .doubt.in_words())]
     Ambiguous {
         /// The folder or glob.
         argument: String,
-        /// Which names.
+        /// The reason, with the names.
         doubt: Doubt,
     },
-    /// Not a single pair.
+    /// No frame has a partner.
     #[error("no file of {reference} has a partner in {test}")]
     Nothing {
         /// The reference argument.
@@ -75,7 +76,7 @@ pub enum PairingError {
         /// The test argument.
         test: String,
     },
-    /// Two sources of which nobody knows how long they are.
+    /// The length of both sources is unknown.
     #[error(
         "{reference} and {test} are both of unknown length, and one of them has to say how many frames there are"
     )]
@@ -88,7 +89,7 @@ pub enum PairingError {
 }
 
 impl PairingError {
-    /// How to mend it.
+    /// How to correct the error.
     pub fn help(&self) -> String {
         match self {
             Self::Unpaired(_) => {
@@ -111,7 +112,7 @@ impl PairingError {
     }
 }
 
-fn unpaired(alone: &Alone) -> String {
+fn unpaired(alone: &Unpaired) -> String {
     const SHOWN: usize = 5;
     let side = |files: &[(Option<i64>, String)], of: &str, without: &str| {
         let names: Vec<&str> = files.iter().take(SHOWN).map(|(_, name)| name.as_str()).collect();
@@ -129,7 +130,8 @@ fn unpaired(alone: &Alone) -> String {
     parts.join("; ")
 }
 
-/// Names with commas between them; what they share in front of the number of a frame stands once.
+/// Names separated by commas. Text that all names share in front of the frame number is written
+/// once.
 fn of_one_source(names: &[&str]) -> String {
     let parts: Option<Vec<(&str, &str)>> =
         names.iter().map(|name| name.rsplit_once(", frame ")).collect();
@@ -145,11 +147,12 @@ fn of_one_source(names: &[&str]) -> String {
     }
 }
 
-/// Pairs the frames of two sources: two single ones as they are, others by stem and then by number. Those of
-/// a source without names, such as a video, count from the first frame of the other one on.
+/// Pairs the frames of two sources. Two single frames are paired as they are, others by stem and
+/// then by number. The frames of a source without names, such as a video, are counted from the
+/// first frame of the other source on.
 ///
 /// # Errors
-/// When nothing pairs, or several numbers in the names could be those of the frames.
+/// When nothing can be paired, or several numbers in the names could be those of the frames.
 pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> {
     let nothing = || {
         let (reference, test) = (reference.argument.clone(), test.argument.clone());
@@ -166,12 +169,12 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
                 (length, other) => known(length).min(known(other)),
             };
             let pair = |at: usize| FramePair { number: at as i64, reference: at, test: at };
-            // Behind a frame that is damaged there may have been any number.
+            // After a damaged frame there may have been any number of further frames.
             let alone = |of: &Listing, length: Length, other: Length| {
                 let count = if let Length::Damaged(_) = other { both } else { known(length) };
                 (both..count).map(|at| (Some(at as i64), of.label(at))).collect()
             };
-            let alone = Alone {
+            let alone = Unpaired {
                 reference: alone(reference, *length, *other),
                 test: alone(test, *other, *length),
             };
@@ -186,7 +189,7 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
                 reference: named,
                 test: other,
             })?;
-            let alone = Alone { reference: named, test: other };
+            let alone = Unpaired { reference: named, test: other };
             if pairs.is_empty() {
                 return Err(nothing());
             }
@@ -199,7 +202,7 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
                 reference: other,
                 test: named,
             })?;
-            let alone = Alone { reference: other, test: named };
+            let alone = Unpaired { reference: other, test: named };
             if pairs.is_empty() {
                 return Err(nothing());
             }
@@ -209,16 +212,16 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
     }
 }
 
-/// A source with names and one without.
+/// A source whose frames have names, and one whose frames have none.
 struct Counted<'a> {
     named: &'a Listing,
     names: &'a [Entry],
-    /// Of the other one.
+    /// The length of the source without names.
     length: Length,
     other: &'a Listing,
 }
 
-/// Frames that are known of before any of them is read.
+/// The number of frames that are known before any of them is read.
 fn known(length: Length) -> usize {
     match length {
         Length::Whole(frames) | Length::Damaged(frames) => frames,
@@ -227,22 +230,23 @@ fn known(length: Length) -> usize {
 }
 
 /// Frames without a partner.
-type WithoutPartner = Vec<(Option<i64>, String)>;
+type UnpairedNames = Vec<(Option<i64>, String)>;
 
 impl Counted<'_> {
-    /// The pairs, and what is alone: of the names, and of the other source. A frame that is missing between
-    /// the names has its place in the other source.
+    /// The pairs, and the frames without a partner: those of the source with names first. A frame
+    /// that is missing among the names has an index in the other source nevertheless.
     fn pairs(
         &self,
         pair: impl Fn(i64, usize, usize) -> FramePair,
-    ) -> Result<(Vec<FramePair>, [WithoutPartner; 2]), PairingError> {
+    ) -> Result<(Vec<FramePair>, [UnpairedNames; 2]), PairingError> {
         unambiguous(self.named)?;
         let number = |at: usize| self.names[at].number.unwrap_or(at as i64);
         let numbers: BTreeSet<i64> = (0..self.names.len()).map(number).collect();
         let spacing = Spacing::of(&numbers);
         let places: Vec<usize> =
             (0..self.names.len()).map(|at| spacing.place(number(at))).collect();
-        // A stream has what the names ask for, and behind a damaged frame there may have been any.
+        // A stream has all frames that the names ask for, and after a damaged frame there may have
+        // been any number.
         let is_there = |at: &usize| self.length == Length::Open || places[*at] < known(self.length);
         let (with, without): (Vec<usize>, Vec<usize>) = (0..self.names.len()).partition(is_there);
         let is_missed = |_: &&usize| !matches!(self.length, Length::Damaged(_));
@@ -268,12 +272,12 @@ fn by_names(
         && reference.is_single
         && test.is_single
     {
-        // A number both names carry is the frame's.
+        // If both names have the same number, it is the frame's number.
         let number = one.number.filter(|n| other.number == Some(*n));
         let numbering =
             if number.is_some() { reference.numbering.clone() } else { Numbering::ByPosition };
         let pairs = vec![FramePair { number: number.unwrap_or(0), reference: 0, test: 0 }];
-        return Ok(Pairs { pairs, numbering, alone: Alone::default() });
+        return Ok(Pairs { pairs, numbering, alone: Unpaired::default() });
     }
     unambiguous(reference)?;
     let mut partner: Vec<Option<usize>> = vec![None; references.len()];
@@ -291,14 +295,14 @@ fn by_names(
     let numbered = references.iter().all(|entry| entry.number.is_some());
     let untaken = tests.iter().zip(&taken).filter(|(_, taken)| !**taken);
     let untaken = untaken.map(|(f, _)| (f.number.filter(|_| numbered), f.name.clone()));
-    let mut alone = Alone { reference: Vec::new(), test: untaken.collect() };
+    let mut alone = Unpaired { reference: Vec::new(), test: untaken.collect() };
     let mut pairs = Vec::new();
     let mut numbering = reference.numbering.clone();
     for (position, (entry, partner)) in references.iter().zip(partner).enumerate() {
         let number = entry.number.unwrap_or(position as i64);
         match partner {
             Some(index) => {
-                // A file by itself does not tell which of its numbers changes; many tests do.
+                // A single file does not show which of its numbers changes, but many tests do.
                 let number = match (&numbering, tests[index].number) {
                     (Numbering::LastOfSeveral(_), Some(of_test))
                         if test.numbering == Numbering::ByName =>
@@ -327,7 +331,7 @@ fn unambiguous(listing: &Listing) -> Result<(), PairingError> {
     }
 }
 
-/// Pairs what is still alone and whose key is the only one of its side.
+/// Pairs frames that have no partner yet and whose key is unique on both sides.
 fn match_by<K: Ord>(
     reference: &[Entry],
     test: &[Entry],
@@ -387,7 +391,7 @@ mod tests {
         assert_eq!(pair, (2, ["gt_0002_1080p.exr", "rmfr_0002.png"].map(str::to_owned)));
     }
 
-    /// A video beside files whose numbers begin with 1 and lack the third.
+    /// A video is paired with files whose numbers begin with 1 and lack the third.
     #[test]
     fn frames_without_names_count_from_the_first() {
         let files = listing(&["f1.png", "f2.png", "f4.png"]);
@@ -457,7 +461,7 @@ mod tests {
         let error = pair(&listing(&twice), &listing(&twice)).unwrap_err();
         assert!(error.to_string().contains("f0001_t0017 and f0002_t0033"), "{error}");
         assert!(error.help().contains("'f%04d_t*.*' or 'f*_t%04d.*'"), "{}", error.help());
-        // Stems tell which test belongs to which reference; numbers do not.
+        // Stems show which test belongs to which reference; numbers do not.
         let once = listing(&["f0001_t0017.png", "f0001_t0018.png"]);
         assert!(pair(&once, &listing(&twice)).is_err());
         let mut reference = once.clone();

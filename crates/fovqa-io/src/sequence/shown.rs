@@ -4,8 +4,8 @@ use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::{Component, Path};
 
-/// A path as results show it: from the folder `base` where it begins there, else as it is; `/` between
-/// folders, and bytes that are not UTF-8 as `\\xff`.
+/// A path as results show it: relative to the folder `base` if it lies there, else as it is.
+/// Folders are separated by `/`, and bytes that are not UTF-8 are written as `\\xff`.
 pub fn shown(base: &Path, path: &Path) -> String {
     slashed(path.strip_prefix(base).unwrap_or(path))
 }
@@ -23,8 +23,9 @@ fn slashed(path: &Path) -> String {
     parts.join("/")
 }
 
-/// A name as text, each name another one: bytes that are not UTF-8 are written `\\xff`, and in a name
-/// with such, or with what looks like it, a backslash is written twice.
+/// A name as text, such that different names have different texts. Bytes that are not UTF-8 are
+/// written as `\\xff`; if a name has such bytes, or text that looks like them, its backslashes are
+/// doubled.
 fn text_of(name: &OsStr) -> String {
     if let Some(text) = name.to_str().filter(|text| !text.contains("\\x")) {
         return text.to_owned();
@@ -46,7 +47,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn names_that_are_no_text_are_told_apart() {
+    fn names_that_are_not_utf8_stay_distinct() {
         use std::os::unix::ffi::OsStrExt;
         let of = |name: &[u8]| text_of(std::ffi::OsStr::from_bytes(name));
         assert_eq!(of(b"g\xfft"), r"g\xfft");

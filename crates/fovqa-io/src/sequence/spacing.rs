@@ -1,23 +1,25 @@
-//! How the frames of a sequence lie in time, by their numbers, and which numbers are missing.
+//! The spacing of a sequence's frames in time, from their numbers, and the numbers that are
+//! missing.
 //!
-//! Where all distances between neighbouring numbers are multiples of the smallest, that is the step of
-//! the sequence, and a frame is missing wherever a step has none: 3 of 0, 1, 2, 4, and none of 0, 10,
-//! 20. Numbers without such a step, such as time stamps, say only the order.
+//! If all distances between neighbouring numbers are multiples of the smallest distance, that is
+//! the step of the sequence, and a frame is missing wherever a step has no number: 3 is missing in
+//! 0, 1, 2, 4, and nothing is missing in 0, 10, 20. Numbers without such a step, such as time
+//! stamps, define only the order.
 
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// The places of frames in time.
+/// The positions of frames in time.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Spacing {
-    /// Rising.
+    /// All numbers in rising order.
     numbers: Vec<i64>,
-    /// The distance of neighbours, where there is one.
+    /// The distance between neighbours, if there is a common one.
     step: Option<u64>,
 }
 
 impl Spacing {
-    /// Of all frames that are known of a sequence, on either side.
+    /// The spacing of all known frames of a sequence, from both sides.
     pub fn of(numbers: &BTreeSet<i64>) -> Self {
         let numbers: Vec<i64> = numbers.iter().copied().collect();
         let distances = || numbers.windows(2).map(|pair| pair[1].abs_diff(pair[0]));
@@ -26,8 +28,8 @@ impl Spacing {
         Self { numbers, step }
     }
 
-    /// The place of a frame, in steps from the first: two frames follow each other where their places
-    /// differ by 1.
+    /// The position of a frame, in steps from the first. Two frames are consecutive if their
+    /// positions differ by 1.
     pub fn place(&self, number: i64) -> usize {
         let first = self.numbers.first().copied().unwrap_or(number);
         match self.step {
@@ -38,7 +40,7 @@ impl Spacing {
         }
     }
 
-    /// The number of a place, where the others tell.
+    /// The number at a position, as far as the known numbers define it.
     pub(super) fn number(&self, place: usize) -> Option<i64> {
         let first = *self.numbers.first()?;
         match self.step {
@@ -51,9 +53,9 @@ impl Spacing {
         }
     }
 
-    /// The numbers that neither side has, of those that are wanted.
+    /// The wanted numbers that neither side has.
     pub fn missing(&self, wanted: impl Fn(i64) -> bool) -> MissingFrames {
-        /// Beyond as many nobody asks which of them are wanted.
+        /// Larger gaps are reported as a whole, without asking which of their numbers are wanted.
         const MOST: u64 = 1 << 20;
         let mut missing = MissingFrames::default();
         let Some(step) = self.step else { return missing };
@@ -81,17 +83,17 @@ impl Spacing {
 /// Numbers of frames that are missing inside a sequence.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MissingFrames {
-    /// The first and the last of each run, and how many they are.
+    /// The first and the last number of each run, and how many numbers it has.
     runs: Vec<(i64, i64, u64)>,
 }
 
 impl MissingFrames {
-    /// Whether there are none.
+    /// Whether no frame is missing.
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
 
-    /// How many they are.
+    /// How many frames are missing.
     pub fn count(&self) -> u64 {
         self.runs.iter().fold(0, |all, (.., count)| all.saturating_add(*count))
     }
@@ -136,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_constant_step_is_no_gap() {
+    fn a_constant_step_has_no_gap() {
         for whole in [&[0, 10, 20][..], &[-2, -1, 0], &[7], &[], &[3, 90], &[0, 11, 22, 34]] {
             assert!(spacing(whole).missing(|_| true).is_empty(), "{whole:?}");
         }
@@ -146,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_missing_is_named_in_short() {
+    fn missing_frames_are_listed_briefly() {
         assert_eq!(missing(&[0, 1, 3]), "frame 2");
         assert_eq!(missing(&[0, 10, 30, 70]), "frames 20, 40 to 60");
         assert_eq!(missing(&[-4, -3, 0]), "frames -2, -1");
@@ -157,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_from_end_to_end_are_no_effort() {
+    fn the_largest_gap_is_counted_quickly() {
         let far = spacing(&[i64::MIN, i64::MIN + 1, i64::MAX]);
         assert_eq!(far.missing(|_| true).count(), u64::MAX - 2);
         assert!(far.place(i64::MAX) > 1 << 60);

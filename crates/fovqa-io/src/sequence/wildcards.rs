@@ -1,7 +1,7 @@
-//! Paths that fit one with wildcards: `renders/*/gt.[0-9]*.exr`.
+//! Finds the paths that match a path with wildcards: `renders/*/gt.[0-9]*.exr`.
 //!
-//! Entries that cannot be read, such as links to files that are not there, are found like all others,
-//! and so are names that are not UTF-8.
+//! Entries that cannot be read, such as broken links, and names that are not UTF-8 are found like
+//! all others.
 
 use std::ffi::OsStr;
 use std::io;
@@ -9,28 +9,29 @@ use std::path::{Component, Path, PathBuf};
 
 use glob::{MatchOptions, Pattern, PatternError};
 
-/// Why there are no paths.
+/// The reason why no paths were found.
 #[derive(Debug)]
 pub(super) enum WildcardError {
-    /// A pattern that is none.
+    /// The pattern is not valid.
     Pattern(PatternError),
-    /// A folder that cannot be read.
+    /// A folder cannot be read.
     Io { path: PathBuf, error: io::Error },
 }
 
-/// Whether a path has wildcards in it.
+/// Whether a path contains wildcards.
 pub fn is_glob(path: &Path) -> bool {
     path.as_os_str().as_encoded_bytes().iter().any(|byte| b"*?[".contains(byte))
 }
 
-/// The characters of a name as themselves, for a pattern to be made of it: `[`, `*` and `?` in the
-/// names of folders are no wildcards.
+/// Escapes a name for use in a pattern, so that `[`, `*` and `?` in the names of folders are not
+/// wildcards.
 pub fn literal(name: &str) -> String {
     Pattern::escape(name)
 }
 
-/// The paths below `start` that fit a relative path, or an absolute one itself. Wildcards match no
-/// separator and no dot at the start of a name; `**` stands for any folders.
+/// The paths below `start` that match a relative path; an absolute path is matched by itself.
+/// Wildcards do not match separators, nor a dot at the start of a name; `**` stands for any number
+/// of folders.
 pub(super) fn fitting(start: &Path, wanted: &Path) -> Result<Vec<PathBuf>, WildcardError> {
     let mut found = vec![start.to_owned()];
     let mut last = wanted.components().peekable();
@@ -56,14 +57,14 @@ pub(super) fn fitting(start: &Path, wanted: &Path) -> Result<Vec<PathBuf>, Wildc
             for path in &mut found {
                 path.push(name);
             }
-            // What is not a folder has nothing below it.
+            // A path below something that is not a folder does not exist.
             found.retain(|path| path.symlink_metadata().is_ok());
         }
     }
     Ok(found)
 }
 
-/// The entries of a folder whose name fits.
+/// The entries of a folder whose names match.
 fn in_folder(
     folder: &Path,
     pattern: &Pattern,
@@ -82,9 +83,9 @@ fn in_folder(
     Ok(found)
 }
 
-/// A folder and all folders below it, without hidden ones and those behind links.
+/// A folder and all folders below it, without hidden ones and without following links.
 fn below(folder: PathBuf, depth: usize, all: &mut Vec<PathBuf>) -> Result<(), WildcardError> {
-    /// Deeper than any tree of renders.
+    /// No tree of renders is deeper.
     const DEEPEST: usize = 64;
     if depth < DEEPEST {
         for name in names(&folder)? {
@@ -99,7 +100,7 @@ fn below(folder: PathBuf, depth: usize, all: &mut Vec<PathBuf>) -> Result<(), Wi
     Ok(())
 }
 
-/// The names in a folder, in order.
+/// The names in a folder, sorted.
 fn names(folder: &Path) -> Result<Vec<std::ffi::OsString>, WildcardError> {
     let failed = |error| WildcardError::Io { path: folder.to_owned(), error };
     let here = if folder.as_os_str() == OsStr::new("") { Path::new(".") } else { folder };
@@ -145,7 +146,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn what_cannot_be_read_is_found_as_well() {
+    fn unreadable_entries_are_found() {
         use std::os::unix::ffi::OsStrExt;
         let dir = tree();
         std::os::unix::fs::symlink("nowhere", dir.path().join("a/x9.png")).unwrap();

@@ -1,34 +1,34 @@
-//! The colour tag of a header: bits, subsampling, and where the samples of chroma lie.
+//! The colour tag of a header: bits, subsampling, and the position of chroma samples.
 
-/// What the samples of a video are.
+/// The format of a video's samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Colour {
-    /// 8, 10 or 12. Above 8, a sample is a word of two bytes, the low one first.
+    /// 8, 10 or 12. Above 8 bits, a sample is a little-endian word of two bytes.
     pub(super) bits: u32,
-    /// Cb and Cr; `None`: Y' alone.
+    /// The sampling of Cb and Cr; `None` if there is only Y'.
     pub(super) chroma: Option<Chroma>,
 }
 
-/// How Cb and Cr are sampled.
+/// The sampling of Cb and Cr.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Chroma {
     pub(super) across: Sampling,
     pub(super) down: Sampling,
 }
 
-/// The samples of chroma along one side.
+/// The chroma samples in one direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sampling {
-    /// One a pixel.
+    /// One per pixel.
     Each,
-    /// One for two pixels, halfway between them.
+    /// One per two pixels, halfway between them.
     HalfCentred,
-    /// One for two pixels, in the place of the first.
+    /// One per two pixels, at the position of the first.
     HalfFirst,
 }
 
 impl Sampling {
-    /// Samples along a side of so many pixels.
+    /// The number of samples in a direction with this number of pixels.
     pub(super) fn count(self, pixels: usize) -> usize {
         match self {
             Self::Each => pixels,
@@ -42,7 +42,8 @@ const HALF_ACROSS: Chroma = Chroma { across: Sampling::HalfFirst, down: Sampling
 const CENTRED: Chroma = Chroma { across: Sampling::HalfCentred, down: Sampling::HalfCentred };
 const LEFT: Chroma = Chroma { across: Sampling::HalfFirst, down: Sampling::HalfCentred };
 
-/// Every tag that is read. 4:2:0 of more than 8 bits is sited as today's encoders have it, on the left.
+/// All tags that are supported. 4:2:0 with more than 8 bits is left-sited, as today's encoders
+/// write it.
 const TAGS: [(&str, u32, Option<Chroma>); 15] = [
     ("420", 8, Some(CENTRED)),
     ("420jpeg", 8, Some(CENTRED)),
@@ -62,7 +63,7 @@ const TAGS: [(&str, u32, Option<Chroma>); 15] = [
 ];
 
 impl Colour {
-    /// What a tag stands for; the error says why it is none.
+    /// The format that a tag stands for. The error says why the tag is not supported.
     pub(super) fn of_tag(tag: &str) -> Result<Self, String> {
         if let Some((_, bits, chroma)) = TAGS.iter().find(|(name, ..)| *name == tag) {
             return Ok(Self { bits: *bits, chroma: *chroma });
@@ -73,17 +74,17 @@ impl Colour {
         Err(format!("its colour tag is C{tag}{why}; those that are read are {}", known.join(", ")))
     }
 
-    /// A video without a tag.
+    /// The format of a video without a tag.
     pub(super) fn untagged() -> Self {
         Self { bits: 8, chroma: Some(CENTRED) }
     }
 
-    /// Bytes of a sample.
+    /// Size of a sample in bytes.
     pub(super) fn sample_bytes(self) -> usize {
         if self.bits > 8 { 2 } else { 1 }
     }
 
-    /// The greatest code.
+    /// The largest code.
     pub(super) fn greatest(self) -> u16 {
         (1 << self.bits) - 1
     }
@@ -94,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_not_read_is_said() {
+    fn unsupported_tags_are_reported() {
         assert_eq!(Colour::of_tag("420jpeg"), Ok(Colour::untagged()));
         let error = Colour::of_tag("444alpha").unwrap_err();
         assert!(error.starts_with("its colour tag is C444alpha, which has alpha; "), "{error}");

@@ -1,7 +1,9 @@
-//! Planes of Y', Cb and Cr to R'G'B' (Rec. ITU-R BT.601-7, BT.709-6 and BT.2020-2, non-constant luminance).
+//! Converts planes of Y', Cb and Cr to R'G'B' (Rec. ITU-R BT.601-7, BT.709-6 and BT.2020-2,
+//! non-constant luminance).
 //!
-//! With `n` bits and limited range, `y = (Y - 16·2ⁿ⁻⁸) / (219·2ⁿ⁻⁸)` and `c = (C - 128·2ⁿ⁻⁸) / (224·2ⁿ⁻⁸)`; with
-//! full range, `y = Y / (2ⁿ - 1)` and `c = (C - 2ⁿ⁻¹) / (2ⁿ - 1)`. Then
+//! With `n` bits and limited range, `y = (Y - 16·2ⁿ⁻⁸) / (219·2ⁿ⁻⁸)` and
+//! `c = (C - 128·2ⁿ⁻⁸) / (224·2ⁿ⁻⁸)`; with full range, `y = Y / (2ⁿ - 1)` and
+//! `c = (C - 2ⁿ⁻¹) / (2ⁿ - 1)`. Then
 //!
 //! ```text
 //! R = y + 2 (1 - Kr) cr
@@ -9,8 +11,8 @@
 //! G = (y - Kr R - Kb B) / (1 - Kr - Kb)
 //! ```
 //!
-//! clamped to 0 to 1. Cb and Cr of fewer samples than pixels are interpolated linearly between the two that lie
-//! next to a pixel, those at an edge repeated.
+//! The results are clamped to 0 to 1. Where Cb and Cr have fewer samples than pixels, they are
+//! interpolated linearly between the two samples next to a pixel; samples at an edge are repeated.
 
 use fovqa_frame::{Channels, Frame, FrameError, Samples};
 use multiversion::multiversion;
@@ -20,13 +22,13 @@ use super::colour::{Chroma, Sampling};
 use super::header::Header;
 use super::options::{CodeRange, ColourMatrix, Y4mOptions};
 
-/// Lines from which a video without a matrix is one of high definition.
+/// A video without a declared matrix is high definition from this number of lines on.
 const HIGH_DEFINITION: usize = 720;
 
-/// Rows that one thread turns over at a time.
+/// The number of rows that one thread converts at a time.
 const ROWS: usize = 16;
 
-/// A code that the bits of the video cannot have.
+/// A code that is too large for the bits of the video.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct BadCode {
     pub(super) plane: &'static str,
@@ -35,16 +37,17 @@ pub(super) struct BadCode {
     pub(super) code: u16,
 }
 
-/// From codes to R'G'B'.
+/// The conversion from codes to R'G'B'.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Conversion {
-    /// The code of black, and how many codes white is above it. Values are divided by that, not multiplied by
-    /// its inverse: white is 1, and gray of full range what a PNG of its codes is.
+    /// The code of black, and the number of codes from black to white. Values are divided by that
+    /// number instead of multiplied by its inverse, so that white is exactly 1, and full-range gray
+    /// equals a PNG of the same codes.
     black: f32,
     white: f32,
-    /// The code of no colour.
+    /// The code of neutral chroma.
     neutral: f32,
-    /// What Cr adds to R and G, and Cb to G and B, for each code.
+    /// The contributions of Cr to R and G, and of Cb to G and B, per code.
     red: f32,
     green: [f32; 2],
     blue: f32,
@@ -78,14 +81,14 @@ impl Conversion {
         }
     }
 
-    /// The frame of the bytes of its planes.
+    /// The frame of the given planes.
     pub(super) fn frame(self, header: &Header, bytes: &[u8]) -> Result<Frame, BadCode> {
         if header.colour.sample_bytes() == 1 {
             Ok(self.of_codes(header, bytes))
         } else {
             let words = bytes.as_chunks().0.iter().map(|word| u16::from_le_bytes(*word));
             let words: Vec<u16> = words.collect();
-            refuse_beyond(header, &words)?;
+            check_codes(header, &words)?;
             Ok(self.of_codes(header, &words))
         }
     }
@@ -137,7 +140,7 @@ impl Conversion {
     }
 }
 
-/// A row of codes at the pixels, to R'G'B'.
+/// Converts a row of codes, one per pixel, to R'G'B'.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn rgb_row(conversion: Conversion, [y, cb, cr]: [&[f32]; 3], [red, green, blue]: [&mut [f32]; 3]) {
     let Conversion { black, white, neutral, red: r, green: [g_cr, g_cb], blue: b } = conversion;
@@ -150,9 +153,9 @@ fn rgb_row(conversion: Conversion, [y, cb, cr]: [&[f32]; 3], [red, green, blue]:
     }
 }
 
-/// Rows of one thread.
+/// Buffers of one thread.
 struct Rows {
-    /// A row of samples of chroma, before they are spread over the pixels.
+    /// A row of chroma samples, before upsampling.
     samples: Vec<f32>,
     y: Vec<f32>,
     cb: Vec<f32>,
@@ -175,7 +178,8 @@ struct Plane<'a, T> {
 }
 
 impl<T: Copy + Into<f32>> Plane<'_, T> {
-    /// The codes at the pixels of a row. Weights are quarters and codes have 12 bits: nothing is rounded.
+    /// Writes the codes at the pixels of a row. Weights are quarters and codes have at most 12
+    /// bits, so nothing is rounded.
     fn row(self, y: usize, samples: &mut [f32], pixels: &mut [f32]) {
         match self.sampling.down {
             Sampling::Each => copy(self.samples(y), samples),
@@ -201,7 +205,8 @@ impl<T: Copy + Into<f32>> Plane<'_, T> {
         &self.codes[row * self.width..][..self.width]
     }
 
-    /// So much of a row and the rest of another one next to it, or of itself at the edge.
+    /// Interpolates between a row, with the weight `share`, and a neighbouring row. At the edge the
+    /// row is its own neighbour.
     fn between(&self, row: usize, next: usize, share: f32, samples: &mut [f32]) {
         let last = self.codes.len() / self.width - 1;
         let (here, next) = (self.samples(row), self.samples(next.min(last)));
@@ -218,7 +223,8 @@ fn copy<T: Copy + Into<f32>>(codes: &[T], samples: &mut [f32]) {
     }
 }
 
-/// Two pixels of each sample, from those before and after it, which repeat at the edges.
+/// Two pixels for each sample, from the samples before and after it, which are repeated at the
+/// edges.
 fn spread(samples: &[f32], pixels: &mut [f32], two: impl Fn(f32, f32, f32) -> [f32; 2]) {
     let at = |index: usize| samples[index.min(samples.len() - 1)];
     let pair = |index: usize| two(at(index.saturating_sub(1)), at(index), at(index + 1));
@@ -227,7 +233,7 @@ fn spread(samples: &[f32], pixels: &mut [f32], two: impl Fn(f32, f32, f32) -> [f
     if let Some(pixel) = pairs.first_mut() {
         *pixel = pair(0);
     }
-    // Without an index inside the frame: this is the loop that counts.
+    // The inner pixels are computed without indexing, because this loop dominates the time.
     for (pixel, around) in pairs.iter_mut().skip(1).zip(samples.windows(3)) {
         *pixel = two(around[0], around[1], around[2]);
     }
@@ -239,10 +245,10 @@ fn spread(samples: &[f32], pixels: &mut [f32], two: impl Fn(f32, f32, f32) -> [f
     }
 }
 
-/// Refuses codes of more bits than the video has.
-fn refuse_beyond(header: &Header, codes: &[u16]) -> Result<(), BadCode> {
+/// Refuses codes that are too large for the bits of the video.
+fn check_codes(header: &Header, codes: &[u16]) -> Result<(), BadCode> {
     let greatest = header.colour.greatest();
-    // A fold, not `any`: without an early way out the loop vectorises.
+    // A fold instead of `any`: the loop vectorises only without an early exit.
     if codes.iter().fold(0, |greatest, code| greatest.max(*code)) <= greatest {
         return Ok(());
     }
@@ -273,7 +279,7 @@ mod tests {
         Conversion::new(&header, Y4mOptions::default()).frame(&header, bytes).unwrap()
     }
 
-    /// Full-range gray is what a PNG of the same codes is, to the last bit.
+    /// Full-range gray equals a PNG of the same codes, to the last bit.
     #[test]
     fn gray_of_full_range_is_its_codes() {
         let codes: Vec<u8> = (0..=255).collect();
@@ -303,7 +309,8 @@ mod tests {
         }
     }
 
-    /// Cr of 0 and 224 codes from neutral, at five pixels of three samples, by hand.
+    /// Cr is 0 or 224 codes from neutral. The expected values at five pixels of three samples are
+    /// calculated by hand.
     #[test]
     fn chroma_lies_where_the_tag_says() {
         let bytes = |tag: &str| {

@@ -1,4 +1,4 @@
-//! A video in a file: any frame at any time.
+//! A video in a file, with random access to its frames.
 
 use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -15,17 +15,17 @@ use crate::input_id::id_of_file;
 use crate::sequence::shown;
 use crate::small_file::{open_regular_file, read_head};
 
-/// What kind of video a file is.
+/// The kind of video in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum VideoKind {
-    /// One that is read.
+    /// YUV4MPEG2, which is supported.
     Y4m,
-    /// One that is not: its kind, with the article.
+    /// A kind that is not supported, named with its article.
     Other(&'static str),
 }
 
-/// The kind of video that a file is by its name, which one that is empty or cut short has too, or by its first
-/// bytes. `None`: it is no video.
+/// The kind of video in a file, by its name or by its first bytes. The name also recognises a video
+/// that is empty or truncated. `None` if the file is not a video.
 pub(crate) fn video_kind(path: &Path) -> Option<VideoKind> {
     if is_video_name(path) {
         return Some(VideoKind::Y4m);
@@ -41,7 +41,7 @@ pub(crate) fn video_kind(path: &Path) -> Option<VideoKind> {
     }
 }
 
-/// Whether a file is named like a video.
+/// Whether a file has the name of a video.
 pub(crate) fn is_video_name(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("y4m"))
 }
@@ -52,11 +52,11 @@ struct VideoFile {
     path: PathBuf,
     video: Video,
     listing: Listing,
-    /// Where the pixels of each whole frame begin.
+    /// The position of the pixels of each complete frame.
     frames: Vec<u64>,
-    /// What is behind them, if it is no frame.
+    /// The error for the data after them, if it is not a frame.
     rest: Option<SourceError>,
-    /// Size and hash, where they are taken.
+    /// Size and hash, if they are computed.
     id: Option<OnceLock<Result<InputId, SourceError>>>,
 }
 
@@ -82,7 +82,8 @@ pub(crate) fn open_video(
     Ok(Arc::new(VideoFile { path: path.to_owned(), video, listing, frames, rest, id }))
 }
 
-/// Where the pixels of each frame begin, and what the rest is, if there is any.
+/// The positions of the pixels of each frame, and the error for the rest of the file, if there is a
+/// rest.
 fn find_frames(
     video: &Video,
     mut reader: BufReader<std::fs::File>,
@@ -107,7 +108,7 @@ fn find_frames(
             return Ok((frames, Some(error)));
         }
         frames.push(start);
-        // Not `seek`, which would throw away what has been read ahead of small frames.
+        // `seek` would discard the buffer, which may hold several small frames.
         reader.seek_relative(bytes as i64).map_err(failed)?;
     }
 }

@@ -1,4 +1,4 @@
-//! What the frames of a file and of a stream have in common.
+//! Code that videos in files and in streams share.
 
 use std::io::{self, BufRead, Read};
 use std::path::PathBuf;
@@ -12,20 +12,20 @@ use crate::error::{ReadError, ReadErrorKind};
 use crate::guides::{DepthChannels, GuideOptions, MotionChannels};
 use crate::read_options::ReadOptions;
 
-/// A line before pixels.
+/// The line in front of the pixels.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Line {
-    /// Its bytes, without the end of the line.
+    /// A complete line, without its line end.
     Whole(Vec<u8>),
-    /// There is nothing more.
+    /// The video has ended.
     None,
-    /// All the bytes there are, without an end.
+    /// The remaining bytes, which have no line end.
     Cut(Vec<u8>),
-    /// The first bytes of a line of more than [`MAX_LINE`].
+    /// The first bytes of a line that is longer than [`MAX_LINE`].
     TooLong(Vec<u8>),
 }
 
-/// The next line.
+/// Reads the next line.
 pub(super) fn read_line(reader: &mut impl BufRead) -> io::Result<Line> {
     let mut line = Vec::new();
     reader.by_ref().take(MAX_LINE as u64).read_until(b'\n', &mut line)?;
@@ -39,7 +39,8 @@ pub(super) fn read_line(reader: &mut impl BufRead) -> io::Result<Line> {
     })
 }
 
-/// Why no frame begins with a line: what is wrong, and how to mend it. `None`: one does.
+/// The reason why a line does not begin a frame, and how to correct it. `None` if it does begin
+/// one.
 pub(super) fn not_a_frame(line: &Line) -> Option<(String, &'static str)> {
     let (bytes, cut) = match line {
         Line::Whole(bytes) if bytes == b"FRAME" || bytes.starts_with(b"FRAME ") => return None,
@@ -58,13 +59,13 @@ pub(super) fn not_a_frame(line: &Line) -> Option<(String, &'static str)> {
     Some((format!("it begins with {begins:?} instead of FRAME"), AGAIN))
 }
 
-/// How to mend what is damaged.
+/// How to repair a damaged video.
 pub(super) const AGAIN: &str = "copy or write the video again";
 
-/// A video whose header is read.
+/// A video whose header has been read.
 #[derive(Debug)]
 pub(super) struct Video {
-    /// What it is called.
+    /// The name of the video in results and messages.
     pub(super) name: String,
     pub(super) header: Header,
     conversion: Conversion,
@@ -106,13 +107,13 @@ impl Video {
         SourceError::new(format!("{}, frame {frame}: {what}", self.name), help)
     }
 
-    /// There is no such frame.
+    /// The error for a frame after the end.
     pub(super) fn ended(&self, frames: usize) -> SourceError {
         let frames = if frames == 1 { "1 frame" } else { &format!("{frames} frames") };
         self.end(&format!("ends after {frames}"))
     }
 
-    /// There is no such frame that could be found.
+    /// The error for a frame after a damaged one.
     pub(super) fn damaged(&self, whole: usize) -> SourceError {
         match whole {
             0 => self.end("is damaged from its beginning"),
@@ -128,19 +129,19 @@ impl Video {
         }
     }
 
-    /// Of a frame whose pixels are not all there.
+    /// The error for a frame whose pixels are incomplete.
     pub(super) fn cut(&self, frame: usize, bytes: u64) -> SourceError {
         let what =
             format!("it is cut short: {bytes} of {} bytes are there", self.header.frame_bytes());
         self.error(frame, &what, AGAIN)
     }
 
-    /// Bytes of a pixel in memory.
+    /// The memory for a pixel, in bytes.
     pub(super) fn bytes_per_pixel(&self) -> u64 {
         if self.header.colour.chroma.is_some() { 12 } else { 4 }
     }
 
-    /// The picture of the bytes of a frame.
+    /// The picture of a frame's bytes.
     pub(super) fn picture(
         &self,
         frame: usize,
@@ -158,12 +159,13 @@ impl Video {
         Ok(Picture { missing, pixel_aspect: self.header.pixel_aspect, ..Picture::new(picture) })
     }
 
-    /// There is nothing beside the colour.
+    /// The error that a video has neither motion nor depth.
     pub(super) fn no_guides(&self) -> Result<PictureGuides, SourceError> {
         Err(self.not_open_exr())
     }
 
-    /// What a user has named is missing; what is only looked for need not be there.
+    /// The motion or depth that the user has named. What is looked for automatically may be
+    /// missing.
     fn missing(&self) -> MissingGuides {
         let motion = !matches!(self.guides.motion, MotionChannels::None | MotionChannels::Auto);
         let depth = !matches!(self.guides.depth, DepthChannels::None | DepthChannels::Auto);
@@ -179,7 +181,7 @@ impl Video {
     }
 }
 
-/// The system refused.
+/// An error of the operating system.
 pub(super) fn unreadable(name: &str, error: &io::Error) -> SourceError {
     SourceError::new(
         format!("{name}: it cannot be read: {error}"),

@@ -1,35 +1,36 @@
-//! The first line of a video: size, rate, colour and what else it declares.
+//! The first line of a video: size, frame rate, colour and other declarations.
 
 use super::colour::Colour;
 use super::options::CodeRange;
 
-/// What a video begins with.
+/// The first bytes of a video.
 pub(super) const MAGIC: &[u8] = b"YUV4MPEG2";
 
-/// Bytes that a line may have, its end with it: of the header, and before a frame.
+/// The largest length of a line in bytes, including its end: of the header, and in front of a
+/// frame.
 pub(super) const MAX_LINE: usize = 4096;
 
-/// What the first line says.
+/// The content of the first line.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Header {
     pub(super) width: usize,
     pub(super) height: usize,
     pub(super) colour: Colour,
-    /// What XCOLORRANGE says.
+    /// The range that XCOLORRANGE declares.
     pub(super) range: Option<CodeRange>,
-    /// Frames a second, where they are known.
+    /// Frames per second, if known.
     pub(super) fps: Option<f64>,
-    /// Width of a pixel over its height; 1 where it is not known.
+    /// Ratio of a pixel's width to its height; 1 if it is not known.
     pub(super) pixel_aspect: f32,
 }
 
-/// Why a header is not read: what is wrong, and how to mend it.
+/// The reason why a header is refused, and how to correct it.
 pub(super) type Refused = (String, &'static str);
 
 const REWRITE: &str = "write it again, such as with ffmpeg -i FILE -f yuv4mpegpipe";
 
 impl Header {
-    /// Reads the first line, without its end. `megapixels` is the most that a frame may have.
+    /// Reads the first line, without its end. `megapixels` is the largest allowed size of a frame.
     pub(super) fn parse(line: &[u8], megapixels: u64) -> Result<Self, Refused> {
         let damaged = |what: String| (what, REWRITE);
         if line.split(|byte| *byte == b' ').next() != Some(MAGIC) {
@@ -55,7 +56,7 @@ impl Header {
                         seen.range = Some(range);
                         continue;
                     }
-                    // The comments of other programs.
+                    // Comments of other programs are ignored.
                     None => continue,
                 },
                 _ => return Err(damaged(format!("its header has {field:?}, which is no field"))),
@@ -66,7 +67,7 @@ impl Header {
         seen.header(megapixels)
     }
 
-    /// Samples of Y', and of Cb and of Cr.
+    /// The number of samples of Y', and of each of Cb and Cr.
     pub(super) fn samples(&self) -> [usize; 2] {
         let chroma = self.chroma_size().map_or(0, |(width, height)| width * height);
         [self.width * self.height, chroma]
@@ -78,14 +79,14 @@ impl Header {
         Some((chroma.across.count(self.width), chroma.down.count(self.height)))
     }
 
-    /// Bytes of a frame, without the line before it.
+    /// Bytes of a frame, without the line in front of it.
     pub(super) fn frame_bytes(&self) -> usize {
         let [luma, chroma] = self.samples();
         (luma + 2 * chroma) * self.colour.sample_bytes()
     }
 }
 
-/// The fields of a header, as text that is not parsed yet.
+/// The fields of a header, before they are parsed.
 #[derive(Debug, Default)]
 struct Fields<'a> {
     width: Option<&'a str>,
@@ -153,7 +154,7 @@ impl Fields<'_> {
     }
 }
 
-/// Refuses a field that was there before.
+/// Refuses a field that has occurred before.
 fn check_new(before: Option<&str>, key: &str) -> Result<(), Refused> {
     match before {
         None => Ok(()),
@@ -182,12 +183,12 @@ fn side(value: Option<&str>, key: char) -> Result<u64, Refused> {
     }
 }
 
-/// Digits alone, without a sign.
+/// A number of digits only, without a sign.
 fn digits(text: &str) -> Option<u64> {
     text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().ok()).flatten()
 }
 
-/// A ratio of whole numbers; `0:0` stands for one that is not known.
+/// A ratio of whole numbers; `0:0` means that it is not known.
 fn ratio(value: Option<&str>, key: char) -> Result<Option<f64>, Refused> {
     let Some(value) = value else { return Ok(None) };
     let parts =

@@ -1,8 +1,9 @@
-//! YUV4MPEG2 video (`*.y4m`): what `ffmpeg -f yuv4mpegpipe` writes, of 8, 10 and 12 bits, from files and from
-//! streams.
+//! YUV4MPEG2 video (`*.y4m`), as `ffmpeg -f yuv4mpegpipe` writes it, with 8, 10 or 12 bits, from
+//! files and from streams.
 //!
-//! A header line, then frames: a line that begins with `FRAME`, the plane of Y', and those of Cb and Cr where
-//! there is colour. Nothing is rounded on the way to R'G'B' ([`convert`]).
+//! A header line is followed by frames. Each frame has a line that begins with `FRAME`, the plane
+//! of Y', and those of Cb and Cr if there is colour. Nothing is rounded on the way to R'G'B'
+//! ([`convert`]).
 
 mod colour;
 mod convert;

@@ -1,12 +1,13 @@
-//! How the codes of a video are to be understood, where the user says so.
+//! Options for the codes of a video, which override its header.
 
 use fovqa_params::{OrAuto, words};
 use serde::{Deserialize, Serialize};
 
 words! {
-    /// Which codes stand for black and white.
+    /// The codes that stand for black and white.
     pub enum CodeRange {
-        /// 16 to 235 for Y', 16 to 240 for Cb and Cr; four and sixteen times that at 10 and 12 bits.
+        /// 16 to 235 for Y', 16 to 240 for Cb and Cr; multiplied by four at 10 bits and by sixteen
+        /// at 12 bits.
         Limited "limited" "16 to 235 (of 8 bits) from black to white";
         /// All codes.
         Full "full" "All codes from black to white";
@@ -18,7 +19,8 @@ impl OrAuto for CodeRange {
 }
 
 words! {
-    /// The weights of R', G' and B' in Y', which Cb and Cr were made with too. Primaries are left as they are.
+    /// The weights of R', G' and B' in Y', from which Cb and Cr are derived too. Primaries are not
+    /// converted.
     pub enum ColourMatrix {
         /// Rec. ITU-R BT.601: 0.299, 0.587, 0.114.
         Bt601 "bt601" "Rec. ITU-R BT.601, of standard definition";
@@ -33,13 +35,13 @@ impl OrAuto for ColourMatrix {
     const AUTO: &'static str = "BT.709 from 720 lines up, else BT.601";
 }
 
-/// How the codes of a video are to be understood, where the user says so.
+/// Options for the codes of a video, which override its header.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Y4mOptions {
-    /// Which codes are black and white; `None`: as the header says, else limited.
+    /// The codes of black and white; `None` means as the header says, else limited.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<CodeRange>,
-    /// What Y', Cb and Cr were made with; `None`: BT.709 from 720 lines up, else BT.601.
+    /// The matrix of Y', Cb and Cr; `None` means BT.709 from 720 lines up, else BT.601.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub matrix: Option<ColourMatrix>,
 }

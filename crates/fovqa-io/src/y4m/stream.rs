@@ -1,4 +1,5 @@
-//! A video that comes as it is read, such as from standard input: each frame once, in order, and none is kept.
+//! A video that is read from a stream such as standard input: each frame once, in order, without
+//! keeping any.
 
 use std::fmt;
 use std::io::{self, BufRead, BufReader, IsTerminal, Read};
@@ -10,13 +11,13 @@ use fovqa_frame::source::{Length, Listing, Origin, Picture, PictureGuides, Sourc
 use super::frames::{Line, Video, not_a_frame, read_line, unreadable};
 use crate::read_options::ReadOptions;
 
-/// What standard input is called.
+/// The name of standard input in messages.
 const STANDARD_INPUT: &str = "standard input";
 
-/// Bytes that are asked of the system at a time.
+/// Bytes that are read from the system at a time.
 const BUFFER: usize = 1 << 16;
 
-/// The video on standard input. It can be had once in a process.
+/// The video on standard input. It can be opened once per process.
 pub(crate) fn standard_input(options: &ReadOptions) -> Result<Arc<dyn Source>, SourceError> {
     static IS_TAKEN: AtomicBool = AtomicBool::new(false);
     let refused = |what: &str, help: &str| {
@@ -35,11 +36,12 @@ pub(crate) fn standard_input(options: &ReadOptions) -> Result<Arc<dyn Source>, S
     video_stream(STANDARD_INPUT.to_owned(), io::stdin(), options)
 }
 
-/// A video that is read from anything that gives bytes, such as a pipe or a socket: the header now, each frame
-/// when it is asked for. Memory is that of a frame. `name` is what results and messages call it.
+/// A video that is read from any byte source, such as a pipe or a socket. The header is read
+/// immediately, and each frame when it is asked for, so that only one frame is in memory. `name` is
+/// the name in results and messages.
 ///
 /// # Errors
-/// When it does not begin with a header that is read.
+/// When the data does not begin with a supported header.
 pub fn video_stream(
     name: String,
     reader: impl Read + Send + 'static,
@@ -61,17 +63,17 @@ struct VideoStream {
 
 struct State {
     reader: BufReader<Box<dyn Read + Send>>,
-    /// The frame that comes next.
+    /// The index of the next frame.
     next: usize,
-    /// Once nothing more comes.
+    /// How the stream ended, once it has ended.
     end: Option<End>,
 }
 
 /// How a stream ended.
 enum End {
-    /// Behind a frame.
+    /// After a complete frame.
     Whole,
-    /// In a frame that cannot be read. Where the next one would begin is not known.
+    /// In a frame that cannot be read. The start of the next frame is not known.
     Damaged,
 }
 
@@ -83,11 +85,12 @@ impl fmt::Debug for VideoStream {
 
 impl VideoStream {
     fn lock(&self) -> MutexGuard<'_, State> {
-        // A reader that panicked has left the place in the stream unknown: what follows is checked.
+        // A reader that panicked has left the position in the stream unknown, but the following
+        // data is checked.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The bytes of a frame; those before it are passed over.
+    /// The bytes of a frame. Frames before it are skipped.
     fn bytes(&self, frame: usize) -> Result<Vec<u8>, SourceError> {
         let mut state = self.lock();
         if state.end.is_none() && frame < state.next {
@@ -109,7 +112,7 @@ impl VideoStream {
 }
 
 impl State {
-    /// Reads the frame that comes next.
+    /// Reads the next frame.
     fn read(&mut self, video: &Video, bytes: &mut Vec<u8>) -> Result<(), SourceError> {
         let result = self.read_frame(video, bytes);
         match &result {
@@ -130,7 +133,7 @@ impl State {
         if let Some((what, help)) = not_a_frame(&line) {
             return Err(video.error(frame, &what, help));
         }
-        // Grows as bytes come: a header alone does not take memory.
+        // The buffer grows with the data, so that a header alone does not allocate memory.
         let wanted = video.header.frame_bytes() as u64;
         self.reader.by_ref().take(wanted).read_to_end(bytes).map_err(failed)?;
         let there = bytes.len() as u64;
@@ -160,7 +163,7 @@ impl Source for VideoStream {
         self.video.no_guides()
     }
 
-    /// None that could be looked at again.
+    /// A stream has no inputs that could be read again.
     fn origins(&self, _frame: usize) -> Vec<(String, Origin)> {
         Vec::new()
     }

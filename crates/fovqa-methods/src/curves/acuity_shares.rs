@@ -1,5 +1,5 @@
-//! The field of view against acuity: how much of it is shaded too sparsely, and how many samples
-//! are more than acuity asks for.
+//! Compares a method with acuity over the field of view: how much of the field is shaded too
+//! sparsely, and how many samples exceed the need of acuity.
 
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::{Eccentricity, PixelScale};
@@ -9,25 +9,27 @@ use super::setting::CurveSetting;
 use crate::registry::Method;
 use crate::setting::Place;
 
-/// Cells along the longer side of the frame.
+/// The number of cells along the longer side of the frame.
 const CELLS: f64 = 720.0;
-/// A rate that follows acuity is not below it by a rounding.
+/// Relative tolerance of comparisons, so that a rate that follows acuity is not below it by a
+/// rounding error.
 const EQUAL: f64 = 1e-9;
 
-/// Shares of a frame that a method shades below and above acuity. Shares are of the frame's pixels, taken at the centres
-/// of cells, at most 1/720 of the longer side wide: exact to about a thousandth.
+/// The shares of a frame that a method shades below and above acuity. They are shares of the
+/// frame's pixels, evaluated at the centres of cells that are at most 1/720 of the longer side
+/// wide, with a precision of about 1/1000.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AcuityShares {
     /// Share of the field whose radial rate is below acuity.
     pub below_radial: f64,
-    /// Share whose tangential rate is.
+    /// Share of the field whose tangential rate is below acuity.
     pub below_tangential: f64,
-    /// Share where either is.
+    /// Share of the field where either rate is below acuity.
     pub below: f64,
-    /// Shaded samples beyond what acuity asks for: the integral over the frame of
-    /// density (1 - min(1, f/radial) min(1, f/tangential)), times the share that is shaded.
+    /// The number of shaded samples beyond the need of acuity: the integral over the frame of
+    /// density (1 - min(1, f/radial) min(1, f/tangential)), multiplied by the share that is shaded.
     pub samples_above: f64,
-    /// These as a share of all samples that are shaded and seen.
+    /// These samples as a share of all samples that are shaded and visible.
     pub above: f64,
 }
 
@@ -71,7 +73,7 @@ pub fn acuity_shares(
             let density = foveation.density(place);
             samples += density;
             let useful = (needed / radial).min(1.0) * (needed / tangential).min(1.0);
-            // What follows acuity spends nothing above it, whatever the last bit says.
+            // A rate that follows acuity has no samples above it, whatever its last bit is.
             if 1.0 - useful > 2.0 * EQUAL {
                 sums.samples_above += density * (1.0 - useful);
             }
@@ -115,15 +117,16 @@ mod tests {
     fn vafr_is_acuity_and_nothing_else() {
         let paper = found("vafr", &screen(2560, 1440, Tangential::Paper));
         assert_eq!(paper, AcuityShares::default());
-        // In visual angle its tangential rate is f cos e: below acuity everywhere.
+        // In visual angle the tangential rate is f cos e, which is below acuity everywhere.
         let angle = found("vafr", &screen(2560, 1440, Tangential::Angle));
         assert!((angle.below_tangential - 1.0).abs() < 1e-12 && angle.below_radial == 0.0);
         assert!((angle.below - 1.0).abs() < 1e-12 && angle.above == 0.0);
     }
 
-    /// What is reprojected is not shaded: neither above acuity nor below it.
+    /// Reprojected samples are not shaded, so they do not count as above acuity. The shares
+    /// stay the same.
     #[test]
-    fn samples_above_are_of_those_that_are_shaded() {
+    fn samples_above_count_shaded_samples_only() {
         let screen = screen(2560, 1440, Tangential::Paper);
         let with = |share: f64| {
             let mut method = Method::find("vafr").unwrap();
@@ -139,7 +142,8 @@ mod tests {
         assert_eq!((half.above, half.below), (all.above, all.below));
     }
 
-    /// The display's radial rate meets acuity on one circle, as it rises and acuity falls.
+    /// The display's radial rate rises with eccentricity while acuity falls, and they are equal on
+    /// a circle.
     #[test]
     fn a_display_is_below_acuity_inside_a_circle() {
         let screen = screen(2560, 1440, Tangential::Paper);
@@ -160,11 +164,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_spent_above_grows_with_the_display() {
+    fn samples_above_acuity_grow_with_the_display() {
         let of = |w, h| found("full", &screen(w, h, Tangential::Paper));
         let (small, large) = (of(1280, 720), of(7680, 4320));
         assert!(large.below < small.below && large.above > small.above);
-        // A display so fine that it is nowhere below acuity needs as many samples as acuity has.
+        // A display that is below acuity nowhere needs as many samples as acuity does.
         let fine = of(60_000, 33_750);
         assert!(fine.below < 1e-3);
         let screen = screen(60_000, 33_750, Tangential::Paper);
@@ -184,12 +188,13 @@ mod tests {
             });
             (screen, acuity)
         };
-        // Acuity of one frequency, a frame with the gaze on its border, sides of unlike length: the
-        // display meets 9 cpd from one circle on, and what it has above is 1 - (9/f)².
+        // Acuity is constant, the gaze is on the frame's border, and the sides are unequal: the
+        // display reaches 9 cpd on a circle and exceeds it outside, where its share above acuity is
+        // 1 - (9/f)².
         for (width, height, gaze) in [(300, 1500, [0.0, 750.0]), (1500, 300, [750.0, 300.0])] {
             let probe = at((width, height), gaze, 9.0).0;
             let focal_px = probe.view.focal_px[0];
-            // cos² e = (π/180) f / 2 / cpd: where the rate is that of acuity.
+            // cos² e = (π/180) f / 2 / cpd where the rate equals acuity.
             let cpd = focal_px * 1f64.to_radians() / 2.0 * 1.1;
             let (screen, acuity) = at((width, height), gaze, cpd);
             let full = Method::find("full").unwrap();
@@ -211,7 +216,8 @@ mod tests {
         }
     }
 
-    /// Along an axis RMFR is sparser than across it: above acuity one way is no less of it the other.
+    /// Along an axis RMFR is sparser than across it: a rate above acuity in one direction does not
+    /// compensate one below it in the other.
     #[test]
     fn one_direction_does_not_make_up_for_the_other() {
         let screen = screen(1440, 1600, Tangential::Paper);
@@ -239,14 +245,14 @@ mod tests {
         assert!((found.above / (above / samples) - 1.0).abs() < 2e-3, "{found:?}");
     }
 
-    /// Where a method has no rate, nothing of acuity is met, and nothing is spent.
+    /// Where a method has no rate, it is below acuity and has no samples.
     #[test]
     fn where_there_is_no_rate_there_is_too_little() {
         let screen = screen(2560, 1440, Tangential::Paper);
         let mut clamped = Method::find("vafr").unwrap();
         clamped.set("beyond", &fovqa_params::ParamValue::Text("clamp".into())).unwrap();
         let found = acuity_shares(&clamped, &screen, &AcuityModel::default()).unwrap();
-        // Beyond 60° lie 40 % of the pixels.
+        // 40 % of the pixels lie beyond 60°.
         let radius = screen.view.focal_px[0] * 60f64.to_radians().tan();
         let (mut beyond, half) = (0usize, radius * radius);
         for y in 0..720 {
@@ -270,11 +276,11 @@ mod tests {
                 cap_cpd: None,
             })
         };
-        // The display has 0.09 cpd at the gaze, and three times that at the border above.
+        // The display has 0.09 cpd at the gaze, and three times as much at the upper border.
         let found = acuity_shares(&full, &screen(30, 30, Tangential::Paper), &flat(0.2)).unwrap();
         let pixels = found.below * 900.0;
         assert!(pixels > 100.0 && (pixels - pixels.round()).abs() < 1e-9, "{pixels}");
-        // Cells of 721/720 x 1 pixels: acuity asks for next to nothing, and all is above.
+        // Cells have 721/720 x 1 pixels. Acuity is almost 0, so that all samples are above it.
         let wide = screen(721, 2, Tangential::Paper);
         let wide =
             CurveSetting { view: fovqa_vision::View { focal_px: [900.0; 2], ..wide.view }, ..wide };

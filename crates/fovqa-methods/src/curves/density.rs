@@ -1,22 +1,22 @@
-//! Samples per pixel over the field, as a picture.
+//! A map of the samples per pixel over the field.
 
 use super::error::CurveError;
 use super::setting::CurveSetting;
 use crate::registry::Method;
 use crate::setting::Place;
 
-/// Samples per pixel of a frame, at the centres of cells, row by row.
+/// The samples per pixel of a frame at the centres of cells, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DensityMap {
-    /// Cells of a row.
+    /// The number of cells in a row.
     pub columns: usize,
-    /// Rows.
+    /// The number of rows.
     pub rows: usize,
-    /// Samples per pixel; 0 where there are none.
+    /// Samples per pixel; 0 where the method has none.
     pub values: Vec<f64>,
 }
 
-/// The density of a method over a frame, in cells: `cells` along its longer side at most.
+/// The density of a method over a frame, in cells: at most `cells` along its longer side.
 ///
 /// # Errors
 /// When the method cannot be applied.
@@ -69,9 +69,9 @@ mod tests {
         density_map(&Method::find(name).unwrap(), &screen, cells).unwrap()
     }
 
-    /// The density at the centre of each cell, row by row.
+    /// Values are the densities at the centres of the cells, row by row.
     #[test]
-    fn cells_stand_at_their_centres() {
+    fn cells_are_sampled_at_their_centres() {
         let found = map("rmfr", (800, 1000), [200.0, 900.0], 50);
         assert_eq!((found.columns, found.rows, found.values.len()), (40, 50, 2000));
         let axis = |side: f64, gaze: f64, at: f64| {
@@ -93,7 +93,7 @@ mod tests {
     fn cells_are_no_smaller_than_pixels_and_never_none() {
         let small = map("full", (30, 20), [15.0, 10.0], 100);
         assert_eq!((small.columns, small.rows), (30, 20));
-        // Cells of 30/7 x 20/5 pixels.
+        // Cells have 30/7 x 20/5 pixels.
         let oblong = map("rmfr", (30, 20), [15.0, 0.0], 7);
         assert_eq!((oblong.columns, oblong.rows), (7, 5));
         let y = |row: f64| 7.6 * 27.6 / ((4.0 * (row + 0.5) + 7.6).powi(2));

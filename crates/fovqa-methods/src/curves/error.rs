@@ -1,11 +1,11 @@
-//! Why a curve cannot be computed.
+//! Errors of curves.
 
 use fovqa_vision::acuity::PiecewiseMarError;
 use thiserror::Error;
 
 use crate::error::MethodError;
 
-/// Why a curve cannot be computed.
+/// The reason why a curve cannot be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CurveError {
     /// The method cannot be applied.

@@ -1,5 +1,6 @@
-//! Shading rate against acuity: what a foveation method shades at each eccentricity, what that costs,
-//! and where its rate falls below the acuity curve. Numbers only: figures and tables are made elsewhere.
+//! Shading rate against acuity: the rate of a foveation method at each eccentricity, its cost, and
+//! where it is below the acuity curve. This module computes numbers only; figures and tables are
+//! made elsewhere.
 
 mod acuity_shares;
 mod density;

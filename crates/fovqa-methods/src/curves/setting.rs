@@ -1,16 +1,16 @@
-//! Where a curve is computed: a screen, a gaze and a direction, and the range of eccentricities.
+//! The conditions of a curve: a screen, a gaze and a direction, and the range of eccentricities.
 
 use fovqa_vision::{EccentricityKind, Tangential, View};
 
 use crate::error::MethodError;
 use crate::setting::Setting;
 
-/// The eccentricities of curves: from 0 on.
+/// The range of eccentricities of curves, starting at 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurveRange {
-    /// From one to the next, degrees.
+    /// Step between two eccentricities in degrees.
     pub step_deg: f64,
-    /// The last one, degrees, for methods whose curves do not end with the frame.
+    /// The last eccentricity in degrees, for methods whose curves do not end with the frame.
     pub to_deg: f64,
 }
 
@@ -21,32 +21,32 @@ impl Default for CurveRange {
 }
 
 impl CurveRange {
-    /// Steps finer than this are no longer told apart in a plot or a table.
+    /// The smallest step: finer ones make no difference in a plot or a table.
     pub const LEAST_STEP_DEG: f64 = 0.001;
-    /// Where eccentricity ends.
+    /// The largest eccentricity of a curve.
     pub const MOST_DEG: f64 = 179.0;
 }
 
-/// A screen, a gaze, and how rates are measured.
+/// A screen, a gaze, and the conventions for rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurveSetting {
     /// The frame.
     pub view: View,
-    /// The gaze in pixels; one outside of the frame is taken at its border.
+    /// The gaze in pixels. A gaze outside the frame is moved to its border.
     pub gaze_px: [f64; 2],
-    /// Direction of the curve from the gaze, degrees from +x towards +y.
+    /// Direction of the curve from the gaze, in degrees from +x towards +y.
     pub direction_deg: f64,
-    /// What a degree across the curve is.
+    /// The meaning of a degree across the curve.
     pub tangential: Tangential,
-    /// How eccentricity is measured.
+    /// The definition of eccentricity.
     pub eccentricity: EccentricityKind,
 }
 
 impl CurveSetting {
-    /// What methods are applied to.
+    /// The setting to which methods are applied.
     ///
     /// # Errors
-    /// When the frame has no pixels or the gaze is no place.
+    /// When the frame has no pixels or the gaze is not finite.
     pub fn setting(&self) -> Result<Setting, MethodError> {
         Setting::new(&self.view, self.gaze_px)
     }

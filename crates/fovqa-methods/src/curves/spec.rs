@@ -1,27 +1,27 @@
-//! What a curve shows: an acuity model, or a method on a screen, its budget solved.
+//! The content of a curve: an acuity model, or a method on a screen with its budget solved.
 
 use fovqa_vision::acuity::AcuityModel;
 
 use super::setting::CurveSetting;
-use crate::budget::BudgetOf;
+use crate::budget::BudgetSamples;
 use crate::registry::Method;
 
-/// One curve.
+/// The specification of one curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveSpec {
-    /// The name its file gives it: the same for every setting.
+    /// The name in its file, which is the same for every setting.
     pub name: String,
-    /// What is drawn.
+    /// The model or method of the curve.
     pub source: CurveSource,
-    /// Parameters that are not at their defaults, `name=value` with `;` between them.
+    /// Parameters that differ from their defaults, as `name=value` separated by `;`.
     pub parameters: String,
 }
 
 impl CurveSpec {
-    /// A curve of a method, its budget solved.
+    /// The specification of a method's curve; a budget is solved.
     ///
     /// # Errors
-    /// When the method cannot be applied there, or does not reach the budget; in words.
+    /// A message, when the method cannot be applied or cannot reach the budget.
     pub fn of_method(
         name: String,
         method: Method,
@@ -31,10 +31,11 @@ impl CurveSpec {
     ) -> Result<Self, String> {
         let over = setting.setting().map_err(|error| error.to_string())?;
         let (mut method, mut parameters) = (method, parameters);
-        if let Some(CurveBudget { share, of }) = budget {
-            let found = method.at_budget(&over, share, of).map_err(|error| error.to_string())?;
+        if let Some(CurveBudget { share, samples }) = budget {
+            let found =
+                method.at_budget(&over, share, samples).map_err(|error| error.to_string())?;
             method = found.method;
-            // What is solved stands for what was given.
+            // The solved value replaces a given one.
             let given = parameters.split(';').filter(|given| {
                 !given.is_empty() && given.split('=').next() != Some(found.parameter)
             });
@@ -46,25 +47,25 @@ impl CurveSpec {
     }
 }
 
-/// What a curve shows.
+/// The model or method that a curve shows.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CurveSource {
     /// An acuity model, which needs no screen.
     Acuity(AcuityModel),
-    /// A method on a screen.
+    /// A method applied to a screen.
     Method {
-        /// The method, its budget solved.
+        /// The method, after its budget was solved.
         method: Method,
         /// The screen.
         setting: CurveSetting,
     },
 }
 
-/// A budget that a method is solved for.
+/// The budget for which a method is solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurveBudget {
-    /// Samples over the frame's pixels.
+    /// The number of samples divided by the number of the frame's pixels.
     pub share: f64,
-    /// Which samples.
-    pub of: BudgetOf,
+    /// The samples that count.
+    pub samples: BudgetSamples,
 }

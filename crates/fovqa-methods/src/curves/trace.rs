@@ -1,4 +1,4 @@
-//! A curve: rates at rising eccentricities in one direction.
+//! Computes a curve: rates at rising eccentricities in one direction.
 
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::{EccentricityKind, PixelScale};
@@ -12,19 +12,19 @@ use crate::foveation::{Counts, Foveation, Reach};
 use crate::registry::Method;
 use crate::setting::Place;
 
-/// A curve with what its method costs.
+/// A curve, with the cost of its method.
 #[derive(Debug, Clone)]
 pub struct Curve {
-    /// What it shows.
+    /// The specification of the curve.
     pub spec: CurveSpec,
     /// Its values, at rising eccentricities.
     pub points: Vec<CurvePoint>,
-    /// Samples of the method in a frame; `None` for an acuity model.
+    /// The numbers of samples of the method in a frame; `None` for an acuity model.
     pub counts: Option<Counts>,
-    /// Shares of the frame below and above acuity; `None` for an acuity model, and for a curve that was
-    /// computed by itself.
+    /// Shares of the frame below and above acuity; `None` for an acuity model, and for a curve that
+    /// was computed by itself.
     pub shares: Option<AcuityShares>,
-    /// What a reader has to know wherever the curve is shown.
+    /// Notes that must accompany the curve wherever it is shown.
     pub notes: Vec<String>,
 }
 
@@ -33,11 +33,11 @@ pub struct Curve {
 pub struct CurvePoint {
     /// Eccentricity in degrees.
     pub eccentricity_deg: f64,
-    /// Along the line from the gaze.
+    /// The rate along the line from the gaze.
     pub radial_cpd: f64,
-    /// Across that line; an acuity model has the same rate in both directions.
+    /// The rate across that line. An acuity model has the same rate in both directions.
     pub tangential_cpd: f64,
-    /// The display's own rate along the line and across it; `None` without a screen.
+    /// The display's own rates along the line and across it; `None` without a screen.
     pub display_cpd: Option<[f64; 2]>,
     /// Samples per pixel of area; `None` without a screen.
     pub samples_per_pixel: Option<f64>,
@@ -64,7 +64,7 @@ pub fn trace_all(
     specs.par_iter().map(traced).collect()
 }
 
-/// Computes a curve.
+/// Computes one curve.
 ///
 /// # Errors
 /// As [`trace_all`].
@@ -75,7 +75,8 @@ pub fn trace(spec: &CurveSpec, range: CurveRange) -> Result<Curve, CurveError> {
     }
 }
 
-/// Multiples of the step, free of its rounding, up to and with the end.
+/// Multiples of the step up to and including the end; each is computed from its index, so that
+/// rounding errors do not add up.
 fn eccentricities_deg(range: CurveRange) -> impl Iterator<Item = f64> {
     const DECIMALS: f64 = 1e9;
     let rounded = move |i: u32| (f64::from(i) * range.step_deg * DECIMALS).round() / DECIMALS;
@@ -120,7 +121,7 @@ fn shading(
     let points: Vec<CurvePoint> = eccentricities_deg(range)
         .map_while(|e| {
             let scale = scale_at(screen, direction, e)?;
-            // The end itself belongs to the curve, however its radius is rounded.
+            // The end belongs to the curve, whichever way its radius is rounded.
             (scale.radius_px <= end_px * (1.0 + 1e-9)).then_some((e, scale))
         })
         .filter_map(|(e, scale)| point(foveation.as_ref(), e, scale, direction))
@@ -134,7 +135,7 @@ fn shading(
     Ok(Curve { spec: spec.clone(), points, counts: Some(foveation.counts()), shares: None, notes })
 }
 
-/// What planar eccentricity makes of pixels that are not square.
+/// A note about planar eccentricity with pixels that are not square, if it applies.
 fn stretched(screen: &CurveSetting) -> Option<String> {
     let [fx, fy] = screen.view.focal_px;
     let CurveSetting { view, eccentricity, .. } = screen;
@@ -193,7 +194,7 @@ mod tests {
 
     use super::*;
 
-    /// 1440x1600, 110° in height: the border is 52.12° away to the side and 55° above.
+    /// 1440x1600, 110° vertical: the border is at 52.12° to the side and 55° above.
     fn screen(gaze_px: [f64; 2], direction_deg: f64, tangential: Tangential) -> CurveSetting {
         let spec = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(110.0) };
         let view = spec.resolve(1440, 1600).unwrap().view;
@@ -221,7 +222,7 @@ mod tests {
         trace(&spec(method, setting), RANGE).unwrap()
     }
 
-    /// Its first and last eccentricity, and how many there are.
+    /// The first and the last eccentricity of a curve, and the number of points.
     fn ends(curve: &Curve) -> (f64, f64, usize) {
         let points = &curve.points;
         (points[0].eccentricity_deg, points[points.len() - 1].eccentricity_deg, points.len())
@@ -232,14 +233,16 @@ mod tests {
         let at = |name: &str, gaze, direction| {
             ends(&curve(find(name, &[]), screen(gaze, direction, Tangential::Paper)))
         };
-        // To the border in the direction: 52.12°, 55° to the last bit, 60° beyond the diagonal.
+        // The curve reaches the border in its direction: at 52.12°, at exactly 55°, at 60° beyond
+        // the diagonal.
         for name in ["rmfr", "deamp"] {
             assert_eq!(at(name, CENTRE, 0.0), (0.0, 52.0, 209), "{name}");
             assert_eq!(at(name, CENTRE, 90.0), (0.0, 55.0, 221), "{name}");
             assert_eq!(at(name, [1440.0, 800.0], 0.0), (0.0, 0.0, 1), "{name}");
             assert_eq!(at(name, [1440.0, 800.0], 180.0), (0.0, 60.0, 241), "{name}");
         }
-        // To the farthest corner, 62.5°, in any direction; with no rate at the gaze.
+        // The curve reaches the farthest corner, at 62.5°, in any direction, and has no rate at the
+        // gaze.
         for name in ["kfr", "lafr"] {
             assert_eq!(at(name, CENTRE, 0.0), (0.25, 60.0, 240), "{name}");
             let far = CurveRange { to_deg: 89.0, ..RANGE };
@@ -247,7 +250,7 @@ mod tests {
             let found = trace(&spec(find(name, &[]), setting), far).unwrap();
             assert_eq!(ends(&found), (0.25, 62.5, 250), "{name}");
         }
-        // On and on, over the plane.
+        // The curve continues over the plane.
         let far = CurveRange { step_deg: 1.0, to_deg: 179.0 };
         for name in ["full", "guenter", "linear", "cps", "visual_polar"] {
             let setting = screen(CENTRE, 0.0, Tangential::Paper);
@@ -270,7 +273,7 @@ mod tests {
         assert_eq!(eccentricities_deg(fine).count(), 11);
     }
 
-    /// A cycle is two samples; across the line a degree is that of the convention.
+    /// A cycle is two samples; across the line, a degree follows the convention.
     #[test]
     fn rows_are_cycles_per_degree() {
         let focal_px = 800.0 / 55f64.to_radians().tan();
@@ -281,7 +284,7 @@ mod tests {
                 let t = focal_px * row.eccentricity_deg.to_radians().tan();
                 let along = PI / 180.0 * focal_px / (cos * cos) / 2.0;
                 let across = if tangential == Tangential::Paper { along } else { along * cos };
-                // Downwards: y along the line, x across it.
+                // Downwards: y is along the line and x across it.
                 let y = 608.0 * 1408.0 / (2.6 * (t + 608.0).powi(2));
                 let x = (288.0 + 720.0) / (2.6 * 288.0);
                 let [display_along, display_across] = row.display_cpd.unwrap();
@@ -297,13 +300,13 @@ mod tests {
             }
             assert!((found.counts.unwrap().samples * 2.6 * 2.6 - 2_304_000.0).abs() < 1e-6);
         }
-        // No row without a number: at the corner itself LaFR's rate is infinite.
+        // Points without a finite rate are left out: at the corner itself LaFR's rate is infinite.
         let kfr = curve(find("lafr", &[]), screen(CENTRE, 0.0, Tangential::Paper));
         assert!(kfr.points.iter().all(|row| row.radial_cpd.is_finite()));
     }
 
     #[test]
-    fn a_gaze_outside_is_taken_at_the_border_and_said() {
+    fn a_gaze_outside_is_moved_to_the_border_with_a_note() {
         let of = |gaze| curve(find("deamp", &[]), screen(gaze, 180.0, Tangential::Paper));
         let (outside, border) = (of([1500.0, 800.0]), of([1440.0, 800.0]));
         assert_eq!(outside.points, border.points);

@@ -1,20 +1,21 @@
-//! At a bound the inner piece holds, however the distance was rounded on its way there.
+//! At a bound the inner piece applies, however the distance was rounded.
 
 use fovqa_params::ParamValue;
 use fovqa_vision::{EccentricityKind, PixelScale, Tangential};
 
 use super::{method, number, setting, view};
-use crate::{BudgetOf, Method, Place, Rates, Setting};
+use crate::{BudgetSamples, Method, Place, Rates, Setting};
 
-/// Frames of many focal lengths: the rounding of a tangent and back differs from one to the next.
+/// Frames of many focal lengths, because the rounding of a tangent and its inverse differs between
+/// them.
 fn frames() -> impl Iterator<Item = (usize, f64)> {
     [600, 800, 1184, 1440, 1600, 2160, 3240]
         .into_iter()
         .flat_map(|side| (40..=130).step_by(5).map(move |fov_deg| (side, f64::from(fov_deg))))
 }
 
-/// Rates at an eccentricity, as a curve asks for them: the distance of both kinds of eccentricity,
-/// in directions along the axes.
+/// Rates at an eccentricity as a curve computes them: with the distances of both kinds of
+/// eccentricity, in directions along the axes.
 fn rates_at(method: &Method, side: usize, fov_deg: f64, e: f64) -> Vec<Option<Rates>> {
     let (view, middle) = (view(side, side, fov_deg), [side as f64 / 2.0; 2]);
     let foveation = method.apply(&Setting::new(&view, middle).unwrap()).unwrap();
@@ -45,13 +46,13 @@ fn a_rate_that_is_asked_for_exactly_is_not_rounded_up() {
             method("cps", &[("transition_deg", number(transition)), ("quantise", word(quantise))])
         };
         let what = format!("{side} px, {fov}°");
-        // 1 - 0.75 (25 - 15) / T is 1/4 for T = 10, 1/2 for T = 15; 3/4 at 20° and 3/8 at 27.5°
-        // for T = 15.
+        // 1 - 0.75 (25 - 15) / T is 1/4 for T = 10 and 1/2 for T = 15; it is 3/4 at 20° and 3/8 at
+        // 27.5° for T = 15.
         all_are(&rates_at(&cps(10.0, "ceil"), side, fov, 25.0), 0.25, &what);
         all_are(&rates_at(&cps(15.0, "ceil"), side, fov, 25.0), 0.5, &what);
         all_are(&rates_at(&cps(15.0, "nearest"), side, fov, 20.0), 1.0, &what);
         all_are(&rates_at(&cps(15.0, "nearest"), side, fov, 27.5), 0.5, &what);
-        // And just beyond.
+        // The next rate applies just on the other side of the bound.
         all_are(&rates_at(&cps(15.0, "ceil"), side, fov, 24.999), 1.0, &what);
         all_are(&rates_at(&cps(10.0, "ceil"), side, fov, 24.999), 0.5, &what);
         all_are(&rates_at(&cps(15.0, "nearest"), side, fov, 20.001), 0.5, &what);
@@ -68,7 +69,7 @@ fn layers_hold_at_their_bounds() {
             all_are(&rates_at(&guenter, side, fov, e), rate, &what);
         }
     }
-    // Of a frame of 90° the layers' angles are the true ones: the density jumps by (3.6 / 2.51)².
+    // In a frame of 90° the layers' angles are the true ones. The density jumps by (3.6 / 2.51)².
     let deamp = Method::find("deamp").unwrap();
     for side in (400..3000).step_by(50) {
         let half = side as f64 / 2.0;
@@ -91,7 +92,7 @@ fn vafr_and_lafr_have_a_rate_where_a_piece_ends() {
         }
         let rates =
             |e| rates_at(&lafr, side, fov, e).into_iter().map(|rates| rates.unwrap().radial);
-        // The rate of the inner kernel goes on to e_f, and jumps behind it.
+        // The rate of the inner kernel continues up to e_f and jumps beyond it.
         for (at, (before, behind)) in rates(4.89).zip(rates(4.889).zip(rates(4.891))) {
             assert!(
                 (at / before - 1.0).abs() < 0.01 && behind > 2.0 * at,
@@ -101,7 +102,7 @@ fn vafr_and_lafr_have_a_rate_where_a_piece_ends() {
     }
 }
 
-/// A factor's ends times a σ may be rounded over what a σ may be.
+/// The limits of the factor multiplied by σ may exceed the limits of σ by a rounding error.
 #[test]
 fn any_sigmas_reach_a_budget() {
     let setting = setting(400, 400, 90.0, [200.0, 200.0]);
@@ -115,7 +116,7 @@ fn any_sigmas_reach_a_budget() {
             ],
         );
         let Method::Deamp(found) =
-            deamp.at_budget(&setting, 0.25, BudgetOf::Buffer).unwrap().method
+            deamp.at_budget(&setting, 0.25, BudgetSamples::Buffer).unwrap().method
         else {
             panic!()
         };

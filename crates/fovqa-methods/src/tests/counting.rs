@@ -1,4 +1,4 @@
-//! Counts in closed form, the optimiser's choice, and the ends of budgets.
+//! Counts in closed form, the result of the optimiser, and the limits of budgets.
 
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
@@ -9,7 +9,7 @@ use fovqa_params::ParamValue;
 use super::{centred, method, number, setting};
 use crate::deamp::Deamp;
 use crate::guenter::{self, Guenter};
-use crate::{BudgetError, BudgetOf, Counts, Method, Place, Setting, deamp};
+use crate::{BudgetError, BudgetSamples, Counts, Method, Place, Setting, deamp};
 
 #[track_caller]
 fn near(found: f64, want: f64, relative: f64) {
@@ -43,7 +43,7 @@ fn buffers_are_the_frame_over_sigma() {
     }
 }
 
-/// Of a log-polar buffer the part on screen ends, at each angle, where the frame ends.
+/// The part of a log-polar buffer on the screen ends, at each angle, where the frame ends.
 #[test]
 fn log_polar_samples_on_screen() {
     for gaze in [[720.0, 800.0], [1438.0, 900.0], [40.0, 1530.0], [0.3, 800.0], [1440.0, 0.0]] {
@@ -75,7 +75,8 @@ fn deamp_counts_its_rings() {
     let params = deamp::Params::default();
     for (gaze, fov) in [([720.0, 800.0], 90.0), ([300.0, 1500.0], 110.0), ([0.0, 1600.0], 70.0)] {
         let setting = setting(1440, 1600, fov, gaze);
-        // Samples times σ of an axis up to t: ∫ f (f + A) / (t + f)² dt = t (f + A) / (t + f).
+        // The number of samples times σ on an axis up to t: ∫ f (f + A) / (t + f)² dt = t (f + A) /
+        // (t + f).
         let axis = |i: usize, half: f64| {
             let side = [1440.0, 1600.0][i];
             let f = 0.38 * side;
@@ -97,7 +98,7 @@ fn deamp_counts_its_rings() {
         let counts = counts(&Method::Deamp(params.clone()), &setting);
         near(counts.samples, want, 1e-12);
         near(counts.samples_seen, want, 1e-12);
-        // Buffers keep what a finer one covers.
+        // Buffers include the samples that a finer layer covers.
         for (i, half) in [[720.0 * t10, 800.0 * t10], [720.0 * t22, 800.0 * t22], [1440.0, 1600.0]]
             .into_iter()
             .enumerate()
@@ -134,7 +135,7 @@ fn refused_at_the_very_ends() {
 
 #[test]
 fn guenter_counts_squares_and_discs() {
-    // Both discs leave the frame on the left; the outer one below, too.
+    // Both discs leave the frame on the left, and the outer one also below.
     let gaze = [100.0, 1200.0];
     let setting = setting(1440, 1600, 110.0, gaze);
     let focal = 800.0 / 55f64.to_radians().tan();
@@ -148,10 +149,10 @@ fn guenter_counts_squares_and_discs() {
     near(found.samples, inner + outer / 4.0 + 1440.0 * 1600.0 / 25.0, 1e-12);
     near(found.buffers[0][0], 100.0 + r1, 1e-12);
     near(found.buffers[1][1], f64::midpoint(r2, 400.0), 1e-12);
-    // A disc less the segment beyond a line at a distance.
+    // A disc minus the segment beyond a line at a distance.
     let segment = |r: f64, d: f64| r * r * (d / r).acos() - d * (r * r - d * d).sqrt();
     let disc1 = PI * r1 * r1 - segment(r1, 100.0);
-    // Of the outer disc, the corner beyond both lines is counted twice.
+    // The corner of the outer disc beyond both lines is subtracted twice.
     let (x, y) = (100.0, 400.0);
     let both = {
         let (ax, ay) = ((r2 * r2 - y * y).sqrt(), (r2 * r2 - x * x).sqrt());
@@ -167,7 +168,7 @@ fn guenter_counts_squares_and_discs() {
     near(discs, disc1 + disc2 / 4.0 + 1440.0 * 1600.0 / 25.0, 1e-9);
 }
 
-/// Against every pair of the grid.
+/// Compares the result with every pair of the grid.
 #[test]
 fn guenter_finds_the_least_of_all_pairs() {
     for (width, height, fov, gaze, m, omega0_deg) in [
@@ -176,7 +177,8 @@ fn guenter_finds_the_least_of_all_pairs() {
         (5760, 3240, 110.0, [2880.0, 1620.0], 0.022, 1.0 / 48.0),
         (11520, 6480, 110.0, [2000.0, 3240.0], 0.01, 1.0 / 48.0),
         (640, 360, 50.0, [320.0, 180.0], 0.0275, 1.0 / 48.0),
-        // Nothing is gained by scales here: the two smallest layers, not one twice.
+        // Scales bring no gain here: the optimum has the two smallest layers, not one of them
+        // twice.
         (1440, 1600, 110.0, [720.0, 800.0], 0.0, 1.0 / 48.0),
     ] {
         let setting = setting(width, height, fov, gaze);
@@ -220,7 +222,7 @@ fn guenter_finds_the_least_of_all_pairs() {
 
 #[test]
 fn coarse_pixels_count_rings() {
-    // All rings lie in the frame.
+    // All rings lie inside the frame.
     let setting = centred(2000, 2400, 100.0);
     let focal = 1200.0 / 50f64.to_radians().tan();
     let disc = |e: f64| PI * (focal * e.to_radians().tan()).powi(2);
@@ -231,7 +233,8 @@ fn coarse_pixels_count_rings() {
     let rings = |half: f64, quarter: f64| {
         disc(half) + (disc(quarter) - disc(half)) / 4.0 + (4_800_000.0 - disc(quarter)) / 16.0
     };
-    // Down to 1/2 at 2/3 of the way and to 1/4 at its end; 3/4 after a third and 3/8 after 5/6.
+    // The rate is down to 1/2 at 2/3 of the way and to 1/4 at its end; it is 3/4 after a third and
+    // 3/8 after 5/6.
     let [ceil, nearest, continuous] = ["ceil", "nearest", "continuous"].map(cps);
     near(ceil.samples, rings(23.0, 27.0), 1e-9);
     near(nearest.samples, rings(19.0, 25.0), 1e-9);
@@ -268,8 +271,8 @@ fn the_linear_fall_off_in_closed_form() {
     near(counts(&Method::find("linear").unwrap(), &setting).samples, want, 1e-10);
 }
 
-/// The least and the largest share that a free parameter reaches.
-fn range(method: &Method, setting: &Setting, of: BudgetOf) -> [f64; 2] {
+/// The smallest and the largest share that a free parameter reaches.
+fn range(method: &Method, setting: &Setting, of: BudgetSamples) -> [f64; 2] {
     match method.at_budget(setting, -1.0, of).unwrap_err() {
         BudgetError::OutOfReach { least, most, .. } => [least, most],
         error => panic!("{error}"),
@@ -283,8 +286,8 @@ fn budgets_reach_as_far_as_their_parameters() {
     let share = |name: &str, params: &[(&str, ParamValue)]| {
         counts(&method(name, params), &setting).samples / pixels
     };
-    let of = |name: &str| range(&Method::find(name).unwrap(), &setting, BudgetOf::Buffer);
-    // σ from 0.1 to 1000.
+    let of = |name: &str| range(&Method::find(name).unwrap(), &setting, BudgetSamples::Buffer);
+    // σ runs from 0.1 to 1000.
     for name in ["rmfr", "kfr", "lafr"] {
         near(of(name)[0], 1e-6, 1e-9);
         near(of(name)[1], 100.0, 1e-9);
@@ -303,32 +306,32 @@ fn budgets_reach_as_far_as_their_parameters() {
     let [least, most] = of("cps");
     near(least, share("cps", &[("transition_deg", number(0.001))]), 1e-12);
     near(most, share("cps", &[("transition_deg", number(1000.0))]), 1e-12);
-    // Samples grow with the square of the factor; those beyond 60° count.
+    // The number of samples grows with the square of the factor; those beyond 60° count.
     let [least, most] = of("vafr");
     let all = counts(&Method::find("vafr").unwrap(), &setting);
     assert!(all.samples_beyond > 0.0);
     near(least, 1e-6 * (all.samples + all.samples_beyond) / pixels, 1e-9);
     near(most, 1e6 * (all.samples + all.samples_beyond) / pixels, 1e-9);
     let polar = Method::find("visual_polar").unwrap();
-    let [least, most] = range(&polar, &setting, BudgetOf::OnScreen);
+    let [least, most] = range(&polar, &setting, BudgetSamples::OnScreen);
     near(least, 1e-4, 1e-9);
     near(most, 16.0, 1e-9);
-    let error = polar.at_budget(&setting, f64::INFINITY, BudgetOf::OnScreen).unwrap_err();
+    let error = polar.at_budget(&setting, f64::INFINITY, BudgetSamples::OnScreen).unwrap_err();
     assert!(error.to_string().contains("from 1.000e-4 to 16.0000"), "{error}");
 }
 
 #[test]
-fn budgets_keep_what_is_not_free() {
+fn budgets_keep_parameters_that_are_not_free() {
     let setting = setting(1440, 1600, 110.0, [500.0, 900.0]);
     for method in Method::all().into_iter().filter(|method| method.key() != "full") {
-        for of in [BudgetOf::Buffer, BudgetOf::OnScreen] {
-            // The ends themselves are in reach.
+        for of in [BudgetSamples::Buffer, BudgetSamples::OnScreen] {
+            // The limits themselves can be reached.
             for share in range(&method, &setting, of) {
                 assert!(method.at_budget(&setting, share, of).is_ok(), "{} {share}", method.key());
             }
         }
-        // The value, set by name, gives the method.
-        let found = method.at_budget(&setting, 0.2, BudgetOf::OnScreen).unwrap();
+        // The value, set by name, gives the same method.
+        let found = method.at_budget(&setting, 0.2, BudgetSamples::OnScreen).unwrap();
         let numbers: Vec<f64> = found
             .value
             .trim_matches(['[', ']'])
@@ -343,29 +346,35 @@ fn budgets_keep_what_is_not_free() {
         set.set(found.parameter, &value).unwrap();
         assert_eq!(set, found.method);
     }
-    let Method::Guenter(found) =
-        Method::find("guenter").unwrap().at_budget(&setting, 0.1, BudgetOf::Buffer).unwrap().method
+    let Method::Guenter(found) = Method::find("guenter")
+        .unwrap()
+        .at_budget(&setting, 0.1, BudgetSamples::Buffer)
+        .unwrap()
+        .method
     else {
         panic!()
     };
     assert_eq!((found.scales[0], found.scales[1]), (1.0, 2.0));
-    let Method::Deamp(found) =
-        Method::find("deamp").unwrap().at_budget(&setting, 0.1, BudgetOf::Buffer).unwrap().method
+    let Method::Deamp(found) = Method::find("deamp")
+        .unwrap()
+        .at_budget(&setting, 0.1, BudgetSamples::Buffer)
+        .unwrap()
+        .method
     else {
         panic!()
     };
     near(found.sigmas[2] / found.sigmas[0], 4.8 / 2.51, 1e-12);
     near(found.sigmas[1] / found.sigmas[0], 3.6 / 2.51, 1e-12);
-    assert_eq!(BudgetOf::default(), BudgetOf::Buffer);
+    assert_eq!(BudgetSamples::default(), BudgetSamples::Buffer);
 }
 
-/// Optimised layers are found once, and their outermost scale is then free.
+/// Optimised layers are determined once, and then their outermost scale is the free parameter.
 #[test]
 fn a_budget_of_optimised_layers() {
     let setting = centred(5760, 3240, 110.0);
     let params = guenter::Params { fit: guenter::Fit::Optimised, ..guenter::Params::default() };
     let optimum = Guenter::new(&params, &setting).unwrap();
-    let found = Method::Guenter(params).at_budget(&setting, 0.05, BudgetOf::Buffer).unwrap();
+    let found = Method::Guenter(params).at_budget(&setting, 0.05, BudgetSamples::Buffer).unwrap();
     near(counts(&found.method, &setting).samples / setting.pixels(), 0.05, 1e-9);
     let Method::Guenter(fixed) = found.method else { panic!() };
     assert_eq!(fixed.fit, guenter::Fit::Fixed);

@@ -1,5 +1,5 @@
-//! Rates and mappings against the formulas as they are printed (repaired where misprinted), written
-//! out once more.
+//! Compares rates and mappings with the printed formulas (corrected where they are misprinted),
+//! which are written out here independently.
 
 #![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 
@@ -32,7 +32,7 @@ fn cpd(foveation: &dyn Foveation, setting: &Setting, e: f64) -> [f64; 2] {
 
 #[test]
 fn kfr_is_the_printed_rate() {
-    // The gaze off centre: L reaches to the lower left corner.
+    // The gaze is off centre: L is the distance to the lower left corner.
     let setting = setting(2560, 1440, 110.0, [1700.0, 500.0]);
     near(setting.focal_px(), 720.0 / 55f64.to_radians().tan(), 1e-12);
     let ln_l = f64::hypot(1700.0, 940.0).ln();
@@ -47,7 +47,7 @@ fn kfr_is_the_printed_rate() {
             let want = 0.5 * alpha * z.powf(alpha - 1.0) * w * PI / (180.0 * ln_l * sin * cos);
             near(radial, want, 1e-12);
             near(tangential, h / (720.0 * sin * cos), 1e-12);
-            // θ = 90° is a quarter of the rows.
+            // θ = 90° is at a quarter of the rows.
             let place = Place::polar(setting.radius_px(e), 90.0);
             let [u, v] = kfr.mapping().unwrap().to_buffer(0, place);
             near(u, w * z.powf(alpha), 1e-12);
@@ -56,7 +56,8 @@ fn kfr_is_the_printed_rate() {
     }
 }
 
-/// Within a pixel r counts as 1, θ as it is but at the gaze; there is no rate there.
+/// Within a pixel r is set to 1 and θ is unchanged, except at the gaze itself; there is no rate
+/// there.
 #[test]
 fn log_polar_methods_within_a_pixel() {
     let setting = centred(1440, 1600, 110.0);
@@ -109,7 +110,7 @@ fn lafr_is_the_repaired_formula() {
     }
 }
 
-/// At the farthest corner Q is -1, and its arc cosine has no slope.
+/// At the farthest corner Q is -1, where the arc cosine has no finite slope.
 #[test]
 fn lafr_ends_at_the_corner() {
     for width in (300..3000).step_by(37) {
@@ -118,7 +119,7 @@ fn lafr_ends_at_the_corner() {
         let corner = Place { radius_px: setting.corner_px(), direction: [1.0, 0.0] };
         let mapping = lafr.mapping().unwrap();
         near(mapping.to_buffer(0, corner)[0], width as f64 / 1.8, 1e-6);
-        // Nor does a distance that is rounded over the corner's leave the buffer.
+        // A distance that rounding puts beyond the corner does not leave the buffer either.
         let over = Place { radius_px: corner.radius_px * (1.0 + 1e-9), ..corner };
         near(mapping.to_buffer(0, over)[0], width as f64 / 1.8, 1e-6);
         assert!(lafr.rates(corner).is_none_or(|rates| rates.radial.is_finite()), "{width}");
@@ -126,7 +127,7 @@ fn lafr_ends_at_the_corner() {
 }
 
 #[test]
-fn lafr_says_between_what_its_weight_lies() {
+fn lafr_states_the_range_of_alpha() {
     let setting = centred(1440, 1600, 110.0);
     let with = |name, value| method("lafr", &[(name, number(value))]).apply(&setting);
     let error = with("foveal_deg", 0.05).unwrap_err().to_string();
@@ -135,7 +136,7 @@ fn lafr_says_between_what_its_weight_lies() {
     let range = error.split("alpha lies between ").nth(1).unwrap();
     let ends: Vec<f64> = range.split(' ').filter_map(|word| word.parse().ok()).collect();
     assert_eq!(ends.len(), 2, "{error}");
-    // Towards the lower end U_f vanishes, below the least number.
+    // Near the lower limit U_f is below the smallest float.
     for alpha in [ends[0] - 2e-4, ends[1] + 2e-4] {
         assert!(with("alpha", alpha).is_err(), "{alpha}");
     }
@@ -156,7 +157,7 @@ fn rmfr_is_its_density_per_axis() {
         (-200.0, 300.0, 300.0, 600.0),
         (-100.0, -700.0, 300.0, 1000.0),
         (900.0, -50.0, 1140.0, 1000.0),
-        // On an axis, and at the gaze, 0 counts as positive.
+        // On an axis and at the gaze, 0 counts as positive.
         (500.0, 0.0, 1140.0, 600.0),
         (0.0, -500.0, 1140.0, 1000.0),
         (0.0, 0.0, 1140.0, 600.0),
@@ -175,7 +176,7 @@ fn rmfr_is_its_density_per_axis() {
         near(buffer[0], at(want[0], x, fx, ax), 1e-12);
         near(buffer[1], at(want[1], y, fy, ay), 1e-12);
     }
-    // At the gaze, looking to the left and up: the sides there.
+    // At the gaze, looking to the left and up, the sides in these directions apply.
     let rates = rmfr.rates(Place::polar(0.0, 180.0)).unwrap();
     near(rates.radial, rate(fx, 300.0, 0.0), 1e-12);
     let rates = rmfr.rates(Place::polar(0.0, 270.0)).unwrap();
@@ -185,7 +186,7 @@ fn rmfr_is_its_density_per_axis() {
 
 #[test]
 fn deamp_is_an_rmfr_in_each_layer() {
-    // 90° in height: half sizes are 800 and 720 tan e / tan 45°.
+    // 90° vertical: half sizes are 800 and 720, times tan e / tan 45°.
     let setting = setting(1440, 1600, 90.0, [500.0, 700.0]);
     let deamp = method("deamp", &[("fx", number(0.3)), ("fy", number(0.45))]);
     let deamp = deamp.apply(&setting).unwrap();
@@ -264,17 +265,18 @@ fn vafr_follows_any_acuity_and_ratio() {
         near(cpd(vafr(&params).as_ref(), &setting, e)[0], guenter(e).min(9.0), 1e-12);
         let params = [("acuity", word("geisler_perry")), ("factor", number(0.5))];
         near(cpd(vafr(&params).as_ref(), &setting, e)[0], 0.5 * geisler(e), 1e-12);
-        // Linear between the knots, constant outside.
+        // The ratio is linear between the knots and constant outside.
         let ratio = (0.8 - 0.5 * (e - 5.0) / 25.0).clamp(0.3, 0.8);
         let [radial, tangential] = cpd(vafr(&[("ratio", pairs.clone())]).as_ref(), &setting, e);
         near(tangential / radial, ratio, 1e-12);
-        // Isotropic in visual angle: f / cos e of the paper's convention.
+        // Isotropic in visual angle means f / cos e in the paper's convention.
         let [radial, tangential] = cpd(vafr(&[("columns", word("angle"))]).as_ref(), &setting, e);
         near(tangential * e.to_radians().cos(), radial, 1e-12);
     }
 }
 
-/// Rows of a column, and samples by Simpson's rule with steps that meet every knot.
+/// Rows of a column, and the number of samples by Simpson's rule with steps that include every
+/// knot.
 #[test]
 fn vafr_counts_columns_times_rows() {
     let setting = centred(2560, 1440, 140.0);
@@ -295,7 +297,7 @@ fn vafr_counts_columns_times_rows() {
         (0..=steps)
             .map(|i| {
                 let weight = if i == 0 || i == steps { 1 } else { 2 + 2 * (i % 2) };
-                // At a knot acuity is the same from both sides.
+                // At a knot acuity has the same value from both sides.
                 let e = from + f64::from(i) * step;
                 f64::from(weight) * rows(e) * 2.0 * f(e) * step / 3.0
             })
@@ -306,7 +308,7 @@ fn vafr_counts_columns_times_rows() {
         [0.0, 5.0, 10.0, 20.0, 30.0, 60.0].windows(2).map(|e| simpson(e[0], e[1])).sum();
     near(all.samples, inside, 1e-9);
     near(all.samples_beyond, simpson(60.0, corner), 1e-9);
-    // The longest column, by walking along.
+    // The longest column is found by trying all steps.
     let found = Vafr::new(
         &vafr::Params { ratio: vec![[5.0, 0.8], [30.0, 0.3]], ..vafr::Params::default() },
         &setting,
@@ -318,7 +320,7 @@ fn vafr_counts_columns_times_rows() {
     assert!((found.0 - longest.0).abs() < 2e-3 && (found.1 - longest.1).abs() < 1e-3, "{found:?}");
     near(all.buffers[0][1], longest.1, 1e-6);
 
-    // Reprojection leaves (1 + s) / 2 of every number of samples to shade.
+    // After reprojection, (1 + s) / 2 of every number of samples is left to shade.
     let rep = method("vafr", &[("ratio", pairs), share]).apply(&setting).unwrap().counts();
     for (rep, all) in [
         (rep.samples, all.samples),
@@ -348,12 +350,12 @@ fn vafr_beyond_its_field() {
     let vafr = Method::find("vafr").unwrap();
     let extended = vafr.apply(&wide).unwrap();
     assert!(extended.rates(far).is_some());
-    // The buffer goes on to the corner; the paper's count does not.
+    // The buffer continues to the corner; the paper's count does not.
     let [columns, _] = extended.mapping().unwrap().buffer(0);
     let [counted, _] = extended.counts().buffers[0];
     assert!(columns > counted + 50.0, "{columns} {counted}");
     near(counted, 900.1, 1e-4);
-    // Where columns grow to the very corner, the longest stands there.
+    // If columns grow up to the very corner, the longest one is there.
     let flat = ParamValue::List(vec![40.0, 10.0, 6.0, 5.0, 5.0]);
     let params = [("columns", word("angle")), ("knots_cpd", flat)];
     let growing = method("vafr", &params).apply(&wide).unwrap();
@@ -361,7 +363,7 @@ fn vafr_beyond_its_field() {
     let corner = wide.eccentricity_deg(wide.corner_px());
     near(growing.mapping().unwrap().buffer(0)[1], 720.0 * sin(corner) * 5.0, 1e-9);
     near(growing.counts().buffers[0][1], 720.0 * sin(60.0) * 5.0, 1e-9);
-    // A frame inside of the field has the paper's buffer all the same, and nothing beyond.
+    // A frame inside the field has the paper's buffer nevertheless, and nothing beyond it.
     let narrow = vafr.apply(&centred(640, 480, 40.0)).unwrap();
     assert_eq!(narrow.mapping().unwrap().buffer(0), narrow.counts().buffers[0]);
     near(narrow.counts().buffers[0][0], 900.1, 1e-4);
@@ -387,7 +389,7 @@ fn visual_polar_is_as_dense_as_its_acuity() {
         near(polar.density(place), c * v(e), 1e-4);
         let rates = polar.rates(place).unwrap();
         near(rates.radial * rates.tangential, polar.density(place), 1e-12);
-        // Both rates alike inside; outside as many samples around as at the border.
+        // Inside, both rates are equal; outside, there are as many samples around as at the border.
         let around = setting.radius_px(5.79) * polar.density(Place::at([0.0, 0.0])).sqrt();
         if e < 5.79 {
             near(rates.radial, rates.tangential, 1e-12);
@@ -395,7 +397,7 @@ fn visual_polar_is_as_dense_as_its_acuity() {
             near(rates.tangential * r, around, 1e-12);
         }
     }
-    // All samples: the density over the disc to the farthest corner.
+    // All samples: the integral of the density over the disc up to the farthest corner.
     let (inner, corner) = (setting.radius_px(5.79), f64::hypot(700.0, 500.0));
     let steps = 20_000;
     let step = (corner - inner) / f64::from(steps);
@@ -405,7 +407,7 @@ fn visual_polar_is_as_dense_as_its_acuity() {
     let exact = polar.density(Place::at([0.0, 0.0])) * (PI * inner * inner + outside);
     near(polar.counts().samples, exact, 1e-8);
 
-    // A frame inside of 5.79°: a density of 0.4 everywhere, rows that only shrink.
+    // A frame inside 5.79°: the density is 0.4 everywhere, and rows only become shorter.
     let small = centred(300, 400, 8.0);
     let polar = Method::find("visual-polar").unwrap().apply(&small).unwrap();
     let counts = polar.counts();
@@ -428,14 +430,14 @@ fn how_far_curves_reach() {
 }
 
 #[test]
-fn only_what_must_be_said_is_said() {
+fn notes_are_only_given_where_they_apply() {
     let setting = centred(1440, 1600, 90.0);
     let note = |method: &Method| method.apply(&setting).unwrap().note();
     for name in ["full", "vafr", "kfr", "lafr", "rmfr", "guenter", "linear", "cps"] {
         assert_eq!(note(&Method::find(name).unwrap()), None, "{name}");
     }
     assert!(note(&method("guenter", &[("fit", word("optimised"))])).is_some());
-    // 90° in height, less in width: 10° is 10° in height alone.
+    // 90° vertical and less horizontal: 10° is 10° only vertically.
     let said = note(&Method::find("deamp").unwrap()).unwrap();
     assert!(said.contains("10° is 9.02° x 10.00°"), "{said}");
     let square = centred(1600, 1600, 90.2);

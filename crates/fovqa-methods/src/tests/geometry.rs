@@ -14,7 +14,7 @@ fn bits(values: [f64; 2]) -> [u64; 2] {
 #[test]
 fn places_turn_from_right_to_down() {
     for (deg, x, y) in [(0.0, 1.0, 0.0), (90.0, 0.0, 1.0), (180.0, -1.0, 0.0), (270.0, 0.0, -1.0)] {
-        // Multiples of 90° are exact, whatever the turns.
+        // Multiples of 90° are exact for any number of turns.
         for turns in [-720.0, -360.0, 0.0, 360.0] {
             let place = Place::polar(2.0, deg + turns);
             assert_eq!(bits(place.direction), bits([x, y]), "{deg}° {turns}°");
@@ -29,7 +29,7 @@ fn places_turn_from_right_to_down() {
         assert!((place.angle_deg() - deg).abs() < 1e-12);
         assert!((Place::polar(3.0, deg - 360.0).angle_deg() - deg).abs() < 1e-12);
     }
-    // Below 360°, however small an angle is missing.
+    // The angle stays below 360°, however small the missing angle is.
     assert_eq!(Place { radius_px: 1.0, direction: [1.0, -1e-20] }.angle_deg(), 0.0);
     assert_eq!(Place::at([0.0, 0.0]), Place { radius_px: 0.0, direction: [1.0, 0.0] });
 }
@@ -46,7 +46,7 @@ fn distances_reach_the_edges_of_the_frame() {
     }
     assert!((edge(45.0) - 60.0 * 2f64.sqrt()).abs() < 1e-12);
     assert!((edge(225.0) - 20.0 * 2f64.sqrt()).abs() < 1e-12);
-    // On the border there is nothing outwards, and all of the frame inwards.
+    // On the border the distance is 0 outwards and that of the whole frame inwards.
     let border = super::setting(100, 80, 90.0, [100.0, 20.0]);
     assert_eq!(
         [0.0, 180.0].map(|deg| border.edge_px(Place::polar(0.0, deg).direction)),
@@ -69,7 +69,7 @@ fn no_setting_without_a_frame_a_focal_length_and_a_gaze() {
     assert!((setting(100, 80, 90.0, [0.0; 2]).eccentricity_deg(40.0) - 45.0).abs() < 1e-12);
 }
 
-/// The area of a disc that leaves the frame on one side, and of the frame; both integrals.
+/// Both integrals give the area of a disc that leaves the frame on one side, and that of the frame.
 #[test]
 fn integrals_are_areas() {
     let area = |d: f64, r: f64| PI * r * r - (r * r * (d / r).acos() - d * (r * r - d * d).sqrt());
@@ -92,7 +92,8 @@ fn integrals_are_areas() {
     }
 }
 
-/// 1 / r² from one pixel on is ln r all around: what falls over decades, by both integrals.
+/// The integral of 1 / r² from one pixel on is ln r per angle: both integrals handle a density that
+/// falls over decades.
 #[test]
 fn integrals_over_decades() {
     for gaze in [[8000.0, 4000.0], [10.0, 7000.0], [16000.0, 0.0]] {
@@ -103,7 +104,7 @@ fn integrals_over_decades() {
     }
 }
 
-/// A disc around any gaze, cut by several sides: both integrals find the same area.
+/// Both integrals give the same area of a disc around any gaze that is cut by several sides.
 #[test]
 fn both_integrals_agree() {
     for x in [0.0, 3.0, 150.0, 430.0, 850.0, 999.0] {

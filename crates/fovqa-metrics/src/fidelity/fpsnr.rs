@@ -1,10 +1,10 @@
 //! FPSNR, the foveal PSNR (Lee, Pattichis, Bovik 2002; weights after Geisler and Perry 1998).
 //!
-//! FMSE = Σ f(x)² d(x)² / Σ f(x)², d² the squared error (mean over channels),
-//! FPSNR = -10 log10 FMSE dB. f = min(f_c(e), f_d) is the highest frequency that is both visible at
-//! eccentricity e and shown by the display: f_d is its Nyquist frequency at the principal point.
-//! The papers print no constants, so their absolute values cannot be matched, only the order of
-//! methods. Higher is better.
+//! FMSE = Σ f(x)² d(x)² / Σ f(x)², d² the squared error (mean over channels), FPSNR = -10 log10
+//! FMSE dB. f = min(f_c(e), f_d) is the highest frequency that is both visible at eccentricity e
+//! and shown by the display: f_d is its Nyquist frequency at the principal point. The papers print
+//! no constants, so only their order of methods can be reproduced, not their absolute values.
+//! Higher is better.
 
 use std::ops::Range;
 
@@ -87,17 +87,17 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     ..MetricInfo::FIDELITY
 };
 
-/// Which curve the weight follows.
+/// The curve that the weight follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Weight {
-    /// The cut-off of Geisler and Perry.
+    /// The cut-off frequency of Geisler and Perry.
     #[default]
     Lee2002,
     /// An acuity model.
     Acuity,
 }
 
-/// Which acuity model.
+/// The acuity model of the weight.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AcuityModel {
     /// [`PiecewiseMar`].
@@ -110,15 +110,15 @@ pub enum AcuityModel {
 /// Parameters of the foveal weight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Params {
-    /// Which curve.
+    /// The curve that the weight follows.
     pub weight: Weight,
-    /// Its constants for `lee2002`.
+    /// Constants of the curve `lee2002`.
     pub lee2002: GeislerPerry,
-    /// The model for `acuity`.
+    /// The model of the curve `acuity`.
     pub acuity: AcuityModel,
-    /// Eccentricities of the piecewise model, degrees.
+    /// Eccentricities of the piecewise model, in degrees.
     pub knots_deg: Vec<f64>,
-    /// Acuity at these, cycles per degree.
+    /// Acuity at these eccentricities, in cycles per degree.
     pub knots_cpd: Vec<f64>,
     /// Constants of the linear model.
     pub linear_mar: LinearMar,
@@ -166,7 +166,7 @@ impl MetricParams for Params {
         Some(())
     }
 
-    /// Knots are a falling curve of acuity.
+    /// Checks that the knots are a falling curve of acuity.
     fn check(&self) -> Result<(), ParamError> {
         let wrong = |expected: String| ParamError::Value {
             owner: INFO.key,
@@ -183,7 +183,7 @@ impl MetricParams for Params {
 }
 
 impl Params {
-    /// Degrees per cycle, 1 / f_c, at an eccentricity.
+    /// Degrees per cycle, 1 / f_c, as a function of eccentricity.
     fn degrees_per_cycle(&self) -> impl Fn(f64) -> f64 {
         let piecewise = PiecewiseMar::new(&self.knots_deg, &self.knots_cpd).unwrap_or_default();
         let (lee2002, linear, weight, acuity) =
@@ -198,16 +198,16 @@ impl Params {
     }
 }
 
-/// f², the weight of a pixel, over a view and a gaze.
+/// The weight f² of every pixel, for a view and a gaze.
 #[derive(Debug, Clone)]
 pub struct WeightField {
     eccentricity: Eccentricity,
     curve: Curve,
-    /// Blocks of rows, where the field was computed beforehand.
+    /// The weights in blocks of rows, if they were computed in advance.
     rows: Option<Vec<Vec<f32>>>,
 }
 
-/// f² of eccentricity.
+/// f² as a function of eccentricity.
 #[derive(Debug, Clone)]
 struct Curve {
     degrees_per_cycle: DegreesPerCycle,
@@ -215,12 +215,12 @@ struct Curve {
     limit: f32,
 }
 
-/// 1/f_c of eccentricity.
+/// 1/f_c as a function of eccentricity.
 #[derive(Debug, Clone)]
 enum DegreesPerCycle {
-    /// At 0°, and its slope.
+    /// The value at 0° and the slope.
     Line(f32, f32),
-    /// At steps of eccentricity.
+    /// The values at steps of eccentricity.
     Table(Vec<f32>),
 }
 
@@ -232,7 +232,7 @@ impl Curve {
         let at = params.degrees_per_cycle();
         let piecewise = params.weight == Weight::Acuity && params.acuity == AcuityModel::Piecewise;
         let degrees_per_cycle = if piecewise {
-            // One step beyond the last degree, for the chord that ends there.
+            // One more step than degrees, for the interpolation that ends there.
             let steps = LAST_DEGREE * STEPS_PER_DEGREE as usize + 1;
             let step = |i: usize| at(i as f64 / f64::from(STEPS_PER_DEGREE)) as f32;
             DegreesPerCycle::Table((0..=steps).map(step).collect())
@@ -243,7 +243,7 @@ impl Curve {
     }
 
     /// Replaces eccentricities in degrees by f².
-    fn weigh(&self, row: &mut [f32]) {
+    fn to_weights(&self, row: &mut [f32]) {
         match &self.degrees_per_cycle {
             DegreesPerCycle::Line(at_0, slope) => weigh_line(*at_0, *slope, self.limit, row),
             DegreesPerCycle::Table(table) => weigh_table(table, self.limit, row),
@@ -270,27 +270,28 @@ fn weigh_table(table: &[f32], limit: f32, row: &mut [f32]) {
 }
 
 impl WeightField {
-    /// The weight of every pixel, computed row by row when it is asked for. Knots that are no
-    /// curve, which [`crate::Params::check`] refuses, count as the default ones.
+    /// The weight of every pixel, computed row by row when it is asked for. Knots that do not make
+    /// a curve, which [`crate::Params::check`] refuses, are replaced by the default ones.
     pub fn new(eccentricity: Eccentricity, params: &Params) -> Self {
         let curve = Curve::new(params, eccentricity.view().nyquist_cpd());
         Self { eccentricity, curve, rows: None }
     }
 
-    /// Bytes of memory it takes.
+    /// The memory it takes, in bytes.
     pub fn bytes(&self) -> usize {
         let rows = self.rows.iter().flatten();
         size_of::<Self>() + rows.map(|row| size_of_val(row.as_slice())).sum::<usize>()
     }
 
-    /// Whether f is the display's Nyquist frequency in the whole frame: FPSNR is PSNR then.
+    /// Whether f is the display's Nyquist frequency in the whole frame, so that FPSNR equals PSNR.
     pub fn is_flat(&self) -> bool {
         let mut farthest = [self.eccentricity.max_deg() as f32];
-        self.curve.weigh(&mut farthest);
+        self.curve.to_weights(&mut farthest);
         farthest[0] >= self.curve.limit
     }
 
-    /// The same, computed now, for views that serve many frames: four bytes a pixel.
+    /// Computes all weights in advance, for views that serve many frames. This takes four bytes per
+    /// pixel.
     #[must_use]
     pub fn precomputed(self) -> Self {
         let (width, height) = (self.eccentricity.view().width, self.eccentricity.view().height);
@@ -306,7 +307,7 @@ impl WeightField {
 
     fn compute(&self, y: usize, xs: Range<usize>, out: &mut [f32]) {
         self.eccentricity.fill_row_deg(y, xs, out);
-        self.curve.weigh(out);
+        self.curve.to_weights(out);
     }
 
     /// Writes f² of the pixels `xs` of row `y`.

@@ -1,5 +1,5 @@
-//! Foveated SSIM: the SSIM map under FPSNR's weight, Σ f² map / Σ f² over the pixels where the map is
-//! defined. Our own, beside FPSNR; in [-1, 1], higher is better.
+//! Foveated SSIM: the SSIM map with FPSNR's weight, Σ f² map / Σ f² over the pixels where the map
+//! is defined. This metric is our own. It is in [-1, 1], and higher is better.
 
 use crate::info::{MetricInfo, Needs};
 use crate::metric_params::MetricParams;

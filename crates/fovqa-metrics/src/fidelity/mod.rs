@@ -1,4 +1,5 @@
-//! Test against reference: one file a metric, and one pass over the rows for all of them.
+//! Metrics that compare test and reference: one file per metric, and one pass over the rows for
+//! most of them.
 
 pub mod fpsnr;
 pub(crate) mod fssim;

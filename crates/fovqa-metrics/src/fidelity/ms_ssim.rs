@@ -1,9 +1,9 @@
-//! MS-SSIM (Wang, Simoncelli, Bovik 2003, Eq. 7): the contrast-structure term at the first four
-//! scales, the whole SSIM at the coarsest, each to its exponent, multiplied.
+//! MS-SSIM (Wang, Simoncelli, Bovik 2003, Eq. 7): the product of the contrast-structure terms at
+//! the first four scales and the full SSIM at the coarsest, each with its exponent.
 //!
-//! Exponents as printed (not normalised); 2x2 means between scales, an odd last row or column
-//! dropped; negative means clamped to 0; `rgb` averages the channels' scores. In [0, 1], higher is
-//! better.
+//! Exponents are used as printed (not normalised). Scales are 2x2 means, and an odd last row or
+//! column is dropped. Negative means are clamped to 0. `rgb` averages the channels' scores. It is
+//! in [0, 1], and higher is better.
 
 use std::ops::Range;
 
@@ -36,15 +36,15 @@ impl MetricParams for Params {
 /// Exponents of the scales, finest first (Wang et al. 2003, section 3.2).
 pub(crate) const EXPONENTS: [f64; 5] = [0.0448, 0.2856, 0.3001, 0.2363, 0.1333];
 
-/// How many times the coarsest scale is smaller than the picture.
+/// The factor between the sides of the picture and those of the coarsest scale.
 pub(crate) const COARSEST: usize = 1 << (EXPONENTS.len() - 1);
 
-/// Rows of sum and difference: a pair of frames, or a coarser scale of one.
+/// Rows of sum and difference, of a pair of frames or of one of its coarser scales.
 pub(crate) trait PairRows: Sync {
     fn size(&self) -> (usize, usize);
     fn planes(&self) -> usize;
     fn peak(&self) -> f32;
-    /// What sums and differences are whole numbers of, where they come from 8-bit codes.
+    /// If sums and differences come from 8-bit codes: the unit of which they are whole multiples.
     fn unit(&self) -> Option<f32>;
     fn fill(&self, y: usize, xs: Range<usize>, tile: &mut PairTile, row: usize);
 }
@@ -71,7 +71,7 @@ impl PairRows for PairSignal<'_> {
     }
 }
 
-/// Rows of one half-size scale, as one block of the finer scale leaves them.
+/// Rows of one scale at half the size, computed from one block of the finer scale.
 #[derive(Debug)]
 pub(crate) struct HalvedRows {
     width: usize,
@@ -79,25 +79,26 @@ pub(crate) struct HalvedRows {
     values: Values,
 }
 
-/// Scales below 8-bit pictures hold quarters, sixteenths and so on, which two bytes keep exactly
-/// for three scales: half the memory, whose first touch costs as much as the arithmetic.
+/// The values of a scale. Scales below 8-bit pictures hold quarters, sixteenths and so on. Two
+/// bytes represent them exactly for three scales, which halves the memory; touching memory for the
+/// first time costs as much as the arithmetic.
 #[derive(Debug)]
 enum Values {
-    /// Whole numbers of a unit.
+    /// Whole multiples of a unit.
     Whole(Vec<i16>, f32),
     Floats(Vec<f32>),
 }
 
-/// The unit of the scale below one whose values are whole numbers of `unit`; `None` where two
-/// bytes do not hold them any more.
+/// The unit of the next scale, for values that are whole multiples of `unit`; `None` if two bytes
+/// cannot hold them any more.
 pub(crate) fn unit_below(unit: Option<f32>) -> Option<f32> {
-    /// Of the sum and the difference of two 8-bit codes.
+    /// The largest sum or difference of two 8-bit codes.
     const LARGEST: f32 = 255.0;
     unit.map(|unit| unit / 4.0).filter(|below| LARGEST / below <= f32::from(i16::MAX))
 }
 
 impl HalvedRows {
-    /// Room for the halves of `rows` rows of `width` pixels of a pair.
+    /// A buffer for the halves of `rows` rows of `width` pixels of a pair.
     pub(crate) fn of(pair: &impl PairRows, rows: usize) -> Self {
         let (width, rows) = (pair.size().0 / 2, rows / 2);
         let length = pair.planes() * 2 * width * rows;
@@ -113,7 +114,7 @@ impl HalvedRows {
         start..start + self.width
     }
 
-    /// Halves two rows, whose first values stand in the even column `x`.
+    /// Halves two rows, whose first values are in the even column `x`.
     pub(crate) fn put(
         &mut self,
         (plane, part): (usize, Part),
@@ -204,7 +205,8 @@ impl PairRows for Scale {
     }
 }
 
-/// One channel's score from its means at the five scales: contrast-structure, at last SSIM.
+/// One channel's score from its means at the five scales: four of contrast-structure, and one of
+/// SSIM.
 pub(crate) fn combine(means: impl Iterator<Item = f64>) -> f64 {
     means.zip(EXPONENTS).map(|(mean, exponent)| libm::pow(mean.max(0.0), exponent)).product()
 }

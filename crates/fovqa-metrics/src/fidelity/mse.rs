@@ -1,6 +1,8 @@
-//! MSE, the mean squared error: the mean over pixels and channels of (a - b)², over the frame and per band.
+//! MSE, the mean squared error: the mean of (a - b)² over pixels and channels, for the frame and
+//! per band.
 //!
-//! Of the display-encoded signal with peak 1; channels are pooled. In [0, 1], lower is better.
+//! It is computed from the display-encoded signal with peak 1; channels are pooled. It is in [0,
+//! 1], and lower is better.
 
 use multiversion::multiversion;
 
@@ -9,7 +11,7 @@ use crate::kinds::Better;
 use crate::map::{MapInfo, MapScale};
 use crate::pooling::{Pooling, Statistic};
 
-/// The squared error of each pixel: the mean over its channels.
+/// The squared error of each pixel, as the mean over its channels.
 pub(crate) const MAP: MapInfo = MapInfo {
     name: "mse",
     block: 1,
@@ -32,7 +34,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
 
 pub(crate) use crate::metric_params::NoParams as Params;
 
-/// The squared error of one row, summed over its planes. Exact for 8-bit codes.
+/// The squared error of one row, summed over its planes. It is exact for 8-bit codes.
 pub(crate) fn squared_row(differences: &[&[f32]], out: &mut [f32]) {
     match differences {
         [r, g, b] => three(r, g, b, out),

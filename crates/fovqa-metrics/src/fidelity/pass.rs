@@ -1,8 +1,9 @@
-//! One pass over the rows of a pair: every sum the metrics need, block by block.
+//! One pass over the rows of a pair, which computes every sum that the metrics need, block by
+//! block.
 //!
-//! A block is cut into tiles of columns. A tile is read whole, with the rows and columns its
-//! windows look at; then each plane walks down its rows, of which the eleven in a window stay in the
-//! first-level cache; and last the rows of the finished map are summed.
+//! A block is divided into tiles of columns. A tile is read with all rows and columns that its
+//! windows cover. Then each plane is processed row by row, so that the eleven rows of a window stay
+//! in the first-level cache. Finally the rows of the finished map are summed.
 
 use std::ops::Range;
 
@@ -18,26 +19,26 @@ use crate::map::scaled;
 use crate::regions::{Regions, clipped};
 use crate::sums::{add_by_band, sum, weighted};
 
-/// Columns of a tile. Even, for the 2x2 means. Eleven rows of sum and difference take 23 kB, the
-/// whole tile in RGB half a megabyte.
+/// The number of columns of a tile. It is even, for the 2x2 means. Eleven rows of sum and
+/// difference take 23 kB, and the whole tile in RGB takes half a megabyte.
 const TILE_COLUMNS: usize = 256;
 
-/// What a pass has to sum.
+/// The sums that a pass computes.
 #[derive(Debug)]
 pub(crate) struct Wanted<'a> {
     /// Squared error per band.
     pub(crate) squared_error: bool,
-    /// Weighted squared error and weighted map.
+    /// Squared error and map, both weighted.
     pub(crate) weight: Option<&'a WeightField>,
     /// The SSIM map.
     pub(crate) ssim: Option<Constants>,
-    /// What MS-SSIM needs.
+    /// The sums for MS-SSIM.
     pub(crate) scales: Scales,
-    /// Which values of single pixels are kept.
+    /// The per-pixel values that are kept.
     pub(crate) maps: WantedMaps,
 }
 
-/// Which values of single pixels are kept.
+/// The per-pixel values that are kept.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct WantedMaps {
     /// The squared error.
@@ -46,7 +47,7 @@ pub(crate) struct WantedMaps {
     pub(crate) ssim: bool,
 }
 
-/// Values of single pixels, row by row; NaN where a pixel is left out. Empty where they are not wanted.
+/// Per-pixel values, row by row; NaN where a pixel is left out. Empty if they are not wanted.
 #[derive(Debug, Default)]
 pub(crate) struct PixelMaps {
     pub(crate) squared_error: Vec<f32>,
@@ -60,31 +61,31 @@ impl PixelMaps {
     }
 }
 
-/// What MS-SSIM needs of a pass.
+/// The sums for MS-SSIM at one scale.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scales {
     /// Nothing.
     None,
     /// The contrast-structure term of each channel, and the next scale.
     AndNext,
-    /// The whole SSIM of each channel: the coarsest scale.
+    /// The full SSIM of each channel, at the coarsest scale.
     Last,
 }
 
 /// Sums over a frame, or over one block of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sums {
-    /// Squared error of all planes, per band, then outside all bands.
+    /// Squared error of all planes: for each band, then outside all bands.
     pub(crate) squared: Vec<f64>,
     /// Σ f² d² and Σ f².
     pub(crate) weighted_squared: WeightedMean,
-    /// SSIM of all planes, per band, then outside all bands.
+    /// SSIM of all planes: for each band, then outside all bands.
     pub(crate) ssim: Vec<f64>,
-    /// Windows counted in `ssim`.
+    /// The number of windows in each sum of `ssim`.
     pub(crate) windows: Vec<u64>,
-    /// Σ f² map and Σ f² over windows, map summed over planes.
+    /// Σ f² map and Σ f² over windows, with the map summed over planes.
     pub(crate) weighted_ssim: WeightedMean,
-    /// Each plane's Σ of what MS-SSIM takes from this scale.
+    /// For each plane, the sum that MS-SSIM takes from this scale.
     pub(crate) channels: [f64; 3],
 }
 
@@ -117,8 +118,8 @@ impl Sums {
     }
 }
 
-/// Runs the pass, blocks of rows in parallel, and adds them up in order. Returns the next scale
-/// where it is wanted.
+/// Runs the pass over blocks of rows in parallel, and adds their sums in order. Returns the next
+/// scale if it is wanted.
 pub(crate) fn run(
     rows: &impl PairRows,
     regions: &Regions<'_>,
@@ -163,26 +164,26 @@ struct Block<'a, R> {
     radius: usize,
     tile: PairTile,
     scratch: Scratch,
-    /// One row each: squared error, weights, a plane's map, its contrast-structure.
+    /// One row of each: squared error, weights, a plane's map, its contrast-structure.
     squared: Vec<f32>,
     weights: Vec<f32>,
     plane_map: Vec<f32>,
     structure: Vec<f32>,
-    /// The map of all planes together, rows of `TILE_COLUMNS`.
+    /// The sum of the maps of all planes, in rows of `TILE_COLUMNS`.
     map: Vec<f32>,
     sums: Sums,
     halved: Option<HalvedRows>,
-    /// Of the block's rows.
+    /// The per-pixel values of the block's rows.
     maps: PixelMaps,
 }
 
-/// A tile: its own columns, and those read for the windows around them.
+/// A tile: its own columns, and the columns read for the windows around them.
 struct Tile {
     xs: Range<usize>,
     read: Range<usize>,
-    /// First row read.
+    /// The first row that was read.
     top: usize,
-    /// Columns and rows of the map.
+    /// The columns and rows of the map.
     map_xs: Range<usize>,
     map_ys: Range<usize>,
 }
@@ -256,7 +257,7 @@ impl<'a, R: PairRows> Block<'a, R> {
         }
     }
 
-    /// Adds one plane's map to that of all planes.
+    /// Adds one plane's map to the sum of all planes.
     fn map_plane(&mut self, plane: usize, tile: &Tile) {
         let Some(constants) = &self.wanted.ssim else { return };
         let n = tile.map_xs.len();
@@ -324,7 +325,8 @@ impl<'a, R: PairRows> Block<'a, R> {
         }
     }
 
-    /// Halves rows `y - 1` and `y` for the next scale; `y` is odd, so both are of this block.
+    /// Halves rows `y - 1` and `y` for the next scale. `y` is odd, so both rows belong to this
+    /// block.
     fn halve(&mut self, y: usize, tile: &Tile) {
         let Some(halved) = &mut self.halved else { return };
         let offset = tile.xs.start - tile.read.start;
@@ -340,7 +342,8 @@ impl<'a, R: PairRows> Block<'a, R> {
     }
 }
 
-/// Keeps the values of a stretch of a row, scaled, whose first stands in column `x`, where pixels count.
+/// Stores the scaled values of a stretch of a row, which starts in column `x`, for the pixels that
+/// count.
 fn keep(values: &[f32], scale: f32, x: usize, runs: &[Run], row: &mut [f32]) {
     for (from, to, _) in clipped(runs, x..x + values.len()) {
         scaled(&values[from - x..to - x], scale, &mut row[from..to]);

@@ -1,6 +1,8 @@
-//! PSNR, the peak signal-to-noise ratio: -10 log10 MSE dB of the display-encoded signal with peak 1.
+//! PSNR, the peak signal-to-noise ratio: -10 log10 MSE dB of the display-encoded signal with peak
+//! 1.
 //!
-//! Decibels are never averaged over channels. In [0, ∞], higher is better; infinite for identical pictures.
+//! Decibels are never averaged over channels. It is in [0, ∞], and higher is better; it is infinite
+//! for identical pictures.
 
 use super::mse;
 use crate::info::MetricInfo;

@@ -1,11 +1,11 @@
 //! PU-PSNR: PSNR of perceptually uniform luminance (PU21; Mantiuk, Azimi 2021).
 //!
-//! V is the encoded luminance of what the display shows ([`fovqa_frame::transfer::pu21`]);
-//! PU-PSNR = 20 log10(V(10,000 cd/m²) / sqrt(mean (V_t - V_r)²)) dB. Higher is better, infinite for
+//! V is the encoded luminance that the display shows ([`fovqa_frame::transfer::pu21`]); PU-PSNR =
+//! 20 log10(V(10,000 cd/m²) / sqrt(mean (V_t - V_r)²)) dB. Higher is better; it is infinite for
 //! identical pictures.
 
 use fovqa_frame::transfer::pu21;
-use fovqa_frame::{Frame, LightTables, LuminanceScratch, map_row_blocks};
+use fovqa_frame::{Frame, LuminanceScratch, LuminanceTables, map_row_blocks};
 
 use crate::decibels::psnr_db;
 use crate::info::{MetricInfo, Needs};
@@ -30,14 +30,14 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
 pub(crate) use crate::metric_params::NoParams as Params;
 
 /// Adds PU-PSNR of a test in dB, both shown by the display of `tables`, over the pixels that count; nothing
-/// where none does. Luminance is made row by row: planes of it would take more memory than 8-bit frames.
+/// is added if none counts. Luminance is made row by row: planes of it would take more memory than 8-bit frames.
 ///
 /// # Panics
-/// When frames and regions are not of one height.
+/// When frames and regions differ in height.
 pub fn rows(
     reference: &Frame,
     test: &Frame,
-    tables: &LightTables,
+    tables: &LuminanceTables,
     regions: &Regions<'_>,
     rows: &mut Rows,
 ) {
@@ -52,7 +52,7 @@ pub fn rows(
 }
 
 /// The squared error of perceptually uniform values, over the pixels that count.
-fn squared_error(frames: [&Frame; 2], tables: &LightTables, regions: &Regions<'_>) -> f64 {
+fn squared_error(frames: [&Frame; 2], tables: &LuminanceTables, regions: &Regions<'_>) -> f64 {
     let [(width, height), size] = frames.map(|frame| (frame.width(), frame.height()));
     assert_eq!((width, height), size, "frames of one size");
     assert_eq!(regions.rows(), height, "regions of these frames");
@@ -82,7 +82,7 @@ fn squared_error(frames: [&Frame; 2], tables: &LightTables, regions: &Regions<'_
 #[cfg(test)]
 #[allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
 mod tests {
-    use fovqa_frame::{Channels, LinearLight, Mask, Samples, SignalParams};
+    use fovqa_frame::{Channels, LinearInput, Mask, Samples, SignalParams};
     use fovqa_vision::BandMap;
 
     use super::*;
@@ -98,15 +98,15 @@ mod tests {
     const H: usize = 130;
 
     /// Shows values as cd/m².
-    fn tables() -> LightTables {
-        let shown = fovqa_frame::ShownLight {
+    fn tables() -> LuminanceTables {
+        let shown = fovqa_frame::DisplayRange {
             cd_m2_per_unit: 1.0,
             floor_cd_m2: 0.0,
             peak_cd_m2: 1e5,
             black_cd_m2: 0.0,
         };
-        let light = LinearLight::Absolute(shown);
-        LightTables::new(SignalParams::default(), |v| v, light, [0.2, 0.7, 0.1])
+        let light = LinearInput::Absolute(shown);
+        LuminanceTables::new(SignalParams::default(), |v| v, light, [0.2, 0.7, 0.1])
     }
 
     /// A picture of this luminance, in cd/m².
@@ -123,12 +123,12 @@ mod tests {
         let bands = BandMap::without_bands(W, H);
         let regions = Regions::unmasked(&bands);
         let (one, hundred) = (luminance(|_, _| 1.0), luminance(|_, _| 100.0));
-        // The encoder's chords are 2e-4 units off at most: of 220, 1e-5 dB.
+        // The chords of the encoder are up to 2e-4 units off: of 220 units, this is 1e-5 dB.
         let wanted = 20.0 * (V[2] / (V[1] - V[0])).log10();
         let found = pu_psnr_db(&one, &hundred, &regions).unwrap();
         assert!((found - wanted).abs() < 2e-5, "{found} for {wanted}");
         assert_eq!(pu_psnr_db(&hundred, &one, &regions), Some(found));
-        // A quarter of the pixels: 6 dB better.
+        // A quarter of the pixels has the error, so the result is 6 dB better.
         let part = luminance(|x, y| if x % 2 == 0 && y % 2 == 0 { 100.0 } else { 1.0 });
         let found = pu_psnr_db(&one, &part, &regions).unwrap();
         assert!((found - wanted - 20.0 * 2f64.log10()).abs() < 2e-5, "{found}");
@@ -140,7 +140,7 @@ mod tests {
         let picture = luminance(|x, y| (1 + x * y % 97) as f32);
         let found = pu_psnr_db(&picture, &picture, &Regions::unmasked(&bands));
         assert_eq!(found, Some(f64::INFINITY));
-        // Beyond the ends of the encoding everything is alike.
+        // Luminance above the range of the encoding is clamped, so that such values are equal.
         let (bright, brighter) = (luminance(|_, _| 1e4), luminance(|_, _| 5e4));
         let found = pu_psnr_db(&bright, &brighter, &Regions::unmasked(&bands));
         assert_eq!(found, Some(f64::INFINITY));

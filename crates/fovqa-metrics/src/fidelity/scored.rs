@@ -1,13 +1,13 @@
-//! What was measured of a pair.
+//! The result of measuring a pair.
 
 use crate::map::Map;
 use crate::row::Rows;
 
-/// What was measured of a pair.
+/// The result of measuring a pair.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scored {
-    /// The values.
+    /// The values of all metrics.
     pub rows: Rows,
-    /// The maps of metrics that have some, where they are asked for.
+    /// The maps of metrics that have one, if they are asked for.
     pub maps: Vec<Map>,
 }

@@ -1,4 +1,4 @@
-//! All metrics of one pair, from one pass (and, for MS-SSIM, one a scale).
+//! Computes all metrics of one pair in one pass (MS-SSIM adds one pass per scale).
 
 use fovqa_frame::PairSignal;
 use fovqa_vision::BandMap;
@@ -34,14 +34,14 @@ impl Scorer {
         Self { metrics, params, lenient: false, maps: false }
     }
 
-    /// The same, but where a mask leaves no window, SSIM is left out of the scores instead of being
-    /// an error: for a run that names no metric.
+    /// A scorer that leaves SSIM out if a mask leaves no window, instead of returning an error. It
+    /// is meant for a run that names no metric.
     #[must_use]
     pub fn lenient(self) -> Self {
         Self { lenient: true, ..self }
     }
 
-    /// The same, with maps.
+    /// A scorer that also returns maps, if `maps` is set.
     #[must_use]
     pub fn with_maps(self, maps: bool) -> Self {
         Self { maps, ..self }
@@ -51,13 +51,13 @@ impl Scorer {
         self.metrics.contains(&metric)
     }
 
-    /// Scores a pair, block by block. `weight` is needed by FPSNR and foveated SSIM alone.
+    /// Scores a pair, block by block. Only FPSNR and foveated SSIM need `weight`.
     ///
     /// # Errors
     /// When a metric does not fit the frames or the mask, or has no weight.
     ///
     /// # Panics
-    /// When the regions are of frames of another height.
+    /// When the regions belong to frames of another height.
     pub fn score(
         &self,
         pair: &PairSignal<'_>,
@@ -149,7 +149,7 @@ impl Scorer {
                 }
                 Metric::MsSsim => rows.score(key, ms_ssim.ok_or(no_window)?),
                 Metric::Fssim => totals.weighted_ssim(key, &mut rows).ok_or(no_window)?,
-                // Measured by others.
+                // These metrics are measured elsewhere.
                 _ => debug_assert!(!is_of_this_pass(metric), "{metric:?} is measured here"),
             }
         }
@@ -157,14 +157,14 @@ impl Scorer {
     }
 }
 
-/// Whether nobody else measures a metric: neither a pass of its own, nor who has luminance, one picture or
-/// the frames before.
+/// Whether this pass measures a metric. Other metrics have a pass of their own, or need luminance,
+/// a single picture or previous frames.
 fn is_of_this_pass(metric: Metric) -> bool {
     let info = metric.info();
     info.kind == MetricKind::Fidelity && !metric.has_own_pass() && !info.needs.luminance
 }
 
-/// MS-SSIM from the finest scale's sums and the next scale.
+/// Computes MS-SSIM from the sums of the finest scale and the next scale.
 fn coarser_scales(
     finest: &Sums,
     mut scale: super::ms_ssim::Scale,

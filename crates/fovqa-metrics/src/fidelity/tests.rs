@@ -1,4 +1,4 @@
-//! The metrics against their formulas, written out literally in f64.
+//! Compares the metrics with their formulas, written out literally in f64.
 
 #![allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
 
@@ -55,7 +55,7 @@ impl Setup {
         let weight = WeightField::new(self.eccentricity, &self.params.fpsnr);
         let pair = PairSignal::new(a, b, &tables);
         let scored = scorer.score(&pair, &regions, Some(&weight))?;
-        // Whoever wants maps too has the same values.
+        // The values are the same if maps are asked for.
         let with_maps = scorer.with_maps(true).score(&pair, &regions, Some(&weight))?;
         assert_eq!(with_maps.rows, scored.rows);
         Ok(scored.rows)
@@ -80,7 +80,7 @@ fn score(rows: &Rows, metric: Metric) -> f64 {
     rows.value(Key::of(metric)).unwrap()
 }
 
-/// Planes of a frame in [0, 1].
+/// The planes of a frame in [0, 1].
 fn planes(frame: &Frame, luma: bool) -> Vec<Vec<f64>> {
     let (w, h) = (frame.width(), frame.height());
     let plane = |c: usize| -> Vec<f64> {
@@ -94,8 +94,8 @@ fn planes(frame: &Frame, luma: bool) -> Vec<Vec<f64>> {
     vec![(0..w * h).map(|i| (0..3).map(|c| weights[c] * rgb[c][i]).sum()).collect()]
 }
 
-/// The maps of SSIM and of its contrast-structure term, window by window; NaN where no window
-/// fits.
+/// The maps of SSIM and of its contrast-structure term, computed window by window; NaN where no
+/// window fits.
 fn literal_maps(
     a: &[f64],
     b: &[f64],
@@ -163,7 +163,8 @@ fn pair(w: usize, h: usize, amount: f64) -> (Frame, Frame) {
     (rgb8(w, h, reference), rgb8(w, h, test))
 }
 
-/// A picture and its ghost: the same with itself, shifted, laid over. It differs at every scale.
+/// A picture and its ghost, which is the picture mixed with a shifted copy of itself. They differ
+/// at every scale.
 fn ghosted(w: usize, h: usize) -> (Frame, Frame) {
     const SHIFT: usize = 3 * 9;
     let reference = codes(w, h, 3, 7);
@@ -173,11 +174,12 @@ fn ghosted(w: usize, h: usize) -> (Frame, Frame) {
     (rgb8(w, h, reference), rgb8(w, h, test))
 }
 
-/// Every metric, whole frame and per band, at sizes around those of blocks and tiles, in RGB and
-/// luma.
+/// Every metric, for the whole frame and per band, at sizes around those of blocks and tiles, in
+/// RGB and luma.
 #[test]
 fn all_metrics_follow_their_formulas() {
-    // Odd sizes; one more and one less than a block; more than a tile; the smallest for MS-SSIM.
+    // Odd sizes; one more and one less than a block; more than a tile; the smallest size for
+    // MS-SSIM.
     for (w, h, ms) in [(11, 11, false), (23, 65, false), (270, 63, false), (177, 193, true)] {
         let (a, b) = if ms { ghosted(w, h) } else { pair(w, h, 50.0) };
         for luma in [false, true] {
@@ -260,10 +262,11 @@ fn eight_bit_errors_are_exact() {
     assert_eq!(score(&found, Metric::Mse), squared as f64 / (3.0 * 300.0 * 130.0 * 255.0 * 255.0));
 }
 
-/// A constant error weighs the same everywhere; one at the gaze weighs more than one far off.
+/// A constant error has the same weight everywhere; an error at the gaze has more weight than a
+/// distant one.
 #[test]
 fn foveal_psnr_knows_where_the_error_is() {
-    // 1000 px of focal length: a flat zone of 8°, 141 px, around the gaze.
+    // With a focal length of 1000 px there is a flat zone of 8°, 141 px, around the gaze.
     let (w, h) = (400, 60);
     let gray = |code: u8| rgb8(w, h, vec![code; 3 * w * h]);
     let view = ViewSpec::PixelPitch { distance_m: 1.0, pitch_mm: 1.0 };
@@ -283,7 +286,7 @@ fn foveal_psnr_knows_where_the_error_is() {
 }
 
 #[test]
-fn masked_pixels_are_in_no_number() {
+fn masked_pixels_do_not_affect_any_number() {
     let (w, h) = (90, 80);
     let (a, b) = pair(w, h, 40.0);
     let mut setup = Setup::new(w, h, [45.0, 40.0]);
@@ -291,7 +294,7 @@ fn masked_pixels_are_in_no_number() {
     setup.mask = Mask::new(w, h, (0..w * h).map(inside).collect());
     let metrics = [Metric::Mse, Metric::Psnr, Metric::Ssim, Metric::Fpsnr, Metric::Fssim];
     let before = setup.score(&metrics, &a, &b).unwrap();
-    // Whatever stands outside the mask, the numbers stay.
+    // The result does not depend on the pixels outside the mask.
     let Samples::U8(mut codes) = b.samples().clone() else { unreachable!() };
     for (i, code) in codes.iter_mut().enumerate() {
         if !inside(i / 3) {
@@ -304,7 +307,7 @@ fn masked_pixels_are_in_no_number() {
     assert_eq!(left_out, (w * h - 60 * 67) as u64);
     let parts = before.get(Key::of(Metric::Mse)).unwrap().parts;
     assert!(matches!(parts, Parts::Mean { weight: 4020.0, .. }), "60 x 67 pixels: {parts:?}");
-    // The cropped pictures, without a mask, have the same windows.
+    // The cropped pictures without a mask have the same windows.
     let crop = fovqa_frame::Crop { x: 10, y: 8, width: 60, height: 67 };
     let cropped = Setup::new(60, 67, [35.0, 32.0]);
     let (a, b) = (a.cropped(crop).unwrap(), b.cropped(crop).unwrap());
@@ -361,7 +364,7 @@ fn the_window_may_have_any_size() {
 
 type Maker<'a> = &'a dyn Fn(&[u8]) -> Frame;
 
-/// 8 bits, 16 bits and floats of the same picture, gray and RGB, agree.
+/// The same picture in 8 bits, 16 bits and floats, gray and RGB, has the same scores.
 #[test]
 fn one_picture_scores_alike_in_every_type() {
     let (w, h) = (64, 48);

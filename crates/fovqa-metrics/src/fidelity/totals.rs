@@ -1,4 +1,4 @@
-//! From what a pass has summed to the rows of each metric.
+//! Converts the sums of a pass to the rows of each metric.
 
 use super::pass::Sums;
 use super::weighted_mean::WeightedMean;
@@ -6,10 +6,10 @@ use crate::decibels::psnr_db;
 use crate::pooling::Parts;
 use crate::row::{Key, Rows, Subject};
 
-/// The sums over a frame, and what divides them.
+/// The sums over a frame, and their divisors.
 pub(crate) struct Totals<'a> {
     pub(crate) sums: &'a Sums,
-    /// Pixels that count: of each band, then outside all bands.
+    /// The number of pixels that count: in each band, then outside all bands.
     pub(crate) pixels: &'a [u64],
     pub(crate) planes: f64,
     pub(crate) peak: f64,
@@ -20,11 +20,12 @@ impl Totals<'_> {
         self.pixels.len() - 1
     }
 
-    /// The squared error of all pixels and of each band, as `of` makes a value of its mean.
+    /// Adds the squared error of all pixels and of each band; `of` converts the mean to the
+    /// metric's value.
     pub(crate) fn squared_error(&self, key: Key, of: impl Fn(f64) -> f64, rows: &mut Rows) {
         let Self { sums, planes, peak, .. } = *self;
         let mut add = |key: Key, sum: f64, pixels: u64| {
-            // One rounding: sums of integer codes, and what divides them, are exact.
+            // There is a single rounding: sums of integer codes and their divisors are exact.
             let mean = || sum / (planes * pixels as f64 * peak * peak);
             let parts = Parts::Mean { sum: sum / (planes * peak * peak), weight: pixels as f64 };
             rows.push(key, (pixels > 0).then(|| of(mean())), parts);
@@ -35,7 +36,7 @@ impl Totals<'_> {
         }
     }
 
-    /// FPSNR; `None` without any weight.
+    /// Adds FPSNR; `None` if there is no weight at all.
     pub(crate) fn weighted_squared_error(&self, key: Key, rows: &mut Rows) -> Option<()> {
         let scale = self.planes * self.peak * self.peak;
         let mean = self.sums.weighted_squared.mean()? / scale;
@@ -44,7 +45,7 @@ impl Totals<'_> {
         Some(())
     }
 
-    /// SSIM of all windows and of each band; whether there is any window.
+    /// Adds SSIM of all windows and of each band. Returns whether there is any window.
     pub(crate) fn ssim(&self, key: Key, rows: &mut Rows) -> bool {
         let mut add = |key: Key, sum: f64, windows: u64| {
             let value = (windows > 0).then(|| sum / (self.planes * windows as f64));
@@ -64,13 +65,14 @@ impl Totals<'_> {
         windows > 0
     }
 
-    /// Foveated SSIM; `None` without any window.
+    /// Adds foveated SSIM; `None` if there is no window.
     pub(crate) fn weighted_ssim(&self, key: Key, rows: &mut Rows) -> Option<()> {
         rows.score(key, self.sums.weighted_ssim.mean()? / self.planes);
         Some(())
     }
 
-    /// The pixels that count: of each band, outside of all bands; and those that a mask leaves out.
+    /// Adds the numbers of pixels that count, in each band and outside all bands, and of those that
+    /// a mask leaves out.
     pub(crate) fn count(&self, left_out: u64, rows: &mut Rows) {
         if let [bands @ .., outside] = self.pixels
             && !bands.is_empty()

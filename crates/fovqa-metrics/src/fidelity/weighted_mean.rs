@@ -1,6 +1,5 @@
-//! The mean under the foveal weight f²: FPSNR's of the squared error, and foveated SSIM's of the map,
-//! Σ f² map / Σ f² over the pixels where it is defined (our own, beside FPSNR; in [-1, 1], higher is
-//! better).
+//! The mean with the foveal weight f²: for FPSNR of the squared error, and for foveated SSIM of the
+//! map, Σ f² map / Σ f² over the pixels where it is defined.
 
 /// The two sums of a weighted mean.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -19,7 +18,7 @@ impl WeightedMean {
         self.add((other.weighted, other.weight));
     }
 
-    /// `None` without any weight.
+    /// The mean; `None` if the total weight is 0.
     pub(crate) fn mean(&self) -> Option<f64> {
         (self.weight > 0.0).then(|| self.weighted / self.weight)
     }

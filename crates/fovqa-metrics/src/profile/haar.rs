@@ -1,14 +1,14 @@
 //! The Haar wavelet by eccentricity (Patney et al. 2016, 4.4.2 and Fig. 10).
 //!
-//! The orthonormal 2-D transform of the luma: level l describes blocks of 2^l x 2^l pixels. Of a
-//! block's quarters a b / c d, LH = (a + b - c - d) / 2 is low in x and high in y, HL is
-//! (a - b + c - d) / 2 and HH (a - b - c + d) / 2; LL = (a + b + c + d) / 2 goes on to the next level.
-//! The picture is cropped at the right and bottom to a multiple of 2^levels; a coefficient belongs to
-//! the band of its block's centre in the uncropped frame.
+//! This is the orthonormal 2-D transform of the luma: level l describes blocks of 2^l x 2^l pixels.
+//! With the quarters a b / c d of a block, LH = `(a + b - c - d) / 2` is low in x and high in y,
+//! HL = `(a - b + c - d) / 2`, and HH = `(a - b - c + d) / 2`. LL = `(a + b + c + d) / 2` is the
+//! input of the next level. The picture is cropped at the right and bottom to a multiple of 2^levels; a coefficient belongs
+//! to the band of its block's centre in the uncropped frame.
 //!
 //! Per level and band, over LH, HL and HH together: mean |c|, max |c| and mean c² (energy), of luma
-//! with peak 1. 0 and above; neither large nor small is better: what counts is how far the test's is
-//! from the reference's (below it: detail lost; above it: noise).
+//! with peak 1. Values are 0 and above. Neither higher nor lower is better; the test's value is
+//! compared with the reference's (lower: detail is lost; higher: noise).
 
 use multiversion::multiversion;
 
@@ -19,7 +19,7 @@ use crate::metric_params::MetricParams;
 use crate::pooling::{Parts, Pooling, Statistic, Weight};
 use crate::row::{Image, Key, Rows};
 
-/// Of all coefficients, then of each orientation, and how many there are.
+/// The statistics of all coefficients, then of each orientation, and the number of coefficients.
 const STATISTICS: [Statistic; 13] = [
     mean("mean_abs"),
     MAX_ABS,
@@ -70,15 +70,15 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     ..MetricInfo::PROFILE
 };
 
-/// The most levels there may be: blocks of 256 pixels a side.
+/// The largest number of levels: blocks have sides of 256 pixels.
 pub const MAX_LEVELS: u32 = 8;
 
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Params {
-    /// Levels, 1 to [`MAX_LEVELS`].
+    /// The number of levels, from 1 to [`MAX_LEVELS`].
     pub levels: u32,
-    /// Whether LH, HL and HH are reported one by one too.
+    /// Whether LH, HL and HH are also reported separately.
     pub orientations: bool,
 }
 
@@ -108,13 +108,13 @@ impl MetricParams for Params {
 }
 
 impl Params {
-    /// The side of the coarsest block, in pixels: the least a picture may have.
+    /// The side of the coarsest block in pixels, which is the smallest side of a picture.
     pub fn block_side(&self) -> usize {
         1 << self.levels
     }
 }
 
-/// Sums over coefficients of one orientation.
+/// Sums over the coefficients of one orientation.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Sums {
     abs: f64,
@@ -130,7 +130,8 @@ impl Sums {
     }
 }
 
-/// Adds the rows of `blocks` blocks with these sums of LH, HL and HH; `key` has picture, level and band.
+/// Adds the rows of `blocks` blocks with these sums of LH, HL and HH. `key` has the picture, level
+/// and band.
 pub(crate) fn rows(key: Key, sums: &[Sums; 3], blocks: u64, orientations: bool, rows: &mut Rows) {
     let mut all = Sums::default();
     for one in sums {
@@ -152,15 +153,16 @@ pub(crate) fn rows(key: Key, sums: &[Sums; 3], blocks: u64, orientations: bool, 
     }
 }
 
-/// Statistics of the coefficients of one orientation, or of all.
+/// The number of statistics of the coefficients of one orientation, or of all.
 const PER_ORIENTATION: usize = 3;
 
-/// The key of the number of coefficients, of both pictures, where `key` has level and band.
+/// The key for the number of coefficients, which both pictures share; `key` has the level and band.
 pub(crate) fn coefficients(key: Key) -> Key {
     key.of_image(Image::Pair).nth(STATISTICS.len() - 1)
 }
 
-/// One level of one pair of rows: `ll` and the details LH, HL, HH, each half as long as the rows.
+/// Transforms one pair of rows to the next level: `ll` and the details LH, HL, HH, each half as
+/// long as the rows.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 pub(crate) fn level(top: &[f64], bottom: &[f64], ll: &mut [f64], details: [&mut [f64]; 3]) {
     let (top, bottom) = (top.as_chunks::<2>().0, bottom.as_chunks::<2>().0);
@@ -179,7 +181,8 @@ pub(crate) fn level(top: &[f64], bottom: &[f64], ll: &mut [f64], details: [&mut 
     }
 }
 
-/// Sums of a stretch of coefficients, lane by lane: in one order for any vector width.
+/// The sums of a stretch of coefficients. They are added lane by lane, in the same order for any
+/// vector width.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 pub(crate) fn sums(coefficients: &[f64]) -> Sums {
     const LANES: usize = 8;

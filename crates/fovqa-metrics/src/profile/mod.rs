@@ -1,4 +1,5 @@
-//! One picture by eccentricity: what is measured of reference and test alike, and then compared.
+//! Profiles: metrics that describe one picture by eccentricity. They are measured for reference and
+//! test and then compared.
 
 pub mod haar;
 mod pass;

@@ -1,8 +1,9 @@
-//! One pass over the rows of a picture: moments of bands, the wavelet pyramid, and the luma itself for
-//! whoever compares it with the next frame.
+//! One pass over the rows of a picture: moments of bands, the wavelet pyramid, and the luma itself
+//! for the comparison with the next frame.
 //!
-//! A block of rows is cut into tiles of columns. Two rows make a row of the next level, two of those
-//! one of the next but one: a pyramid is a few rows deep and stays in the first-level cache.
+//! A block of rows is divided into tiles of columns. Two rows make a row of the next level, and two
+//! of those make a row of the level after it. So a pyramid needs only a few rows, which stay in the
+//! first-level cache.
 
 use std::ops::Range;
 
@@ -15,23 +16,25 @@ use super::rms_contrast::Moments;
 use crate::regions::{BlockRegions, Regions, clipped};
 use crate::temporal::kept_plane::KeptPlane;
 
-/// Columns of a tile, as many as the coarsest block within a block of rows times something.
+/// The number of columns of a tile: a multiple of the side of the coarsest block within a block of
+/// rows.
 const TILE_COLUMNS: usize = 512;
-/// Levels whose blocks lie within one block of rows; those above are taken of the means that are left.
+/// The number of levels whose blocks lie within one block of rows. Higher levels are computed from
+/// the means that these levels leave.
 const LEVELS_WITHIN: usize = BLOCK_ROWS.trailing_zeros() as usize;
 const _: () = assert!(TILE_COLUMNS.is_multiple_of(1 << LEVELS_WITHIN));
 
-/// What a pass reads and sums.
+/// The inputs and sums of a pass.
 pub(crate) struct Wanted<'a> {
     pub(crate) luma: &'a LumaSignal<'a>,
-    /// What the contrast is of: the luma, or another signal.
+    /// The signal whose contrast is computed: the luma, or another signal.
     pub(crate) contrast: Option<Contrast<'a>>,
     pub(crate) regions: &'a Regions<'a>,
     /// The blocks of each level of the wavelet.
     pub(crate) blocks: Option<&'a BlockRegions<'a>>,
 }
 
-/// What contrast is taken of.
+/// The signal whose contrast is computed.
 #[derive(Clone, Copy)]
 pub(crate) enum Contrast<'a> {
     Luma,
@@ -41,9 +44,9 @@ pub(crate) enum Contrast<'a> {
 /// Sums over a picture, or over one block of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ProfileSums {
-    /// Per band, then outside all bands.
+    /// For each band, then outside all bands.
     pub(crate) moments: Vec<Moments>,
-    /// Level by level the same, of LH, HL and HH.
+    /// For each level and band: LH, HL and HH.
     pub(crate) haar: Vec<Vec<[Sums; 3]>>,
 }
 
@@ -67,8 +70,8 @@ impl ProfileSums {
     }
 }
 
-/// Runs the pass, blocks of rows in parallel, and adds them up in order. `plane`, of the picture's
-/// size, is filled with the luma.
+/// Runs the pass over blocks of rows in parallel, and adds their sums in order. `plane`, which has
+/// the picture's size, receives the luma.
 pub(crate) fn run(wanted: &Wanted<'_>, plane: Option<&mut KeptPlane>) -> ProfileSums {
     let (width, height) = (wanted.luma.width(), wanted.luma.height());
     let ranges = (0..height).step_by(BLOCK_ROWS).map(|y| y..(y + BLOCK_ROWS).min(height));
@@ -100,7 +103,7 @@ pub(crate) fn run(wanted: &Wanted<'_>, plane: Option<&mut KeptPlane>) -> Profile
     sums
 }
 
-/// The levels above [`LEVELS_WITHIN`], of the means that level has left.
+/// Computes the levels above [`LEVELS_WITHIN`] from the means that this level leaves.
 fn coarse_levels(means: &[f64], blocks: &BlockRegions<'_>, sums: &mut ProfileSums) {
     let width = blocks.columns(LEVELS_WITHIN);
     let mut pyramid = Pyramid::new(LEVELS_WITHIN, blocks.levels(), width);
@@ -119,7 +122,7 @@ struct Block<'a> {
     row: Vec<f64>,
     pyramid: Pyramid,
     sums: ProfileSums,
-    /// The means that the last level within the block leaves, where there are levels above it.
+    /// The means that the last level within the block leaves, if there are levels above it.
     means: Vec<f64>,
 }
 
@@ -174,13 +177,13 @@ impl<'a> Block<'a> {
     }
 }
 
-/// The rows of a wavelet transform that are not used up yet: two a level.
+/// The rows of a wavelet transform that are still needed: two per level.
 struct Pyramid {
-    /// Level of the rows that come in: 0 for pixels.
+    /// The level of the input rows: 0 for pixels.
     base: usize,
     /// The last level.
     levels: usize,
-    /// Level by level from `base` on, an even and an odd row.
+    /// An even and an odd row for each level, starting with `base`.
     rows: Vec<[Vec<f64>; 2]>,
     details: [Vec<f64>; 3],
 }
@@ -196,13 +199,13 @@ impl Pyramid {
         }
     }
 
-    /// Where row `y` of the base level is put.
+    /// The buffer for row `y` of the base level.
     fn row_mut(&mut self, y: usize, columns: usize) -> &mut [f64] {
         &mut self.rows[0][y % 2][..columns]
     }
 
-    /// Takes row `y` of the base level, columns `xs` of the frame, into account: each level whose second
-    /// row this completes. Returns the row of means that the last level leaves, or nothing.
+    /// Processes row `y` of the base level, columns `xs` of the frame, and every level whose second
+    /// row this completes. Returns the row of means that the last level leaves, or an empty one.
     fn rise(
         &mut self,
         y: usize,

@@ -1,4 +1,4 @@
-//! All profiles of one picture, from one pass.
+//! Computes all profiles of one picture in one pass.
 
 use fovqa_frame::{Frame, LumaKind, LumaSignal, SignalTables};
 
@@ -12,7 +12,7 @@ use crate::registry::Params;
 use crate::row::{Image, Key, Rows};
 use crate::temporal::kept_plane::KeptPlane;
 
-/// Measures pictures one by one.
+/// Measures the profiles of single pictures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profiler {
     rms_contrast: Option<rms_contrast::Params>,
@@ -20,7 +20,7 @@ pub struct Profiler {
 }
 
 impl Profiler {
-    /// A profiler for those of the metrics that are profiles.
+    /// A profiler for the profiles among these metrics.
     pub fn new(metrics: &[Metric], params: &Params) -> Self {
         let wants = |metric| metrics.contains(&metric);
         Self {
@@ -29,7 +29,7 @@ impl Profiler {
         }
     }
 
-    /// Levels of the wavelet; `None` where it is not asked for.
+    /// The number of wavelet levels; `None` if the wavelet is not asked for.
     pub fn haar_levels(&self) -> Option<usize> {
         self.haar.map(|haar| haar.levels as usize)
     }
@@ -39,11 +39,11 @@ impl Profiler {
         self.rms_contrast.is_none() && self.haar.is_none()
     }
 
-    /// Measures a picture, the reference or the test as `image` has it. `plane` takes its luma, for
-    /// [`crate::temporal`].
+    /// Measures a picture, which is the reference or the test as `image` says. `plane` receives its
+    /// luma for [`crate::temporal`].
     ///
     /// # Panics
-    /// When regions, blocks or plane are not of pictures of this size.
+    /// When regions, blocks or plane do not have the picture's size.
     pub fn measure(
         &self,
         frame: &Frame,
@@ -82,7 +82,7 @@ impl Profiler {
                 for (band, (sums, blocks)) in of_level[..bands].iter().zip(counts).enumerate() {
                     let key = Key::of(Metric::Haar).of_image(image).on_level(level).in_band(band);
                     haar::rows(key, sums, blocks, params.orientations, &mut rows);
-                    // Of both pictures alike, and so of the pair.
+                    // These numbers are the same for both pictures, and so belong to the pair.
                     if image == Image::Reference {
                         rows.count(haar::coefficients(key), 3 * blocks);
                     }

@@ -1,9 +1,9 @@
 //! RMS contrast (Peli 1990; by eccentricity as in Patney et al. 2016, Fig. 4).
 //!
-//! Per band: sqrt(mean (Y - mean Y)²), Y the luma of the display-encoded signal or, as the signal
-//! `luminance`, linear light after exposure and before the tone map. In the unit of Y, or, normalised by
-//! the mean, without one. 0 and above; neither large nor small is better: what counts is how far the
-//! test's is from the reference's.
+//! Per band it is sqrt(mean (Y - mean Y)²). Y is the luma of the display-encoded signal or, with
+//! the signal `luminance`, linear luminance after exposure and before the tone map. It has the unit
+//! of Y or, when normalised by the mean, no unit. Values are 0 and above. Neither higher nor lower
+//! is better; the test's value is compared with the reference's.
 
 use fovqa_frame::LumaKind;
 use multiversion::multiversion;
@@ -39,19 +39,19 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Params {
-    /// What the contrast is of.
+    /// The signal whose contrast is computed.
     pub signal: LumaKind,
-    /// What it is divided by.
+    /// The divisor of the contrast.
     pub normalise: Normalise,
 }
 
-/// What contrast is divided by.
+/// The divisor of the contrast.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Normalise {
-    /// Nothing.
+    /// No divisor.
     #[default]
     None,
-    /// The band's mean.
+    /// The mean of the band.
     Mean,
 }
 
@@ -68,7 +68,7 @@ impl MetricParams for Params {
     }
 }
 
-/// Count, mean and sum of squared deviations of some pixels.
+/// Count, mean and sum of squared deviations of a set of pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Moments {
     pixels: u64,
@@ -77,15 +77,16 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
-    /// Those of a stretch of a row. Taken from its first value on, so that equal values have no
-    /// deviation at all: a ratio to nothing has to be seen to be one.
+    /// The moments of a stretch of a row. Deviations are computed relative to its first value, so
+    /// that equal values have a deviation of exactly 0. A ratio with a reference of 0 must be
+    /// recognised as such.
     pub(crate) fn of(values: &[f64]) -> Self {
         let Some(&first) = values.first() else { return Self::default() };
         let mean = first + sum_from(values, first) / values.len() as f64;
         Self { pixels: values.len() as u64, mean, squared: squares_from(values, mean) }
     }
 
-    /// Both together (Chan, Golub, LeVeque 1983, Eq. 2.1).
+    /// Combines two sets of pixels (Chan, Golub, LeVeque 1983, Eq. 2.1).
     pub(crate) fn merge(&mut self, other: &Self) {
         let pixels = self.pixels + other.pixels;
         if other.pixels == 0 {
@@ -98,7 +99,7 @@ impl Moments {
         self.pixels = pixels;
     }
 
-    /// The contrast; `None` without a pixel, or where a mean of 0 would divide it.
+    /// The contrast; `None` if there is no pixel, or the divisor is a mean of 0.
     pub(crate) fn contrast(&self, normalise: Normalise) -> Option<f64> {
         let contrast = (self.pixels > 0).then(|| (self.squared / self.pixels as f64).sqrt())?;
         match normalise {
@@ -108,7 +109,7 @@ impl Moments {
     }
 }
 
-/// Accumulators of a sum: two vectors of the widest kind, or four of a common one.
+/// The number of accumulators of a sum: two vectors of the widest kind, or four of a common one.
 const LANES: usize = 16;
 
 #[inline(always)]

@@ -1,4 +1,4 @@
-//! Profiles against their formulas, written out literally in f64.
+//! Compares profiles with their formulas, written out literally in f64.
 
 #![allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
 
@@ -78,7 +78,8 @@ impl Setup {
         self.mask.as_ref().is_none_or(|mask| mask.row(y)[x])
     }
 
-    /// All coefficients of each level and band: `[level - 1][band]`, LH, HL and HH of a block.
+    /// All coefficients of each level and band: `[level - 1][band]`, with LH, HL and HH of each
+    /// block.
     fn coefficients(&self) -> Vec<Vec<Vec<[f64; 3]>>> {
         let (width, height) = self.size();
         let luma = self.luma();
@@ -94,7 +95,7 @@ impl Setup {
                 let Some(band) = self.band_at(centre(i), centre(j)).filter(|_| clean) else {
                     continue;
                 };
-                // The basis functions themselves: ±1 in each quarter, of norm 1.
+                // The basis functions themselves: ±1 in each quarter, with norm 1.
                 let mut block = [0.0; 3];
                 for (dx, dy) in pixels() {
                     let value = luma[j * side + dy][i * side + dx] / side as f64;
@@ -137,7 +138,7 @@ impl Setup {
         assert!(some > 0);
     }
 
-    /// RMS contrast of each band.
+    /// The RMS contrast of each band.
     fn contrasts(&self) -> Vec<Option<f64>> {
         let key = Key::of(Metric::RmsContrast).of_image(Image::Reference);
         let found = self.measure(None);
@@ -189,9 +190,9 @@ fn levels_above_a_block_of_rows_are_no_different() {
 }
 
 #[test]
-fn orientations_are_told_apart() {
+fn orientations_are_distinguished() {
     Setup::new(97, 71).set(Metric::Haar, "orientations", &ParamValue::Flag(true)).check_haar();
-    // Stripes along x change in y alone.
+    // Horizontal stripes change only along y.
     let mut setup = Setup::new(64, 64).set(Metric::Haar, "orientations", &ParamValue::Flag(true));
     let stripes = (0..64 * 64).flat_map(|i| [if i / 64 % 2 == 0 { 255 } else { 0 }; 3]);
     setup.frame = rgb8(64, 64, stripes.collect());

@@ -1,11 +1,12 @@
 //! ATD, the average temporal difference along the motion (Patney et al. 2016, 4.4.3).
 //!
-//! Of frame t: mean over valid pixels of |Y_t(x) - Y_{t-1}(x + m_t(x))|, Y the luma of the
-//! display-encoded signal, m the backward motion in pixels, bilinear fetch at pixel centres, clamped to the
-//! frame. A pixel is valid when its source x + m lies in [0, W) x [0, H) and, where depth is given,
-//! |Z_{t-1}(s) - Z_t(x)| ≤ `depth_tolerance` |Z_t(x)|, s the pixel that holds the source. Non-finite
-//! motion or depth is not valid. In [0, 1]; lower is steadier, and the ratio to the reference's is the
-//! papers' percentage.
+//! For frame t it is the mean over valid pixels of |Y_t(x) - Y_{t-1}(x + m_t(x))|. Y is the luma of
+//! the display-encoded signal, and m the backward motion in pixels. The previous frame is
+//! interpolated bilinearly at pixel centres and clamped to its borders. A pixel is valid when its
+//! source x + m lies in [0, W) x [0, H) and, if depth is given, |Z_{t-1}(s) - Z_t(x)| ≤
+//! `depth_tolerance` |Z_t(x)|, where s is the pixel that holds the source. A pixel with non-finite
+//! motion or depth is not valid. ATD is in [0, 1]; lower is steadier, and its ratio to the
+//! reference's ATD is the papers' percentage.
 
 use fovqa_frame::map_row_blocks;
 use multiversion::multiversion;
@@ -51,7 +52,8 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Params {
-    /// How much depth may differ along the motion, as a share of it; `None`: depth is not looked at.
+    /// The largest change of depth along the motion, as a share of the depth; `None` means that
+    /// depth is ignored.
     pub depth_tolerance: Option<f64>,
 }
 
@@ -71,41 +73,41 @@ impl MetricParams for Params {
     }
 }
 
-/// The difference of one frame to the one before it: sums and valid pixels, band by band.
+/// The difference of one frame to the one before it: sums and numbers of valid pixels, per band.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct AtdFrame {
-    /// Pixels that could have been valid: all that count.
+    /// The number of pixels that count, valid or not.
     pub pixels: u64,
-    /// Over the whole frame.
+    /// The differences over the whole frame.
     pub whole: AtdSum,
-    /// Band by band.
+    /// The differences in each band.
     pub bands: Vec<AtdSum>,
 }
 
-/// The differences of some pixels.
+/// The sum of differences over some pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct AtdSum {
-    /// Their sum.
+    /// The sum of the differences.
     pub sum: f64,
-    /// Pixels that can be compared.
+    /// The number of pixels that can be compared.
     pub valid: u64,
 }
 
 impl AtdSum {
-    /// The mean over valid pixels; `None` where there is none.
+    /// The mean over valid pixels; `None` if there are none.
     pub fn mean(&self) -> Option<f64> {
         (self.valid > 0).then(|| self.sum / self.valid as f64)
     }
 }
 
 impl AtdFrame {
-    /// Pixels left out.
+    /// The number of pixels that are left out.
     pub fn left_out(&self) -> u64 {
         self.pixels - self.whole.valid
     }
 
-    /// The values, of one picture: of the whole frame, with the share that was left out, and of each
-    /// band.
+    /// Adds the values of one picture: of the whole frame, with the share that is left out, and of
+    /// each band.
     pub fn rows(&self, image: Image, rows: &mut Rows) {
         let key = Key::of(Metric::Atd).of_image(image);
         let mut add = |key: Key, difference: &AtdSum| {
@@ -121,20 +123,21 @@ impl AtdFrame {
     }
 }
 
-/// Columns of a tile: what is known of their sources stays in the first-level cache.
+/// The number of columns of a tile: its sources stay in the first-level cache.
 const TILE_COLUMNS: usize = 256;
 
-/// Sums of a block of rows, per band and then outside all bands.
+/// The sums of a block of rows: per band, then outside all bands.
 struct Sums {
-    /// Picture by picture.
+    /// The sums for each picture.
     differences: Vec<Vec<f64>>,
     valid: Vec<u64>,
 }
 
-/// The differences of pictures that share their motion, each given as it is now and as it was.
+/// The differences of pictures that share their motion. Each picture is given by its present and
+/// its previous frame.
 ///
 /// # Panics
-/// When regions, motion, depth or planes are not of one size.
+/// When regions, motion, depth or planes differ in size.
 pub fn differences(
     link: &Link<'_>,
     pictures: &[(&KeptPlane, &KeptPlane)],
@@ -238,7 +241,7 @@ fn count(valid: &[u32]) -> u64 {
     u64::from(valid.iter().sum::<u32>())
 }
 
-/// `values` becomes its distance to `now`, and 0 where that is not valid.
+/// Replaces `values` by their distances to `now`, and by 0 where that is not valid.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn difference(now: &[f32], valid: &[u32], values: &mut [f32]) {
     for ((value, now), valid) in values.iter_mut().zip(now).zip(valid) {

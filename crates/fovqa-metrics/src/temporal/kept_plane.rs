@@ -1,9 +1,9 @@
-//! One value a pixel of a whole frame, kept for the next one.
+//! A plane of one value per pixel, kept for the comparison with the next frame.
 
 use fovqa_frame::{BLOCK_ROWS, Plane};
 use rayon::prelude::*;
 
-/// Luma, 0 to 1, or depth in the renderer's units, row by row. Its memory is used again for frame after
+/// Luma, 0 to 1, or depth in the renderer's units, row by row. Its memory is reused for every
 /// frame.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct KeptPlane {
@@ -12,18 +12,18 @@ pub struct KeptPlane {
 }
 
 impl KeptPlane {
-    /// The plane with room for another size; what it holds is not cleared.
+    /// Changes the size of the plane. Its content is not cleared.
     pub(crate) fn resized(&mut self, width: usize, height: usize) -> &mut Self {
         self.width = width;
         if self.values.is_empty() {
-            // Zeroed by the system, page by page as it is written.
+            // The system zeroes this memory page by page, when it is first written.
             self.values = vec![0.0; width * height];
         }
         self.values.resize(width * height, 0.0);
         self
     }
 
-    /// Takes the values of another plane over.
+    /// Copies the values of another plane.
     pub fn take(&mut self, plane: &Plane) {
         let width = plane.width();
         let values = self.resized(width, plane.height()).values_mut();
@@ -43,7 +43,7 @@ impl KeptPlane {
         self.width
     }
 
-    /// Height in pixels; 0 before anything was put in.
+    /// Height in pixels; 0 before the first values are stored.
     pub fn height(&self) -> usize {
         self.values.len().checked_div(self.width).unwrap_or(0)
     }

@@ -1,4 +1,4 @@
-//! One sequence over time: each frame against the one before it, which is all that is kept.
+//! Temporal metrics: each frame is compared with the one before it, and only that one is kept.
 
 pub mod atd;
 pub(crate) mod kept_plane;

@@ -1,4 +1,4 @@
-//! Where the pixels of a frame were in the frame before it.
+//! The sources of pixels: their positions in the previous frame.
 
 use fovqa_frame::{Mask, Motion, Plane};
 use multiversion::multiversion;
@@ -6,24 +6,24 @@ use multiversion::multiversion;
 use super::kept_plane::KeptPlane;
 use crate::regions::Regions;
 
-/// How a frame hangs together with the one before it.
+/// The relation of a frame to the previous one.
 #[derive(Debug, Clone, Copy)]
 pub struct Link<'a> {
-    /// Backward motion; `None`: nothing moves.
+    /// Backward motion; `None` if nothing moves.
     pub motion: Option<&'a Motion>,
-    /// Depth of this frame and of the one before it; `None`: it is not looked at.
+    /// Depth of this frame and of the previous one; `None` if depth is ignored.
     pub depth: Option<(&'a Plane, &'a KeptPlane)>,
-    /// Which pixels of this frame count, and into which band.
+    /// The pixels of this frame that count, with the band of each.
     pub regions: &'a Regions<'a>,
-    /// Which pixels of the frame before it count; `None`: all.
+    /// The pixels of the previous frame that count; `None` means all.
     pub mask_before: Option<&'a Mask>,
 }
 
-/// Pixels whose sources are fetched from consecutive places where they have one motion: a vector of the
-/// widest kind.
+/// The number of pixels in a stretch, a vector of the widest kind. If its pixels have the same
+/// motion, their sources are fetched from consecutive positions.
 const STRETCH: usize = 16;
 
-/// A stretch of a row, and the frame it is of.
+/// A stretch of a row, and the size of its frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stretch {
     pub(crate) x: usize,
@@ -33,8 +33,9 @@ pub(crate) struct Stretch {
     pub(crate) height: usize,
 }
 
-/// Where the pixels of a stretch come from. A source lies between four taps: the upper left is `whole`
-/// pixels away, across and down, and `weight` is that of the taps to its right and below it.
+/// The sources of the pixels of a stretch. A source lies between four pixels (taps): the upper left
+/// one is `whole` pixels away, across and down, and `weight` is the weight of the taps to its right
+/// and below it.
 #[derive(Debug)]
 pub(crate) struct Sources {
     motion: [Vec<f32>; 2],
@@ -43,23 +44,23 @@ pub(crate) struct Sources {
     weight: [Vec<f32>; 2],
     /// 1 where the source can be compared, 0 elsewhere.
     valid: Vec<u32>,
-    /// How the taps of each [`STRETCH`] lie.
-    reach: Vec<Reach>,
+    /// The position of the taps of each [`STRETCH`].
+    layouts: Vec<TapLayout>,
 }
 
-/// How the taps of some pixels lie.
+/// The position of the taps of a stretch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Reach {
-    /// Side by side, within the frame: the pixels, a whole stretch of them, move together.
+enum TapLayout {
+    /// All within the frame and consecutive: the pixels are a whole stretch with the same motion.
     Together,
-    /// Within the frame.
+    /// All within the frame.
     Inside,
-    /// Some of them beyond its border.
+    /// Some of them outside the frame.
     Beyond,
 }
 
 impl Sources {
-    /// Room for up to `columns` pixels.
+    /// A buffer for up to `columns` pixels.
     pub(crate) fn new(columns: usize) -> Self {
         Self {
             motion: std::array::from_fn(|_| vec![0.0; columns]),
@@ -67,7 +68,7 @@ impl Sources {
             whole: std::array::from_fn(|_| vec![0; columns]),
             weight: std::array::from_fn(|_| vec![0.0; columns]),
             valid: vec![1; columns],
-            reach: vec![Reach::Beyond; columns.div_ceil(STRETCH)],
+            layouts: vec![TapLayout::Beyond; columns.div_ceil(STRETCH)],
         }
     }
 
@@ -90,7 +91,7 @@ impl Sources {
             }
         }
         let [across, down] = self.whole.each_ref().map(|whole| &whole[..n]);
-        find_reach(across, down, at, &mut self.reach);
+        find_tap_layout(across, down, at, &mut self.layouts);
         if let (Some((now, before)), Some(tolerance)) = (link.depth, tolerance) {
             now.fill_row(at.y, at.x..at.x + n, &mut self.depth[..n]);
             compare_depth(self, before, tolerance, at);
@@ -107,7 +108,7 @@ impl Sources {
         let starts = [(at.x as i32, 1, at.width), (at.y as i32, 0, at.height)];
         for (axis, (first, step, side)) in starts.into_iter().enumerate() {
             let line = Line { first, step, side: side as u32 };
-            let found = Found {
+            let found = AxisSources {
                 whole: &mut self.whole[axis][..n],
                 weight: &mut self.weight[axis][..n],
                 valid: &mut self.valid[..n],
@@ -122,7 +123,7 @@ impl Sources {
         }
     }
 
-    /// Leaves out pixels with a tap that has weight and does not count.
+    /// Leaves out pixels that have a tap with positive weight that does not count.
     fn keep_unmasked(&mut self, mask: &Mask, at: Stretch) {
         for i in 0..at.pixels {
             let taps = self.taps(i, at);
@@ -140,12 +141,12 @@ impl Sources {
         }
     }
 
-    /// The luma at the sources of a stretch; anything where they are not valid.
+    /// The luma at the sources of a stretch. Values are arbitrary where they are not valid.
     pub(crate) fn fetch(&self, before: &KeptPlane, at: Stretch, out: &mut [f32]) {
         fetch(self, before, at, out);
     }
 
-    /// The taps of a pixel, kept within the frame.
+    /// The taps of a pixel, clamped to the frame.
     #[inline(always)]
     fn taps(&self, i: usize, at: Stretch) -> Taps {
         let x = (at.x + i) as i32 + self.whole[0][i];
@@ -158,7 +159,7 @@ impl Sources {
         }
     }
 
-    /// The upper left tap of a pixel whose taps are in the frame, as an index into its plane.
+    /// The index in its plane of the upper left tap of a pixel whose taps are within the frame.
     #[inline(always)]
     fn first_tap(&self, i: usize, at: Stretch) -> usize {
         let x = (at.x + i) as i64 + i64::from(self.whole[0][i]);
@@ -172,7 +173,7 @@ fn within(at: i32, side: usize) -> usize {
     at.clamp(0, side as i32 - 1) as usize
 }
 
-/// Four pixels.
+/// The indices of four taps.
 struct Taps {
     left: usize,
     right: usize,
@@ -180,36 +181,36 @@ struct Taps {
     bottom: usize,
 }
 
-/// Pixels along one axis of the frame.
+/// The positions of the pixels of a stretch along one axis of the frame.
 #[derive(Clone, Copy)]
 struct Line {
-    /// Position of the first.
+    /// The position of the first pixel.
     first: i32,
-    /// From each to the next: 1 along the row, 0 across it.
+    /// The step from each pixel to the next: 1 along the row, 0 across it.
     step: i32,
-    /// The frame's side.
+    /// The side of the frame.
     side: u32,
 }
 
-/// Where motion along one axis leads.
-struct Found<'a> {
+/// The sources of the pixels along one axis.
+struct AxisSources<'a> {
     whole: &'a mut [i32],
     weight: &'a mut [f32],
     valid: &'a mut [u32],
 }
 
-/// Motion as far as this, or that is not a number, leads nowhere.
+/// Motion this large, or motion that is not a number, has no source.
 const FARTHEST_PX: f32 = (1 << 21) as f32;
 
-/// Follows motion in pixels, of either sign. In f32 throughout, and yet a source just inside of a pixel is told
-/// from one just outside of it: the part of the motion beyond whole pixels is exact, or, of small motion
-/// to the left or up, too near to 1 to be mistaken.
+/// Finds sources for motion in pixels, with either sign. The calculation is in f32, but a source
+/// just inside a pixel is still distinguished from one just outside: the fractional part of the
+/// motion is exact or, for small motion to the left or up, so near to 1 that there is no ambiguity.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn follow_signed(motion: &[f32], sign: f32, line: Line, found: Found<'_>) {
-    /// Added to a whole number, it leaves that in the lowest bits: a conversion that vectorises.
+fn follow_signed(motion: &[f32], sign: f32, line: Line, found: AxisSources<'_>) {
+    /// Adding it to an integer leaves the integer in the lowest bits. This conversion vectorises.
     const BITS: f32 = (3 << 22) as f32;
     let n = motion.len();
-    let Found { whole, weight, valid } = found;
+    let AxisSources { whole, weight, valid } = found;
     let (whole, weight, valid) = (&mut whole[..n], &mut weight[..n], &mut valid[..n]);
     for i in 0..n {
         let near = motion[i].abs() < FARTHEST_PX;
@@ -217,18 +218,19 @@ fn follow_signed(motion: &[f32], sign: f32, line: Line, found: Found<'_>) {
         let floor = pixels.floor();
         weight[i] = pixels - floor;
         whole[i] = (floor + BITS).to_bits() as i32 - BITS.to_bits() as i32;
-        // Centres are at +0.5: the source is in its tap's pixel, or from half a pixel on in the next.
+        // Pixel centres are at +0.5: the source lies in the pixel of its tap or, from half a pixel
+        // on, in the next one.
         let holder = line.first + line.step * i as i32 + whole[i] + i32::from(weight[i] >= 0.5);
         valid[i] &= u32::from(near) & u32::from((holder as u32) < line.side);
     }
 }
 
-/// The same of motion in other units, in f64.
+/// Finds sources for motion in other units, in f64.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn follow_scaled(motion: &[f32], scale: f64, line: Line, found: Found<'_>) {
+fn follow_scaled(motion: &[f32], scale: f64, line: Line, found: AxisSources<'_>) {
     const BITS: f64 = (3u64 << 51) as f64;
     let n = motion.len();
-    let Found { whole, weight, valid } = found;
+    let AxisSources { whole, weight, valid } = found;
     let (whole, weight, valid) = (&mut whole[..n], &mut weight[..n], &mut valid[..n]);
     for i in 0..n {
         let pixels = f64::from(motion[i]) * scale;
@@ -243,10 +245,10 @@ fn follow_scaled(motion: &[f32], scale: f64, line: Line, found: Found<'_>) {
     }
 }
 
-/// Finds how the taps of each stretch lie.
+/// Finds the position of the taps of each stretch.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn find_reach(across: &[i32], down: &[i32], at: Stretch, reach: &mut [Reach]) {
-    for (i, reach) in reach.iter_mut().enumerate().take(across.len().div_ceil(STRETCH)) {
+fn find_tap_layout(across: &[i32], down: &[i32], at: Stretch, layouts: &mut [TapLayout]) {
+    for (i, layout) in layouts.iter_mut().enumerate().take(across.len().div_ceil(STRETCH)) {
         let (start, end) = (i * STRETCH, ((i + 1) * STRETCH).min(across.len()));
         let (x, y) = ((at.x + start) as i64, at.y as i64);
         let (left, right) = extremes(&across[start..end]);
@@ -255,10 +257,10 @@ fn find_reach(across: &[i32], down: &[i32], at: Stretch, reach: &mut [Reach]) {
             && y + i64::from(up) >= 0
             && x + i64::from(right) + ((end - start) as i64) < at.width as i64
             && y + i64::from(below) + 1 < at.height as i64;
-        *reach = match (inside, left == right && up == below && end - start == STRETCH) {
-            (true, true) => Reach::Together,
-            (true, false) => Reach::Inside,
-            (false, _) => Reach::Beyond,
+        *layout = match (inside, left == right && up == below && end - start == STRETCH) {
+            (true, true) => TapLayout::Together,
+            (true, false) => TapLayout::Inside,
+            (false, _) => TapLayout::Beyond,
         };
     }
 }
@@ -275,7 +277,7 @@ fn extremes(numbers: &[i32]) -> (i32, i32) {
     (low, high)
 }
 
-/// Leaves out pixels whose source lies at another depth: what has just come into sight.
+/// Leaves out pixels whose source has another depth, because they have just become visible.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn compare_depth(sources: &mut Sources, before: &KeptPlane, tolerance: f64, at: Stretch) {
     let mut then = [0.0f32; STRETCH];
@@ -283,8 +285,8 @@ fn compare_depth(sources: &mut Sources, before: &KeptPlane, tolerance: f64, at: 
         let end = (start + STRETCH).min(at.pixels);
         let n = end - start;
         let (right, below) = (&sources.weight[0][start..end], &sources.weight[1][start..end]);
-        let reach = sources.reach[part];
-        if reach == Reach::Together
+        let layout = sources.layouts[part];
+        if layout == TapLayout::Together
             && let [Some(top), Some(bottom)] =
                 taps_of(before.values(), sources.first_tap(start, at), at)
             && let (Some(right), Some(below)) =
@@ -295,7 +297,7 @@ fn compare_depth(sources: &mut Sources, before: &KeptPlane, tolerance: f64, at: 
                 let lower = if right[i] >= 0.5 { bottom[i + 1] } else { bottom[i] };
                 then[i] = if below[i] >= 0.5 { lower } else { upper };
             }
-        } else if reach == Reach::Inside {
+        } else if layout == TapLayout::Inside {
             for i in 0..n {
                 let holder = usize::from(right[i] >= 0.5) + usize::from(below[i] >= 0.5) * at.width;
                 then[i] = before.values()[sources.first_tap(start + i, at) + holder];
@@ -316,14 +318,15 @@ fn compare_depth(sources: &mut Sources, before: &KeptPlane, tolerance: f64, at: 
         let valid = &mut sources.valid[start..end];
         for i in 0..n {
             let (now, then) = (f64::from(now[i]), f64::from(then[i]));
-            // False for whatever is not finite: sky may be far, but not infinitely far.
+            // This is false for values that are not finite: sky may be far away, but not infinitely
+            // far.
             let near = (then - now).abs() <= tolerance * now.abs();
             valid[i] &= u32::from(near) & u32::from(now.abs() < f64::INFINITY);
         }
     }
 }
 
-/// Whether depths agree with so much to spare that f32 can tell, as most do.
+/// Whether depths agree with so much margin that f32 is precise enough, as it usually is.
 #[inline(always)]
 fn clearly_alike(now: &[f32; STRETCH], then: &[f32; STRETCH], tolerance: f32) -> bool {
     const TO_SPARE: f32 = 0.999;
@@ -341,8 +344,8 @@ fn fetch(sources: &Sources, before: &KeptPlane, at: Stretch, out: &mut [f32]) {
         let (start, n) = (part * STRETCH, out.len());
         let end = start + n;
         let (right, below) = (&sources.weight[0][start..end], &sources.weight[1][start..end]);
-        let reach = sources.reach[part];
-        if reach == Reach::Together
+        let layout = sources.layouts[part];
+        if layout == TapLayout::Together
             && let [Some(top), Some(bottom)] =
                 taps_of(before.values(), sources.first_tap(start, at), at)
             && let (Some(right), Some(below)) =
@@ -354,7 +357,7 @@ fn fetch(sources: &Sources, before: &KeptPlane, at: Stretch, out: &mut [f32]) {
                 let lower = between(bottom[i], bottom[i + 1], right[i]);
                 out[i] = between(upper, lower, below[i]);
             }
-        } else if reach == Reach::Inside {
+        } else if layout == TapLayout::Inside {
             for i in 0..n {
                 let first = sources.first_tap(start + i, at);
                 let (top, bottom) =
@@ -375,7 +378,8 @@ fn fetch(sources: &Sources, before: &KeptPlane, at: Stretch, out: &mut [f32]) {
     }
 }
 
-/// The upper and the lower taps of pixels that move together, the first of which is at an index.
+/// The upper and the lower taps of pixels with the same motion; `first` is the index of the first
+/// tap.
 #[inline(always)]
 fn taps_of(values: &[f32], first: usize, at: Stretch) -> [Option<&[f32; STRETCH + 1]>; 2] {
     let below = first + at.width;

@@ -1,4 +1,4 @@
-//! Differences over time against their formula, written out literally.
+//! Compares temporal differences with their formula, written out literally.
 
 #![allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
 
@@ -68,7 +68,7 @@ fn a_pattern_moved_by_whole_pixels_with_its_motion_does_not_differ() {
     let motion = uniform(W, H, [-7.0, 3.0]);
     let found = only(&link(&regions, Some(&motion)), &now, &before);
     assert_eq!(found.whole.mean(), Some(0.0));
-    // Seven columns at the left and three rows at the bottom come from outside.
+    // The sources of seven columns on the left and three rows at the bottom are outside.
     assert_eq!(found.whole.valid, ((W - 7) * (H - 3)) as u64);
     assert_eq!(found.left_out(), (W * H - (W - 7) * (H - 3)) as u64);
     let wrong = uniform(W, H, [7.0, -3.0]);
@@ -79,16 +79,18 @@ fn a_pattern_moved_by_whole_pixels_with_its_motion_does_not_differ() {
 
 #[test]
 fn half_a_pixel_fetches_the_bilinear_value() {
-    // A ramp of 1/1024 a column: half a pixel away it is half a step.
+    // A ramp of 1/1024 per column: half a pixel of motion is half a step.
     let bands = no_bands(64, 8);
     let regions = Regions::unmasked(&bands);
     let ramp = plane(64, 8, |x, _| x as f32 / 1024.0);
     let motion = uniform(64, 8, [0.5, 0.0]);
     let found = only(&link(&regions, Some(&motion)), &ramp, &ramp);
-    // The last column's source, on the border, is outside; 63 columns differ by half a step.
+    // The last column's source is on the border, which is outside; 63 columns differ by half a
+    // step.
     assert_eq!(found.whole.valid, 63 * 8);
     assert_eq!(found.whole.mean(), Some(0.5 / 1024.0));
-    // Half a pixel back, the first column's source holds the border: its taps are one pixel twice.
+    // Half a pixel back, the first column's source is in the border pixel: both of its taps are the
+    // same pixel.
     let back = uniform(64, 8, [-0.5, 0.0]);
     let found = only(&link(&regions, Some(&back)), &ramp, &ramp);
     assert_eq!(found.whole.valid, 64 * 8);
@@ -96,11 +98,12 @@ fn half_a_pixel_fetches_the_bilinear_value() {
 }
 
 #[test]
-fn what_comes_into_sight_is_left_out_and_counted() {
+fn newly_visible_pixels_are_left_out_and_counted() {
     let bands = no_bands(64, 8);
     let regions = Regions::unmasked(&bands);
     let (now, before) = (plane(64, 8, |_, _| 0.75), plane(64, 8, |x, _| x as f32 / 64.0));
-    // Depth 2 now; before, five columns were 1 away and one was 1.91, within the tolerance.
+    // Depth is 2 now. Before, five columns were 1 away, and one was 1.91 away, which is within the
+    // tolerance.
     let depth_now = channel(64, 8, |_, _| 2.0);
     let depth_before = depth_plane(64, 8, |x, _| match x {
         10..15 => 1.0,
@@ -120,7 +123,7 @@ fn what_comes_into_sight_is_left_out_and_counted() {
 }
 
 #[test]
-fn what_is_not_finite_is_left_out() {
+fn pixels_that_are_not_finite_are_left_out() {
     let bands = no_bands(64, 8);
     let regions = Regions::unmasked(&bands);
     let gray = plane(64, 8, |_, _| 0.5);
@@ -134,7 +137,7 @@ fn what_is_not_finite_is_left_out() {
     let motion =
         Motion::new(channel(64, 8, |x, _| bad(x)), channel(64, 8, |_, y| bad(y + 30)), [1.0; 2]);
     let found = only(&link(&regions, motion.as_ref()), &gray, &gray);
-    // Four columns, and the row whose vertical motion is 1e30.
+    // Four columns are left out, and the row whose vertical motion is 1e30.
     assert_eq!(found.whole.valid, 60 * 7);
     let depth_now = channel(64, 8, |x, _| if x < 4 { f32::INFINITY } else { 5.0 });
     let depth_before = depth_plane(64, 8, |x, _| match x {
@@ -168,7 +171,7 @@ fn any_motion_depth_bands_and_masks_follow_the_formula() {
     let regions = Regions::masked(&bands, &mask_now, 5);
     let (now, before) =
         (plane(W, H, |x, y| noise(1, y * W + x)), plane(W, H, |x, y| noise(2, y * W + x)));
-    // Smooth on the left, wild on the right; whole pixels here and there.
+    // Motion is smooth on the left and random on the right, with whole pixels here and there.
     let m = |seed: u32, x: usize, y: usize| match x {
         0..200 => (x as f32 * 0.01 - y as f32 * 0.02) + 0.3,
         200..300 => -2.0,

@@ -1,4 +1,4 @@
-//! The colour bar of pictures: which value has which colour.
+//! The colour bar of pictures, which shows the colour of each value.
 
 use crate::axes::axis::{AXIS_STROKE, Axis, LABEL_GAP_PX, TICK_LENGTH_PX, TITLE_GAP_PX};
 use crate::axes::value_axis::ticks;
@@ -11,9 +11,9 @@ use crate::page::layout::{MARGIN_PX, TITLE_LINES};
 use crate::scales::scale::Scale;
 use crate::scales::ticks::Tick;
 
-/// From the pictures to the bar.
+/// Distance from the pictures to the bar.
 const GAP_PX: f64 = 6.0;
-/// Its width.
+/// Width of the bar.
 const BAR_PX: f64 = 14.0;
 
 /// A bar with its range.
@@ -24,7 +24,7 @@ pub(crate) struct ColourBar {
 }
 
 impl ColourBar {
-    /// A bar of a height; without a range it has no ticks.
+    /// A bar of a height. Without a range it has no ticks.
     pub(crate) fn new(axis: &Axis, scale: Option<Scale>, height_px: f64) -> Self {
         let of = |scale: Scale| {
             let ticks = ticks(scale, height_px).into_iter();
@@ -49,7 +49,7 @@ impl ColourBar {
         self.ticks.iter().map(|(_, tick)| width_px(&tick.label, TICK_PX)).fold(0.0, f64::max)
     }
 
-    /// Draws it from the upper left corner of its room on.
+    /// Draws the bar, with the upper left corner of its area at this point.
     pub(crate) fn draw(&self, drawing: &mut Drawing, (left, top): (f64, f64), height_px: f64) {
         let left = left + GAP_PX;
         let bar = Rect { left, top, right: left + BAR_PX, bottom: top + height_px };

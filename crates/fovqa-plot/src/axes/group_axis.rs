@@ -1,5 +1,5 @@
-//! The horizontal axis of groups: a slot for each, with room for every series, and its name
-//! beneath: level while it fits, else upright.
+//! The horizontal axis of groups. Each group has a slot with room for every series, and its name
+//! below the slot: horizontal if it fits, else upright.
 
 use crate::axes::axis::{GRID_STROKE, LABEL_GAP_PX, TICK_LENGTH_PX};
 use crate::canvas::drawing::{Anchor, Drawing, Rect, Text};
@@ -7,24 +7,24 @@ use crate::canvas::text::{CAPITAL, DESCENT, LINE_PITCH, TICK_PX};
 use crate::canvas::wrap::{keeps_words, widest_px, wrap};
 use crate::page::layout::{LEAST_PLOT_PX, MARGIN_PX, WIDTH_PX};
 
-/// The widest plot area: beyond it bars get thinner.
+/// The largest width of the plot area, beyond which bars become thinner.
 const MOST_PLOT_PX: f64 = 1200.0;
-/// The width a bar or box would like to have, gaps included.
+/// The preferred width of a bar or box, including gaps.
 const WANTED_PITCH_PX: f64 = 18.0;
-/// The widest it becomes.
+/// The largest width of a bar or box, including gaps.
 const MOST_PITCH_PX: f64 = 44.0;
 /// The share of a slot that bars or boxes may fill.
 const FILLED: f64 = 0.84;
-/// The most lines of a group's name.
+/// The largest number of lines of a group's name.
 const MOST_LINES: usize = 3;
-/// Free space beside a level name.
+/// Free space beside a horizontal name.
 const NAME_GAP_PX: f64 = 6.0;
-/// From an upright line of a name to the next.
+/// Distance between the upright lines of a name.
 const LINE_PX: f64 = TICK_PX * LINE_PITCH;
-/// How long upright names may become: the first that holds them all is taken.
+/// The possible lengths of upright names. The first one that holds all names is used.
 const UPRIGHT_PX: [f64; 4] = [80.0, 120.0, 160.0, 220.0];
 
-/// Slots for groups in a plot area of a width.
+/// The slots of groups in a plot area.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct GroupAxis {
     names: Vec<Vec<String>>,
@@ -34,7 +34,8 @@ pub(crate) struct GroupAxis {
 }
 
 impl GroupAxis {
-    /// The axis of named groups, each of so many series, with so much room beside the plot area.
+    /// The axis of named groups for this number of series, with this much space beside the plot
+    /// area.
     pub(crate) fn new(groups: &[String], series: usize, beside_px: f64) -> Self {
         let slots = groups.len().max(1) as f64;
         let wanted = slots * (series as f64 * WANTED_PITCH_PX / FILLED).max(LINE_PX);
@@ -65,13 +66,13 @@ impl GroupAxis {
         TICK_LENGTH_PX + LABEL_GAP_PX + names + MARGIN_PX
     }
 
-    /// The width of a bar or box, gaps included.
+    /// The width of a bar or box, including gaps.
     pub(crate) fn pitch_px(&self) -> f64 {
         let slot = self.plot_width_px / self.names.len().max(1) as f64;
         (slot * FILLED / self.series.max(1) as f64).min(MOST_PITCH_PX)
     }
 
-    /// The middle of the bar or box of a series in a group.
+    /// The horizontal centre of the bar or box of a series in a group.
     pub(crate) fn x(&self, plot: Rect, group: usize, series: usize) -> f64 {
         let place = series as f64 + 0.5 - self.series as f64 / 2.0;
         self.centre(plot, group) + place * self.pitch_px()
@@ -81,7 +82,7 @@ impl GroupAxis {
         plot.left + (group as f64 + 0.5) * plot.width() / self.names.len().max(1) as f64
     }
 
-    /// Draws upright lines between the groups, for marks that do not stand close together.
+    /// Draws upright lines between the groups, for marks that are not close together.
     pub(crate) fn draw_dividers(&self, drawing: &mut Drawing, plot: Rect) {
         for group in 1..self.names.len() {
             let x = self.centre(plot, group - 1).midpoint(self.centre(plot, group));
@@ -89,7 +90,7 @@ impl GroupAxis {
         }
     }
 
-    /// Draws the names, `down_px` lower than they would stand.
+    /// Draws the names, lowered by `down_px`.
     pub(crate) fn draw(&self, drawing: &mut Drawing, plot: Rect, down_px: f64) {
         let top = plot.bottom + TICK_LENGTH_PX + LABEL_GAP_PX + down_px;
         for (group, lines) in self.names.iter().enumerate() {
@@ -108,8 +109,8 @@ impl GroupAxis {
     }
 }
 
-/// Names in as many upright lines as a slot has room for; where it has none for one, only every
-/// second or third group, and so on, has its name.
+/// Names in as many upright lines as fit into a slot. If not even one line fits, only every second
+/// or third group, and so on, has its name.
 fn upright_names(groups: &[String], slot_px: f64) -> Vec<Vec<String>> {
     let lines = ((slot_px / LINE_PX).floor() as usize).clamp(1, MOST_LINES);
     let every = (LINE_PX / slot_px - 1e-9).ceil().max(1.0) as usize;

@@ -1,4 +1,4 @@
-//! Axes with their titles, ticks and labels, and the bar of colours.
+//! Axes with their titles, ticks and labels, and the colour bar.
 
 pub(crate) mod axis;
 pub(crate) mod colour_bar;

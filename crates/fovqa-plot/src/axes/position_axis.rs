@@ -1,4 +1,4 @@
-//! The horizontal axis of numbers.
+//! The horizontal axis for numbers.
 
 use crate::axes::axis::{AXIS_STROKE, Axis, LABEL_GAP_PX, TICK_LENGTH_PX, TITLE_GAP_PX};
 use crate::canvas::drawing::{Anchor, Drawing, Rect, Text};
@@ -8,10 +8,10 @@ use crate::page::layout::{MARGIN_PX, TITLE_LINES};
 use crate::scales::scale::Scale;
 use crate::scales::ticks::{Tick, given_ticks, round_ticks};
 
-/// The least space between two labels.
+/// The smallest space between two labels.
 const APART_PX: f64 = 9.0;
 
-/// A horizontal axis with its range, and the width of the plot area it spans.
+/// A horizontal axis with its range, and the width of its plot area.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PositionAxis {
     scale: Scale,
@@ -21,9 +21,9 @@ pub(crate) struct PositionAxis {
 }
 
 impl PositionAxis {
-    /// An axis in a width, which its last label shares, for a plot area not narrower than the
-    /// least; without a range it has a title alone. Where given ticks stand too close, only some
-    /// get a label.
+    /// An axis that fits into a width, including its last label, with a plot area of at least
+    /// `least_px`. Without a range it has only a title. If given ticks are too close together, only
+    /// some of them get a label.
     pub(crate) fn new(
         axis: &Axis,
         scale: Option<Scale>,
@@ -36,8 +36,8 @@ impl PositionAxis {
         Self::with_width(axis, scale, given, width)
     }
 
-    /// An axis of a plot area of a width. Where that is too narrow for the fewest ticks there can
-    /// be, only the first gets a label.
+    /// An axis for a plot area of a fixed width. If that is too narrow for the fewest possible
+    /// ticks, only the first one gets a label.
     pub(crate) fn spanning(
         axis: &Axis,
         scale: Option<Scale>,
@@ -78,13 +78,13 @@ impl PositionAxis {
         self.plot_width_px
     }
 
-    /// Space that the first label needs at the left of the plot area, with a margin.
+    /// Space that the first label needs on the left of the plot area, with a margin.
     pub(crate) fn left_px(&self) -> f64 {
         MARGIN_PX + self.ticks.first().map_or(0.0, half_px)
     }
 
-    /// Space that the last label needs at the right of the plot area, with a margin; when that tick
-    /// has none, what one before it needs.
+    /// Space that the last label needs on the right of the plot area, with a margin. If the last
+    /// tick has no label, the last one that has is considered.
     pub(crate) fn right_px(&self) -> f64 {
         let Some((last, others)) = self.ticks.split_last() else { return MARGIN_PX };
         let beyond_px =
@@ -101,12 +101,12 @@ impl PositionAxis {
         TICK_LENGTH_PX + LABEL_GAP_PX + TICK_PX + title + MARGIN_PX
     }
 
-    /// Where a value stands in a plot area.
+    /// The horizontal position of a value in a plot area.
     pub(crate) fn x(&self, plot: Rect, value: f64) -> f64 {
         plot.left + self.scale.share(value).clamp(0.0, 1.0) * plot.width()
     }
 
-    /// Draws line and ticks, and labels and title `down_px` lower than they would stand.
+    /// Draws the line and the ticks, and the labels and the title lowered by `down_px`.
     pub(crate) fn draw(&self, drawing: &mut Drawing, plot: Rect, down_px: f64) {
         let bottom = plot.bottom;
         drawing.line(&[(plot.left, bottom), (plot.right, bottom)], AXIS_STROKE);
@@ -135,7 +135,7 @@ fn all_apart(ticks: &[Tick], scale: Scale, plot_width_px: f64) -> bool {
     })
 }
 
-/// Takes the label from ticks too close to the one before.
+/// Removes the labels of ticks that are too close to the one before.
 fn leave_room(ticks: &mut [Tick], scale: Scale, plot_width_px: f64) {
     let mut free_px = f64::NEG_INFINITY;
     for tick in ticks {

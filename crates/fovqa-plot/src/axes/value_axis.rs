@@ -1,4 +1,4 @@
-//! The vertical axis: values, their ticks at the left and the grid.
+//! The vertical axis: values, their ticks on the left, and the grid.
 
 use crate::axes::axis::{
     AXIS_STROKE, Axis, GRID_STROKE, LABEL_GAP_PX, TICK_LENGTH_PX, TITLE_GAP_PX,
@@ -11,12 +11,12 @@ use crate::page::layout::{MARGIN_PX, TITLE_LINES};
 use crate::scales::scale::Scale;
 use crate::scales::ticks::Tick;
 
-/// The least distance from a tick to the next.
+/// The smallest distance between two ticks.
 const PITCH_PX: f64 = 30.0;
-/// That of logarithmic ticks, which stand closer here and farther apart there.
+/// The smallest distance of logarithmic ticks, whose distances vary.
 const LOG_PITCH_PX: f64 = 18.0;
 
-/// The ticks of a range that stands upright in a height.
+/// The ticks of a vertical range with this height.
 pub(crate) fn ticks(scale: Scale, height_px: f64) -> Vec<Tick> {
     let apart = |pair: &[Tick], least_px: f64| {
         (scale.share(pair[1].value) - scale.share(pair[0].value)).abs() * height_px >= least_px
@@ -36,7 +36,7 @@ pub(crate) struct ValueAxis {
 }
 
 impl ValueAxis {
-    /// An axis of a range for a plot area of a height; without a range it has a title alone.
+    /// An axis for a plot area of a height. Without a range it has only a title.
     pub(crate) fn new(axis: &Axis, scale: Option<Scale>, plot_height_px: f64) -> Self {
         let title = wrap(&axis.title, TITLE_PX, plot_height_px, TITLE_LINES);
         let Some(scale) = scale else {
@@ -45,7 +45,7 @@ impl ValueAxis {
         Self { scale, ticks: ticks(scale, plot_height_px), title }
     }
 
-    /// Space at the left of the plot area, with a margin.
+    /// Space on the left of the plot area, with a margin.
     pub(crate) fn left_px(&self) -> f64 {
         let labels =
             self.ticks.iter().map(|tick| width_px(&tick.label, TICK_PX)).fold(0.0, f64::max);
@@ -56,17 +56,17 @@ impl ValueAxis {
         (MARGIN_PX + title + labels + LABEL_GAP_PX + TICK_LENGTH_PX).ceil()
     }
 
-    /// Where a value stands in a plot area.
+    /// The vertical position of a value in a plot area.
     pub(crate) fn y(&self, plot: Rect, value: f64) -> f64 {
         plot.bottom - self.scale.share(value).clamp(0.0, 1.0) * plot.height()
     }
 
-    /// How far up its axis a value stands: 0 at the lower end and 1 at the upper one.
+    /// The position of a value along its axis, from 0 at the lower end to 1 at the upper end.
     pub(crate) fn share(&self, value: f64) -> f64 {
         self.scale.share(value).clamp(-clip::FAR, clip::FAR)
     }
 
-    /// Draws the level lines of the grid, which belong behind the data.
+    /// Draws the horizontal lines of the grid, which belong behind the data.
     pub(crate) fn draw_grid(&self, drawing: &mut Drawing, plot: Rect) {
         for tick in &self.ticks {
             let y = self.y(plot, tick.value);
@@ -74,8 +74,8 @@ impl ValueAxis {
         }
     }
 
-    /// Draws line, ticks and labels, and the title a margin away from the edge at the left, which
-    /// is 0 where that is the picture's.
+    /// Draws the line, the ticks and the labels, and the title at a margin from `edge_px`, which is
+    /// 0 at the left edge of the picture.
     pub(crate) fn draw(&self, drawing: &mut Drawing, plot: Rect, edge_px: f64) {
         drawing.line(&[(plot.left, plot.top), (plot.left, plot.bottom)], AXIS_STROKE);
         for tick in &self.ticks {

@@ -1,4 +1,4 @@
-//! A picture of cells of equal size, as it is put into an SVG.
+//! A picture of equal cells, for embedding into an SVG.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -8,11 +8,11 @@ use crate::canvas::colour_map;
 use crate::canvas::look::Colour;
 use crate::error::PlotError;
 
-/// Pixels of the PNG for each of the figure, at least. A viewer that blurs between pixels blurs
-/// half a pixel of the figure then, and not half a cell.
+/// The smallest number of PNG pixels per pixel of the figure. If a viewer interpolates between
+/// pixels, it then blurs half a pixel of the figure and not half a cell.
 const SHARPNESS: f64 = 2.0;
 
-/// Cells row by row from the upper left, each a level of the colour map.
+/// Cells row by row from the upper left. Each cell is a level of the colour map.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Bitmap {
     pub(crate) columns: usize,
@@ -20,7 +20,7 @@ pub(crate) struct Bitmap {
 }
 
 impl Bitmap {
-    /// The picture as a data URI of a PNG, for a place of a width and a height. Each cell has the
+    /// The picture as a data URI of a PNG, for an area of this width and height. Every cell has the
     /// same number of pixels.
     pub(crate) fn data_uri(&self, (width_px, height_px): (f64, f64)) -> Result<String, PlotError> {
         let encoded = self.png(width_px, height_px);
@@ -47,7 +47,7 @@ impl Bitmap {
         let palette = colour_map::palette().into_iter();
         encoder.set_palette(palette.flat_map(|Colour(r, g, b)| [r, g, b]).collect::<Vec<u8>>());
         encoder.set_compression(Compression::Balanced);
-        // Most rows repeat the one above.
+        // Most rows are equal to the row above.
         encoder.set_filter(Filter::Up);
         let mut writer = encoder.write_header()?;
         writer.write_image_data(&pixels)?;

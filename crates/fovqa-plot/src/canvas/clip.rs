@@ -1,12 +1,12 @@
-//! What lies beyond a plot area is cut off, exactly at its border: along it nothing is drawn that
-//! is not there. Places are shares of the plot area, from 0 to 1 along each side.
+//! Cuts marks off exactly at the border of the plot area, without drawing anything along the
+//! border. Positions are shares of the plot area, from 0 to 1 in each direction.
 
 use crate::canvas::drawing::Point;
 
-/// A share beyond it is taken as this one: far outside, and still a number to reckon with.
+/// Larger shares are reduced to this one: it is far outside, but calculations with it stay finite.
 pub(crate) const FAR: f64 = 1e6;
 
-/// The parts of a line that are neither below 0 nor above 1 in `y`.
+/// The parts of a line with `y` from 0 to 1.
 pub(crate) fn level(line: &[Point]) -> Vec<Vec<Point>> {
     let mut pieces = Vec::new();
     let mut piece: Vec<Point> = Vec::new();
@@ -28,7 +28,7 @@ pub(crate) fn level(line: &[Point]) -> Vec<Vec<Point>> {
     pieces
 }
 
-/// The part of a straight line within 0 to 1 in `y`, when it is more than one of its ends.
+/// The part of a straight line with `y` from 0 to 1, if it is more than one of the line's ends.
 fn within(a: Point, b: Point) -> Option<(Point, Point)> {
     let (low, high) = (a.1.min(b.1), a.1.max(b.1));
     let inside = |y: f64| (0.0..=1.0).contains(&y);
@@ -48,19 +48,19 @@ fn within(a: Point, b: Point) -> Option<(Point, Point)> {
     Some((end(a, b), end(b, a)))
 }
 
-/// The part of an area within 0 to 1 in `x` and `y`; no corners where there is none.
+/// The part of an area with `x` and `y` from 0 to 1; empty if there is none.
 pub(crate) fn area(corners: &[Point]) -> Vec<Point> {
     let turned = |corners: Vec<Point>| corners.into_iter().map(|(x, y)| (y, x)).collect::<Vec<_>>();
     turned(strip(&turned(strip(corners))))
 }
 
-/// The part of an area within 0 to 1 in `y`.
+/// The part of an area with `y` from 0 to 1.
 fn strip(corners: &[Point]) -> Vec<Point> {
     let above_zero = keep(corners, 0.0, |y| y >= 0.0);
     keep(&above_zero, 1.0, |y| y <= 1.0)
 }
 
-/// The part of an area on one side of a level border (Sutherland and Hodgman, 1974).
+/// The part of an area on one side of a horizontal border (Sutherland and Hodgman, 1974).
 fn keep(corners: &[Point], border: f64, inside: impl Fn(f64) -> bool) -> Vec<Point> {
     let mut kept = Vec::new();
     for (i, &to) in corners.iter().enumerate() {

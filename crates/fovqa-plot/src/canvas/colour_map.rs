@@ -1,16 +1,17 @@
-//! From a share of a range to a colour: viridis, whose lightness rises evenly, so that it reads the
-//! same in gray print and to readers of any colour vision.
+//! Converts a share of a range to a colour of viridis. Its lightness rises evenly, so that it reads
+//! the same in gray print and for readers with any colour vision.
 //!
-//! It is the map of Stéfan van der Walt and Nathaniel Smith for matplotlib (2015, CC0), as sixteen
-//! of its colours at even distances with straight lines between them, which nobody tells from the
-//! original. It has no gray: what has no value cannot be taken for one.
+//! It is the map of Stéfan van der Walt and Nathaniel Smith for matplotlib (2015, CC0), stored as
+//! sixteen of its colours at equal distances with linear interpolation, which is visually identical
+//! to the original. The map contains no gray, so that a missing value cannot be mistaken for a
+//! value.
 
 use crate::canvas::look::Colour;
 
-/// What has no value.
+/// The colour of a missing value.
 pub(crate) const NO_VALUE: Colour = Colour(221, 221, 221);
 
-/// Steps a picture shows: one byte holds them and [`NO_VALUE`].
+/// The number of colour steps in a picture: one byte holds them and [`NO_VALUE`].
 pub(crate) const LEVELS: u8 = 255;
 
 /// The index of [`NO_VALUE`] in the palette.
@@ -35,13 +36,14 @@ const ANCHORS: [Colour; 16] = [
     Colour(0xfd, 0xe7, 0x25),
 ];
 
-/// The colours of all levels, the lowest value's first, and then that of [`NO_LEVEL`].
+/// The colours of all levels, starting with that of the lowest value, followed by the colour of
+/// [`NO_LEVEL`].
 pub(crate) fn palette() -> Vec<Colour> {
     let last = f64::from(LEVELS - 1);
     (0..LEVELS).map(|level| colour(f64::from(level) / last)).chain([NO_VALUE]).collect()
 }
 
-/// The level of a share of the range; beyond its ends theirs.
+/// The level of a share of the range. Shares beyond the ends have the levels of the ends.
 pub(crate) fn level(share: f64) -> u8 {
     (share.clamp(0.0, 1.0) * f64::from(LEVELS - 1)).round() as u8
 }
@@ -61,7 +63,7 @@ fn colour(share: f64) -> Colour {
 mod tests {
     use super::*;
 
-    /// L* of CIELAB.
+    /// The lightness L* of CIELAB.
     fn lightness(Colour(r, g, b): Colour) -> f64 {
         let linear = |c: u8| match f64::from(c) / 255.0 {
             c if c <= 0.04045 => c / 12.92,

@@ -1,12 +1,12 @@
-//! A picture as a list of marks in pixels, before it is written as SVG: charts add to it, and
-//! tests see what lies where.
+//! A drawing is a list of marks in pixels, before it is written as SVG. Charts add marks to it, and
+//! tests check their positions.
 
 use crate::canvas::bitmap::Bitmap;
 use crate::canvas::look::{Colour, INK};
 #[cfg(test)]
 use crate::canvas::text::{CAPITAL, DESCENT, width_px};
 
-/// A place in pixels, x to the right and y down.
+/// A point in pixels, x to the right and y down.
 pub(crate) type Point = (f64, f64);
 
 /// A rectangle in pixels.
@@ -31,7 +31,7 @@ impl Rect {
         (self.left.midpoint(self.right), self.top.midpoint(self.bottom))
     }
 
-    /// The corners, from the upper left one with the clock.
+    /// The corners in clockwise order, starting with the upper left one.
     pub(crate) fn corners(self) -> [Point; 4] {
         [
             (self.left, self.top),
@@ -41,7 +41,7 @@ impl Rect {
         ]
     }
 
-    /// Whether two rectangles share more than an edge.
+    /// Whether two rectangles overlap in more than an edge.
     pub(crate) fn overlaps(self, other: Self) -> bool {
         self.left < other.right
             && other.left < self.right
@@ -50,14 +50,14 @@ impl Rect {
     }
 }
 
-/// A line's colour and width in pixels.
+/// The colour and width in pixels of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stroke {
     pub(crate) colour: Colour,
     pub(crate) width_px: f64,
 }
 
-/// Which end of a text its place is.
+/// The part of a text that is at its anchor point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -69,27 +69,27 @@ pub(crate) enum Anchor {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Text {
     pub(crate) line: String,
-    /// The anchor on the baseline.
+    /// The anchor point on the baseline.
     pub(crate) at: Point,
     pub(crate) size_px: f64,
     pub(crate) anchor: Anchor,
-    /// Turned to be read upwards.
+    /// Whether the text is rotated to read upwards.
     pub(crate) upwards: bool,
     pub(crate) colour: Colour,
 }
 
 impl Text {
-    /// A level line of text in ink.
+    /// A horizontal line of text in ink.
     pub(crate) fn new(line: impl Into<String>, at: Point, size_px: f64, anchor: Anchor) -> Self {
         Self { line: line.into(), at, size_px, anchor, upwards: false, colour: INK }
     }
 
-    /// Turned around its anchor to be read upwards.
+    /// The same text, rotated around its anchor to read upwards.
     pub(crate) fn upwards(self) -> Self {
         Self { upwards: true, ..self }
     }
 
-    /// What it covers.
+    /// The area that the text covers.
     #[cfg(test)]
     pub(crate) fn bounds(&self) -> Rect {
         let width = width_px(&self.line, self.size_px);
@@ -108,14 +108,14 @@ impl Text {
     }
 }
 
-/// One thing drawn.
+/// One drawn element.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Mark {
-    /// A line through points.
+    /// A line through these points.
     Line(Vec<Point>, Stroke),
     /// A filled area.
     Area(Vec<Point>, Colour),
-    /// A filled disc of a radius.
+    /// A filled disc with a centre and a radius.
     Disc(Point, f64, Colour),
     /// A picture that fills a rectangle.
     Picture(Rect, Bitmap),
@@ -123,12 +123,12 @@ pub(crate) enum Mark {
     Text(Text),
 }
 
-/// A picture.
+/// A drawing: its size and its marks.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Drawing {
     pub(crate) width_px: f64,
     pub(crate) height_px: f64,
-    /// What is drawn, the first farthest behind.
+    /// The marks in drawing order; the first one is behind all others.
     pub(crate) marks: Vec<Mark>,
 }
 
@@ -137,7 +137,8 @@ impl Drawing {
         self.marks.push(Mark::Line(points.to_vec(), stroke));
     }
 
-    /// A line of strokes and gaps of the given lengths in turn; solid without any.
+    /// Adds a line of alternating strokes and gaps of the given lengths. Without lengths it is
+    /// solid.
     pub(crate) fn dashed(&mut self, points: &[Point], stroke: Stroke, dash_px: &[f64]) {
         if dash_px.iter().sum::<f64>() <= 0.0 {
             return self.line(points, stroke);
@@ -165,16 +166,16 @@ impl Drawing {
         }
     }
 
-    /// A filled rectangle with an edge.
+    /// Adds a filled rectangle with an edge.
     pub(crate) fn rect(&mut self, rect: Rect, fill: Colour, edge: Stroke) {
         self.area(rect.corners().to_vec(), fill);
         self.frame(rect, edge);
     }
 
-    /// The edge of a rectangle.
+    /// Adds the edge of a rectangle.
     pub(crate) fn frame(&mut self, rect: Rect, edge: Stroke) {
         let corners = rect.corners();
-        // One corner twice over, so that the last joint is as square as the others.
+        // The first line is drawn twice, so that the last joint is as square as the others.
         self.line(&[&corners[..], &corners[..2]].concat(), edge);
     }
 
@@ -187,7 +188,7 @@ impl Drawing {
     }
 }
 
-/// The strokes of a dashed line; the dash runs on around corners.
+/// The strokes of a dashed line. Dashes continue around corners.
 fn dashes(points: &[Point], dash_px: &[f64]) -> Vec<Vec<Point>> {
     let mut pieces = Vec::new();
     let mut piece: Vec<Point> = points.first().copied().into_iter().collect();

@@ -1,34 +1,37 @@
-//! The look of a series: colour, marker and dash, the same in every figure for the same index.
+//! The look of a series: colour, marker and dash, which are the same in every figure for the same
+//! index.
 //!
-//! Colours are those of Okabe and Ito ("Color Universal Design", 2008), which people with any
-//! common colour blindness tell apart, in an order of our own: the first four are far apart in
-//! hue and in lightness, and yellow, too light for a line on white paper, is left out.
+//! The colours are those of Okabe and Ito ("Color Universal Design", 2008), which people with any
+//! common colour blindness can distinguish. The order is our own: the first four are far apart in
+//! hue and in lightness. Yellow is left out, because it is too light for a line on white paper.
 
 /// A colour in sRGB.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Colour(pub(crate) u8, pub(crate) u8, pub(crate) u8);
 
-/// Paper.
+/// The colour of the paper.
 pub(crate) const WHITE: Colour = Colour(255, 255, 255);
-/// Text.
+/// The colour of text.
 pub(crate) const INK: Colour = Colour(34, 34, 34);
-/// Axis lines and their ticks.
+/// The colour of axis lines and their ticks.
 pub(crate) const AXIS: Colour = Colour(90, 90, 90);
-/// Lines of the grid: seen, but behind everything.
+/// The colour of grid lines, which are visible but behind everything.
 pub(crate) const GRID: Colour = Colour(224, 224, 224);
-/// Shaded spans: the lines of the grid are still seen on them, and curves as on paper.
+/// The colour of shaded spans. Grid lines remain visible on it, and curves look as on paper.
 pub(crate) const SPAN: Colour = Colour(232, 232, 232);
-/// The edge of their key in the legend, which is small.
+/// The edge of a span's key in the legend; the key is small and needs an edge.
 pub(crate) const SPAN_EDGE: Colour = Colour(180, 180, 180);
-/// Areas of more than is needed: light, so that curves and their colours stand out.
+/// The colour of areas with more than is needed. It is light, so that curves and their colours
+/// stand out.
 pub(crate) const SURPLUS: Colour = Colour(209, 229, 244);
-/// The edge of their key in the legend.
+/// The edge of a surplus area's key in the legend.
 pub(crate) const SURPLUS_EDGE: Colour = Colour(120, 165, 200);
-/// Areas of less than is needed. Blue and orange are told apart by all but the fully colour-blind.
+/// The colour of areas with less than is needed. Everyone except the fully colour-blind can
+/// distinguish blue and orange.
 pub(crate) const DEFICIT: Colour = Colour(253, 224, 196);
-/// Their hatch, which says the same in gray print.
+/// The hatch of deficit areas, which distinguishes them in gray print too.
 pub(crate) const DEFICIT_HATCH: Colour = Colour(205, 120, 60);
-/// Curves of reference.
+/// The colour of reference curves.
 pub(crate) const REFERENCE: Colour = Colour(85, 85, 85);
 
 const PALETTE: [Colour; 7] = [
@@ -41,17 +44,17 @@ const PALETTE: [Colour; 7] = [
     Colour(0x00, 0x00, 0x00), // black
 ];
 
-/// Dashes a curve of reference may have; more would be hard to tell apart without colour.
+/// The number of dashes for reference curves. More would be hard to distinguish without colour.
 const REFERENCE_DASHES: usize = 4;
 
 impl Colour {
-    /// Mixed with white: `share` of the colour, from 0 to 1.
+    /// The colour mixed with white; `share` is the share of the colour, from 0 to 1.
     pub(crate) fn tint(self, share: f64) -> Self {
         let mix = |c: u8| (255.0 - (255.0 - f64::from(c)) * share).round() as u8;
         Self(mix(self.0), mix(self.1), mix(self.2))
     }
 
-    /// The same hue, darker: for edges.
+    /// The same hue, but darker, for edges.
     pub(crate) fn darker(self) -> Self {
         let mix = |c: u8| (f64::from(c) * 0.6).round() as u8;
         Self(mix(self.0), mix(self.1), mix(self.2))
@@ -87,19 +90,19 @@ const MARKERS: [Marker; PALETTE.len()] = [
     Marker::Hexagon,
 ];
 
-/// Which look a series has: give a method the same one in every figure.
+/// The look of a series. Give a method the same look in every figure.
 ///
-/// There are seven colours, each with a marker of its own; from the eighth on they come again
-/// with hollow markers and with a dash (in bars and boxes: with stripes), which has one dot (stripe)
-/// more each time around.
+/// There are seven colours, each with its own marker. From the eighth series on they repeat with
+/// hollow markers and with a dash (in bars and boxes: with stripes), which has one more dot
+/// (stripe) in each further turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Look {
-    /// 0 for the first series, and so on.
+    /// The index of the series: 0 for the first one, and so on.
     pub index: usize,
 }
 
 impl Look {
-    /// The look of a number.
+    /// The look with an index.
     pub fn new(index: usize) -> Self {
         Self { index }
     }
@@ -112,23 +115,23 @@ impl Look {
         MARKERS[self.index % MARKERS.len()]
     }
 
-    /// How often the colours were used up before: 0 is a solid line or fill.
+    /// How often the colours have been used before: 0 means a solid line or fill.
     pub(crate) fn turn(self) -> usize {
         self.index / PALETTE.len()
     }
 
-    /// Lengths of strokes and gaps in turn, in pixels; none is a solid line.
+    /// Alternating lengths of strokes and gaps in pixels; empty for a solid line.
     pub(crate) fn dash_px(self) -> Vec<f64> {
         dash_px(self.turn())
     }
 
-    /// The dash of a curve of reference, which is never solid.
+    /// The dash of a reference curve, which is never solid.
     pub(crate) fn reference_dash_px(self) -> Vec<f64> {
         dash_px(1 + self.index % REFERENCE_DASHES)
     }
 }
 
-/// A stroke and then `turn - 1` dots.
+/// The lengths of a stroke followed by `turn - 1` dots.
 fn dash_px(turn: usize) -> Vec<f64> {
     const STROKE_PX: f64 = 6.0;
     const DOT_PX: f64 = 1.6;
@@ -165,7 +168,7 @@ mod tests {
             let linear = |c: u8| (f64::from(c) / 255.0).powf(2.2);
             let y =
                 0.2126 * linear(colour.0) + 0.7152 * linear(colour.1) + 0.0722 * linear(colour.2);
-            // Contrast as WCAG counts it; yellow would have 1.3.
+            // The contrast is defined as in WCAG; yellow would have 1.3.
             assert!(1.05 / (y + 0.05) > 2.0, "{colour:?}");
         }
         assert_eq!(Colour(0, 100, 200).tint(0.0), WHITE);

@@ -1,4 +1,4 @@
-//! What a figure is drawn with: shapes, text, colours, and the SVG and PNG made of them.
+//! The elements of a drawing: shapes, text and colours, and the SVG and PNG made of them.
 
 pub(crate) mod bitmap;
 pub(crate) mod clip;

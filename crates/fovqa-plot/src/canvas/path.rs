@@ -1,4 +1,4 @@
-//! Places along a line of straight parts.
+//! Positions along a line of straight parts.
 
 use crate::canvas::drawing::Point;
 
@@ -7,7 +7,7 @@ pub(crate) fn length(line: &[Point]) -> f64 {
     line.windows(2).map(|ends| (ends[1].0 - ends[0].0).hypot(ends[1].1 - ends[0].1)).sum()
 }
 
-/// The place so far along a line; beyond its end the end.
+/// The point at a distance along a line. Beyond the end of the line it is the end.
 pub(crate) fn place(line: &[Point], along: f64) -> Option<Point> {
     let mut left = along;
     for ends in line.windows(2) {

@@ -1,4 +1,5 @@
-//! An SVG as PNG, by resvg and with the bundled font alone: the same bytes on every machine.
+//! Converts an SVG to PNG with resvg and only the bundled font, so that the bytes are the same on
+//! every machine.
 
 use std::sync::{Arc, OnceLock};
 
@@ -9,10 +10,10 @@ use crate::canvas::text::{FAMILY, FONT};
 use crate::error::PlotError;
 use crate::limits::MAX_SIDE_PX;
 
-/// An SVG as PNG on white, `scale` pixels for each of its own.
+/// Renders an SVG as PNG on white, with `scale` pixels per SVG pixel.
 ///
 /// # Errors
-/// When the text is no SVG, or the picture would have no pixels or a side beyond 16384.
+/// When the text is not SVG, or the picture would have no pixels or a side above 16384.
 pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
     let tree = Tree::from_str(svg, &options()).map_err(|error| PlotError::Svg(Box::new(error)))?;
     let (width, height) = (tree.size().width() * scale, tree.size().height() * scale);
@@ -27,7 +28,8 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
     pixmap.encode_png().map_err(|error| PlotError::Encode(Box::new(error)))
 }
 
-/// The bundled font and pictures within the SVG: no fonts of the system, no files an SVG may name.
+/// Options with the bundled font and with embedded pictures only: neither system fonts nor files
+/// that an SVG may name.
 fn options() -> Options<'static> {
     static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
     let fonts = FONTS.get_or_init(|| {
@@ -72,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_what_makes_no_picture() {
+    fn refuses_scales_that_make_no_picture() {
         assert!(matches!(png("<svg", 1.0), Err(PlotError::Svg(_))));
         for scale in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e9] {
             assert!(matches!(png(SVG, scale), Err(PlotError::Size { .. })), "{scale}");

@@ -1,23 +1,24 @@
-//! Where markers stand along a curve that is a function sampled densely: they name the curve, and
-//! its points are no data of their own.
+//! The markers along a curve that is a densely sampled function. They identify the curve; its
+//! points are not single data values.
 
 use crate::canvas::drawing::{Point, Rect};
 use crate::canvas::look::Look;
 use crate::canvas::path::{length, place};
 
-/// From a marker to the next.
+/// Distance between two markers.
 const PITCH_PX: f64 = 64.0;
-/// Where between two steps the markers of the looks of one turn of the palette stand, as shares: a
-/// marker is no wider than an eighth, and those of the first few looks are farther apart.
+/// The positions of the markers between two steps, as shares, for the looks of one turn of the
+/// palette. A marker is no wider than an eighth of a step, and markers of the first few looks are
+/// farther apart.
 const PHASES: [f64; 7] = [0.0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375];
-/// How much farther along those of every other turn stand.
+/// The additional offset of the markers in every second turn.
 const TURN_PHASE: f64 = 0.0625;
 
-/// The places of markers along a part of a curve in a plot area.
+/// The positions of markers along a part of a curve in a plot area.
 ///
-/// They stand at steps across the plot area where the curve is rather level, and at steps down it
-/// where it is rather steep. That is the same for curves that lie on each other, however they came
-/// there, so that their markers keep their distance.
+/// They are at fixed horizontal steps where the curve is rather flat, and at fixed vertical steps
+/// where it is rather steep. Curves that coincide have the same steps, however they got there, so
+/// that their markers keep their distances.
 pub(crate) fn markers(piece: &[Point], plot: Rect, look: Look) -> Vec<Point> {
     let phase = PHASES[look.index % PHASES.len()] + (look.turn() % 2) as f64 * TURN_PHASE;
     let origin = (plot.left + phase * PITCH_PX, plot.top + phase * PITCH_PX);
@@ -27,7 +28,8 @@ pub(crate) fn markers(piece: &[Point], plot: Rect, look: Look) -> Vec<Point> {
         let length = length(ends);
         for share in steps(ends[0], ends[1], origin) {
             let stop = done + length * share;
-            // Where a curve turns from level to steep.
+            // Leaves out a marker too close to the one before, where the curve turns from flat to
+            // steep.
             if stops.last().is_none_or(|last| stop - last > PITCH_PX / 2.0) {
                 stops.push(stop);
             }
@@ -40,8 +42,8 @@ pub(crate) fn markers(piece: &[Point], plot: Rect, look: Look) -> Vec<Point> {
     stops.into_iter().filter_map(|along| place(piece, along)).collect()
 }
 
-/// How far along a straight line, as shares of it, it crosses each step. Its end is the beginning
-/// of the next.
+/// The positions at which a straight line crosses steps, as shares of the line. Its end belongs to
+/// the next line.
 fn steps(a: Point, b: Point, origin: Point) -> Vec<f64> {
     let level = (b.0 - a.0).abs() >= (b.1 - a.1).abs();
     let (from, to) =
@@ -69,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn stand_apart_along_a_curve() {
+    fn markers_keep_their_distance_along_a_curve() {
         for curve in
             [sampled(|_| 100.0), sampled(|x| 200.0 - x / 2.0), sampled(|x| 9e3 / (x + 40.0))]
         {
@@ -86,7 +88,7 @@ mod tests {
 
     #[test]
     fn of_curves_on_each_other_do_not_hide_each_other() {
-        // One comes from high above, one from far below.
+        // One line comes from far above, the other from far below.
         let pairs = [
             (sampled(|_| 100.0), sampled(|x| 100.0 - (150.0 - x).max(0.0))),
             (sampled(|x| x * 3.0), sampled(|x| x.max(30.0) * 3.0)),

@@ -1,4 +1,4 @@
-//! A drawing written as SVG by plotters.
+//! Writes a drawing as SVG with plotters.
 
 use std::error::Error;
 
@@ -11,20 +11,21 @@ use crate::canvas::look::{Colour, WHITE};
 use crate::canvas::text::FAMILIES;
 use crate::error::PlotError;
 
-/// plotters writes whole numbers: units of the picture's own for each pixel, so that a place is
-/// exact to a tenth of a pixel.
+/// plotters writes whole numbers. This many units per pixel make positions exact to a tenth of a
+/// pixel.
 const UNITS: f64 = 10.0;
 
-/// plotters divides the size of a font by this before it writes it.
+/// plotters divides font sizes by this number when it writes them.
 const FONT_FACTOR: f64 = 1.24;
 
-/// How a document ends.
+/// The end of a document.
 const END: &str = "</svg>";
 
-/// plotters sets a text so far below the place it is given, in sizes of the font.
+/// plotters places the baseline of a text this far below the given point, in units of the font
+/// size.
 const TOP_TO_BASELINE: f64 = 0.76;
 
-/// The picture as a complete SVG document.
+/// Writes the drawing as a complete SVG document.
 pub(crate) fn write(drawing: &Drawing) -> Result<String, PlotError> {
     let size = (units(drawing.width_px) as u32, units(drawing.height_px) as u32);
     let paper = (size.0 as i32, size.1 as i32);
@@ -43,7 +44,7 @@ pub(crate) fn write(drawing: &Drawing) -> Result<String, PlotError> {
     Ok(with_header(&body, drawing, size))
 }
 
-/// What plotters writes for something drawn, without the element around it all.
+/// The output of plotters for a drawing, without the surrounding element.
 fn elements(
     size: (u32, u32),
     draw: impl FnOnce(&mut SVGBackend<'_>) -> Result<(), PlotError>,
@@ -57,8 +58,9 @@ fn elements(
     Ok(body.trim_end().strip_suffix(END).unwrap_or(body).to_owned())
 }
 
-/// A picture, which plotters has no word for. Both ways to say that its pixels are not to be
-/// smeared are written, and the older way to refer: which a program knows differs.
+/// Writes a picture, which plotters does not support. Both notations for pixels without
+/// interpolation are written, and the older notation for references, because programs differ in
+/// what they support.
 fn write_picture(body: &mut String, mark: &Mark) -> Result<(), PlotError> {
     let Mark::Picture(rect, bitmap) = mark else { return Ok(()) };
     let ((left, top), (right, bottom)) =
@@ -75,8 +77,8 @@ fn write_picture(body: &mut String, mark: &Mark) -> Result<(), PlotError> {
     Ok(())
 }
 
-/// The document with its size in pixels, its own units within, and round corners of lines: a
-/// sharp turn of a curve would grow a spike.
+/// The document with its size in pixels and its own units. Corners of lines are rounded, because a
+/// sharp turn of a curve would have a spike.
 fn with_header(body: &str, drawing: &Drawing, (width, height): (u32, u32)) -> String {
     format!(
         "<svg width=\"{}\" height=\"{}\" viewBox=\"0 0 {width} {height}\" \
@@ -178,7 +180,7 @@ mod tests {
 
     #[test]
     fn text_stands_on_its_baseline() {
-        // 0.76 of 10 px further down is the baseline; turned, further to the right.
+        // The baseline is 0.76 of 10 px further down or, for rotated text, further to the right.
         let text = Text::new("x", (20.0, 30.0), 10.0, Anchor::Start);
         let marks = vec![Mark::Text(text.clone()), Mark::Text(text.upwards())];
         let svg = write(&Drawing { width_px: 48.0, height_px: 32.0, marks }).unwrap();

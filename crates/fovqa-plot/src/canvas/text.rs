@@ -1,50 +1,52 @@
-//! How wide a text is when it is set in the bundled font.
+//! The width of text in the bundled font.
 
 use std::sync::OnceLock;
 
 use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};
 
-/// DejaVu Sans: free, and with glyphs for most alphabets, superscripts and ∞.
+/// DejaVu Sans, which is free and has glyphs for most alphabets, superscripts and ∞.
 pub(crate) const FONT: &[u8] = include_bytes!("../../fonts/DejaVuSans.ttf");
 
 /// The name of [`FONT`].
 pub(crate) const FAMILY: &str = "DejaVu Sans";
 
-/// What a viewer without [`FAMILY`] takes: Verdana has nearly the same widths.
+/// The font families of the SVG. A viewer without [`FAMILY`] uses Verdana, which has nearly the
+/// same widths.
 pub(crate) const FAMILIES: &str = "DejaVu Sans, Verdana, sans-serif";
 
-/// Size of a figure's and an axis' title in pixels.
+/// Size of titles of figures and axes, in pixels.
 pub(crate) const TITLE_PX: f64 = 13.0;
 
-/// Size of tick labels, group names and the legend in pixels.
+/// Size of tick labels, group names and legend, in pixels.
 pub(crate) const TICK_PX: f64 = 12.0;
 
-/// Size of values beside their marks in pixels: the smallest text there is.
+/// Size of values beside their marks, in pixels. This is the smallest text.
 pub(crate) const VALUE_PX: f64 = 11.0;
 
-/// From a line of text to the next, in sizes of the font.
+/// Distance between two lines of text, in units of the font size.
 pub(crate) const LINE_PITCH: f64 = 1.25;
 
-/// Height of a capital letter above the baseline, in sizes of the font.
+/// Height of a capital letter above the baseline, in units of the font size.
 pub(crate) const CAPITAL: f64 = 0.73;
 
-/// Depth of a letter below the baseline, in sizes of the font.
+/// Depth of a letter below the baseline, in units of the font size.
 pub(crate) const DESCENT: f64 = 0.24;
 
-/// Width of a character the font lacks, in sizes of the font: as wide as an ideograph.
+/// Width of a character that the font lacks, in units of the font size: that of an ideograph.
 const FOREIGN_EM: f64 = 1.0;
 
-/// The width of a text of a size, both in pixels. Kerning is left out, which only makes narrower.
+/// The width of a text in pixels, at a size in pixels. Kerning is ignored; it would only make the
+/// text narrower.
 pub(crate) fn width_px(text: &str, size_px: f64) -> f64 {
     text.chars().map(advance_em).sum::<f64>() * size_px
 }
 
-/// How far a character moves the pen, in sizes of the font.
+/// The advance width of a character, in units of the font size.
 pub(crate) fn advance_em(character: char) -> f64 {
     static FACE: OnceLock<Option<FontRef<'static>>> = OnceLock::new();
     let Some(face) = FACE.get_or_init(|| FontRef::new(FONT).ok()) else { return FOREIGN_EM };
-    // A size of 1 px: advances come in sizes of the font.
+    // With a size of 1 px, advance widths are in units of the font size.
     let metrics = face.glyph_metrics(Size::new(1.0), LocationRef::default());
     let glyph = face.charmap().map(character);
     glyph.and_then(|glyph| metrics.advance_width(glyph)).map_or(FOREIGN_EM, f64::from)
@@ -56,7 +58,7 @@ mod tests {
 
     #[test]
     fn measures_with_the_bundled_font() {
-        // Advances of DejaVu Sans in its 2048 units: space 651, 0 1303, i 569, m 1995.
+        // Advance widths of DejaVu Sans in its 2048 units: space 651, 0 1303, i 569, m 1995.
         for (text, units) in [(" ", 651.0), ("0", 1303.0), ("im", 2564.0), ("", 0.0)] {
             assert!((width_px(text, 2048.0) - units).abs() < 0.01, "{text:?}");
         }

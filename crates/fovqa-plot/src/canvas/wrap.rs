@@ -1,16 +1,17 @@
-//! Names and titles made fit to draw: cleaned of what no text holds, and broken into lines.
+//! Prepares names and titles for drawing: removes characters that text cannot contain, and breaks
+//! lines.
 
 use crate::canvas::text::{advance_em, width_px};
 
-/// Characters of a name that are looked at: far beyond what is ever drawn, so that a runaway
-/// name costs no time.
+/// The number of characters of a name that are considered. This is far more than is ever drawn, and
+/// limits the time for extremely long names.
 const LONGEST: usize = 2000;
 
-/// Where a line may break, beside spaces: after these.
+/// Characters after which a line may break.
 const BREAKS_AFTER: [char; 5] = [' ', '-', '_', '/', ','];
 
-/// A name on one line: control characters dropped, white space single, nothing that XML forbids
-/// or that turns the direction of what follows.
+/// A name on one line: without control characters, with single spaces, and without characters that
+/// XML forbids or that change the direction of the following text.
 pub(crate) fn clean(text: &str) -> String {
     let spaced: String = text
         .chars()
@@ -23,13 +24,14 @@ pub(crate) fn clean(text: &str) -> String {
     spaced.split(' ').filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-/// Whether a character overrides the direction of writing beyond itself.
+/// Whether a character overrides the direction of the text after it.
 fn turns_direction(c: char) -> bool {
     matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
-/// A cleaned text broken into lines of at most `width_px`: between words where it can, within a
-/// word where it must. What `most_lines` cannot hold ends in "…". No lines for an empty text.
+/// Breaks a cleaned text into lines of at most `limit_px`: between words if possible, otherwise
+/// within a word. Text that does not fit into `most_lines` is cut and ends in "…". An empty text
+/// has no lines.
 pub(crate) fn wrap(text: &str, size_px: f64, limit_px: f64, most_lines: usize) -> Vec<String> {
     let text = clean(text);
     let mut lines: Vec<String> = Vec::new();
@@ -64,13 +66,13 @@ pub(crate) fn wrap(text: &str, size_px: f64, limit_px: f64, most_lines: usize) -
     lines
 }
 
-/// Whether [`wrap`] can break a text into lines of a width without breaking a word.
+/// Whether [`wrap`] can break a text into lines of this width without breaking a word.
 pub(crate) fn keeps_words(text: &str, size_px: f64, limit_px: f64) -> bool {
     let text = clean(text);
     text.split_inclusive(BREAKS_AFTER).all(|word| fits(word.trim_end(), size_px, limit_px))
 }
 
-/// The widest of some lines, in pixels.
+/// The width of the widest line in pixels.
 pub(crate) fn widest_px(lines: &[String], size_px: f64) -> f64 {
     lines.iter().map(|line| width_px(line, size_px)).fold(0.0, f64::max)
 }
@@ -108,11 +110,11 @@ mod tests {
     }
 
     #[test]
-    fn ends_in_dots_what_is_too_long() {
+    fn long_text_ends_in_dots() {
         let lines = wrap(&"word ".repeat(10_000), 12.0, 80.0, 3);
         assert_eq!(lines.len(), 3);
         assert!(lines[2].ends_with('…') && widest_px(&lines, 12.0) <= 80.0);
-        // Narrower than a letter: still no endless loop.
+        // A limit narrower than a letter does not cause an endless loop.
         assert_eq!(wrap("ab", 12.0, 1.0, 5), ["a", "b"]);
     }
 }

@@ -1,4 +1,4 @@
-//! Bars in groups: one value for each method in each scene.
+//! Grouped bars: one value for each method in each scene.
 
 use crate::axes::axis::{AXIS_STROKE, Axis};
 use crate::axes::group_axis::GroupAxis;
@@ -10,22 +10,22 @@ use crate::marks::infinity;
 use crate::marks::legend::Key;
 use crate::marks::marker;
 use crate::marks::swatch;
-use crate::marks::value_label::{Setting, Side, widest_px};
+use crate::marks::value_label::{Orientation, Side, widest_px};
 use crate::page::layout::{self, MARGIN_PX, PLOT_HEIGHT_PX, Sides};
 use crate::scales::number::Format;
 use crate::scales::scale::{AxisPlace, Scale};
 
-/// The share of its place that a bar fills.
+/// The share of its slot that a bar fills.
 const FILLED: f64 = 0.88;
-/// Air around the data of an axis that does not begin at 0, as a share of its range.
+/// Space around the data of an axis that does not begin at 0, as a share of its range.
 const AIR: f64 = 0.06;
-/// What stands in the place of a missing value.
+/// The text in place of a missing value.
 const MISSING: &str = "n/a";
 
-/// Groups of bars, one bar a series in each, with its value above it where there is room.
+/// Groups of bars with one bar per series, and its value above it if there is room.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BarChart {
-    /// What stands above it all.
+    /// The title above the figure.
     pub title: Option<String>,
     /// The vertical axis.
     pub y: Axis,
@@ -33,11 +33,12 @@ pub struct BarChart {
     pub groups: Vec<String>,
     /// The series.
     pub series: Vec<BarSeries>,
-    /// Whether the axis begins at 0, as it does by default.
+    /// Whether the axis begins at 0, which is the default.
     ///
-    /// A bar is read by its length, and a cut-off one shows ratios that are not there. So without
-    /// zero there are no bars: each value is a marker on an axis that fits the data, which is read
-    /// by position (a dot plot, Cleveland and McGill 1984), and nobody takes it for a bar.
+    /// A bar is read by its length, and a truncated bar shows wrong ratios. So if the axis does not
+    /// begin at 0, there are no bars: each value is a marker on an axis that fits the data, which
+    /// is read by position (a dot plot, Cleveland and McGill 1984) and cannot be mistaken for a
+    /// bar.
     pub from_zero: bool,
 }
 
@@ -48,8 +49,8 @@ pub struct BarSeries {
     pub name: String,
     /// Its look.
     pub look: Look,
-    /// A value for each group. `None` and NaN have no bar but an "n/a"; an infinite one is as high
-    /// as the plot area, with an "∞" above it.
+    /// A value for each group. `None` and NaN have an "n/a" instead of a bar. An infinite value has
+    /// a bar as high as the plot area, with an "∞" above it.
     pub values: Vec<Option<f64>>,
 }
 
@@ -65,14 +66,14 @@ impl Default for BarChart {
     }
 }
 
-/// The figures of a chart that its marks need.
+/// The measures of a chart that its marks need.
 struct Frame<'a> {
     axis: &'a ValueAxis,
     groups: &'a GroupAxis,
     plot: Rect,
     format: Format,
-    values: Setting,
-    missing: Setting,
+    values: Orientation,
+    missing: Orientation,
 }
 
 impl BarChart {
@@ -88,8 +89,8 @@ impl BarChart {
         let format = Format::of_values(finite());
         let labels: Vec<String> = finite().map(|value| format.label(value)).collect();
         let label_px = widest_px(labels.iter().map(String::as_str));
-        let values = Setting::of(label_px, groups.pitch_px());
-        let missing = Setting::of(widest_px([MISSING]), groups.pitch_px());
+        let values = Orientation::of(label_px, groups.pitch_px());
+        let missing = Orientation::of(widest_px([MISSING]), groups.pitch_px());
         let axis = self.axis_with_room(scale, values.reach_px(label_px));
 
         let (above, below) = infinity::strips_px(self.places());
@@ -109,7 +110,7 @@ impl BarChart {
         }
         groups.draw(&mut drawing, plot, below);
         if self.places().next().is_none() {
-            layout::say_no_data(&mut drawing, plot);
+            layout::write_no_data(&mut drawing, plot);
         } else {
             let frame = Frame { axis: &axis, groups: &groups, plot, format, values, missing };
             self.draw_series(&mut drawing, &frame);
@@ -131,7 +132,7 @@ impl BarChart {
             .filter_map(|v| v.and_then(AxisPlace::of))
     }
 
-    /// The range of the values, and of 0 where bars stand on it; none without finite values.
+    /// The range of the values, including 0 if there are bars; `None` without finite values.
     fn scale(&self) -> Option<Scale> {
         let finite = || self.places().filter_map(AxisPlace::finite);
         if !self.from_zero {
@@ -140,17 +141,17 @@ impl BarChart {
         let below = self.places().any(|place| place == AxisPlace::Below);
         let (low, high) = finite().fold((0.0, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
         let high = if low < high { high } else { 1.0 };
-        // An infinite bar downwards needs room to be seen.
+        // An infinite bar downwards needs space to be visible.
         let low = if below && low >= 0.0 { -high / 2.0 } else { low };
         (finite().next().is_some() || below).then(|| Scale::even(low, high))
     }
 
-    /// The axis with room beyond the outermost values for their labels.
+    /// The axis, with space beyond the outermost values for their labels.
     fn axis_with_room(&self, scale: Option<Scale>, reach_px: f64) -> ValueAxis {
         let axis = |scale| ValueAxis::new(&self.y, scale, PLOT_HEIGHT_PX);
         let Some(scale) = scale else { return axis(None) };
         let down_px = if self.from_zero && scale.low < 0.0 { reach_px } else { 0.0 };
-        // A 0 has its label above, even where all else is negative.
+        // The label of a 0 is above it, even if all other values are negative.
         let upwards = self.places().filter_map(AxisPlace::finite).any(|value| value >= 0.0);
         let up_px = match (self.from_zero, upwards) {
             (true, true) => reach_px,
@@ -215,7 +216,7 @@ impl BarChart {
         }
     }
 
-    /// "n/a" on the base line, or below it where there is no room above.
+    /// Writes "n/a" above the base line, or below it if there is no room above.
     fn draw_missing(&self, drawing: &mut Drawing, frame: &Frame<'_>, x: f64) {
         let plot = frame.plot;
         let base = if self.from_zero { frame.axis.y(plot, 0.0) } else { plot.bottom };

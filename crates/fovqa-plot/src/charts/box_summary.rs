@@ -1,9 +1,9 @@
-//! What a box shows of a distribution, after Tukey (Exploratory Data Analysis, 1977).
+//! The box plot statistics of a distribution, after Tukey (Exploratory Data Analysis, 1977).
 
-/// Whiskers reach to the farthest value within so many interquartile ranges of the box.
+/// Whiskers end at the farthest value within this many interquartile ranges of the box.
 const REACH: f64 = 1.5;
 
-/// Quartiles, whiskers and what lies beyond.
+/// Quartiles, whiskers and outliers.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BoxSummary {
     pub(crate) median: f64,
@@ -11,12 +11,12 @@ pub(crate) struct BoxSummary {
     pub(crate) quartiles: [f64; 2],
     /// Ends of the lower and upper whisker.
     pub(crate) whiskers: [f64; 2],
-    /// Values beyond the whiskers, rising.
+    /// Values beyond the whiskers, in rising order.
     pub(crate) outliers: Vec<f64>,
 }
 
 impl BoxSummary {
-    /// The summary of finite values; none without any.
+    /// The summary of finite values; `None` for an empty list.
     pub(crate) fn of(values: &[f64]) -> Option<Self> {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -25,15 +25,15 @@ impl BoxSummary {
         let reach = REACH * (high - low);
         let within = |v: &&f64| (low - reach..=high + reach).contains(*v);
         let inside = || sorted.iter().filter(within).copied();
-        // An interpolated quartile may lie beyond the last value within reach.
+        // An interpolated quartile may lie beyond the last value that the whisker may reach.
         let whiskers = [inside().fold(low, f64::min), inside().fold(high, f64::max)];
         let outliers = sorted.iter().filter(|v| !within(v)).copied().collect();
         Some(Self { median, quartiles: [low, high], whiskers, outliers })
     }
 }
 
-/// The value below which a share of sorted values lies, interpolated linearly between the two
-/// nearest (NumPy's default; type 7 of Hyndman and Fan 1996); none without values.
+/// The value below which a share of sorted values lies, with linear interpolation between the two
+/// nearest values (NumPy's default; type 7 of Hyndman and Fan 1996); `None` without values.
 pub(crate) fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = share * last as f64;
@@ -64,7 +64,7 @@ mod tests {
 
     #[test]
     fn whiskers_stop_before_outliers() {
-        // Quartiles 2.25 and 6.75: reach from -4.5 to 13.5.
+        // The quartiles are 2.25 and 6.75, so whiskers may extend from -4.5 to 13.5.
         let mut values: Vec<f64> = (1..9).map(f64::from).collect();
         values.extend([-4.6, 13.4]);
         let summary = BoxSummary::of(&values).unwrap();

@@ -1,31 +1,32 @@
-//! How many infinite values each distribution leaves out, written beyond the plot area: "3 × ∞".
+//! The number of infinite values that each distribution leaves out, written outside the plot area:
+//! "3 × ∞".
 
 use crate::canvas::drawing::{Anchor, Drawing, Rect, Text};
 use crate::canvas::text::VALUE_PX;
 use crate::charts::spread_series::SpreadSeries;
-use crate::marks::value_label::{GAP_PX, Setting, Side, widest_px};
+use crate::marks::value_label::{GAP_PX, Orientation, Side, widest_px};
 use crate::scales::scale::AxisPlace;
 
-/// Counts at their places, or one for all where the places are too narrow.
+/// One count per distribution, or one for all if the slots are too narrow.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LeftOut {
     above: Counts,
     below: Counts,
 }
 
-/// Counts of one sign.
+/// The counts of one sign.
 #[derive(Debug, Clone, PartialEq)]
 struct Counts {
     side: Side,
-    /// Group, series and label.
+    /// Group, series and label of each count.
     labels: Vec<(usize, usize, String)>,
-    setting: Setting,
-    /// The sum of all.
+    orientation: Orientation,
+    /// The label with the sum of all counts.
     total: String,
 }
 
 impl LeftOut {
-    /// Counts what series leave out whose places have a width.
+    /// Counts the values that the series leave out; `pitch_px` is the width of a slot.
     pub(crate) fn of(series: &[SpreadSeries], pitch_px: f64) -> Self {
         let row = |beyond, side, sign| Counts::of(series, pitch_px, (beyond, side, sign));
         Self {
@@ -44,7 +45,7 @@ impl LeftOut {
         self.below.height_px()
     }
 
-    /// Writes the counts at the `x` of their group and series.
+    /// Writes the counts; `x` gives the position of a group and series.
     pub(crate) fn draw(&self, drawing: &mut Drawing, plot: Rect, x: impl Fn(usize, usize) -> f64) {
         for row in [&self.above, &self.below] {
             row.draw(drawing, plot, &x);
@@ -69,8 +70,8 @@ impl Counts {
                 }
             }
         }
-        let setting = Setting::of(widest_px(labels.iter().map(|l| l.2.as_str())), pitch_px);
-        Self { side, labels, setting, total: format!("{total} × {sign} left out") }
+        let orientation = Orientation::of(widest_px(labels.iter().map(|l| l.2.as_str())), pitch_px);
+        Self { side, labels, orientation, total: format!("{total} × {sign} left out") }
     }
 
     fn height_px(&self) -> f64 {
@@ -78,12 +79,12 @@ impl Counts {
             return 0.0;
         }
         let widest = widest_px(self.labels.iter().map(|label| label.2.as_str()));
-        GAP_PX + self.setting.reach_px(widest).max(VALUE_PX)
+        GAP_PX + self.orientation.reach_px(widest).max(VALUE_PX)
     }
 
     fn draw(&self, drawing: &mut Drawing, plot: Rect, x: &impl Fn(usize, usize) -> f64) {
         let border = if self.side == Side::Above { plot.top } else { plot.bottom };
-        if self.setting == Setting::Nowhere && !self.labels.is_empty() {
+        if self.orientation == Orientation::Nowhere && !self.labels.is_empty() {
             let baseline = match self.side {
                 Side::Above => border - GAP_PX,
                 Side::Below => border + GAP_PX + VALUE_PX,
@@ -92,7 +93,7 @@ impl Counts {
             drawing.text(Text::new(&self.total, at, VALUE_PX, Anchor::Start));
         }
         for (group, series, label) in &self.labels {
-            self.setting.draw(drawing, label, (x(*group, *series), border), self.side);
+            self.orientation.draw(drawing, label, (x(*group, *series), border), self.side);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Curves over a horizontal axis: a measure against eccentricity, frame or parameter.
+//! Curves over a horizontal axis: a measure over eccentricity, frame or parameter.
 
 use std::collections::BTreeMap;
 
@@ -18,43 +18,45 @@ use crate::marks::value_label::Side;
 use crate::page::layout::{self, LEAST_PLOT_PX, MARGIN_PX, PLOT_HEIGHT_PX, Sides, WIDTH_PX};
 use crate::scales::scale::{AxisPlace, Scale};
 
-/// Air above and below the data, as a share of its range.
+/// Space above and below the data, as a share of its range.
 const AIR: f64 = 0.06;
-/// Air beside the data where no ticks are given.
+/// Space beside the data if no ticks are given, as a share of its range.
 const SIDE_AIR: f64 = 0.02;
-/// Markers stand at least so far apart along a curve: of dense points only some have one.
+/// The smallest distance of markers along a curve. If points are denser, only some of them have
+/// one.
 const MARKER_PITCH_PX: f64 = 12.0;
-/// From the marker of an infinite value to the next of another series at the same place.
+/// Distance between the markers of infinite values of two series at the same position.
 const BESIDE_PX: f64 = 9.0;
 
-/// Curves, each through points of rising `x`.
+/// Curves, each through points with rising `x`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LineChart {
-    /// What stands above it all.
+    /// The title above the figure.
     pub title: Option<String>,
     /// The horizontal axis.
     pub x: Axis,
-    /// The vertical axis. It begins where the data does, unless [told](Self::y_from_zero) to begin
-    /// at 0: the slope and distance of curves are read, not their height.
+    /// The vertical axis. It begins where the data begins, unless
+    /// [`y_from_zero`](Self::y_from_zero) is set: the slope and distance of curves are read, not
+    /// their height.
     pub y: Axis,
-    /// The curves, the first farthest behind.
+    /// The curves in drawing order; the first one is behind all others.
     pub series: Vec<LineSeries>,
-    /// Where the horizontal axis has its ticks, such as at the edges of bands; round numbers
-    /// without.
+    /// The ticks of the horizontal axis, for example the edges of bands; `None` means round
+    /// numbers.
     pub x_ticks: Option<Vec<f64>>,
-    /// Whether the vertical axis includes 0, and begins there where no value lies below.
+    /// Whether the vertical axis includes 0, and begins there if no value is below.
     pub y_from_zero: bool,
-    /// The ends of the vertical axis, whatever the data are, such as those of other figures. Curves
-    /// and areas end where they cross them, and points beyond have no marker. Ends that are not
-    /// finite or not in order are taken as none.
+    /// The ends of the vertical axis, independent of the data, for example to match other figures.
+    /// Curves and areas are cut off at the ends, and points beyond them have no marker. Ends that
+    /// are not finite or not in order are ignored.
     pub y_limits: Option<(f64, f64)>,
-    /// Whether the vertical axis is logarithmic, and does not include 0 then. Values that are not
-    /// above 0 leave a gap; [limits](Self::y_limits) that are not are taken as none.
+    /// Whether the vertical axis is logarithmic; it then does not include 0. Values that are not
+    /// above 0 leave a gap, and such [limits](Self::y_limits) are ignored.
     pub y_log: bool,
     /// Stretches of the horizontal axis to shade.
     pub spans: Vec<Span>,
-    /// Areas between two curves, behind the curves. They are no data of their own: neither an axis
-    /// nor the [CSV](crate::Figure::csv) has them, as their edges are curves of the chart.
+    /// Areas between two curves, behind the curves. They are not data: neither the axes nor the
+    /// [CSV](crate::Figure::csv) include them, because their edges are curves of the chart.
     pub fills: Vec<Fill>,
 }
 
@@ -65,13 +67,14 @@ pub struct LineSeries {
     pub name: String,
     /// Its look.
     pub look: Look,
-    /// A curve that others are held against: gray, dashed and without markers.
+    /// Whether it is a reference curve, with which others are compared. It is gray, dashed and
+    /// without markers.
     pub reference: bool,
-    /// A function sampled densely, whose points are no data of their own: some markers along the
-    /// curve say which it is. Where curves lie on each other their markers do not.
+    /// Whether it is a densely sampled function, whose points are not single data values. Some
+    /// markers along the curve identify it. Markers of coinciding curves do not coincide.
     pub smooth: bool,
-    /// Points in the order of the curve. `None` and NaN leave a gap; an infinite value stands at
-    /// the border with an "∞" beyond it, unconnected. Points at no finite `x` are not drawn.
+    /// Points in the order of the curve. `None` and NaN leave a gap. An infinite value is drawn at
+    /// the border, unconnected, with an "∞" beyond it. Points without a finite `x` are not drawn.
     pub points: Vec<(f64, Option<f64>)>,
 }
 
@@ -94,14 +97,14 @@ impl LineSeries {
     }
 }
 
-/// Where a chart is drawn.
+/// The area in which a chart is drawn.
 pub(crate) struct Frame<'a> {
     pub(crate) x: &'a PositionAxis,
     pub(crate) y: &'a ValueAxis,
     pub(crate) plot: Rect,
-    /// Left edge of the room the chart has.
+    /// Left edge of the area of the chart.
     pub(crate) edge_px: f64,
-    /// Height of the strip between the plot area and the labels beneath.
+    /// Height of the strip between the plot area and the labels below it.
     pub(crate) below_px: f64,
 }
 
@@ -130,26 +133,26 @@ impl LineChart {
         self.series.iter().map(|series| (series.name.as_str(), series.key()))
     }
 
-    /// Of each span that is seen.
+    /// The legend keys of all visible spans.
     pub(crate) fn span_keys(&self) -> impl Iterator<Item = (&str, Key)> {
         let scale = self.x_scale();
         let seen = move |span: &&Span| scale.is_some_and(|scale| span.ends(scale).is_some());
         self.spans.iter().filter(seen).map(Span::key)
     }
 
-    /// Of each area that is seen.
+    /// The legend keys of all visible areas.
     pub(crate) fn fill_keys(&self) -> impl Iterator<Item = (&str, Key)> {
         let scales = self.x_scale().zip(self.y_scale());
         let seen = move |fill: &&Fill| scales.is_some_and(|(x, y)| !fill.areas(x, y).is_empty());
         self.fills.iter().filter(seen).map(Fill::key)
     }
 
-    /// Heights of the strips of infinite values above and below the plot area.
+    /// Heights of the strips for infinite values above and below the plot area.
     pub(crate) fn strips_px(&self) -> (f64, f64) {
         infinity::strips_px(self.drawn())
     }
 
-    /// Draws all but title and legend.
+    /// Draws everything except title and legend.
     pub(crate) fn draw_in(&self, drawing: &mut Drawing, frame: &Frame<'_>) {
         let Frame { x, y, plot, .. } = *frame;
         for (from, to) in self.x_scale().into_iter().flat_map(|scale| self.span_ends(scale)) {
@@ -160,7 +163,7 @@ impl LineChart {
         y.draw(drawing, plot, frame.edge_px);
         x.draw(drawing, plot, frame.below_px);
         if self.drawn().next().is_none() {
-            layout::say_no_data(drawing, plot);
+            layout::write_no_data(drawing, plot);
         }
         let at = |px: f64, place: Option<AxisPlace>| {
             let value = place.and_then(AxisPlace::finite)?;
@@ -183,12 +186,12 @@ impl LineChart {
         }
     }
 
-    /// Where its values are drawn.
+    /// The places of all its values on the vertical axis.
     fn drawn(&self) -> impl Iterator<Item = AxisPlace> {
         self.series.iter().flat_map(|series| self.places(series)).filter_map(|(_, place)| place)
     }
 
-    /// Where the points of a series are drawn: on a logarithmic axis not all that are numbers.
+    /// The places of the points of a series. A logarithmic axis cannot show all numbers.
     fn places(&self, series: &LineSeries) -> impl Iterator<Item = (f64, Option<AxisPlace>)> {
         let above_0 = |place: &AxisPlace| match place {
             AxisPlace::At(value) => *value > 0.0,
@@ -203,8 +206,8 @@ impl LineChart {
         self.spans.iter().filter_map(move |span| span.ends(scale))
     }
 
-    /// The range of the vertical axis; none without limits and finite values. Air that would move 0
-    /// from an end is left out.
+    /// The range of the vertical axis; `None` without limits and finite values. Space that would
+    /// move 0 away from an end is left out.
     pub(crate) fn y_scale(&self) -> Option<Scale> {
         if let Some(limits) = self.y_limits.and_then(|limits| Scale::between(limits, self.y_log)) {
             return Some(limits);
@@ -221,13 +224,13 @@ impl LineChart {
         Some(scale.with_air(air(scale.low < 0.0), air(scale.high > 0.0)))
     }
 
-    /// Given ticks that can be drawn.
+    /// The given ticks, if they can be drawn.
     pub(crate) fn x_ticks(&self) -> Option<&[f64]> {
         let ticks = self.x_ticks.as_deref()?;
         ticks.iter().all(|x| finite(*x) == Some(*x)).then_some(ticks)
     }
 
-    /// The range of the horizontal axis; none without places along it.
+    /// The range of the horizontal axis; `None` without finite positions.
     pub(crate) fn x_scale(&self) -> Option<Scale> {
         let data = self.series.iter().flat_map(LineSeries::places).map(|(x, _)| x);
         let ticks = self.x_ticks().unwrap_or_default();
@@ -236,10 +239,10 @@ impl LineChart {
         Some(scale.with_air(air, air))
     }
 
-    /// Markers of infinite values on the border, side by side where several series have one.
+    /// Draws markers of infinite values on the border, side by side if several series have one.
     fn draw_infinite(&self, drawing: &mut Drawing, plot: Rect, x: &PositionAxis) {
         for (beyond, side) in [(AxisPlace::Above, Side::Above), (AxisPlace::Below, Side::Below)] {
-            // By position in tenths of a pixel, from left to right.
+            // Grouped by position in tenths of a pixel, from left to right.
             let mut groups: BTreeMap<i64, Vec<&LineSeries>> = BTreeMap::new();
             for series in &self.series {
                 for (at, place) in self.places(series) {
@@ -270,14 +273,14 @@ fn finite(x: f64) -> Option<f64> {
     AxisPlace::of(x).and_then(AxisPlace::finite)
 }
 
-/// Where a share of the vertical axis is in a plot area.
+/// The vertical position of a share of the vertical axis in a plot area.
 fn level_px(plot: Rect, share: f64) -> f64 {
     plot.bottom - share * plot.height()
 }
 
-/// The lines of a curve between its gaps, then its markers. A point between two gaps has a marker
-/// in any case, or it would not be seen. Points come as pixels along the plot area and shares of
-/// its height.
+/// Draws the lines of a curve between its gaps, then its markers. A point between two gaps always
+/// has a marker, because it would not be visible otherwise. Points are given as horizontal pixels
+/// and as shares of the plot area's height.
 fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point>], plot: Rect) {
     let runs: Vec<Vec<Point>> = points
         .split(Option::is_none)

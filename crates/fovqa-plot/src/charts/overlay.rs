@@ -1,4 +1,5 @@
-//! Lines, labels and the cross over a picture: light with a dark edge, seen on every colour.
+//! Lines, labels and the cross over a picture: light with a dark edge, so that they are visible on
+//! every colour.
 
 use crate::canvas::clip;
 use crate::canvas::drawing::{Anchor, Drawing, Point, Rect, Stroke, Text};
@@ -12,23 +13,24 @@ const EDGE: Stroke = Stroke { colour: INK, width_px: 3.2 };
 const CORE: Stroke = Stroke { colour: WHITE, width_px: 1.4 };
 /// The edge of a label.
 const LABEL_EDGE: Stroke = Stroke { colour: INK, width_px: 0.8 };
-/// From a label's text to its edge.
+/// Distance from a label's text to its edge.
 const PADDING_PX: f64 = 2.5;
-/// Between labels, and from them to the border.
+/// Distance between labels, and from them to the border.
 const APART_PX: f64 = 2.0;
-/// From a line to a label beside it.
+/// Distance from a line to a label beside it.
 const BESIDE_PX: f64 = 4.0;
 /// The length of each arm of the cross.
 const ARM_PX: f64 = 8.0;
-/// Where along a line a label may stand, in turn, as shares of its length.
+/// The possible positions of a label along a line in the order of preference, as shares of its
+/// length.
 const PLACES: [f64; 8] = [0.0, 0.25, 0.5, 0.75, 0.125, 0.375, 0.625, 0.875];
-/// Where a label may stand there: on the line, or to a side of it.
+/// The possible positions of a label there: on the line, or on one of its sides.
 const SIDES: [Point; 5] = [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0)];
 
-/// Values at the left and right edge, and at the upper and lower one.
+/// The values at the left and right edges, and those at the upper and lower edges.
 type Ranges = ((f64, f64), (f64, f64));
 
-/// Draws the lines and the cross of a picture over it.
+/// Draws the lines and the cross over a picture.
 pub(crate) fn draw(drawing: &mut Drawing, plot: Rect, panel: &RasterPanel) {
     let ranges = (panel.x_range, panel.y_range);
     let seen: Vec<Vec<Vec<Point>>> =
@@ -48,8 +50,8 @@ pub(crate) fn draw(drawing: &mut Drawing, plot: Rect, panel: &RasterPanel) {
     }
 }
 
-/// Covers what stands out over the border: half the width of a line that runs along it, and the
-/// pixel that it ends in.
+/// Covers the parts that extend over the border: half the width of a line along it, and the pixel
+/// in which a line ends.
 fn cover_border(drawing: &mut Drawing, plot: Rect) {
     let out = EDGE.width_px / 2.0 + 1.0;
     let around = Rect {
@@ -69,7 +71,7 @@ fn cover_border(drawing: &mut Drawing, plot: Rect) {
     }
 }
 
-/// The parts of a line over the picture, in pixels.
+/// The parts of a line within the picture, in pixels.
 fn pieces(plot: Rect, ranges: Ranges, points: &[Point]) -> Vec<Vec<Point>> {
     let shares: Vec<Option<Point>> = points.iter().map(|at| share(ranges, *at)).collect();
     let turned = |line: Vec<Point>| line.into_iter().map(|(x, y)| (y, x)).collect::<Vec<_>>();
@@ -83,7 +85,7 @@ fn pieces(plot: Rect, ranges: Ranges, points: &[Point]) -> Vec<Vec<Point>> {
         .collect()
 }
 
-/// Where a place is, as shares of the picture's width and height.
+/// The position of a point as shares of the picture's width and height.
 fn share(((left, right), (top, bottom)): Ranges, (x, y): Point) -> Option<Point> {
     let along = |value: f64, from: f64, to: f64| {
         ((value - from) / (to - from)).clamp(-clip::FAR, clip::FAR)
@@ -92,7 +94,7 @@ fn share(((left, right), (top, bottom)): Ranges, (x, y): Point) -> Option<Point>
     finite.then(|| (along(x, left, right), along(y, top, bottom)))
 }
 
-/// The two arms of the cross, as far as they are over the picture; none where its middle is not.
+/// The two arms of the cross within the picture; none if its centre is outside.
 fn arms(plot: Rect, ranges: Ranges, at: Point) -> Vec<Vec<Point>> {
     let inside = |share: f64| (0.0..=1.0).contains(&share);
     let middle = share(ranges, at).filter(|(x, y)| inside(*x) && inside(*y));
@@ -103,7 +105,7 @@ fn arms(plot: Rect, ranges: Ranges, at: Point) -> Vec<Vec<Point>> {
     vec![vec![(left, y), (right, y)], vec![(x, top), (x, bottom)]]
 }
 
-/// Writes a name on a line or beside it, in the first place along it where nothing else stands.
+/// Writes a name on a line or beside it, at the first position along it that is free.
 fn label(drawing: &mut Drawing, plot: Rect, name: &str, piece: &[Point], taken: &mut Vec<Rect>) {
     let lines = wrap(name, VALUE_PX, plot.width() / 3.0, 1);
     let Some(line) = lines.first() else { return };
@@ -132,7 +134,7 @@ fn label(drawing: &mut Drawing, plot: Rect, name: &str, piece: &[Point], taken: 
     taken.push(around(&rect.corners()));
 }
 
-/// The room around some points, with a little space.
+/// The bounding box of a set of points, with a little space.
 fn around(points: &[Point]) -> Rect {
     let start = Rect {
         left: f64::INFINITY,

@@ -1,4 +1,4 @@
-//! Several charts of curves in one figure, such as a measure for each scene, with one legend.
+//! Several charts of curves in one figure with one legend, for example a measure for each scene.
 
 use crate::axes::axis::Axis;
 use crate::axes::position_axis::PositionAxis;
@@ -11,24 +11,25 @@ use crate::marks::legend::{self, Key};
 use crate::page::layout::{self, LEAST_PLOT_PX, MARGIN_PX, PAGE_PX, TITLE_LINES, WIDTH_PX};
 use crate::page::panel_grid::{Cell, Grid, Needs};
 
-/// Height of a plot area: lower than that of a single chart, as it is narrower.
+/// Height of a plot area. It is lower than that of a single chart because it is narrower.
 const HEIGHT_PX: f64 = 170.0;
-/// A plot area beside others is no narrower than this: wide labels widen the picture instead.
+/// The smallest width of a plot area beside others. Wide labels widen the picture instead.
 const LEAST_PANEL_PX: f64 = 140.0;
 
 /// Charts of curves in rows and columns, with one legend for all.
 ///
-/// Each has its own axes: they are compared by shape. The plot areas have one size. A figure of one
-/// column is as wide as a single chart, and one of several as the page.
+/// Each chart has its own axes, so charts are compared by shape. All plot areas have the same size.
+/// A figure with one column is as wide as a single chart, and one with several columns as wide as a
+/// page.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PanelChart {
-    /// What stands above it all.
+    /// The title above the figure.
     pub title: Option<String>,
-    /// The charts, row by row, each with its title above it. Series, areas and spans of one name
-    /// are one in the legend, with the look of the first. Where all charts of a row have the same vertical
-    /// axis, its title stands beside the first alone.
+    /// The charts, row by row, each with its title above it. Series, areas and spans of the same
+    /// name have one entry in the legend, with the look of the first one. If all charts of a row
+    /// have the same vertical axis, only the first one has the axis title.
     pub panels: Vec<LineChart>,
-    /// The most charts of a row; 0 is taken as 1.
+    /// The largest number of charts in a row; 0 is treated as 1.
     pub columns: usize,
 }
 
@@ -64,7 +65,7 @@ impl PanelChart {
     }
 }
 
-/// The vertical axes: without a title beside others of the same.
+/// The vertical axes. An axis has no title if it equals the other axes of its row.
 fn y_axes(charts: &[LineChart], columns: usize) -> Vec<ValueAxis> {
     let row = |charts: &[LineChart]| -> Vec<ValueAxis> {
         let same = charts.iter().all(|chart| chart.y == charts[0].y);
@@ -78,7 +79,7 @@ fn y_axes(charts: &[LineChart], columns: usize) -> Vec<ValueAxis> {
     charts.chunks(columns).flat_map(row).collect()
 }
 
-/// The width of all plot areas: what the axes leave of the picture.
+/// The common width of the plot areas: the part of the picture that the axes leave.
 fn plot_width_px(charts: &[LineChart], y_axes: &[ValueAxis], columns: usize) -> f64 {
     let (picture_px, least_px) =
         if columns == 1 { (WIDTH_PX, LEAST_PLOT_PX) } else { (PAGE_PX, LEAST_PANEL_PX) };
@@ -95,7 +96,7 @@ fn plot_width_px(charts: &[LineChart], y_axes: &[ValueAxis], columns: usize) -> 
     charts.iter().map(width_px).fold(f64::INFINITY, f64::min)
 }
 
-/// The series of all charts, those of reference last, then their areas and spans.
+/// The series of all charts with reference curves last, then their areas and spans.
 fn keys(charts: &[LineChart]) -> Vec<(&str, Key)> {
     let all = || charts.iter().flat_map(LineChart::series_keys);
     let reference = |(_, key): &(&str, Key)| matches!(key, Key::Reference(_));

@@ -1,4 +1,4 @@
-//! Pictures of a quantity over a plane, such as the sampling density over the field of view.
+//! Pictures of a quantity over a plane, for example the sampling density over the field of view.
 
 use crate::axes::axis::{AXIS_STROKE, Axis};
 use crate::axes::colour_bar::ColourBar;
@@ -16,33 +16,33 @@ use crate::page::layout::{self, MARGIN_PX, PAGE_PX, TITLE_LINES, WIDTH_PX};
 use crate::page::panel_grid::{Cell, Grid, Needs};
 use crate::scales::scale::{AxisPlace, Scale};
 
-/// The lowest and highest colour bar: beside low pictures it is higher than they are, or its title
-/// would not fit.
+/// The smallest and the largest height of the colour bar. Beside low pictures the bar is higher
+/// than they are, because its title would not fit otherwise.
 const BAR_PX: (f64, f64) = (110.0, 340.0);
-/// What axes need beside a picture, about.
+/// The approximate space that axes need beside a picture.
 const BESIDE_PX: f64 = 64.0;
-/// How often they are measured before the last time.
+/// The number of times that axes are measured before the final layout.
 const MEASURED: usize = 2;
-/// Pictures in rows and columns with one colour scale, whose bar stands at the right.
+/// Pictures in rows and columns with one colour scale, whose bar is on the right.
 ///
-/// The colours are those of viridis: the lighter, the more. They tell 255 steps apart.
+/// The colours are those of viridis, in which lighter means more, with 255 steps.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RasterChart {
-    /// What stands above it all.
+    /// The title above the figure.
     pub title: Option<String>,
-    /// The pictures, row by row. Where all of a row have the same vertical axis, its title stands
-    /// beside the first alone.
+    /// The pictures, row by row. If all pictures of a row have the same vertical axis, only the
+    /// first one has the axis title.
     pub panels: Vec<RasterPanel>,
-    /// The most pictures of a row; 0 is taken as 1. A figure of one column is as wide as a single
-    /// chart, and one of several as the page.
+    /// The largest number of pictures in a row; 0 is treated as 1. A figure with one column is as
+    /// wide as a single chart, and one with several columns as wide as a page.
     pub columns: usize,
-    /// What the colours show, with the unit: "Samples per square degree".
+    /// The quantity that the colours show, with the unit: "Samples per square degree".
     pub colour: Axis,
-    /// Whether equal steps of colour are equal ratios.
+    /// Whether the colour scale is logarithmic.
     pub log: bool,
-    /// The values of the first and last colour, which those beyond take too; those of the least
-    /// and greatest value without. Ends that are not finite or not in order, and those not above 0
-    /// of a logarithm, are taken as none.
+    /// The values of the first and the last colour, which also apply to values beyond. `None` means
+    /// the smallest and the largest value. Ends are ignored if they are not finite, not in order,
+    /// or not above 0 for a logarithmic scale.
     pub range: Option<(f64, f64)>,
 }
 
@@ -63,7 +63,8 @@ impl RasterChart {
         let columns = self.columns.clamp(1, charts.len());
         let scale = self.scale();
 
-        // What axes and bar need depends on the height of the pictures, and that on what they leave.
+        // The space for axes and bar depends on the height of the pictures, which in turn depends
+        // on the space that is left.
         let picture_px = if columns == 1 { WIDTH_PX } else { PAGE_PX };
         let mut width_px = picture_px / columns as f64 - BESIDE_PX;
         for _ in 0..MEASURED {
@@ -89,7 +90,7 @@ impl RasterChart {
         Ok(drawing)
     }
 
-    /// The range of the colours; none without values that it could hold.
+    /// The range of the colours; `None` without values that it could include.
     fn scale(&self) -> Option<Scale> {
         let given = self.range.and_then(|range| Scale::between(range, self.log));
         let values = self.panels.iter().flat_map(|panel| &panel.values);
@@ -98,19 +99,19 @@ impl RasterChart {
     }
 }
 
-/// From the top of the first row of pictures to the bottom of the last.
+/// The distance from the top of the first row of pictures to the bottom of the last row.
 fn plots_px(panels: &[Panel<'_>], grid: &Grid) -> f64 {
     let top = |i: usize| grid.place(i, 0.0).plot.top;
     let bottoms = panels.iter().enumerate().map(|(i, panel)| top(i) + panel.size_px.1);
     bottoms.fold(0.0, f64::max) - top(0)
 }
 
-/// The height of the bar beside pictures of a height.
+/// The height of the bar beside pictures of this height.
 fn bar_px(plots_px: f64) -> f64 {
     plots_px.clamp(BAR_PX.0, BAR_PX.1)
 }
 
-/// The pictures in a grid, none wider than told.
+/// The pictures in a grid, none of them wider than `width_px`.
 fn panels(charts: &[RasterPanel], columns: usize, width_px: f64) -> (Vec<Panel<'_>>, Grid) {
     let panels: Vec<Panel<'_>> = charts
         .chunks(columns)
@@ -121,7 +122,7 @@ fn panels(charts: &[RasterPanel], columns: usize, width_px: f64) -> (Vec<Panel<'
         })
         .collect();
     let needs: Vec<Needs> = panels.iter().map(Panel::needs).collect();
-    // Each is of its own size, which its needs say.
+    // Each picture has its own size, which its needs include.
     let grid = Grid::new(&needs, columns, (0.0, 0.0));
     (panels, grid)
 }
@@ -174,7 +175,7 @@ impl<'a> Panel<'a> {
             drawing.picture(plot, Bitmap { columns: chart.columns, levels });
         }
         if chart.values.iter().all(|value| value.is_nan()) {
-            layout::say_no_data(drawing, plot);
+            layout::write_no_data(drawing, plot);
         } else {
             overlay::draw(drawing, plot, chart);
         }

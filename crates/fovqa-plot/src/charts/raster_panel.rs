@@ -5,55 +5,55 @@ use crate::canvas::colour_map::{self, NO_LEVEL};
 use crate::error::PlotError;
 use crate::scales::scale::{AxisPlace, Scale};
 
-/// The highest a picture becomes.
+/// The largest height of a picture.
 const MOST_HEIGHT_PX: f64 = 400.0;
-/// The narrowest.
+/// The smallest width of a picture.
 const LEAST_WIDTH_PX: f64 = 140.0;
-/// A picture is no more than so many times as long as it is wide.
+/// The largest ratio of a picture's sides.
 const MOST_RATIO: f64 = 4.0;
 
 /// One picture: cells of equal size over a part of a plane.
 ///
-/// A degree, or whatever the unit, is as long down as it is across, but where the picture would be
-/// more than four times as long as it is wide, or as wide as it is long.
+/// A unit is equally long in both directions, unless one side of the picture would then be more
+/// than four times as long as the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RasterPanel {
-    /// What stands above it.
+    /// The title above the picture.
     pub title: Option<String>,
-    /// The axis across.
+    /// The horizontal axis.
     pub x: Axis,
-    /// The axis down.
+    /// The vertical axis.
     pub y: Axis,
     /// The left and right edge of the cells, in units of the axis.
     pub x_range: (f64, f64),
-    /// The upper and lower edge: y may run down, as it does in pictures, or up.
+    /// The upper and lower edge of the cells. y may increase downwards, as in pictures, or upwards.
     pub y_range: (f64, f64),
-    /// Cells of a row.
+    /// The number of cells in a row.
     pub columns: usize,
-    /// Rows.
+    /// The number of rows.
     pub rows: usize,
-    /// Row by row from the upper left. What is not a number is light gray; infinite values and,
-    /// with a logarithm, those not above 0 are beyond the range.
+    /// The values, row by row from the upper left. NaN is light gray. Infinite values and, with a
+    /// logarithmic scale, values that are not above 0 are beyond the range.
     pub values: Vec<f64>,
-    /// Lines over the picture, in units of the axes; without any value none is drawn.
+    /// Lines over the picture, in units of the axes. If there is no value, no line is drawn.
     pub lines: Vec<RasterLine>,
-    /// Where the gaze rests, marked with a cross.
+    /// The position of the gaze, which is marked with a cross.
     pub cross: Option<(f64, f64)>,
 }
 
-/// A line over a picture, such as a ring of equal eccentricity: white with a dark edge, so that it
-/// is seen on every colour. The part over the picture is drawn.
+/// A line over a picture, such as a ring of equal eccentricity. It is white with a dark edge, so
+/// that it is visible on every colour. Only the part within the picture is drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RasterLine {
-    /// A short label at its start, such as "10°", or further along where that would cover another;
-    /// none when empty.
+    /// A short label such as "10°" at its start, or further along if it would cover another label;
+    /// empty for no label.
     pub name: String,
-    /// Its points; one that is not finite parts it.
+    /// Its points. A point that is not finite interrupts the line.
     pub points: Vec<(f64, f64)>,
 }
 
 impl Default for RasterPanel {
-    /// No cells over a square of 1.
+    /// A panel without cells, over a square with sides of 1.
     fn default() -> Self {
         Self {
             title: None,
@@ -85,10 +85,10 @@ impl RasterPanel {
         Ok(())
     }
 
-    /// Width and height within a width.
+    /// Width and height of the picture within a given width.
     pub(crate) fn size_px(&self, width_px: f64) -> (f64, f64) {
         let (x, y) = (self.x_range, self.y_range);
-        // In halves: a range may be as long as the largest number.
+        // The division by 2 avoids an overflow: a range may be as long as the largest number.
         let ratio = (y.1 / 2.0 - y.0 / 2.0).abs() / (x.1 / 2.0 - x.0 / 2.0);
         let ratio = ratio.clamp(1.0 / MOST_RATIO, MOST_RATIO);
         let width_px = width_px.max(LEAST_WIDTH_PX).min(MOST_HEIGHT_PX / ratio).floor();

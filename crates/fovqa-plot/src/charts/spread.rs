@@ -1,4 +1,4 @@
-//! Distributions in groups: how a measure spreads over the frames of a sequence.
+//! Grouped distributions: how a measure varies over the frames of a sequence.
 
 use crate::axes::axis::{AXIS_STROKE, Axis};
 use crate::axes::group_axis::GroupAxis;
@@ -14,11 +14,11 @@ use crate::marks::swatch;
 use crate::page::layout::{self, MARGIN_PX, PLOT_HEIGHT_PX, Sides};
 use crate::scales::scale::{AxisPlace, Scale};
 
-/// The share of its place that a box fills.
+/// The share of its slot that a box fills.
 const FILLED: f64 = 0.72;
-/// The widest box.
+/// The largest width of a box.
 const MOST_BOX_PX: f64 = 26.0;
-/// Air above and below the data, as a share of its range.
+/// Space above and below the data, as a share of its range.
 const AIR: f64 = 0.06;
 /// Radius of the points of a strip, and of an outlier.
 const POINT_PX: f64 = 2.6;
@@ -26,17 +26,17 @@ const OUTLIER_PX: f64 = 1.7;
 /// Width of the line at the median.
 const MEDIAN_PX: f64 = 1.8;
 
-/// Groups of distributions, one a series in each.
+/// Groups of distributions, with one distribution per series.
 ///
-/// From ten finite values on a distribution is a box: median, quartiles (interpolated linearly),
-/// whiskers to the farthest value within 1.5 interquartile ranges, and each value beyond as a
-/// point. Fewer are a strip of points in their order, from left to right, with a line at the
-/// median. Infinite values are left out, and their number is written: "3 × ∞".
+/// A distribution of at least ten finite values is a box: median, quartiles (interpolated
+/// linearly), whiskers to the farthest value within 1.5 interquartile ranges, and a point for each
+/// value beyond. Fewer values are drawn as points in their order, from left to right, with a line
+/// at the median. Infinite values are left out, and their number is written: "3 × ∞".
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SpreadChart {
-    /// What stands above it all.
+    /// The title above the figure.
     pub title: Option<String>,
-    /// The vertical axis. It begins where the data does.
+    /// The vertical axis. It begins where the data begins.
     pub y: Axis,
     /// Names of the groups, from left to right.
     pub groups: Vec<String>,
@@ -72,7 +72,7 @@ impl SpreadChart {
         let bottom = plot.bottom;
         drawing.line(&[(plot.left, bottom), (plot.right, bottom)], AXIS_STROKE);
         if places().next().is_none() {
-            layout::say_no_data(&mut drawing, plot);
+            layout::write_no_data(&mut drawing, plot);
         }
         for (s, series) in self.series.iter().enumerate() {
             for (g, values) in series.values.iter().enumerate() {
@@ -90,7 +90,7 @@ impl SpreadChart {
     }
 }
 
-/// The place of one distribution.
+/// The slot of one distribution.
 struct Slot<'a> {
     x: f64,
     half_px: f64,
@@ -128,7 +128,7 @@ impl Slot<'_> {
         sorted.sort_by(f64::total_cmp);
         let Some(median) = quantile(&sorted, 0.5) else { return };
         self.draw_median(drawing, median);
-        // Evenly from side to side, so that equal values do not hide each other.
+        // The points are evenly spaced, so that equal values do not hide each other.
         let wide = (self.half_px - POINT_PX).max(0.0);
         let step = 2.0 * wide / values.len() as f64;
         for (i, value) in values.iter().enumerate() {

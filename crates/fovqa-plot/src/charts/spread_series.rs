@@ -4,7 +4,7 @@ use crate::canvas::look::Look;
 use crate::marks::legend::Key;
 use crate::scales::scale::AxisPlace;
 
-/// From so many values on a box says more than they do.
+/// From this number of values on, a box shows more than single points.
 pub(crate) const BOX_FROM: usize = 10;
 
 /// The distributions of one series.
@@ -19,7 +19,7 @@ pub struct SpreadSeries {
 }
 
 impl SpreadSeries {
-    /// A box in the legend where there is one in the chart.
+    /// Its key in the legend: a box if the chart has one.
     pub(crate) fn key(&self) -> Key {
         let boxed = |values: &Vec<f64>| finite(values).len() >= BOX_FROM;
         let box_or_empty = self.values.iter().any(boxed) || self.values.iter().all(Vec::is_empty);
@@ -27,7 +27,7 @@ impl SpreadSeries {
     }
 }
 
-/// Values that stand on the axis.
+/// The values that the axis can show.
 pub(crate) fn finite(values: &[f64]) -> Vec<f64> {
     values.iter().filter_map(|v| AxisPlace::of(*v).and_then(AxisPlace::finite)).collect()
 }

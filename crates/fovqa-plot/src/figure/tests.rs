@@ -1,7 +1,5 @@
-//! Every kind of figure with usual, odd and hostile data: all of it inside the picture, no text
-//! over another, and the same each time.
-
-use proptest::prelude::*;
+//! Every kind of figure with usual, odd and hostile data. All marks must be inside the picture,
+//! texts must not overlap, and the output must be the same each time.
 
 use super::*;
 use crate::canvas::drawing::{Mark, Rect, Text};
@@ -9,9 +7,13 @@ use crate::canvas::look::{AXIS, Colour, GRID, INK, REFERENCE, SPAN};
 use crate::{Axis, BarSeries, Fill, FillKind, LineSeries, Look, Span, SpreadSeries, png};
 
 mod curves;
+mod marks;
+mod panels;
+mod random_values;
 mod rasters;
+mod spans;
 
-/// Names that break careless layouts.
+/// Names that are difficult for a layout.
 const HOSTILE: [&str; 8] = [
     "RMFR",
     "A & B <x> \"quoted\" 'too'",
@@ -23,7 +25,7 @@ const HOSTILE: [&str; 8] = [
     "עברית",
 ];
 
-/// Values that break careless axes.
+/// Values that are difficult for axes.
 const ODD: [f64; 14] = [
     0.0,
     -0.0,
@@ -57,7 +59,7 @@ fn line(series: Vec<Vec<(f64, Option<f64>)>>) -> Figure {
     Figure::Line(LineChart { x, y, series: series.collect(), ..LineChart::default() })
 }
 
-/// Bars, or markers where not from zero: `values[series][group]`.
+/// A bar chart of `values[series][group]`. The values are markers if the axis does not begin at 0.
 fn bars(values: Vec<Vec<Option<f64>>>, from_zero: bool) -> Figure {
     let groups = (0..values.first().map_or(0, Vec::len)).map(name).collect();
     let series = values.into_iter().enumerate().map(|(i, values)| BarSeries {
@@ -80,7 +82,7 @@ fn spread(values: Vec<Vec<Vec<f64>>>) -> Figure {
     Figure::Spread(SpreadChart { title: None, y, groups, series: series.collect() })
 }
 
-/// A chart of the same curves in each of some panels, with a span and hostile titles.
+/// A figure of `count` panels with the same curves, with a span and hostile titles.
 fn panels(series: &[Vec<(f64, Option<f64>)>], count: usize, columns: usize) -> Figure {
     let Figure::Line(chart) = line(series.to_vec()) else { unreachable!() };
     let panel = |i: usize| LineChart {
@@ -112,7 +114,7 @@ fn count(figure: &Figure, text: &str) -> usize {
     texts(figure).iter().filter(|line| *line == text).count()
 }
 
-/// Nothing beyond the border, and no text over another.
+/// Checks that no mark is outside the picture and that texts do not overlap.
 fn check(figure: &Figure) {
     let drawing = figure.draw().unwrap();
     let (width, height) = (drawing.width_px, drawing.height_px);
@@ -142,7 +144,7 @@ fn check(figure: &Figure) {
         }
     }
     let svg = figure.svg().unwrap();
-    // The letters of an encoded picture may say anything.
+    // The characters of an encoded picture are arbitrary.
     let mut lines = svg.lines().filter(|line| !line.starts_with("<image "));
     assert!(lines.all(|line| !line.contains("NaN") && !line.contains("inf")), "{svg}");
 }
@@ -214,119 +216,6 @@ fn empty_figures_say_so() {
 }
 
 #[test]
-fn infinite_and_missing_values_are_shown() {
-    let (inf, sub) = (Some(f64::INFINITY), Some(f64::NEG_INFINITY));
-    let curves =
-        vec![vec![(0.0, inf), (9.0, Some(1.0)), (20.0, sub)], vec![(0.0, inf), (9.0, inf)]];
-    let figure = line(curves);
-    check(&figure);
-    assert_eq!((count(&figure, "∞"), count(&figure, "−∞")), (2, 1), "once a place");
-
-    for from_zero in [true, false] {
-        let figure =
-            bars(vec![vec![Some(30.0), None, inf], vec![Some(20.0), sub, None]], from_zero);
-        check(&figure);
-        assert_eq!((count(&figure, "∞"), count(&figure, "−∞")), (1, 1));
-        assert_eq!(count(&figure, "n/a"), 2);
-        assert_eq!((count(&figure, "30.0"), count(&figure, "20.0")), (1, 1), "values");
-    }
-    let all = bars(vec![vec![inf, inf]], true);
-    check(&all);
-    assert_eq!((count(&all, "∞"), count(&all, "no data")), (2, 0));
-
-    let values = vec![f64::INFINITY, 1.0, f64::INFINITY, 2.0, f64::NEG_INFINITY];
-    let figure = spread(vec![vec![values.clone()]]);
-    check(&figure);
-    assert_eq!((count(&figure, "2 × ∞"), count(&figure, "1 × −∞")), (1, 1));
-    let narrow = spread(vec![vec![values; 60]; 3]);
-    check(&narrow);
-    assert_eq!(count(&narrow, "360 × ∞ left out"), 1);
-}
-
-/// The upper and lower ends of the areas of a colour, the legend's key left out.
-fn areas(figure: &Figure, look: usize) -> Vec<(f64, f64)> {
-    let colour = Look::new(look).colour();
-    let ends = |mark: &Mark| match mark {
-        Mark::Area(points, c) if *c == colour => {
-            let ys = || points.iter().map(|p| p.1);
-            Some((ys().fold(f64::INFINITY, f64::min), ys().fold(0.0, f64::max)))
-        }
-        _ => None,
-    };
-    figure.draw().unwrap().marks.iter().filter_map(ends).skip(1).collect()
-}
-
-#[test]
-fn bars_are_as_long_as_their_values() {
-    let figure = bars(vec![vec![Some(10.0), Some(30.0), Some(-5.0)]], true);
-    let bars = areas(&figure, 0);
-    let length = |i: usize| bars[i].1 - bars[i].0;
-    assert!((length(1) / length(0) - 3.0).abs() < 1e-9);
-    assert!((length(0) / length(2) - 2.0).abs() < 1e-9);
-    assert!((bars[0].1 - bars[2].0).abs() < 1e-9, "one base line, a negative bar below it");
-}
-
-/// The lines and discs of a colour.
-fn lines_and_discs(figure: &Figure, colour: Colour) -> (Vec<Vec<(f64, f64)>>, usize) {
-    let drawing = figure.draw().unwrap();
-    let line = |mark: &Mark| match mark {
-        Mark::Line(points, stroke) if stroke.colour == colour => Some(points.clone()),
-        _ => None,
-    };
-    let disc = |mark: &&Mark| matches!(mark, Mark::Disc(_, _, c) if *c == colour);
-    (drawing.marks.iter().filter_map(line).collect(), drawing.marks.iter().filter(disc).count())
-}
-
-#[test]
-fn a_gap_is_not_bridged() {
-    let y = [Some(1.0), Some(2.0), None, Some(3.0), Some(1.0)];
-    let figure = line(vec![y.iter().enumerate().map(|(x, y)| (x as f64, *y)).collect()]);
-    let (lines, discs) = lines_and_discs(&figure, Look::new(0).colour());
-    // Each with its key in the legend.
-    assert_eq!((lines.len(), discs), (3, 5));
-    assert!(lines.iter().all(|line| line.len() == 2));
-}
-
-#[test]
-fn a_point_between_gaps_is_seen_on_a_reference_too() {
-    let points = vec![(0.0, Some(1.0)), (1.0, None), (2.0, Some(3.0))];
-    let series = vec![LineSeries { reference: true, points, ..LineSeries::default() }];
-    let figure = Figure::Line(LineChart { series, ..LineChart::default() });
-    assert_eq!(lines_and_discs(&figure, REFERENCE).1, 2);
-}
-
-#[test]
-fn ten_values_make_a_box() {
-    let tint = Look::new(0).colour().tint(crate::marks::swatch::TINT);
-    let boxes = |count: u32| {
-        let figure = spread(vec![vec![(0..count).map(f64::from).collect()], vec![vec![]]]);
-        let drawing = figure.draw().unwrap();
-        let area = |mark: &Mark| match mark {
-            Mark::Area(points, colour) if *colour == tint => Some((points[0].1, points[2].1)),
-            _ => None,
-        };
-        // No line but that of a median is in ink.
-        (drawing.marks.iter().filter_map(area).collect::<Vec<_>>(), lines_and_discs(&figure, INK).0)
-    };
-    let (none, strip_median) = boxes(9);
-    assert!(none.is_empty() && strip_median.len() == 1);
-    let (found, medians) = boxes(10);
-    // The key and the box, from 2.25 to 6.75 on an axis of 9 and its air.
-    let (top, bottom) = found[1];
-    let height = crate::page::layout::PLOT_HEIGHT_PX * 4.5 / (9.0 * 1.12);
-    assert!(found.len() == 2 && (bottom - top - height).abs() < 1e-6, "{found:?}");
-    let middle = top.midpoint(bottom);
-    assert!((medians[0][0].1 - middle).abs() < 1e-6);
-    assert!((strip_median[0][0].1 - middle).abs() < 1e-6, "of 0 to 8, in the middle as well");
-}
-
-#[test]
-fn a_zero_over_negative_bars_has_room_for_its_label() {
-    check(&bars(vec![vec![Some(0.0), Some(-0.0013)]], true));
-    check(&bars(vec![vec![Some(-0.0), Some(-2.0), None]; 4], true));
-}
-
-#[test]
 fn names_survive_escaped() {
     let svg = bars(vec![vec![Some(1.0)]; 8], true).svg().unwrap();
     for name in ["A &amp; B &lt;x&gt; &quot;quoted&quot; &apos;too&apos;", "עברית"] {
@@ -364,26 +253,6 @@ fn series_must_fit_their_groups() {
 }
 
 #[test]
-fn infinite_values_stand_at_their_border() {
-    let figure = line(vec![vec![
-        (0.0, Some(f64::INFINITY)),
-        (1.0, Some(0.0)),
-        (2.0, Some(1.0)),
-        (3.0, Some(f64::NEG_INFINITY)),
-    ]]);
-    let colour = Look::new(0).colour();
-    let disc = |mark: &Mark| match mark {
-        Mark::Disc((_, y), _, c) if *c == colour => Some(*y),
-        _ => None,
-    };
-    let ys: Vec<f64> = figure.draw().unwrap().marks.iter().filter_map(disc).collect();
-    // The key, the two on the axis, then the one above and the one below.
-    let [_, zero, one, above, below] = ys[..] else { panic!("{ys:?}") };
-    assert!(above < one && one < zero && zero < below, "{ys:?}");
-    assert!((below - above - crate::page::layout::PLOT_HEIGHT_PX).abs() < 1e-6);
-}
-
-#[test]
 fn data_are_tidy() {
     let csv = line(vec![vec![(1.0, Some(f64::INFINITY)), (2.5, None), (3.0, Some(1e-7))]]).csv();
     assert_eq!(csv, "series,x,y\nRMFR,1.0,inf\nRMFR,2.5,\nRMFR,3.0,1e-7\n");
@@ -399,7 +268,7 @@ fn data_are_tidy() {
     assert_eq!(csv, "group,series,value\nRMFR,RMFR,1.0\nRMFR,RMFR,\n");
 }
 
-/// A chart over 0 to 3 with spans.
+/// A chart over 0 to 3 with these spans.
 fn with_spans(spans: Vec<Span>) -> LineChart {
     let series = LineSeries { points: points(&[1.0, 3.0, 2.0, 4.0]), ..LineSeries::default() };
     LineChart { series: vec![series], spans, ..LineChart::default() }
@@ -426,82 +295,6 @@ fn plots(drawing: &Drawing) -> Vec<Rect> {
     plots
 }
 
-/// The shaded spans in the plot areas, not those in the legend.
-fn shaded(drawing: &Drawing) -> Vec<Rect> {
-    let area = |mark: &Mark| match mark {
-        Mark::Area(points, SPAN) => {
-            let ((left, top), (right, bottom)) = (points[0], points[2]);
-            Some(Rect { left, top, right, bottom })
-        }
-        _ => None,
-    };
-    let areas = drawing.marks.iter().filter_map(area);
-    areas.filter(|area| area.height() > 100.0).collect()
-}
-
-#[test]
-fn spans_are_behind_all_else_and_as_high_as_the_plot_area() {
-    let drawing = with_spans(vec![span(1.0, 2.0)]).draw();
-    let (plot, area) = (plots(&drawing)[0], shaded(&drawing)[0]);
-    assert_eq!((area.top, area.bottom), (plot.top, plot.bottom));
-    // An axis from 0 to 3 and its air.
-    let unit = plot.width() / (3.0 * 1.04);
-    assert!((area.left - (plot.left + 1.06 * unit)).abs() < 1e-6);
-    assert!((area.width() - unit).abs() < 1e-6);
-    let high = |mark: &&Mark| matches!(mark, Mark::Area(p, SPAN) if p[2].1 - p[0].1 > 100.0);
-    let at = drawing.marks.iter().position(|mark| high(&mark)).unwrap();
-    let over = |mark: &Mark| match mark {
-        Mark::Line(_, stroke) => [GRID, AXIS, Look::new(0).colour()].contains(&stroke.colour),
-        _ => false,
-    };
-    assert_eq!(drawing.marks.iter().position(over), Some(at + 1), "no line is before it");
-}
-
-#[test]
-fn spans_end_at_the_plot_area() {
-    let beyond = [span(-1e9, 0.5), span(2.5, 1e300), span(9.0, 2.9), span(0.0, 0.0)];
-    let mut chart = with_spans(beyond.to_vec());
-    for ticks in [None, Some(vec![0.0, 3.0])] {
-        chart.x_ticks = ticks;
-        let drawing = chart.draw();
-        let (plot, areas) = (plots(&drawing)[0], shaded(&drawing));
-        let bare = with_spans(Vec::new());
-        assert_eq!(
-            plots(&LineChart { x_ticks: chart.x_ticks.clone(), ..bare }.draw())[0].width(),
-            plot.width()
-        );
-        assert_eq!(areas.len(), 4);
-        assert!(areas.iter().all(|a| a.left >= plot.left && a.right <= plot.right));
-        assert!(
-            (areas[0].left, areas[1].right, areas[2].right) == (plot.left, plot.right, plot.right)
-        );
-        assert!(areas.iter().all(|a| a.width() > 1.4), "wide enough to be seen");
-        check(&Figure::Line(chart.clone()));
-    }
-}
-
-#[test]
-fn spans_that_cannot_be_seen_are_not_drawn() {
-    let (inf, nan) = (f64::INFINITY, f64::NAN);
-    for (from, to) in [(1.0, inf), (-inf, 1.0), (nan, 1.0), (1.0, nan), (4.0, 9.0), (-9.0, -1.0)] {
-        let figure = Figure::Line(with_spans(vec![span(from, to)]));
-        check(&figure);
-        assert!(shaded(&figure.draw().unwrap()).is_empty(), "{from} to {to}");
-        assert_eq!(count(&figure, "saccade"), 0, "nor have they a key");
-    }
-    let empty = LineChart { spans: vec![span(0.0, 1.0)], ..LineChart::default() };
-    assert!(shaded(&empty.draw()).is_empty());
-}
-
-#[test]
-fn spans_of_one_name_have_one_key() {
-    let blink = Span { name: "blink".to_owned(), from: 0.0, to: 0.5 };
-    let figure = Figure::Line(with_spans(vec![span(0.5, 1.0), span(2.0, 2.5), blink]));
-    check(&figure);
-    assert_eq!((count(&figure, "saccade"), count(&figure, "blink")), (1, 1));
-    assert_eq!(shaded(&figure.draw().unwrap()).len(), 3);
-}
-
 #[test]
 fn an_axis_from_zero_begins_there() {
     let ends = |values: &[f64], y_from_zero: bool| {
@@ -518,197 +311,4 @@ fn an_axis_from_zero_begins_there() {
     assert!(near(ends(&[20.0, 30.0], false), (19.4, 30.6)));
     assert!(ends(&[0.0, 0.0], true).0.abs() < 1e-12);
     assert!(ends(&[3e-5, f64::INFINITY], true).0.abs() < 1e-12);
-}
-
-#[test]
-fn labels_of_infinite_values_keep_off_the_axis() {
-    let (sub, inf) = (f64::NEG_INFINITY, f64::INFINITY);
-    for values in [[sub, 5.0, 7.0, sub], [inf, -5.0, -7.0, inf]] {
-        let Figure::Line(chart) = line(vec![points(&values)]) else { unreachable!() };
-        for x_ticks in [vec![0.0, 3.0], vec![-9.0, 2.999_999, 3.0], vec![0.0, 1e-9, 3.0]] {
-            let x_ticks = Some(x_ticks);
-            let chart = LineChart { x_ticks, y_from_zero: true, ..chart.clone() };
-            check(&Figure::Line(chart.clone()));
-            let panels = vec![chart; 3];
-            check(&Figure::Panels(PanelChart { panels, columns: 3, ..PanelChart::default() }));
-        }
-    }
-}
-
-#[test]
-fn panels_stay_inside_the_picture() {
-    for (count, columns) in (1..9).flat_map(|count| (1..5).map(move |c| (count, c))) {
-        let curves: Vec<_> = (0..5).map(|s| points(&ODD[s..][..5])).collect();
-        check(&panels(&curves, count, columns));
-        let infinite = points(&[f64::INFINITY, 1e-5, 3e-5, f64::NEG_INFINITY]);
-        check(&panels(&[infinite.clone(), infinite], count, columns));
-    }
-    for (i, a) in ODD.into_iter().enumerate() {
-        for b in ODD {
-            let xy = vec![(a, Some(b)), (b, Some(a))];
-            check(&panels(&[xy, vec![(a, None)]], 4, 2 + i % 3));
-        }
-    }
-}
-
-#[test]
-fn plot_areas_of_panels_are_aligned() {
-    for columns in 1..5 {
-        let mut figure = panels(&[points(&[3e-5, 1e-6]), points(&[1.0, -2.0])], 8, columns);
-        let Figure::Panels(chart) = &mut figure else { unreachable!() };
-        chart.panels[1].series[0].points = points(&[f64::INFINITY, 123_456.7, f64::NEG_INFINITY]);
-        chart.panels[2].series.clear();
-        let plots = plots(&figure.draw().unwrap());
-        assert_eq!(plots.len(), 8);
-        for (i, a) in plots.iter().enumerate() {
-            for (j, b) in plots[..i].iter().enumerate() {
-                let rows = (a.top, a.bottom) == (b.top, b.bottom);
-                assert_eq!(rows, i / columns == j / columns, "{i} and {j} of {columns}");
-                let lined_up = (a.left, a.right) == (b.left, b.right);
-                assert_eq!(lined_up, i % columns == j % columns, "{i} and {j} of {columns}");
-                assert!(!a.overlaps(*b) && (a.width() - b.width()).abs() < 1e-6);
-            }
-        }
-    }
-}
-
-#[test]
-fn panels_share_a_legend() {
-    let mut figure = panels(&[points(&[1.0, 2.0]), points(&[2.0, 3.0])], 5, 3);
-    let Figure::Panels(chart) = &mut figure else { unreachable!() };
-    chart.title = None;
-    let names = [["KFR", "RMFR"], ["RMFR", "VaFR"], ["Hyper3", "KFR"]];
-    for (panel, names) in chart.panels.iter_mut().zip(names.iter().cycle()) {
-        panel.title = None;
-        let series = |name: &&str| LineSeries {
-            name: (*name).to_owned(),
-            points: points(&[1.0, 2.0]),
-            ..LineSeries::default()
-        };
-        panel.series = names.iter().map(series).collect();
-    }
-    check(&figure);
-    let names = ["KFR", "RMFR", "VaFR", "Hyper3", "saccade"];
-    assert_eq!(texts(&figure)[..5], names);
-    assert!(names.iter().all(|name| count(&figure, name) == 1));
-
-    // What others are held against stands behind them, wherever it first comes.
-    let Figure::Panels(chart) = &mut figure else { unreachable!() };
-    chart.panels[0].series[1].reference = true;
-    chart.panels[1].series[0].reference = true;
-    assert_eq!(texts(&figure)[..4], ["KFR", "VaFR", "Hyper3", "RMFR"]);
-}
-
-#[test]
-fn a_row_of_one_measure_has_its_title_once() {
-    let figure = panels(&[points(&[1.0, 2.0])], 8, 3);
-    // The last row has two.
-    assert_eq!((count(&figure, "Error energy"), count(&figure, "another measure")), (3, 1));
-    let two = panels(&[points(&[1.0, 2.0])], 8, 4);
-    assert_eq!((count(&two, "Error energy"), count(&two, "another measure")), (4, 1));
-    assert_eq!(count(&two, "Eccentricity (°)"), 8);
-}
-
-#[test]
-fn panels_have_the_width_of_a_column_or_a_page() {
-    let curves = [points(&[3e-3, 1e-6])];
-    let width = |count, columns| panels(&curves, count, columns).draw().unwrap().width_px;
-    let Figure::Panels(chart) = panels(&curves, 1, 1) else { unreachable!() };
-    assert_eq!(width(1, 1), chart.panels[0].draw().width_px);
-    assert_eq!((width(5, 1), width(5, 0), width(1, 3)), (width(1, 1), width(1, 1), width(1, 1)));
-    for columns in 2..5 {
-        assert!((940.0..=961.0).contains(&width(8, columns)), "{columns}");
-    }
-}
-
-#[test]
-fn panels_without_data_say_so() {
-    for columns in [0, 1, 3, usize::MAX] {
-        let figure = Figure::Panels(PanelChart { columns, ..PanelChart::default() });
-        check(&figure);
-        assert_eq!((count(&figure, "no data"), figure.csv().as_str()), (1, "panel,series,x,y\n"));
-        let mut some = panels(&[points(&[1.0, 2.0]), points(&[2.0])], 4, columns);
-        let Figure::Panels(chart) = &mut some else { unreachable!() };
-        chart.panels[1].series.clear();
-        chart.panels[2] = LineChart::default();
-        check(&some);
-        assert_eq!(count(&some, "no data"), 2);
-    }
-}
-
-#[test]
-fn data_of_panels_and_spans_are_tidy() {
-    let mut chart = with_spans(vec![span(0.5, f64::INFINITY), span(2.0, f64::NAN)]);
-    chart.series[0].points.truncate(1);
-    chart.series.push(LineSeries {
-        name: "b".to_owned(),
-        points: vec![(2.0, None)],
-        ..LineSeries::default()
-    });
-    let rows = [",0.0,1.0", "b,2.0,", "saccade,0.5,", "saccade,inf,", "saccade,2.0,", "saccade,,"];
-    let csv = |head: &str, panel: &str| {
-        rows.iter().fold(format!("{head}\n"), |csv, row| format!("{csv}{panel}{row}\n"))
-    };
-    assert_eq!(Figure::Line(chart.clone()).csv(), csv("series,x,y", ""));
-    chart.title = Some("Sponza, 2".to_owned());
-    let untitled = with_spans(Vec::new());
-    let panels = PanelChart { panels: vec![chart, untitled], columns: 2, ..PanelChart::default() };
-    let all = Figure::Panels(panels).csv();
-    let first = csv("panel,series,x,y", "\"Sponza, 2\",");
-    assert_eq!(
-        all.strip_prefix(first.as_str()),
-        Some(",,0.0,1.0\n,,1.0,3.0\n,,2.0,2.0\n,,3.0,4.0\n")
-    );
-}
-
-/// Usual values, or any at all: infinite, tiny, not a number.
-fn value() -> impl Strategy<Value = f64> {
-    prop_oneof![-50.0..50.0, Just(0.0), prop::num::f64::ANY]
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: 40, failure_persistence: None, ..ProptestConfig::default()
-    })]
-    #[test]
-    fn no_value_breaks_a_figure(
-        values in prop::collection::vec(value(), 0..40), series in 1..5usize,
-    ) {
-        let points: Vec<_> = values.chunks(2).map(|v| (v[0], v.get(1).copied())).collect();
-        let curves = line(vec![points; series]);
-        check(&curves);
-        prop_assert!(png(&curves.svg().unwrap(), 0.5).is_ok());
-        let options: Vec<_> = values.iter().map(|v| Some(*v)).collect();
-        check(&bars(vec![options.clone(); series], false));
-        check(&bars(vec![options; series], true));
-        check(&spread(vec![values.chunks(12).map(<[f64]>::to_vec).collect(); series]));
-    }
-
-    #[test]
-    fn no_value_breaks_panels(
-        values in prop::collection::vec(value(), 0..40),
-        count in 1..9usize,
-        columns in 1..5usize,
-        ticks in prop::collection::vec(value(), 0..4),
-    ) {
-        let points: Vec<_> = values.chunks(2).map(|v| (v[0], v.get(1).copied())).collect();
-        let mut figure = panels(&[points.clone(), points], count, columns);
-        let Figure::Panels(chart) = &mut figure else { unreachable!() };
-        for (i, panel) in chart.panels.iter_mut().enumerate() {
-            let shift = |(x, y): &mut (f64, Option<f64>)| (*x, y.map(|y| y / 10f64.powi(i as i32)));
-            panel.series.iter_mut().flat_map(|s| &mut s.points).for_each(|p| *p = shift(p));
-            panel.x_ticks = (i % 2 == 1).then(|| ticks.clone());
-            let fill = |v: &[f64]| (v[0], v[v.len() / 2], v[v.len() - 1]);
-            let kind = if i % 3 == 0 { FillKind::Deficit } else { FillKind::Surplus };
-            let points = values.chunks(3).map(fill).collect();
-            panel.fills = vec![Fill { name: name(i), kind, points }];
-            panel.y_limits = values.get(i).zip(values.get(i + 1)).map(|(low, high)| (*low, *high));
-            panel.series[0].smooth = i % 2 == 1;
-            panel.y_log = i % 4 == 2;
-            panel.spans = values.chunks(2).map(|v| span(v[0], v[v.len() - 1])).collect();
-        }
-        check(&figure);
-        let Figure::Panels(chart) = figure else { unreachable!() };
-        check(&Figure::Line(chart.panels[0].clone()));
-    }
 }

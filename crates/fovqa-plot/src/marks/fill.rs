@@ -1,4 +1,4 @@
-//! Areas between two curves: where one has more than the other, and where less.
+//! Areas between two curves, which show where one is above the other, and where below.
 
 use crate::canvas::clip;
 use crate::canvas::drawing::Point;
@@ -6,30 +6,30 @@ use crate::marks::fill_kind::FillKind;
 use crate::marks::legend::Key;
 use crate::scales::scale::{AxisPlace, Scale};
 
-/// A smaller share of the plot area is nothing to see.
+/// A smaller share of the plot area is not visible.
 const LEAST_SHARE: f64 = 1e-9;
 
 /// An area between two curves, behind all curves of its chart and over the grid.
 ///
-/// It lies where `low` is below `high` and ends exactly where they cross, so that the same two
-/// curves, handed over once each way, are two areas that share no point. It does not widen the
-/// axes; the part within them is drawn.
+/// It lies where `low` is below `high` and ends exactly where they cross. If the same two curves
+/// are passed once in each order, they make two areas that share no point. The area does not widen
+/// the axes; only the part within them is drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fill {
     /// Its name in the legend, which shows each name once.
     pub name: String,
-    /// What it says.
+    /// The meaning of the area.
     pub kind: FillKind,
-    /// `(x, low, high)` in the order of the curves. What is not a number leaves a gap; infinite
-    /// values, and on a logarithmic axis those not above 0, reach beyond the border.
+    /// `(x, low, high)` in the order of the curves. NaN leaves a gap. Infinite values, and on a
+    /// logarithmic axis values that are not above 0, extend beyond the border.
     pub points: Vec<(f64, f64, f64)>,
 }
 
-/// Shares of the axes: along, and up to the two curves.
+/// Shares of the axes: the horizontal position, and the vertical positions of the two curves.
 type Slice = (f64, f64, f64);
 
 impl Fill {
-    /// The areas to be seen on two axes, as shares of them.
+    /// The visible areas for two axes, as shares of the axes.
     pub(crate) fn areas(&self, x: Scale, y: Scale) -> Vec<Vec<Point>> {
         let slices: Vec<_> =
             self.points.iter().map(|(at, low, high)| slice(x, y, *at, *low, *high)).collect();
@@ -48,7 +48,7 @@ impl Fill {
     }
 }
 
-/// A point of both curves; none where one is no number.
+/// A point of both curves; `None` if one of the numbers is NaN.
 fn slice(x: Scale, y: Scale, at: f64, low: f64, high: f64) -> Option<Slice> {
     let up = |value: f64| {
         Some(match AxisPlace::of(value)? {
@@ -61,7 +61,7 @@ fn slice(x: Scale, y: Scale, at: f64, low: f64, high: f64) -> Option<Slice> {
     Some((x.share(at).clamp(-clip::FAR, clip::FAR), up(low)?, up(high)?))
 }
 
-/// The points of both curves and those between where they cross.
+/// The points of both curves, and additional points where the curves cross.
 fn with_crossings(run: &[Slice]) -> Vec<Slice> {
     let mut all: Vec<Slice> = run.first().copied().into_iter().collect();
     for ends in run.windows(2) {
@@ -77,7 +77,7 @@ fn with_crossings(run: &[Slice]) -> Vec<Slice> {
     all
 }
 
-/// The stretches over which the upper curve is above the lower one.
+/// The stretches in which the upper curve is above the lower one.
 fn above(slices: &[Slice]) -> Vec<Vec<Slice>> {
     let mut stretches: Vec<Vec<Slice>> = Vec::new();
     let mut open = false;
@@ -96,7 +96,7 @@ fn above(slices: &[Slice]) -> Vec<Vec<Slice>> {
     stretches
 }
 
-/// Along the upper curve, and back along the lower one.
+/// The outline along the upper curve and back along the lower one.
 fn outline(slices: &[Slice]) -> Vec<Point> {
     let upper = slices.iter().map(|(x, _, high)| (*x, *high));
     let lower = slices.iter().rev().map(|(x, low, _)| (*x, *low));

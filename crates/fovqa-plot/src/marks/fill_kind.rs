@@ -1,21 +1,21 @@
-//! The look of an area between two curves: what it says, and its hatch.
+//! The look of an area between two curves: its meaning and its hatch.
 
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
 use crate::canvas::look::{Colour, DEFICIT, DEFICIT_HATCH, SURPLUS, SURPLUS_EDGE};
 
-/// From a line of the hatch to the next, along a level line.
+/// Horizontal distance between the lines of the hatch.
 const HATCH_PITCH_PX: f64 = 6.0;
 /// Width of a line of the hatch, and of the edge of a key.
 const HATCH_PX: f64 = 0.9;
 
-/// What an area between two curves says.
+/// The meaning of an area between two curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FillKind {
-    /// More than is needed, such as over-sampling: a plain light blue.
+    /// More than is needed, such as over-sampling. It is plain light blue.
     #[default]
     Surplus,
-    /// Less than is needed, such as under-sampling: orange and hatched, so that it is told apart
-    /// without colour.
+    /// Less than is needed, such as under-sampling. It is orange and hatched, so that it can be
+    /// recognised without colour.
     Deficit,
 }
 
@@ -31,13 +31,13 @@ impl FillKind {
         }
     }
 
-    /// Fills the key in the legend, with an edge: it is small.
+    /// Fills the key in the legend, with an edge because it is small.
     pub(crate) fn draw_key(self, drawing: &mut Drawing, rect: Rect) {
         self.draw(drawing, &rect.corners());
         drawing.frame(rect, Stroke { colour: self.colours().1, width_px: HATCH_PX });
     }
 
-    /// Of the area, and of lines in and around it.
+    /// The colour of the area, and that of lines in and around it.
     fn colours(self) -> (Colour, Colour) {
         match self {
             Self::Surplus => (SURPLUS, SURPLUS_EDGE),
@@ -46,8 +46,8 @@ impl FillKind {
     }
 }
 
-/// Lines rising to the right within an area. They lie alike in the whole picture, so that two
-/// areas beside each other look like one.
+/// Lines within an area that rise to the right. Their positions are the same in the whole picture,
+/// so that two adjacent areas look like one.
 fn hatch_lines(corners: &[Point]) -> Vec<[Point; 2]> {
     let along = |(x, y): Point| (x + y) / HATCH_PITCH_PX;
     let (first, last) =

@@ -1,4 +1,4 @@
-//! The legend: a row of keys and names above the plot area, or several, where it covers no data.
+//! The legend: one or more rows of keys and names above the plot area, where it covers no data.
 
 use std::collections::BTreeSet;
 
@@ -10,15 +10,15 @@ use crate::marks::fill_kind::FillKind;
 use crate::marks::marker;
 use crate::marks::swatch;
 
-/// Width of a key in pixels: room for a dash and a half.
+/// Width of a key in pixels, enough for one and a half dashes.
 const KEY_PX: f64 = 24.0;
-/// From a key to its name.
+/// Distance from a key to its name.
 const KEY_GAP_PX: f64 = 5.0;
-/// From a name to the next key.
+/// Distance from a name to the next key.
 const ENTRY_GAP_PX: f64 = 14.0;
-/// From a row to the next, beside its lines.
+/// Additional distance between two rows.
 const ROW_GAP_PX: f64 = 2.0;
-/// The most lines of one name.
+/// The largest number of lines of a name.
 const MOST_LINES: usize = 3;
 /// Half the height of the key of a bar or box.
 const HALF_SWATCH_PX: f64 = 4.5;
@@ -28,21 +28,21 @@ const SPAN_EDGE_PX: f64 = 0.8;
 
 /// Width of the curve of a series in pixels.
 pub(crate) const CURVE_PX: f64 = 1.6;
-/// Width of a curve of reference.
+/// Width of a reference curve.
 pub(crate) const REFERENCE_PX: f64 = 1.4;
 
-/// How a series, area or span is drawn.
+/// The way in which a series, area or span is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Key {
     /// A curve with markers.
     Curve(Look),
-    /// A dashed curve of reference.
+    /// A dashed reference curve.
     Reference(Look),
     /// Filled bars.
     Bar(Look),
-    /// Boxes in a tint.
+    /// Boxes filled with a tint.
     Box(Look),
-    /// Markers alone.
+    /// Markers only.
     Marker(Look),
     /// An area between two curves.
     Fill(FillKind),
@@ -50,16 +50,16 @@ pub(crate) enum Key {
     Span,
 }
 
-/// The lines of each name and where it stands.
+/// The legend: the lines of each name and its position.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Legend {
     entries: Vec<(Key, Vec<String>, Point)>,
-    /// Its height in pixels; 0 when no series has a name.
+    /// Its height in pixels; 0 if no series has a name.
     pub(crate) height_px: f64,
 }
 
 impl Legend {
-    /// The legend of named series in a width.
+    /// The legend of named series within a width.
     pub(crate) fn new(series: &[(&str, Key)], width_px: f64) -> Self {
         let limit = width_px - KEY_PX - KEY_GAP_PX;
         let named: Vec<_> = series
@@ -83,7 +83,7 @@ impl Legend {
         Self { entries, height_px: top }
     }
 
-    /// Draws it with its upper left corner at a place.
+    /// Draws the legend with its upper left corner at this point.
     pub(crate) fn draw(&self, drawing: &mut Drawing, (left, top): Point) {
         for (key, lines, (x, y)) in &self.entries {
             let x = left + x;
@@ -98,7 +98,7 @@ impl Legend {
 }
 
 impl Key {
-    /// Draws the key from the middle of its left side on.
+    /// Draws the key; the point is the centre of its left side.
     fn draw(self, drawing: &mut Drawing, (x, y): Point) {
         let line = [(x, y), (x + KEY_PX, y)];
         let middle = (x + KEY_PX / 2.0, y);
@@ -131,7 +131,7 @@ impl Key {
     }
 }
 
-/// Each name once, with the key it has first.
+/// Each name once, with its first key.
 pub(crate) fn once<'a>(
     keys: impl Iterator<Item = (&'a str, Key)>,
 ) -> impl Iterator<Item = (&'a str, Key)> {
@@ -143,8 +143,8 @@ fn entry_px(lines: &[String]) -> f64 {
     KEY_PX + KEY_GAP_PX + widest_px(lines, TICK_PX)
 }
 
-/// The left sides of the entries of each row: in columns, unless one long name would make many
-/// more rows of them than there are when each row is filled for itself.
+/// The left sides of the entries of each row. Entries are aligned in columns, unless a long name
+/// would make many more rows than filling each row separately does.
 fn rows(widths: &[f64], limit_px: f64) -> Vec<Vec<f64>> {
     let filled = filled_rows(widths, limit_px);
     let count = widths.len();
@@ -155,7 +155,7 @@ fn rows(widths: &[f64], limit_px: f64) -> Vec<Vec<f64>> {
     (0..count).step_by(lefts.len()).map(row).collect()
 }
 
-/// Rows filled one after the other.
+/// Fills the rows one after the other.
 fn filled_rows(widths: &[f64], limit_px: f64) -> Vec<Vec<f64>> {
     let mut rows: Vec<Vec<f64>> = Vec::new();
     let mut left = f64::INFINITY;
@@ -172,7 +172,7 @@ fn filled_rows(widths: &[f64], limit_px: f64) -> Vec<Vec<f64>> {
     rows
 }
 
-/// The left sides of columns that are filled row by row, when they fit.
+/// The left sides of columns that are filled row by row, if they fit.
 fn column_lefts(widths: &[f64], columns: usize, limit_px: f64) -> Option<Vec<f64>> {
     let mut lefts = vec![0.0];
     let mut left = 0.0;

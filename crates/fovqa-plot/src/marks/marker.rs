@@ -1,16 +1,16 @@
-//! The shapes of markers. Their corners are written out: the same on every machine.
+//! The shapes of markers. Their corners are constants, so that they are the same on every machine.
 
 use crate::canvas::drawing::{Drawing, Point};
 use crate::canvas::look::{Colour, Look, Marker, WHITE};
 
-/// Half the size of a marker in pixels: large enough to tell the shapes apart in print.
+/// Half the size of a marker in pixels, large enough to distinguish the shapes in print.
 pub(crate) const RADIUS_PX: f64 = 3.6;
 
-/// The white rim that keeps a marker apart from one beneath it.
+/// The white rim that separates a marker from one below it.
 const RIM_PX: f64 = 0.8;
 
 impl Marker {
-    /// The corners for a radius of 1; none for a circle. The shapes have about the same area.
+    /// The corners for a radius of 1; empty for a circle. All shapes have about the same area.
     fn corners(self) -> &'static [Point] {
         match self {
             Self::Circle => &[],
@@ -44,13 +44,13 @@ impl Marker {
     }
 }
 
-/// Share of the radius that is hollow when the shapes come again, and that of the dot inside the
-/// hole when they come a third time.
+/// The radius of the hole when the shapes repeat, as a share of the radius, and that of the dot
+/// inside the hole when they repeat again.
 const HOLE: f64 = 0.55;
 const DOT: f64 = 0.25;
 
-/// A marker around a place, with a white rim. Where the shapes come again it is hollow, and from
-/// the third time on it has a dot inside.
+/// Draws a marker with a white rim. When the shapes repeat it is hollow, and when they repeat again
+/// it has a dot inside.
 pub(crate) fn draw(drawing: &mut Drawing, at: Point, look: Look, radius_px: f64, colour: Colour) {
     let mut rings = vec![(radius_px + RIM_PX, WHITE), (radius_px, colour)];
     if look.turn() > 0 {

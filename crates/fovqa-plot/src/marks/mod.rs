@@ -1,4 +1,4 @@
-//! What stands in a plot: markers, swatches, areas, labels, and the legend that explains them.
+//! The marks in a plot: markers, swatches, areas, labels, and the legend that explains them.
 
 pub(crate) mod fill;
 pub(crate) mod fill_kind;

@@ -5,26 +5,28 @@ use crate::canvas::look::SPAN;
 use crate::marks::legend::Key;
 use crate::scales::scale::{AxisPlace, Scale};
 
-/// The narrowest span that is still seen, and not taken for a line of the grid.
+/// The smallest visible width of a span, which also distinguishes it from a line of the grid.
 const LEAST_PX: f64 = 3.0;
 
-/// A stretch of the horizontal axis, shaded in gray over the full height behind all else.
+/// A stretch of the horizontal axis that is shaded in gray over the full height, behind everything
+/// else.
 ///
-/// All spans have the same gray: a figure says one thing with them. They do not widen the axis; of
-/// a span the part within it is drawn, and none at ends that are not finite.
+/// All spans have the same gray, since a figure uses them for a single purpose. They do not widen
+/// the axis. Only the part within the axis is drawn, and a span with ends that are not finite is
+/// not drawn.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Span {
     /// Its name in the legend, which shows each name once.
     pub name: String,
-    /// Where it begins, in units of the axis.
+    /// Its start in units of the axis.
     pub from: f64,
-    /// Where it ends.
+    /// Its end in units of the axis.
     pub to: f64,
 }
 
 impl Span {
-    /// Its lower and upper end on an axis, which it may reach beyond; none where nothing of it is
-    /// to be seen.
+    /// Its lower and upper end on an axis, which may be beyond the axis; `None` if no part of it is
+    /// visible.
     pub(crate) fn ends(&self, scale: Scale) -> Option<(f64, f64)> {
         let finite = |x| AxisPlace::of(x).and_then(AxisPlace::finite);
         let (from, to) = (finite(self.from)?, finite(self.to)?);
@@ -37,7 +39,7 @@ impl Span {
     }
 }
 
-/// Shades a plot area from one place along it to another, widened where that would not be seen.
+/// Shades a plot area between two horizontal positions. A span too narrow to be visible is widened.
 pub(crate) fn draw(drawing: &mut Drawing, plot: Rect, (from_px, to_px): (f64, f64)) {
     let middle = from_px.midpoint(to_px);
     let left = from_px.min(middle - LEAST_PX / 2.0).clamp(plot.left, plot.right - LEAST_PX);

@@ -1,4 +1,4 @@
-//! Filled rectangles in the look of a series: bars, boxes, and their keys in the legend.
+//! Filled rectangles with the look of a series: bars, boxes, and their keys in the legend.
 
 use crate::canvas::drawing::{Drawing, Rect, Stroke};
 use crate::canvas::look::{Colour, Look, WHITE};
@@ -9,10 +9,10 @@ const EDGE_PX: f64 = 0.8;
 /// Width of a stripe in pixels.
 const STRIPE_PX: f64 = 1.0;
 
-/// From a stripe to the next of one group, in pixels.
+/// Distance between the stripes of one group, in pixels.
 const STRIPE_PITCH_PX: f64 = 2.0;
 
-/// How much of its colour the inside of a box has: whiskers and median stay to be seen.
+/// The share of its colour in the fill of a box. Whiskers and median remain visible on it.
 pub(crate) const TINT: f64 = 0.35;
 
 /// The edge of a series' bars and boxes.
@@ -20,9 +20,9 @@ pub(crate) fn edge(look: Look) -> Stroke {
     Stroke { colour: look.colour().darker(), width_px: EDGE_PX }
 }
 
-/// A rectangle in a colour of the series, with its edge; once the palette is used up with level
-/// stripes, in groups of one for the second turn, of two for the third, and so on. They count from
-/// the bottom.
+/// Draws a rectangle in a colour of the series, with its edge. After the first turn of the palette
+/// it has horizontal stripes, in groups of one for the second turn, of two for the third, and so
+/// on. They are counted from the bottom.
 pub(crate) fn draw(drawing: &mut Drawing, rect: Rect, look: Look, fill: Colour) {
     drawing.rect(rect, fill, edge(look));
     if look.turn() == 0 {

@@ -1,34 +1,35 @@
-//! Small labels above or below their marks: values, "n/a", "∞". All of a kind in a figure are set
-//! alike, level or upright, as the narrowest place allows.
+//! Small labels above or below their marks: values, "n/a", "∞". All labels of one kind in a figure
+//! have the same orientation, horizontal or upright, which depends on the narrowest slot.
 
 use crate::canvas::drawing::{Anchor, Drawing, Point, Text};
 use crate::canvas::text::{CAPITAL, VALUE_PX, width_px};
 
-/// From a mark to its label.
+/// Distance from a mark to its label.
 pub(crate) const GAP_PX: f64 = 4.0;
-/// The least space between two labels.
+/// The smallest space between two labels.
 const APART_PX: f64 = 3.0;
 
-/// How labels are set.
+/// The orientation of labels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Setting {
-    /// To be read from the left.
+pub(crate) enum Orientation {
+    /// Horizontal.
     Level,
-    /// To be read upwards.
+    /// Upright, read upwards.
     Upright,
-    /// There is no room for them.
+    /// Labels are not drawn, because there is no room.
     Nowhere,
 }
 
-/// To which side of its mark a label stands.
+/// The side of its mark on which a label is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Side {
     Above,
     Below,
 }
 
-impl Setting {
-    /// How labels of a width fit beside each other, `pitch_px` from one to the next.
+impl Orientation {
+    /// The orientation in which labels of a width fit beside each other, at a distance of
+    /// `pitch_px`.
     pub(crate) fn of(widest_px: f64, pitch_px: f64) -> Self {
         if widest_px + APART_PX <= pitch_px {
             Self::Level
@@ -39,7 +40,7 @@ impl Setting {
         }
     }
 
-    /// How far labels of a width reach from their marks.
+    /// How far labels of a width extend from their marks.
     pub(crate) fn reach_px(self, widest_px: f64) -> f64 {
         match self {
             Self::Level => GAP_PX + VALUE_PX,
@@ -48,7 +49,7 @@ impl Setting {
         }
     }
 
-    /// Draws a label beside the end of a mark.
+    /// Draws a label at the end of a mark.
     pub(crate) fn draw(self, drawing: &mut Drawing, label: &str, (x, y): Point, side: Side) {
         let capital = CAPITAL * VALUE_PX;
         let middle = x + capital / 2.0;

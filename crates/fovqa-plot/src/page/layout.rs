@@ -1,8 +1,8 @@
-//! Where the parts of a figure stand: title and legend on top, the plot area beneath them, its
-//! axes in margins as wide as their labels are.
+//! The layout of a figure: title and legend at the top, the plot area below them, and axes in
+//! margins that are as wide as their labels.
 //!
-//! The plot area of every figure has the same height and the picture grows with what stands around
-//! it, so that the same step looks the same beside a short legend and a long one.
+//! The plot area has the same height in every figure, and the picture grows with the parts around
+//! it, so that equal steps look equal beside a short legend and a long one.
 
 use crate::canvas::drawing::{Anchor, Drawing, Rect, Text};
 use crate::canvas::text::{LINE_PITCH, TITLE_PX};
@@ -11,23 +11,25 @@ use crate::marks::legend::{Key, Legend};
 
 /// Space left free along the border of a picture.
 pub(crate) const MARGIN_PX: f64 = 8.0;
-/// Width of a picture: printed 85 mm wide, half a page, a text of 12 px is one of 6 points.
+/// Width of a picture, for printing at 85 mm, half a page: a text of 12 px is then a text of 6
+/// points.
 pub(crate) const WIDTH_PX: f64 = 480.0;
-/// Width of a figure of several columns: printed 170 mm wide, a whole page, a text of 12 px is one
-/// of 6 points.
+/// Width of a figure of several columns, for printing at 170 mm, a whole page: a text of 12 px is
+/// then a text of 6 points.
 pub(crate) const PAGE_PX: f64 = 2.0 * WIDTH_PX;
-/// Height of the plot area: with its axes and a row of legend about two thirds of the width.
+/// Height of the plot area. With its axes and one row of legend this is about two thirds of the
+/// width.
 pub(crate) const PLOT_HEIGHT_PX: f64 = 226.0;
-/// A plot area narrower than this would show nothing: wide labels widen the picture instead.
+/// The smallest width of a plot area. Wide labels widen the picture instead.
 pub(crate) const LEAST_PLOT_PX: f64 = 260.0;
 
-/// The most lines of a title.
+/// The largest number of lines of a title.
 pub(crate) const TITLE_LINES: usize = 3;
-/// Between the parts of the head and from them to the plot area.
+/// Distance between the parts of the head, and from them to the plot area.
 const GAP_PX: f64 = 6.0;
 
-/// What the axes need on each side of the plot area, the margin of the picture included at the
-/// left, at the right and below.
+/// The space that the axes need on each side of the plot area, including the margin of the picture
+/// on the left, on the right and below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sides {
     pub(crate) left: f64,
@@ -36,7 +38,7 @@ pub(crate) struct Sides {
     pub(crate) below: f64,
 }
 
-/// A picture with title and legend drawn, and its plot area of a width.
+/// Starts a picture with its title and legend, and returns it with its plot area.
 pub(crate) fn begin(
     title: Option<&str>,
     series: &[(&str, Key)],
@@ -52,8 +54,8 @@ pub(crate) fn begin(
     (drawing, Rect { left: sides.left, top, right, bottom })
 }
 
-/// A picture of a width with title and legend drawn from `left_px` on, and where they end. It has
-/// no height yet.
+/// Starts a picture of a width with its title and legend, drawn from `left_px` on, and returns it
+/// with the position of their end. The picture has no height yet.
 pub(crate) fn head(
     title: Option<&str>,
     series: &[(&str, Key)],
@@ -80,7 +82,7 @@ pub(crate) fn head(
     (drawing, top)
 }
 
-/// Says in the middle of an empty plot area that it is empty.
-pub(crate) fn say_no_data(drawing: &mut Drawing, plot: Rect) {
+/// Writes in the middle of an empty plot area that there is no data.
+pub(crate) fn write_no_data(drawing: &mut Drawing, plot: Rect) {
     drawing.text(Text::new("no data", plot.centre(), TITLE_PX, Anchor::Middle));
 }

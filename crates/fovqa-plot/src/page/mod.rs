@@ -1,4 +1,4 @@
-//! How a figure is divided: title, legend, margins, and the grid of panels.
+//! The layout of a figure: title, legend, margins, and the grid of panels.
 
 pub(crate) mod layout;
 pub(crate) mod panel_grid;

@@ -1,25 +1,25 @@
-//! Where the panels of a figure stand: in rows and columns whose plot areas are aligned and all of
-//! one size.
+//! The positions of a figure's panels, in rows and columns whose plot areas are aligned and have
+//! the same size.
 
 use crate::canvas::drawing::Rect;
 
-/// What a panel needs around its plot area, in pixels.
+/// The space that a panel needs around its plot area, in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Needs {
-    /// For the vertical axis, with a margin.
+    /// Space for the vertical axis, with a margin.
     pub(crate) left: f64,
-    /// For the last label of the horizontal axis, with a margin.
+    /// Space for the last label of the horizontal axis, with a margin.
     pub(crate) right: f64,
-    /// For its title, above all else.
+    /// Space for its title, above everything else.
     pub(crate) title: f64,
-    /// For infinite values, above the plot area and below it.
+    /// Space for infinite values, above the plot area and below it.
     pub(crate) strips: (f64, f64),
-    /// For the horizontal axis, with a margin.
+    /// Space for the horizontal axis, with a margin.
     pub(crate) axis: f64,
 }
 
 impl Needs {
-    /// As much as either of two needs.
+    /// The larger of two needs on each side.
     fn most(self, other: Self) -> Self {
         Self {
             left: self.left.max(other.left),
@@ -31,7 +31,7 @@ impl Needs {
     }
 }
 
-/// Where a panel stands.
+/// The position of a panel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cell {
     /// Left edge of its column.
@@ -43,7 +43,7 @@ pub(crate) struct Cell {
     pub(crate) below_px: f64,
 }
 
-/// What each column needs at the sides, and each row above and below.
+/// The space that each column needs on its sides, and each row above and below.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Grid {
     columns: Vec<Needs>,
@@ -53,7 +53,7 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// Panels in rows of so many columns, with plot areas of a width and a height.
+    /// Panels in rows of `columns`, with plot areas of a width and a height.
     pub(crate) fn new(panels: &[Needs], columns: usize, plot_px: (f64, f64)) -> Self {
         let column = |c| panels.iter().skip(c).step_by(columns).copied();
         let most =
@@ -75,7 +75,7 @@ impl Grid {
         self.top_px(self.rows.len())
     }
 
-    /// Where a panel stands in a grid that begins so far down.
+    /// The position of a panel in a grid that begins at `top_px`.
     pub(crate) fn place(&self, panel: usize, top_px: f64) -> Cell {
         let (r, c) = (panel / self.columns.len(), panel % self.columns.len());
         let (row, column) = (self.rows[r], self.columns[c]);

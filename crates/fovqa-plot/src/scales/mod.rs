@@ -1,4 +1,4 @@
-//! From values to positions along an axis: scales, ticks and the numbers at them.
+//! Converts values to positions along an axis: scales, ticks and their labels.
 
 pub(crate) mod number;
 pub(crate) mod scale;

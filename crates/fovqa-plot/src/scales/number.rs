@@ -1,32 +1,33 @@
-//! Numbers as labels: decimals alike along an axis, powers of ten where zeros would not be read.
+//! Numbers as labels: the same number of decimals along an axis, and powers of ten where there
+//! would be too many zeros.
 
-/// Above it, and with few digits, a number is written with a power of ten: 2×10⁶.
+/// A larger number with few digits is written with a power of ten: 2×10⁶.
 const LARGE: f64 = 1e6;
 
-/// Below it, and with more than [`SMALL_DECIMALS`] decimals, a number is written with a power of
-/// ten: 2×10⁻⁶, but 0.00002.
+/// A smaller number with more than [`SMALL_DECIMALS`] decimals is written with a power of ten:
+/// 2×10⁻⁶, but 0.00002.
 const SMALL: f64 = 1e-3;
 
-/// The most decimals a small number is written with.
+/// The largest number of decimals of a small number.
 const SMALL_DECIMALS: i32 = 5;
 
-/// More digits than this after the first say that differences matter, not size.
+/// If there are more digits than this after the first, differences matter rather than size.
 const FEW_DIGITS: i32 = 5;
 
-/// Digits of a value beside its mark.
+/// The number of digits of a value beside its mark.
 const VALUE_DIGITS: i32 = 3;
 
-/// How the numbers of one axis are written.
+/// The notation of the numbers of one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Format {
-    /// With so many decimals.
+    /// With this number of decimals.
     Plain { decimals: usize },
     /// As a multiple of ten to the `exponent`.
     Power { exponent: i32, decimals: usize },
 }
 
-/// The power of ten of a number's first digit; 0 for 0. Read from its digits, since a logarithm
-/// may be off by one at a power of ten, and differs between machines.
+/// The power of ten of a number's first digit; 0 for 0. It is read from the number's digits,
+/// because a logarithm may be off by one at a power of ten and differs between machines.
 pub(crate) fn exponent(value: f64) -> i32 {
     let text = format!("{value:e}");
     text.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
@@ -39,13 +40,14 @@ pub(crate) fn last_digit(value: f64) -> i32 {
     exponent(value) - mantissa.split_once('.').map_or(0, |(_, digits)| digits.len() as i32)
 }
 
-/// Ten to the `n`, as exact as it can be.
+/// Ten to the power of `n`, as exact as a float can be.
 pub(crate) fn power_of_ten(n: i32) -> f64 {
     format!("1e{n}").parse().unwrap_or(f64::INFINITY)
 }
 
 impl Format {
-    /// For numbers up to `largest` (in magnitude) whose last digit counts ten to the `last_digit`.
+    /// The notation for numbers with magnitudes up to `largest`, whose last digit has the power of
+    /// ten `last_digit`.
     pub(crate) fn new(largest: f64, last_digit: i32) -> Self {
         let first = exponent(largest);
         let digits = (first - last_digit).max(0);
@@ -58,12 +60,13 @@ impl Format {
         if plain {
             return Self::Plain { decimals: decimals as usize };
         }
-        // Whole multiples of the last digit's power, while they are short.
+        // Whole multiples of the last digit's power, as long as they are short.
         let exponent = if digits < 2 { last_digit } else { first };
         Self::Power { exponent, decimals: (exponent - last_digit).max(0) as usize }
     }
 
-    /// For values beside their marks: three digits of the largest, the same for all.
+    /// The notation for values beside their marks: three digits of the largest value, the same
+    /// decimals for all.
     pub(crate) fn of_values(values: impl Iterator<Item = f64>) -> Self {
         let largest = values.filter(|v| v.is_finite()).fold(0.0, |most: f64, v| most.max(v.abs()));
         let finest = exponent(largest) - VALUE_DIGITS + 1;
@@ -77,7 +80,8 @@ impl Format {
             Self::Plain { decimals } => plain(value, decimals),
             Self::Power { .. } if value == 0.0 => "0".to_owned(),
             Self::Power { exponent, decimals } => {
-                // In two steps: ten to the 300 and beyond is no number of its own.
+                // The division is done in two steps, because powers of ten beyond 300 are not
+                // representable.
                 let half = exponent / 2;
                 let mantissa = value / power_of_ten(half) / power_of_ten(exponent - half);
                 format!("{}×10{}", plain(mantissa, decimals), superscript(exponent))
@@ -89,7 +93,7 @@ impl Format {
 fn plain(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
-        // "-0.0" is 0.
+        // "-0.0" is written as 0.
         Some(digits) if digits.chars().all(|c| matches!(c, '0' | '.')) => digits.to_owned(),
         Some(digits) => format!("−{digits}"),
         None => text,

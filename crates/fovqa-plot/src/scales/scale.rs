@@ -1,37 +1,39 @@
-//! From values to a share of an axis: which values can be drawn, and the range that holds them.
+//! Converts values to shares of an axis: which values can be drawn, and the range that includes
+//! them.
 //!
-//! Logarithms are libm's: the same bits on every platform.
+//! Logarithms are computed by libm, so that they are bit-identical on every platform.
 
 use libm::{log10, pow};
 
 use crate::scales::ticks::{Tick, log_ticks, round_ticks};
 
-/// Beyond it a value is drawn as infinite: a range between such values is no finite number.
+/// A larger value is drawn as infinite, because a range between such values would not be finite.
 const LARGEST: f64 = 1e300;
 
-/// Below it a value is drawn as 0: a part of such a range has lost its digits.
+/// A smaller value is drawn as 0, because the steps of such a range would lose their digits.
 const SMALLEST: f64 = 1e-280;
 
-/// Values that differ by less than this share of their size are drawn as equal: f64 has no round
-/// numbers to write between them.
+/// Values whose relative difference is smaller are drawn as equal, because f64 has no round numbers
+/// between them.
 const EQUAL: f64 = 1e-9;
 
-/// The ends of a logarithmic range with its air, however long: a power beyond them is no number.
+/// The ends of the longest logarithmic range including its space; powers beyond them are not
+/// representable.
 const LOG_ENDS: (f64, f64) = (1e-300, 1e305);
 
-/// A value as it can be drawn.
+/// The place of a value on an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum AxisPlace {
     /// On the axis.
     At(f64),
-    /// Beyond its upper end.
+    /// Beyond the upper end.
     Above,
-    /// Beyond its lower end.
+    /// Beyond the lower end.
     Below,
 }
 
 impl AxisPlace {
-    /// Where a value is drawn; what is no number, nowhere.
+    /// The place of a value; `None` for NaN.
     pub(crate) fn of(value: f64) -> Option<Self> {
         match value {
             v if v.is_nan() => None,
@@ -42,7 +44,7 @@ impl AxisPlace {
         }
     }
 
-    /// The value, when it is on the axis.
+    /// The value, if it is on the axis.
     pub(crate) fn finite(self) -> Option<f64> {
         match self {
             Self::At(value) => Some(value),
@@ -54,17 +56,17 @@ impl AxisPlace {
 /// The values at the two ends of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Scale {
-    /// At the lower or left end.
+    /// The value at the lower or left end.
     pub(crate) low: f64,
-    /// At the upper or right end: above `low`, but where an axis runs down.
+    /// The value at the upper or right end. It is above `low`, unless the axis runs downwards.
     pub(crate) high: f64,
-    /// Whether equal lengths are equal ratios; both ends are above 0 then.
+    /// Whether the axis is logarithmic; both ends are then above 0.
     pub(crate) log: bool,
 }
 
 impl Scale {
-    /// A range that holds the values, which [`AxisPlace`] has let pass; none without values. Around
-    /// equal ones it leaves room to both sides.
+    /// A range that includes these values, which are places on the axis; `None` without values. If
+    /// they are all equal, the range has space on both sides.
     pub(crate) fn holding(values: impl Iterator<Item = f64>) -> Option<Self> {
         let (low, high) = values
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (v.min(low), v.max(high)));
@@ -79,17 +81,17 @@ impl Scale {
         Some(Self::even(low - room, high + room))
     }
 
-    /// A logarithmic range that holds those of the values that are above 0; none without any.
+    /// A logarithmic range that includes those values that are above 0; `None` if there are none.
     pub(crate) fn holding_log(values: impl Iterator<Item = f64>) -> Option<Self> {
         Some(Self { log: true, ..Self::holding(values.filter(|v| *v > 0.0))? })
     }
 
-    /// A range of equal steps.
+    /// A linear range.
     pub(crate) fn even(low: f64, high: f64) -> Self {
         Self { low, high, log: false }
     }
 
-    /// A range from 0 to the values, to both sides where they lie there; none without values.
+    /// A range that includes 0 and the values on both sides of it; `None` without values.
     pub(crate) fn from_zero(values: impl Iterator<Item = f64>) -> Option<Self> {
         let mut values = values.peekable();
         values.peek()?;
@@ -98,8 +100,9 @@ impl Scale {
         Some(Self::even(low, if low < high { high } else { 1.0 }))
     }
 
-    /// A range that is given; none where its ends are no finite numbers in order, or so close that
-    /// there are no round numbers to write between them, or not above 0 for a logarithm.
+    /// The given range; `None` if its ends are not finite numbers in order, if they are so close
+    /// that there are no round numbers between them, or if they are not above 0 for a logarithmic
+    /// range.
     pub(crate) fn between((low, high): (f64, f64), log: bool) -> Option<Self> {
         let end = |value: f64| AxisPlace::of(value).and_then(AxisPlace::finite);
         let (low, high) = (end(low)?, end(high)?);
@@ -107,7 +110,7 @@ impl Scale {
         (apart && (!log || low > 0.0)).then_some(Self { low, high, log })
     }
 
-    /// Longer by shares of its length at the lower and upper end.
+    /// The range, extended at the lower and upper end by shares of its length.
     pub(crate) fn with_air(self, below: f64, above: f64) -> Self {
         if self.log {
             let (low, high) = (log10(self.low), log10(self.high));
@@ -125,8 +128,8 @@ impl Scale {
         if self.log { log_ticks(low, high, fits) } else { round_ticks(low, high, fits) }
     }
 
-    /// The share of the axis below a value: 0 at `low`, 1 at `high`. Without a logarithm it is
-    /// infinitely far below.
+    /// The position of a value as a share of the axis: 0 at `low`, 1 at `high`. A value without a
+    /// logarithm has the share minus infinity.
     pub(crate) fn share(self, value: f64) -> f64 {
         if self.log {
             if value <= 0.0 {

@@ -1,30 +1,31 @@
-//! Ticks of an axis: round numbers, 1, 2, 2.5 or 5 times a power of ten apart, as many as fit.
+//! The ticks of an axis: round numbers at distances of 1, 2, 2.5 or 5 times a power of ten, as many
+//! as fit.
 
 use crate::scales::number::{Format, exponent, last_digit, power_of_ten};
 
-/// The steps between ticks, and the power of ten of their last digit.
+/// The distances between ticks, with the power of ten of their last digit.
 const STEPS: [(f64, i32); 4] = [(1.0, 0), (2.0, 0), (2.5, -1), (5.0, 0)];
 
-/// Digits beyond which given ticks are rounded.
+/// The number of digits to which given ticks are rounded.
 const MOST_DIGITS: i32 = 5;
 
-/// What logarithmic ticks are, times powers of ten.
+/// The multiples of powers of ten that logarithmic ticks may be.
 const LOG_MULTIPLES: [&[i32]; 2] = [&[1, 2, 5], &[1]];
 
-/// From a power with a tick to the next.
+/// The distances between powers that have a tick, in powers of ten.
 const LOG_STEPS: [i32; 8] = [1, 2, 3, 5, 10, 20, 50, 100];
 
-/// One tick.
+/// One tick of an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tick {
-    /// Where it stands.
+    /// Its value.
     pub(crate) value: f64,
-    /// What is written beside it.
+    /// Its label.
     pub(crate) label: String,
 }
 
-/// The finest ticks from `low` to `high` that `fits` accepts; without any, the first and the
-/// last of the coarsest that are two.
+/// The finest ticks from `low` to `high` that `fits` accepts. If it accepts none, the first and the
+/// last of the coarsest set with at least two ticks.
 pub(crate) fn round_ticks(low: f64, high: f64, fits: impl Fn(&[Tick]) -> bool) -> Vec<Tick> {
     let finest = exponent(high - low) - 2;
     let mut last = Vec::new();
@@ -44,8 +45,8 @@ pub(crate) fn round_ticks(low: f64, high: f64, fits: impl Fn(&[Tick]) -> bool) -
 }
 
 /// Ticks of a logarithmic axis from `low` to `high`, both above 0: at 1, 2 and 5 times powers of
-/// ten where `fits` accepts them, or else at powers alone, or at some of them. A range without two
-/// of those has round numbers.
+/// ten if `fits` accepts them, or else only at powers, or at some of them. A range with fewer than
+/// two of those has round numbers.
 pub(crate) fn log_ticks(low: f64, high: f64, fits: impl Fn(&[Tick]) -> bool) -> Vec<Tick> {
     let kinds = LOG_MULTIPLES.iter().flat_map(|multiples| {
         let every: &[i32] = if multiples.len() > 1 { &[1] } else { &LOG_STEPS };
@@ -57,10 +58,10 @@ pub(crate) fn log_ticks(low: f64, high: f64, fits: impl Fn(&[Tick]) -> bool) -> 
 }
 
 fn at_powers(low: f64, high: f64, multiples: &[i32], every: i32) -> Vec<Tick> {
-    /// A tick this much beyond the end is at the end: rounding.
+    /// Tolerance for rounding: a tick this far beyond the end counts as being at the end.
     const SLACK: f64 = 1e-9;
     let powers = (exponent(low)..=exponent(high)).filter(|power| power % every == 0);
-    // Read from digits, which gives the nearest number there is.
+    // The number is parsed from digits, which gives the nearest float.
     let value = |multiple: i32, power: i32| format!("{multiple}e{power}").parse::<f64>().ok();
     powers
         .flat_map(|power| multiples.iter().filter_map(move |multiple| value(*multiple, power)))
@@ -77,10 +78,11 @@ fn ends(mut ticks: Vec<Tick>) -> Vec<Tick> {
 }
 
 fn every(low: f64, high: f64, multiple: f64, power: i32, last_digit: i32) -> Vec<Tick> {
-    /// A tick this share of a step beyond the end is at the end: rounding.
+    /// Tolerance for rounding, as a share of a step: a tick this far beyond the end counts as being
+    /// at the end.
     const SLACK: f64 = 1e-9;
     let unit = power_of_ten(power.abs());
-    // Multiplied or divided by a power that is exact: 0.3, not 0.30000000000000004.
+    // Multiplying or dividing by an exact power gives 0.3 and not 0.30000000000000004.
     let scaled = |count: f64| {
         if power < 0 { count * multiple / unit } else { count * multiple * unit }
     };
@@ -95,7 +97,7 @@ fn every(low: f64, high: f64, multiple: f64, power: i32, last_digit: i32) -> Vec
         .collect()
 }
 
-/// Ticks at given places, written alike.
+/// Ticks at the given values, written with the same number of decimals.
 pub(crate) fn given_ticks(places: &[f64]) -> Vec<Tick> {
     let mut values: Vec<f64> = places.iter().copied().filter(|v| v.is_finite()).collect();
     values.sort_by(f64::total_cmp);
@@ -116,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn stand_at_round_numbers() {
+    fn ticks_are_at_round_numbers() {
         assert_eq!(labels(19.2, 40.8, 7), ["20", "25", "30", "35", "40"]);
         assert_eq!(labels(0.0, 60.0, 7), ["0", "10", "20", "30", "40", "50", "60"]);
         assert_eq!(labels(0.0, 10.0, 6), ["0", "2", "4", "6", "8", "10"]);
@@ -131,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn logarithmic_ones_stand_at_1_2_5_or_at_powers() {
+    fn logarithmic_ticks_are_at_1_2_5_or_at_powers() {
         let labels = |low: f64, high: f64, most: usize| -> Vec<String> {
             let ticks = log_ticks(low, high, |t| t.len() <= most).into_iter();
             ticks.map(|t| t.label).collect()

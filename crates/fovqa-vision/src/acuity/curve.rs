@@ -1,27 +1,30 @@
-//! An acuity model ready to compute with: its minimum angle of resolution as a chain of lines.
+//! An acuity curve that is ready to compute with: its minimum angle of resolution is piecewise
+//! linear.
 
-/// Acuity over eccentricity, `1/f` piecewise linear and, beyond its last knot, on at the last slope.
+/// Acuity over eccentricity. `1/f` is piecewise linear and keeps its last slope beyond the last
+/// knot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AcuityCurve {
     /// Never empty; the first begins at 0°.
     segments: Vec<Segment>,
 }
 
-/// A line of the minimum angle of resolution.
+/// A linear piece of the minimum angle of resolution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Segment {
     from_deg: f64,
-    /// `1/f` where it begins, in degrees per cycle.
+    /// `1/f` at the start of the segment, in degrees per cycle.
     mar_deg: f64,
-    /// Degrees per cycle and degree.
+    /// Slope in degrees per cycle, per degree of eccentricity.
     slope: f64,
-    /// `∫ 2f de` from 0° to where it begins.
+    /// `∫ 2f de` from 0° to the start of the segment.
     samples_before: f64,
 }
 
 impl AcuityCurve {
-    /// A curve through knots of eccentricity and minimum angle of resolution, both in degrees, which
-    /// rise from 0° and are positive, with a slope beyond the last.
+    /// A curve through knots `(eccentricity, minimum angle of resolution)`, both in degrees.
+    /// Eccentricities rise from 0° and angles are positive. Beyond the last knot the slope is
+    /// `last_slope`.
     pub(crate) fn through(knots: &[(f64, f64)], last_slope: f64) -> Self {
         let mut segments: Vec<Segment> = Vec::with_capacity(knots.len());
         for (i, &(from_deg, mar_deg)) in knots.iter().enumerate() {
@@ -34,8 +37,8 @@ impl AcuityCurve {
         Self { segments }
     }
 
-    /// The curve cut off at a frequency, such as the highest a device shows: `min(f, cap)`, with a
-    /// knot of its own where the two cross.
+    /// The curve limited to a frequency, such as the highest that a device shows: `min(f, cap)`.
+    /// The point where the two cross becomes a knot.
     #[must_use]
     pub fn capped(&self, cap_cpd: f64) -> Self {
         let least = 1.0 / cap_cpd;
@@ -48,7 +51,8 @@ impl AcuityCurve {
                 knots.push((crossing_deg, least));
             }
         }
-        // The last line falls or is flat, so that the cap ends on it or holds for good.
+        // Along the last segment the frequency falls or is constant, so the cap either ends on it
+        // or holds for all larger eccentricities.
         Self::through(&knots, self.segments[self.segments.len() - 1].slope)
     }
 
@@ -63,28 +67,28 @@ impl AcuityCurve {
         1.0 / (segment.mar_deg + segment.slope * (eccentricity_deg - segment.from_deg))
     }
 
-    /// `u(e) = ∫ 2f de` from 0° to `eccentricity_deg` ≥ 0: how many samples at the rate of acuity
-    /// stand between the gaze and there.
+    /// `u(e) = ∫ 2f de` from 0° to `eccentricity_deg` ≥ 0: the number of samples between the gaze
+    /// and this eccentricity when sampling at the rate of acuity.
     pub fn samples_to(&self, eccentricity_deg: f64) -> f64 {
         self.at(eccentricity_deg).samples_to(eccentricity_deg)
     }
 
-    /// The eccentricity in degrees up to which there are so many `samples` ≥ 0: the inverse of
+    /// The eccentricity in degrees up to which there are `samples` ≥ 0 samples: the inverse of
     /// [`AcuityCurve::samples_to`].
     pub fn eccentricity_deg(&self, samples: f64) -> f64 {
         let next = self.segments.partition_point(|segment| segment.samples_before <= samples);
         self.segments[next.saturating_sub(1)].eccentricity_deg(samples)
     }
 
-    /// Eccentricities in degrees where the slope of `1/f` changes, rising; 0 is left out.
+    /// Eccentricities in degrees where the slope of `1/f` changes, in rising order, without 0.
     pub fn knots_deg(&self) -> impl Iterator<Item = f64> + '_ {
         self.segments.iter().skip(1).map(|segment| segment.from_deg)
     }
 }
 
 impl Segment {
-    /// `∫ 2 de / (a + b (e - e₀)) = 2/b ln(1 + b (e - e₀) / a)`: with log1p, since a flat piece has
-    /// `b = 0`, where the printed logarithm is singular.
+    /// `∫ 2 de / (a + b (e - e₀)) = 2/b ln(1 + b (e - e₀) / a)`. The code uses `log1p` because a
+    /// flat segment has `b = 0`, where the printed logarithm is singular.
     fn samples_to(&self, eccentricity_deg: f64) -> f64 {
         let x = (eccentricity_deg - self.from_deg) / self.mar_deg;
         let t = self.slope * x;
@@ -112,7 +116,8 @@ mod tests {
         AcuityModel::Piecewise(params).curve().unwrap()
     }
 
-    /// VaFR's buffer is as wide as the samples up to 60°: 932.3 with f(60°) = 5, 900.1 with 4.
+    /// VaFR's buffer is as wide as the number of samples up to 60°: 932.3 with f(60°) = 5, 900.1
+    /// with f(60°) = 4.
     #[test]
     fn the_published_width_of_a_buffer() {
         let flat = piecewise([40.0, 10.0, 6.0, 5.0, 5.0], None);
@@ -156,8 +161,8 @@ mod tests {
         }
     }
 
-    /// At a knot, and at so many samples as there are before it, the next segment holds; the first
-    /// begins at the gaze.
+    /// At a knot, and at the number of samples before it, the next segment applies; the first
+    /// segment begins at the gaze.
     #[test]
     fn knots_are_where_the_slope_changes() {
         let curve = piecewise([40.0, 10.0, 6.0, 5.0, 4.0], None);
@@ -169,7 +174,8 @@ mod tests {
             assert!((curve.samples_to(e) / want - 1.0).abs() < 1e-12, "{e}");
             assert!((curve.eccentricity_deg(want) - e).abs() < 1e-9, "{e}");
         }
-        // Beyond the last knot on at the last slope, 1/600 a degree: 1200 ln(1 + (e - 60) / 150).
+        // Beyond the last knot the last slope, 1/600 per degree, continues: 1200 ln(1 + (e - 60) /
+        // 150).
         let beyond = curve.samples_to(75.0) - curve.samples_to(60.0);
         assert!((beyond / (1200.0 * 1.1f64.ln()) - 1.0).abs() < 1e-12, "{beyond}");
         assert!((curve.eccentricity_deg(curve.samples_to(9.9995)) - 9.9995).abs() < 1e-10);

@@ -22,7 +22,8 @@ impl Default for GeislerPerry {
 }
 
 impl GeislerPerry {
-    /// Sets what the registry has found to be one of its values.
+    /// Sets a parameter to a value that the registry has checked. `None` if there is no such
+    /// parameter.
     pub(super) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
             "alpha" => self.alpha = value.number()?,
@@ -33,7 +34,8 @@ impl GeislerPerry {
         Some(())
     }
 
-    /// `f_c(e) (e + e₂)`: the cut-off is this over `e + e₂`.
+    /// `f_c(e) (e + e₂)`, which is constant: the cut-off frequency is this number divided by
+    /// `e + e₂`.
     pub fn numerator(&self) -> f64 {
         self.e2_deg * libm::log(1.0 / self.ct0) / self.alpha
     }

@@ -2,10 +2,10 @@
 
 use fovqa_params::ParamValue;
 
-/// A line of the minimum angle of resolution over eccentricity.
+/// A minimum angle of resolution that is linear over eccentricity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearMar {
-    /// Slope, degrees per degree. Default 0.0275 (conservative: 0.022).
+    /// Slope in degrees per degree. Default 0.0275 (the conservative value is 0.022).
     pub m: f64,
     /// Angle of one cycle at the fovea, in degrees. Default 1/48.
     pub omega0_deg: f64,
@@ -18,7 +18,8 @@ impl Default for LinearMar {
 }
 
 impl LinearMar {
-    /// Sets what the registry has found to be one of its values.
+    /// Sets a parameter to a value that the registry has checked. `None` if there is no such
+    /// parameter.
     pub(super) fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
             "m" => self.m = value.number()?,

@@ -1,9 +1,10 @@
-//! Acuity: the highest spatial frequency seen at an eccentricity, in cycles per degree. One model
-//! a file; each is a pure function of f64.
+//! Acuity: the highest spatial frequency that is visible at an eccentricity, in cycles per degree.
+//! There is one model per file; each is a pure function of f64.
 //!
-//! [`AcuityModel`] is the registry: a model with its parameters, set by name. [`AcuityCurve`] is what
-//! curves and methods compute with: every model here is a minimum angle of resolution (MAR) that is
-//! piecewise linear in eccentricity, so that the samples up to an eccentricity have a closed form.
+//! [`AcuityModel`] is the registry: a model with its parameters, which are set by name. Curves and
+//! methods compute with [`AcuityCurve`]: every model here is a minimum angle of resolution (MAR)
+//! that is piecewise linear in eccentricity, so that the number of samples up to an eccentricity
+//! has a closed form.
 
 mod curve;
 mod geisler_perry;

@@ -15,16 +15,16 @@ pub enum AcuityModel {
     GeislerPerry(GeislerPerry),
 }
 
-/// What there is to say about an acuity model.
+/// The description of an acuity model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AcuityInfo {
-    /// Its name in results and, with `-` for `_` if one likes, on the command line.
+    /// The name in results and on the command line, where `-` may replace `_`.
     pub key: &'static str,
-    /// Its name in tables and figures.
+    /// The name in tables and figures.
     pub label: &'static str,
-    /// One line on what it is.
+    /// A description in one line.
     pub about: &'static str,
-    /// Where it comes from.
+    /// The publication that defines it.
     pub source: &'static str,
     /// Its parameters.
     pub params: &'static [ParamInfo],
@@ -37,7 +37,7 @@ impl Default for AcuityModel {
 }
 
 impl AcuityModel {
-    /// All models, with their defaults.
+    /// All models, with their default parameters.
     pub fn all() -> [AcuityModel; 3] {
         [
             Self::Piecewise(PiecewiseParams::default()),
@@ -46,13 +46,13 @@ impl AcuityModel {
         ]
     }
 
-    /// The model of a name, with its defaults; `-` and `_` are alike.
+    /// The model of a name, with its default parameters; `-` and `_` are alike.
     pub fn find(name: &str) -> Option<AcuityModel> {
         let name = name.replace('-', "_").to_lowercase();
         Self::all().into_iter().find(|model| model.info().key == name)
     }
 
-    /// Its entry.
+    /// The description of this model.
     pub fn info(&self) -> &'static AcuityInfo {
         match self {
             Self::Piecewise(_) => &PIECEWISE,
@@ -64,7 +64,7 @@ impl AcuityModel {
     /// Sets one parameter.
     ///
     /// # Errors
-    /// When the model has no such parameter, or the value is not one of its values.
+    /// When the model has no such parameter, or the parameter does not accept the value.
     pub fn set(&mut self, param: &str, value: &ParamValue) -> Result<(), ParamError> {
         let info = self.info();
         let (known, value) = find(info.key, info.params, param, value)?;
@@ -73,13 +73,13 @@ impl AcuityModel {
             Self::LinearMar(model) => model.set(known.name, &value),
             Self::GeislerPerry(model) => model.set(known.name, &value),
         };
-        set.ok_or_else(|| known.refuses(info.key, &value))
+        set.ok_or_else(|| known.value_error(info.key, &value))
     }
 
-    /// The curve of the model.
+    /// The acuity curve of the model.
     ///
     /// # Errors
-    /// When knots are no curve.
+    /// When the knots do not make a curve.
     pub fn curve(&self) -> Result<AcuityCurve, PiecewiseMarError> {
         match self {
             Self::Piecewise(params) => params.curve(),
@@ -92,7 +92,7 @@ impl AcuityModel {
     }
 }
 
-/// Frequencies of any eye and device.
+/// Frequencies of any eye and device, in cycles per degree.
 pub(super) const CPD: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
 
 const PIECEWISE: AcuityInfo = AcuityInfo {
@@ -204,7 +204,7 @@ mod tests {
         }
     }
 
-    /// Parameters by name, and the printed formulas with them.
+    /// Parameters are set by name, and the curve agrees with the printed formulas.
     #[test]
     fn parameters_make_the_curve() {
         let with = |name: &str, params: &[(&str, f64)]| {

@@ -6,21 +6,22 @@ use thiserror::Error;
 use super::AcuityCurve;
 use super::model::CPD;
 
-/// `1/f` linear between knots, and beyond the last knot on at the last slope.
+/// Acuity whose inverse `1/f` is linear between knots and keeps its last slope beyond the last
+/// knot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PiecewiseMar {
     knots: Vec<(f64, f64)>,
 }
 
-/// Parameters: the knots as two lists, and what a device shows of them.
+/// The parameters: two lists that give the knots, and the highest frequency that a device shows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PiecewiseParams {
     /// Eccentricities of the knots in degrees, rising from 0.
     pub knots_deg: Vec<f64>,
-    /// Acuity at these, cycles per degree.
+    /// Acuity at these eccentricities, in cycles per degree.
     pub knots_cpd: Vec<f64>,
-    /// The highest frequency a device shows (VaFR, Fig. 3: 9 for the Vive Pro Eye, 18 for the Pimax
-    /// Crystal), cycles per degree.
+    /// The highest frequency that a device shows, in cycles per degree (VaFR, Fig. 3: 9 for the
+    /// Vive Pro Eye, 18 for the Pimax Crystal).
     pub cap_cpd: Option<f64>,
 }
 
@@ -32,7 +33,7 @@ impl Default for PiecewiseParams {
 }
 
 impl PiecewiseParams {
-    /// Sets what a registry has found to be one of its values; `None` where the name is no
+    /// Sets a parameter to a value that a registry has checked. `None` if there is no such
     /// parameter.
     pub fn set(&mut self, name: &str, value: &ParamValue) -> Option<()> {
         match name {
@@ -44,10 +45,10 @@ impl PiecewiseParams {
         Some(())
     }
 
-    /// The curve through the knots, capped.
+    /// The curve through the knots, limited to the cap.
     ///
     /// # Errors
-    /// When the knots are no curve.
+    /// When the knots do not make a curve.
     pub fn curve(&self) -> Result<AcuityCurve, PiecewiseMarError> {
         let knots = PiecewiseMar::new(&self.knots_deg, &self.knots_cpd)?.knots;
         if let Some(&(_, found_cpd)) = knots.iter().find(|knot| !CPD.contains(&knot.1)) {
@@ -60,36 +61,36 @@ impl PiecewiseParams {
     }
 }
 
-/// Knots that make no acuity curve.
+/// Knots that do not make an acuity curve.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum PiecewiseMarError {
-    /// Fewer than two knots, or not one frequency an eccentricity.
+    /// There are fewer than two knots, or the two lists differ in length.
     #[error(
         "{eccentricities} eccentricities and {frequencies} frequencies are no knots: give two or \
          more, as many of one as of the other"
     )]
     Count {
-        /// Eccentricities given.
+        /// Number of eccentricities given.
         eccentricities: usize,
-        /// Frequencies given.
+        /// Number of frequencies given.
         frequencies: usize,
     },
-    /// Eccentricities that do not rise from 0.
+    /// The eccentricities do not rise from 0.
     #[error("the knots' eccentricities do not start at 0° and rise, up to 180°")]
     Order,
-    /// Acuity that rises at the end: beyond the last knot it would grow without bound.
+    /// Acuity rises at the end: beyond the last knot it would grow without bound.
     #[error("acuity does not fall from the knot before the last to the last")]
     Rising,
-    /// A frequency beyond any eye.
+    /// A frequency is beyond that of any eye.
     #[error("the knot of {found_cpd} cpd is not between 0.01 and 1000 cycles per degree")]
     Frequency {
-        /// What was given.
+        /// The frequency that was given, in cycles per degree.
         found_cpd: f64,
     },
 }
 
 impl Default for PiecewiseMar {
-    /// (0°, 40), (10°, 10), (20°, 6), (30°, 5), (60°, 4) cycles per degree: VaFR's pivots.
+    /// VaFR's knots: (0°, 40), (10°, 10), (20°, 6), (30°, 5), (60°, 4) cycles per degree.
     fn default() -> Self {
         let knots = [(0.0, 40.0), (10.0, 10.0), (20.0, 6.0), (30.0, 5.0), (60.0, 4.0)];
         Self { knots: knots.to_vec() }
@@ -139,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn goes_through_its_knots_and_on() {
+    fn passes_its_knots_and_continues() {
         let model = PiecewiseMar::default();
         for (e, f) in [(0.0, 40.0), (10.0, 10.0), (20.0, 6.0), (30.0, 5.0), (60.0, 4.0)] {
             assert!((model.cutoff_cpd(e) - f).abs() < 1e-12);
@@ -161,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn refuses_lists_that_do_not_match_and_angles_that_are_none() {
+    fn refuses_unequal_lists_and_impossible_knots() {
         for (degs, cpds) in
             [(&[0.0, 5.0, 9.0][..], &[3.0, 2.0][..]), (&[0.0, 5.0], &[3.0, 2.0, 1.0])]
         {
@@ -173,7 +174,7 @@ mod tests {
         for cpd in [f64::NAN, f64::INFINITY] {
             assert!(PiecewiseMar::new(&[0.0, 5.0], &[cpd, 1.0]).is_err());
         }
-        // Two knots, and six.
+        // A curve with two knots and one with six.
         let two = PiecewiseMar::new(&[0.0, 10.0], &[10.0, 5.0]).unwrap();
         assert!((two.cutoff_cpd(30.0) - 2.5).abs() < 1e-12);
         let six =

@@ -142,7 +142,7 @@ fn curve(
                 Screens { tables: [root.table("view"), Some(table)] }.settings(&span, faults);
             let budget = table.number("budget").map(|share| CurveBudget {
                 share,
-                of: table.word("budget_of").unwrap_or_default(),
+                samples: table.word("budget_of").unwrap_or_default(),
             });
             if table.has("budget_of") && budget.is_none() {
                 let message = "budget_of says of what a budget is, and there is none";

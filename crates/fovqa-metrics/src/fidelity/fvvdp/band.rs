@@ -1,17 +1,17 @@
-//! One band of a pyramid on a display.
+//! One spatial-frequency band of a pyramid on a display.
 
 use super::csf::Line;
 
-/// One band, the finest first.
+/// One band of a pyramid; bands are ordered from the finest on.
 #[derive(Debug, Clone)]
 pub(super) struct Band {
     pub(super) size: (usize, usize),
-    /// Frequency at the centre of the display, cycles per degree.
+    /// Frequency at the centre of the display, in cycles per degree.
     pub(super) cpd: f64,
     /// log2 of the gain of its contrast.
     pub(super) log2_gain: f32,
-    /// Degrees from the centre of the display, of columns and of rows.
+    /// Directions of the columns and of the rows, in degrees from the centre of the display.
     pub(super) directions: [Vec<f64>; 2],
-    /// Its sensitivity where every pixel is looked at directly.
+    /// The sensitivity for foveal vision at every pixel.
     pub(super) foveal: Line,
 }

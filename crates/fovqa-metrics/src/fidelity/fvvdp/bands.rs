@@ -1,4 +1,4 @@
-//! The bands of a pyramid on a display: their sizes, frequencies and gains, settled once a view.
+//! The bands of a pyramid on a display: their sizes, frequencies and gains, computed once per view.
 
 use super::band::Band;
 use super::calibration::COARSE_GAIN;
@@ -6,7 +6,7 @@ use super::csf::Line;
 use super::geometry::Geometry;
 use super::pyramid::band_frequencies_cpd;
 
-/// The bands of frames under a geometry.
+/// The bands of frames in a geometry.
 pub(super) fn bands(geometry: &Geometry) -> Vec<Band> {
     let mut size = (geometry.view.width, geometry.view.height);
     let frequencies = band_frequencies_cpd(size, geometry.pixels_per_degree);

@@ -1,11 +1,12 @@
-//! From red, green and blue light to luminance: the Y row of each colour space's matrix to XYZ.
+//! From linear red, green and blue to luminance: the Y row of each colour space's matrix to XYZ.
 
 /// A colour space of the files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ColorSpace(usize);
 
-/// Names, and the luminance of red, green and blue. All as in FovVideoVDP 1.2, but DCI-P3 (from its
-/// primaries and D65) and BT.2020 (ITU-R BT.2020), which are wrong there.
+/// The names, and the luminance of red, green and blue. They are those of FovVideoVDP 1.2, except
+/// for DCI-P3 (computed from its primaries and D65) and BT.2020 (ITU-R BT.2020), which are wrong
+/// there.
 const SPACES: [(&str, [f64; 3]); 18] = [
     ("srgb", [0.212_672_9, 0.715_152_2, 0.072_175_0]),
     ("adobe_rgb", [0.297_376_9, 0.627_349_1, 0.075_274_1]),
@@ -39,12 +40,12 @@ impl ColorSpace {
         names
     };
 
-    /// The space of a name.
+    /// The colour space of a name.
     pub fn find(name: &str) -> Option<Self> {
         SPACES.iter().position(|space| space.0 == name).map(Self)
     }
 
-    /// The luminance of red, green and blue.
+    /// The luminance of linear red, green and blue.
     pub fn luminance_weights(self) -> [f64; 3] {
         SPACES[self.0].1
     }

@@ -1,17 +1,17 @@
-//! Contrast: what a level has over its low-pass, relative to the background, the low-pass of the sustained
-//! reference, which test and transient channel share. At most 1000, and at least 0.1 cd/m² of background;
-//! negative contrast has no limit.
+//! Contrast: the difference of a level and its low-pass, relative to the background. The background
+//! is the low-pass of the sustained reference; test and transient channel use it as well. Contrast
+//! is at most 1000, and the background at least 0.1 cd/m²; negative contrast has no limit.
 //!
-//! Nothing is divided: differences are kept in cd/m², limited to 1000 times the background, and the
-//! logarithm of the background goes into the gain.
+//! The code avoids divisions: differences stay in cd/m² and are limited to 1000 times the
+//! background, and the logarithm of the background becomes part of the gain.
 
 use multiversion::multiversion;
 
 use super::calibration::{DARKEST_BACKGROUND_CD_M2, MAX_CONTRAST};
 use super::log_exp::log2;
 
-/// The background of a row from the expanded reference: what differences are limited to, cd/m², and its
-/// log2.
+/// The background of a row from the expanded reference: the limit of differences in cd/m², and the
+/// log2 of the background.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 pub(super) fn background(expanded: &[f32], limit: &mut [f32], log2_background: &mut [f32]) {
     for ((low_pass, limit), log) in expanded.iter().zip(limit).zip(log2_background) {
@@ -21,7 +21,7 @@ pub(super) fn background(expanded: &[f32], limit: &mut [f32], log2_background: &
     }
 }
 
-/// What a row has over its low-pass, within the limits; it takes the place of the low-pass.
+/// The limited differences of a row and its low-pass. They replace the low-pass.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 pub(super) fn differences(fine: &[f32], limit: &[f32], expanded: &mut [f32]) {
     for ((fine, limit), low_pass) in fine.iter().zip(limit).zip(expanded) {
@@ -29,7 +29,8 @@ pub(super) fn differences(fine: &[f32], limit: &[f32], expanded: &mut [f32]) {
     }
 }
 
-/// From log2 of the sensitivity to log2 of what turns differences in cd/m² into multiples of the threshold.
+/// Converts log2 of the sensitivity to log2 of the gain that turns differences in cd/m² into
+/// multiples of the threshold.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 pub(super) fn gain(log2_background: &[f32], log2_of_band: f32, sensitivity: &mut [f32]) {
     for (log, gain) in log2_background.iter().zip(sensitivity) {

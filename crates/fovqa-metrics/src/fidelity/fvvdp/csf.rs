@@ -1,13 +1,14 @@
-//! Contrast sensitivity: a table over luminance, spatial frequency and eccentricity for each temporal
-//! channel, interpolated.
+//! Contrast sensitivity: for each temporal channel, a table over luminance, spatial frequency and
+//! eccentricity, which is interpolated.
 //!
-//! The tables are those of FovVideoVDP 1.2 as the ColorVideoVDP project distributes them, under the MIT
-//! licence in `csf/LICENSE.ColorVideoVDP.MIT`: log2 S at 32 x 32 x 32 nodes, luminance
-//! Y = 10^(-3 + 7i/31) cd/m², frequency ρ = 2^(-4 + 10i/31) cpd, eccentricity (sqrt(120) i/31)² degrees.
-//! What lies between them is trilinear in (log2 ρ, log2 Y, sqrt ecc); that is part of the metric, and the
-//! closed formula behind the tables, evaluated in between, is off by up to 0.013 JOD.
+//! The tables are those of FovVideoVDP 1.2 as the ColorVideoVDP project distributes them, under the
+//! MIT licence in `csf/LICENSE.ColorVideoVDP.MIT`: log2 S at 32 x 32 x 32 nodes, luminance Y =
+//! 10^(-3 + 7i/31) cd/m², frequency ρ = 2^(-4 + 10i/31) cpd, eccentricity (sqrt(120) i/31)²
+//! degrees. Values between the nodes are interpolated trilinearly in (log2 ρ, log2 Y, sqrt ecc).
+//! This interpolation is part of the metric: evaluating the closed formula behind the tables
+//! instead changes results by up to 0.013 JOD.
 //!
-//! Coordinates run from 0 to 31 along each axis, beyond which nothing changes.
+//! Coordinates run from 0 to 31 along each axis; outside this range the value at the end applies.
 
 use std::sync::LazyLock;
 
@@ -16,29 +17,30 @@ use multiversion::multiversion;
 use super::calibration::SENSITIVITY_DB;
 use super::log_exp::{log2, rounded_index};
 
-/// Nodes along each axis.
+/// The number of nodes along each axis.
 pub(super) const NODES: usize = 32;
-/// All nodes of a channel.
+/// The number of nodes of a channel's table.
 const TABLE: usize = NODES * NODES * NODES;
 const LAST_CELL: f32 = (NODES - 2) as f32;
 const LAST: f32 = (NODES - 1) as f32;
 
-/// Steps between the nodes of ρ in an octave.
+/// Steps between the nodes of ρ per octave.
 pub(super) const RHO_STEPS_PER_OCTAVE: f64 = 3.1;
 /// log2 ρ of the first node.
 pub(super) const RHO_FROM: f64 = -4.0;
-/// Steps between the nodes of Y in an octave: 31 / 7 a decade.
+/// Steps between the nodes of Y per octave: 31 / 7 per decade.
 const Y_STEPS_PER_OCTAVE: f64 = 31.0 / 7.0 * std::f64::consts::LOG10_2;
 /// The coordinate of 1 cd/m².
 const Y_OF_ONE: f64 = 3.0 * 31.0 / 7.0;
-/// Steps between the nodes of the square root of an eccentricity in degrees, a unit: 31 / sqrt(120).
+/// Steps between the nodes of the square root of eccentricity, per square root of a degree: 31 /
+/// sqrt(120).
 pub(super) const ECC_STEPS: f64 = 2.829_899_880_443;
 
 const FILES: [&[u8]; 2] =
     [include_bytes!("csf/sustained.f32le"), include_bytes!("csf/transient.f32le")];
 
-/// log2 of the corrected sensitivity, one table a channel, `[ρ][ecc][Y]`: the two neighbours in Y, which
-/// changes from pixel to pixel, stand together.
+/// log2 of the corrected sensitivity, one table per channel, `[ρ][ecc][Y]`. The two neighbours in Y
+/// are adjacent in memory, because Y changes from pixel to pixel.
 static TABLES: LazyLock<[Box<[f32]>; 2]> = LazyLock::new(|| {
     let correction = SENSITIVITY_DB / 20.0 * std::f64::consts::LOG2_10;
     FILES.map(|file| {
@@ -52,21 +54,21 @@ static TABLES: LazyLock<[Box<[f32]>; 2]> = LazyLock::new(|| {
     })
 });
 
-/// Where in the table each pixel of a row lies along the axes that depend on the view.
+/// The table coordinates of the pixels of a row, along the axes that depend on the view.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Coordinates {
-    /// Along ρ.
+    /// Coordinates along ρ.
     pub(super) rho: Vec<f32>,
-    /// Along eccentricity.
+    /// Coordinates along eccentricity.
     pub(super) ecc: Vec<f32>,
 }
 
-/// Room for the cells that the pixels of a row lie in.
+/// The table cells in which the pixels of a row lie.
 #[derive(Debug, Clone)]
 pub(super) struct Cells {
     /// Index of the cell's first corner.
     corner: Vec<u32>,
-    /// How far into it along ρ, ecc and Y.
+    /// Positions within the cell along ρ, ecc and Y, from 0 to 1.
     rho: Vec<f32>,
     ecc: Vec<f32>,
     y: Vec<f32>,
@@ -78,7 +80,7 @@ impl Cells {
         Self { corner: vec![0; columns], rho: row(), ecc: row(), y: row() }
     }
 
-    /// Finds the cells of a row by log2 of its luminance.
+    /// Finds the cells of a row from log2 of its luminance.
     pub(super) fn find(&mut self, log2_luminance: &[f32], at: &Coordinates) {
         let Self { corner, rho, ecc, y } = self;
         find_cells(log2_luminance, [&at.rho, &at.ecc], corner, [rho, ecc, y]);
@@ -93,7 +95,7 @@ impl Cells {
 #[inline(always)]
 fn cell(coordinate: f32) -> (u32, f32) {
     let kept = coordinate.clamp(0.0, LAST);
-    // Half a step off, the nearest whole number is the one below.
+    // Half a step is subtracted, so that the nearest whole number is the one below.
     let index = rounded_index((kept - 0.5).clamp(0.0, LAST_CELL));
     (index, kept - index as i32 as f32)
 }
@@ -119,7 +121,7 @@ fn find_cells(
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn trilinear(table: &[f32], corner: &[u32], [rho, ecc, y]: [&[f32]; 3], out: &mut [f32]) {
-    /// To the farthest corner of a cell, and one beyond.
+    /// Index distance to the farthest corner of a cell, plus one.
     const REACH: usize = NODES * NODES + NODES + 2;
     let n = out.len();
     let (corner, rho, ecc, y) = (&corner[..n], &rho[..n], &ecc[..n], &y[..n]);
@@ -136,13 +138,13 @@ fn trilinear(table: &[f32], corner: &[u32], [rho, ecc, y]: [&[f32]; 3], out: &mu
     }
 }
 
-/// The sensitivity of a band where frequency and eccentricity are the same for all pixels: a line over
-/// luminance for each channel.
+/// The sensitivity of a band for which frequency and eccentricity are the same at all pixels: a
+/// line over luminance for each channel.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Line([[f32; NODES]; 2]);
 
 impl Line {
-    /// At a frequency, looked at directly.
+    /// The line for foveal vision at a frequency.
     pub(super) fn foveal(rho_cpd: f64) -> Self {
         let coordinate = (libm::log2(rho_cpd) - RHO_FROM) * RHO_STEPS_PER_OCTAVE;
         let (index, fraction) = cell(coordinate as f32);
@@ -155,7 +157,7 @@ impl Line {
         }))
     }
 
-    /// log2 of the sensitivity of a channel at each pixel, by log2 of its luminance.
+    /// log2 of the sensitivity of a channel at each pixel, from log2 of its luminance.
     pub(super) fn log2_sensitivity(&self, channel: usize, log2_luminance: &[f32], out: &mut [f32]) {
         linear(&self.0[channel], log2_luminance, out);
     }
@@ -165,15 +167,16 @@ impl Line {
 fn linear(line: &[f32; NODES], log2_luminance: &[f32], out: &mut [f32]) {
     for (out, log2_luminance) in out.iter_mut().zip(log2_luminance) {
         let (index, fraction) = cell(log2_luminance * Y_STEPS_PER_OCTAVE as f32 + Y_OF_ONE as f32);
-        // A table of 32 needs no check of five bits, and of the cell's index 31 is never reached.
+        // An index of five bits needs no check in a table of 32, and the cell index 31 never
+        // occurs.
         let from = line[index as usize % NODES];
         let to = line[(index as usize + 1) % NODES];
         *out = from + (to - from) * fraction;
     }
 }
 
-/// Sensitivity at a point: of a channel, at a frequency, a luminance and an eccentricity. With the
-/// calibration's correction.
+/// The sensitivity of a channel at a frequency, a luminance and an eccentricity, including the
+/// correction of the calibration.
 pub fn sensitivity(channel: usize, rho_cpd: f64, luminance_cd_m2: f64, ecc_deg: f64) -> f64 {
     let at = Coordinates {
         rho: vec![((libm::log2(rho_cpd) - RHO_FROM) * RHO_STEPS_PER_OCTAVE) as f32],

@@ -1,14 +1,15 @@
-//! A plane whose rows begin at multiples of a vector's length, so that loops over a whole row need no rest.
+//! A plane whose rows begin at multiples of a vector's length, so that loops over a whole row have
+//! no remainder.
 
-use fovqa_frame::{BLOCK_ROWS, Frame, LightTables, LuminanceScratch};
+use fovqa_frame::{BLOCK_ROWS, Frame, LuminanceScratch, LuminanceTables};
 use rayon::prelude::*;
 
 use super::spare;
 
-/// Floats of two of the widest vectors.
+/// The number of floats in two of the widest vectors.
 const ROW_STEP: usize = 32;
 
-/// A plane of `f32`. What lies behind the end of a row is finite, and of no meaning.
+/// A plane of `f32`. The padding after the end of a row is finite and has no meaning.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Grid {
     width: usize,
@@ -25,7 +26,7 @@ impl Grid {
     }
 
     /// The luminance of a frame in cd/m².
-    pub fn luminance(frame: &Frame, tables: &LightTables) -> Self {
+    pub fn luminance(frame: &Frame, tables: &LuminanceTables) -> Self {
         let signal = tables.luminance(frame);
         let mut grid = Self::new(frame.width(), frame.height());
         let width = grid.width;
@@ -38,22 +39,22 @@ impl Grid {
         grid
     }
 
-    /// Columns.
+    /// The number of columns.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Rows.
+    /// The number of rows.
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// Columns and rows.
+    /// The numbers of columns and rows.
     pub(crate) fn size(&self) -> (usize, usize) {
         (self.width, self.height)
     }
 
-    /// Columns with those behind the end of a row.
+    /// The number of columns including the padding.
     pub(crate) fn stride(&self) -> usize {
         self.stride
     }
@@ -63,13 +64,13 @@ impl Grid {
         &self.padded_row(y)[..self.width]
     }
 
-    /// A row with what lies behind its end.
+    /// A row including its padding.
     pub(crate) fn padded_row(&self, y: usize) -> &[f32] {
         &self.values[y * self.stride..(y + 1) * self.stride]
     }
 
-    /// Hands blocks of rows to `fill`, in parallel: the number of a block's first row, and its rows with
-    /// what lies behind their ends.
+    /// Passes blocks of rows to `fill`, in parallel: the index of a block's first row, and its rows
+    /// with their padding.
     pub(crate) fn fill_blocks(
         &mut self,
         fill: impl Fn(usize, std::slice::ChunksExactMut<'_, f32>) + Sync + Send,
@@ -80,7 +81,7 @@ impl Grid {
         });
     }
 
-    /// The same of several planes of one size: a block of each, whole rows.
+    /// Passes blocks of rows of several planes of one size to a function, one block of each plane.
     pub(crate) fn fill_blocks_of<'a>(
         grids: impl Iterator<Item = &'a mut Self>,
         fill: impl Fn(usize, &mut [&mut [f32]]) + Sync + Send,

@@ -1,8 +1,9 @@
-//! Where a frame differs visibly: the differences of all bands, expanded and added up.
+//! The map of visible differences in a frame: the differences of all bands, expanded and added.
 //!
-//! Of the levels H_0 = D_0, H_l = D_l / 2 (D of the sustained channel and 0.25 times that of the
-//! transient), img = expand(img) + H_l from the coarsest on, and the raw map a img^b: in units of JOD, but
-//! without an upper end. Coloured, it is laid over a gray picture of the frame.
+//! The levels are H_0 = D_0 and H_l = D_l / 2, where D is that of the sustained channel plus 0.25
+//! times that of the transient channel. From the coarsest level on, img = expand(img) + H_l. The
+//! raw map is a img^b, in units of JOD but without an upper limit. For the coloured map it is laid
+//! over a gray picture of the frame.
 
 use multiversion::multiversion;
 
@@ -15,7 +16,7 @@ use super::pooling::jod_exponent;
 use super::pyramid::expand;
 use crate::map::{Map, MapInfo, MapPicture, MapScale};
 
-/// Where a frame differs visibly.
+/// The description of the map.
 pub(crate) const MAP: MapInfo = MapInfo {
     name: "fvvdp",
     block: 1,
@@ -30,7 +31,7 @@ pub struct DifferenceMap {
 }
 
 impl DifferenceMap {
-    /// Takes the differences of a level; levels come in order.
+    /// Adds the differences of a level; levels must be added in order.
     pub(super) fn add_level<'a>(
         &mut self,
         index: usize,
@@ -58,7 +59,7 @@ impl DifferenceMap {
         self.levels.push(level);
     }
 
-    /// The map, coloured over a picture's luminance: in units like JOD, 0 and above.
+    /// The map, coloured over a picture's luminance. Values are in units like JOD, 0 and above.
     pub fn map(self, luminance: &Grid) -> Map {
         let raw = self.raw();
         let picture = |colors: MapColors| MapPicture {
@@ -75,7 +76,7 @@ impl DifferenceMap {
         }
     }
 
-    /// The raw map: JOD-like units, 0 and above, row by row.
+    /// The raw map, row by row, in units like JOD, 0 and above.
     pub(crate) fn raw(mut self) -> Grid {
         let Some(mut image) = self.levels.pop() else { return Grid::new(1, 1) };
         while let Some(level) = self.levels.pop() {
@@ -99,27 +100,27 @@ impl DifferenceMap {
 fn to_jod(row: &mut [f32], exponent: f32) {
     for value in row {
         let jod = JOD_A as f32 * exp2(exponent * log2(*value));
-        // The logarithm of nothing is no more than -126 or so.
+        // The logarithm of 0 is about -126, so 0 is handled separately.
         *value = if *value > 0.0 { jod } else { 0.0 };
     }
 }
 
-/// How a map is coloured.
+/// A colour scheme for maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum MapColors {
-    /// Blue, cyan, green, yellow, red from 0 to 1: what is visible at all.
+    /// Blue, cyan, green, yellow, red from 0 to 1: shows what is visible at all.
     Threshold,
-    /// Cyan, white, yellow from 0 to 1.
+    /// Cyan, white, yellow from 0 to 1: shows differences well above the threshold.
     SupraThreshold,
 }
 
 type Rgb = [f64; 3];
 
 impl MapColors {
-    /// Both.
+    /// Both colour schemes.
     pub(crate) const ALL: [MapColors; 2] = [Self::Threshold, Self::SupraThreshold];
 
-    /// Its name in file names.
+    /// The name of the scheme in file names.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Threshold => "threshold",
@@ -141,7 +142,8 @@ impl MapColors {
         }
     }
 
-    /// The colour of a value, of about equal luma for all values, so that the gray below decides that.
+    /// The colour of a value. All colours have about the same luma, so that the gray picture below
+    /// determines the luma.
     fn at(self, value: f64) -> Rgb {
         let even = |[r, g, b]: Rgb| {
             let luma = 0.212_656 * r + 0.715_158 * g + 0.072_186 * b + 0.0001;
@@ -156,7 +158,7 @@ impl MapColors {
     }
 }
 
-/// A raw map in colours over a picture's luminance: interleaved 8-bit sRGB codes.
+/// Colours a raw map over a picture's luminance. The result is interleaved 8-bit sRGB codes.
 pub(crate) fn colored(raw: &Grid, luminance: &Grid, colors: MapColors) -> Vec<u8> {
     let context = context(luminance);
     let values = (0..raw.height()).flat_map(|y| raw.row(y));
@@ -166,9 +168,9 @@ pub(crate) fn colored(raw: &Grid, luminance: &Grid, colors: MapColors) -> Vec<u8
     pixels.collect()
 }
 
-/// A gray picture of a luminance, 0 to 1: its logarithm, the histogram evened out in part.
+/// A gray picture of a luminance, 0 to 1: its logarithm with a partly equalised histogram.
 fn context(luminance: &Grid) -> Vec<f64> {
-    /// Range of the grays, in the middle of 0 to 1.
+    /// The range of the grays, in the middle of 0 to 1.
     const RANGE: f64 = 0.6;
     const BINS: usize = 1024;
     let values = || (0..luminance.height()).flat_map(|y| luminance.row(y)).map(|v| f64::from(*v));

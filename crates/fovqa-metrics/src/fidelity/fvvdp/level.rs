@@ -1,5 +1,5 @@
-//! One level of the pyramids of reference and test, row by row: what of the reference alone decides, and
-//! the masked differences.
+//! One level of the pyramids of reference and test, row by row: first the values that depend only
+//! on the reference, then the masked differences.
 
 use super::band::Band;
 use super::contrast::{background, differences, gain};
@@ -9,7 +9,8 @@ use super::grid::Grid;
 use super::masking::log2_masked;
 use super::pyramid::Expander;
 
-/// One level of a pyramid and the next: sustained and transient or, of a still, one channel alone.
+/// One level of a pyramid and the next one: for the sustained and the transient channel or, for a
+/// still, for a single channel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Levels<'a> {
     fine: [&'a Grid; 2],
@@ -27,22 +28,22 @@ impl<'a> Levels<'a> {
         }
     }
 
-    /// How many channels there are.
+    /// The number of channels.
     pub(super) fn channels(&self) -> usize {
         self.channels
     }
 }
 
-/// What the rows of a level are made with.
+/// The viewing conditions of a level.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sight<'a> {
+pub(super) struct Viewing<'a> {
     pub(super) band: &'a Band,
-    /// `None`: every pixel is looked at directly.
+    /// The directions of the pixels; `None` means foveal vision at every pixel.
     pub(super) directions: Option<&'a BandDirections>,
 }
 
-/// What the reference decides of a row: its own differences and the gain of each channel, and what
-/// differences are limited to.
+/// The values of a row that depend only on the reference: its differences, the gain of each
+/// channel, and the limit of differences.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ReferenceRow<'a> {
     pub(super) limit: &'a [f32],
@@ -52,7 +53,7 @@ pub(super) struct ReferenceRow<'a> {
 
 /// Computes the rows of a reference.
 pub(super) struct ReferenceRows<'a> {
-    sight: Sight<'a>,
+    viewing: Viewing<'a>,
     levels: Levels<'a>,
     expander: Expander,
     coordinates: Coordinates,
@@ -64,13 +65,13 @@ pub(super) struct ReferenceRows<'a> {
 }
 
 impl<'a> ReferenceRows<'a> {
-    pub(super) fn new(sight: Sight<'a>, levels: Levels<'a>) -> Self {
+    pub(super) fn new(viewing: Viewing<'a>, levels: Levels<'a>) -> Self {
         let stride = levels.fine[0].stride();
         let row = || vec![0.0; stride];
         Self {
-            sight,
+            viewing,
             levels,
-            expander: Expander::new(sight.band.size),
+            expander: Expander::new(viewing.band.size),
             coordinates: Coordinates { rho: row(), ecc: row() },
             cells: Cells::new(stride),
             log2_background: row(),
@@ -86,19 +87,19 @@ impl<'a> ReferenceRows<'a> {
             self.expander.row(coarse, y, out);
         }
         background(&self.differences[0], &mut self.limit, &mut self.log2_background);
-        if let Some(directions) = self.sight.directions {
+        if let Some(directions) = self.viewing.directions {
             directions.row(y, &mut self.coordinates);
             self.cells.find(&self.log2_background, &self.coordinates);
         }
         for (channel, fine) in fine.iter().enumerate().take(channels) {
             differences(fine.padded_row(y), &self.limit, &mut self.differences[channel]);
             let out = &mut self.gains[channel];
-            if self.sight.directions.is_some() {
+            if self.viewing.directions.is_some() {
                 self.cells.log2_sensitivity(channel, out);
             } else {
-                self.sight.band.foveal.log2_sensitivity(channel, &self.log2_background, out);
+                self.viewing.band.foveal.log2_sensitivity(channel, &self.log2_background, out);
             }
-            gain(&self.log2_background, self.sight.band.log2_gain, out);
+            gain(&self.log2_background, self.viewing.band.log2_gain, out);
         }
         ReferenceRow {
             limit: &self.limit,
@@ -108,7 +109,7 @@ impl<'a> ReferenceRows<'a> {
     }
 }
 
-/// The rows of a reference that were computed once for several tests.
+/// The rows of a reference, computed once for several tests.
 #[derive(Debug, Clone)]
 pub(super) struct KeptRows {
     limit: Grid,
@@ -117,14 +118,14 @@ pub(super) struct KeptRows {
 }
 
 impl KeptRows {
-    pub(super) fn new(sight: Sight<'_>, levels: Levels<'_>) -> Self {
-        let (width, height) = sight.band.size;
+    pub(super) fn new(viewing: Viewing<'_>, levels: Levels<'_>) -> Self {
+        let (width, height) = viewing.band.size;
         let grid = || Grid::new(width, height);
         let channels = || (0..levels.channels).map(|_| grid()).collect::<Vec<_>>();
         let mut kept = Self { limit: grid(), differences: channels(), gains: channels() };
         let grids = [&mut kept.limit].into_iter().chain(&mut kept.differences);
         Grid::fill_blocks_of(grids.chain(&mut kept.gains), |first, blocks| {
-            let mut rows = ReferenceRows::new(sight, levels);
+            let mut rows = ReferenceRows::new(viewing, levels);
             let stride = levels.fine[0].stride();
             for index in 0..blocks[0].len() / stride {
                 let row = rows.row(first + index);
@@ -148,18 +149,18 @@ impl KeptRows {
     }
 }
 
-/// A row of each channel; of one channel, twice the same.
+/// A row of each channel; if there is one channel, its row twice.
 fn rows_of(grids: &[Grid], y: usize) -> [&[f32]; 2] {
     [0, 1].map(|channel| grids[channel.min(grids.len() - 1)].padded_row(y))
 }
 
-/// A reference's rows: computed for this test alone, or kept for several.
+/// The rows of a reference, computed for this test only or stored for several tests.
 pub(super) enum Reference<'a> {
     Computed(Box<ReferenceRows<'a>>),
     Kept(&'a KeptRows),
 }
 
-/// Computes the masked differences of a test to its reference.
+/// Computes the masked differences of a test and its reference.
 pub(super) struct DifferenceRows<'a> {
     reference: Reference<'a>,
     test: Levels<'a>,
@@ -181,7 +182,7 @@ impl<'a> DifferenceRows<'a> {
         }
     }
 
-    /// log2 of D along row `y`, of each channel.
+    /// log2 of D along row `y`, for each channel.
     pub(super) fn row(&mut self, y: usize) -> &[Vec<f32>] {
         let reference = match &mut self.reference {
             Reference::Computed(rows) => rows.row(y),

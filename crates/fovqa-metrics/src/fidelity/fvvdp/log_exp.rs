@@ -1,23 +1,24 @@
 //! log2, exp2 and sine in `f32` that vectorise: polynomials without branches, without fused
-//! multiply-adds, and without a rounding instruction that the plainest processors lack. The same bits for
-//! every vector width.
+//! multiply-adds, and without a rounding instruction that the oldest processors lack. Results are
+//! bit-identical for every vector width.
 
-/// 1.5 · 2^23: a number of moderate size added to it is rounded to a whole one, in its lowest bits.
+/// 1.5 · 2^23. Adding it to a number of moderate size rounds the number to an integer, which is
+/// then in the lowest bits.
 const ROUND: f32 = 12_582_912.0;
 
-/// The nearest whole number to a value from 0 to 2^22, as a number to index with.
+/// The nearest integer to a value from 0 to 2^22, for use as an index.
 #[inline(always)]
 pub(super) fn rounded_index(value: f32) -> u32 {
     (value + ROUND).to_bits() & 0x003f_ffff
 }
 
-/// log2 of a positive normal number, within 4e-7 absolute. Of 0 and what is below normal numbers it is
-/// -126 or less; of a negative number, nothing of use.
+/// log2 of a positive normal number, with an absolute error of at most 4e-7. For 0 and subnormal
+/// numbers the result is -126 or less; for negative numbers it has no meaning.
 #[inline(always)]
 pub(super) fn log2(value: f32) -> f32 {
-    /// Bits of sqrt(1/2): the mantissa runs from there to sqrt(2), so that f is small.
+    /// The bits of sqrt(1/2): the mantissa runs from there to sqrt(2), so that f is small.
     const SQRT_HALF: u32 = 0x3f35_04f3;
-    // Minimax of log2(1 + f) / f, relative.
+    // Minimax approximation of log2(1 + f) / f, relative.
     const P: [f32; 7] = [
         1.442_699_7,
         -0.721_375_8,
@@ -34,11 +35,11 @@ pub(super) fn log2(value: f32) -> f32 {
     exponent as f32 + f * p
 }
 
-/// 2 to a power up to 127, within 2e-7 relative; 0 from -126 on down.
+/// 2 to a power up to 127, with a relative error of at most 2e-7; 0 for powers of -126 and below.
 #[inline(always)]
 pub(super) fn exp2(power: f32) -> f32 {
     const LOWEST: f32 = -126.0;
-    // Minimax of 2^f on [-1/2, 1/2], relative.
+    // Minimax approximation of 2^f on [-1/2, 1/2], relative.
     const P: [f32; 6] =
         [1.000_000_1, 0.693_146_94, 0.240_221_2, 0.055_507_13, 0.009_675_541, 0.001_327_647_2];
     let kept = if power > LOWEST { power } else { LOWEST };
@@ -49,10 +50,10 @@ pub(super) fn exp2(power: f32) -> f32 {
     if power > LOWEST { scaled } else { 0.0 }
 }
 
-/// The sine of an angle from 0 to π/2, within 1.3e-6 relative.
+/// The sine of an angle from 0 to π/2, with a relative error of at most 1.3e-6.
 #[inline(always)]
 pub(super) fn sine(radians: f32) -> f32 {
-    // Minimax of sin(x) / x over x².
+    // Minimax approximation of sin(x) / x over x².
     const P: [f32; 4] = [0.999_999_2, -0.166_656_82, 0.008_313_259, -0.000_185_243_57];
     let u = radians * radians;
     radians * (P[0] + u * (P[1] + u * (P[2] + u * P[3])))

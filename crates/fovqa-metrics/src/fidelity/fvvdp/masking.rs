@@ -1,15 +1,15 @@
-//! Mutual masking: D = |t - r|^2.4 / (1 + (k min(|t|, |r|))^q), at most 10,000, with t and r in multiples
-//! of the threshold and q of the temporal channel.
+//! Mutual masking: D = |t - r|^2.4 / (1 + (k min(|t|, |r|))^q), at most 10,000. t and r are in
+//! multiples of the threshold, and q depends on the temporal channel.
 //!
-//! In logarithms throughout: t and r are never formed.
+//! Everything is computed in logarithms; t and r themselves are never needed.
 
 use multiversion::multiversion;
 
 use super::calibration::{LOG10_MASK_C, MASK_P, MASK_Q, MAX_DIFFERENCE};
 use super::log_exp::{exp2, log2};
 
-/// log2 of D along a row. Test and reference in cd/m², `gain` log2 of what turns them into multiples of
-/// the threshold.
+/// log2 of D along a row. Test and reference are in cd/m²; `gain` is log2 of the factor that turns
+/// them into multiples of the threshold.
 pub(super) fn log2_masked(
     channel: usize,
     (test, reference): (&[f32], &[f32]),
@@ -23,7 +23,7 @@ pub(super) fn log2_masked(
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn masked([test, reference, gain]: [&[f32]; 3], [log2_k, q, limit]: [f32; 3], out: &mut [f32]) {
-    /// Beyond this 1 adds nothing to a power of two, and farther powers may overflow.
+    /// Above this, adding 1 to a power of two has no effect, and higher powers may overflow.
     const HIGHEST: f32 = 100.0;
     let n = out.len();
     let (test, reference, gain) = (&test[..n], &reference[..n], &gain[..n]);

@@ -1,28 +1,28 @@
-//! FovVideoVDP 1.2 (Mantiuk, Denes, Chapiro, Kaplanyan, Rufo, Bachy, Lian, Patney 2021, "FovVideoVDP: A
-//! visible difference predictor for wide field-of-view video", ACM TOG 40(4), 49).
+//! FovVideoVDP 1.2 (Mantiuk, Denes, Chapiro, Kaplanyan, Rufo, Bachy, Lian, Patney 2021,
+//! "FovVideoVDP: A visible difference predictor for wide field-of-view video", ACM TOG 40(4), 49).
 //!
-//! A file a step:
+//! There is one file per step:
 //!
 //! | step | file |
 //! | --- | --- |
-//! | values to light, light to luminance | `photometry`, `color_space` |
-//! | where a pixel lies on the display and from the gaze | `geometry` |
-//! | sustained and transient channel | `temporal_filters`, `window` |
-//! | bands of spatial frequency | `pyramid`, `bands` |
-//! | contrast to the background | `contrast` |
+//! | encoded values to luminance | `photometry`, `color_space` |
+//! | direction of a pixel from the display's centre and from the gaze | `geometry` |
+//! | sustained and transient channels | `temporal_filters`, `window` |
+//! | spatial-frequency bands | `pyramid`, `bands` |
+//! | contrast relative to the background | `contrast` |
 //! | sensitivity | `csf` |
-//! | differences in multiples of the threshold, masked | `masking` |
-//! | rows of a level, all of that together | `level` |
-//! | levels to a frame | `score` |
-//! | frames to a sequence | `sequence` |
+//! | masked differences in multiples of the threshold | `masking` |
+//! | the rows of a level, which combine these steps | `level` |
+//! | from levels to the score of a frame | `score` |
+//! | from frames to a sequence | `sequence` |
 //! | Q and just-objectionable differences | `pooling` |
 //! | heat maps | `heat_map` |
-//! | planes, their memory | `grid`, `spare` |
+//! | planes and their memory | `grid`, `spare` |
 //!
-//! Luminance is in cd/m². Q is 0 and above; JOD is 10 for no difference, falls by 1 where 75 % of observers
-//! prefer the reference, and has no lower end. Everything is computed in `f32`, one pixel like any other,
-//! and summed in `f64` over fixed blocks of rows: the same bits for any number of threads and any vector
-//! width.
+//! Luminance is in cd/m². Q is 0 and above. JOD is 10 for no difference, falls by 1 where 75 % of
+//! observers prefer the reference, and has no lower limit. Everything is computed in `f32`, with
+//! the same operations for every pixel, and summed in `f64` over fixed blocks of rows. Results are
+//! bit-identical for any number of threads and any vector width.
 
 mod band;
 mod bands;

@@ -1,4 +1,4 @@
-//! What a user may set.
+//! The parameters and the description of FovVideoVDP.
 
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
@@ -10,14 +10,14 @@ use crate::kinds::{Better, LeadIn};
 use crate::metric_params::MetricParams;
 use crate::pooling::{Pooling, Statistic};
 
-/// Of a frame: its JOD, and Q in all, by band of spatial frequency (the level) and channel, and by what
-/// each band of eccentricity has in it.
+/// The statistics of a frame: its JOD, its Q, the Q of each spatial-frequency band (as level) and
+/// channel, and the share of each eccentricity band in Q.
 const STATISTICS: [Statistic; 6] = [
     Statistic::named("frame_jod"),
     Statistic::named("q").pointing(Better::Lower),
     Statistic::named("q_sustained").pointing(Better::Lower),
     Statistic::named("q_transient").pointing(Better::Lower),
-    // Of the Q of both eyes, or of all frames.
+    // A share of the Q of both eyes together, or of all frames together.
     Statistic::named("share")
         .over_bands(Pooling::Sum)
         .over_eyes(Pooling::Mean)
@@ -91,31 +91,30 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Params {
-    /// Whether sensitivity falls off with eccentricity; if not, every pixel is looked at directly.
+    /// Whether sensitivity falls with eccentricity. If not, vision is foveal at every pixel.
     pub foveated: bool,
-    /// What stands before the first frame.
+    /// The frames that are assumed before the first frame.
     pub temp_padding: Padding,
-    /// cd/m² of a linear sample of 1; `None`: 1 on displays that take light, while others show what
-    /// exposure, tone map and encoding make of it.
+    /// Luminance in cd/m² of a linear sample of 1. `None` means 1 on displays whose input is
+    /// luminance, while other displays show the result of exposure, tone map and encoding.
     pub cd_m2_per_unit: Option<f64>,
-    /// Primaries of the files.
+    /// The colour space of the files.
     pub color_space: ColorSpace,
-    /// Whether the right edge of coarser levels is weighed as it should be, and not as FovVideoVDP
-    /// does.
+    /// Whether the right edge of coarser levels has correct weights, unlike in FovVideoVDP.
     pub exact_edges: bool,
-    /// What heat maps are laid over.
+    /// The picture below heat maps.
     pub map_context: MapContext,
 }
 
-/// What stands before the first frame of a sequence.
+/// The frames that are assumed before the first frame of a sequence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Padding {
-    /// The first frame.
+    /// The first frame, repeated.
     #[default]
     Replicate,
     /// The sequence itself, as in a loop.
     Circular,
-    /// The sequence backwards.
+    /// The sequence in reverse order.
     Pingpong,
 }
 

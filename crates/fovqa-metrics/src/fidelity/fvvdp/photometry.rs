@@ -1,16 +1,16 @@
-//! Display photometry: from values to light, each colour channel by itself.
+//! Display photometry: from values to emitted luminance, for each colour channel separately.
 //!
-//! Black is what the panel leaks plus the light it reflects, E / π · k; white is the peak: reflected light
-//! is part of it, not added on top. In cd/m².
+//! The black level is the panel's own plus the reflected light, E / π · k. White is the peak: it
+//! includes the reflected light, which is not added on top. All values are in cd/m².
 
 use fovqa_frame::transfer::{pq, srgb};
-use fovqa_frame::{LightTables, LinearLight, ShownLight, SignalParams};
+use fovqa_frame::{DisplayRange, LinearInput, LuminanceTables, SignalParams};
 use fovqa_vision::{Eotf, Luminance};
 
 use super::calibration::LOWEST_LIGHT_CD_M2;
 use super::params::Params;
 
-/// A display's way from values to light.
+/// The conversion of a display from values to luminance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Photometry {
     luminance: Luminance,
@@ -23,22 +23,23 @@ impl Photometry {
         Self { luminance, black_cd_m2: luminance.black_cd_m2() }
     }
 
-    /// White, cd/m².
+    /// Luminance of white in cd/m².
     pub fn peak_cd_m2(&self) -> f64 {
         self.luminance.peak_cd_m2
     }
 
-    /// Black, cd/m².
+    /// Luminance of black in cd/m².
     pub fn black_cd_m2(&self) -> f64 {
         self.black_cd_m2
     }
 
-    /// How the display encodes light.
+    /// The encoding of the display's input.
     pub fn eotf(&self) -> Eotf {
         self.luminance.eotf
     }
 
-    /// The light of a value, cd/m²: of an encoded one in [0, 1] (kept in it), or of light.
+    /// The emitted luminance of a value in cd/m². The value is either encoded, and clamped to [0,
+    /// 1], or a luminance.
     pub fn emitted_cd_m2(&self, value: f64) -> f64 {
         let code = value.clamp(0.0, 1.0);
         let relative =
@@ -54,13 +55,13 @@ impl Photometry {
         }
     }
 
-    /// How absolute light is shown.
-    fn shown(&self, cd_m2_per_unit: f64) -> ShownLight {
+    /// How the display shows absolute luminance.
+    fn shown(&self, cd_m2_per_unit: f64) -> DisplayRange {
         let floor_cd_m2 = match self.luminance.eotf {
             Eotf::Absolute => self.luminance.min_cd_m2.unwrap_or(LOWEST_LIGHT_CD_M2),
             _ => LOWEST_LIGHT_CD_M2,
         };
-        ShownLight {
+        DisplayRange {
             cd_m2_per_unit,
             floor_cd_m2,
             peak_cd_m2: self.peak_cd_m2(),
@@ -68,18 +69,18 @@ impl Photometry {
         }
     }
 
-    /// The way from the samples of frames to luminance on this display. Linear samples are absolute
-    /// light on a display that takes light, or where `params` say how much a unit is; else they are
-    /// tone-mapped and encoded as `signal` says.
-    pub fn tables(&self, signal: SignalParams, params: &Params) -> LightTables {
-        let absolute = |unit: f64| LinearLight::Absolute(self.shown(unit));
+    /// The conversion from the samples of frames to luminance on this display. Linear samples are
+    /// absolute luminance if the input of the display is luminance, or if `params` say how many
+    /// cd/m² a unit is. Otherwise they are tone-mapped and encoded as `signal` says.
+    pub fn tables(&self, signal: SignalParams, params: &Params) -> LuminanceTables {
+        let absolute = |unit: f64| LinearInput::Absolute(self.shown(unit));
         let linear = match params.cd_m2_per_unit {
             Some(unit) => absolute(unit),
-            None if self.eotf().is_relative() => LinearLight::ToneMapped,
+            None if self.eotf().is_relative() => LinearInput::ToneMapped,
             None => absolute(1.0),
         };
         let this = *self;
         let emitted = move |value| this.emitted_cd_m2(value);
-        LightTables::new(signal, emitted, linear, params.color_space.luminance_weights())
+        LuminanceTables::new(signal, emitted, linear, params.color_space.luminance_weights())
     }
 }

@@ -1,18 +1,19 @@
-//! From differences to a number: over pixels, then bands, then temporal channels, then frames, then JOD.
+//! Pools differences to a number: over pixels, then bands, then temporal channels, then frames, and
+//! converts to JOD.
 
 use super::calibration::{BETA, BETA_CHANNELS, CHANNEL_WEIGHTS, JOD_A, LOG10_JOD_B};
 
-/// Q of a band: the normalised norm over its pixels, (Σ D^β / N)^(1/β).
+/// Q of a band, the normalised norm over its pixels: (Σ D^β / N)^(1/β).
 pub(crate) fn over_pixels(sum_of_powers: f64, pixels: usize) -> f64 {
     libm::pow(sum_of_powers / pixels as f64, 1.0 / BETA)
 }
 
-/// Q of a temporal channel: the weighted sum over the bands.
+/// Q of a temporal channel, the weighted sum over the bands.
 pub(crate) fn over_bands(channel: usize, bands: impl Iterator<Item = f64>) -> f64 {
     CHANNEL_WEIGHTS[channel] * bands.sum::<f64>()
 }
 
-/// Q of a frame: the norm over its temporal channels; of one channel, that.
+/// Q of a frame, the norm over its temporal channels; if there is one channel, its Q.
 pub(crate) fn over_channels(channels: &[f64]) -> f64 {
     match channels {
         [one] => *one,
@@ -23,14 +24,14 @@ pub(crate) fn over_channels(channels: &[f64]) -> f64 {
     }
 }
 
-/// What each temporal channel has in the norm over them, as shares of 1.
+/// The contribution of each temporal channel to the norm, as shares of 1.
 pub(crate) fn shares_of_channels(channels: &[f64]) -> Vec<f64> {
     let powers: Vec<f64> = channels.iter().map(|q| libm::pow(*q, BETA_CHANNELS)).collect();
     let sum: f64 = powers.iter().sum();
     powers.iter().map(|power| power / sum).collect()
 }
 
-/// Just-objectionable differences: 10 for no difference, and without a lower end. `q` is that of a
+/// Just-objectionable differences: 10 for no difference, without a lower limit. `q` is the Q of a
 /// frame, or the mean over frames.
 pub fn jod(q: f64) -> f64 {
     10.0 - JOD_A * libm::pow(q, jod_exponent())

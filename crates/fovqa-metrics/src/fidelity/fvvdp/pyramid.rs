@@ -1,29 +1,30 @@
-//! The decimated pyramid: kernel 0.05, 0.25, 0.4, 0.25, 0.05 (Burt, Adelson 1983, a = 0.4), sides halved
-//! and rounded up, edges reflected with the edge sample repeated.
+//! The decimated pyramid: kernel 0.05, 0.25, 0.4, 0.25, 0.05 (Burt, Adelson 1983, a = 0.4), sides
+//! halved and rounded up, edges reflected with the edge sample repeated.
 //!
-//! FovVideoVDP picks the rule of the right edge by the parity of the rows, not of the columns: where the
-//! two differ, the weights of the last column of the next level sum to 1.25 or 0.75. That is part of the
-//! calibrated metric; [`RightEdge::ByColumns`] does it right.
+//! FovVideoVDP selects the rule for the right edge by the parity of the rows instead of the
+//! columns. Where the two parities differ, the weights of the last column of the next level sum to
+//! 1.25 or 0.75. This is part of the calibrated metric; [`RightEdge::ByColumns`] is the correct
+//! rule.
 
 use multiversion::multiversion;
 
 use super::calibration::{FIRST_BAND, LOWEST_CPD, MOST_BANDS};
 use super::grid::Grid;
 
-/// Smallest side of a frame, pixels.
+/// The smallest side of a frame in pixels.
 pub const SMALLEST_SIDE: usize = 4;
 
-/// What decides how the right edge is weighed.
+/// The rule for the weights of the right edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum RightEdge {
-    /// The parity of the rows, as in FovVideoVDP.
+    /// The parity of the rows decides, as in FovVideoVDP.
     ByRows,
-    /// The parity of the columns.
+    /// The parity of the columns decides.
     ByColumns,
 }
 
-/// Frequencies of the bands that are used, the finest first, in cycles per degree: at most so many as the
-/// smaller side of the frame allows, and none below the first at or below 0.5 cpd.
+/// Frequencies of the bands in cycles per degree, the finest first. The smaller side of the frame
+/// limits their number, and the first band at or below 0.5 cpd is the last.
 pub(crate) fn band_frequencies_cpd(
     (width, height): (usize, usize),
     pixels_per_degree: f64,
@@ -38,7 +39,7 @@ pub(crate) fn band_frequencies_cpd(
     (0..(last + 1).min(fit)).map(cpd).collect()
 }
 
-/// The next level: half the sides, rounded up. Sides of at least 2.
+/// The next level, with half the sides, rounded up. The sides must be at least 2.
 pub(crate) fn reduce(fine: &Grid, right_edge: RightEdge) -> Grid {
     let (width, height) = fine.size();
     let mut coarse = Grid::new(width.div_ceil(2), height.div_ceil(2));
@@ -48,7 +49,7 @@ pub(crate) fn reduce(fine: &Grid, right_edge: RightEdge) -> Grid {
     };
     let columns = coarse.width();
     coarse.fill_blocks(|first, rows| {
-        // Two columns to the left, and zeros to the right up to the last tap.
+        // There are two more columns on the left, and zeros on the right up to the last tap.
         let mut tall = vec![0.0; 2 * columns + 4 + fine.stride()];
         for (index, row) in rows.enumerate() {
             let centre = 2 * (first + index) as isize;
@@ -65,7 +66,7 @@ pub(crate) fn reduce(fine: &Grid, right_edge: RightEdge) -> Grid {
     coarse
 }
 
-/// A row reflected at the edge, the edge row repeated.
+/// The index of a row reflected at the edge, with the edge row repeated.
 fn reflected(y: isize, height: usize) -> usize {
     let last = height as isize - 1;
     let y = if y < 0 { -1 - y } else { y };
@@ -81,7 +82,7 @@ fn vertical([a, b, c, d, e]: [&[f32]; 5], out: &mut [f32]) {
     }
 }
 
-/// Every second column; `values` begin two columns to the left.
+/// Computes every second column; `values` begin two columns to the left.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn horizontal(values: &[f32], out: &mut [f32]) {
     let n = out.len();
@@ -92,22 +93,23 @@ fn horizontal(values: &[f32], out: &mut [f32]) {
     }
 }
 
-/// Room to expand rows in.
+/// Expands rows to a finer level.
 #[derive(Debug)]
 pub(crate) struct Expander {
-    /// One coarse row between the samples beyond its ends.
+    /// One coarse row with additional samples before its start and after its end.
     tall: Vec<f32>,
     size: (usize, usize),
 }
 
 impl Expander {
-    /// For levels of a size.
+    /// An expander for levels of a size.
     pub(crate) fn new(size: (usize, usize)) -> Self {
         let coarse = size.0.div_ceil(2);
         Self { tall: vec![0.0; coarse + 2], size }
     }
 
-    /// Row `y` of the level below, from the coarser one. `out` may reach behind the end of the row.
+    /// Expands the coarser level to row `y` of the level below it. `out` may include the padding of
+    /// the row.
     pub(crate) fn row(&mut self, coarse: &Grid, y: usize, out: &mut [f32]) {
         let (width, _) = self.size;
         let (rows, columns) = (coarse.height(), coarse.width());
@@ -121,7 +123,7 @@ impl Expander {
         }
         self.tall[0] = self.tall[1];
         self.tall[columns + 1] = self.tall[columns];
-        // Of an odd width the last pair has one column too many.
+        // If the width is odd, the last pair has one column too many.
         if width % 2 == 1 && out.len() == width {
             let whole = width / 2;
             across(&self.tall[..whole + 2], &mut out[..2 * whole]);
@@ -151,7 +153,7 @@ fn odd_row(here: &[f32], below: &[f32], out: &mut [f32]) {
     }
 }
 
-/// Two columns out of one; `values` begin one column to the left.
+/// Computes two columns for each column; `values` begin one column to the left.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn across(values: &[f32], out: &mut [f32]) {
     let pairs = out.as_chunks_mut::<2>().0;
@@ -162,7 +164,7 @@ fn across(values: &[f32], out: &mut [f32]) {
     }
 }
 
-/// A coarser level at the size of the finer one.
+/// Expands a coarser level to the size of the finer one.
 pub(crate) fn expand(coarse: &Grid, (width, height): (usize, usize)) -> Grid {
     let mut fine = Grid::new(width, height);
     fine.fill_blocks(|first, rows| {

@@ -1,4 +1,5 @@
-//! A frame of a test against its reference: the pyramids are built and measured level by level.
+//! The score of a test frame against its reference: the pyramids are built and compared level by
+//! level.
 
 use std::borrow::Borrow;
 use std::sync::Arc;
@@ -12,7 +13,7 @@ use super::calibration::BETA;
 use super::geometry::{BandDirections, Geometry};
 use super::grid::Grid;
 use super::heat_map::DifferenceMap;
-use super::level::{DifferenceRows, KeptRows, Levels, Reference, ReferenceRows, Sight};
+use super::level::{DifferenceRows, KeptRows, Levels, Reference, ReferenceRows, Viewing};
 use super::masking::powers;
 use super::params::Params;
 use super::pooling::{jod, over_bands, over_channels, over_pixels, shares_of_channels};
@@ -22,18 +23,18 @@ use crate::pooling::Parts;
 use crate::row::{Key, Rows};
 use crate::sums::add_by_band;
 
-/// Q of a band of spatial frequencies.
+/// Q of one spatial-frequency band.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FvvdpBand {
-    /// Its frequency at the centre of the display, cycles per degree.
+    /// Its frequency at the centre of the display, in cycles per degree.
     pub cpd: f64,
     /// Q of its sustained channel.
     pub sustained: f64,
-    /// Q of its transient channel, before that is weighed; `None` in a still.
+    /// Q of its transient channel, before the channel's weight; `None` for a still.
     pub transient: Option<f64>,
 }
 
-/// One frame of a test against its reference.
+/// The score of a test frame against its reference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FvvdpFrame {
     /// The pooled difference Q, 0 and above.
@@ -42,14 +43,14 @@ pub struct FvvdpFrame {
     pub frame_jod: f64,
     /// Q by spatial frequency, the finest first.
     pub bands: Vec<FvvdpBand>,
-    /// What each band of eccentricity, and last what lies outside all of them, has in Q: shares of 1;
-    /// `None` where there is no difference at all.
+    /// The contribution of each eccentricity band, and at the end of the pixels outside all bands,
+    /// to Q, as shares of 1; `None` if there is no difference at all.
     pub shares: Option<Vec<f64>>,
 }
 
 impl FvvdpFrame {
-    /// The values: JOD and Q of the frame, Q by spatial frequency (a level each), and what each band of
-    /// eccentricity, of which there are `bands`, has in it.
+    /// Adds the rows of a frame: its JOD and Q, Q by spatial frequency (one level each), and the
+    /// share of each of the `bands` eccentricity bands.
     pub fn rows(&self, bands: usize, rows: &mut Rows) {
         let [frame_jod, q, sustained, transient, share, outside] =
             std::array::from_fn(|statistic| Key::of(Metric::Fvvdp).nth(statistic));
@@ -72,35 +73,35 @@ impl FvvdpFrame {
         shared(outside, bands);
     }
 
-    /// What a band of eccentricity has in Q; `None` where there is no difference at all.
+    /// The share of an eccentricity band in Q; `None` if there is no difference at all.
     pub fn share(&self, band: usize) -> Option<f64> {
         self.shares.as_ref()?.get(band).copied()
     }
 }
 
-/// Bands of eccentricity of every level of the pyramid.
+/// The eccentricity bands of every level of the pyramid.
 #[derive(Debug, Clone)]
 pub struct FvvdpRegions(Vec<BandMap>);
 
 impl FvvdpRegions {
-    /// Bytes of memory they take.
+    /// The memory they take, in bytes.
     pub fn bytes(&self) -> usize {
         self.0.iter().map(BandMap::bytes).sum()
     }
 }
 
-/// A reference, ready to be held against tests.
+/// A reference, prepared for the comparison with tests.
 #[derive(Debug)]
 pub struct FvvdpReference {
     channels: Vec<Arc<Grid>>,
-    /// `None`: every pixel is looked at directly.
+    /// The directions of the pixels; `None` means foveal vision at every pixel.
     directions: Option<Vec<BandDirections>>,
-    /// Level by level, where it is for several tests.
+    /// The rows of each level, if they are stored for several tests.
     kept: Option<Vec<KeptRows>>,
 }
 
 impl FvvdpReference {
-    /// Its sustained channel, or the still itself: luminance in cd/m².
+    /// Its sustained channel, or the still itself, as luminance in cd/m².
     pub fn sustained(&self) -> &Grid {
         &self.channels[0]
     }
@@ -116,7 +117,7 @@ pub struct Fvvdp {
 }
 
 impl Fvvdp {
-    /// For frames seen in a geometry. Their sides are at least [`SMALLEST_SIDE`].
+    /// The metric for frames in a geometry. Their sides must be at least [`SMALLEST_SIDE`].
     pub fn new(geometry: Geometry, params: &Params) -> Self {
         Self {
             bands: bands(&geometry),
@@ -126,17 +127,19 @@ impl Fvvdp {
         }
     }
 
-    /// Where its frames are seen.
+    /// The geometry of its frames.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
 
-    /// Frequencies of its bands at the centre of the display, cycles per degree, the finest first.
+    /// Frequencies of its bands at the centre of the display, in cycles per degree, the finest
+    /// first.
     pub fn frequencies_cpd(&self) -> impl Iterator<Item = f64> + '_ {
         self.bands.iter().map(|band| band.cpd)
     }
 
-    /// The bands of eccentricity of each of its levels, which are all stretched over the whole frame.
+    /// The eccentricity bands of each of its levels, all of which are stretched over the whole
+    /// frame.
     pub fn regions(&self, eccentricity: &Eccentricity, edges: &BandEdges) -> FvvdpRegions {
         let View { width, height, .. } = *eccentricity.view();
         let maps = self.bands.iter().map(|band| {
@@ -146,8 +149,8 @@ impl Fvvdp {
         FvvdpRegions(maps.collect())
     }
 
-    /// Prepares a reference: its filtered planes, seen with a gaze in pixels of the frame. For several
-    /// tests, `keep` what of it alone decides.
+    /// Prepares a reference from its filtered planes, for a gaze in pixels of the frame. With
+    /// `keep`, values that depend only on the reference are stored for several tests.
     pub fn reference(
         &self,
         channels: Vec<Arc<Grid>>,
@@ -162,19 +165,19 @@ impl Fvvdp {
         if keep {
             let mut kept = Vec::with_capacity(self.bands.len());
             self.descend(&reference.channels, |index, levels| {
-                kept.push(KeptRows::new(self.sight(&reference, index), levels));
+                kept.push(KeptRows::new(self.viewing(&reference, index), levels));
             });
             reference.kept = Some(kept);
         }
         reference
     }
 
-    fn sight<'a>(&'a self, reference: &'a FvvdpReference, index: usize) -> Sight<'a> {
+    fn viewing<'a>(&'a self, reference: &'a FvvdpReference, index: usize) -> Viewing<'a> {
         let directions = reference.directions.as_ref().map(|directions| &directions[index]);
-        Sight { band: &self.bands[index], directions }
+        Viewing { band: &self.bands[index], directions }
     }
 
-    /// Calls `visit` with each level of a pyramid and the next.
+    /// Calls `visit` with each level of a pyramid and the next level.
     fn descend(&self, channels: &[Arc<Grid>], mut visit: impl FnMut(usize, Levels<'_>)) {
         let mut coarse = self.reduced(channels);
         visit(0, Levels::new(channels, &coarse));
@@ -189,8 +192,8 @@ impl Fvvdp {
         fine.iter().map(|grid| reduce(grid.borrow(), self.right_edge)).collect()
     }
 
-    /// Scores a frame of a test, its filtered planes, against its reference; where a map is wanted,
-    /// with the differences of every level.
+    /// Scores a test frame, given by its filtered planes, against its reference. If a map is
+    /// wanted, it receives the differences of every level.
     pub fn score(
         &self,
         reference: &FvvdpReference,
@@ -218,15 +221,15 @@ impl Fvvdp {
                 0 => Levels::new(&reference.channels, &coarse),
                 _ => Levels::new(&fine, &coarse),
             };
-            let sight = self.sight(reference, index);
-            let rows = || Reference::Computed(Box::new(ReferenceRows::new(sight, levels)));
+            let viewing = self.viewing(reference, index);
+            let rows = || Reference::Computed(Box::new(ReferenceRows::new(viewing, levels)));
             sums.push(self.level(index, test, rows, regions, map.as_deref_mut()));
         });
         self.pooled(&sums)
     }
 
-    /// Σ D^β of a level: channel by channel, within it band by band of eccentricity, and then outside all
-    /// of them.
+    /// Σ D^β of a level for each channel: one sum per eccentricity band, and at the end that of the
+    /// pixels outside all bands.
     fn level<'a>(
         &'a self,
         index: usize,
@@ -261,7 +264,7 @@ impl Fvvdp {
         all
     }
 
-    /// The frame from the sums of its levels.
+    /// The score of a frame from the sums of its levels.
     fn pooled(&self, sums: &[Vec<Vec<f64>>]) -> FvvdpFrame {
         let channels = sums[0].len();
         let q = |level: usize, channel: usize| {

@@ -1,5 +1,5 @@
-//! A sequence over time: how the frames of a picture become its temporal channels, and what a sequence
-//! has to have for that. A sequence of one frame is a still: one channel, unfiltered.
+//! A sequence over time: how the frames become temporal channels, and the conditions for this. A
+//! sequence of one frame is a still with one unfiltered channel.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -14,30 +14,30 @@ use super::window::{Window, at_first_frame};
 /// A sequence that cannot be filtered.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum TimeError {
-    /// No frame rate.
+    /// There is no frame rate.
     #[error("FovVideoVDP of a sequence needs its frames a second, and none are given")]
     NoFps,
-    /// A frame rate beyond what filters can be made for.
+    /// The frame rate is out of the range for which filters can be made.
     #[error(
         "FovVideoVDP needs more than {TOO_SLOW_FPS} and at most {FASTEST_FPS} frames a second; the sequence has {fps}"
     )]
     Fps {
-        /// What was given, or what is left of it where frames are passed over.
+        /// The given frame rate, or the effective one if frames are skipped.
         fps: f64,
     },
 }
 
-/// The time that the frames of a sequence take.
+/// The temporal filters and the padding for the frames of a sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Time {
-    /// `None`: a still.
+    /// `None` for a still.
     filters: Option<TemporalFilters>,
     padding: Padding,
     frames: usize,
 }
 
 impl Time {
-    /// Of so many frames, at least one, so many a second.
+    /// For a sequence of at least one frame, at a frame rate.
     ///
     /// # Errors
     /// When a sequence has no frame rate, or one that is too low or too high.
@@ -54,13 +54,13 @@ impl Time {
         Ok(Self { filters, padding, frames })
     }
 
-    /// The frames, besides the first, that have to be there before it.
+    /// The frames, except the first, that are needed to start the sequence.
     pub fn before_first(&self) -> BTreeSet<usize> {
         let frames = self.at_first().into_iter();
         frames.filter(|frame| *frame > 0).collect()
     }
 
-    /// How many frames the filters reach over, the present one among them.
+    /// The number of frames that the filters cover, including the present one.
     pub fn reach(&self) -> usize {
         self.filters.as_ref().map_or(1, TemporalFilters::len)
     }
@@ -73,15 +73,15 @@ impl Time {
     }
 }
 
-/// One picture of a sequence over time: the luminance of its frames as far as the filters reach back.
+/// One sequence of pictures over time: the luminance of the frames that the filters cover.
 #[derive(Debug, Clone, Default)]
 pub struct Stream(Window);
 
 impl Stream {
-    /// Begins with the first frame, and those of [`Time::before_first`] by their numbers.
+    /// Starts with the first frame, and with those of [`Time::before_first`] by their numbers.
     ///
     /// # Panics
-    /// When one of those is missing.
+    /// When one of those frames is missing.
     pub fn begin(time: &Time, first: &Arc<Grid>, before: &BTreeMap<usize, Arc<Grid>>) -> Self {
         let frames = time.at_first().into_iter().map(|frame| {
             let luminance = if frame == 0 { first } else { &before[&frame] };
@@ -90,19 +90,19 @@ impl Stream {
         Self(Window::new(frames.collect()))
     }
 
-    /// Begins in the middle of a sequence. What lies before this frame is taken to be like it: channels
-    /// are those of the whole sequence once [`Time::reach`] frames are in, this one among them.
+    /// Starts in the middle of a sequence. Frames before this one are assumed to be equal to it;
+    /// channels are those of the whole sequence after [`Time::reach`] frames, including this one.
     pub fn begin_at(time: &Time, frame: usize, luminance: &Arc<Grid>) -> Self {
         let alike = (0..time.reach()).map(|_| (frame, Arc::clone(luminance)));
         Self(Window::new(alike.collect()))
     }
 
-    /// Goes on to the next frame, by its number.
+    /// Continues with the next frame.
     pub fn push(&mut self, frame: usize, luminance: Arc<Grid>) {
         self.0.push(frame, luminance);
     }
 
-    /// The frames in reach, the oldest first.
+    /// The numbers of the covered frames, the oldest first.
     pub fn frames(&self) -> Vec<usize> {
         self.0.frames().collect()
     }
@@ -126,9 +126,9 @@ mod tests {
         Arc::new(grid)
     }
 
-    /// 24 frames a second are 6 taps.
+    /// 24 frames per second make 6 taps.
     #[test]
-    fn a_sequence_can_be_taken_up_in_its_middle() {
+    fn a_sequence_can_be_started_in_the_middle() {
         const FRAMES: usize = 12;
         let frames: Vec<Arc<Grid>> = (0..FRAMES).map(|i| grid((i * i) as f32 + 0.1)).collect();
         for padding in [Padding::Replicate, Padding::Circular, Padding::Pingpong] {
@@ -143,7 +143,7 @@ mod tests {
                 }
                 at.push(whole.channels(&time));
             }
-            // From the frame on that is as many before another as the filters reach back.
+            // Channels are equal once all frames that the filters cover have been pushed.
             for first in 1..FRAMES {
                 let mut part = Stream::begin_at(&time, first, &frames[first]);
                 for frame in first + 1..FRAMES {

@@ -1,16 +1,17 @@
-//! The memory of planes that are done with, for the next ones of their size.
+//! Reuses the memory of planes for later planes of the same size.
 //!
-//! A sequence makes the same few dozen planes for every frame. Left to the allocator, each is new memory:
-//! the kernel clears and maps it page by page and takes it back at once, which costs small frames more than
-//! the metric itself, and most where several threads run.
+//! A sequence needs the same few dozen planes for every frame. With a plain allocator each of them
+//! is new memory: the kernel clears and maps it page by page and takes it back immediately. For
+//! small frames this costs more than the metric itself, and most if several threads run.
 
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The most floats that are kept: 32 MiB. Larger planes cost their pages little beside their work.
+/// The largest number of floats that are kept: 32 MiB. For larger planes, the cost of their pages
+/// is small compared with the computation.
 const MOST: usize = 8 << 20;
 
-/// Planes given back, the latest last.
+/// Planes that were given back, the latest last.
 struct Spare {
     planes: VecDeque<Vec<f32>>,
     floats: usize,
@@ -18,7 +19,7 @@ struct Spare {
 
 static SPARE: Mutex<Spare> = Mutex::new(Spare { planes: VecDeque::new(), floats: 0 });
 
-/// Zeros, in memory given back before where there is some of this length.
+/// A plane of zeros, in reused memory if there is some of this length.
 pub(super) fn zeros(length: usize) -> Vec<f32> {
     let found = lock().take(length);
     let Some(mut plane) = found else { return vec![0.0; length] };
@@ -26,17 +27,18 @@ pub(super) fn zeros(length: usize) -> Vec<f32> {
     plane
 }
 
-/// Keeps a plane's memory for [`zeros`]. Those that waited longest make room.
+/// Keeps a plane's memory for [`zeros`]. The planes that were kept longest are dropped to make
+/// room.
 pub(super) fn give_back(plane: Vec<f32>) {
     if plane.is_empty() || plane.len() > MOST / 8 {
         return;
     }
     let dropped = lock().keep(plane);
-    // The lock is free again when the memory goes.
+    // The lock is released before the memory is freed.
     drop(dropped);
 }
 
-/// A thread that panicked has left whole vectors behind, whatever it did.
+/// A thread that panicked leaves only complete vectors behind, so a poisoned lock does no harm.
 fn lock() -> MutexGuard<'static, Spare> {
     SPARE.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -73,7 +75,7 @@ mod tests {
 
     #[test]
     fn memory_given_back_is_zeros_again() {
-        // A length of this test alone: the others share the planes.
+        // No other test uses this length; the planes are shared between tests.
         let length = 7919;
         give_back(vec![1.5; length]);
         let plane = zeros(length);
@@ -81,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_is_taken_by_its_length_and_once() {
+    fn a_plane_is_reused_once_for_its_length() {
         let mut spare = Spare { planes: VecDeque::new(), floats: 0 };
         for length in [3, 5, 3] {
             assert!(spare.keep(vec![1.0; length]).is_empty());
@@ -93,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn what_waited_longest_makes_room() {
+    fn the_memory_kept_longest_makes_room() {
         let mut spare = Spare { planes: VecDeque::new(), floats: 0 };
         for length in [MOST / 2, MOST / 4, MOST / 4] {
             assert!(spare.keep(vec![0.0; length]).is_empty());

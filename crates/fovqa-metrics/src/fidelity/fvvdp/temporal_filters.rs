@@ -1,14 +1,15 @@
 //! The two temporal channels: sustained (0 Hz) and transient (5 Hz).
 //!
-//! n = ceil(0.25 s · fps) taps at t_i = i (n / fps) / (n - 1), both ends included: the step is not
-//! 1 / fps. S_i = exp(-(ln(t_i + 1e-4) - ln 0.06)² / (2 · 0.5²)), normalised to the sum 1;
-//! T_i = k (S_{i+1} - S_i) / (t_1 - t_0), and 0 for the last. Tap i is of the frame i steps in the past.
+//! n = ceil(0.25 s · fps) taps at t_i = i (n / fps) / (n - 1), both ends included, so that the step
+//! is not 1 / fps. S_i = exp(-(ln(t_i + 1e-4) - ln 0.06)² / (2 · 0.5²)), normalised to the sum 1;
+//! T_i = k (S_{i+1} - S_i) / (t_1 - t_0), and 0 for the last. Tap i belongs to the frame i steps in
+//! the past.
 
 use super::calibration::{FILTER_S, SUSTAINED_PEAK_S, SUSTAINED_SIGMA, TRANSIENT_GAIN};
 
-/// Frame rates at and below this have but one tap, of which no filter can be made.
+/// At and below this frame rate there is only one tap, from which no filter can be made.
 pub const TOO_SLOW_FPS: f64 = 4.0;
-/// Highest frame rate: every tap is a frame in memory.
+/// The highest frame rate, because every tap is a frame in memory.
 pub const FASTEST_FPS: f64 = 1000.0;
 
 /// The taps of both filters, the present frame's first.
@@ -21,7 +22,8 @@ pub(crate) struct TemporalFilters {
 impl TemporalFilters {
     /// The filters at a frame rate, above [`TOO_SLOW_FPS`].
     pub(crate) fn new(fps: f64) -> Self {
-        // As the reference program divides: 24 frames a second are 6 taps, and 90 are 23.
+        // The division is that of the reference program: 24 frames per second make 6 taps, and 90
+        // make 23.
         let n = ((FILTER_S * 1000.0 / (1000.0 / fps)).ceil() as usize).max(2);
         let step = n as f64 / fps / (n - 1) as f64;
         let response = |i: usize| {
@@ -36,7 +38,7 @@ impl TemporalFilters {
         Self { taps: [sustained, transient] }
     }
 
-    /// How many taps each has.
+    /// The number of taps of each filter.
     pub(crate) fn len(&self) -> usize {
         self.taps[0].len()
     }

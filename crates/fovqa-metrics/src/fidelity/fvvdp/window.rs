@@ -1,4 +1,4 @@
-//! The frames behind the present one, as many as the temporal filters reach back.
+//! The latest frames, as many as the temporal filters cover.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -9,10 +9,11 @@ use super::grid::Grid;
 use super::params::Padding;
 use super::temporal_filters::TemporalFilters;
 
-/// The frames in reach at the first frame of a sequence, the oldest first: indices into it.
+/// The frames that the filters cover at the first frame of a sequence, the oldest first, as indices
+/// into the sequence.
 ///
-/// `circular` is as in the reference program: it ends with the last frame but one, and the first frame
-/// is never in it.
+/// `circular` is as in the reference program: it ends with the last frame but one, and never
+/// includes the first frame.
 pub(crate) fn at_first_frame(padding: Padding, frames: usize, reach: usize) -> Vec<usize> {
     let frames_signed = frames as isize;
     match padding {
@@ -33,23 +34,23 @@ pub(crate) fn at_first_frame(padding: Padding, frames: usize, reach: usize) -> V
     }
 }
 
-/// The luminance of the frames in reach, the oldest first, each with its number in the sequence.
+/// The luminance of the covered frames, the oldest first, each with its number in the sequence.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Window(VecDeque<(usize, Arc<Grid>)>);
 
 impl Window {
-    /// The window of a first frame.
+    /// The window at the first frame.
     pub(crate) fn new(frames: Vec<(usize, Arc<Grid>)>) -> Self {
         Self(frames.into())
     }
 
-    /// Goes on by a frame.
+    /// Continues with the next frame.
     pub(crate) fn push(&mut self, frame: usize, luminance: Arc<Grid>) {
         self.0.pop_front();
         self.0.push_back((frame, luminance));
     }
 
-    /// The numbers of the frames in it.
+    /// The numbers of its frames.
     pub(crate) fn frames(&self) -> impl Iterator<Item = usize> + '_ {
         self.0.iter().map(|(frame, _)| *frame)
     }
@@ -59,7 +60,7 @@ impl Window {
         Arc::clone(&self.0[self.0.len() - 1].1)
     }
 
-    /// Its frames, filtered: sustained and transient.
+    /// Its frames after filtering: sustained and transient.
     pub(crate) fn filtered(&self, filters: &TemporalFilters) -> Vec<Grid> {
         let taps = self.taps(filters);
         let (width, height) = self.0[0].1.size();
@@ -78,8 +79,8 @@ impl Window {
         channels
     }
 
-    /// Each frame with its weights in both filters; a frame that stands several times has them
-    /// together, and one without any is left out.
+    /// Each frame with its weights in both filters. A frame that occurs several times has the sum
+    /// of its weights, and a frame without weight is left out.
     fn taps(&self, filters: &TemporalFilters) -> Vec<(&Grid, [f32; 2])> {
         const NOTHING: f64 = 1e-12;
         let mut weights: BTreeMap<usize, (&Grid, [f64; 2])> = BTreeMap::new();
@@ -113,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_stands_before_the_first_frame() {
+    fn padding_before_the_first_frame() {
         let at = |padding, frames, reach| at_first_frame(padding, frames, reach);
         assert_eq!(at(Padding::Replicate, 5, 3), [0, 0, 0]);
         assert_eq!(at(Padding::Pingpong, 5, 4), [3, 2, 1, 0]);
@@ -124,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_that_stands_twice_is_weighed_once() {
+    fn a_frame_that_occurs_twice_is_filtered_once() {
         let filters = TemporalFilters::new(8.0);
         let grid = |value: f32| {
             let mut grid = Grid::new(3, 2);

@@ -4,13 +4,14 @@
 //! SSIM = (2 μ_a μ_b + C1)(2 σ_ab + C2) / ((μ_a² + μ_b² + C1)(σ_a² + σ_b² + C2))
 //! ```
 //!
-//! Gaussian window (σ 1.5 px, radius 5), C = (K L)², population moments, of the display-encoded
-//! signal. The map is defined where the window fits; the score is its mean, `rgb` the mean of
-//! the channels' scores. In [-1, 1], higher is better.
+//! The window is Gaussian (σ 1.5 px, radius 5), C = (K L)², and moments are those of the
+//! population. The input is the display-encoded signal. The map is defined where the window fits,
+//! and the score is its mean; with `rgb` it is the mean of the channels' scores. It is in [-1, 1],
+//! and higher is better.
 //!
-//! The moments are those of u = a + b and v = a - b, of which four will do:
-//! 2 μ_a μ_b = (μ_u² - μ_v²) / 2, μ_a² + μ_b² = (μ_u² + μ_v²) / 2, and the same for the variances.
-//! For equal pictures v is 0 and every quotient exactly 1.
+//! The moments are computed from those of u = a + b and v = a - b, of which four are enough: 2 μ_a
+//! μ_b = (μ_u² - μ_v²) / 2, μ_a² + μ_b² = (μ_u² + μ_v²) / 2, and the same for the variances. For
+//! equal pictures v is 0 and every quotient exactly 1.
 
 pub(crate) mod rows;
 
@@ -21,10 +22,11 @@ use crate::map::{MapInfo, MapScale};
 use crate::metric_params::MetricParams;
 use crate::pooling::{Pooling, Statistic, Weight};
 
-/// The statistic by which bands are pooled: pixels of the band that have a value in the map.
+/// The statistic by which bands are pooled: the number of pixels of the band that have a value in
+/// the map.
 pub(crate) const MAP_PIXELS: &str = "map_pixels";
 
-/// SSIM around each pixel where the window fits: the mean over channels.
+/// SSIM around each pixel where the window fits, as the mean over channels.
 pub(crate) const MAP: MapInfo = MapInfo {
     name: "ssim",
     block: 1,
@@ -78,7 +80,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
 pub struct Params {
     /// Standard deviation of the Gaussian window in pixels.
     pub sigma: f64,
-    /// Radius of the window; `None`: 3.5 sigma, rounded, as scikit-image truncates it.
+    /// Radius of the window; `None` means 3.5 sigma, rounded, as scikit-image truncates it.
     pub radius: Option<usize>,
     /// K1 of C1 = (K1 L)².
     pub k1: f64,
@@ -92,19 +94,19 @@ impl Default for Params {
     }
 }
 
-/// Smallest K1: the means it stabilises lose nothing.
+/// The smallest K1: the means that it stabilises lose no precision.
 pub(crate) const MIN_K1: f64 = 1e-3;
 
-/// Smallest K2: C2 = 1e-4 of peak² stays far above what rounding can do to the mean of a window.
+/// The smallest K2: C2 = 1e-4 of peak² stays far above the rounding error of a window's mean.
 pub(crate) const MIN_K2: f64 = 1e-2;
 
 /// Largest radius of the window.
 pub(crate) const MAX_RADIUS: u32 = 224;
 
-/// Largest standard deviation: its window of 3.5 sigma still has a radius of `MAX_RADIUS`.
+/// The largest standard deviation: its window of 3.5 sigma still has a radius of `MAX_RADIUS`.
 pub(crate) const MAX_SIGMA: f64 = 64.0;
 
-/// Smallest standard deviation: below, the window is one pixel.
+/// The smallest standard deviation: below it, the window is one pixel.
 pub(crate) const MIN_SIGMA: f64 = 0.1;
 
 impl MetricParams for Params {
@@ -134,12 +136,12 @@ impl Params {
         self.radius.unwrap_or(auto.clamp(1, MAX_RADIUS as usize))
     }
 
-    /// Pixels of the window along a side: the smallest image it fits into.
+    /// The side of the window in pixels, which is the smallest image that it fits into.
     pub fn window_side(&self) -> usize {
         2 * self.window_radius() + 1
     }
 
-    /// The window's weights from its centre outwards; the whole window adds up to 1.
+    /// The window's weights from its centre outwards. The weights of the whole window add up to 1.
     pub(crate) fn taps(&self) -> Vec<f32> {
         let weight = |k: usize| {
             let k = k as f64;

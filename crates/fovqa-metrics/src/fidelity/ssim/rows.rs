@@ -1,9 +1,9 @@
-//! One row of the SSIM map from the rows around it.
+//! Computes one row of the SSIM map from the rows around it.
 
 use fovqa_frame::{PairTile, Part};
 use multiversion::multiversion;
 
-/// Parts of a pair that are windowed: u and v.
+/// The number of windowed parts of a pair: u and v.
 const PARTS: usize = 2;
 
 /// Radius of the standard window, for which the taps are unrolled.
@@ -32,7 +32,7 @@ impl Constants {
     }
 }
 
-/// Mean and variance in a window, of each pixel of a row.
+/// Mean and variance in the window of each pixel of a row.
 #[derive(Debug)]
 struct Moments {
     mean: Vec<f32>,
@@ -45,7 +45,7 @@ impl Moments {
     }
 }
 
-/// Room for the steps of one row: moments down the columns, and in the whole window.
+/// Buffers for the steps of one row: moments along the columns, and in the whole window.
 #[derive(Debug)]
 pub(crate) struct Scratch {
     columns: Moments,
@@ -67,7 +67,7 @@ pub(crate) struct MapRow<'a> {
 }
 
 /// Computes the row of the map around row `row` of a tile for one plane. The tile's rows are
-/// `2 radius` longer than the map's, and it has `radius` more above and below.
+/// `2 radius` longer than the map's, and the tile has `radius` more rows above and below.
 pub(crate) fn map_row(
     tile: &PairTile,
     plane: usize,
@@ -109,11 +109,12 @@ pub(crate) fn map_row(
     );
 }
 
-/// The window down the columns.
+/// Applies the window along the columns.
 ///
-/// Squares of deviations from the pixel in the middle are summed, not squares of values: where the
-/// window is flat they are exactly 0, and where it is nearly flat the variance keeps its digits.
-/// Σ w v² - (Σ w v)² would be off by the rounding of v², which is as large as C2 divided by 10⁴.
+/// It sums squares of deviations from the pixel in the middle instead of squares of values. Where
+/// the window is flat these are exactly 0, and where it is nearly flat the variance keeps its
+/// digits. Σ w v² - (Σ w v)² would have the rounding error of v², which is as large as C2 divided
+/// by 10⁴.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn vertical_standard(rows: [&[f32]; 11], taps: [f32; 6], mean: &mut [f32], variance: &mut [f32]) {
     let n = mean.len();
@@ -136,20 +137,22 @@ fn vertical_standard(rows: [&[f32]; 11], taps: [f32; 6], mean: &mut [f32], varia
     }
 }
 
-/// The window along a row of column moments: the variance is the mean of the columns' variances plus
-/// the variance of their means, again by deviations from the middle.
+/// Applies the window along a row of column moments. The variance is the mean of the columns'
+/// variances plus the variance of their means, again computed from deviations from the middle.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn horizontal_standard(
     means: &[f32],
     variances: &[f32],
     taps: [f32; 6],
-    // Each of its own: only so the compiler knows that they do not overlap, and vectorises.
+    // These are separate slices, because only then does the compiler know that they do not overlap,
+    // and vectorises.
     mean: &mut [f32],
     variance: &mut [f32],
 ) {
     let n = mean.len();
     let variance = &mut variance[..n];
-    // The row as each place in the window sees it, so that the loop below is one over columns.
+    // Shifted views of the row, one per position in the window, so that the loop below runs over
+    // columns.
     let (m, v) = (|k: usize| &means[k..][..n], |k: usize| &variances[k..][..n]);
     let m = [m(0), m(1), m(2), m(3), m(4), m(5), m(6), m(7), m(8), m(9), m(10)];
     let v = [v(0), v(1), v(2), v(3), v(4), v(5), v(6), v(7), v(8), v(9), v(10)];
@@ -238,7 +241,7 @@ mod tests {
     use super::*;
     use crate::fidelity::ssim::Params;
 
-    /// The window of any radius and the unrolled one give the same bits.
+    /// The window of any radius and the unrolled one are bit-identical.
     #[test]
     fn the_unrolled_window_is_the_general_one() {
         const WIDTH: usize = 47;

@@ -1,10 +1,11 @@
-//! SSIM where the window is flat or nearly so: 32-bit squares of values would lose what C2 is compared
-//! with, and every such window has the same error, which no mean over pixels takes away.
+//! SSIM where the window is flat or nearly flat. Squares of values in 32 bits would lose the digits
+//! that are compared with C2, and every such window would have the same error, which a mean over
+//! pixels does not reduce.
 
 use super::*;
 use crate::fidelity::scorer::Scorer;
 
-/// What the documentation promises.
+/// The tolerance that the documentation promises.
 const TOLERANCE: f64 = 1e-5;
 
 fn gray(width: usize, height: usize, code: impl Fn(usize, usize) -> u8) -> Frame {
@@ -37,7 +38,7 @@ fn flat_grays_of_every_pair_of_codes() {
     assert!(worst <= TOLERANCE, "{worst}");
 }
 
-/// Flats, and what stands beside flats: steps down, across and slanted, ramps, spots, a little noise.
+/// Flat areas and their borders: steps down, across and slanted, ramps, spots, a little noise.
 fn patterns(low: u8, high: u8) -> Vec<Box<dyn Fn(usize, usize) -> u8>> {
     let ramp = move |t: f64| {
         let (low, high) = (f64::from(low), f64::from(high));
@@ -63,7 +64,7 @@ fn steps_and_ramps_beside_flats() {
     const H: usize = 26;
     let tables = SignalTables::new(SignalParams::default());
     let mut worst = 0.0f64;
-    // The unrolled window, and windows of any radius.
+    // The unrolled window, and windows of other radii.
     for (sigma, radius) in [(1.5, 5), (2.0, 7), (0.6, 2)] {
         let mut params = Params::default();
         params.set(Metric::Ssim, "sigma", &ParamValue::Number(sigma)).unwrap();
@@ -86,6 +87,6 @@ fn steps_and_ramps_beside_flats() {
             }
         }
     }
-    // Much nearer than that: noise of the last bit alone.
+    // The error is much smaller than promised: only noise of the last bit.
     assert!(worst <= 3e-6, "{worst}");
 }

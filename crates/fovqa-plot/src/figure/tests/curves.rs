@@ -9,7 +9,8 @@ fn straight(from: f64, to: f64) -> LineSeries {
     LineSeries { points: (0..=10).map(at).collect(), ..LineSeries::default() }
 }
 
-/// A falling curve over a level one: more than it at first, and less in the end.
+/// A falling curve and a constant one: the falling curve is above the other at first and below it
+/// at the end.
 fn crossing() -> LineChart {
     let fill = |name: &str, kind, points: [(f64, f64, f64); 2]| Fill {
         name: name.to_owned(),
@@ -26,7 +27,7 @@ fn crossing() -> LineChart {
     }
 }
 
-/// The areas of a colour in the plot area, with the key in the legend first.
+/// The areas of a colour, starting with the key in the legend.
 fn filled(drawing: &Drawing, colour: Colour) -> Vec<Vec<(f64, f64)>> {
     let area = |mark: &Mark| match mark {
         Mark::Area(points, c) if *c == colour => Some(points.clone()),
@@ -41,7 +42,7 @@ fn bounds(points: &[(f64, f64)]) -> Rect {
     Rect { left: least(|p| p.0), right: most(|p| p.0), top: least(|p| p.1), bottom: most(|p| p.1) }
 }
 
-/// The curve of a look within the plot area: all its lines but the key's.
+/// The lines of a look within the plot area, without the key in the legend.
 fn curve(drawing: &Drawing, look: usize) -> Vec<Vec<(f64, f64)>> {
     let colour = Look::new(look).colour();
     let line = |mark: &Mark| match mark {
@@ -110,7 +111,7 @@ fn areas_have_a_key_each_once_after_the_series() {
     check(&figure);
     assert_eq!(texts(&figure)[..5], names);
     assert!(names.iter().all(|name| count(&figure, name) == 1));
-    // One that is nowhere to be seen has none.
+    // An area that is not visible has no key.
     chart.fills[1].points = vec![(0.0, 20.0, 10.0), (10.0, 20.0, 10.0)];
     assert_eq!(count(&Figure::Line(chart), "less"), 0);
 }
@@ -132,7 +133,7 @@ fn areas_widen_no_axis_and_end_at_the_border() {
 
 #[test]
 fn curves_are_cut_where_they_cross_the_limits() {
-    // From 0 to 100 along 10, of which 20 to 70 is seen: between 2 and 7.
+    // The curve rises from 0 to 100 along 10; the part from 20 to 70 is visible, between 2 and 7.
     let series = vec![straight(0.0, 100.0)];
     let mut chart = LineChart { series, y_limits: Some((25.0, 75.0)), ..LineChart::default() };
     chart.fills =
@@ -237,7 +238,7 @@ fn equal_ratios_are_equal_heights_on_a_logarithmic_axis() {
 }
 
 #[test]
-fn what_has_no_logarithm_is_a_gap() {
+fn values_without_a_logarithm_are_gaps() {
     let (inf, nan) = (f64::INFINITY, f64::NAN);
     let chart = log(&[1.0, 2.0, 0.0, 4.0, 5.0, -3.0, 6.0, 7.0, -inf, nan, 8.0, 9.0, inf]);
     let figure = Figure::Line(chart.clone());
@@ -258,7 +259,7 @@ fn limits_and_areas_of_a_logarithmic_axis() {
     let drawing = chart.draw();
     let (plot, line) = (plots(&drawing)[0], &curve(&drawing, 0)[0]);
     assert_eq!((line[0].1, line[line.len() - 1].1), (plot.bottom, plot.top));
-    // A third of the way from 0.001 to 1.
+    // A third of the distance from 0.001 to 1.
     let unit = plot.width() / (2.0 * 1.04);
     assert!((line[0].0 - (plot.left + (0.04 + 1.0 / 3.0) * unit)).abs() < 1e-6);
     let area = bounds(&filled(&drawing, SURPLUS)[0]);

@@ -7,7 +7,7 @@ use crate::canvas::colour_map::{NO_VALUE, palette};
 use crate::canvas::look::WHITE;
 use crate::{RasterLine, RasterPanel};
 
-/// A panel over −20 to 20 across and −10 down to 10.
+/// A panel from −20 to 20 across and from −10 to 10 down.
 fn panel(columns: usize, values: &[f64]) -> RasterPanel {
     RasterPanel {
         title: Some("RMFR".to_owned()),
@@ -27,7 +27,7 @@ fn chart(panels: Vec<RasterPanel>, columns: usize) -> RasterChart {
     RasterChart { panels, columns, colour, ..RasterChart::default() }
 }
 
-/// The pictures of a drawing, the bar's last.
+/// The pictures of a drawing; the last one is that of the colour bar.
 fn pictures(drawing: &Drawing) -> Vec<(Rect, Vec<u8>)> {
     let picture = |mark: &Mark| match mark {
         Mark::Picture(rect, bitmap) => Some((*rect, bitmap.levels.clone())),
@@ -103,7 +103,7 @@ fn y_runs_from_the_first_value_at_the_top() {
     assert!(label_at((10.0, -10.0), "−5") > label_at((10.0, -10.0), "5"), "up");
 }
 
-/// The pixels of a figure at the middle of each cell of its first picture.
+/// The pixels of a figure at the centre of each cell of its first picture.
 fn pixels(figure: &RasterChart) -> Vec<Colour> {
     const SCALE: f64 = 1.5;
     let svg = Figure::Raster(figure.clone()).svg().unwrap();
@@ -175,7 +175,7 @@ fn a_line_along_the_border_does_not_stand_out() {
     let rect = pictures(&figure.draw().unwrap())[0].0;
     let svg = Figure::Raster(figure).svg().unwrap();
     let pixmap = Pixmap::decode_png(&png(&svg, 2.0).unwrap()).unwrap();
-    // Between two ticks, from beside the frame on.
+    // The pixels are between two ticks, starting just outside the frame.
     let (x, y) = (rect.left + 0.27 * rect.width(), rect.top + 0.1 * rect.height());
     for out in [1.2, 1.7, 2.2, 2.7] {
         for (x, y) in [(x, rect.top - out), (x, rect.bottom + out), (rect.left - out, y)] {

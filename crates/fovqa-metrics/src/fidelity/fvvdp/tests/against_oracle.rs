@@ -1,21 +1,21 @@
-//! Whole frames against the literal metric, on pictures of noise: what golden values of photographs do not
-//! reach.
+//! Compares whole frames with the literal metric, on pictures of noise, for cases that golden
+//! values of photographs do not cover.
 
 use fovqa_vision::View;
 
-use super::oracle::{Found, Oracle, Plane};
+use super::oracle::{Oracle, OracleScore, Plane};
 use super::*;
 
-/// A frame in its display, in the words of both sides.
-struct Seen {
+/// A frame on its display, as both implementations describe it.
+struct DisplayedFrame {
     fvvdp: Fvvdp,
     oracle: Oracle,
     size: (usize, usize),
     gaze_px: [f64; 2],
 }
 
-impl Seen {
-    /// Frames of a size that fill a display from side to side, of so many pixels a degree.
+impl DisplayedFrame {
+    /// Frames of a size that fill a display with this field and this number of pixels per degree.
     fn new(size: (usize, usize), tangents: [f64; 4], ppd: f64) -> Self {
         let oracle = Oracle { tangents, ppd, gaze_px: None, exact_edges: false };
         let params = Params { foveated: false, ..Params::default() };
@@ -40,7 +40,7 @@ impl Seen {
     }
 
     /// Compares Q of all bands and of the frame, and the heat map.
-    fn check(&self, what: &str, reference: &[&Grid], test: &[&Grid]) -> Found {
+    fn check(&self, what: &str, reference: &[&Grid], test: &[&Grid]) -> OracleScore {
         let shared = |grids: &[&Grid]| {
             grids.iter().map(|grid| Arc::new(Grid::clone(grid))).collect::<Vec<_>>()
         };
@@ -57,7 +57,8 @@ impl Seen {
                 _ => band.transient.unwrap(),
             };
             let wanted = bands.clone().map(|channels| channels[channel]);
-            // The luminance of the test, 100 cd/m² in `f32`, is 1e-5 off; so is a Q that is small for it.
+            // The luminance of the test, 100 cd/m² in `f32`, has an error of 1e-5, and so does a
+            // small Q.
             assert_near(what, found.bands.iter().map(of_band), wanted, [1e-4, 3e-5]);
         }
         assert_near(what, [found.q, found.frame_jod], [wanted.q, jod(wanted.q)], [1e-4, 1e-4]);
@@ -80,7 +81,8 @@ fn geometry((width, height): (usize, usize), oracle: &Oracle) -> Geometry {
     Geometry::new(view, Some(oracle.ppd))
 }
 
-/// Tiny, even and odd in all combinations, wider than a vector's length, taller than a block of rows.
+/// Sizes: tiny ones, all combinations of even and odd, wider than a vector, taller than a block of
+/// rows.
 const SIZES: [(usize, usize); 10] =
     [(4, 4), (5, 4), (4, 5), (7, 9), (32, 24), (31, 24), (32, 23), (31, 23), (67, 33), (45, 150)];
 
@@ -96,7 +98,7 @@ fn stills_of_every_size_and_parity() {
     for (index, size) in SIZES.into_iter().enumerate() {
         let seed = 10 * index as u64;
         let reference = noise(size, seed + 1, [1.0, 200.0]);
-        // A good test and a bad one: below the threshold here and there, and far above it.
+        // A good test and a bad one: sometimes below the threshold, and far above it.
         for (test, near) in
             [noise(size, seed + 2, [1.0, 200.0]), reference.clone()].into_iter().zip([false, true])
         {
@@ -107,7 +109,7 @@ fn stills_of_every_size_and_parity() {
                 test
             };
             let (reference, test) = ([&reference], [&test]);
-            let seen = || Seen::new(size, WIDE, 30.0);
+            let seen = || DisplayedFrame::new(size, WIDE, 30.0);
             let gaze = [size.0 as f64 * 0.3, size.1 as f64 * 0.8];
             let what = format!("{size:?}, near: {near}");
             seen().check(&what, &reference, &test);
@@ -126,12 +128,13 @@ fn two_channels_share_the_background_of_the_sustained_reference() {
             |seed: u64| [noise(size, seed, [1.0, 80.0]), noise(size, seed + 1, [-20.0, 20.0])];
         let (reference, test) = (pair(100), pair(200));
         let (reference, test) = (reference.each_ref(), test.each_ref());
-        Seen::new(size, WIDE, 20.0).check("two channels", &reference, &test);
-        let foveated = Seen::new(size, WIDE, 20.0).looking_at([3.0, 20.0]);
+        DisplayedFrame::new(size, WIDE, 20.0).check("two channels", &reference, &test);
+        let foveated = DisplayedFrame::new(size, WIDE, 20.0).looking_at([3.0, 20.0]);
         foveated.check("two channels, foveated", &reference, &test);
-        // An error of one channel alone.
+        // The transient channel alone has an error.
         let one = [reference[0], test[1]];
-        let found = Seen::new(size, WIDE, 20.0).check("transient alone", &reference, &one);
+        let found =
+            DisplayedFrame::new(size, WIDE, 20.0).check("transient alone", &reference, &one);
         assert!(found.q_of_bands.iter().all(|channels| channels[0] == 0.0));
     }
 }
@@ -141,7 +144,7 @@ fn gaze_may_lie_anywhere_and_off_the_frame() {
     let size = (33, 26);
     let (reference, test) = (noise(size, 1, [1.0, 100.0]), noise(size, 2, [1.0, 100.0]));
     for gaze in [[0.0, 0.0], [16.5, 13.0], [7.25, 20.75], [-40.0, 13.0], [20.0, 500.0]] {
-        let seen = Seen::new(size, WIDE, 12.0).looking_at(gaze);
+        let seen = DisplayedFrame::new(size, WIDE, 12.0).looking_at(gaze);
         seen.check(&format!("{gaze:?}"), &[&reference], &[&test]);
     }
 }
@@ -150,19 +153,20 @@ fn gaze_may_lie_anywhere_and_off_the_frame() {
 fn the_centre_of_the_display_may_lie_off_the_middle() {
     let size = (40, 30);
     let (reference, test) = (noise(size, 5, [1.0, 100.0]), noise(size, 6, [1.0, 100.0]));
-    let seen = Seen::new(size, [1.2, 0.6, 0.5, 0.9], 12.0).looking_at([30.0, 8.0]);
+    let seen = DisplayedFrame::new(size, [1.2, 0.6, 0.5, 0.9], 12.0).looking_at([30.0, 8.0]);
     seen.check("frustum", &[&reference], &[&test]);
 }
 
 #[test]
-fn directions_beyond_89_9_degrees_are_taken_for_that() {
-    // 172° by 168°: the corners are 119° from the centre, as two angles go.
+fn directions_beyond_89_9_degrees_are_clamped() {
+    // 172° by 168°: the corners are 119° from the centre, measured as the distance of two pairs of
+    // angles.
     let size = (48, 40);
     let tangents = [86f64, 86.0, 84.0, 84.0].map(|deg| deg.to_radians().tan());
     let (reference, test) = (noise(size, 7, [1.0, 100.0]), noise(size, 8, [1.0, 100.0]));
     for ppd in [6.0, 20.0] {
         for gaze in [[24.0, 20.0], [47.5, 39.5]] {
-            let seen = Seen::new(size, tangents, ppd).looking_at(gaze);
+            let seen = DisplayedFrame::new(size, tangents, ppd).looking_at(gaze);
             let [corner_x, corner_y] = seen.oracle.direction_deg([0.99, 0.99]);
             assert!(corner_x.hypot(corner_y) > 89.9);
             seen.check("wide", &[&reference], &[&test]);
@@ -172,12 +176,12 @@ fn directions_beyond_89_9_degrees_are_taken_for_that() {
 
 #[test]
 fn beyond_90_degrees_the_lowest_frequency_counts() {
-    // Half a pixel more passes 90° over a part of the frame.
+    // Another half pixel exceeds 90° in a part of the frame.
     let size = (48, 40);
     let tangents = [86f64, 86.0, 84.0, 84.0].map(|deg| deg.to_radians().tan());
     let (reference, test) = (noise(size, 7, [1.0, 100.0]), noise(size, 8, [1.0, 100.0]));
     for ppd in [1.5, 3.0, 4.5] {
-        let seen = Seen::new(size, tangents, ppd).looking_at([24.0, 20.0]);
+        let seen = DisplayedFrame::new(size, tangents, ppd).looking_at([24.0, 20.0]);
         assert!(seen.fvvdp.geometry().passes_90_deg());
         seen.check("beyond 90°", &[&reference], &[&test]);
     }
@@ -185,11 +189,11 @@ fn beyond_90_degrees_the_lowest_frequency_counts() {
 
 #[test]
 fn displays_of_very_few_pixels_a_degree_have_one_band() {
-    // The first band at or below 0.5 cpd is the last, be it the very first.
+    // The first band at or below 0.5 cpd is the last, even if it is the first of all.
     let size = (32, 24);
     let (reference, test) = (noise(size, 9, [1.0, 100.0]), noise(size, 10, [1.0, 100.0]));
     for (ppd, bands) in [(0.8, 1), (1.0, 1), (1.01, 2), (3.0, 2), (3.2, 3)] {
-        let seen = Seen::new(size, WIDE, ppd);
+        let seen = DisplayedFrame::new(size, WIDE, ppd);
         let found = seen.check(&format!("{ppd}"), &[&reference], &[&test]);
         assert_eq!(found.q_of_bands.len(), bands, "{ppd} pixels a degree");
     }
@@ -197,27 +201,27 @@ fn displays_of_very_few_pixels_a_degree_have_one_band() {
 
 #[test]
 fn backgrounds_are_at_least_a_tenth() {
-    // Levels about a low-pass of less than 0.1 cd/m², among them wholly black ones.
+    // Levels with a low-pass of less than 0.1 cd/m², including completely black ones.
     let size = (48, 33);
     for [from, to] in [[0.0, 0.05], [0.0, 0.3], [-0.2, 0.2]] {
         let (reference, test) = (noise(size, 21, [from, to]), noise(size, 22, [from, to]));
-        let foveated = Seen::new(size, WIDE, 8.0).looking_at([40.0, 3.0]);
+        let foveated = DisplayedFrame::new(size, WIDE, 8.0).looking_at([40.0, 3.0]);
         foveated.check("dark", &[&reference], &[&test]);
         let black = grid(size.0, size.1, |_, _| 0.0);
-        Seen::new(size, WIDE, 8.0).check("black reference", &[&black], &[&test]);
-        Seen::new(size, WIDE, 8.0).check("black test", &[&reference], &[&black]);
+        DisplayedFrame::new(size, WIDE, 8.0).check("black reference", &[&black], &[&test]);
+        DisplayedFrame::new(size, WIDE, 8.0).check("black test", &[&reference], &[&black]);
     }
 }
 
 #[test]
 fn contrast_ends_at_a_thousand_and_has_no_lower_end() {
-    // Bright dots on black, so fine on this display that sensitivity to them, 1e-4 before its correction,
-    // leaves room below the largest difference of 10,000.
+    // Bright dots on black. They are so fine on this display that the sensitivity to them, 1e-4
+    // before its correction, keeps differences below the limit of 10,000.
     let size = (40, 36);
     let dots = |x: usize, y: usize| x % 11 == 5 && y % 9 == 4;
     let black = grid(size.0, size.1, |_, _| 0.0);
     let bright = grid(size.0, size.1, |x, y| if dots(x, y) { 9000.0 } else { 0.0 });
-    let seen = || Seen::new(size, [0.01; 4], 400.0);
+    let seen = || DisplayedFrame::new(size, [0.01; 4], 400.0);
     let found = seen().check("bright dots", &[&black], &[&bright]);
     let finest = &found.differences[0][0];
     let limited = (1000.0 * 1e-4 * 10f64.powf(16.2596 / 20.0)).powf(2.4);
@@ -225,7 +229,7 @@ fn contrast_ends_at_a_thousand_and_has_no_lower_end() {
     assert!((at(16, 13) / limited - 1.0).abs() < 1e-3, "{} for {limited}", at(16, 13));
     // Beside a dot the test is darker than its low-pass by thousands of backgrounds.
     assert!(at(17, 13) > 2.0 * limited);
-    // Both limited: no difference at the dots, though one is twice as bright.
+    // Both are limited, so there is no difference at the dots, though one is twice as bright.
     let brighter = grid(size.0, size.1, |x, y| 2.0 * bright.row(y)[x]);
     seen().check("dots of both", &[&bright], &[&brighter]);
     seen().check("no dots", &[&bright], &[&black]);

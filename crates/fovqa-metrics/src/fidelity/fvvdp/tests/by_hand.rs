@@ -1,4 +1,4 @@
-//! Geometry, photometry and pooling by numbers worked out by hand.
+//! Geometry, photometry and pooling compared with values that were calculated by hand.
 
 use std::f64::consts::PI;
 
@@ -17,8 +17,8 @@ fn seen(spec: &ViewSpec, width: usize, height: usize) -> Geometry {
     Geometry::new(spec.resolve(width, height).unwrap().view, None)
 }
 
-/// The display's size over its distance, across and down, and pixels a degree, as FovVideoVDP's geometry
-/// has them.
+/// Checks the display's size divided by its distance, across and down, and its pixels per degree,
+/// as FovVideoVDP's geometry defines them.
 fn check(what: &str, geometry: &Geometry, [across, down]: [f64; 2]) {
     let View { width, height, .. } = geometry.view;
     let (w, h) = (width as f64, height as f64);
@@ -87,20 +87,20 @@ fn check_rows(geometry: &Geometry, gaze_px: [f64; 2]) {
                 let point = [w as f64 * share(x, width), h as f64 * share(y, height)];
                 let [right, up] = geometry.direction_deg(point);
                 let ecc = (right - gaze[0]).hypot(up - gaze[1]).sqrt() * ECC_STEPS;
-                // Of a coordinate's 31 steps, what `f32` can tell.
+                // The tolerance is the precision of `f32` for a coordinate of up to 31.
                 assert_near("ecc", [f64::from(at.ecc[x])], [ecc], [0.0, 2e-5]);
                 let found = f64::from(at.rho[x]);
                 let angle = right.hypot(up);
                 let far = angle.min(89.9) + 0.5 / geometry.pixels_per_degree;
                 if far > 89.99 {
-                    // The highest frequency just before 90°, the lowest beyond it.
+                    // The frequency is the highest just before 90° and the lowest beyond it.
                     let wanted = if far >= 90.0 { found == 0.0 } else { found > 31.0 };
                     assert!(found.is_finite() && wanted, "{found} at {angle}°");
                     continue;
                 }
                 let rho = (band.cpd * geometry.magnification(angle)).log2();
                 let rho = (rho - RHO_FROM) * RHO_STEPS_PER_OCTAVE;
-                // And of a cosine of 2e-3.
+                // The tolerance also covers the precision of a cosine of 2e-3.
                 let absolute = if angle > 80.0 { 1e-3 } else { 2e-5 };
                 assert_near("rho", [found], [rho], [0.0, absolute]);
             }
@@ -119,7 +119,7 @@ fn rows_of_directions_are_the_directions_of_their_pixels() {
         check_rows(&geometry, [30.0, 8.0]);
         assert_eq!(geometry.passes_90_deg(), passes, "{ppd}");
     }
-    // A narrow field never passes, however few its pixels.
+    // A narrow field never exceeds 90°, however few pixels it has.
     assert!(
         !Geometry::new(
             seen(&ViewSpec::Fov { horizontal_deg: Some(60.0), vertical_deg: None }, 48, 41).view,
@@ -130,7 +130,7 @@ fn rows_of_directions_are_the_directions_of_their_pixels() {
 }
 
 #[test]
-fn gamma_and_measured_light_are_shown_as_they_are() {
+fn gamma_and_measured_luminance_are_shown_unchanged() {
     let plain = Luminance::of_peak(400.0);
     let gamma = Photometry::new(Luminance {
         eotf: Eotf::Gamma,
@@ -159,7 +159,7 @@ fn gamma_and_measured_light_are_shown_as_they_are() {
 }
 
 #[test]
-fn perceptual_quantisation_is_light_within_the_display() {
+fn pq_is_luminance_within_the_display() {
     let dim = Luminance { eotf: Eotf::Pq, contrast: Some(1e4), ..Luminance::of_peak(1000.0) };
     let photometry = Photometry::new(dim);
     let light = |code: f64| {
@@ -173,7 +173,7 @@ fn perceptual_quantisation_is_light_within_the_display() {
 }
 
 #[test]
-fn color_channels_are_shown_before_they_are_weighed() {
+fn color_channels_are_shown_before_they_are_weighted() {
     use fovqa_frame::{Channels, Frame, Samples};
     let photometry = Photometry::new(Luminance::of_peak(100.0));
     let signal = SignalParams { transfer: Some(Transfer::Srgb), ..SignalParams::default() };
@@ -211,7 +211,7 @@ fn contrast_is_limited_from_above_alone() {
 fn masking_follows_its_formula() {
     let masked = |channel: usize, t: f32, r: f32| {
         let mut out = [0.0; 2];
-        // In cd/m², with a gain of 4 to multiples of the threshold.
+        // The arguments are in cd/m², with a gain of 4 to multiples of the threshold.
         log2_masked(channel, (&[t / 4.0; 2], &[r / 4.0; 2]), &[2.0; 2], &mut out);
         let mut power = [0.0; 2];
         powers(&out, 1.0, &mut power);
@@ -229,7 +229,7 @@ fn masking_follows_its_formula() {
         assert_eq!(masked(channel, 0.0, 0.0), 0.0);
         // 1,000^2.4 is 1.6e7.
         assert_near("limited", [masked(channel, 1000.0, 0.0)], [1e4], [1e-5, 0.0]);
-        // A masker's power of 2^130 is no less a masker for not being an `f32`.
+        // A masker's power of 2^130 masks as well, although it is not an `f32`.
         let strong = [1.8e17, 1e9][channel];
         assert!(masked(channel, strong, strong + strong / 1e6) < 1.0);
     }
@@ -239,7 +239,7 @@ fn masking_follows_its_formula() {
 fn pooling_by_hand() {
     let sum = 3f64.powf(1.52134);
     assert_near("pixels", [over_pixels(sum, 2)], [(sum / 2.0).powf(1.0 / 1.52134)], [1e-12, 0.0]);
-    // The same everywhere is that, for any number of pixels.
+    // For a constant D, Q is this value for any number of pixels.
     assert_near("flat", [over_pixels(70.0 * 5f64.powf(1.52134), 70)], [5.0], [1e-12, 0.0]);
     assert_eq!(over_bands(0, [1.0, 2.0, 4.0].into_iter()), 7.0);
     assert_eq!(over_bands(1, [1.0, 2.0, 4.0].into_iter()), 1.75);
@@ -260,7 +260,8 @@ fn flat_pictures_stay_flat_where_parities_agree() {
         let back = expand(&coarse, (width, height));
         assert_near("expanded", values(&back), values(&flat), [1e-6, 0.0]);
     }
-    // Where they differ, the last column has weights of 1.25 or 0.75 in all; done right, of 1.
+    // Where the parities differ, the weights of the last column sum to 1.25 or 0.75; with the
+    // correct rule they sum to 1.
     for (width, height, weight) in [(8, 7, 1.25), (9, 6, 0.75)] {
         let flat = grid(width, height, |_, _| 1.0);
         for (edge, weight) in [(RightEdge::ByRows, weight), (RightEdge::ByColumns, 1.0)] {

@@ -1,18 +1,20 @@
-//! The sensitivity tables against the closed formula behind them: spatio-chromatic sensitivity (Wuerger et
-//! al. 2020, fit of 16 September 2020), spatio-velocity (Laird et al. 2006), cortical magnification
-//! (Dougherty et al. 2003), combined as in FovVideoVDP (equations 7 to 11).
+//! Compares the sensitivity tables with the closed formula behind them: spatio-chromatic
+//! sensitivity (Wuerger et al. 2020, fit of 16 September 2020), spatio-velocity (Laird et al. 2006)
+//! and cortical magnification (Dougherty et al. 2003), combined as in FovVideoVDP (equations 7 to
+//! 11).
 
 use std::f64::consts::PI;
 
 use super::oracle::{NODES, Table};
 use super::*;
 
-/// Largest difference of the tables from the formula in log2, and a bound of their median: they were
-/// computed in `f32`, in which a factor near 1e-3 of each luminance is a difference of two numbers near 1.
+/// The largest difference between tables and formula in log2, and a bound of the median. The tables
+/// were computed in `f32`, in which a factor near 1e-3 of each luminance is the difference of two
+/// numbers near 1.
 const LARGEST: f64 = 6.95e-4;
 const MEDIAN: f64 = 3e-5;
 
-/// One mechanism: parameters of peak and bandwidth for a mean of L + M.
+/// One mechanism: the parameters of its peak and bandwidth for a mean of L + M.
 struct Mechanism {
     largest: f64,
     peak_cpd: f64,
@@ -25,7 +27,7 @@ struct Mechanism {
 impl Mechanism {
     fn all(lum: f64) -> [Self; 3] {
         let rising = |gain: f64, half: f64, power: f64| gain * (1.0 + half / lum).powf(-power);
-        // 1 - (1 + x)^-p of a tiny p, without its cancellation.
+        // 1 - (1 + x)^-p for a tiny p, without cancellation.
         let bright = -f64::exp_m1(-7.779_19e-5 * f64::ln_1p(895_943.0 / lum));
         [
             Self {
@@ -67,7 +69,7 @@ impl Mechanism {
     }
 }
 
-/// Sensitivity to a velocity.
+/// The sensitivity to a velocity.
 fn velocity_sensitivity(cpd: f64, hz: f64) -> f64 {
     let v = (hz / cpd).max(0.1);
     let k = 6.1 + 7.3 * (0.7986 * v / 3.0).log10().abs().powi(3);
@@ -128,7 +130,7 @@ fn the_tables_are_the_formula_at_their_nodes() {
     assert!(off[off.len() / 2] <= MEDIAN, "{:e}", off[off.len() / 2]);
 }
 
-/// Points within the tables and beyond all of their ends.
+/// Points inside the tables and beyond all of their ends.
 fn points() -> impl Iterator<Item = [f64; 3]> {
     let mut random = Xorshift::new(11);
     (0..3000).map(move |_| {
@@ -145,7 +147,7 @@ fn a_table_of_the_formula_gives_the_same_sensitivities() {
         for [rho, luminance, ecc] in points() {
             let found = sensitivity(channel, rho, luminance, ecc).log2() - correction;
             let wanted = table.interpolated(rho, luminance, ecc);
-            // And 1e-5 for coordinates in `f32`.
+            // 1e-5 is added for coordinates in `f32`.
             let off = (found - wanted).abs();
             assert!(off <= LARGEST + 1e-5, "{channel}, {rho} cpd, {luminance}, {ecc}°: {off:e}");
         }

@@ -1,4 +1,5 @@
-//! Heat maps against those of the reference program, and their colours by hand.
+//! Compares heat maps with those of the reference program, and their colours with values calculated
+//! by hand.
 
 use serde_json::Value;
 
@@ -19,7 +20,8 @@ fn check(golden: &Golden, id: &str) {
     let wanted = golden.array(case.heatmap_file.as_ref().unwrap());
     let (found, _) = raw(golden, id);
     assert_eq!(wanted.shape, [1, 1, found.height(), found.width()], "{id}");
-    // Half floats: half a step is 2^-11 of a value, and of one between two the rounding of both.
+    // The maps are half floats: half a step is 2^-11 of a value, and both implementations may round
+    // a value between two steps.
     let half = [1.2 / 2048.0, 1e-5];
     assert_near(id, values(&found), wanted.floats().into_iter().map(f64::from), half);
 }
@@ -51,7 +53,7 @@ fn the_colors_of_a_photograph_of_odd_sides() {
             let pairs = found.iter().zip(&wanted);
             pairs.filter(|(found, wanted)| found.abs_diff(**wanted) > by).count()
         };
-        // A map in half floats, and codes that are cut off rather than rounded.
+        // The maps are half floats, and codes are truncated rather than rounded.
         assert_eq!(off(2), 0, "{colors:?}");
         assert!(off(1) * 1000 <= found.len(), "{colors:?}: {} of {}", off(1), found.len());
         for point in given["points"].as_array().unwrap() {
@@ -65,26 +67,26 @@ fn the_colors_of_a_photograph_of_odd_sides() {
             codes.sum::<f64>() / (found.len() / 3) as f64 / 255.0
         };
         let wanted = given["mean_rgb"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap());
-        // Cut off, a code is half a step low in the mean.
+        // Truncated codes are half a step too low on average.
         assert_near("mean", [0, 1, 2].map(|c| mean(c) + 0.5 / 255.0), wanted, [0.0, 0.5 / 255.0]);
     }
 }
 
-/// Codes of a colour before its luma is evened out, over a gray.
+/// The codes of a colour over a gray, before its luma is equalised.
 fn codes([r, g, b]: [f64; 3], gray: f64) -> [u8; 3] {
     let luma = 0.212_656 * r + 0.715_158 * g + 0.072_186 * b + 0.0001;
     [r, g, b].map(|c| (255.0 * (c / luma * gray).min(1.0)).floor() as u8)
 }
 
 #[test]
-fn colors_stand_at_equal_steps_over_a_flat_gray() {
+fn colors_have_equal_steps_over_a_flat_gray() {
     let at = |value: f32, colors: MapColors| {
         let raw = grid(5, 4, |_, _| value);
         let codes = colored(&raw, &grid(5, 4, |_, _| 40.0), colors);
         assert!(codes.chunks(3).all(|pixel| pixel == &codes[..3]));
         [codes[0], codes[1], codes[2]]
     };
-    // A flat picture is at the lower end of the grays: (1 - 0.6) / 2.
+    // A flat picture is at the lower end of the grays, (1 - 0.6) / 2.
     let gray = 0.2;
     for (value, rgb) in [
         (0.0, [0.2, 0.2, 1.0]),
@@ -108,7 +110,8 @@ fn colors_stand_at_equal_steps_over_a_flat_gray() {
 
 #[test]
 fn pictures_of_little_contrast_are_laid_out_evenly() {
-    // Less than 0.6 in the natural logarithm: from 0.2 on, by shares of the range and a bit.
+    // The range is less than 0.6 in the natural logarithm: the grays start at 0.2 and follow the
+    // shares of the range.
     let luminance = grid(3, 1, |x, _| [10.0, 12.0, 16.0][x]);
     let raw = grid(3, 1, |_, _| 0.5);
     let found = colored(&raw, &luminance, MapColors::SupraThreshold);
@@ -123,8 +126,8 @@ fn pictures_of_little_contrast_are_laid_out_evenly() {
 
 #[test]
 fn pictures_of_much_contrast_have_their_histogram_evened_out() {
-    // Eight dark pixels and one bright one: cube roots of the counts, 2 and 1. Zero is taken for the
-    // smallest light there is.
+    // Eight dark pixels and one bright one: the cube roots of the counts are 2 and 1. Zero is
+    // replaced by the smallest positive luminance.
     let luminance = grid(3, 3, |x, y| match (x, y) {
         (2, 2) => 100.0,
         (0, 0) => 0.0,

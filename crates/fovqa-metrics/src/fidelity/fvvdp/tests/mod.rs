@@ -1,5 +1,6 @@
-//! FovVideoVDP step by step: against golden values of the reference program, against its formulas written
-//! out literally in `f64` for what no golden value covers, and rules that hold for any pictures.
+//! Tests FovVideoVDP step by step: with golden values of the reference program, with its formulas
+//! written out literally in `f64` for cases without golden values, and with rules that hold for any
+//! pictures.
 
 #![allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
 
@@ -25,12 +26,12 @@ use super::grid::Grid;
 use super::*;
 use fovqa_frame::{SignalParams, Transfer};
 
-/// The golden values of the repository.
+/// The golden values in the repository.
 fn golden() -> Golden {
     Golden::read(&root().join("tests/golden/fvvdp"))
 }
 
-/// All golden values, where they are at hand.
+/// All golden values, if they are available.
 fn whole_golden() -> Option<Golden> {
     let folder = root().join("../shared/golden/fvvdp");
     folder.is_dir().then(|| Golden::read(&folder))
@@ -52,7 +53,7 @@ fn grid(width: usize, height: usize, value: impl Fn(usize, usize) -> f32 + Sync)
     grid
 }
 
-/// Values at random between two, with a stream of their own for each seed.
+/// Random values between two limits, with a separate sequence for each seed.
 fn random(width: usize, height: usize, seed: u64, [from, to]: [f64; 2]) -> Grid {
     let mut random = Xorshift::new(seed);
     let mut draw = || (from + (to - from) * random.next_unit()) as f32;
@@ -64,7 +65,7 @@ fn values(grid: &Grid) -> impl Iterator<Item = f64> + '_ {
     (0..grid.height()).flat_map(|y| grid.row(y)).map(|value| f64::from(*value))
 }
 
-/// Every value is what is wanted, but for a share of it and a bit.
+/// Checks that every value is near the wanted one, within a relative and an absolute tolerance.
 fn assert_near(
     what: &str,
     found: impl IntoIterator<Item = f64>,
@@ -84,14 +85,14 @@ fn assert_near(
     }
 }
 
-/// Frames of a size, stretched over a display.
+/// The geometry of frames of a size that are stretched over a display.
 fn on_display(name: &str, width: usize, height: usize) -> Geometry {
     let display = find_display(name).unwrap();
     let view = ViewSpec::Display(display.clone()).resolve(width, height).unwrap().view;
     Geometry::new(view, Some(display.central_pixels_per_degree()))
 }
 
-/// The luminance of the frames of a golden case on its display: of the reference and of the test.
+/// The luminance of the frames of a golden case on its display, for the reference and for the test.
 fn luminance(golden: &Golden, id: &str) -> [Vec<Arc<Grid>>; 2] {
     let case = golden.cases.iter().find(|case| case.id == id).unwrap();
     let photometry = Photometry::new(find_display(&case.display).unwrap().luminance.unwrap());
@@ -102,7 +103,7 @@ fn luminance(golden: &Golden, id: &str) -> [Vec<Arc<Grid>>; 2] {
     golden.frames(case).map(|frames| frames.iter().map(shown).collect())
 }
 
-/// No bands of eccentricity at all.
+/// Regions without eccentricity bands.
 fn no_regions(fvvdp: &Fvvdp) -> FvvdpRegions {
     use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind};
     let view = fvvdp.geometry().view;
@@ -110,7 +111,7 @@ fn no_regions(fvvdp: &Fvvdp) -> FvvdpRegions {
     fvvdp.regions(&eccentricity, &BandEdges::new(vec![0.0, 180.0]).unwrap())
 }
 
-/// A frame's score, seen with a gaze.
+/// The score of a frame for a gaze.
 fn score(
     fvvdp: &Fvvdp,
     [reference, test]: [&[Arc<Grid>]; 2],

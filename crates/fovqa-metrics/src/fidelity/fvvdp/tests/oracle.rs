@@ -1,12 +1,13 @@
-//! The metric of one frame written out literally in `f64`, from its published formulas: one pixel after
-//! another, without logarithms, without rows, without anything shared with what it is held against but the
-//! tables' bytes.
+//! The metric of one frame written out literally in `f64` from its published formulas: one pixel
+//! after another, without logarithms and without rows. It shares nothing with the tested
+//! implementation except the bytes of the tables.
 
 use super::Grid;
 
 pub(super) const NODES: usize = 32;
 
-/// log2 of uncorrected sensitivity, luminance slowest and eccentricity fastest.
+/// log2 of the uncorrected sensitivity; luminance is the slowest index and eccentricity the
+/// fastest.
 pub(super) struct Table {
     pub(super) log2: Vec<f64>,
 }
@@ -44,7 +45,8 @@ impl Table {
     pub(super) fn interpolated(&self, rho_cpd: f64, cd_m2: f64, ecc_deg: f64) -> f64 {
         let axes = [
             (cd_m2.log10() + 3.0) * 31.0 / 7.0,
-            // Of a negative frequency, beyond 90° from the display's centre, the lowest.
+            // A negative frequency, beyond 90° from the display's centre, is replaced by the
+            // lowest.
             if rho_cpd > 0.0 { (rho_cpd.log2() + 4.0) * 31.0 / 10.0 } else { 0.0 },
             ecc_deg.sqrt() * 31.0 / 120f64.sqrt(),
         ];
@@ -144,19 +146,20 @@ pub(super) fn expanded(coarse: &Plane, width: usize, height: usize) -> Plane {
     Plane::of_rows(&(0..height).map(|y| doubled(&tall.row(y), width)).collect::<Vec<_>>())
 }
 
-/// What a frame fills: tangents of the angles to its sides, left, right, up, down.
+/// The literal metric for a field, given by the tangents of the angles to its sides: left, right,
+/// up, down.
 #[derive(Clone, Copy)]
 pub(super) struct Oracle {
     pub(super) tangents: [f64; 4],
     pub(super) ppd: f64,
-    /// `None`: every pixel is looked at directly.
+    /// `None` means foveal vision at every pixel.
     pub(super) gaze_px: Option<[f64; 2]>,
     pub(super) exact_edges: bool,
 }
 
-pub(super) struct Found {
+pub(super) struct OracleScore {
     pub(super) q: f64,
-    /// Level by level, channel by channel.
+    /// Q for each level and channel.
     pub(super) q_of_bands: Vec<Vec<f64>>,
     pub(super) differences: Vec<Vec<Plane>>,
     /// The heat map.
@@ -166,7 +169,7 @@ pub(super) struct Found {
 const BETA: f64 = 1.52134;
 
 impl Oracle {
-    /// Frequencies of the bands for frames of a size.
+    /// The frequencies of the bands for frames of a size.
     pub(super) fn frequencies_cpd(&self, width: usize, height: usize) -> Vec<f64> {
         let all: Vec<f64> = (0..15)
             .map(|l| match l {
@@ -179,7 +182,7 @@ impl Oracle {
         all[..(lowest + 1).min(most)].to_vec()
     }
 
-    /// The direction of a point given as shares of width and height.
+    /// The direction of a point that is given as shares of width and height.
     pub(super) fn direction_deg(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [left, right, up, down] = self.tangents;
         [
@@ -194,8 +197,9 @@ impl Oracle {
         ((a + delta).tan() - a.tan()) / delta.tan()
     }
 
-    /// Of a frame, the luminance of its sustained channel or that and the transient.
-    pub(super) fn score(&self, reference: &[Plane], test: &[Plane]) -> Found {
+    /// The score of a frame from the luminance of its sustained channel, or of the sustained and
+    /// the transient channel.
+    pub(super) fn score(&self, reference: &[Plane], test: &[Plane]) -> OracleScore {
         let (width, height) = (reference[0].width, reference[0].height);
         let tables = [0, 1].map(Table::embedded);
         let (mut reference, mut test) = (reference.to_vec(), test.to_vec());
@@ -252,7 +256,7 @@ impl Oracle {
             (of_channel(0).powf(0.666_092) + of_channel(1).powf(0.666_092)).powf(1.0 / 0.666_092)
         };
         let map = heat_map(&differences);
-        Found { q, q_of_bands, differences, map }
+        OracleScore { q, q_of_bands, differences, map }
     }
 }
 
@@ -261,7 +265,7 @@ fn over_pixels(differences: &Plane) -> f64 {
     (sum / differences.values.len() as f64).powf(1.0 / BETA)
 }
 
-/// The sum of D^β where a pixel, by its position in its level, counts.
+/// The sum of D^β over the pixels that count; `counts` gets the position of a pixel in its level.
 pub(super) fn power_where(differences: &Plane, counts: impl Fn(usize, usize) -> bool) -> f64 {
     let Plane { width, values, .. } = differences;
     let counted = values.iter().enumerate().filter(|(i, _)| counts(i % width, i / width));

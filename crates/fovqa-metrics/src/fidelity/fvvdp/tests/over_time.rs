@@ -1,4 +1,5 @@
-//! Sequences over time: what a sequence needs, and its two channels against their sums written out.
+//! Sequences over time: their conditions, and their two channels compared with sums that are
+//! written out.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,7 +17,7 @@ fn a_sequence_needs_a_frame_rate_that_filters_can_have() {
     for fps in [4.01, 5.0, 23.976, 1000.0] {
         assert!(time(2, Some(fps)).is_ok(), "{fps}");
     }
-    // A still has no time.
+    // A still needs no frame rate.
     for fps in [None, Some(0.0), Some(4.0), Some(1e9)] {
         assert!(time(1, fps).is_ok(), "{fps:?}");
     }
@@ -35,7 +36,7 @@ fn a_still_is_its_own_only_channel() {
     }
 }
 
-/// The frame `back` steps before frame `now`, as FovVideoVDP's padding has it.
+/// The frame `back` steps before frame `now`, as FovVideoVDP's padding defines it.
 fn frame_before(padding: Padding, frames: usize, taps: usize, now: usize, back: usize) -> usize {
     if back <= now && !(padding == Padding::Circular && back == now) {
         return now - back;
@@ -43,13 +44,14 @@ fn frame_before(padding: Padding, frames: usize, taps: usize, now: usize, back: 
     let before = (back - now) as isize;
     match padding {
         Padding::Replicate => 0,
-        // 0, 1, .., F - 1, F - 2, .., 1, over and over: what ends right before a 0.
+        // The order is 0, 1, .., F - 1, F - 2, .., 1, repeated; it ends just before a 0.
         Padding::Pingpong => {
             let there = 0..frames;
             let period: Vec<usize> = there.chain((1..frames - 1).rev()).collect();
             period[(-before).rem_euclid(period.len() as isize) as usize]
         }
-        // The window of the first frame ends with the last frame but one: where frame 0 would stand.
+        // The window of the first frame ends with the last frame but one, at the position where
+        // frame 0 would be.
         Padding::Circular => {
             let (frames, taps) = (frames as isize, taps as isize);
             let k = taps - 1 - before;

@@ -1,4 +1,4 @@
-//! What holds for any pictures.
+//! Rules that hold for any pictures.
 
 use super::*;
 use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind};
@@ -107,7 +107,8 @@ fn exact_edges_matter_where_parities_differ() {
         let (reference, test) = (pair(width, height, 3), pair(width, height, 5));
         score(&fvvdp, [&reference, &test], [0.0; 2], None)
     };
-    // Even or odd together on every level: 36, 18, 9, 5; 20, 10, 5, 3; 68, 34, 17, 9.
+    // Width and height have the same parity on every level: 36, 18, 9, 5; 20, 10, 5, 3; 68, 34, 17,
+    // 9.
     for (width, height) in [(16, 16), (36, 20), (33, 17), (36, 68)] {
         assert_eq!(run(width, height, true), run(width, height, false), "{width}x{height}");
     }
@@ -118,7 +119,7 @@ fn exact_edges_matter_where_parities_differ() {
 }
 
 #[test]
-fn what_is_not_foveated_has_no_gaze() {
+fn without_foveation_the_gaze_has_no_effect() {
     let run = |foveated: bool, gaze: [f64; 2]| {
         let fvvdp = fvvdp(64, 60, &params(foveated));
         score(&fvvdp, [&pair(64, 60, 3), &pair(64, 60, 5)], gaze, None)
@@ -129,7 +130,7 @@ fn what_is_not_foveated_has_no_gaze() {
 }
 
 #[test]
-fn what_lies_behind_the_end_of_a_row_is_of_no_account() {
+fn padding_after_the_end_of_a_row_has_no_effect() {
     let (width, height) = (37, 20);
     let fvvdp = fvvdp(width, height, &params(true));
     let planes = [pair(width, height, 3), pair(width, height, 5)];

@@ -1,4 +1,4 @@
-//! What bands of eccentricity have in Q.
+//! The shares of eccentricity bands in Q.
 
 use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind, View};
 
@@ -16,8 +16,8 @@ struct Setup {
     regions: FvvdpRegions,
 }
 
-/// 60° by 51°, with a gaze to the left, so that there are pixels within the innermost edge and beyond the
-/// outermost.
+/// 60° by 51°, with a gaze to the left, so that some pixels are within the innermost edge and some
+/// beyond the outermost.
 fn setup() -> Setup {
     setup_of((W, H), EccentricityKind::Angular)
 }
@@ -40,7 +40,7 @@ impl Setup {
         self.fvvdp.score(&prepared, &shared(test), &self.regions, None)
     }
 
-    /// The band of a pixel of a level; those outside all bands have the last.
+    /// The band of a pixel of a level; pixels outside all bands have the last index.
     fn band(&self, (x, y): (usize, usize), level: &Plane) -> usize {
         let (w, h) = self.size;
         let at = [
@@ -54,7 +54,7 @@ impl Setup {
 
 #[test]
 fn shares_are_those_of_the_pooled_powers_and_sum_to_one() {
-    // The levels of 33x123 pixels are not halves of one another along both sides.
+    // The levels of 33x123 pixels are not halves of one another in both directions.
     for size in [(W, H), (33, 123)] {
         for kind in [EccentricityKind::Angular, EccentricityKind::Planar] {
             check_shares(&setup_of(size, kind));
@@ -77,8 +77,8 @@ fn check_shares(setup: &Setup) {
         let planes =
             |grids: &[&Grid]| grids.iter().map(|grid| Plane::of_grid(grid)).collect::<Vec<_>>();
         let wanted = oracle.score(&planes(reference), &planes(test));
-        // A channel's part in the norm over channels, a level's in the sum over bands, a region's in the
-        // sum over pixels.
+        // The share is the product of a channel's part in the norm over channels, a level's part in
+        // the sum over bands, and a region's part in the sum over pixels.
         let of_channel = |c: usize| {
             let sum: f64 = wanted.q_of_bands.iter().map(|q| q[c]).sum();
             ([1.0, 0.25][c] * sum).powf(0.666_092)
@@ -107,7 +107,7 @@ fn check_shares(setup: &Setup) {
 }
 
 #[test]
-fn an_error_lies_where_it_is() {
+fn an_error_counts_in_its_band() {
     let setup = setup();
     let reference = grid(W, H, |_, _| 30.0);
     let full = |x: usize, y: usize| Plane { width: W, height: H, values: vec![(x + y) as f64] };
@@ -128,7 +128,7 @@ fn without_a_difference_nobody_has_a_share() {
     let picture = random(W, H, 3, [1.0, 90.0]);
     let found = setup.score(&[&picture], &[&picture]);
     assert_eq!((found.q, found.shares.as_ref(), found.share(0)), (0.0, None, None));
-    // An error of one channel alone is all there is to share.
+    // Only one channel has an error.
     let pair = [random(W, H, 4, [-9.0, 9.0]), random(W, H, 5, [-9.0, 9.0])];
     let found = setup.score(&[&picture, &pair[0]], &[&picture, &pair[1]]);
     assert!(found.bands.iter().all(|band| band.sustained == 0.0));

@@ -1,4 +1,4 @@
-//! Single steps against golden values of the reference program.
+//! Compares single steps with golden values of the reference program.
 
 use serde_json::Value;
 
@@ -15,7 +15,7 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
 
-/// All numbers of an array, however deep.
+/// All numbers of a nested array.
 fn numbers(value: &Value) -> Vec<f64> {
     match value {
         Value::Array(values) => values.iter().flat_map(numbers).collect(),
@@ -24,7 +24,7 @@ fn numbers(value: &Value) -> Vec<f64> {
 }
 
 #[test]
-fn displays_turn_values_into_light() {
+fn displays_turn_values_into_luminance() {
     let displays = stage("photometry");
     assert_eq!(displays.len(), 10);
     for given in &displays {
@@ -41,8 +41,8 @@ fn displays_turn_values_into_light() {
             None => number(input),
         });
         let found = inputs.map(|input| photometry.emitted_cd_m2(input));
-        // PQ is steep: in `f32`, the reference program's power of 1/78.8 is off by a bit, and the light by
-        // hundreds of them.
+        // PQ is steep: the reference program computes the power of 1/78.8 in `f32`, and an error of
+        // one bit there becomes hundreds of bits in the luminance.
         let relative = if photometry.eotf() == Eotf::Pq { 3e-5 } else { 1e-6 };
         assert_near(name, found, numbers(&given["luminance"]), [relative, 0.0]);
     }
@@ -57,8 +57,8 @@ fn filters_have_their_taps_at_every_frame_rate() {
         let found = TemporalFilters::new(fps);
         assert_eq!(found.len() as u64, given["taps"].as_u64().unwrap(), "{fps} fps");
         for (taps, name) in found.taps.iter().zip(["sustained", "transient"]) {
-            // The tap of the present frame, 1e-36, is 0 among the others; and transient taps are, in
-            // the reference program, differences in `f32` over a step of milliseconds.
+            // The tap of the present frame, 1e-36, counts as 0 beside the others. The reference
+            // program computes transient taps as differences in `f32` over a step of milliseconds.
             let what = format!("{name} at {fps} fps");
             assert_near(&what, taps.iter().copied(), numbers(&given[name]), [1e-6, 3e-7]);
         }
@@ -66,7 +66,7 @@ fn filters_have_their_taps_at_every_frame_rate() {
 }
 
 #[test]
-fn displays_stand_where_they_stand() {
+fn directions_and_magnifications_agree() {
     let displays = stage("geometry");
     assert_eq!(displays.len(), 10);
     for given in &displays {
@@ -80,7 +80,7 @@ fn displays_stand_where_they_stand() {
         let [right, bottom] = geometry.direction_deg([width as f64, height as f64]);
         let size = [right - left, top - bottom];
         assert_near(name, size, numbers(&given["size_deg"]), [1e-7, 0.0]);
-        // In `f32`, the reference program loses digits between two tangents that are nearly alike.
+        // In `f32`, the reference program loses digits between two tangents that are nearly equal.
         let directions = numbers(&given["view_dirs_deg"]);
         let from_centre = directions.as_chunks::<2>().0.iter().map(|[x, y]| libm::hypot(*x, *y));
         let found = from_centre.map(|deg| geometry.magnification(deg));

@@ -1,5 +1,5 @@
-//! Every value on the way of three tiny pictures, level by level, against the reference program: a still,
-//! a foveated still, and a frame of a sequence.
+//! Compares every intermediate value of three tiny pictures with the reference program, level by
+//! level: a still, a foveated still, and a frame of a sequence.
 
 use std::collections::BTreeMap;
 
@@ -9,10 +9,10 @@ use crate::fidelity::fvvdp::bands::bands;
 use crate::fidelity::fvvdp::contrast::differences;
 use crate::fidelity::fvvdp::csf::{Coordinates, ECC_STEPS, RHO_FROM, RHO_STEPS_PER_OCTAVE};
 use crate::fidelity::fvvdp::geometry::BandDirections;
-use crate::fidelity::fvvdp::level::{DifferenceRows, Levels, Reference, ReferenceRows, Sight};
+use crate::fidelity::fvvdp::level::{DifferenceRows, Levels, Reference, ReferenceRows, Viewing};
 use crate::fidelity::fvvdp::pyramid::{Expander, RightEdge, reduce};
 
-/// What the rows of one level come to, of one channel.
+/// The results of the rows of one level, for one channel.
 #[derive(Default)]
 struct Measured {
     background: Vec<f64>,
@@ -24,17 +24,17 @@ struct Measured {
 }
 
 fn measured(
-    sight: Sight<'_>,
+    viewing: Viewing<'_>,
     channel: usize,
     [reference, test]: [&[Arc<Grid>]; 2],
     [below_reference, below_test]: [&[Grid]; 2],
 ) -> Measured {
-    let Band { size: (width, height), log2_gain, cpd, .. } = *sight.band;
+    let Band { size: (width, height), log2_gain, cpd, .. } = *viewing.band;
     let levels = Levels::new(reference, below_reference);
-    let computed = Reference::Computed(Box::new(ReferenceRows::new(sight, levels)));
-    let mut masked = DifferenceRows::new(sight.band, computed, Levels::new(test, below_test));
-    let mut rows = ReferenceRows::new(sight, levels);
-    let mut expander = Expander::new(sight.band.size);
+    let computed = Reference::Computed(Box::new(ReferenceRows::new(viewing, levels)));
+    let mut masked = DifferenceRows::new(viewing.band, computed, Levels::new(test, below_test));
+    let mut rows = ReferenceRows::new(viewing, levels);
+    let mut expander = Expander::new(viewing.band.size);
     let stride = test[0].stride();
     let mut row_of_test = vec![0.0; stride];
     let mut at = Coordinates { rho: vec![0.0; stride], ecc: vec![0.0; stride] };
@@ -44,7 +44,7 @@ fn measured(
         let row = rows.row(y);
         expander.row(&below_test[channel], y, &mut row_of_test);
         differences(test[channel].padded_row(y), row.limit, &mut row_of_test);
-        if let Some(directions) = sight.directions {
+        if let Some(directions) = viewing.directions {
             directions.row(y, &mut at);
         }
         for (x, of_test) in row_of_test.iter().enumerate().take(width) {
@@ -56,7 +56,7 @@ fn measured(
             let to_thresholds = libm::exp2(f64::from(row.gains[channel][x]));
             found.sensitivity.push(to_thresholds * background / gain_of_band);
             let octave = f64::from(at.rho[x]) / RHO_STEPS_PER_OCTAVE + RHO_FROM;
-            let looked_at = sight.directions.is_none();
+            let looked_at = viewing.directions.is_none();
             found.rho_cpd.push(if looked_at { cpd } else { libm::exp2(octave) });
             found.ecc_deg.push((f64::from(at.ecc[x]) / ECC_STEPS).powi(2));
         }
@@ -79,12 +79,12 @@ fn check(
     assert_eq!(bands.len(), 3);
     for (index, band) in bands.iter().enumerate() {
         let directions = gaze_px.map(|gaze| BandDirections::new(geometry, band, gaze));
-        let sight = Sight { band, directions: directions.as_ref() };
+        let viewing = Viewing { band, directions: directions.as_ref() };
         let coarse = fine.each_ref().map(|planes| {
             planes.iter().map(|plane| reduce(plane, RightEdge::ByRows)).collect::<Vec<_>>()
         });
         for channel in 0..fine[0].len() {
-            let found = measured(sight, channel, [&fine[0], &fine[1]], [&coarse[0], &coarse[1]]);
+            let found = measured(viewing, channel, [&fine[0], &fine[1]], [&coarse[0], &coarse[1]]);
             let near = |quantity: &str, found: Vec<f64>, tolerance: [f64; 2]| {
                 let name = format!("{prefix}_b{index}_c{channel}_{quantity}");
                 let wanted = golden.array(&format!("media/stages/{name}.npy"));
@@ -93,14 +93,16 @@ fn check(
             };
             let Measured { background, contrasts: [of_reference, of_test], .. } = found;
             near("L_bkg", background, [2e-6, 0.0]);
-            // What is left where a level and its low-pass are nearly alike has the rounding of both.
+            // Where a level and its low-pass are nearly equal, the difference has the rounding
+            // errors of both.
             near("contrast_ref", of_reference, [1e-5, 2e-6]);
             near("contrast_test", of_test, [1e-5, 2e-6]);
-            // The reference program magnifies in `f32`: see `displays_stand_where_they_stand`.
+            // The reference program computes the magnification in `f32`: see
+            // `directions_and_magnifications_agree`.
             near("rho_cpd", found.rho_cpd, [2e-4, 0.0]);
             near("ecc_deg", found.ecc_deg, [1e-5, 1e-5]);
-            // Where it is as steep as at 60 cpd, those 2e-4 of a frequency are ten times that in
-            // sensitivity; at their own coordinates the two agree.
+            // Where the sensitivity is as steep as at 60 cpd, an error of 2e-4 in frequency becomes
+            // ten times larger in sensitivity. At equal coordinates the two implementations agree.
             let relative = if gaze_px.is_some() { 4e-3 } else { 1e-5 };
             near("S_corrected", found.sensitivity, [relative, 0.0]);
             let given = |quantity: &str| {
@@ -110,7 +112,8 @@ fn check(
             let own = given("rho_cpd").zip(given("L_bkg")).zip(given("ecc_deg"));
             let own = own.map(|((rho, light), ecc)| sensitivity(channel, rho, light, ecc));
             near("S_corrected", own.collect(), [1e-4, 0.0]);
-            // Contrast's 2e-6 are 1e-3 thresholds, and D is a power of 2.4 of a difference of two.
+            // An error of 2e-6 in contrast is 1e-3 thresholds, and D is a power of 2.4 of a
+            // difference of two contrasts.
             near("D", found.differences, [2e-3, 1e-5]);
         }
         fine = coarse.map(|planes| planes.into_iter().map(Arc::new).collect());
@@ -120,7 +123,8 @@ fn check(
 fn near_plane(name: &str, found: &Grid) {
     let wanted = golden().array(&format!("media/stages/{name}.npy"));
     assert_eq!(wanted.shape, [found.height(), found.width()]);
-    // The transient channel is a difference of frames: it has the rounding of their luminance.
+    // The transient channel is a difference of frames, so it has the rounding errors of their
+    // luminance.
     assert_near(name, values(found), wanted.floats().into_iter().map(f64::from), [2e-6, 1e-5]);
 }
 

@@ -1,8 +1,8 @@
-//! From samples to the light a display shows, and its luminance.
+//! Converts samples to the luminance that a display shows.
 //!
-//! Encoded samples go through the display's curve. Linear ones are either a scene's light, which is
-//! exposed, tone-mapped and encoded before the display shows it, or absolute light, which the display
-//! shows as far as it can. NaN becomes the darkest light there is.
+//! Encoded samples go through the display's curve. Linear samples are either scene values, which
+//! are exposed, tone-mapped and encoded before the display shows them, or absolute luminance, which
+//! the display shows within its range. NaN becomes the darkest possible luminance.
 
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -13,29 +13,29 @@ use multiversion::multiversion;
 use crate::blocks::map_row_blocks;
 use crate::codes::{CODES_8, CODES_16, table};
 use crate::conversion::{Conversion, FloatToSignal};
+use crate::display_range::{Curve, DisplayRange};
 use crate::frame::{Channels, Frame, Samples};
-use crate::shown_light::{Curve, ShownLight};
 use crate::side::Side;
 use crate::signal_params::{SignalParams, Transfer};
 
-/// What a display makes of linear samples.
+/// How a display shows linear samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LinearLight {
+pub enum LinearInput {
     /// Exposure, tone map and sRGB encoding, then the display's curve.
     ToneMapped,
-    /// Absolute light, clipped to what the display can show.
-    Absolute(ShownLight),
+    /// The samples are absolute luminance, clipped to the range of the display.
+    Absolute(DisplayRange),
 }
 
-/// An encoded value in `[0, 1]` to cd/m².
+/// Converts an encoded value in `[0, 1]` to cd/m².
 type Emitted = Box<dyn Fn(f64) -> f64 + Send + Sync>;
 
-/// The way from samples to light, tabulated once where samples have few values.
-pub struct LightTables {
+/// The conversion from samples to luminance, tabulated once where samples have few possible values.
+pub struct LuminanceTables {
     signal: SignalParams,
     emitted: Emitted,
-    linear: LinearLight,
-    /// Of red, green and blue.
+    linear: LinearInput,
+    /// The weights of red, green and blue in the luminance.
     weights: [f32; 3],
     curve: OnceLock<Box<[f32; CODES_16]>>,
     codes8: OnceLock<Box<[f32; CODES_8]>>,
@@ -43,22 +43,23 @@ pub struct LightTables {
     half: OnceLock<Box<[f32; CODES_16]>>,
 }
 
-impl std::fmt::Debug for LightTables {
+impl std::fmt::Debug for LuminanceTables {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { signal, linear, weights, .. } = self;
-        let mut shown = f.debug_struct("LightTables");
+        let mut shown = f.debug_struct("LuminanceTables");
         shown.field("signal", signal).field("linear", linear).field("weights", weights);
         shown.finish_non_exhaustive()
     }
 }
 
-impl LightTables {
-    /// For a display that emits `emitted(v)` cd/m² for an encoded value v in `[0, 1]`. Luminance is
-    /// the sum of red, green and blue light by `weights`; a gray picture's light is luminance already.
+impl LuminanceTables {
+    /// Tables for a display that emits `emitted(v)` cd/m² for an encoded value v in `[0, 1]`. The
+    /// luminance is the sum of the emitted red, green and blue, weighted by `weights`. The emitted
+    /// value of a gray picture is its luminance already.
     pub fn new(
         signal: SignalParams,
         emitted: impl Fn(f64) -> f64 + Send + Sync + 'static,
-        linear: LinearLight,
+        linear: LinearInput,
         weights: [f64; 3],
     ) -> Self {
         Self {
@@ -78,9 +79,9 @@ impl LightTables {
         LuminanceSignal { frame, side: Side::new(frame, self.source(frame)), weights: self.weights }
     }
 
-    /// Whether a frame's samples are absolute light here.
+    /// Whether the samples of a frame are absolute luminance.
     pub fn is_absolute(&self, frame: &Frame) -> bool {
-        self.signal.transfer_of(frame) == Transfer::Linear && self.linear != LinearLight::ToneMapped
+        self.signal.transfer_of(frame) == Transfer::Linear && self.linear != LinearInput::ToneMapped
     }
 
     fn curve(&self) -> Curve<'_> {
@@ -93,11 +94,11 @@ impl LightTables {
         FloatToSignal::new(&self.signal)
     }
 
-    /// The light of a value of a linear frame.
+    /// The emitted luminance of a linear value.
     fn of_linear(&self, value: f32) -> f32 {
         match self.linear {
-            LinearLight::Absolute(shown) => shown.shown(value),
-            LinearLight::ToneMapped => self.curve().at(self.to_signal().map(value)),
+            LinearInput::Absolute(range) => range.displayed(value),
+            LinearInput::ToneMapped => self.curve().at(self.to_signal().map(value)),
         }
     }
 
@@ -109,12 +110,12 @@ impl LightTables {
         };
         match frame.samples() {
             Samples::U8(s) => {
-                let light = self.codes8.get_or_init(|| table(|code| of_code(code, CODES_8)));
-                Conversion::Table8(s, light)
+                let table = self.codes8.get_or_init(|| table(|code| of_code(code, CODES_8)));
+                Conversion::Table8(s, table)
             }
             Samples::U16(s) => {
-                let light = self.codes16.get_or_init(|| table(|code| of_code(code, CODES_16)));
-                Conversion::Table16(s, light)
+                let table = self.codes16.get_or_init(|| table(|code| of_code(code, CODES_16)));
+                Conversion::Table16(s, table)
             }
             Samples::F16(s) => {
                 let value = |bits: usize| {
@@ -125,27 +126,27 @@ impl LightTables {
             }
             Samples::F32(s) => match self.linear {
                 _ if !linear => Conversion::Curve(s, self.curve()),
-                LinearLight::ToneMapped => {
+                LinearInput::ToneMapped => {
                     Conversion::ToneMapped(s, self.to_signal(), self.curve())
                 }
-                LinearLight::Absolute(shown) => Conversion::Absolute(s, shown),
+                LinearInput::Absolute(range) => Conversion::Absolute(s, range),
             },
         }
     }
 }
 
-/// Room for the channels of a row.
+/// A buffer for the channels of a row.
 #[derive(Debug, Clone)]
 pub struct LuminanceScratch([Vec<f32>; 3]);
 
 impl LuminanceScratch {
-    /// Room for up to `columns` pixels.
+    /// A buffer for up to `columns` pixels.
     pub fn new(columns: usize) -> Self {
         Self(std::array::from_fn(|_| vec![0.0; columns]))
     }
 }
 
-/// A frame, read row by row as luminance in cd/m².
+/// A frame that is read row by row as luminance in cd/m².
 #[derive(Debug)]
 pub struct LuminanceSignal<'a> {
     frame: &'a Frame,
@@ -210,14 +211,14 @@ mod tests {
     use crate::tonemap::ToneMap;
 
     const WEIGHTS: [f64; 3] = [0.25, 0.5, 0.25];
-    const SHOWN: ShownLight = ShownLight {
+    const SHOWN: DisplayRange = DisplayRange {
         cd_m2_per_unit: 10.0,
         floor_cd_m2: 0.005,
         peak_cd_m2: 100.0,
         black_cd_m2: 0.5,
     };
 
-    fn read(tables: &LightTables, frame: &Frame) -> Vec<f32> {
+    fn read(tables: &LuminanceTables, frame: &Frame) -> Vec<f32> {
         let signal = tables.luminance(frame);
         let mut row = vec![0.0; signal.width()];
         signal.fill(0, 0..signal.width(), &mut LuminanceScratch::new(signal.width()), &mut row);
@@ -228,13 +229,13 @@ mod tests {
         Frame::new(width, 1, channels, samples).unwrap()
     }
 
-    fn tables(signal: SignalParams, linear: LinearLight) -> LightTables {
-        LightTables::new(signal, |v| 100.0 * v * v + 1.0, linear, WEIGHTS)
+    fn tables(signal: SignalParams, linear: LinearInput) -> LuminanceTables {
+        LuminanceTables::new(signal, |v| 100.0 * v * v + 1.0, linear, WEIGHTS)
     }
 
     #[test]
     fn the_brightest_pixel_is_found_in_any_row() {
-        let tables = tables(SignalParams::default(), LinearLight::Absolute(SHOWN));
+        let tables = tables(SignalParams::default(), LinearInput::Absolute(SHOWN));
         for brightest in [0, 7, 150] {
             let values = (0..2 * 151).map(|at| if at / 2 == brightest { 9.0 } else { 1.0 });
             let samples = Samples::F32(values.collect());
@@ -252,8 +253,8 @@ mod tests {
     }
 
     #[test]
-    fn codes_go_through_the_curve_and_gray_is_not_weighed() {
-        let tables = tables(SignalParams::default(), LinearLight::ToneMapped);
+    fn codes_go_through_the_curve_and_gray_is_not_weighted() {
+        let tables = tables(SignalParams::default(), LinearInput::ToneMapped);
         let light = |v: f64| 100.0 * v * v + 1.0;
         let colour = frame(Channels::Rgb, 1, Samples::U8(vec![255, 51, 0]));
         near(&read(&tables, &colour), &[0.25 * 101.0 + 0.5 * light(0.2) + 0.25]);
@@ -264,7 +265,7 @@ mod tests {
     #[test]
     fn encoded_floats_are_kept_in_range() {
         let signal = SignalParams { transfer: Some(Transfer::Srgb), ..SignalParams::default() };
-        let tables = tables(signal, LinearLight::Absolute(SHOWN));
+        let tables = tables(signal, LinearInput::Absolute(SHOWN));
         let values = vec![-1.0, 0.0, 0.123_456, 1.0, 7.0, f32::NAN];
         let wanted = [1.0, 1.0, 100.0 * 0.123_456 * 0.123_456 + 1.0, 101.0, 101.0, 1.0];
         let floats = frame(Channels::Gray, 6, Samples::F32(values.clone()));
@@ -276,8 +277,8 @@ mod tests {
     }
 
     #[test]
-    fn absolute_light_is_clipped_before_black_is_added() {
-        let tables = tables(SignalParams::default(), LinearLight::Absolute(SHOWN));
+    fn absolute_luminance_is_clipped_before_black_is_added() {
+        let tables = tables(SignalParams::default(), LinearInput::Absolute(SHOWN));
         let values = vec![0.0, 0.001, 2.0, 50.0, f32::NAN, -3.0];
         let wanted = [0.505, 0.51, 20.5, 100.5, 0.505, 0.505];
         let floats = frame(Channels::Gray, 6, Samples::F32(values.clone()));
@@ -289,7 +290,7 @@ mod tests {
             assert!((f64::from(*found) - wanted).abs() < 1e-5, "{found} for {wanted}");
         }
         let signal = SignalParams { transfer: Some(Transfer::Linear), ..SignalParams::default() };
-        let tables = super::tests::tables(signal, LinearLight::Absolute(SHOWN));
+        let tables = super::tests::tables(signal, LinearInput::Absolute(SHOWN));
         near(&read(&tables, &frame(Channels::Gray, 1, Samples::U8(vec![51]))), &[2.5]);
     }
 
@@ -300,10 +301,10 @@ mod tests {
             tonemap: ToneMap::Reinhard,
             ..SignalParams::default()
         };
-        let tables = LightTables::new(
+        let tables = LuminanceTables::new(
             signal,
             |v| 50.0 * crate::transfer::srgb::decode(v),
-            LinearLight::ToneMapped,
+            LinearInput::ToneMapped,
             WEIGHTS,
         );
         let values = vec![0.5, 0.02, 1.5];

@@ -1,0 +1,151 @@
+//! Marks and labels: bars, boxes, gaps, and infinite or missing values.
+
+use super::*;
+
+#[test]
+fn infinite_and_missing_values_are_shown() {
+    let (inf, sub) = (Some(f64::INFINITY), Some(f64::NEG_INFINITY));
+    let curves =
+        vec![vec![(0.0, inf), (9.0, Some(1.0)), (20.0, sub)], vec![(0.0, inf), (9.0, inf)]];
+    let figure = line(curves);
+    check(&figure);
+    assert_eq!((count(&figure, "∞"), count(&figure, "−∞")), (2, 1), "once a place");
+
+    for from_zero in [true, false] {
+        let figure =
+            bars(vec![vec![Some(30.0), None, inf], vec![Some(20.0), sub, None]], from_zero);
+        check(&figure);
+        assert_eq!((count(&figure, "∞"), count(&figure, "−∞")), (1, 1));
+        assert_eq!(count(&figure, "n/a"), 2);
+        assert_eq!((count(&figure, "30.0"), count(&figure, "20.0")), (1, 1), "values");
+    }
+    let all = bars(vec![vec![inf, inf]], true);
+    check(&all);
+    assert_eq!((count(&all, "∞"), count(&all, "no data")), (2, 0));
+
+    let values = vec![f64::INFINITY, 1.0, f64::INFINITY, 2.0, f64::NEG_INFINITY];
+    let figure = spread(vec![vec![values.clone()]]);
+    check(&figure);
+    assert_eq!((count(&figure, "2 × ∞"), count(&figure, "1 × −∞")), (1, 1));
+    let narrow = spread(vec![vec![values; 60]; 3]);
+    check(&narrow);
+    assert_eq!(count(&narrow, "360 × ∞ left out"), 1);
+}
+
+/// The upper and lower ends of the areas of a look, without the key in the legend.
+fn areas(figure: &Figure, look: usize) -> Vec<(f64, f64)> {
+    let colour = Look::new(look).colour();
+    let ends = |mark: &Mark| match mark {
+        Mark::Area(points, c) if *c == colour => {
+            let ys = || points.iter().map(|p| p.1);
+            Some((ys().fold(f64::INFINITY, f64::min), ys().fold(0.0, f64::max)))
+        }
+        _ => None,
+    };
+    figure.draw().unwrap().marks.iter().filter_map(ends).skip(1).collect()
+}
+
+#[test]
+fn bars_are_as_long_as_their_values() {
+    let figure = bars(vec![vec![Some(10.0), Some(30.0), Some(-5.0)]], true);
+    let bars = areas(&figure, 0);
+    let length = |i: usize| bars[i].1 - bars[i].0;
+    assert!((length(1) / length(0) - 3.0).abs() < 1e-9);
+    assert!((length(0) / length(2) - 2.0).abs() < 1e-9);
+    assert!((bars[0].1 - bars[2].0).abs() < 1e-9, "one base line, a negative bar below it");
+}
+
+/// The lines and discs of a colour.
+fn lines_and_discs(figure: &Figure, colour: Colour) -> (Vec<Vec<(f64, f64)>>, usize) {
+    let drawing = figure.draw().unwrap();
+    let line = |mark: &Mark| match mark {
+        Mark::Line(points, stroke) if stroke.colour == colour => Some(points.clone()),
+        _ => None,
+    };
+    let disc = |mark: &&Mark| matches!(mark, Mark::Disc(_, _, c) if *c == colour);
+    (drawing.marks.iter().filter_map(line).collect(), drawing.marks.iter().filter(disc).count())
+}
+
+#[test]
+fn a_gap_is_not_bridged() {
+    let y = [Some(1.0), Some(2.0), None, Some(3.0), Some(1.0)];
+    let figure = line(vec![y.iter().enumerate().map(|(x, y)| (x as f64, *y)).collect()]);
+    let (lines, discs) = lines_and_discs(&figure, Look::new(0).colour());
+    // Both counts include the key in the legend.
+    assert_eq!((lines.len(), discs), (3, 5));
+    assert!(lines.iter().all(|line| line.len() == 2));
+}
+
+#[test]
+fn a_point_between_gaps_is_seen_on_a_reference_too() {
+    let points = vec![(0.0, Some(1.0)), (1.0, None), (2.0, Some(3.0))];
+    let series = vec![LineSeries { reference: true, points, ..LineSeries::default() }];
+    let figure = Figure::Line(LineChart { series, ..LineChart::default() });
+    assert_eq!(lines_and_discs(&figure, REFERENCE).1, 2);
+}
+
+#[test]
+fn ten_values_make_a_box() {
+    let tint = Look::new(0).colour().tint(crate::marks::swatch::TINT);
+    let boxes = |count: u32| {
+        let figure = spread(vec![vec![(0..count).map(f64::from).collect()], vec![vec![]]]);
+        let drawing = figure.draw().unwrap();
+        let area = |mark: &Mark| match mark {
+            Mark::Area(points, colour) if *colour == tint => Some((points[0].1, points[2].1)),
+            _ => None,
+        };
+        // Only the line of a median is drawn in ink.
+        (drawing.marks.iter().filter_map(area).collect::<Vec<_>>(), lines_and_discs(&figure, INK).0)
+    };
+    let (none, strip_median) = boxes(9);
+    assert!(none.is_empty() && strip_median.len() == 1);
+    let (found, medians) = boxes(10);
+    // The key and the box, which extends from 2.25 to 6.75 on an axis of 9 plus its space.
+    let (top, bottom) = found[1];
+    let height = crate::page::layout::PLOT_HEIGHT_PX * 4.5 / (9.0 * 1.12);
+    assert!(found.len() == 2 && (bottom - top - height).abs() < 1e-6, "{found:?}");
+    let middle = top.midpoint(bottom);
+    assert!((medians[0][0].1 - middle).abs() < 1e-6);
+    assert!((strip_median[0][0].1 - middle).abs() < 1e-6, "of 0 to 8, in the middle as well");
+}
+
+#[test]
+fn a_zero_over_negative_bars_has_room_for_its_label() {
+    check(&bars(vec![vec![Some(0.0), Some(-0.0013)]], true));
+    check(&bars(vec![vec![Some(-0.0), Some(-2.0), None]; 4], true));
+}
+
+#[test]
+fn infinite_values_stand_at_their_border() {
+    let figure = line(vec![vec![
+        (0.0, Some(f64::INFINITY)),
+        (1.0, Some(0.0)),
+        (2.0, Some(1.0)),
+        (3.0, Some(f64::NEG_INFINITY)),
+    ]]);
+    let colour = Look::new(0).colour();
+    let disc = |mark: &Mark| match mark {
+        Mark::Disc((_, y), _, c) if *c == colour => Some(*y),
+        _ => None,
+    };
+    let ys: Vec<f64> = figure.draw().unwrap().marks.iter().filter_map(disc).collect();
+    // The key, the two points on the axis, then the one above and the one below.
+    let [_, zero, one, above, below] = ys[..] else { panic!("{ys:?}") };
+    assert!(above < one && one < zero && zero < below, "{ys:?}");
+    assert!((below - above - crate::page::layout::PLOT_HEIGHT_PX).abs() < 1e-6);
+}
+
+#[test]
+fn labels_of_infinite_values_keep_off_the_axis() {
+    let (sub, inf) = (f64::NEG_INFINITY, f64::INFINITY);
+    for values in [[sub, 5.0, 7.0, sub], [inf, -5.0, -7.0, inf]] {
+        let Figure::Line(chart) = line(vec![points(&values)]) else { unreachable!() };
+        for x_ticks in [vec![0.0, 3.0], vec![-9.0, 2.999_999, 3.0], vec![0.0, 1e-9, 3.0]] {
+            let x_ticks = Some(x_ticks);
+            let chart = LineChart { x_ticks, y_from_zero: true, ..chart.clone() };
+            check(&Figure::Line(chart.clone()));
+            let panels = vec![chart; 3];
+            check(&Figure::Panels(PanelChart { panels, columns: 3, ..PanelChart::default() }));
+        }
+    }
+}
