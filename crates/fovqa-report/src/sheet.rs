@@ -2,12 +2,13 @@
 //! which the next drawing takes away what it no longer draws.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use fovqa_methods::curves::CurveError;
 use fovqa_plot::{Figure, PlotError, png};
-use fovqa_results::{FileError, REPORT_JSON, read_json_file, write_json_file, write_whole};
+use fovqa_results::{
+    FileError, REPORT_JSON, make_folder, read_json_file, take_away, write_json_file, write_whole,
+};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -102,8 +103,7 @@ impl Sheet {
         }
         let plots = folder.join(PLOTS);
         if !self.figures.is_empty() {
-            fs::create_dir_all(&plots)
-                .map_err(|error| FileError::Write { path: plots.clone(), error })?;
+            make_folder(&plots).map_err(|error| FileError::Write { path: plots.clone(), error })?;
         }
         let written: Result<Vec<()>, ReportError> =
             self.figures.par_iter().map(|figure| write_figure(&plots, figure)).collect();
@@ -126,7 +126,7 @@ pub fn clear(folder: &Path) {
     if !old.is_empty() {
         remove(folder, old.iter());
         // Where it cannot be taken away, it tells nothing that is not so.
-        let _ = fs::remove_file(folder.join(REPORT_JSON));
+        let _ = take_away(&folder.join(REPORT_JSON));
     }
 }
 
@@ -171,7 +171,7 @@ fn is_drawn(file: &str) -> bool {
 fn remove<'a>(folder: &Path, files: impl Iterator<Item = &'a String>) {
     for file in files {
         // What somebody has taken away already is as good.
-        let _ = fs::remove_file(folder.join(file));
+        let _ = take_away(&folder.join(file));
     }
 }
 

@@ -9,6 +9,7 @@ mod files;
 mod fvvdp;
 mod gate;
 mod json;
+mod output;
 mod report;
 mod summary;
 mod table;
@@ -22,8 +23,7 @@ pub use compared::Sides;
 pub use curves::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
     CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET,
-    RUN_JSON, SUMMARY_JSON, open_result_file, read_json_file, write_json_file, write_whole,
-    write_whole_with,
+    RUN_JSON, SUMMARY_JSON, open_result_file, read_json_file,
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{
@@ -34,6 +34,10 @@ pub use json::{
     BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,
     HaarValues, Number, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues,
     SummaryRecord, ViewRecord, write_json,
+};
+pub use output::{
+    make_folder, replaces, sweep, take_away, try_writing, write_json_file, write_json_output,
+    write_output, write_whole, write_whole_with,
 };
 pub use report::{
     AtdGuides, Comparison, Failure, FrameResult, FvvdpSight, GuideSource, Input, RunResults,

@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use fovqa_metrics::Layout;
 use fovqa_plan::Plan;
@@ -23,7 +24,13 @@ pub struct Journal {
     path: PathBuf,
     file: File,
     lines: Lines,
+    /// When its bytes were last brought to the disk.
+    synced: Instant,
 }
+
+/// Frames are brought to the disk one by one, but no more often than this: a loss of power costs no more
+/// than that, and waiting for the disk next to nothing.
+const BETWEEN_SYNCS: Duration = Duration::from_secs(1);
 
 impl Journal {
     /// Begins a journal in place of the one that may be there: first what it is of, then what is known
@@ -56,7 +63,7 @@ impl Journal {
             FileError::Format { detail, .. } => failed(std::io::Error::other(detail)),
         })?;
         let file = File::options().append(true).open(&path).map_err(failed)?;
-        Ok(Self { path, file, lines })
+        Ok(Self { path, file, lines, synced: Instant::now() })
     }
 
     /// Takes something down.
@@ -65,7 +72,17 @@ impl Journal {
     /// When the file cannot be written.
     pub fn write(&mut self, entry: Entry<'_>) -> Result<(), EngineError> {
         let line = self.lines.of(entry);
-        self.append(&line)
+        self.append(&line)?;
+        if matches!(entry, Entry::Pair(_)) && self.synced.elapsed() >= BETWEEN_SYNCS {
+            self.sync();
+        }
+        Ok(())
+    }
+
+    /// What cannot be brought to the disk is written all the same: the system does so in its own time.
+    fn sync(&mut self) {
+        let _ = self.file.sync_data();
+        self.synced = Instant::now();
     }
 
     /// Says that a shard is done.
@@ -79,6 +96,12 @@ impl Journal {
     fn append(&mut self, line: &[u8]) -> Result<(), EngineError> {
         let failed = |error| EngineError::Journal { path: self.path.clone(), error };
         self.file.write_all(line).map_err(failed)
+    }
+}
+
+impl Drop for Journal {
+    fn drop(&mut self) {
+        self.sync();
     }
 }
 
