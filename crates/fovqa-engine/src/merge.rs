@@ -179,7 +179,11 @@ impl Shards {
         let Some((_, first, text)) = shards.first() else {
             return Err(MergeError::Missing { missing: vec![1], of: 1 });
         };
-        let (header, of) = (text.header.of_all(), first.of());
+        let maps = text.header.maps.clone();
+        let maps = maps.filter(|maps| {
+            shards.iter().all(|(_, _, text)| text.header.maps.as_ref() == Some(maps))
+        });
+        let (header, of) = (text.header.of_all(maps), first.of());
         let there = |index: &u32| shards.iter().any(|(_, shard, _)| shard.index() == *index);
         let missing: Vec<u32> = (1..=of).filter(|index| !there(index)).collect();
         if !missing.is_empty() {
