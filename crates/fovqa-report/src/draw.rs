@@ -5,8 +5,8 @@ use std::path::Path;
 
 use fovqa_plan::{Plot, PlotKind};
 use fovqa_results::{
-    RUN_JSON, RUN_SCHEMA, RunRecord, SUMMARY_JSON, SUMMARY_SCHEMA, SummaryRecord, check_files,
-    read_json_file,
+    CsvNames, RUN_JSON, RUN_SCHEMA, RunRecord, SUMMARY_JSON, SUMMARY_SCHEMA, SummaryRecord,
+    check_files, read_json_file,
 };
 
 use crate::comparison::ComparisonTable;
@@ -34,7 +34,8 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let run: RunRecord = read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
     let summary: SummaryRecord =
         read_json_file(&folder.join(SUMMARY_JSON), SUMMARY_SCHEMA, "the summary of a run")?;
-    let values = FrameValues::read(folder)?;
+    let csv_names = CsvNames::from(&run.resolved);
+    let values = FrameValues::read(folder, csv_names)?;
     let warning = check_files(folder, &run)?;
     let source = Source { run: &run, summary: &summary, values: &values };
     let plots = match run.resolved.plots.as_slice() {
@@ -64,7 +65,7 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let tables: Vec<ComparisonTable> = tables.into_iter().map(|(_, table)| table).collect();
     let page = page(&run, &summary, &tables, &on_page);
     let figures = drawn.len();
-    Sheet { tables: files, figures: drawn, page }.write(folder)?;
+    Sheet { tables: files, figures: drawn, page, names: csv_names }.write(folder)?;
     Ok(Drawn { table: tables.into_iter().next(), figures, warning })
 }
 

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use fovqa_methods::curves::CurveError;
 use fovqa_plot::{Figure, PlotError, png};
 use fovqa_results::{
-    FileError, REPORT_JSON, make_folder, read_json_file, take_away, write_json_file, write_whole,
+    CsvNames, FileError, REPORT_JSON, make_folder, read_json_file, take_away, write_json_file,
+    write_whole,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -41,6 +42,8 @@ pub(crate) struct Sheet {
     pub(crate) figures: Vec<NamedFigure>,
     /// The page, `index.html`.
     pub(crate) page: String,
+    /// How names stand in its CSV files.
+    pub(crate) names: CsvNames,
 }
 
 /// Why nothing could be drawn.
@@ -98,15 +101,22 @@ impl Sheet {
 
         for NamedTable { name, files } in &self.tables {
             for (ending, text) in files {
-                write_whole(&folder.join(format!("{name}.{ending}")), text.as_bytes())?;
+                let path = folder.join(format!("{name}.{ending}"));
+                match *ending {
+                    "csv" => write_whole(&path, self.names.in_csv(text.clone()).as_bytes())?,
+                    _ => write_whole(&path, text.as_bytes())?,
+                }
             }
         }
         let plots = folder.join(PLOTS);
         if !self.figures.is_empty() {
             make_folder(&plots).map_err(|error| FileError::Write { path: plots.clone(), error })?;
         }
-        let written: Result<Vec<()>, ReportError> =
-            self.figures.par_iter().map(|figure| write_figure(&plots, figure)).collect();
+        let written: Result<Vec<()>, ReportError> = self
+            .figures
+            .par_iter()
+            .map(|figure| write_figure(&plots, figure, self.names))
+            .collect();
         written?;
         write_whole(&folder.join("index.html"), self.page.as_bytes())?;
         remove(folder, old.iter().filter(|old| !files.contains(old)));
@@ -130,14 +140,13 @@ pub fn clear(folder: &Path) {
     }
 }
 
-fn write_figure(plots: &Path, figure: &NamedFigure) -> Result<(), ReportError> {
+fn write_figure(plots: &Path, figure: &NamedFigure, names: CsvNames) -> Result<(), ReportError> {
     let NamedFigure { name, figure, .. } = figure;
     let failed = |error| ReportError::Plot { name: name.clone(), error };
     let svg = figure.svg().map_err(failed)?;
     let pixels = png(&svg, PNG_SCALE).map_err(failed)?;
-    for (ending, bytes) in
-        [("svg", svg.as_bytes()), ("png", &pixels), ("csv", figure.csv().as_bytes())]
-    {
+    let data = names.in_csv(figure.csv());
+    for (ending, bytes) in [("svg", svg.as_bytes()), ("png", &pixels), ("csv", data.as_bytes())] {
         write_whole(&plots.join(format!("{name}.{ending}")), bytes)?;
     }
     Ok(())

@@ -4,11 +4,13 @@ mod baseline;
 mod both_eyes;
 mod checksums;
 mod compared;
+mod csv_names;
 mod curves;
 mod files;
 mod fvvdp;
 mod gate;
 mod json;
+
 mod output;
 mod report;
 mod summary;
@@ -20,6 +22,7 @@ pub use baseline::{
 pub use both_eyes::both_eyes;
 pub use checksums::{Checksums, check_files, checksums};
 pub use compared::Sides;
+pub use csv_names::CsvNames;
 pub use curves::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
     CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET,

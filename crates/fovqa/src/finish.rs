@@ -97,7 +97,7 @@ fn write(
     summary: &SummaryRecord,
     folder: &Path,
 ) -> Result<(), FileError> {
-    write_tables(folder, results, &experiment.output.tables)?;
+    write_tables(folder, results, &experiment.output)?;
     write_json_file(&folder.join(SUMMARY_JSON), summary)?;
     let file = experiment.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let record = RunRecord {
