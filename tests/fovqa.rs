@@ -155,15 +155,39 @@ pub(crate) fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
 }
 
+/// Set to 1, no test passes for want of data.
+const REQUIRE_SHARED: &str = "FOVQA_REQUIRE_SHARED";
+
 /// A folder of the reference data that does not belong to the repository, where it is there;
-/// elsewhere `None`, and a line that says so.
+/// elsewhere `None`, and a line that says so, or, with `FOVQA_REQUIRE_SHARED=1`, an error.
 pub(crate) fn shared(folder: &str) -> Option<PathBuf> {
+    let is_required = std::env::var_os(REQUIRE_SHARED).is_some_and(|value| value == "1");
+    shared_beside(root(), folder, is_required)
+}
+
+fn shared_beside(root: &Path, folder: &str, is_required: bool) -> Option<PathBuf> {
     use std::io::Write;
-    let path = root().parent().unwrap().join("shared").join(folder);
+    let path = root.parent().unwrap().join("shared").join(folder);
     if path.is_dir() {
         return Some(path);
     }
+    assert!(!is_required, "{REQUIRE_SHARED}=1, and ../shared/{folder} is not there");
     // Not `eprintln!`, which the test runner keeps to itself.
     let _ = writeln!(std::io::stderr(), "skipped: ../shared/{folder} is not there");
     None
+}
+
+#[test]
+fn what_is_not_there_is_passed_over_unless_it_is_required() {
+    let folder = Folder::new();
+    let root = folder.path("repository");
+    assert_eq!(shared_beside(&root, "data", false), None);
+    fs::create_dir_all(folder.path("shared/data")).unwrap();
+    assert_eq!(shared_beside(&root, "data", true), Some(folder.path("shared/data")));
+}
+
+#[test]
+#[should_panic(expected = "FOVQA_REQUIRE_SHARED=1, and ../shared/data is not there")]
+fn what_is_required_has_to_be_there() {
+    shared_beside(&Folder::new().path("repository"), "data", true);
 }

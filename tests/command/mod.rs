@@ -1,4 +1,5 @@
-//! The command line itself: exit codes, output.
+//! The command line itself: exit codes, output, and files that are named for it.
 
 mod exit_codes;
 mod output;
+mod outputs;

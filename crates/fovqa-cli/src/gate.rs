@@ -6,7 +6,7 @@ use fovqa::{Given, RunOptions, Verdict, text_hash};
 use fovqa_report::{
     github_annotations, gitlab_report, junit, markdown, verdict_table, without_commands,
 };
-use fovqa_results::{State, write_verdict_json, write_whole};
+use fovqa_results::{State, write_output, write_verdict_json};
 
 use crate::args::{Annotations, GateArgs, GateFormat};
 use crate::dialect::Dialect;
@@ -72,7 +72,7 @@ fn of_experiment(args: &GateArgs) -> Result<Verdict, Exit> {
 fn write_files(args: &GateArgs, verdict: &Verdict) -> Exit {
     let mut exit = Exit::Done;
     let mut write = |path: &Path, text: &str| {
-        if let Err(error) = write_whole(path, text.as_bytes()) {
+        if let Err(error) = write_output(path, text.as_bytes()) {
             diagnostic::error(&error.to_string(), "give another file");
             exit = exit.or_worse(Exit::Input);
         }

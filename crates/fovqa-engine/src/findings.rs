@@ -34,9 +34,9 @@ pub(crate) struct ViewFindings {
     pub(crate) settled: Option<Settled>,
     /// Why none of it could be scored.
     pub(crate) failed: Option<Failure>,
-    /// Whether a journal says that a pair in front of those to be scored could not be compared: once
-    /// it can be, those after it are others.
-    pub(crate) unsound: bool,
+    /// Pairs in front of those to be scored that could not be compared, with their methods: once they can
+    /// be, those after them are others.
+    pub(crate) before: Vec<(usize, Failure)>,
 }
 
 /// What became of a pair.
@@ -159,6 +159,9 @@ impl Findings {
             record(Entry::Input(&input))?;
         }
         for (&(scene, eye), view) in &self.views {
+            for (method, failure) in &view.before {
+                record(Entry::Before(Named::of(plan, (scene, *method, eye)), failure))?;
+            }
             for (&step, outcome) in &view.pairs {
                 record(Entry::Pair(Finished {
                     named: Named::of(plan, (scene, outcome.method, eye)),

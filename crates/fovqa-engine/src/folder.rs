@@ -1,12 +1,13 @@
 //! The folder a run writes to: one run at a time, found wanting before any scoring.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use fovqa_io::read_head;
 use fovqa_results::{
     CURVES_CSV, CURVES_JSON, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, SUMMARY_JSON,
+    make_folder, sweep, take_away, try_writing,
 };
 use thiserror::Error;
 
@@ -49,27 +50,6 @@ fn begins(path: &Path, file: &str, schema: &str) -> bool {
 /// Whether there is something to lose. (A full disk leaves empty files.)
 fn has_content(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|file| !file.is_file() || file.len() > 0)
-}
-
-/// Takes away what writers that were killed have left under temporary names. Nobody writes there now.
-fn sweep(folder: &Path) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    for entry in entries.flatten() {
-        if is_temporary(&entry.file_name().to_string_lossy()) {
-            // Where it cannot be taken away, it is in nobody's way.
-            let _ = fs::remove_file(entry.path());
-        }
-    }
-}
-
-/// Whether a name is `.NAME.PROCESS.tmp`, of a file that a run or a drawing writes.
-fn is_temporary(name: &str) -> bool {
-    const ENDINGS: [&str; 8] = ["csv", "json", "jsonl", "html", "md", "tex", "svg", "png"];
-    let inner = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp"));
-    inner.and_then(|inner| inner.rsplit_once('.')).is_some_and(|(of, process)| {
-        let ours = of == "fovqa" || of.rsplit_once('.').is_some_and(|(_, e)| ENDINGS.contains(&e));
-        ours && !process.is_empty() && process.bytes().all(|b| b.is_ascii_digit())
-    })
 }
 
 /// Whether a folder is locked while it is written to.
@@ -198,7 +178,7 @@ impl ResultsFolder {
 
     fn of_any(path: &Path, locking: Locking) -> Result<Self, FolderError> {
         let failed = |error| FolderError::Io { path: path.to_owned(), error };
-        fs::create_dir_all(path).map_err(failed)?;
+        make_folder(path).map_err(failed)?;
         if !is_ours(path)
             && let Some(file) = OURS.into_iter().find(|file| has_content(&path.join(file)))
         {
@@ -209,10 +189,7 @@ impl ResultsFolder {
             Locking::Unlocked => None,
         };
         // The lock file may be older than what now keeps others from being made.
-        let probe = path.join(format!(".fovqa.{}.tmp", std::process::id()));
-        let made = File::create(&probe).and_then(|mut file| file.write_all(b"fovqa"));
-        let removed = fs::remove_file(&probe);
-        made.and(removed).map_err(failed)?;
+        try_writing(path).map_err(failed)?;
         for folder in [path, &path.join("plots")] {
             sweep(folder);
         }
@@ -232,12 +209,8 @@ impl ResultsFolder {
     pub fn clear(&self) -> Result<(), FolderError> {
         for file in [RESULTS_CSV, RESULTS_PARQUET, SUMMARY_JSON, RUN_JSON, CURVES_CSV, CURVES_JSON]
         {
-            match fs::remove_file(self.path.join(file)) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                    return Err(FolderError::Io { path: self.path.clone(), error });
-                }
-                _ => {}
-            }
+            take_away(&self.path.join(file))
+                .map_err(|error| FolderError::Io { path: self.path.clone(), error })?;
         }
         Ok(())
     }
@@ -281,9 +254,8 @@ mod tests {
     fn what_a_killed_writer_left_is_taken_away() {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("plots")).unwrap();
-        let ours = [".index.html.123.tmp", ".journal.jsonl.7.tmp", "plots/.a.b.svg.9.tmp"];
-        let others =
-            [".index.html.tmp", ".mine.12.tmp", "a.csv.1.tmp", ".a.csv.x.tmp", "plots/a.png"];
+        let ours = [".fovqa-0123456789abcdef.tmp", "plots/.fovqa-00000000000000ff.tmp"];
+        let others = [".index.html.12.tmp", ".fovqa-mine.tmp", "a.csv.1.tmp", "plots/a.png"];
         for file in ours.iter().chain(&others) {
             fs::write(folder.path().join(file), "half").unwrap();
         }

@@ -13,7 +13,9 @@ impl Findings {
         }
         // Whoever finds the frames of a plan has all of these.
         self.problems = next.problems;
-        for (place, view) in next.views {
+        for (place, mut view) in next.views {
+            // Where they belong they have been scored, or have failed.
+            view.before.clear();
             self.join_view(place, view);
         }
     }
@@ -46,6 +48,7 @@ fn join(all: &mut ViewFindings, mut next: ViewFindings) {
         }
     }
     all.pairs.append(&mut next.pairs);
+    all.before.append(&mut next.before);
     // The later one has looked for a pair to settle it from the first one on.
     all.settled = next.settled.map(|mut settled| {
         settled.fvvdp.extend(fvvdp);

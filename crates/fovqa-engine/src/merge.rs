@@ -8,6 +8,7 @@ use thiserror::Error;
 use crate::findings::{Findings, ViewFindings};
 use crate::journal::{self, Content, Header, Text, place};
 use crate::share::Shard;
+use crate::unit::Unit;
 
 /// Shards that cannot be put together.
 #[derive(Debug, Error)]
@@ -179,7 +180,11 @@ impl Shards {
         let Some((_, first, text)) = shards.first() else {
             return Err(MergeError::Missing { missing: vec![1], of: 1 });
         };
-        let (header, of) = (text.header.of_all(), first.of());
+        let maps = text.header.maps.clone();
+        let maps = maps.filter(|maps| {
+            shards.iter().all(|(_, _, text)| text.header.maps.as_ref() == Some(maps))
+        });
+        let (header, of) = (text.header.of_all(maps), first.of());
         let there = |index: &u32| shards.iter().any(|(_, shard, _)| shard.index() == *index);
         let missing: Vec<u32> = (1..=of).filter(|index| !there(index)).collect();
         if !missing.is_empty() {
@@ -298,13 +303,11 @@ fn difference(one: &Header, other: &Header) -> Option<String> {
 
 /// Whether a shard has all that it should have.
 fn is_complete(plan: &Plan, text: &Text, findings: &Findings) -> bool {
-    text.header.views.iter().zip(&text.shares).all(|(view, share)| {
+    let shares = text.header.views.iter().zip(&text.shares);
+    shares.filter(|(_, share)| !share.is_empty()).all(|(view, share)| {
         let place = place(plan, &view.scene, view.eye);
-        let found = place.and_then(|place| findings.views.get(&place));
-        share.is_empty()
-            || found.is_some_and(|found| {
-                let through = found.settled.is_some() && found.pairs.len() == share.len();
-                found.failed.is_some() || through
-            })
+        place.is_some_and(|(scene, eye)| {
+            findings.has_all_of(&Unit { scene, eye, pairs: share.clone() })
+        })
     })
 }

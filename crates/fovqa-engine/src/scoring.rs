@@ -94,8 +94,8 @@ impl<'a> Scoring<'a> {
         let loader = Loader { settings: &eye.settings, sources: &self.view.sources, guides };
         let sequence = (self.bands, self.view.fps);
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
-        let frame = self.take_up(&work, &mut run, &loader, recorder)?;
         let mut findings = known;
+        let frame = self.take_up(&work, &mut run, &loader, &mut findings, recorder)?;
         self.score(&work.steps(frame), &mut run, &loader, &mut findings, recorder)?;
         let settled = self.settled(&run, metrics, &work);
         let (scene, methods) = (&self.scene.name, &plan.methods);
@@ -110,6 +110,7 @@ impl<'a> Scoring<'a> {
         work: &Work<'_>,
         run: &mut ViewRun<'_>,
         loader: &Loader<'_>,
+        findings: &mut ViewFindings,
         recorder: &mut Recorder<'_, '_, '_>,
     ) -> Result<Option<usize>, EngineError> {
         let kept = run.go_on(work);
@@ -124,6 +125,7 @@ impl<'a> Scoring<'a> {
             recorder.inputs_of(&loaded)?;
             if let Err(failure) = run.take_in(&step, loaded, kept, recorder.warnings) {
                 (recorder.record)(Entry::Before(self.named(step.method), &failure))?;
+                findings.before.push((step.method, failure));
             }
         }
         Ok(frame)

@@ -7,11 +7,13 @@ use fovqa_params::words;
 pub struct OutputSettings {
     /// The files that hold the table of all values; at least one.
     pub tables: Vec<TableFormat>,
+    /// Whether no name in a CSV file can be taken for a formula.
+    pub spreadsheet_safe: bool,
 }
 
 impl Default for OutputSettings {
     fn default() -> Self {
-        Self { tables: vec![TableFormat::Csv] }
+        Self { tables: vec![TableFormat::Csv], spreadsheet_safe: false }
     }
 }
 

@@ -39,6 +39,9 @@ pub struct Resolved {
     /// The rules of the gate.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gates: Vec<GateRule>,
+    /// Whether no name in a CSV file can be taken for a formula.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub spreadsheet_safe: bool,
 }
 
 /// A scene.
@@ -194,6 +197,7 @@ impl Experiment {
             frames: plan.frames.map(|range| range.to_string()),
             plots: self.plots.clone(),
             gates: self.gates.clone(),
+            spreadsheet_safe: self.output.spreadsheet_safe,
         }
     }
 }

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use fovqa_plan::{Plot, PlotKind};
-use fovqa_results::{RUN_JSON, RUN_SCHEMA, RunRecord, check_files, read_json_file};
+use fovqa_results::{CsvNames, RUN_JSON, RUN_SCHEMA, RunRecord, check_files, read_json_file};
 
 use crate::comparison::ComparisonTable;
 use crate::figures::{Source, default_plots, figures, ratio_tables};
@@ -31,7 +31,8 @@ pub struct Drawn {
 pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let run: RunRecord = read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
     let overview = Overview::read(folder)?;
-    let values = FrameValues::read(folder)?;
+    let csv_names = CsvNames::from(&run.resolved);
+    let values = FrameValues::read(folder, csv_names)?;
     let warning = check_files(folder, &run)?;
     let source = Source { run: &run, overview: &overview, values: &values };
     let plots = match run.resolved.plots.as_slice() {
@@ -61,6 +62,7 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
                 on_page.map(|(path, caption)| PageFigure { path, caption }).collect();
             page(&run, &overview, &tables, &on_page)
         }),
+        names: csv_names,
     }
     .write(folder)?;
     let table = tables.into_iter().next().map(|(_, table)| table);

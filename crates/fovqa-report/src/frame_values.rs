@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use fovqa_metrics::{Image, Key, Metric};
-use fovqa_results::{FileError, GAZE_STEP, TableRow, Value, Which, read_results};
+use fovqa_results::{CsvNames, FileError, GAZE_STEP, TableRow, Value, Which, read_results};
 
 /// Whole-frame values by scene, method and eye, in the order of the frames.
 #[derive(Debug, Default)]
@@ -24,9 +24,9 @@ pub(crate) type FrameValue = (i64, f64);
 
 impl FrameValues {
     /// Reads them from a folder of results.
-    pub(crate) fn read(folder: &Path) -> Result<Self, FileError> {
+    pub(crate) fn read(folder: &Path, names: CsvNames) -> Result<Self, FileError> {
         let mut values = Self::default();
-        read_results(folder, Which::WholeFrames, |row| {
+        read_results(folder, names, Which::WholeFrames, |row| {
             values.take(row);
             Ok(())
         })?;

@@ -2,12 +2,14 @@
 //! which the next drawing takes away what it no longer draws.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use fovqa_methods::curves::CurveError;
 use fovqa_plot::{Figure, PlotError, png};
-use fovqa_results::{FileError, REPORT_JSON, read_json_file, write_json_file, write_whole};
+use fovqa_results::{
+    CsvNames, FileError, REPORT_JSON, make_folder, read_json_file, take_away, write_json_file,
+    write_whole,
+};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -44,6 +46,8 @@ pub(crate) struct Sheet<'a> {
     pub(crate) figures: Vec<NamedFigure>,
     /// The page, `index.html`.
     pub(crate) page: MakeText<'a>,
+    /// How names stand in its CSV files.
+    pub(crate) names: CsvNames,
 }
 
 /// Why nothing could be drawn.
@@ -101,16 +105,21 @@ impl Sheet<'_> {
 
         for NamedTable { name, files } in &self.tables {
             for (ending, text) in files {
-                write_whole(&folder.join(format!("{name}.{ending}")), text().as_bytes())?;
+                let path = folder.join(format!("{name}.{ending}"));
+                let text = text();
+                match *ending {
+                    "csv" => write_whole(&path, self.names.in_csv(text).as_bytes())?,
+                    _ => write_whole(&path, text.as_bytes())?,
+                }
             }
         }
         let plots = folder.join(PLOTS);
         if !self.figures.is_empty() {
-            fs::create_dir_all(&plots)
-                .map_err(|error| FileError::Write { path: plots.clone(), error })?;
+            make_folder(&plots).map_err(|error| FileError::Write { path: plots.clone(), error })?;
         }
+        let names = self.names;
         let written: Result<Vec<()>, ReportError> =
-            self.figures.par_iter().map(|figure| write_figure(&plots, figure)).collect();
+            self.figures.par_iter().map(|figure| write_figure(&plots, figure, names)).collect();
         written?;
         write_whole(&folder.join("index.html"), (self.page)().as_bytes())?;
         remove(folder, old.iter().filter(|old| !files.contains(old)));
@@ -130,18 +139,17 @@ pub fn clear(folder: &Path) {
     if !old.is_empty() {
         remove(folder, old.iter());
         // Where it cannot be taken away, it tells nothing that is not so.
-        let _ = fs::remove_file(folder.join(REPORT_JSON));
+        let _ = take_away(&folder.join(REPORT_JSON));
     }
 }
 
-fn write_figure(plots: &Path, figure: &NamedFigure) -> Result<(), ReportError> {
+fn write_figure(plots: &Path, figure: &NamedFigure, names: CsvNames) -> Result<(), ReportError> {
     let NamedFigure { name, figure, .. } = figure;
     let failed = |error| ReportError::Plot { name: name.clone(), error };
     let svg = figure.svg().map_err(failed)?;
     let pixels = png(&svg, PNG_SCALE).map_err(failed)?;
-    for (ending, bytes) in
-        [("svg", svg.as_bytes()), ("png", &pixels), ("csv", figure.csv().as_bytes())]
-    {
+    let data = names.in_csv(figure.csv());
+    for (ending, bytes) in [("svg", svg.as_bytes()), ("png", &pixels), ("csv", data.as_bytes())] {
         write_whole(&plots.join(format!("{name}.{ending}")), bytes)?;
     }
     Ok(())
@@ -175,7 +183,7 @@ fn is_drawn(file: &str) -> bool {
 fn remove<'a>(folder: &Path, files: impl Iterator<Item = &'a String>) {
     for file in files {
         // What somebody has taken away already is as good.
-        let _ = fs::remove_file(folder.join(file));
+        let _ = take_away(&folder.join(file));
     }
 }
 

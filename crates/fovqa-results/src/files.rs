@@ -1,13 +1,12 @@
-//! The files of a run, written whole and read again: whoever looks sees the old file or the new
-//! one, never half of either.
+//! The files of a run, by their names, and read again.
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use fovqa_io::{open_regular_file, read_small_file};
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::json::CheckedKeys;
@@ -60,48 +59,6 @@ pub enum FileError {
     },
 }
 
-/// Writes a file whole: under a temporary name beside it, then renamed.
-///
-/// # Errors
-/// When the system refuses either; nothing is left behind then, and what was there stays.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    write_whole_with(path, |out| out.write_all(bytes))
-}
-
-/// The same, of a file too large to be held in memory.
-///
-/// # Errors
-/// As [`write_whole`].
-pub fn write_whole_with(
-    path: &Path,
-    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
-) -> Result<(), FileError> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
-    let written = File::create(&temporary).and_then(|file| {
-        let mut out = BufWriter::new(file);
-        write(&mut out)?;
-        out.flush()?;
-        fs::rename(&temporary, path)
-    });
-    written.map_err(|error| {
-        // It may not even have come into being.
-        let _ = fs::remove_file(&temporary);
-        FileError::Write { path: path.to_owned(), error }
-    })
-}
-
-/// Writes a value as indented JSON with a newline at its end.
-///
-/// # Errors
-/// As [`write_whole`].
-pub fn write_json_file(path: &Path, value: &impl Serialize) -> Result<(), FileError> {
-    write_whole_with(path, |mut out| {
-        serde_json::to_writer_pretty(&mut out, value)?;
-        out.write_all(b"\n")
-    })
-}
-
 /// Far more than the summary of the largest run.
 const MOST_BYTES: u64 = 4 << 30;
 
@@ -141,24 +98,4 @@ pub fn read_json_file<T: DeserializeOwned>(
 #[derive(Default, Deserialize)]
 struct Schema {
     schema: Option<serde_json::Value>,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_file_is_replaced_whole_or_not_at_all() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.txt");
-        write_whole(&path, b"one").unwrap();
-        write_whole(&path, b"two").unwrap();
-        assert_eq!(fs::read(&path).unwrap(), b"two");
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing temporary is left");
-        let blocked = folder.path().join("b");
-        fs::create_dir(&blocked).unwrap();
-        fs::write(blocked.join("c"), b"").unwrap();
-        assert!(write_whole(&blocked, b"x").is_err());
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
-    }
 }

@@ -4,11 +4,14 @@ mod baseline;
 mod both_eyes;
 mod checksums;
 mod compared;
+mod csv_names;
 mod curves;
 mod files;
 mod fvvdp;
 mod gate;
 mod json;
+
+mod output;
 mod report;
 mod spread;
 mod summary;
@@ -20,11 +23,11 @@ pub use baseline::{
 pub use both_eyes::both_eyes;
 pub use checksums::{Checksums, check_files, checksums};
 pub use compared::Sides;
+pub use csv_names::CsvNames;
 pub use curves::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
     CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET,
-    RUN_JSON, SUMMARY_JSON, open_result_file, read_json_file, write_json_file, write_whole,
-    write_whole_with,
+    RUN_JSON, SUMMARY_JSON, open_result_file, read_json_file,
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{
@@ -35,6 +38,10 @@ pub use json::{
     BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,
     HaarValues, Number, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues,
     ViewRecord, read_summary, write_json, write_summary,
+};
+pub use output::{
+    make_folder, replaces, sweep, take_away, try_writing, write_json_file, write_json_output,
+    write_output, write_whole, write_whole_with,
 };
 pub use report::{
     AtdGuides, Comparison, Failure, FrameResult, FvvdpViewing, GuideSource, Input, RunResults,

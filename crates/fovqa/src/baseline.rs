@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fovqa_results::{Baseline, Difference, write_json_file};
+use fovqa_results::{Baseline, Difference, replaces, write_json_output};
 
 use crate::error::Error;
 use crate::finish::text_hash;
@@ -31,7 +31,7 @@ fn of_run(results: &Path) -> Result<Baseline, Error> {
 }
 
 fn write(baseline: &Baseline, path: &Path) -> Result<(), Error> {
-    write_json_file(path, baseline)
+    write_json_output(path, baseline)
         .map_err(|error| Error::input(error.to_string(), "give another file"))
 }
 
@@ -40,7 +40,7 @@ fn write(baseline: &Baseline, path: &Path) -> Result<(), Error> {
 /// # Errors
 /// When it is there, or not everything was scored.
 pub fn save_baseline(results: &Path, path: &Path) -> Result<Baseline, Error> {
-    if path.exists() {
+    if replaces(path) {
         let message = format!("{}: it is there already", path.display());
         let help = "`fovqa baseline accept` shows what differs and renews it";
         return Err(Error::input(message, help));

@@ -92,7 +92,7 @@ fn say_failures<'a, T: AsRef<str>>(
 }
 
 fn write(experiment: &Experiment, results: RunResults, folder: &Path) -> Result<(), FileError> {
-    write_tables(folder, &results, &experiment.output.tables)?;
+    write_tables(folder, &results, &experiment.output)?;
     write_whole_with(&folder.join(SUMMARY_JSON), |out| {
         write_summary(&experiment.name, &results, out)
     })?;

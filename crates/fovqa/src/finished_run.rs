@@ -41,9 +41,10 @@ impl FinishedRun {
             return Err(Error::input(message, help));
         }
         let read = || -> Result<Self, FileError> {
-            let record = read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
+            let record: RunRecord =
+                read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
             // What is wrong in them says more than that something is.
-            let values = RunValues::read(folder)?;
+            let values = RunValues::read(folder, (&record.resolved).into())?;
             let warning = check_files(folder, &record)?;
             Ok(Self { record, values, warning })
         };

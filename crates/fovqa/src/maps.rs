@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use fovqa_engine::{EngineError, Entry, Finished, Named};
 use fovqa_io::{exr_gray, exr_gray_half, png_rgb8};
 use fovqa_metrics::{Map, Metric};
-use fovqa_results::{FileError, FrameResult, write_whole};
+use fovqa_results::{FileError, FrameResult, make_folder, write_whole};
 
 /// A folder for maps.
 #[derive(Debug)]
@@ -51,7 +51,7 @@ impl MapsFolder {
         }
         let folder = self.folder(named);
         let at = |path: &Path, error| EngineError::Map { path: path.to_owned(), error };
-        std::fs::create_dir_all(&folder).map_err(|error| at(&folder, error))?;
+        make_folder(&folder).map_err(|error| at(&folder, error))?;
         for (name, bytes) in maps.iter().flat_map(|map| files(map, frame.frame)) {
             let path = folder.join(name);
             let bytes = bytes.map_err(|error| at(&path, error))?;

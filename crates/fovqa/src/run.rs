@@ -230,9 +230,7 @@ impl Run {
             };
             let scored =
                 fovqa_engine::score(plan, &self.found, &self.units(), known, events, record)?;
-            if self.options.shard.is_some() {
-                journal.done()?;
-            }
+            journal.finish(header, plan, &scored)?;
             Ok(scored)
         });
         events.finish();

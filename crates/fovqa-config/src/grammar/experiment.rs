@@ -298,11 +298,18 @@ static METHOD_TABLE: [Key; 4] = [
     ),
 ];
 
-static OUTPUT: [Key; 1] = [key(
-    "tables",
-    Kind::List(&Kind::Words(words_of::<TableFormat>), 1, 2),
-    "files with the table of all values: [\"csv\"], [\"csv\", \"parquet\"] or [\"parquet\"]",
-)];
+static OUTPUT: [Key; 2] = [
+    key(
+        "tables",
+        Kind::List(&Kind::Words(words_of::<TableFormat>), 1, 2),
+        "files with the table of all values: [\"csv\"], [\"csv\", \"parquet\"] or [\"parquet\"]",
+    ),
+    key(
+        "spreadsheet_safe",
+        Kind::Bool,
+        "an apostrophe before names in CSV files that a spreadsheet would take for a formula",
+    ),
+];
 
 static PLOT_TABLE: [Key; 6] = [
     required(

@@ -18,8 +18,7 @@ use std::path::Path;
 
 use crate::fault::Faults;
 use crate::node::Node;
-use fovqa_plan::Experiment;
-use fovqa_plan::Plan;
+use fovqa_plan::{Experiment, Plan};
 
 /// The experiment; mistakes go to `faults`.
 pub(crate) fn experiment(

@@ -19,5 +19,10 @@ pub(super) fn output(root: Node<'_>, faults: &mut Faults) -> OutputSettings {
             None => {}
         }
     }
-    if tables.is_empty() { OutputSettings::default() } else { OutputSettings { tables } }
+    let mut settings = OutputSettings::default();
+    if !tables.is_empty() {
+        settings.tables = tables;
+    }
+    settings.spreadsheet_safe = table.flag("spreadsheet_safe").unwrap_or(false);
+    settings
 }

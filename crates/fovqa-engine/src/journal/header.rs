@@ -1,7 +1,9 @@
 //! The first line of a journal: what a run is of. Two runs that have it in common find the same in the
 //! same files.
 
+use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Read};
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -15,7 +17,7 @@ use serde_json::json;
 use super::JOURNAL;
 use crate::found::{FoundInputs, FoundView};
 use crate::scoring::scene_bands;
-use crate::share::Shard;
+use crate::share::{Shard, shares};
 
 /// Name and version of the format.
 const SCHEMA: &str = "fovqa.journal/2";
@@ -99,6 +101,13 @@ impl Header {
         Self { maps: maps.map(|folder| folder.to_string_lossy().into_owned()), ..self }
     }
 
+    /// What the run, or its shard, has of each view.
+    pub(super) fn shares(&self) -> BTreeMap<(&str, Option<Eye>), Range<usize>> {
+        let pairs: Vec<usize> = self.views.iter().map(|view| view.pairs).collect();
+        let views = self.views.iter().map(|view| (view.scene.as_str(), view.eye));
+        views.zip(shares(self.shard, &pairs)).collect()
+    }
+
     /// The name of the experiment's file.
     pub fn experiment_file(&self) -> &str {
         &self.experiment_file
@@ -114,10 +123,10 @@ impl Header {
         self.frames.as_deref()
     }
 
-    /// That of the whole run of which this is of a shard.
+    /// That of the whole run of which this is of a shard, with these maps.
     #[must_use]
-    pub(crate) fn of_all(&self) -> Self {
-        Self { shard: None, maps: None, ..self.clone() }
+    pub(crate) fn of_all(&self, maps: Option<String>) -> Self {
+        Self { shard: None, maps, ..self.clone() }
     }
 
     /// A line of a journal as its first; `None` where it is something else.

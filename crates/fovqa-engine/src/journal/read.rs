@@ -192,7 +192,8 @@ impl Lines<'_> {
             let (result, guides) = (Err(record.read()), fovqa_results::AtdGuides::default());
             view.pairs.insert(step, Outcome { method, result, guides });
         } else if record.before {
-            self.view(findings, &record.scene, record.eye, None)?.unsound = true;
+            let view = self.view(findings, &record.scene, record.eye, None)?;
+            view.before.push((method, record.read()));
         } else {
             let (scene, eye) = place(plan, &record.scene, record.eye)?;
             findings.problems.push(((scene, method, eye), record.read()));

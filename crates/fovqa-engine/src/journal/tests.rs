@@ -173,10 +173,36 @@ fn everything_is_read_again_to_the_last_bit() {
         maps: &[],
     };
     journal.write(Entry::Pair(finished)).unwrap();
-    journal.done().unwrap();
     let said = read_text(folder.path()).said(&plan);
     assert_eq!(said.findings.views[&(0, 0)].pairs[&2], mended);
-    assert!(said.done);
+    assert!(!said.done);
+}
+
+/// Whatever the order in which lines were written, and whichever were written again.
+#[test]
+fn what_is_finished_stands_in_one_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let (plan, mut findings) = (plan(), findings());
+    findings.views.entry((0, 0)).or_default().before.push((1, failure(None)));
+    for shard in [None, Some("1/1")] {
+        let header = header(&plan, shard);
+        let finish = |known: &Findings, findings: &Findings| {
+            let journal = Journal::begin(folder.path(), &header, &plan, known).unwrap();
+            journal.finish(&header, &plan, findings).unwrap();
+            std::fs::read(folder.path().join(JOURNAL)).unwrap()
+        };
+        let whole = finish(&Findings::default(), &findings);
+        assert_eq!(finish(&findings, &findings), whole);
+        let said = read_text(folder.path()).said(&plan);
+        assert_eq!((said.done, said.torn), (shard.is_some(), false));
+        assert_eq!(said.findings, findings);
+        // What is of no pair of the run is not understood when it is read again.
+        let mut more = findings.clone();
+        let pairs = &mut more.views.get_mut(&(0, 0)).unwrap().pairs;
+        let (_, last) = pairs.last_key_value().unwrap();
+        pairs.insert(4, last.clone());
+        assert_eq!(finish(&findings, &more), whole);
+    }
 }
 
 #[test]

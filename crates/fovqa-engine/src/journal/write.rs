@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use fovqa_metrics::Layout;
 use fovqa_plan::Plan;
@@ -23,7 +24,13 @@ pub struct Journal {
     path: PathBuf,
     file: File,
     lines: Lines,
+    /// When its bytes were last brought to the disk.
+    synced: Instant,
 }
+
+/// Frames are brought to the disk one by one, but no more often than this: a loss of power costs no more
+/// than that, and waiting for the disk next to nothing.
+const BETWEEN_SYNCS: Duration = Duration::from_secs(1);
 
 impl Journal {
     /// Begins a journal in place of the one that may be there: first what it is of, then what is known
@@ -39,24 +46,9 @@ impl Journal {
     ) -> Result<Self, EngineError> {
         let path = folder.join(JOURNAL);
         let failed = |error| EngineError::Journal { path: path.clone(), error };
-        let mut lines = Lines::default();
-        let written = write_whole_with(&path, |out| {
-            out.write_all(&line(header))?;
-            let written = known.record(plan, &mut |entry| {
-                let written = out.write_all(&lines.of(entry));
-                written.map_err(|error| EngineError::Journal { path: PathBuf::new(), error })
-            });
-            written.map_err(|error| match error {
-                EngineError::Journal { error, .. } => error,
-                other => std::io::Error::other(other),
-            })
-        });
-        written.map_err(|error| match error {
-            FileError::Write { error, .. } | FileError::Read { error, .. } => failed(error),
-            FileError::Format { detail, .. } => failed(std::io::Error::other(detail)),
-        })?;
+        let lines = write_in_order(&path, header, plan, known, Stage::Begun)?;
         let file = File::options().append(true).open(&path).map_err(failed)?;
-        Ok(Self { path, file, lines })
+        Ok(Self { path, file, lines, synced: Instant::now() })
     }
 
     /// Takes something down.
@@ -65,21 +57,91 @@ impl Journal {
     /// When the file cannot be written.
     pub fn write(&mut self, entry: Entry<'_>) -> Result<(), EngineError> {
         let line = self.lines.of(entry);
-        self.append(&line)
+        self.append(&line)?;
+        if matches!(entry, Entry::Pair(_)) && self.synced.elapsed() >= BETWEEN_SYNCS {
+            self.sync();
+        }
+        Ok(())
     }
 
-    /// Says that a shard is done.
+    /// What cannot be brought to the disk is written all the same: the system does so in its own time.
+    fn sync(&mut self) {
+        let _ = self.file.sync_data();
+        self.synced = Instant::now();
+    }
+
+    /// Puts another in its place once the run, or its shard, is finished: with the same lines in one order,
+    /// however they came about. That of a shard says that it is done.
     ///
     /// # Errors
-    /// When the file cannot be written.
-    pub fn done(&mut self) -> Result<(), EngineError> {
-        self.append(&line(&json!({ "done": true })))
+    /// When it cannot be written. This one stays then.
+    pub fn finish(
+        self,
+        header: &Header,
+        plan: &Plan,
+        findings: &Findings,
+    ) -> Result<(), EngineError> {
+        write_in_order(&self.path, header, plan, findings, Stage::Finished).map(|_| ())
     }
 
     fn append(&mut self, line: &[u8]) -> Result<(), EngineError> {
         let failed = |error| EngineError::Journal { path: self.path.clone(), error };
         self.file.write_all(line).map_err(failed)
     }
+}
+
+impl Drop for Journal {
+    fn drop(&mut self) {
+        self.sync();
+    }
+}
+
+/// How far a run has come.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    Begun,
+    Finished,
+}
+
+/// Writes a journal whole, line by line, with what was found of the pairs that its header has.
+fn write_in_order(
+    path: &Path,
+    header: &Header,
+    plan: &Plan,
+    findings: &Findings,
+    stage: Stage,
+) -> Result<Lines, EngineError> {
+    let shares = header.shares();
+    let has = |entry: &Entry<'_>| match entry {
+        // A source that goes on behind its last pair is an error of no pair.
+        Entry::Pair(pair) => {
+            let share = shares.get(&(pair.named.scene, pair.named.eye));
+            share.is_some_and(|share| share.contains(&pair.step))
+        }
+        _ => true,
+    };
+    let failed = |error| EngineError::Journal { path: path.to_owned(), error };
+    let mut lines = Lines::default();
+    let written = write_whole_with(path, |out| {
+        out.write_all(&line(header))?;
+        let written = findings.record(plan, &mut |entry| {
+            let written = if has(&entry) { out.write_all(&lines.of(entry)) } else { Ok(()) };
+            written.map_err(|error| EngineError::Journal { path: PathBuf::new(), error })
+        });
+        written.map_err(|error| match error {
+            EngineError::Journal { error, .. } => error,
+            other => std::io::Error::other(other),
+        })?;
+        match (stage, header.shard) {
+            (Stage::Finished, Some(_)) => out.write_all(&line(&json!({ "done": true }))),
+            _ => Ok(()),
+        }
+    });
+    written.map_err(|error| match error {
+        FileError::Write { error, .. } | FileError::Read { error, .. } => failed(error),
+        FileError::Format { detail, .. } => failed(std::io::Error::other(detail)),
+    })?;
+    Ok(lines)
 }
 
 /// The lines of a journal without its first, as text.

@@ -13,7 +13,7 @@ use std::path::Path;
 use fovqa_methods::curves::Curve;
 use fovqa_plan::{CurvePlotKind, CurvesFile};
 use fovqa_results::{
-    CURVES_CSV, CURVES_JSON, CurvesRecord, curves_csv, write_json_file, write_whole,
+    CURVES_CSV, CURVES_JSON, CsvNames, CurvesRecord, curves_csv, write_json_file, write_whole,
 };
 
 use crate::figures::slug;
@@ -80,7 +80,7 @@ pub fn draw_curves(
         NamedTable { name, files: vec![("md", markdown), ("csv", Box::new(|| table.csv()))] }
     });
     let page: MakeText<'_> = Box::new(|| page.clone());
-    let sheet = Sheet { tables: files.collect(), figures, page };
+    let sheet = Sheet { tables: files.collect(), figures, page, names: CsvNames::Plain };
     write_whole(&folder.join(CURVES_CSV), curves_csv(&file.plan, curves).as_bytes())?;
     write_json_file(&folder.join(CURVES_JSON), &CurvesRecord::new(file, curves))?;
     sheet.write(folder)?;

@@ -7,6 +7,7 @@ use std::path::Path;
 use fovqa_metrics::Subject;
 
 use super::values::{ComparisonName, RunValues, ValueRow, Values};
+use crate::csv_names::CsvNames;
 use crate::files::{FileError, SUMMARY_JSON};
 use crate::json::{ComparisonSummary, read_summary};
 use crate::table::{ERROR, Value, Which, not_results, read_results, table_file};
@@ -16,13 +17,13 @@ impl RunValues {
     ///
     /// # Errors
     /// When its files are missing or not what they should be.
-    pub fn read(folder: &Path) -> Result<Self, FileError> {
+    pub fn read(folder: &Path, names: CsvNames) -> Result<Self, FileError> {
         let mut comparisons = Vec::new();
         let errors = read_summary(folder, |comparison| comparisons.push(comparison))?;
         let mut values = Self::default();
         let path = table_file(folder);
         let broken = |detail: String| not_results(&path, detail);
-        values.read_csv(folder)?;
+        values.read_csv(folder, names)?;
         for comparison in comparisons {
             let place = place(&comparison);
             let entry = values.places.entry(place).or_default();
@@ -49,8 +50,8 @@ impl RunValues {
         Ok(values)
     }
 
-    fn read_csv(&mut self, folder: &Path) -> Result<(), FileError> {
-        read_results(folder, Which::All, |row| {
+    fn read_csv(&mut self, folder: &Path, names: CsvNames) -> Result<(), FileError> {
+        read_results(folder, names, Which::All, |row| {
             let place = (row.scene.to_owned(), row.method.to_owned(), row.eye.to_owned());
             let values = self.places.entry(place).or_default();
             if row.metric != ERROR {

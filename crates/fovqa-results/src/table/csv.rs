@@ -10,6 +10,7 @@ use fovqa_metrics::Image;
 use super::reading::{Which, not_results};
 use super::row::{COLUMNS, ERROR, TableRow, Value};
 use super::rows::{rows_of_report, rows_of_run};
+use crate::csv_names::CsvNames;
 use crate::files::{FileError, open_result_file};
 use crate::report::{RunResults, ScoreReport};
 
@@ -22,28 +23,31 @@ const FROM: usize = 9;
 /// # Errors
 /// When the writer refuses.
 pub fn write_csv(report: &ScoreReport, out: impl Write) -> io::Result<()> {
-    let mut table = CsvTable::new(out)?;
+    let mut table = CsvTable::new(out, CsvNames::Plain)?;
     rows_of_report(report, &mut |row| table.write(row))?;
-    table.0.flush()
+    table.writer.flush()
 }
 
 /// Writes the values of a run as results.csv, in the order of [`rows_of_run`].
 ///
 /// # Errors
 /// When the writer refuses.
-pub fn write_results_csv(results: &RunResults, out: impl Write) -> io::Result<()> {
-    let mut table = CsvTable::new(out)?;
+pub fn write_results_csv(results: &RunResults, names: CsvNames, out: impl Write) -> io::Result<()> {
+    let mut table = CsvTable::new(out, names)?;
     rows_of_run(results, &mut |row| table.write(row))?;
-    table.0.flush()
+    table.writer.flush()
 }
 
-struct CsvTable<W: Write>(csv::Writer<W>);
+struct CsvTable<W: Write> {
+    writer: csv::Writer<W>,
+    names: CsvNames,
+}
 
 impl<W: Write> CsvTable<W> {
-    fn new(out: W) -> io::Result<Self> {
+    fn new(out: W, names: CsvNames) -> io::Result<Self> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(COLUMNS).map_err(io_error)?;
-        Ok(Self(writer))
+        Ok(Self { writer, names })
     }
 
     fn write(&mut self, row: &TableRow<'_>) -> io::Result<()> {
@@ -54,10 +58,13 @@ impl<W: Write> CsvTable<W> {
         let value = text(row.value);
         let level = row.level.map(|level| level.to_string()).unwrap_or_default();
         let TableRow { scene, method, eye, metric, statistic, .. } = *row;
+        let [scene, method] = [scene, method].map(|name| self.names.written(name));
         let image = row.image.name();
-        let cells =
-            [scene, method, "", eye, &frame, image, metric, statistic, &level, &from, &to, &value];
-        self.0.write_record(cells).map_err(io_error)
+        let cells = [
+            &*scene, &*method, "", eye, &frame, image, metric, statistic, &level, &from, &to,
+            &value,
+        ];
+        self.writer.write_record(cells).map_err(io_error)
     }
 }
 
@@ -76,6 +83,7 @@ fn io_error(error: csv::Error) -> io::Error {
 /// the line is named.
 pub(super) fn read_results_csv(
     path: &Path,
+    names: CsvNames,
     which: Which,
     take: &mut dyn FnMut(&TableRow<'_>) -> Result<(), String>,
 ) -> Result<(), FileError> {
@@ -97,7 +105,7 @@ pub(super) fn read_results_csv(
             continue;
         }
         let line = record.position().map_or(0, csv::Position::line);
-        let taken = row_of(&record).and_then(|row| take(&row));
+        let taken = row_of(&record).and_then(|row| take(&names.of_row(row)));
         taken.map_err(|detail| not_results(path, format!("line {line}: {detail}")))?;
     }
     Ok(())

@@ -9,7 +9,7 @@ mod rows;
 
 use std::path::{Path, PathBuf};
 
-use fovqa_plan::TableFormat;
+use fovqa_plan::{OutputSettings, TableFormat};
 
 pub use csv::{write_csv, write_results_csv};
 #[cfg(feature = "parquet")]
@@ -18,7 +18,9 @@ pub use reading::Which;
 pub(crate) use reading::not_results;
 pub use row::{ERROR, GAZE_STEP, TableRow, Value};
 
-use crate::files::{FileError, RESULTS_CSV, RESULTS_PARQUET, write_whole_with};
+use crate::csv_names::CsvNames;
+use crate::files::{FileError, RESULTS_CSV, RESULTS_PARQUET};
+use crate::output::write_whole_with;
 use crate::report::RunResults;
 
 /// Whether this build can write and read results.parquet.
@@ -32,19 +34,22 @@ fn file(format: TableFormat) -> &'static str {
     }
 }
 
-/// Writes the table of a run into its folder, in each of the formats.
+/// Writes the table of a run into its folder, in each of the formats that are asked for.
 ///
 /// # Errors
 /// When a file cannot be written, or this build has no support for a format.
 pub fn write_tables(
     folder: &Path,
     results: &RunResults,
-    formats: &[TableFormat],
+    output: &OutputSettings,
 ) -> Result<(), FileError> {
-    formats.iter().try_for_each(|format| {
+    let names = CsvNames::from(output);
+    output.tables.iter().try_for_each(|format| {
         let path = folder.join(file(*format));
         match format {
-            TableFormat::Csv => write_whole_with(&path, |out| write_results_csv(results, out)),
+            TableFormat::Csv => {
+                write_whole_with(&path, |out| write_results_csv(results, names, out))
+            }
             #[cfg(feature = "parquet")]
             TableFormat::Parquet => {
                 write_whole_with(&path, |out| write_results_parquet(results, out))
@@ -61,19 +66,20 @@ pub fn table_file(folder: &Path) -> PathBuf {
     if !csv.exists() && parquet.exists() { parquet } else { csv }
 }
 
-/// Reads the table of a results folder, row by row.
+/// Reads the table of a results folder, row by row; `names` says how those in results.csv stand there.
 ///
 /// # Errors
 /// When it is missing, is not what a run has written, or `take` refuses a row: with its reason, and the line or
 /// row.
 pub fn read_results(
     folder: &Path,
+    names: CsvNames,
     which: Which,
     mut take: impl FnMut(&TableRow<'_>) -> Result<(), String>,
 ) -> Result<(), FileError> {
     let path = table_file(folder);
     if path.ends_with(RESULTS_CSV) {
-        return csv::read_results_csv(&path, which, &mut take);
+        return csv::read_results_csv(&path, names, which, &mut take);
     }
     #[cfg(feature = "parquet")]
     return parquet::read_results_parquet(&path, which, &mut take);
