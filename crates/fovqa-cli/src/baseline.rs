@@ -35,13 +35,13 @@ fn save(results: &Path, path: &Path) -> Result<Exit, fovqa::Error> {
 fn accept(results: &Path, path: &Path, scenes: &[String], dry: bool) -> Result<Exit, fovqa::Error> {
     let accepted = fovqa::accept_baseline(results, path, scenes)?;
     if let Some(why) = &accepted.taken_otherwise {
-        diagnostic::warning(&format!("the values were taken otherwise: {why}"));
+        diagnostic::warning(&format!("the values were measured differently: {why}"));
     }
     let count = accepted.differences.len();
     let table = difference_table(&accepted.differences);
     let printed = output::write(|out| out.write_all(table.as_bytes()));
     if dry {
-        diagnostic::note(&format!("{count} values differ; nothing is written"));
+        diagnostic::note(&format!("{count} values differ; nothing was written"));
         return Ok(printed);
     }
     if printed != Exit::Done {

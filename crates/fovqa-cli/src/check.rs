@@ -90,7 +90,7 @@ fn curves(args: &CheckArgs) -> Exit {
     }
     let plots = count(file.plan.plots.len(), "figure");
     let tables = count(file.plan.tables.len(), "table");
-    let _ = writeln!(text, "\n{plots}, {tables}, into reports/{}", file.name);
+    let _ = writeln!(text, "\n{plots}, {tables}; output: reports/{}", file.name);
     output::write(|out| out.write_all(text.as_bytes()))
 }
 
@@ -123,8 +123,8 @@ fn frames(found: &FoundInputs) -> bool {
         let mut missing = origins.filter(is_missing);
         if let Some((file, _)) = missing.next() {
             let more = missing.count();
-            let more = if more > 0 { format!(" (nor are {more} more)") } else { String::new() };
-            let message = format!("{file}: it is not a file that is there{more}");
+            let more = if more > 0 { format!(" (and {more} more)") } else { String::new() };
+            let message = format!("{file}: the file is missing{more}");
             diagnostic::error(&message, "fetch it (git annex get, dvc pull), or render it again");
             there = false;
         }
@@ -156,7 +156,7 @@ fn plan(experiment: &Experiment, metrics: &[Metric], found: &FoundInputs) -> Str
         found.views.iter().flat_map(|view| &view.frames).map(|f| f.tests.len()).sum();
     let _ = writeln!(
         text,
-        "\n{} to score, into reports/{}",
+        "\n{} to score; output: reports/{}",
         count(tests, "test frame"),
         experiment.name
     );
@@ -225,7 +225,7 @@ fn gaze(experiment: &Experiment, eye: &EyeView, view: &FoundView) -> String {
         Gaze::Trace { path, .. } => {
             let held = view.trace.iter().flatten().filter(|gaze| gaze.held).count();
             let held = if held > 0 {
-                format!(", held over in {}", count(held, "frame"))
+                format!(", kept from an earlier frame in {}", count(held, "frame"))
             } else {
                 String::new()
             };

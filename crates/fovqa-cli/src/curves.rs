@@ -23,7 +23,7 @@ fn one(args: &CurvesArgs) -> Exit {
     match traced {
         Ok(curve) => {
             if args.has_budget() {
-                diagnostic::note(&format!("for this budget {}", curve.spec.parameters));
+                diagnostic::note(&format!("the budget gives {}", curve.spec.parameters));
             }
             for note in &curve.notes {
                 diagnostic::note(note);
@@ -62,16 +62,18 @@ fn files(args: &CurvesArgs) -> Exit {
     }
     if let Some(exit) = wrong {
         if !files.is_empty() {
-            diagnostic::note("nothing is drawn while one of the files is wrong");
+            diagnostic::note("nothing is drawn, because one of the files is wrong");
         }
         return exit;
     }
     for (i, file) in files.iter().enumerate() {
         if let Some(other) = files[..i].iter().find(|other| other.name == file.name) {
             let (a, b) = (other.path.display(), file.path.display());
-            let message =
-                format!("{a} and {b} have one name, {:?}, and would share a folder", file.name);
-            diagnostic::error(&message, "give each a name of its own");
+            let message = format!(
+                "{a} and {b} have the same name, {:?}, and would share a folder",
+                file.name
+            );
+            diagnostic::error(&message, "give each file its own name");
             return Exit::Usage;
         }
     }

@@ -22,7 +22,7 @@ const SETTINGS: [(&str, &str, &str); 21] = [
     ("fps", "--fps", "fps"),
     ("frames", "--frames A..B", "frames = \"A..B\" (or --frames A..B)"),
     ("gaze", "X,Y", "[X, Y]"),
-    ("gaze_hold", "--gaze-hold", "hold = true beside trace"),
+    ("gaze_hold", "--gaze-hold", "hold = true next to trace"),
     (
         "guides",
         "--motion or --depth: --motion RENDERER:X,Y for two channels as that renderer (blender, falcor, \
@@ -33,8 +33,8 @@ const SETTINGS: [(&str, &str, &str); 21] = [
     ),
     (
         "layer",
-        "--layer (of the test alone: --test-layer)",
-        "layer = \"…\" (in the method for its tests alone)",
+        "--layer (for the test only: --test-layer)",
+        "layer = \"…\" (in the method, for its tests only)",
     ),
     (
         "luminance",

@@ -42,7 +42,8 @@ fn of_folder(args: &GateArgs) -> Result<Verdict, Exit> {
     ];
     if let Some((option, _)) = options.iter().find(|(_, given)| *given) {
         let folder = args.target.display();
-        let message = format!("{option} is of scoring, and {folder} has been scored");
+        let message =
+            format!("{option} only applies to scoring, but {folder} has already been scored");
         diagnostic::error(&message, "leave it out, or give the experiment file");
         return Err(Exit::Usage);
     }
@@ -84,7 +85,7 @@ fn write_files(args: &GateArgs, verdict: &Verdict) -> Exit {
         match junit(verdict) {
             Ok(xml) => write(path, &xml),
             Err(error) => {
-                diagnostic::error(&format!("the verdict is no XML: {error}"), "");
+                diagnostic::error(&format!("the verdict cannot be written as XML: {error}"), "");
                 exit = Exit::Bug;
             }
         }
@@ -117,7 +118,8 @@ fn propose(args: &GateArgs) -> Result<Exit, Exit> {
         .map_err(|error| experiment::failed(&error))?;
     if calibration.proposals.iter().all(|proposal| proposal.spread() == 0.0) {
         diagnostic::warning(
-            "the runs are the same to the last digit, and say nothing of how values vary: calibrate with renders of other seeds",
+            "the runs are identical to the last digit and do not show how values vary: calibrate with renders \
+             that use other seeds",
         );
     }
     Ok(output::write(|out| out.write_all(calibration.toml().as_bytes())))

@@ -30,7 +30,7 @@ fn metrics() -> String {
         let better = match info.better {
             Better::Higher => "higher is better",
             Better::Lower => "lower is better",
-            Better::Neither => "neither high nor low is better",
+            Better::Neither => "neither higher nor lower is better",
         };
         let default = match (Metric::DEFAULT.contains(&metric), info.kind) {
             (false, _) => "",
@@ -40,7 +40,7 @@ fn metrics() -> String {
         let bands = match (info.per_band, info.kind) {
             (false, _) => "",
             (true, MetricKind::Profile) => ", per band",
-            (true, _) => ", per band too",
+            (true, _) => ", also per band",
         };
         let view = if info.needs.view { ", needs a view" } else { "" };
         let _ = writeln!(text, "{} ({}{unit})", info.key, info.label);

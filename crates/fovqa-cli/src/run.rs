@@ -64,7 +64,7 @@ fn say_shard(name: &str, shard: Shard, finished: &Finished) -> Exit {
     let scored = finished.scored;
     let frames = if scored == 1 { "1 frame" } else { &format!("{scored} frames") };
     diagnostic::note(&format!(
-        "{}: shard {shard} of {name}, {frames}; `fovqa merge` puts shards together",
+        "{}: shard {shard} of {name}, {frames}; `fovqa merge` joins shards",
         finished.folder.display()
     ));
     if errors.is_some() { Exit::Input } else { Exit::Done }

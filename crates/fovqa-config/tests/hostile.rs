@@ -43,12 +43,12 @@ fn every_resolution_with_every_gaze_and_direction() {
         )
     };
     parse_curves(Path::new("e.toml"), text(5)).unwrap();
-    refused(parse_curves, &text(100), "these are 1000000 curves, and 200 at most");
+    refused(parse_curves, &text(100), "these are 1000000 curves, but at most 200 are allowed");
     // What is written twice is one curve; too many are too many of all tables together as well.
     let twice = text(5).replace("[0, 0], ", &"[0, 0], ".repeat(90));
     parse_curves(Path::new("e.toml"), twice).unwrap();
     let more = "[[curve]]\nname = \"r\"\nmethod = { model = \"rmfr\" }\n";
-    refused(parse_curves, &(text(5) + more), "these are more than 200 curves");
+    refused(parse_curves, &(text(5) + more), "the file has more than 200 curves");
 }
 
 #[test]

@@ -93,7 +93,7 @@ macro_rules! words {
                 let word: ::std::string::String = $crate::serde::Deserialize::deserialize(deserializer)?;
                 <Self as $crate::Words>::find(&word).ok_or_else(|| {
                     let known = $crate::words_of::<Self>().join(", ");
-                    $crate::serde::de::Error::custom(::std::format!("{word:?} is none of {known}"))
+                    $crate::serde::de::Error::custom(::std::format!("{word:?} is not one of {known}"))
                 })
             }
         }
@@ -130,6 +130,6 @@ mod tests {
         assert_eq!(serde_json::to_string(&Side::Right).unwrap(), "\"right-hand\"");
         assert_eq!(serde_json::from_str::<Side>("\"left\"").unwrap(), Side::Left);
         let error = serde_json::from_str::<Side>("\"up\"").unwrap_err().to_string();
-        assert!(error.contains("\"up\" is none of left, right-hand"), "{error}");
+        assert!(error.contains("\"up\" is not one of left, right-hand"), "{error}");
     }
 }

@@ -83,7 +83,7 @@ words! {
         /// DEAMP: shaded pixels within a layer's angle (Fig. 5b).
         Accumulated "accumulated" "DEAMP: shaded pixels within a layer's angle";
         /// RMFR: where a half axis goes (Fig. 3).
-        HalfAxis "half_axis" "RMFR: where a half axis goes";
+        HalfAxis "half_axis" "RMFR: the mapping of a half axis";
     }
 }
 
@@ -95,7 +95,7 @@ words! {
         #[default]
         Radial "radial" "Along the line from the gaze";
         /// Across it.
-        Tangential "tangential" "Across it";
+        Tangential "tangential" "Across this line";
         /// Both, side by side.
         Both "both" "Both, side by side";
     }
@@ -118,7 +118,7 @@ words! {
     #[derive(Default)]
     pub enum PanelOf {
         /// Nothing: all curves in one.
-        One "one" "Nothing: all curves in one";
+        One "one" "Nothing: one panel for all curves";
         /// Each curve with its settings.
         #[default]
         Curve "curve" "Each curve with its settings";

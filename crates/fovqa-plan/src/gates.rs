@@ -179,7 +179,7 @@ impl fmt::Display for Aggregate {
 impl TryFrom<String> for Aggregate {
     type Error = String;
     fn try_from(word: String) -> Result<Self, String> {
-        Self::find(&word).ok_or_else(|| format!("{word:?} is no aggregate"))
+        Self::find(&word).ok_or_else(|| format!("{word:?} is not an aggregate"))
     }
 }
 

@@ -90,7 +90,7 @@ impl Resolved {
             ("metrics", keys(self), keys(other)),
         ];
         let whole = whole.into_iter().find(|(_, a, b)| a != b);
-        let whole = whole.map(|(key, a, b)| format!("it has the {key} {a}, and not {b}"));
+        let whole = whole.map(|(key, a, b)| format!("it has the {key} {a} instead of {b}"));
         let metric = |(key, parameters): (&String, &BTreeMap<String, Value>)| {
             other_parameter(key, parameters, other.metrics.get(key)?)
         };
@@ -102,7 +102,7 @@ impl Resolved {
     /// What of the scenes that two experiments share is seen or read otherwise in the other one.
     pub fn taken_otherwise(&self, other: &Self) -> Option<String> {
         let said = |key: &str, was: &Value, place: &str, is: &Value| {
-            format!("it has {key} = {was}{place}, and not {is}")
+            format!("it has {key} = {was}{place} instead of {is}")
         };
         if self.frames != other.frames {
             return Some(said("--frames", &json!(self.frames), "", &json!(other.frames)));
@@ -139,7 +139,7 @@ pub fn other_parameter(
 ) -> Option<String> {
     now.iter().find_map(|(name, is)| {
         let was = before.get(name).unwrap_or(&Value::Null);
-        (!alike(was, is)).then(|| format!("it has {metric}.{name} = {was}, and not {is}"))
+        (!alike(was, is)).then(|| format!("it has {metric}.{name} = {was} instead of {is}"))
     })
 }
 

@@ -102,8 +102,8 @@ impl Settings {
             Eotf::Srgb => "sRGB",
             Eotf::Gamma => "a power of its own",
             Eotf::Pq => "PQ",
-            Eotf::Linear | Eotf::Absolute => "light",
+            Eotf::Linear | Eotf::Absolute => "luminance in cd/m²",
         };
-        Some(format!("the files are encoded as {files}, and the display takes {display}"))
+        Some(format!("the files are encoded as {files}, but the display expects {display}"))
     }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 
 pub(crate) const EXAMPLES: &str = "\
-A baseline is a small JSON file with the values of a run, made for git:
+A baseline is a small JSON file with the values of a run, meant to be kept in git:
 
   fovqa run nightly.toml
   fovqa baseline save reports/nightly nightly.baseline.json
@@ -14,11 +14,11 @@ A baseline is a small JSON file with the values of a run, made for git:
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum BaselineCommand {
-    /// Make a baseline of the results of a run.
+    /// Save the results of a run as a baseline.
     Save(SaveArgs),
     /// Print the values of a baseline.
     Show(ShowArgs),
-    /// Show how a run differs from a baseline, and take its values over.
+    /// Show how a run differs from a baseline, and update the baseline with its values.
     Accept(AcceptArgs),
 }
 
@@ -26,13 +26,13 @@ pub(crate) enum BaselineCommand {
 pub(crate) struct SaveArgs {
     /// Folder with the results of a run
     pub(crate) results: PathBuf,
-    /// The baseline to make
+    /// The baseline file to write
     pub(crate) baseline: PathBuf,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct ShowArgs {
-    /// The baseline
+    /// The baseline file
     pub(crate) baseline: PathBuf,
 }
 
@@ -40,7 +40,7 @@ pub(crate) struct ShowArgs {
 pub(crate) struct AcceptArgs {
     /// Folder with the results of a run
     pub(crate) results: PathBuf,
-    /// The baseline to renew
+    /// The baseline file to update
     pub(crate) baseline: PathBuf,
     /// Only the values of this scene; may be given several times [default: all]
     #[arg(long = "scene", value_name = "NAME")]

@@ -21,11 +21,11 @@ Examples:
   fovqa curves --method kfr --set sigma=1.8 --resolution 2560x1440 --fov-vertical 110
   fovqa curves --method rmfr --direction 90 --budget 0.15 --display vive-pro-eye
   fovqa curves --acuity piecewise --set cap_cpd=9
-  fovqa curves configs/curves/acuity.toml        figures and tables, into reports/acuity
+  fovqa curves configs/curves/acuity.toml        figures and tables, in reports/acuity
 
-A method or an acuity model alone is printed as CSV: eccentricity_deg,radial_cpd,tangential_cpd.
-A row whose rate is undefined (KFR, LaFR within a pixel of the gaze) is left out; rows of RMFR and
-DEAMP end with the frame. docs/curves.md shows every key of a file of curves, and
+A single method or acuity model is printed as CSV: eccentricity_deg,radial_cpd,tangential_cpd.
+A row whose rate is undefined (KFR, LaFR within a pixel of the gaze) is left out. The rows of RMFR
+and DEAMP end at the border of the frame. docs/curves.md shows every key of a curve file, and
 `fovqa schema curves` prints its JSON Schema.
 
 Exit codes: 0 done; 2 the command line or the file is wrong; 3 the output cannot be written; 70 a
@@ -34,11 +34,11 @@ bug in fovqa; 130 interrupted.";
 /// How curves are printed.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(crate) enum CurvesFormat {
-    /// A row an eccentricity.
+    /// One row per eccentricity.
     Csv,
 }
 
-/// What a file of curves says itself.
+/// Options that a curve file replaces.
 const IN_FILE: [&str; 17] = [
     "set",
     "budget",
@@ -62,7 +62,7 @@ const IN_FILE: [&str; 17] = [
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("what").required(true).args(["curves", "method", "acuity"]))]
 pub(crate) struct CurvesArgs {
-    /// Files of curves: figures and tables of each, into a folder of its own
+    /// Curve files; the figures and tables of each are written to a separate folder
     #[arg(value_name = "CURVES.toml", conflicts_with_all = IN_FILE)]
     pub(crate) curves: Vec<PathBuf>,
     /// A foveation method; `fovqa list methods` shows them
@@ -74,7 +74,8 @@ pub(crate) struct CurvesArgs {
     /// A parameter of the method or model, such as sigma=1.8
     #[arg(long = "set", value_name = "PARAM=VALUE", value_parser = assignment)]
     set: Vec<(String, ParamValue)>,
-    /// Solve the method's free parameter for this many samples over the frame's pixels
+    /// Set the method's free parameter so that the samples are this share of the frame's pixels,
+    /// such as 0.15
     #[arg(long, value_name = "SHARE", value_parser = finite, requires = "method")]
     budget: Option<f64>,
     /// Which samples the budget counts
@@ -91,23 +92,23 @@ pub(crate) struct CurvesArgs {
     /// Direction of the curve from the gaze, degrees from +x towards +y (0: right, 90: down)
     #[arg(long, value_name = "DEG", default_value = "0", value_parser = finite, allow_negative_numbers = true)]
     direction: f64,
-    /// What a degree across the curve is
+    /// How a degree across the curve is defined
     #[arg(long, value_name = "KIND", default_value = Tangential::default().word(), value_parser = words::<Tangential>())]
     tangential: Tangential,
     /// How eccentricity is measured
     #[arg(long, value_name = "KIND", default_value = EccentricityKind::Planar.word(), value_parser = words::<EccentricityKind>())]
     eccentricity: EccentricityKind,
-    /// From one eccentricity to the next, degrees
+    /// Step between eccentricities, degrees
     #[arg(long, value_name = "DEG", default_value = "0.25", value_parser = step)]
     step: f64,
-    /// The last eccentricity, degrees, for methods whose curves do not end with the frame
+    /// Last eccentricity, degrees, for methods whose curves do not end at the border of the frame
     #[arg(long, value_name = "DEG", default_value = "60", value_parser = to)]
     to: f64,
     /// How a curve is printed
     #[arg(long, value_name = "FORMAT", default_value = "csv")]
     format: CurvesFormat,
-    /// Folder for the figures and tables of files: of one file itself, of several the folder above
-    /// [default: reports/NAME, NAME being the file's]
+    /// Folder for the figures and tables. With one file, they are written directly to this folder;
+    /// with several, each file gets a subfolder [default: reports/NAME, with the name in the file]
     #[arg(long, verbatim_doc_comment, value_name = "DIR", conflicts_with_all = ["method", "acuity"])]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
@@ -138,8 +139,9 @@ fn assignment(text: &str) -> Result<(String, ParamValue), String> {
 }
 
 fn resolution(text: &str) -> Result<[usize; 2], String> {
-    parse_resolution(text)
-        .ok_or_else(|| "write WIDTHxHEIGHT in pixels, each from 1 to 100000: 2560x1440".to_owned())
+    parse_resolution(text).ok_or_else(|| {
+        "write WIDTHxHEIGHT in pixels, each from 1 to 100000, such as 2560x1440".to_owned()
+    })
 }
 
 fn step(text: &str) -> Result<f64, String> {
@@ -155,7 +157,7 @@ fn to(text: &str) -> Result<f64, String> {
     finite(text)
         .ok()
         .filter(|to| *to > 0.0 && *to <= most)
-        .ok_or_else(|| format!("write degrees above 0, up to {most}"))
+        .ok_or_else(|| format!("write degrees above 0 and at most {most}"))
 }
 
 impl CurvesArgs {
@@ -166,9 +168,7 @@ impl CurvesArgs {
         let parameters = parameters.join(";");
         if let Some(mut model) = self.acuity.clone() {
             if self.budget.is_some() {
-                return Err(
-                    "--budget is of a --method, and an acuity model shades nothing".to_owned()
-                );
+                return Err("--budget needs --method: an acuity model has no samples".to_owned());
             }
             for (name, value) in &self.set {
                 model.set(name, value).map_err(|error| error.to_string())?;
@@ -193,15 +193,15 @@ impl CurvesArgs {
     }
 
     fn setting(&self) -> Result<CurveSetting, String> {
-        let no_view =
-            "a method is on a screen: give a view, such as --fov-vertical 110 or --display";
+        let no_view = "a method needs a view: give one, such as --fov-vertical 110 or --display";
         let spec = self.view.spec()?.ok_or(no_view)?;
         let [width, height] = match (self.resolution, &spec) {
             (Some(size), _) => size,
             (None, ViewSpec::Display(display)) => display.resolution,
             (None, _) => {
                 return Err(
-                    "a method is on a screen: give its size, --resolution 2560x1440".to_owned()
+                    "a method needs the size of the frame: give it, such as --resolution 2560x1440"
+                        .to_owned(),
                 );
             }
         };

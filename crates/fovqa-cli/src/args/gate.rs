@@ -8,7 +8,7 @@ use fovqa_io::sequence::FrameRange;
 use super::lock::LockArgs;
 
 pub(crate) const EXAMPLES: &str = "\
-Rules stand in the experiment file; docs/experiments.md shows every key:
+The rules are in the experiment file; docs/experiments.md shows every key:
 
   [[gate]]
   metric = \"fpsnr\"
@@ -26,36 +26,36 @@ Examples:
   fovqa gate reports/nightly --format json
   fovqa gate nightly.toml --calibrate runs/1 runs/2 runs/3 > limits.toml
 
-Exit codes: 0 every rule holds; 1 one does not; 2 the command line, the experiment file or a rule is
+Exit codes: 0 every rule holds; 1 a rule fails; 2 the command line, the experiment file or a rule is
 wrong; 3 something could not be scored or read, which is never a pass; 70 a bug in fovqa; 130
 interrupted.";
 
 /// How the verdict is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum GateFormat {
-    /// For people.
+    /// A table to read.
     Table,
-    /// Everything, nested.
+    /// All values, as nested JSON.
     Json,
 }
 
 /// For which CI system what does not hold is shown beside its rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Annotations {
-    /// Workflow commands, behind the verdict on stdout.
+    /// Workflow commands, printed after the verdict on stdout.
     Github,
-    /// A Code Quality report, on stdout in place of the verdict, which goes to stderr.
+    /// A Code Quality report on stdout; the verdict goes to stderr.
     Gitlab,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct GateArgs {
-    /// The experiment file, which is scored, or the folder of a finished run
+    /// The experiment file, whose frames are then scored, or the folder of a finished run
     pub(crate) target: PathBuf,
-    /// Baseline that max_drop and max_rise are held against
+    /// Baseline that max_drop and max_rise compare with
     #[arg(long, value_name = "FILE")]
     pub(crate) baseline: Option<PathBuf>,
-    /// Write the verdict as JUnit XML, a test case a rule
+    /// Write the verdict as JUnit XML, with one test case per rule
     #[arg(long, value_name = "FILE")]
     pub(crate) junit: Option<PathBuf>,
     /// Write the verdict as Markdown
@@ -67,19 +67,20 @@ pub(crate) struct GateArgs {
     /// How the verdict is printed
     #[arg(long, value_name = "FORMAT", default_value = "table")]
     pub(crate) format: GateFormat,
-    /// Print limits for the rules, from the spread of these repeated runs of one build, as TOML
+    /// Print limits for the rules as TOML, proposed from the spread of repeated runs of one build
     #[arg(long, value_name = "RESULTS_DIR", num_args = 1.., conflicts_with_all = ["baseline", "junit", "markdown", "annotations", "format", "output", "maps", "threads"])]
     pub(crate) calibrate: Vec<PathBuf>,
-    /// Folder for the results of an experiment [default: reports/NAME, NAME being the experiment's]
+    /// Folder for the results of an experiment [default: reports/NAME, with the experiment's
+    /// name]
     #[arg(long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
-    /// Go on with a run that was broken off, as `fovqa run --resume` does
+    /// Continue an interrupted run, as `fovqa run --resume` does
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Only these of each scene's frames, from A up to, but without, B
+    /// Score only these frames of each scene: from A up to, but not including, B
     #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP")]
     pub(crate) frames: Option<FrameRange>,
-    /// Write maps of the frames of an experiment into a folder, as `fovqa run --maps` does
+    /// Write maps of the frames of an experiment to DIR, as `fovqa run --maps` does
     #[arg(long, value_name = "DIR")]
     pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]

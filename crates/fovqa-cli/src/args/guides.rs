@@ -11,16 +11,16 @@ use fovqa_params::Words;
 pub(crate) struct GuideArgs {
     /// Backward motion vectors: auto, none, blender, falcor, unreal, mitsuba, or two OpenEXR channels:
     /// X,Y in pixels to the right and down (X,-Y: y up), or blender:X,Y as a renderer encodes them
-    /// (experiments can give units and scales as well)
+    /// (experiment files can also give units and scales)
     #[arg(long, verbatim_doc_comment, value_name = "WHICH", default_value = "auto", allow_hyphen_values = true, value_parser = motion)]
     motion: MotionChannels,
-    /// OpenEXR files that hold the motion alone; they pair with the reference frames
+    /// Separate OpenEXR files with the motion; they pair with the reference frames
     #[arg(long, value_name = "PATH")]
     motion_files: Option<PathBuf>,
     /// Depth: auto, none, blender, falcor, unreal, mitsuba, or the name of an OpenEXR channel
     #[arg(long, value_name = "WHICH", default_value = "auto", value_parser = depth)]
     depth: DepthChannels,
-    /// OpenEXR files that hold the depth alone; they pair with the reference frames
+    /// Separate OpenEXR files with the depth; they pair with the reference frames
     #[arg(long, value_name = "PATH")]
     depth_files: Option<PathBuf>,
 }
@@ -67,8 +67,8 @@ fn motion(text: &str) -> Result<MotionChannels, String> {
 }
 
 /// What `--motion` may be.
-const MOTION_FORMS: &str = "write auto, none, blender, falcor, unreal, mitsuba, two channels with a comma \
-                            between them, or a renderer, a colon and its two channels";
+const MOTION_FORMS: &str = "write auto, none, blender, falcor, unreal, mitsuba, two channels \
+                            separated by a comma, or RENDERER:X,Y with the two channels of a renderer";
 
 /// The sign in front of the name of a channel, where there is one, and the name.
 fn signed(name: &str) -> (Option<f64>, &str) {
@@ -87,7 +87,7 @@ fn check_plain(channels: &[String; 2]) -> Result<(), String> {
         Some(preset) => {
             let ([x, y], renderer) = (channels, preset.word());
             Err(format!(
-                "these are channels as {renderer} writes them, which are not pixels to the right and down: \
+                "{renderer} writes these channels in another encoding than pixels to the right and down: \
                  write --motion {renderer}, or --motion {renderer}:{x},{y} for exactly these; \
                  if they do hold pixels to the right and down, --motion +{x},+{y}"
             ))

@@ -5,8 +5,8 @@ use fovqa_engine::Locking;
 
 #[derive(Debug, Clone, Args)]
 pub(crate) struct LockArgs {
-    /// Do not lock the folder of the results: for file systems without locks (some of NFS and FUSE).
-    /// Nothing else may write there meanwhile
+    /// Do not lock the results folder, for file systems without locks (some NFS and FUSE systems).
+    /// Make sure that nothing else writes there at the same time
     #[arg(long)]
     pub(crate) no_lock: bool,
 }

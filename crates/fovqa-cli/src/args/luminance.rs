@@ -17,7 +17,8 @@ pub(super) fn luminance(text: &str) -> Result<Luminance, String> {
     let mut peak = None;
     let mut given = Luminance::of_peak(f64::NAN);
     for part in text.split(',') {
-        let (key, value) = part.split_once('=').ok_or("write KEY=VALUE with commas between")?;
+        let (key, value) =
+            part.split_once('=').ok_or("write KEY=VALUE pairs, separated by commas")?;
         let (key, value) = (key.trim().replace('-', "_"), value.trim());
         if key == "eotf" {
             let names: Vec<String> = words_of::<Eotf>().into_iter().map(str::to_owned).collect();
@@ -36,7 +37,7 @@ pub(super) fn luminance(text: &str) -> Result<Luminance, String> {
             _ => return Err(no_such("key", &key, &KEYS.map(str::to_owned))),
         }
     }
-    let peak_cd_m2 = peak.ok_or("peak_cd_m2 is missing: the display's white")?;
+    let peak_cd_m2 = peak.ok_or("peak_cd_m2, the luminance of the display's white, is missing")?;
     let luminance = Luminance { peak_cd_m2, ..given };
     luminance.check().map_err(|error| error.to_string())?;
     Ok(luminance)

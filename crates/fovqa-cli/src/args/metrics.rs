@@ -11,8 +11,9 @@ use super::values::literal;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Metrics")]
 pub(crate) struct MetricArgs {
-    /// Metrics with commas between them; `fovqa list metrics` shows them
-    /// [default: mse,psnr,ssim,fpsnr,rms-contrast,haar and, for a sequence, atd; less what does not fit]
+    /// Metrics to compute, separated by commas; `fovqa list metrics` shows all
+    /// [default: mse,psnr,ssim,fpsnr,rms-contrast,haar and, for a sequence, atd; metrics that do not
+    /// fit are left out]
     #[arg(long, verbatim_doc_comment, value_name = "NAME,NAME,…", value_delimiter = ',', value_parser = metric)]
     metrics: Vec<Metric>,
     /// A parameter of a metric, such as ssim.sigma=1.5

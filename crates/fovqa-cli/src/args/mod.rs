@@ -23,7 +23,7 @@ pub(crate) use score::{Format, ScoreArgs};
 
 use clap::{Parser, Subcommand, ValueEnum};
 
-/// Scores foveated renders against ground truth, by eccentricity.
+/// Score foveated renders against ground truth, by eccentricity.
 #[derive(Debug, Parser)]
 #[command(
     name = "fovqa",
@@ -51,29 +51,29 @@ pub(crate) enum Command {
     /// Run an experiment: scenes, methods and metrics of a TOML file, with tables and figures.
     #[command(after_help = run::EXAMPLES)]
     Run(RunArgs),
-    /// Hold an experiment's gate, its [[gate]] rules, against its results: a verdict, and exit code 0 or 1.
+    /// Check the [[gate]] rules of an experiment against its results; exit code 0 (pass) or 1 (fail).
     #[command(after_help = gate::EXAMPLES)]
     Gate(Box<GateArgs>),
-    /// Save, show and renew the baseline that a gate compares with.
+    /// Save, show and update the baseline that a gate compares with.
     #[command(subcommand, after_help = baseline::EXAMPLES)]
     Baseline(BaselineCommand),
-    /// Put the shards of a run together: what a run of all of it would write.
+    /// Join the shards of a run; the result is the same as that of a single run.
     #[command(after_help = run::MERGE_EXAMPLES)]
     Merge(MergeArgs),
-    /// Draw the tables, figures and page of a run again, without scoring; or a page over several.
+    /// Draw the tables, figures and page of a run again, without scoring, or an overview page of several runs.
     Report(ReportArgs),
-    /// Check an experiment file, and print its plan and the frames found; reads no pixels.
+    /// Check an experiment file and print its plan and the frames found, without reading pixels.
     Check(CheckArgs),
     /// Print the JSON Schema of a file, for editors.
     Schema {
-        /// Which file.
+        /// The file that the schema describes.
         #[arg(default_value = "experiment")]
         what: SchemaOf,
     },
-    /// Shading rate of foveation methods against acuity: one curve as CSV, or figures and tables.
+    /// Compare the shading rate of foveation methods with acuity: one curve as CSV, or figures and tables.
     #[command(after_help = curves::EXAMPLES)]
     Curves(Box<CurvesArgs>),
-    /// List what there is: metrics, foveation methods and acuity models, or display presets.
+    /// List metrics, foveation methods and acuity models, or display presets.
     List {
         /// What to list.
         what: Listed,
@@ -90,7 +90,7 @@ pub(crate) enum Command {
 pub(crate) enum SchemaOf {
     /// The experiment file of `fovqa run`.
     Experiment,
-    /// The file of curves of `fovqa curves`.
+    /// The curve file of `fovqa curves`.
     Curves,
 }
 

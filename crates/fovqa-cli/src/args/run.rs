@@ -10,7 +10,7 @@ use super::lock::LockArgs;
 
 pub(crate) const EXAMPLES: &str = "\
 The experiment file names scenes, methods and metrics; docs/experiments.md shows every key, and
-`fovqa schema` prints its JSON Schema. The smallest one:
+`fovqa schema` prints its JSON Schema. A minimal one:
 
   name = \"first\"
   [view]
@@ -24,37 +24,37 @@ The experiment file names scenes, methods and metrics; docs/experiments.md shows
 
 Results: results.csv (every value), summary.json, run.json, table.md, plots/, index.html.
 
-A run that was killed goes on with --resume, and several machines share one with --shard:
+--resume continues an interrupted run, and --shard divides a run between machines:
 
-  fovqa run first.toml --shard 1/2 --output one     # here
-  fovqa run first.toml --shard 2/2 --output two     # there
+  fovqa run first.toml --shard 1/2 --output one     # on one machine
+  fovqa run first.toml --shard 2/2 --output two     # on another machine
   fovqa merge one two --output reports/first
 
 Exit codes: 0 done; 2 the experiment file is wrong; 3 an input is missing, unreadable or does not
-fit, or the output cannot be written (what fits is scored all the same); 70 a bug in fovqa; 130
+fit, or the output cannot be written (all frames that fit are still scored); 70 a bug in fovqa; 130
 interrupted.";
 
 #[derive(Debug, Args)]
 pub(crate) struct RunArgs {
     /// The experiment file
     pub(crate) experiment: PathBuf,
-    /// Folder for the results [default: reports/NAME, NAME being the experiment's, or
+    /// Folder for the results [default: reports/NAME, with the experiment's name; for a shard,
     /// reports/NAME-shard-I-of-N]
     #[arg(long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
-    /// Go on with a run that was broken off: what is finished in the folder is not scored again. What has
-    /// changed since (experiment, options, inputs) is said, and all is scored then; frames that could not
-    /// be scored are tried again
+    /// Continue an interrupted run. Finished frames are not scored again; frames that failed are tried
+    /// again. If the experiment, the options or an input has changed, fovqa names what changed and
+    /// scores everything again
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Score the I-th of N shares of all frames alone; `fovqa merge` puts them together
+    /// Score only the I-th of N shares of all frames; `fovqa merge` joins them
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
-    /// Only these of each scene's frames, from A up to, but without, B
+    /// Score only these frames of each scene: from A up to, but not including, B
     #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP")]
     pub(crate) frames: Option<FrameRange>,
-    /// Write the maps of each frame into a folder, SCENE/METHOD in it, one for each metric that has one
-    /// (`fovqa list metrics`): the values (OpenEXR), and a picture in colours (PNG)
+    /// Write maps of each frame to DIR/SCENE/METHOD, as values (OpenEXR) and as a picture in colours
+    /// (PNG); `fovqa list metrics` shows which metrics have a map
     #[arg(long, value_name = "DIR")]
     pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
@@ -66,13 +66,14 @@ pub(crate) struct RunArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// The experiment file, or a file of curves
+    /// The experiment file, or a curve file
     pub(crate) experiment: PathBuf,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct ReportArgs {
-    /// Folder with the results of a run, or with several such folders: a page over all of them
+    /// Folder with the results of a run, or a folder that contains several of these, for an overview
+    /// page
     pub(crate) results: PathBuf,
     #[command(flatten)]
     pub(crate) lock: LockArgs,
@@ -81,9 +82,9 @@ pub(crate) struct ReportArgs {
 pub(crate) const MERGE_EXAMPLES: &str = "\
   fovqa merge shards/* --output reports/first
 
-All shards of one run have to be there, each once and finished, of the same experiment, version, frames
-and files. What comes out is to the last byte what `fovqa run` without --shard writes. Neither the
-experiment file nor the frames are needed.
+Every shard of the run must be given exactly once and be finished. All must have the same experiment,
+version, frames and files. The result is the same, to the last byte, as that of `fovqa run` without
+--shard. Neither the experiment file nor the frames are needed.
 
 Exit codes: 0 done; 2 the command line is wrong; 3 shards are missing or do not belong together, frames
 could not be scored, or the output cannot be written.";

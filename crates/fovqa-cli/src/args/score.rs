@@ -14,8 +14,8 @@ use super::view::ViewArgs;
 
 pub(crate) const EXAMPLES: &str = "\
 Paths are files, folders, globs ('renders/*.exr'), patterns (gt.%04d.exr, 'gt.####.exr') or y4m
-video, - from standard input.
-Frames pair by name, then by the number that changes from name to name (docs/files.md).
+videos; - is a y4m video on standard input.
+Frames are paired by name, then by the number that changes from name to name (docs/files.md).
 
 Examples:
   fovqa score gt.png rmfr.png --fov-vertical 100
@@ -25,17 +25,17 @@ Examples:
   ffmpeg -i rmfr.mkv -f yuv4mpegpipe -strict -1 - | fovqa score gt.y4m -
 
 Exit codes: 0 done; 2 the command line is wrong; 3 an input is missing, unreadable or does not fit,
-or the output cannot be written (frames that fit are scored all the same); 70 a bug in fovqa; 130
+or the output cannot be written (frames that fit are still scored); 70 a bug in fovqa; 130
 interrupted.";
 
 /// How results are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// For people.
+    /// A table to read.
     Table,
-    /// Everything, nested.
+    /// All values, as nested JSON.
     Json,
-    /// One long table, a row a value.
+    /// One long table with one value per row.
     Csv,
 }
 
@@ -44,7 +44,7 @@ pub(crate) struct ScoreArgs {
     /// Reference frames (ground truth): a file, a folder, a glob, a pattern, a y4m video, or - for one on
     /// standard input
     reference: PathBuf,
-    /// Test frames (foveated), likewise
+    /// Test frames (foveated renders), in the same forms
     test: PathBuf,
     /// How results are printed
     #[arg(long, value_name = "FORMAT", default_value = "table")]
@@ -57,18 +57,18 @@ pub(crate) struct ScoreArgs {
     signal: SignalArgs,
     #[command(flatten)]
     guides: GuideArgs,
-    /// Frames by their numbers, from A up to, but without, B
+    /// Score only these frame numbers, from A up to, but not including, B
     #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP", help_heading = "Sequence")]
     frames: Option<FrameRange>,
-    /// Frames a second: FovVideoVDP of a sequence, and gaze traces in seconds, need it [default: that of a
-    /// video]
+    /// Frames per second, needed for FovVideoVDP of a sequence and for gaze traces in seconds
+    /// [default: the frame rate of a y4m video]
     #[arg(long, value_name = "N", value_parser = positive, help_heading = "Sequence")]
     fps: Option<f64>,
-    /// Pass over frames without a partner
+    /// Skip frames without a partner
     #[arg(long, help_heading = "Sequence")]
     allow_missing: bool,
-    /// Write the maps of each frame into a folder, one for each metric that has one (`fovqa list metrics`):
-    /// the values (OpenEXR), and a picture in colours (PNG)
+    /// Write maps of each frame to DIR, as values (OpenEXR) and as a picture in colours (PNG);
+    /// `fovqa list metrics` shows which metrics have a map
     #[arg(long, value_name = "DIR")]
     pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]
@@ -81,7 +81,10 @@ impl ScoreArgs {
     pub(crate) fn plan(self) -> Result<Plan, String> {
         let stdin = Path::new("-");
         if self.reference == stdin && self.test == stdin {
-            return Err("both frames are standard input (-), which can be read but once".to_owned());
+            return Err(
+                "reference and test are both standard input (-), which can only be read once"
+                    .to_owned(),
+            );
         }
         let (motion_files, depth_files) = self.guides.files();
         let settings = Settings {

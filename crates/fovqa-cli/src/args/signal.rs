@@ -19,7 +19,7 @@ type MatrixOrAuto = Option<ColourMatrix>;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Signal")]
 pub(crate) struct SignalArgs {
-    /// What is compared
+    /// Channels to compare
     #[arg(long, value_name = "WHAT", default_value = SignalChannels::default().word(), value_parser = words::<SignalChannels>())]
     channels: SignalChannels,
     /// Exposure of linear input, stops
@@ -35,28 +35,29 @@ pub(crate) struct SignalArgs {
     /// a prefix
     #[arg(long, value_name = "NAME")]
     layer: Option<String>,
-    /// Colour layer of the test, where it is another than the reference's
+    /// Colour layer of the test, if it differs from the reference's
     #[arg(long, value_name = "NAME")]
     test_layer: Option<String>,
-    /// What to do about NaN and infinity
+    /// Treatment of NaN and infinity
     #[arg(long, value_name = "POLICY", default_value = Nonfinite::default().word(), value_parser = words::<Nonfinite>())]
     nonfinite: Nonfinite,
-    /// What to do about alpha that is not 1 everywhere
+    /// Treatment of alpha that is not 1 everywhere
     #[arg(long, value_name = "POLICY", default_value = AlphaPolicy::default().word(), value_parser = words::<AlphaPolicy>())]
     alpha: AlphaPolicy,
-    /// Which codes of y4m video are black and white
+    /// Code range of y4m video
     #[arg(long, value_name = "NAME", default_value = RangeOrAuto::default().word(), value_parser = words::<RangeOrAuto>())]
     range: RangeOrAuto,
-    /// What Y', Cb and Cr of y4m video were made with
+    /// Matrix from Y', Cb and Cr of y4m video to R'G'B'
     #[arg(long, value_name = "NAME", default_value = MatrixOrAuto::default().word(), value_parser = words::<MatrixOrAuto>())]
     matrix: MatrixOrAuto,
-    /// Picture that is white where pixels count, such as a lens's visible area
+    /// Mask image: white pixels are scored, for example the visible area of a lens
     #[arg(long, value_name = "FILE")]
     mask: Option<PathBuf>,
-    /// Rectangle to score, such as one eye of a side-by-side picture; the view is of the crop
+    /// Rectangle to score, such as one eye of a side-by-side picture; the view options describe this
+    /// rectangle
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
     crop: Option<Crop>,
-    /// Most pixels a file may declare, millions
+    /// Largest number of pixels that a file may declare, in millions
     #[arg(long, value_name = "N", default_value_t = ReadOptions::default().max_megapixels)]
     max_megapixels: u64,
 }

@@ -71,7 +71,9 @@ pub(crate) fn literal(text: &str) -> Result<ParamValue, String> {
             let list_of = numbers(&list).map(ParamValue::List);
             list_of
                 .or_else(|| list.iter().map(pair).collect::<Option<_>>().map(ParamValue::Pairs))
-                .ok_or_else(|| "a list holds numbers alone, or pairs of numbers alone".to_owned())
+                .ok_or_else(|| {
+                    "a list must contain only numbers, or only pairs of numbers".to_owned()
+                })
         }
         Some(value) => number(&value)
             .map(ParamValue::Number)

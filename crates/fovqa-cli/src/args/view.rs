@@ -15,10 +15,10 @@ use super::values::{finite, numbers, words};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "View")]
 pub(crate) struct ViewSpecArgs {
-    /// Vertical field of view, degrees. Alone: square pixels
+    /// Vertical field of view, degrees; without --fov-horizontal, pixels are square
     #[arg(long, value_name = "DEG", value_parser = finite, allow_negative_numbers = true)]
     fov_vertical: Option<f64>,
-    /// Horizontal field of view, degrees. Alone: square pixels
+    /// Horizontal field of view, degrees; without --fov-vertical, pixels are square
     #[arg(long, value_name = "DEG", value_parser = finite, allow_negative_numbers = true)]
     fov_horizontal: Option<f64>,
     /// Diagonal field of view, degrees
@@ -43,22 +43,23 @@ pub(crate) struct ViewSpecArgs {
 pub(crate) struct ViewArgs {
     #[command(flatten)]
     spec: ViewSpecArgs,
-    /// Photometry of the display, for FovVideoVDP and PU-PSNR: that of a preset (htc-vive-pro), or
-    /// peak_cd_m2=100,contrast=1000 with any of min_cd_m2, ambient_lux, reflectivity, eotf, gamma
-    /// [default: that of --display]
+    /// Photometry of the display, for FovVideoVDP and PU-PSNR: the name of a preset (htc-vive-pro), or
+    /// values such as peak_cd_m2=100,contrast=1000; further keys are min_cd_m2, ambient_lux,
+    /// reflectivity, eotf and gamma [default: that of --display]
     #[arg(long, verbatim_doc_comment, value_name = "NAME|KEY=N,…", value_parser = luminance)]
     luminance: Option<Luminance>,
     /// Gaze in pixels from the top-left corner, or a CSV trace with columns frame,x_px,y_px (or
     /// time_s with --fps) [default: the principal point]
     #[arg(long, verbatim_doc_comment, value_name = "X,Y|FILE.csv", allow_hyphen_values = true, value_parser = gaze)]
     gaze: Option<GazeArg>,
-    /// Frames that a gaze trace does not cover keep its last gaze
+    /// Keep the last gaze in frames that the gaze trace does not cover
     #[arg(long, requires = "gaze")]
     gaze_hold: bool,
     /// How eccentricity is measured
     #[arg(long, value_name = "KIND", default_value = EccentricityKind::default().word(), value_parser = words::<EccentricityKind>())]
     eccentricity: EccentricityKind,
-    /// Edges of the eccentricity bands, degrees [default: 0,5,10,… as far as the frame reaches]
+    /// Edges of the eccentricity bands, degrees [default: 0,5,10,… up to the largest
+    /// eccentricity of the frames]
     #[arg(long, value_name = "DEG,DEG,…", value_parser = bands)]
     bands: Option<BandEdges>,
 }
@@ -71,7 +72,7 @@ enum GazeArg {
 }
 
 /// What to say of a gaze that is not near.
-pub(super) const FAR: &str = "a gaze lies within a million pixels of the frame";
+pub(super) const FAR: &str = "the gaze must be within a million pixels of the frame";
 
 /// Whether a gaze is not a long way outside any frame.
 pub(super) fn near(point: [f64; 2]) -> bool {
@@ -93,7 +94,7 @@ fn gaze(text: &str) -> Result<GazeArg, String> {
 fn bands(text: &str) -> Result<BandEdges, String> {
     let edges: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     let edges =
-        edges.map_err(|_| "write degrees with commas between them: 0,5,10,20".to_owned())?;
+        edges.map_err(|_| "write degrees separated by commas, such as 0,5,10,20".to_owned())?;
     BandEdges::new(edges).map_err(|error| error.to_string())
 }
 

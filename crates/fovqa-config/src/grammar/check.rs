@@ -53,7 +53,7 @@ fn unknown<'a>(
     let guess = nearest(name, known.clone());
     let label =
         guess.map_or_else(|| format!("no such {what}"), |near| format!("did you mean {near}?"));
-    fault.label(label).help(format!("there are {}", known.collect::<Vec<_>>().join(", ")))
+    fault.label(label).help(format!("the {what}s are {}", known.collect::<Vec<_>>().join(", ")))
 }
 
 /// A table of metrics: each key a metric, each value a table of its parameters.
@@ -64,7 +64,7 @@ fn check_metrics(value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Faults)
     if table.is_empty() {
         let fault = Fault::new(value.span(), format!("[{place}] names no metric"));
         faults.push(
-            fault.help("name some, such as psnr = {}, or leave the table out for the default ones"),
+            fault.help("name at least one, such as psnr = {}, or leave out the table to use the default metrics"),
         );
     }
     for (name, params) in table {
@@ -123,7 +123,7 @@ fn check_model(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
     let Some(&(owner, params)) = models.iter().find(|model| model.0 == name) else {
         let fault = Fault::new(model.span(), format!("there is no {what} \"{text}\""));
         let near = nearest(text, keys()).map(|near| format!("did you mean \"{near}\"?"));
-        let help = format!("it is one of {}", quoted(keys()));
+        let help = format!("choose one of {}", quoted(keys()));
         return faults.push(fault.label(near.unwrap_or_default()).help(help));
     };
     for (name, value) in table.iter().filter(|(name, _)| name.get_ref() != "model") {
@@ -293,7 +293,7 @@ fn wrong_type(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &m
     faults.push(match kind {
         Kind::Tables(..) => {
             let name = place.trim_start_matches("an entry of ");
-            fault.help(format!("write [[{name}]] above the keys of each"))
+            fault.help(format!("write [[{name}]] above the keys of each entry"))
         }
         kind => fault.label(format!("write {}", kind.in_words())),
     });
@@ -310,7 +310,7 @@ fn no_such<'a>(
         Some(near) => fault.label(format!("did you mean \"{near}\"?")),
         None => fault,
     };
-    fault.help(format!("it is one of {}", quoted(known)))
+    fault.help(format!("choose one of {}", quoted(known)))
 }
 
 fn type_of(value: &Spanned<DeValue<'_>>) -> &'static str {

@@ -20,22 +20,22 @@ const SCREENS: &[Key] = &[
     key(
         "resolutions",
         Kind::List(&Kind::Resolution, 1, 100),
-        "sizes of the frame, such as [\"2560x1440\"]; a curve for each",
+        "sizes of the frame, such as [\"2560x1440\"]; one curve for each",
     ),
     key(
         "gazes",
         Kind::List(&GAZE, 1, 100),
-        "where the eye looks: \"center\" or [x, y] in pixels; a curve for each",
+        "where the eye looks: \"center\" or [x, y] in pixels; one curve for each",
     ),
     key(
         "directions_deg",
         Kind::List(&Kind::Number(-360.0, 360.0), 1, 100),
-        "directions from the gaze, ° from +x towards +y (0: right, 90: down); a curve for each",
+        "directions from the gaze, ° from +x towards +y (0: right, 90: down); one curve for each",
     ),
     key(
         "tangential",
         Kind::Words(words_of::<Tangential>),
-        "what a degree across the curve is: as along it, or of visual angle",
+        "how a degree across the curve is defined: the same pixels as along it (paper), or visual angle",
     ),
     key("eccentricity", Kind::Words(words_of::<EccentricityKind>), "how eccentricity is measured"),
 ];
@@ -50,7 +50,7 @@ static CURVE_TABLE: [Key; 5 + VIEW.len() + SCREENS.len()] = joined(&[
         key(
             "budget",
             Kind::Above(0.0, 1000.0),
-            "samples over the frame's pixels; sets the method's free parameter",
+            "samples as a share of the frame's pixels; sets the method's free parameter",
         ),
         key(
             "budget_of",
@@ -76,10 +76,10 @@ static PLOT_TABLE: [Key; 14] = [
     required(
         "kind",
         Kind::Words(words_of::<CurvePlotKind>),
-        "rates: rates and acuity against eccentricity; density: samples per pixel over the field, a picture; accumulated: DEAMP's shaded pixels within an angle (Fig. 5b); half_axis: RMFR's mapping of a half axis (Fig. 3)",
+        "rates: rates and acuity against eccentricity; density: picture of the samples per pixel over the field; accumulated: DEAMP's shaded pixels within an angle (Fig. 5b); half_axis: RMFR's mapping of a half axis (Fig. 3)",
     ),
-    key("name", Kind::Name, "name of its files; if it is not given, the kind"),
-    key("title", Kind::Text, "what stands above it"),
+    key("name", Kind::Name, "name of its files; default: the kind"),
+    key("title", Kind::Text, "title above the figure"),
     key("curves", NAMES, "only these curves"),
     key(
         "rate",
@@ -89,26 +89,26 @@ static PLOT_TABLE: [Key; 14] = [
     key(
         "unit",
         Kind::Words(words_of::<RateUnit>),
-        "cycles per degree, or samples per pixel: the display's own rate is 1",
+        "cycles per degree, or samples per pixel, where the display's own rate is 1",
     ),
     key(
         "panels",
         Kind::Words(words_of::<PanelOf>),
-        "what has a panel of its own; if it is not given, each curve with its settings",
+        "what each panel shows; default: one curve with its settings",
     ),
     key(
         "areas",
         Kind::Bool,
-        "shade where the rate is above and below acuity; if it is not given, in panels of one curve",
+        "shade the areas where the rate is above and below acuity; default: only in panels of one curve",
     ),
-    key("display", Kind::Bool, "draw the display's own rate too"),
+    key("display", Kind::Bool, "also draw the display's own rate"),
     key(
         "y_limits",
         Kind::List(&Kind::Number(0.0, 1e6), 2, 2),
         "ends of the vertical axis; curves are cut there",
     ),
     key("marks", Kind::Tables(&MARK, 1000), "measured values: [{ name = \"…\", at = [30, 5] }]"),
-    key("log", Kind::Bool, "a logarithmic axis (of a picture: of its colours)"),
+    key("log", Kind::Bool, "logarithmic axis (in a picture: logarithmic scale of colours)"),
     key(
         "rings_deg",
         Kind::List(&Kind::Above(0.0, 89.0), 1, 20),
@@ -117,7 +117,7 @@ static PLOT_TABLE: [Key; 14] = [
     key(
         "f",
         Kind::List(&Kind::Number(1.001, 1e6), 1, 20),
-        "for half_axis: values of f, each a curve",
+        "for half_axis: values of f, with one curve each",
     ),
 ];
 
@@ -132,19 +132,27 @@ static TABLE_TABLE: [Key; 2] = [
 
 static CURVES_TABLE: [Key; 10] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
-    required("name", Kind::Name, "its name, and that of its folder below reports/"),
-    key("about", Kind::Text, "what it shows, for its page"),
-    key("view", Kind::Table(&VIEW_TABLE), "the screens, for all curves"),
-    key("step_deg", Kind::Number(0.001, 60.0), "from one eccentricity to the next, °; 0.25"),
-    key("to_deg", Kind::Above(0.0, 179.0), "the last eccentricity, °; 60"),
-    key("acuity", Kind::Acuity, "what rates are held against; { model = \"piecewise\" }"),
+    required("name", Kind::Name, "name of the file and of its folder below reports/"),
+    key("about", Kind::Text, "description of what it shows, for its page"),
+    key("view", Kind::Table(&VIEW_TABLE), "frame sizes, view and gazes for all curves"),
+    key("step_deg", Kind::Number(0.001, 60.0), "step between eccentricities, °; default 0.25"),
+    key("to_deg", Kind::Above(0.0, 179.0), "last eccentricity, °; default 60"),
+    key(
+        "acuity",
+        Kind::Acuity,
+        "acuity model that rates are compared with; default { model = \"piecewise\" }",
+    ),
     key("curve", Kind::Tables(&CURVE_TABLE, MOST_CURVES), "the curves"),
     key(
         "plot",
         Kind::Tables(&PLOT_TABLE, 200),
         "figures; if none and no table is given, all that fit",
     ),
-    key("table", Kind::Tables(&TABLE_TABLE, 200), "tables; likewise"),
+    key(
+        "table",
+        Kind::Tables(&TABLE_TABLE, 200),
+        "tables; if none and no figure is given, all that fit",
+    ),
 ];
 
 /// The whole file.

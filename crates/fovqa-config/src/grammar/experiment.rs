@@ -32,9 +32,9 @@ const NAMES: Kind = Kind::List(&Kind::Name, 1, 10_000);
 
 const FRUSTUM: &[Key] = &[
     required("left", TANGENT, "tangent of the half angle to the left of the axis"),
-    required("right", TANGENT, "the same to the right"),
-    required("up", TANGENT, "the same upwards"),
-    required("down", TANGENT, "the same downwards"),
+    required("right", TANGENT, "tangent of the half angle to the right of the axis"),
+    required("up", TANGENT, "tangent of the half angle above the axis"),
+    required("down", TANGENT, "tangent of the half angle below the axis"),
 ];
 
 const TRACE: &[Key] = &[
@@ -73,9 +73,17 @@ const EYE_GAZE: &[Key] = &[key("gaze", Kind::Either(&ONE_GAZE), "where this eye 
 /// The ways to say how a frame is seen.
 pub(super) const VIEW: &[Key] = &[
     key("display", Kind::Display, "display preset; the frame fills its whole field"),
-    key("fov_vertical_deg", FOV, "vertical field of view, °; alone: square pixels"),
-    key("fov_horizontal_deg", FOV, "horizontal field of view, °; alone: square pixels"),
-    key("fov_diagonal_deg", FOV, "diagonal field of view, °; square pixels"),
+    key(
+        "fov_vertical_deg",
+        FOV,
+        "vertical field of view, °; without fov_horizontal_deg, pixels are square",
+    ),
+    key(
+        "fov_horizontal_deg",
+        FOV,
+        "horizontal field of view, °; without fov_vertical_deg, pixels are square",
+    ),
+    key("fov_diagonal_deg", FOV, "diagonal field of view, °; pixels are square"),
     key("frustum", Kind::Table(FRUSTUM), "asymmetric frustum: tangents of its half angles"),
     key("distance_m", LENGTH_M, "distance of the eye from a flat screen, m"),
     key(
@@ -92,7 +100,7 @@ pub(super) const VIEW: &[Key] = &[
 
 /// How frames are read.
 const SIGNAL: &[Key] = &[
-    key("channels", Kind::Words(words_of::<SignalChannels>), "what is compared"),
+    key("channels", Kind::Words(words_of::<SignalChannels>), "channels to compare"),
     key("exposure_stops", Kind::Number(-100.0, 100.0), "exposure of linear input, stops"),
     key("tonemap", Kind::Words(words_of::<ToneMap>), "tone map of linear input"),
     key(
@@ -105,29 +113,29 @@ const SIGNAL: &[Key] = &[
         Kind::Text,
         "colour layer of OpenEXR files that have several, of reference and tests alike",
     ),
-    key("nonfinite", Kind::Words(words_of::<Nonfinite>), "what to do about NaN and infinity"),
+    key("nonfinite", Kind::Words(words_of::<Nonfinite>), "treatment of NaN and infinity"),
     key(
         "alpha",
         Kind::Words(words_of::<AlphaPolicy>),
-        "what to do about alpha that is not 1 everywhere",
+        "treatment of alpha that is not 1 everywhere",
     ),
-    key(
-        "range",
-        Kind::Words(words_of::<Option<CodeRange>>),
-        "which codes of y4m video are black and white",
-    ),
+    key("range", Kind::Words(words_of::<Option<CodeRange>>), "code range of y4m video"),
     key(
         "matrix",
         Kind::Words(words_of::<Option<ColourMatrix>>),
-        "what Y', Cb and Cr of y4m video were made with",
+        "matrix from Y', Cb and Cr of y4m video to R'G'B'",
     ),
-    key("mask", Kind::Text, "picture that is white where pixels count"),
+    key("mask", Kind::Text, "mask image: white pixels are scored"),
     key(
         "crop",
         Kind::List(&PIXELS, 4, 4),
-        "[x, y, width, height] to score, in pixels; the view is of the crop",
+        "[x, y, width, height] to score, in pixels; the view describes this crop",
     ),
-    key("max_megapixels", Kind::Whole(1, 1_000_000), "most pixels a file may declare, millions"),
+    key(
+        "max_megapixels",
+        Kind::Whole(1, 1_000_000),
+        "largest number of pixels that a file may declare, in millions",
+    ),
     key(
         "motion",
         Kind::Either(&[GUIDES, Kind::Table(MOTION)]),
@@ -155,45 +163,57 @@ const MOTION: &[Key] = &[
     key(
         "encoding",
         PRESET,
-        "the renderer that writes channels so, instead of sign, scale and unit",
+        "a renderer whose encoding applies to channels, instead of sign, scale and unit",
     ),
     key(
         "sign",
         Kind::List(&Kind::Number(-1.0, 1.0), 2, 2),
-        "1 or -1 each: what turns x to the right, y down, and both back to the frame before",
+        "1 or -1 for each channel, so that x points right, y points down, and both point back to the previous frame",
     ),
     key(
         "scale",
         Kind::Either(&[CHANNEL_SCALE, Kind::List(&CHANNEL_SCALE, 2, 2)]),
-        "units for 1 in the channels",
+        "how many units a channel value of 1 stands for",
     ),
     key(
         "unit",
         Kind::Words(words_of::<MotionUnit>),
         "pixels, widths and heights of the frame, or halves of these (-1 to 1 across)",
     ),
-    key("files", Kind::Text, "OpenEXR files of their own, which pair with the reference frames"),
+    key("files", Kind::Text, "separate OpenEXR files, which pair with the reference frames"),
 ];
 
 const DEPTH: &[Key] = &[
     key("channel", Kind::Text, "name of the channel"),
     key("preset", PRESET, "the renderer, instead of a channel"),
-    key("files", Kind::Text, "OpenEXR files of their own, which pair with the reference frames"),
+    key("files", Kind::Text, "separate OpenEXR files, which pair with the reference frames"),
 ];
 
 /// The photometry of a display.
 const LUMINANCE: &[Key] = &[
-    required("peak_cd_m2", Kind::Number(0.01, 1e6), "white, cd/m²"),
-    key("contrast", Kind::Number(1.0, 1e12), "peak over black in the dark; 500 without min_cd_m2"),
-    key("min_cd_m2", Kind::Number(0.0, 1e6), "black in the dark, cd/m², instead of contrast"),
-    key("ambient_lux", Kind::Number(0.0, 1e6), "light falling on the screen, lux (0)"),
-    key("reflectivity", Kind::Number(0.0, 1.0), "share of that which the screen reflects (0.005)"),
+    required("peak_cd_m2", Kind::Number(0.01, 1e6), "luminance of white, cd/m²"),
+    key(
+        "contrast",
+        Kind::Number(1.0, 1e12),
+        "contrast: peak over black in the dark; default 500 if min_cd_m2 is not given",
+    ),
+    key(
+        "min_cd_m2",
+        Kind::Number(0.0, 1e6),
+        "luminance of black in the dark, cd/m², instead of contrast",
+    ),
+    key("ambient_lux", Kind::Number(0.0, 1e6), "light falling on the screen, lux (default 0)"),
+    key(
+        "reflectivity",
+        Kind::Number(0.0, 1.0),
+        "share of this light that the screen reflects (default 0.005)",
+    ),
     key(
         "eotf",
         Kind::Words(words_of::<Eotf>),
-        "what the display is given; linear and absolute: cd/m² (srgb)",
+        "transfer function of the display's input; linear and absolute are in cd/m² (default srgb)",
     ),
-    key("gamma", Kind::Number(0.1, 10.0), "the power of eotf = \"gamma\" (2.2)"),
+    key("gamma", Kind::Number(0.1, 10.0), "exponent of eotf = \"gamma\" (default 2.2)"),
 ];
 
 /// Names of [`fovqa_vision::Eotf`].
@@ -202,7 +222,7 @@ const SHARED: &[Key] = &[
     key(
         "luminance",
         Kind::Either(&[Kind::Display, Kind::Table(LUMINANCE)]),
-        "photometry of the display, for FovVideoVDP and PU-PSNR: that of a preset, or { peak_cd_m2 = 100, contrast = 1000, … }; if it is not given, that of display",
+        "photometry of the display, for FovVideoVDP and PU-PSNR: the name of a preset, or { peak_cd_m2 = 100, contrast = 1000, … }; default: that of display",
     ),
     key("eccentricity", Kind::Words(words_of::<EccentricityKind>), "how eccentricity is measured"),
     key(
@@ -237,16 +257,16 @@ static VIEW_TABLE: [Key; VIEW.len() + 1 + SHARED.len() + 2] = joined(&[
     VIEW_GAZE,
     SHARED,
     &[
-        key("left", Kind::Table(&VIEW_EYE), "what is different for the left eye"),
-        key("right", Kind::Table(&VIEW_EYE), "what is different for the right eye"),
+        key("left", Kind::Table(&VIEW_EYE), "settings that differ for the left eye"),
+        key("right", Kind::Table(&VIEW_EYE), "settings that differ for the right eye"),
     ],
 ]);
 
 static SIGNAL_TABLE: [Key; SIGNAL.len() + 2] = joined(&[
     SIGNAL,
     &[
-        key("left", Kind::Table(&SIGNAL_EYE), "what is different for the left eye"),
-        key("right", Kind::Table(&SIGNAL_EYE), "what is different for the right eye"),
+        key("left", Kind::Table(&SIGNAL_EYE), "settings that differ for the left eye"),
+        key("right", Kind::Table(&SIGNAL_EYE), "settings that differ for the right eye"),
     ],
 ]);
 
@@ -258,22 +278,18 @@ static SCENE_TABLE: [Key; 6 + VIEW.len() + 1 + SHARED.len() + SIGNAL.len() + 2] 
             FILES,
             "reference frames: file, folder, glob or pattern (%04d, ####), or { left, right }",
         ),
-        key(
-            "folder",
-            Kind::Text,
-            "what {folder} stands for in paths; the scene's name if it is not given",
-        ),
-        key("fps", Kind::Above(0.0, 1e6), "frames a second"),
+        key("folder", Kind::Text, "what {folder} stands for in paths; default: the scene's name"),
+        key("fps", Kind::Above(0.0, 1e6), "frames per second"),
         key("frames", Kind::Frames, "only these frames"),
-        key("allow_missing", Kind::Bool, "pass over frames without a partner"),
+        key("allow_missing", Kind::Bool, "skip frames without a partner"),
     ],
     VIEW,
     VIEW_GAZE,
     SHARED,
     SIGNAL,
     &[
-        key("left", Kind::Table(&SCENE_EYE), "what is different for the left eye"),
-        key("right", Kind::Table(&SCENE_EYE), "what is different for the right eye"),
+        key("left", Kind::Table(&SCENE_EYE), "settings that differ for the left eye"),
+        key("right", Kind::Table(&SCENE_EYE), "settings that differ for the right eye"),
     ],
 ]);
 
@@ -294,7 +310,7 @@ static METHOD_TABLE: [Key; 4] = [
     key(
         "layer",
         Kind::Either(&[Kind::Text, Kind::Table(LAYER_SIDES)]),
-        "colour layer of its tests, where it is another than the reference's; or { left, right }",
+        "colour layer of its tests, if it differs from the reference's; or { left, right }",
     ),
 ];
 
@@ -317,18 +333,18 @@ static PLOT_TABLE: [Key; 6] = [
         Kind::Words(words_of::<PlotKind>),
         "table: scenes against metrics and methods; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames; sequence: frame by frame, saccades marked; ratios: table of test / reference by eccentricity",
     ),
-    key("metric", Kind::Metric, "the metric; if it is not given, a figure for each"),
+    key("metric", Kind::Metric, "the metric; default: one figure per metric"),
     key("scenes", NAMES, "only these scenes"),
     key("methods", NAMES, "only these methods"),
     key(
         "levels",
         Kind::List(&Kind::Whole(1, 8), 1, 8),
-        "levels of the wavelet, a panel or a column each; all if it is not given",
+        "levels of the wavelet, with one panel or column each; default: all",
     ),
     key(
         "statistic",
         Kind::Word(&["mean_abs", "max_abs", "energy"]),
-        "statistic of the wavelet; energy if it is not given",
+        "statistic of the wavelet; default: energy",
     ),
 ];
 
@@ -338,49 +354,61 @@ const LIMIT: Kind = Kind::Number(-1e12, 1e12);
 
 static GATE_TABLE: [Key; 14] = [
     required("metric", Kind::Metric, "the metric"),
-    key("name", Kind::Name, "what the rule is called in verdicts"),
+    key("name", Kind::Name, "name of the rule in verdicts"),
     key(
         "statistic",
         Kind::Text,
-        "of haar: mean_abs, max_abs, energy; of fvvdp: jod (of the sequence, the default), frame_jod, q, share, q_sustained, q_transient; of metrics that pool their frames, such as psnr: pooled (of the sequence)",
+        "for haar: mean_abs, max_abs, energy; for fvvdp: jod (of the sequence, the default), frame_jod, q, share, q_sustained, q_transient; for metrics that pool their frames, such as psnr: pooled (of the sequence)",
     ),
-    key("image", Kind::Word(&["pair", "test", "reference", "ratio"]), "of which picture"),
+    key(
+        "image",
+        Kind::Word(&["pair", "test", "reference", "ratio"]),
+        "image that the rule applies to",
+    ),
     key("level", Kind::Whole(1, 32), "level of the wavelet, or spatial band of fvvdp"),
     key(
         "aggregate",
         Kind::Text,
         "how frames become one value: mean (the default), min, max, p01 to p99",
     ),
-    key("scene", Kind::Name, "only this scene; if it is not given, each of them"),
-    key("method", Kind::Name, "only this method; if it is not given, each of them"),
+    key("scene", Kind::Name, "only this scene; default: each scene"),
+    key("method", Kind::Name, "only this method; default: each method"),
     key(
         "eye",
         Kind::Word(&["left", "right", "both"]),
-        "in scenes with two eyes; both if it is not given",
+        "eye, in scenes with two eyes; default: both",
     ),
     key(
         "band_deg",
         Kind::List(&BAND_EDGE, 2, 2),
-        "[from, to], edges of scored eccentricity bands, °; if it is not given, the whole frame",
+        "[from, to], edges of scored eccentricity bands, °; default: the whole frame",
     ),
     key("at_least", LIMIT, "smallest value"),
     key("at_most", LIMIT, "largest value"),
-    key("max_drop", ALLOWANCE, "how far it may fall below the baseline's: a number, or \"2%\""),
-    key("max_rise", ALLOWANCE, "how far it may rise above the baseline's: a number, or \"2%\""),
+    key(
+        "max_drop",
+        ALLOWANCE,
+        "largest allowed drop below the baseline's value: a number, or \"2%\"",
+    ),
+    key(
+        "max_rise",
+        ALLOWANCE,
+        "largest allowed rise above the baseline's value: a number, or \"2%\"",
+    ),
 ];
 
 static EXPERIMENT_TABLE: [Key; 11] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
     required("name", Kind::Name, "name of the experiment, and of its folder below reports/"),
-    key("about", Kind::Text, "what it shows, for its page"),
-    key("view", Kind::Table(&VIEW_TABLE), "how frames are seen"),
+    key("about", Kind::Text, "description of what it shows, for its page"),
+    key("view", Kind::Table(&VIEW_TABLE), "view of the frames"),
     key("signal", Kind::Table(&SIGNAL_TABLE), "how frames are read"),
     required("scene", Kind::Tables(&SCENE_TABLE, 10_000), "the scenes"),
     required("method", Kind::Tables(&METHOD_TABLE, 1000), "the methods"),
     key(
         "metrics",
         Kind::Metrics,
-        "the metrics with their parameters; if it is not given, the default ones",
+        "the metrics with their parameters; default: the default metrics",
     ),
     key("output", Kind::Table(&OUTPUT), "how the results are written"),
     key(

@@ -82,7 +82,7 @@ impl Kind {
                 (true, true) => format!("a number from {min} to {max}"),
                 _ => "a number".to_owned(),
             },
-            Kind::Above(min, max) => format!("a number above {min}, up to {max}"),
+            Kind::Above(min, max) => format!("a number above {min} and at most {max}"),
             Kind::Whole(min, max) => format!("a whole number from {min} to {max}"),
             Kind::NumberOr(min, max, word) => {
                 format!("{}; or \"{word}\"", Kind::Number(*min, *max).in_words())
@@ -99,8 +99,8 @@ impl Kind {
             Kind::Acuity => "a table such as { model = \"piecewise\", cap_cpd = 9 }".to_owned(),
             Kind::List(kind, min, max) => {
                 let count = match (min, max) {
-                    (min, max) if min == max => format!("a list of {min}: each "),
-                    (min, max) => format!("a list of {min} to {max}: each "),
+                    (min, max) if min == max => format!("a list of {min} values, each "),
+                    (min, max) => format!("a list of {min} to {max} values, each "),
                 };
                 count + &kind.in_words()
             }

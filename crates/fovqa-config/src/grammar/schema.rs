@@ -15,7 +15,8 @@ pub fn schema() -> Value {
 
 /// The JSON Schema of a file of curves.
 pub fn curves_schema() -> Value {
-    let about = "Foveation methods against acuity: curves, figures and tables of fovqa (TOML)";
+    let about =
+        "Foveation methods compared with acuity: curves, figures and tables of fovqa (TOML)";
     headed(table(CURVES), "fovqa curves", about)
 }
 

@@ -45,7 +45,7 @@ fn rule(
         |resolved: &&SceneEntry| scene.as_ref().is_none_or(|name| *name == resolved.scene.name);
     let two_eyes = known.scenes.iter().filter(of).any(|scene| scene.scene.eyes.len() > 1);
     if eye.is_some() && !two_eyes {
-        let message = "the rule is of an eye, and none of its scenes has two";
+        let message = "the rule names an eye, but none of its scenes has two eyes";
         faults.push(Fault::new(table.span("eye"), message));
     }
     let of_scenes = known.scenes.iter().filter(of).collect::<Vec<_>>();
@@ -76,7 +76,7 @@ fn metric(table: Node<'_>, known: &Known<'_>, faults: &mut Faults) -> Option<Met
     if found.is_none() {
         let message = format!("the gate's metric {key} is not scored");
         let keys = scored.iter().map(|metric| metric.key());
-        let help = format!("name it in [metrics]; these are: {}", quoted(keys));
+        let help = format!("add it to [metrics]; the scored metrics are {}", quoted(keys));
         faults.push(Fault::new(table.span("metric"), message).help(help));
     }
     found
@@ -88,12 +88,11 @@ fn quantity(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fau
     let whole = matches!((metric, statistic.as_str()), (Metric::Fvvdp, "jod") | (_, "pooled"));
     let aggregate = match table.text("aggregate") {
         Some(word) if whole => {
-            let message =
-                format!("{statistic} is of the whole sequence, which no {word} can be of");
+            let message = format!("{statistic} describes the whole sequence and has no {word}");
             let help = if metric == Metric::Fvvdp {
-                "leave aggregate out, or take statistic = \"frame_jod\""
+                "leave out aggregate, or use statistic = \"frame_jod\""
             } else {
-                "leave aggregate out, or statistic"
+                "leave out aggregate or statistic"
             };
             faults.push(Fault::new(table.span("aggregate"), message).help(help));
             None
@@ -103,7 +102,7 @@ fn quantity(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fau
             if aggregate.is_none() {
                 let fault =
                     Fault::new(table.span("aggregate"), format!("aggregate cannot be \"{word}\""));
-                faults.push(fault.help("it is \"mean\", \"min\", \"max\", or \"p01\" to \"p99\""));
+                faults.push(fault.help("write \"mean\", \"min\", \"max\", or \"p01\" to \"p99\""));
             }
             aggregate
         }
@@ -122,24 +121,24 @@ fn statistic(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fa
     let allowed = allowed(metric, orientations);
     let Some(word) = table.text("statistic") else {
         if metric == Metric::Haar {
-            let fault = Fault::new(table.span("metric"), "a gate on haar names its statistic");
-            faults.push(fault.help(format!("it is one of {}", quoted(allowed.iter().copied()))));
+            let fault = Fault::new(table.span("metric"), "a gate on haar needs a statistic");
+            faults.push(fault.help(format!("choose one of {}", quoted(allowed.iter().copied()))));
         }
         return if metric == Metric::Fvvdp { "jod".to_owned() } else { String::new() };
     };
     if !allowed.contains(&word) {
         let message = format!("{} has no statistic \"{word}\"", metric.key());
         let help = if allowed.is_empty() {
-            "leave statistic out: aggregate says how frames become one value".to_owned()
+            "leave out statistic: aggregate decides how frames become one value".to_owned()
         } else {
             let words = quoted(allowed.iter().copied());
             let split = ORIENTATIONS.iter().any(|of| word.ends_with(&format!("_{of}")));
             let more = if metric == Metric::Haar && split && !orientations {
-                "; those of an orientation need haar = { orientations = true }"
+                "; statistics of an orientation need haar = { orientations = true }"
             } else {
                 ""
             };
-            format!("it is one of {words}{more}")
+            format!("choose one of {words}{more}")
         };
         faults.push(Fault::new(table.span("statistic"), message).help(help));
     }
@@ -175,17 +174,18 @@ fn image(table: Node<'_>, metric: Metric, faults: &mut Faults) -> String {
     };
     match table.text("image") {
         Some(word) if metric.is(MetricKind::Fidelity) && word != "pair" => {
-            let message = format!("{} is of the pair: it has no {word}", metric.key());
-            faults.push(Fault::new(table.span("image"), message).help("leave image out"));
+            let message =
+                format!("{} has one value per pair of images, and so no {word}", metric.key());
+            faults.push(Fault::new(table.span("image"), message).help("leave out image"));
         }
         Some("pair") if !metric.is(MetricKind::Fidelity) => {
-            let message = format!("{} is of each picture, not of the pair", metric.key());
+            let message = format!("{} has values for each image, not for the pair", metric.key());
             let fault = Fault::new(table.span("image"), message);
-            faults.push(fault.help("it is \"test\", \"reference\" or \"ratio\""));
+            faults.push(fault.help("write \"test\", \"reference\" or \"ratio\""));
         }
         Some(word) => return word.to_owned(),
         None if needed => {
-            let message = format!("a gate on {} names its image", metric.key());
+            let message = format!("a gate on {} needs an image", metric.key());
             let fault = Fault::new(table.span("metric"), message);
             faults.push(fault.help("add image = \"ratio\", \"test\" or \"reference\""));
         }
@@ -206,14 +206,14 @@ fn level(
     let levels = known.params.haar.levels as usize;
     let mut fault = |key: &str, message: String| {
         let fault = Fault::new(table.span(key), message);
-        faults.push(fault.help("level counts from 1, the finest"));
+        faults.push(fault.help("levels count from 1, the finest"));
     };
     match given {
         None if metric == Metric::Haar || spatial => {
-            fault("metric", format!("a gate on {} {statistic} names its level", metric.key()));
+            fault("metric", format!("a gate on {} {statistic} needs a level", metric.key()));
         }
         Some(level) if metric == Metric::Haar && level > levels => {
-            fault("level", format!("haar has {levels} levels, and no level {level}"));
+            fault("level", format!("haar has {levels} levels, so it has no level {level}"));
         }
         Some(_) if metric != Metric::Haar && !spatial => {
             fault("level", format!("{} has no levels", metric.key()));
@@ -237,25 +237,25 @@ fn bands(
         let of_bands = metric.is(MetricKind::Profile)
             || (metric == Metric::Fvvdp && table.text("statistic") == Some("share"));
         if of_bands {
-            let message = format!("a gate on {} names its band", metric.key());
+            let message = format!("a gate on {} needs a band", metric.key());
             let fault = Fault::new(table.span("metric"), message);
             faults.push(fault.help("add band_deg = [from, to], in degrees"));
         }
         return;
     };
     if from >= to {
-        let fault = Fault::new(span, format!("the band from {from}° to {to}° has nothing in it"));
-        faults.push(fault.help("write band_deg = [from, to], from below to"));
+        let fault = Fault::new(span, format!("the band from {from}° to {to}° is empty"));
+        faults.push(fault.help("write band_deg = [from, to] with from below to"));
         return;
     }
     let of_bands = metric != Metric::Fvvdp || table.text("statistic") == Some("share");
     if !metric.info().per_band || !of_bands {
         let (message, help) = if metric == Metric::Fvvdp {
             let statistic = table.text("statistic").unwrap_or("jod");
-            let help = "leave band_deg out, or take statistic = \"share\"";
+            let help = "leave out band_deg, or use statistic = \"share\"";
             (format!("fvvdp {statistic} has no value per band"), help)
         } else {
-            (format!("{} has no value per band", metric.key()), "leave band_deg out")
+            (format!("{} has no value per band", metric.key()), "leave out band_deg")
         };
         faults.push(Fault::new(span, message).help(help));
         return;
@@ -263,7 +263,7 @@ fn bands(
     let mut inside = 0;
     for settings in scenes.iter().flat_map(|scene| &scene.scene.eyes).map(|eye| &eye.settings) {
         if settings.view.is_none() {
-            let message = "bands need a view, and a scene of the rule has none";
+            let message = "bands need a view, but a scene of the rule has none";
             faults.push(Fault::new(span, message).help(VIEW_HELP));
             return;
         }
@@ -277,10 +277,10 @@ fn bands(
         let begins = known.iter().any(|(edge, _)| edge.to_bits() == from.to_bits());
         let ends = known.iter().any(|(_, edge)| edge.to_bits() == to.to_bits());
         if !begins || !ends {
-            let message = "the band does not begin and end with bands that are scored";
+            let message = "the band must begin and end at edges of scored bands";
             let help = if settings.bands.is_some() {
                 let all = known.iter().map(|(from, to)| format!("{from} to {to}"));
-                format!("they are, in degrees: {}", all.collect::<Vec<_>>().join(", "))
+                format!("the scored bands are, in degrees: {}", all.collect::<Vec<_>>().join(", "))
             } else {
                 "the default bands are 0, 5, 10, …; give others with bands_deg".to_owned()
             };
@@ -293,7 +293,7 @@ fn bands(
     let key = Key::named(Subject::Metric(metric), statistic);
     let apart = key.is_some_and(|key| key.statistic().bands == Pooling::None);
     if inside > 1 && apart {
-        let message = format!("{} of several bands cannot be put together", metric.key());
+        let message = format!("{} of several bands cannot be combined", metric.key());
         faults.push(Fault::new(span, message).help("name one band"));
     }
 }
@@ -344,10 +344,10 @@ fn direction(table: Node<'_>, span: Range<usize>, rule: &GateRule, faults: &mut 
     let (wrong, why): (&[&str], &str) = match better(Metric::find(metric), statistic, image) {
         Better::Higher => (&["at_most", "max_rise"], "higher is better"),
         Better::Lower => (&["at_least", "max_drop"], "lower is better"),
-        Better::Neither => (&["max_drop", "max_rise"], "neither high nor low is better"),
+        Better::Neither => (&["max_drop", "max_rise"], "neither higher nor lower is better"),
     };
     for key in wrong.iter().filter(|key| table.has(key)) {
-        let message = format!("{key} points the wrong way: of {what}, {why}");
+        let message = format!("{key} points the wrong way: for {what}, {why}");
         let help = match why {
             "higher is better" => "use at_least or max_drop",
             "lower is better" => "use at_most or max_rise",
@@ -358,7 +358,7 @@ fn direction(table: Node<'_>, span: Range<usize>, rule: &GateRule, faults: &mut 
     if let (Some(least), Some(most)) = (rule.at_least, rule.at_most)
         && least > most
     {
-        let message = format!("no value is at least {least} and at most {most}");
+        let message = format!("no value can be at least {least} and at most {most}");
         faults.push(Fault::new(table.span("at_most"), message));
     }
 }

@@ -59,7 +59,7 @@ fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
     either(table, "channels", faults);
     let Some(names) = table.names("channels") else {
         for key in ["sign", "scale", "unit", "encoding"].into_iter().filter(|key| table.has(key)) {
-            let message = format!("{key} is that of channels, and none are named");
+            let message = format!("{key} describes channels, but none are named");
             let fault = Fault::new(table.span(key), message);
             faults.push(fault.help("add channels = [\"…\", \"…\"]: a preset has its own"));
         }
@@ -71,9 +71,9 @@ fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
     let own = ["sign", "scale", "unit"].into_iter().find(|key| table.has(key));
     if let Some(preset) = table.word("encoding") {
         if let Some(key) = own {
-            let message = format!("both {key} and an encoding that has its own are given");
+            let message = format!("both {key} and an encoding with its own {key} are given");
             let fault = Fault::new(table.span(key), message);
-            faults.push(fault.label("beside encoding").help("keep one of them"));
+            faults.push(fault.label("given together with encoding").help("keep one of them"));
         }
         return MotionChannels::NamedAs(preset, channels);
     }
@@ -82,7 +82,7 @@ fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
         // Nothing says that they are otherwise than their renderer writes them.
         let renderer = preset.word();
         let message = format!(
-            "these are channels as {renderer} writes them, which are not pixels to the right and down"
+            "{renderer} writes these channels in another encoding than pixels to the right and down"
         );
         let help = format!(
             "add encoding = \"{renderer}\", or sign = [1, 1] if they do hold pixels to the right and down"
@@ -91,13 +91,13 @@ fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
     }
     let sign = table.array("sign").unwrap_or([1.0; 2]);
     if sign.iter().any(|sign| sign.abs() < 1.0) {
-        let fault = Fault::new(table.span("sign"), "a sign is 1 or -1");
-        faults.push(fault.help("other factors are a scale"));
+        let fault = Fault::new(table.span("sign"), "a sign must be 1 or -1");
+        faults.push(fault.help("use scale for other factors"));
     }
     let scale = table.number("scale").map(|scale| [scale; 2]).or_else(|| table.array("scale"));
     let scale = scale.unwrap_or([1.0; 2]);
     if scale.contains(&0.0) {
-        faults.push(Fault::new(table.span("scale"), "a scale of 0 leaves no motion"));
+        faults.push(Fault::new(table.span("scale"), "a scale of 0 removes all motion"));
     }
     MotionChannels::Named(NamedMotion {
         channels,
@@ -121,6 +121,7 @@ fn either(table: Node<'_>, channels: &str, faults: &mut Faults) {
     if table.has(channels) && table.has("preset") {
         let message = format!("both {channels} and a preset are given");
         let fault = Fault::new(table.span("preset"), message);
-        faults.push(fault.label(format!("beside {channels}")).help("keep one of them"));
+        faults
+            .push(fault.label(format!("given together with {channels}")).help("keep one of them"));
     }
 }

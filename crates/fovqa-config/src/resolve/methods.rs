@@ -29,10 +29,11 @@ pub(super) fn methods(
     if tables.len() * scenes.len() > MOST_COMPARISONS {
         let (methods, scenes) = (tables.len(), scenes.len());
         let message = format!(
-            "these are {methods} methods in {scenes} scenes, and {MOST_COMPARISONS} comparisons at most"
+            "{methods} methods in {scenes} scenes are too many: at most {MOST_COMPARISONS} comparisons are allowed"
         );
-        faults
-            .push(Fault::new(root.span("method"), message).help("make several experiments of it"));
+        faults.push(
+            Fault::new(root.span("method"), message).help("divide it into several experiments"),
+        );
         return Vec::new();
     }
     for (index, (table, _)) in tables.iter().enumerate() {
@@ -60,7 +61,7 @@ pub(super) fn methods(
         if !tables.is_empty() && faults.is_empty() {
             let message = format!("no method is scored in scene \"{}\"", scene.scene.name);
             let fault = Fault::new(scene.span.clone(), message);
-            faults.push(fault.help("name it in the scenes of a method, or take it out"));
+            faults.push(fault.help("name it in the scenes of a method, or remove it"));
         }
     }
     tables.iter().map(|(table, _)| table.text("name").unwrap_or_default().to_owned()).collect()
@@ -76,13 +77,15 @@ fn tests(table: Node<'_>, index: usize, base: &Path, scene: &mut SceneEntry, fau
     if two != per_eye {
         let (message, help) = if two {
             (
-                format!("scene \"{name}\" has two eyes, and method \"{method}\" one test for both"),
+                format!(
+                    "scene \"{name}\" has two eyes, but method \"{method}\" has one test for both"
+                ),
                 "put {eye} into the path (it stands for left and right), or write test = { left = \"…\", right = \"…\" }",
             )
         } else {
             (
                 format!(
-                    "method \"{method}\" has a test for each eye, and scene \"{name}\" has one reference"
+                    "method \"{method}\" has a test for each eye, but scene \"{name}\" has one reference"
                 ),
                 "give the scene reference = { left = \"…\", right = \"…\" }, or name the method's scenes",
             )
@@ -93,7 +96,7 @@ fn tests(table: Node<'_>, index: usize, base: &Path, scene: &mut SceneEntry, fau
     let layers = table.table("layer");
     if layers.is_some() && !two {
         let message = format!(
-            "method \"{method}\" has a layer for each eye, and scene \"{name}\" has one reference"
+            "method \"{method}\" has a layer for each eye, but scene \"{name}\" has one reference"
         );
         let help =
             "write layer = \"…\", or give the scene reference = { left = \"…\", right = \"…\" }";

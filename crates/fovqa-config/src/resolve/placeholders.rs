@@ -44,7 +44,7 @@ impl Placeholders<'_> {
             }
             let Some((name, after)) = behind.split_once('}') else {
                 return Err((
-                    format!("\"{text}\" opens a brace and does not close it"),
+                    format!("\"{text}\" opens a brace but does not close it"),
                     self.known(),
                 ));
             };
@@ -53,11 +53,11 @@ impl Placeholders<'_> {
                 "folder" => self.folder,
                 "method" if self.method.is_some() => self.method.unwrap_or_default(),
                 "eye" => self.eye.ok_or_else(|| {
-                    let message = format!("\"{text}\" has {{eye}} in it, and the scene \"{}\" has one reference for both", self.scene);
+                    let message = format!("\"{text}\" contains {{eye}}, but the scene \"{}\" has one reference for both eyes", self.scene);
                     (message, "give the scene reference = { left = \"…\", right = \"…\" }".to_owned())
                 })?,
                 other => {
-                    return Err((format!("\"{text}\" has {{{other}}} in it, which stands for nothing"), self.known()));
+                    return Err((format!("\"{text}\" contains {{{other}}}, which is not a known placeholder"), self.known()));
                 }
             }));
             rest = after;

@@ -59,7 +59,7 @@ fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut
     } else if matches!(plot.kind, PlotKind::Profile | PlotKind::Ratios)
         && eyes.iter().all(|e| e.settings.view.is_none())
     {
-        ("the plot is by eccentricity, and none of its scenes has a view", VIEW_HELP)
+        ("the plot shows values by eccentricity, but none of its scenes has a view", VIEW_HELP)
     } else if plot.metric.is_none() && !known.metrics.metrics().iter().any(|m| fits(*m, plot.kind))
     {
         ("the plot has nothing to show: no metric that is scored fits its kind", "")
@@ -76,14 +76,16 @@ fn scored(table: Node<'_>, key: &str, kind: PlotKind, known: &Known<'_>, faults:
     let Some(metric) = scored.iter().find(|metric| metric.key() == key) else {
         let fault =
             Fault::new(table.span("metric"), format!("the plot's metric {key} is not scored"));
-        faults.push(fault.help(format!("name it in [metrics]; these are: {}", quoted(keys()))));
+        faults.push(
+            fault.help(format!("add it to [metrics]; the scored metrics are {}", quoted(keys()))),
+        );
         return;
     };
     if !fits(*metric, kind) {
         let why = match (kind, metric.info().kind) {
-            (PlotKind::Profile, _) => "has no values per band, so that it has no profile",
-            (PlotKind::Ratios, _) => "compares test with reference itself, so that it has no ratio",
-            _ => "is of each picture by eccentricity: draw it as profile or ratios",
+            (PlotKind::Profile, _) => "has no values per band, and so no profile",
+            (PlotKind::Ratios, _) => "already compares test with reference, and so has no ratio",
+            _ => "describes each image by eccentricity: draw it as profile or ratios",
         };
         let others = scored.iter().filter(|metric| fits(**metric, kind));
         let help = format!("these fit: {}", quoted(others.map(|metric| metric.key())));
@@ -119,17 +121,17 @@ fn wavelet(
     let fits = matches!(kind, PlotKind::Profile | PlotKind::Ratios);
     if !fits || metric != Some(Metric::Haar.key()) {
         for key in ["levels", "statistic"].into_iter().filter(|key| table.has(key)) {
-            let message = format!("{key} is of the wavelet, and the plot is not");
+            let message = format!("{key} only applies to the wavelet");
             let fault = Fault::new(table.span(key), message);
             faults.push(
-                fault.help("it goes with kind = \"profile\" or \"ratios\" and metric = \"haar\""),
+                fault.help("use it with kind = \"profile\" or \"ratios\" and metric = \"haar\""),
             );
         }
         return;
     }
     let most = known.params.haar.levels as usize;
     if let Some(level) = levels(table).iter().flatten().find(|level| **level > most) {
-        let message = format!("level {level} is not scored: there are {most}");
+        let message = format!("level {level} is not scored: the number of levels is {most}");
         let fault = Fault::new(table.span("levels"), message);
         faults.push(fault.help(format!("write haar = {{ levels = {level} }} in [metrics]")));
     }

@@ -73,7 +73,7 @@ pub(super) fn scenes(
                 && left.settings.view.is_some() != right.settings.view.is_some()
             {
                 let which = if left.settings.view.is_some() { "left" } else { "right" };
-                let message = format!("scene \"{name}\" has a view for its {which} eye alone");
+                let message = format!("scene \"{name}\" has a view only for its {which} eye");
                 faults.push(
                     Fault::new(span.clone(), message)
                         .help("give one for both, or one in each of the tables left and right"),
@@ -127,7 +127,7 @@ fn foveal_without_view(
         return;
     }
     for (key, span) in asked_for(root, metrics, |info| info.needs.view) {
-        let message = format!("{key} needs a view, and scene \"{scene}\" has none");
+        let message = format!("{key} needs a view, but scene \"{scene}\" has none");
         faults.push(Fault::new(span, message).help(VIEW_HELP));
     }
 }
@@ -156,12 +156,12 @@ fn unlit(
     for (key, span) in asked_for(root, metrics, |info| info.needs.luminance) {
         if eyes.iter().any(|eye| eye.settings.photometry().is_none()) {
             let message =
-                format!("{key} needs the display's photometry, and scene \"{scene}\" has none");
+                format!("{key} needs the display's photometry, but scene \"{scene}\" has none");
             faults.push(Fault::new(span, message).help(LUMINANCE_HELP));
         } else if let Some(why) = eyes.iter().find_map(|eye| eye.settings.shown_wrongly()) {
             let message = format!("{key} of scene \"{scene}\": {why}");
             faults.push(Fault::new(span, message).help(
-                "give the transfer of the files as it is, and the luminance of a display with that eotf",
+                "check that transfer matches the files, and give the luminance of a display with the same eotf",
             ));
         }
     }
@@ -180,14 +180,16 @@ pub(super) fn unique(tables: &[(Node<'_>, Range<usize>)], what: &str, faults: &m
             let fault =
                 Fault::new(table.span("name"), format!("a {what} cannot be named \"{name}\""));
             faults.push(fault.help(
-                "tables use that word, or their readers take it for no value: choose another",
+                "tables use this word, or programs that read them treat it as a missing value: choose another name",
             ));
         }
         if !seen.insert(name.to_lowercase()) {
             let fault =
                 Fault::new(table.span("name"), format!("there are two {what}s named \"{name}\""));
             faults.push(
-                fault.label("the second").help("give each its own name, in more than capitals"),
+                fault
+                    .label("the second")
+                    .help("give each its own name; upper and lower case count as equal"),
             );
         }
     }

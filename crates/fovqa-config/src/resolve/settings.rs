@@ -65,7 +65,7 @@ impl<'a> Layers<'a> {
         let crop = self.having("crop").and_then(|table| table.array::<4>("crop"));
         let crop = crop.map(|[x, y, width, height]| {
             if width < 1.0 || height < 1.0 {
-                let fault = Fault::new(self.span("crop"), "crop has no pixels in it");
+                let fault = Fault::new(self.span("crop"), "crop contains no pixels");
                 faults.push(fault.label("[x, y, width, height], width and height above 0"));
             }
             let [x, y, width, height] = [x, y, width, height].map(|side| side as usize);
@@ -92,13 +92,13 @@ impl<'a> Layers<'a> {
             bands: self.bands(faults),
         };
         if settings.view.is_none() && self.having("eccentricity").is_some() {
-            let message = "a kind of eccentricity needs a view, and none is given";
+            let message = "eccentricity needs a view, but no view is given";
             faults.push(Fault::new(self.span("eccentricity"), message).help(VIEW_HELP));
         }
         if let Some(what) = settings.lacks_view() {
             let key = if settings.bands.is_some() { "bands_deg" } else { "gaze" };
             let fault =
-                Fault::new(self.span(key), format!("{what} needs a view, and none is given"));
+                Fault::new(self.span(key), format!("{what} needs a view, but no view is given"));
             faults.push(fault.help(VIEW_HELP));
         }
         settings
@@ -147,10 +147,10 @@ impl<'a> Layers<'a> {
                     ));
                 }
                 let Some(one) = one else {
-                    let one_for_both = "gaze is given per eye, and the scene has one reference";
+                    let one_for_both = "gaze is given per eye, but the scene has one reference";
                     let message = eye.map_or_else(
                         || one_for_both.to_owned(),
-                        |eye| format!("gaze has none for the {} eye", eye.name()),
+                        |eye| format!("gaze has no entry for the {} eye", eye.name()),
                     );
                     faults.push(Fault::new(value.span(), message));
                     return Gaze::Centre;
@@ -168,7 +168,7 @@ impl<'a> Layers<'a> {
             Ok(edges) => Some(edges),
             Err(error) => {
                 let fault = Fault::new(self.span("bands_deg"), error.to_string());
-                faults.push(fault.help("write rising degrees, such as [0, 5, 10, 20, 30]"));
+                faults.push(fault.help("write increasing degrees, such as [0, 5, 10, 20, 30]"));
                 None
             }
         }

@@ -56,14 +56,16 @@ pub(super) fn view(table: Node<'_>, faults: &mut Faults) -> Option<ViewSpec> {
             .zip(table.array("screen_m"))
             .map(|(distance_m, size_m)| ViewSpec::Screen { distance_m, size_m }),
         [alone @ ("distance_m" | "pixel_pitch_mm" | "screen_m")] => {
-            let fault = Fault::new(table.span(alone), format!("{alone} alone is no view"));
-            faults.push(fault.help("a flat screen is distance_m with pixel_pitch_mm, or distance_m with screen_m = [width, height]"));
+            let fault =
+                Fault::new(table.span(alone), format!("{alone} alone does not define a view"));
+            faults.push(fault.help("a flat screen needs distance_m with pixel_pitch_mm, or distance_m with screen_m = [width, height]"));
             return None;
         }
         [first, .., last] => {
             let message = format!("the view is given in more than one way: {}", given.join(", "));
             let fault = Fault::new(table.span(last), message);
-            faults.push(fault.label(format!("beside {first}")).help("keep one of them"));
+            faults
+                .push(fault.label(format!("given together with {first}")).help("keep one of them"));
             return None;
         }
         _ => None,

@@ -36,7 +36,7 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
         curves.extend(curve(root, *table, span.clone(), faults));
         // Before the next ones: each may have a budget to be solved.
         if curves.len() > MOST_CURVES {
-            let message = format!("these are more than {MOST_CURVES} curves");
+            let message = format!("the file has more than {MOST_CURVES} curves");
             faults.push(Fault::new(root.span("curve"), message));
         }
         if curves.len() > MOST_CURVES || faults.are_many() {
@@ -110,18 +110,18 @@ fn curve(
     let one_of = "give it either method = { model = … } or acuity = { model = … }";
     match (table.table("method"), table.table("acuity")) {
         (None, None) => {
-            let message = format!("curve \"{name}\" is of no method and no acuity model");
+            let message = format!("curve \"{name}\" has neither a method nor an acuity model");
             faults.push(Fault::new(span, message).help(one_of));
             Vec::new()
         }
         (Some(_), Some(_)) => {
-            let message = format!("curve \"{name}\" is of both a method and an acuity model");
+            let message = format!("curve \"{name}\" has both a method and an acuity model");
             faults.push(Fault::new(table.span("acuity"), message).help(one_of));
             Vec::new()
         }
         (None, Some(node)) => {
             for key in ["budget", "budget_of"].into_iter().filter(|key| table.has(key)) {
-                let message = format!("{key} is of a method, and curve \"{name}\" is of none");
+                let message = format!("{key} needs a method, but curve \"{name}\" has none");
                 faults.push(Fault::new(table.span(key), message));
             }
             let model = acuity_model(table, faults);
@@ -145,7 +145,7 @@ fn curve(
                 samples: table.word("budget_of").unwrap_or_default(),
             });
             if table.has("budget_of") && budget.is_none() {
-                let message = "budget_of says of what a budget is, and there is none";
+                let message = "budget_of needs a budget, but none is given";
                 faults.push(Fault::new(table.span("budget_of"), message));
             }
             let at = if budget.is_some() { table.span("budget") } else { table.span("method") };

@@ -63,7 +63,7 @@ pub(super) fn few_panels(
     let sides = if plot.rate == RateKind::Both { 2 } else { 1 };
     let panels = different.len() * sides;
     if panels > MOST {
-        let message = format!("the figure has {panels} panels, and {MOST} at most");
+        let message = format!("the figure has {panels} panels, but at most {MOST} are allowed");
         let help = "name some of the curves with curves = […], or give panels = \"one\"";
         faults.push(Fault::new(span, message).help(help));
     }
@@ -108,8 +108,8 @@ pub(super) fn plot(
         && shown(plan, plot.curves.as_deref()).all(nothing)
     {
         let message = match plot.kind {
-            CurvePlotKind::Accumulated => "the plot is of deamp, and none of its curves is",
-            _ => "the plot has nothing to show: none of its curves is of a method",
+            CurvePlotKind::Accumulated => "this plot needs a curve of deamp, but it has none",
+            _ => "the plot has nothing to show: none of its curves has a method",
         };
         faults.push(Fault::new(table.span("kind"), message));
     }
@@ -162,26 +162,29 @@ fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Faults) {
         ),
     };
     for key in keys.iter().filter(|key| table.has(key)) {
-        let message = format!("{key} says nothing about a plot of kind \"{kind}\"");
-        faults.push(Fault::new(table.span(key), message).help("take it out"));
+        let message = format!("{key} does not apply to a plot of kind \"{kind}\"");
+        faults.push(Fault::new(table.span(key), message).help("remove it"));
     }
     if plot.unit == RateUnit::PerPixel && !plot.marks.is_empty() {
         let fault =
-            Fault::new(table.span("marks"), "marks are cycles per degree, and the plot is not");
-        faults.push(fault.help("take them out, or unit = \"per_pixel\""));
+            Fault::new(table.span("marks"), "marks are in cycles per degree, but the plot is not");
+        faults.push(fault.help("remove them, or remove unit = \"per_pixel\""));
     }
     if plot.kind == CurvePlotKind::HalfAxis && plot.f.is_empty() {
-        let fault = Fault::new(table.span("kind"), "a plot of a half axis has no f");
+        let fault = Fault::new(table.span("kind"), "a plot of a half axis needs values of f");
         faults.push(fault.help("write f = [1.1, 2, 5], values above 1"));
     }
     if let Some([low, high]) = plot.y_limits
         && high - low < NEAREST
     {
-        let fault = Fault::new(table.span("y_limits"), "the vertical axis ends before it begins");
+        let fault = Fault::new(
+            table.span("y_limits"),
+            "the upper end of the vertical axis is not above its lower end",
+        );
         faults.push(fault.label("write [low, high]"));
     }
     if plot.log && plot.y_limits.is_some_and(|[low, _]| low <= 0.0) {
-        let fault = Fault::new(table.span("y_limits"), "a logarithmic axis has no 0");
+        let fault = Fault::new(table.span("y_limits"), "a logarithmic axis cannot include 0");
         faults.push(fault.label("begin above 0"));
     }
 }
@@ -197,7 +200,7 @@ pub(super) fn table(
     let curves = subset(table, "curves", names, faults);
     let of_method = |spec: &CurveSpec| matches!(spec.source, CurveSource::Method { .. });
     if faults.is_empty() && !shown(plan, curves.as_deref()).any(of_method) {
-        let message = "the table has nothing to show: none of its curves is of a method";
+        let message = "the table has nothing to show: none of its curves has a method";
         faults.push(Fault::new(table.span("kind"), message));
     }
     CurveTable { kind, curves }

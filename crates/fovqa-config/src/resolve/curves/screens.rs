@@ -34,7 +34,7 @@ impl<'a> Screens<'a> {
     pub(super) fn settings(&self, span: &Range<usize>, faults: &mut Faults) -> Vec<CurveSetting> {
         let gives = |table: &&Node<'a>| gives_view(**table);
         let Some(seen) = self.tables.iter().rev().flatten().find(gives) else {
-            let message = "the curve is on a screen, and no view is given";
+            let message = "a curve of a method needs a view, but no view is given";
             let help =
                 "give one in [view], such as fov_vertical_deg = 110 or display = \"vive-pro-eye\"";
             faults.push(Fault::new(span.clone(), message).help(help));
@@ -47,7 +47,7 @@ impl<'a> Screens<'a> {
             if let ViewSpec::Display(display) = &spec {
                 sizes.push(display.resolution);
             } else {
-                let message = "the curve is on a screen, and no resolution is given";
+                let message = "a curve of a method needs a resolution, but none is given";
                 let help = "give some, such as resolutions = [\"2560x1440\"] in [view]";
                 faults.push(Fault::new(span.clone(), message).help(help));
             }
@@ -68,7 +68,7 @@ impl<'a> Screens<'a> {
         let (sizes, gazes, directions) = (once(sizes), once(gazes), once(directions));
         let all = sizes.len() * gazes.len() * directions.len();
         if all > MOST_CURVES {
-            let message = format!("these are {all} curves, and {MOST_CURVES} at most");
+            let message = format!("these are {all} curves, but at most {MOST_CURVES} are allowed");
             let help = "name fewer resolutions, gazes or directions";
             faults.push(Fault::new(span.clone(), message).help(help));
             return Vec::new();
