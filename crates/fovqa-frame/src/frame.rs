@@ -331,7 +331,7 @@ impl Frame {
                 }
             }
         }
-        Mask::new(width, height, valid).unwrap_or_else(|| unreachable!("one flag a pixel"))
+        Mask::new(width, height, valid).unwrap_or_else(|| unreachable!("one flag per pixel"))
     }
 
     /// The smallest and the largest finite sample of the visible part.

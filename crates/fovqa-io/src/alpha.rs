@@ -12,10 +12,10 @@ words! {
         #[default]
         Error "error" "An error that names the first pixel that is not opaque";
         /// Use the colours as they are.
-        Ignore "ignore" "Colours are taken as they are";
+        Ignore "ignore" "Colours are used as they are, and alpha is ignored";
         /// Lay the picture over black: PNG colours are multiplied by alpha (as encoded, like a
         /// viewer does), OpenEXR colours are premultiplied already.
-        OverBlack "over-black" "The picture is laid over black";
+        OverBlack "over-black" "The image is composited over black";
     }
 }
 

@@ -40,7 +40,7 @@ pub fn read_frame_and_hash(
 
 fn decode(file: File, options: &ReadOptions) -> Result<Decoded, ReadErrorKind> {
     contained(|| decode_by_magic(file, options)).unwrap_or_else(|| {
-        let detail = "the decoder broke down on it".to_owned();
+        let detail = "the decoder failed on it".to_owned();
         Err(ReadErrorKind::Damaged { format: "image", detail })
     })
 }
@@ -103,5 +103,5 @@ pub fn read_mask(path: &Path, options: &ReadOptions) -> Result<Mask, ReadError> 
     let valid = (0..width * height)
         .map(|i| (0..channels).all(|c| frame.sample(c, i % width, i / width) > half))
         .collect();
-    Ok(Mask::new(width, height, valid).unwrap_or_else(|| unreachable!("one flag a pixel")))
+    Ok(Mask::new(width, height, valid).unwrap_or_else(|| unreachable!("one flag per pixel")))
 }

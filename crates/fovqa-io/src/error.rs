@@ -25,7 +25,7 @@ pub enum ReadErrorKind {
     #[error("it is not a regular file")]
     NotRegular,
     /// It is a link to a file that does not exist, as git-annex and DVC leave them.
-    #[error("it is a link to {}, which is not there", .0.display())]
+    #[error("it is a link to {}, which does not exist", .0.display())]
     Dangling(PathBuf),
     /// The operating system reports an error.
     #[error("{}", io_reason(.0))]
@@ -42,13 +42,13 @@ pub enum ReadErrorKind {
         detail: String,
     },
     /// The file is intact, but of a kind that fovqa does not read.
-    #[error("it is an OpenEXR file of a kind that is not read: {detail}")]
+    #[error("this kind of OpenEXR file is not supported: {detail}")]
     Unsupported {
         /// The decoder's message.
         detail: String,
     },
     /// The JPEG may be intact, but is of a kind that fovqa does not read.
-    #[error("it is a JPEG of a kind that is not read: {0}")]
+    #[error("this kind of JPEG file is not supported: {0}")]
     UnsupportedJpeg(JpegKind),
     /// It has more pixels than the limit.
     #[error(
@@ -83,10 +83,10 @@ pub enum ReadErrorKind {
         value: f32,
     },
     /// Alpha is 0 everywhere.
-    #[error("its alpha is 0 everywhere, as engines leave it when they capture without alpha")]
+    #[error("its alpha is 0 everywhere, as in engine captures without alpha")]
     AllTransparent,
     /// It holds deep data.
-    #[error("it holds deep data, which has no single colour a pixel")]
+    #[error("it contains deep data, which is not supported: a pixel has no single colour")]
     Deep,
     /// It has no colour channels.
     #[error("it has no colour: no layer has R, G and B, or Y alone; its channels are {channels}")]
@@ -95,9 +95,7 @@ pub enum ReadErrorKind {
         channels: String,
     },
     /// A layer has a luminance whose chroma channels are missing or not supported.
-    #[error(
-        "its layer {layer} has the channels {channels}, an encoding of colour that is not read"
-    )]
+    #[error("its layer {layer} has the channels {channels}; this colour encoding is not supported")]
     OtherEncoding {
         /// The layer.
         layer: String,
@@ -105,7 +103,7 @@ pub enum ReadErrorKind {
         channels: String,
     },
     /// A layer of Cryptomatte was asked for as colour.
-    #[error("its layer {layer:?} holds the IDs of a Cryptomatte, which are no colour")]
+    #[error("its layer {layer:?} contains Cryptomatte IDs, not colour")]
     Cryptomatte {
         /// The layer.
         layer: String,
@@ -133,7 +131,7 @@ pub enum ReadErrorKind {
         layers: String,
     },
     /// A channel has a lower resolution than the picture.
-    #[error("channel {channel} is subsampled, and files with such channels are not read")]
+    #[error("channel {channel} is subsampled; files with such channels are not supported")]
     Subsampled {
         /// The channel.
         channel: String,
@@ -150,10 +148,10 @@ pub enum ReadErrorKind {
     #[error("its chromaticities attribute does not span a colour space")]
     Chromaticities,
     /// A file of motion or depth is not OpenEXR.
-    #[error("this is not an OpenEXR file, the only kind that motion and depth are read from")]
+    #[error("this is not an OpenEXR file; motion and depth are only read from OpenEXR")]
     NotOpenExr,
     /// It has no motion, or no depth.
-    #[error("it has no {what}, which was looked for as {wanted}; its channels are {channels}")]
+    #[error("it has no {what} channel (searched for {wanted}); its channels are {channels}")]
     NoGuide {
         /// `motion` or `depth`.
         what: &'static str,
@@ -171,7 +169,7 @@ pub enum ReadErrorKind {
         channels: String,
     },
     /// Motion, or depth, exists only for another view or layer.
-    #[error("it has no {what} of the colour's view and layer, only {channels}")]
+    #[error("it has no {what} for the view and layer of the colour, only {channels}")]
     GuidesElsewhere {
         /// `motion` or `depth`.
         what: &'static str,
@@ -197,18 +195,18 @@ impl ReadErrorKind {
             }
             Self::NotRegular => "give a file, a folder or a pattern",
             Self::Dangling(_) => "fetch the file (git annex get, dvc pull), or render it again",
-            Self::Io(_) => "check that it is a file and may be read",
+            Self::Io(_) => "check that it is a file and can be read",
             Self::NotAnImage => "convert it to PNG or OpenEXR",
             Self::Damaged { .. } => "render or copy it again",
             Self::Unsupported { .. } => "save it again with another compression, such as ZIP",
             Self::UnsupportedJpeg(kind) => kind.help(),
             Self::TooLarge { .. } | Self::BlockTooLarge { .. } => {
-                "raise {max_megapixels} if the size is meant"
+                "raise {max_megapixels} if the size is correct"
             }
             Self::Alpha { .. } => {
-                "{alpha=ignore} drops it, {alpha=over-black} lays the image over black"
+                "{alpha=ignore} ignores it, {alpha=over-black} composites the image over black"
             }
-            Self::AllTransparent => "use {alpha=ignore}: the colours are usually whole",
+            Self::AllTransparent => "use {alpha=ignore}: the colours are usually complete",
             Self::Deep => "flatten it to one colour a pixel first",
             Self::NoColour { .. } => {
                 "give the file that holds the beauty pass, as R, G and B (X, Y, Z and H, S, V are not converted)"
@@ -216,7 +214,7 @@ impl ReadErrorKind {
             Self::OtherEncoding { .. } => {
                 "save it as R, G and B, or as Y, RY and BY at full resolution"
             }
-            Self::Cryptomatte { .. } => "name a layer of colour with {layer}, or none",
+            Self::Cryptomatte { .. } => "name a colour layer with {layer}, or leave it out",
             Self::Header { .. } => {
                 "save the file again without attributes that are not needed for its pixels"
             }
@@ -224,13 +222,13 @@ impl ReadErrorKind {
             Self::NoSuchLayer { .. } => "name one of these with {layer}",
             Self::Subsampled { .. } => "save it with every channel at full resolution",
             Self::DisjointWindows { .. } => {
-                "nothing of it would be seen: check the render's region"
+                "no pixel would be visible: check the region of the render"
             }
             Self::Chromaticities => "write the file with valid primaries, or without the attribute",
             Self::NotOpenExr => "save motion and depth as OpenEXR",
             Self::NoGuide { .. } => "render them, or name the channels with {guides}",
             Self::SeveralGuides { .. } | Self::GuidesElsewhere { .. } => {
-                "name the one that is meant, its layer in front, with {guides}"
+                "name the right one, with its layer in front, with {guides}"
             }
             Self::DisplayWindows => "save all parts with the display window of the colour",
         }

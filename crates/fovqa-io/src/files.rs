@@ -45,7 +45,7 @@ impl Files {
             has_ended: true,
             ..SourceError::new(
                 format!("{}: it has no frame {frame}", self.listing.argument),
-                "check which frames are asked for",
+                "check which frames are requested",
             )
         })
     }

@@ -35,7 +35,7 @@ impl Note {
         match self {
             Note::ColourChunks(names) => {
                 format!(
-                    "the colour chunk {names} is not applied; values are taken as sRGB unless {{transfer}} says otherwise"
+                    "the colour chunk {names} is not applied; values are read as sRGB unless {{transfer}} is given"
                 )
             }
             Note::UncoveredPixels => {
@@ -52,19 +52,19 @@ impl Note {
             }
             Note::GuidesElsewhere { what, channels } => {
                 format!(
-                    "{channels} is not taken for the {what}: it belongs to another view or layer than the colour; \
-                     if it is meant, name it in full with {{guides}}"
+                    "{channels} is not used as the {what}: it belongs to another view or layer than the colour; \
+                     to use it, give its full name with {{guides}}"
                 )
             }
             Note::UnrealMotion => {
                 "Unreal's motion is read as 2 (v - 0.5) of the frame, x from right to left, y from bottom to top; \
-                 Unreal documents neither scale nor direction: try it on a known motion (an experiment may give \
+                 Unreal documents neither scale nor direction: check it with a known motion (an experiment can give \
                  channels, sign, scale and unit instead)"
                     .to_owned()
             }
             Note::AssumedFalcor => {
                 "R and G are read as the motion that Falcor writes, in fractions of the frame; \
-                 name the renderer with {guides} if it is another one"
+                 if another renderer wrote them, name it with {guides}"
                     .to_owned()
             }
             Note::UncoveredGuides => {

@@ -43,7 +43,7 @@ fn decode(file: File, options: &ReadOptions) -> Result<DecodedGuides, ReadErrorK
         }
     };
     contained(read).unwrap_or_else(|| {
-        let detail = "the decoder broke down on it".to_owned();
+        let detail = "the decoder failed on it".to_owned();
         Err(ReadErrorKind::Damaged { format: "OpenEXR", detail })
     })
 }

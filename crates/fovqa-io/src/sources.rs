@@ -37,8 +37,9 @@ pub fn open_source(argument: &Path, options: SourceOptions) -> Result<Arc<dyn So
             Some(VideoKind::Y4m) => return Ok(open_video(&file.path, &options)?),
             Some(VideoKind::Other(what)) => {
                 let argument = shown(&options.base, &file.path);
-                let message = format!("{argument}: it is {what} video, of which y4m alone is read");
-                let help = "ffmpeg -i FILE -f yuv4mpegpipe -strict -1 FILE.y4m makes one, or pipe it into `fovqa score … -`";
+                let message =
+                    format!("{argument}: it is {what} video, but only y4m video is supported");
+                let help = "convert it with ffmpeg -i FILE -f yuv4mpegpipe -strict -1 FILE.y4m, or pipe it into `fovqa score … -`";
                 return Err(SourceError::new(message, help).into());
             }
             None => {}
@@ -54,7 +55,7 @@ pub fn open_source(argument: &Path, options: SourceOptions) -> Result<Arc<dyn So
 fn several_videos(files: &FileListing, options: &SourceOptions) -> SourceError {
     let argument = shown(&options.base, &files.argument);
     let message = format!(
-        "{argument} stands for {} files, videos among them; each video is a sequence by itself",
+        "{argument} matches {} files, and some are videos; each video is a sequence of its own",
         files.files.len()
     );
     SourceError::new(message, "give one video")

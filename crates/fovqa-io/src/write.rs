@@ -16,7 +16,7 @@ use image::{ExtendedColorType, ImageEncoder};
 pub fn png_rgb8(width: usize, height: usize, codes: &[u8]) -> io::Result<Vec<u8>> {
     let mut file = Vec::new();
     if codes.len() != 3 * width * height {
-        return Err(io::Error::other("not three codes a pixel"));
+        return Err(io::Error::other("not three codes per pixel"));
     }
     PngEncoder::new(&mut file)
         .write_image(codes, width as u32, height as u32, ExtendedColorType::Rgb8)
@@ -43,7 +43,7 @@ pub fn exr_gray_half(width: usize, height: usize, values: &[f32]) -> io::Result<
 
 fn exr_of((width, height): (usize, usize), values: FlatSamples) -> io::Result<Vec<u8>> {
     if values.len() != width * height {
-        return Err(io::Error::other("not one value a pixel"));
+        return Err(io::Error::other("not one value per pixel"));
     }
     let channels = AnyChannels::sort(std::iter::once(AnyChannel::new("Y", values)).collect());
     let encoding = Encoding::SMALL_FAST_LOSSLESS;

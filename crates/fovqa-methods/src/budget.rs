@@ -14,9 +14,9 @@ words! {
     pub enum BudgetSamples {
         /// All samples of the buffer, including those of VaFR beyond 60°.
         #[default]
-        Buffer "buffer" "All that are shaded";
+        Buffer "buffer" "All samples that are shaded";
         /// The samples that fall into the frame.
-        OnScreen "on_screen" "Those that fall into the frame";
+        OnScreen "on_screen" "The samples that fall into the frame";
     }
 }
 
@@ -42,8 +42,8 @@ pub enum BudgetError {
     },
     /// The budget cannot be reached.
     #[error(
-        "{method} cannot shade {wanted} of the frame's pixels: with {parameter} it reaches from \
-         {} to {}", written(*least), written(*most)
+        "{method} cannot reach a budget of {wanted} of the frame's pixels: {parameter} allows {} to \
+         {}", written(*least), written(*most)
     )]
     OutOfReach {
         /// The method's label.

@@ -84,7 +84,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "quantise",
             default: "\"ceil\"",
             values: ParamValues::Word(&["ceil", "nearest", "continuous"]),
-            about: "how the rate becomes one of 1, 1/2, 1/4",
+            about: "how the rate is rounded to 1, 1/2 or 1/4",
         },
     ],
 };

@@ -95,25 +95,25 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "bounds_deg",
             default: "[10, 22.5, 45]",
             values: ParamValues::Numbers,
-            about: "half-angles of the layers, °, rising; the last is the whole frame",
+            about: "half-angles of the layers, °, increasing; the last is the whole frame",
         },
         ParamInfo {
             name: "fx",
             default: "0.38",
             values: ParamValues::Number(1e-3, 1000.0),
-            about: "f along x, a share of the width",
+            about: "f along x, as a share of the width",
         },
         ParamInfo {
             name: "fy",
             default: "0.38",
             values: ParamValues::Number(1e-3, 1000.0),
-            about: "f along y, a share of the height",
+            about: "f along y, as a share of the height",
         },
         ParamInfo {
             name: "projection",
             default: "\"tan\"",
             values: ParamValues::Word(&["tan", "linear"]),
-            about: "how angles become sizes",
+            about: "how the angles of layers are converted to sizes",
         },
     ],
 };
@@ -145,7 +145,7 @@ impl Deamp {
         let Params { sigmas, bounds_deg, .. } = params;
         if sigmas.is_empty() || sigmas.len() != bounds_deg.len() {
             return refused(format!(
-                "sigmas has {} values and bounds_deg {}: give both one for each layer",
+                "sigmas has {} values, but bounds_deg has {}: give one of each per layer",
                 sigmas.len(),
                 bounds_deg.len()
             ));
@@ -156,7 +156,7 @@ impl Deamp {
         let rising = bounds_deg.windows(2).all(|pair| pair[0] < pair[1]);
         if !rising || !bounds_deg.iter().all(|e| *e > 0.0 && *e < 90.0) {
             return refused(format!(
-                "bounds_deg {bounds_deg:?} do not rise between 0° and 90°, both excluded"
+                "bounds_deg {bounds_deg:?} must increase between 0° and 90°, both excluded"
             ));
         }
         let axes =

@@ -8,8 +8,8 @@ use crate::setting::{Place, Setting};
 pub(crate) const INFO: MethodInfo = MethodInfo {
     key: "full",
     label: "Full",
-    about: "the display's own rate: every pixel shaded",
-    source: "the reference of all comparisons",
+    about: "every pixel is shaded, at the display's own rate",
+    source: "reference for the other methods",
     params: &[],
 };
 

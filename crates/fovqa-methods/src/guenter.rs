@@ -89,7 +89,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "bounds_deg",
             default: "[10, 20]",
             values: ParamValues::Numbers,
-            about: "radii of the two inner layers, °, rising between 0 and 90",
+            about: "radii of the two inner layers, °, increasing, between 0 and 90",
         },
         ParamInfo {
             name: "scales",
@@ -107,7 +107,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "fit",
             default: "\"fixed\"",
             values: ParamValues::Word(&["fixed", "optimised"]),
-            about: "bounds and scales as given, or those of the fewest samples (scales at least 1: ours)",
+            about: "use the given bounds and scales, or those that need the fewest samples (scales are at least 1: our choice)",
         },
         ParamInfo {
             name: "m",
@@ -157,7 +157,7 @@ impl Guenter {
         };
         if !(bounds_deg[0] > 0.0 && bounds_deg[0] < bounds_deg[1] && bounds_deg[1] < 90.0) {
             return refused(format!(
-                "bounds_deg {bounds_deg:?} do not rise between 0° and 90°, both excluded"
+                "bounds_deg {bounds_deg:?} must increase between 0° and 90°, both excluded"
             ));
         }
         if let Some(scale) = scales.iter().find(|s| !(0.1..=MOST_SCALE).contains(*s)) {

@@ -52,7 +52,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "sigma",
             default: "2.6",
             values: ParamValues::Number(0.1, 1000.0),
-            about: "the frame's sides over the buffer's",
+            about: "ratio of the frame's sides to the buffer's",
         },
         ParamInfo {
             name: "alpha",

@@ -64,13 +64,13 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "sigma",
             default: "1.8",
             values: ParamValues::Number(0.1, 1000.0),
-            about: "δ, the frame's sides over the buffer's (2.2: speed)",
+            about: "δ, ratio of the frame's sides to the buffer's (2.2: speed)",
         },
         ParamInfo {
             name: "a",
             default: "0.25",
             values: ParamValues::Number(0.01, 0.99),
-            about: "exponent of the inner kernel (an inference from LMFR's alpha of 4)",
+            about: "exponent of the inner kernel (inferred from LMFR's alpha = 4)",
         },
         ParamInfo {
             name: "alpha",
@@ -119,7 +119,7 @@ impl Lafr {
         let corner_px = setting.corner_px();
         if foveal_px <= 1.0 || foveal_px >= corner_px {
             return Err(refused(format!(
-                "foveal_deg {} is {foveal_px:.1} px from the gaze: it lies between {:.3}° (1 px) and \
+                "foveal_deg {} is {foveal_px:.1} px from the gaze: it must be between {:.3}° (1 px) and \
                  {:.3}° (the farthest corner)",
                 params.foveal_deg,
                 setting.eccentricity_deg(1.0),
@@ -133,7 +133,7 @@ impl Lafr {
         if !(f > 0.0 && f < 1.0 && foveal_u > 0.0 && foveal_u < 1.0) {
             return Err(refused(format!(
                 "with a = {} and alpha = {} the kernels do not meet at {}°: F = {f:.4} is not \
-                 between 0 and 1. alpha lies between {:.4} and {:.4} here",
+                 between 0 and 1. alpha must be between {:.4} and {:.4} here",
                 params.a,
                 params.alpha,
                 params.foveal_deg,

@@ -50,19 +50,19 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "inner_deg",
             default: "10",
             values: ParamValues::Number(0.0, 89.0),
-            about: "where the probability begins to fall, °",
+            about: "eccentricity at which the probability begins to fall, °",
         },
         ParamInfo {
             name: "outer_deg",
             default: "20",
             values: ParamValues::Number(0.001, 89.9),
-            about: "where it has fallen to p_min, °, above inner_deg",
+            about: "eccentricity at which the probability reaches p_min, °; above inner_deg",
         },
         ParamInfo {
             name: "p_min",
             default: "0.047",
             values: ParamValues::Number(1e-6, 1.0),
-            about: "least share of pixels sampled",
+            about: "lowest share of pixels that are sampled",
         },
     ],
 };
@@ -82,7 +82,7 @@ impl Linear {
     pub fn new(params: &Params, setting: &Setting) -> Result<Self, MethodError> {
         if params.outer_deg <= params.inner_deg {
             let message = format!(
-                "outer_deg {} does not lie above inner_deg {}",
+                "outer_deg {} must be above inner_deg {}",
                 params.outer_deg, params.inner_deg
             );
             return Err(MethodError::Params { method: INFO.key, message });

@@ -44,26 +44,26 @@ impl Params {
 pub(crate) const INFO: MethodInfo = MethodInfo {
     key: "rmfr",
     label: "RMFR",
-    about: "rectangular mapping-based foveated rendering: each axis squeezed by itself",
+    about: "rectangular mapping-based foveated rendering: each axis is compressed separately",
     source: "Ye et al. 2022, Eq. 4-7",
     params: &[
         ParamInfo {
             name: "sigma",
             default: "2.6",
             values: ParamValues::Number(0.1, 1000.0),
-            about: "the frame's sides over the buffer's",
+            about: "ratio of the frame's sides to the buffer's",
         },
         ParamInfo {
             name: "fx",
             default: "0.38",
             values: ParamValues::Number(1e-3, 1000.0),
-            about: "f along x, a share of the width; small: a sharper peak at the gaze",
+            about: "f along x, as a share of the width; small: a sharper peak at the gaze",
         },
         ParamInfo {
             name: "fy",
             default: "0.38",
             values: ParamValues::Number(1e-3, 1000.0),
-            about: "f along y, a share of the height",
+            about: "f along y, as a share of the height",
         },
     ],
 };

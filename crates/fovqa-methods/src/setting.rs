@@ -85,13 +85,13 @@ impl Setting {
         let focal_px = view.mean_focal_px();
         let message = if view.width == 0 || view.height == 0 {
             format!(
-                "a resolution of {}x{} has no pixels: both sides are 1 or more",
+                "a resolution of {}x{} has no pixels: both sides must be at least 1",
                 view.width, view.height
             )
         } else if !(focal_px > 0.0 && focal_px.is_finite()) {
             format!("a focal length of {focal_px} px is not positive")
         } else if !gaze_px.iter().all(|g| g.is_finite()) {
-            format!("a gaze at {gaze_px:?} is no place")
+            format!("a gaze at {gaze_px:?} is not a position")
         } else {
             let size_px = [view.width as f64, view.height as f64];
             let gaze_px = [0, 1].map(|i| gaze_px[i].clamp(0.0, size_px[i]));

@@ -386,7 +386,7 @@ fn a_budget_is_met_or_the_error_states_its_range() {
     }
     let error = Method::find("guenter").unwrap().at_budget(&setting, 0.9, BudgetSamples::Buffer);
     let error = error.unwrap_err().to_string();
-    assert!(error.contains("from 0.03") && error.contains("the outermost of scales"), "{error}");
+    assert!(error.contains("allows 0.03") && error.contains("the outermost of scales"), "{error}");
     assert!(method("rmfr", &[]).at_budget(&setting, f64::NAN, BudgetSamples::Buffer).is_err());
 }
 
@@ -426,21 +426,25 @@ fn refuses_contradicting_parameters() {
             assert!(error.contains(word), "{word:?} is not in {error}");
         }
     };
-    over("deamp", &[("sigmas", list(&[2.0]))], &["sigmas has 1 values and bounds_deg 3"]);
+    over("deamp", &[("sigmas", list(&[2.0]))], &["sigmas has 1 values, but bounds_deg has 3"]);
     over(
         "deamp",
         &[("bounds_deg", list(&[10.0, 45.0, 20.0]))],
-        &["do not rise between 0° and 90°"],
+        &["must increase between 0° and 90°"],
     );
     over("deamp", &[("sigmas", list(&[2.0, 0.0, 3.0]))], &["sigma of 0", "0.1 and 1000"]);
-    over("guenter", &[("bounds_deg", list(&[20.0, 10.0]))], &["do not rise"]);
+    over("guenter", &[("bounds_deg", list(&[20.0, 10.0]))], &["must increase"]);
     over("guenter", &[("scales", list(&[1.0, 2.0]))], &["2 values, not 3"]);
     over("guenter", &[("scales", list(&[1.0, 2.0, 0.0]))], &["scale of 0", "0.1 and 1000"]);
-    over("linear", &[("outer_deg", number(5.0))], &["does not lie above inner_deg 10"]);
+    over("linear", &[("outer_deg", number(5.0))], &["must be above inner_deg 10"]);
     over("lafr", &[("foveal_deg", number(80.0))], &["the farthest corner"]);
-    over("lafr", &[("alpha", number(50.0))], &["do not meet", "alpha lies between"]);
-    over("vafr", &[("knots_deg", list(&[0.0, 20.0, 10.0, 30.0, 60.0]))], &["start at 0° and rise"]);
-    over("vafr", &[("ratio", ParamValue::Pairs(vec![[5.0, 1.0], [2.0, 1.0]]))], &["do not rise"]);
+    over("lafr", &[("alpha", number(50.0))], &["do not meet", "alpha must be between"]);
+    over(
+        "vafr",
+        &[("knots_deg", list(&[0.0, 20.0, 10.0, 30.0, 60.0]))],
+        &["start at 0° and increase"],
+    );
+    over("vafr", &[("ratio", ParamValue::Pairs(vec![[5.0, 1.0], [2.0, 1.0]]))], &["must increase"]);
     over("vafr", &[("ratio", ParamValue::Pairs(vec![[5.0, 0.0]]))], &["ratio of 0"]);
     assert!(
         method("kfr", &[])

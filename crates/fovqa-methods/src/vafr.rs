@@ -165,7 +165,7 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "knots_deg",
             default: "[0, 10, 20, 30, 60]",
             values: ParamValues::Numbers,
-            about: "eccentricities of the piecewise model's knots, °, rising from 0",
+            about: "eccentricities of the piecewise model's knots, °, increasing from 0",
         },
         ParamInfo {
             name: "knots_cpd",
@@ -177,31 +177,31 @@ pub(crate) const INFO: MethodInfo = MethodInfo {
             name: "cap_cpd",
             default: "\"none\"",
             values: ParamValues::NumberOr(0.01, 1000.0, "none"),
-            about: "highest frequency the device shows, cycles per degree",
+            about: "highest frequency that the device shows, cycles per degree",
         },
         ParamInfo {
             name: "columns",
             default: "\"paper\"",
             values: ParamValues::Word(&["paper", "angle"]),
-            about: "in which sense rows are as dense as columns",
+            about: "definition of equal density along rows and columns",
         },
         ParamInfo {
             name: "ratio",
             default: "\"none\"",
             values: ParamValues::PairsOr("none"),
-            about: "tangential over radial rate at eccentricities: [[°, ratio], …], rising, 0.01 to 100",
+            about: "ratio of tangential to radial rate at eccentricities: [[°, ratio], …], increasing, 0.01 to 100",
         },
         ParamInfo {
             name: "beyond",
             default: "\"extend\"",
             values: ParamValues::Word(&["extend", "clamp", "black"]),
-            about: "what a frame shows beyond 60°",
+            about: "treatment of a frame beyond 60°",
         },
         ParamInfo {
             name: "reprojected_share",
             default: "\"none\"",
             values: ParamValues::NumberOr(0.0, 1.0, "none"),
-            about: "VaFR_Rep: share of the second eye shaded anew; counts are per eye",
+            about: "VaFR_Rep: share of the second eye that is shaded again; counts are per eye",
         },
         ParamInfo {
             name: "factor",
@@ -236,7 +236,7 @@ impl Vafr {
         let curve = params.curve()?;
         let ratio = params.ratio.clone();
         if !ratio.windows(2).all(|pair| pair[0][0] < pair[1][0]) {
-            return Err(refused("the eccentricities of ratio do not rise".to_owned()));
+            return Err(refused("the eccentricities of ratio must increase".to_owned()));
         }
         if let Some([_, found]) = ratio.iter().find(|[_, r]| !(0.01..=100.0).contains(r)) {
             return Err(refused(format!("a ratio of {found} is not between 0.01 and 100")));
@@ -408,8 +408,8 @@ impl Foveation for Vafr {
 
     fn note(&self) -> Option<String> {
         (self.shaded < 1.0).then(|| {
-            "VaFR_Rep: the shares that reprojection leaves to shade were read off the paper's table, \
-             so that its counts are no independent check"
+            "VaFR_Rep: the shares that remain to be shaded after reprojection were taken from the paper's \
+             table, so its counts are not an independent check"
                 .to_owned()
         })
     }

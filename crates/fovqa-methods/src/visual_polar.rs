@@ -42,7 +42,7 @@ impl Params {
 pub(crate) const INFO: MethodInfo = MethodInfo {
     key: "visual_polar",
     label: "Visual-Polar (reconstruction)",
-    about: "polar buffer as dense as acuity; reconstructed from words, low confidence",
+    about: "polar buffer with the density of acuity; reconstructed from the text of the paper, low confidence",
     source: "Koskela et al. 2019",
     params: &[ParamInfo {
         name: "samples_per_pixel",
@@ -219,7 +219,8 @@ impl Foveation for VisualPolar {
 
     fn note(&self) -> Option<String> {
         Some(
-            "Visual-Polar is a reconstruction from the paper's words, of low confidence".to_owned(),
+            "Visual-Polar is a reconstruction from the text of the paper, with low confidence"
+                .to_owned(),
         )
     }
 }

@@ -20,7 +20,7 @@ pub enum BandEdgesError {
     #[error("bands need at least two edges")]
     TooFew,
     /// There are more than [`BandEdges::MAX_BANDS`] bands.
-    #[error("{found} bands are more than the {} there may be", BandEdges::MAX_BANDS)]
+    #[error("{found} bands are too many: at most {} are allowed", BandEdges::MAX_BANDS)]
     TooMany {
         /// Number of bands asked for.
         found: usize,
@@ -32,7 +32,7 @@ pub enum BandEdgesError {
         edge_deg: f64,
     },
     /// The edges do not rise.
-    #[error("the band edge {edge_deg} does not lie above the one before it, {before_deg}")]
+    #[error("the band edge {edge_deg} is not above the edge before it, {before_deg}")]
     NotRising {
         /// The edge that does not rise.
         edge_deg: f64,

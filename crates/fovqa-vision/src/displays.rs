@@ -13,14 +13,14 @@ words! {
         /// IEC 61966-2-1.
         Srgb "srgb" "IEC 61966-2-1";
         /// A power function with the exponent [`Luminance::gamma`].
-        Gamma "gamma" "A power";
+        Gamma "gamma" "A power function";
         /// SMPTE ST 2084: values are encoded absolute luminance.
         Pq "pq" "SMPTE ST 2084";
         /// Values are luminance already, in cd/m².
-        Linear "linear" "Light already, in cd/m²";
+        Linear "linear" "Values are luminances in cd/m²";
         /// Values are measured luminance in cd/m²: the display adds neither black level nor
         /// reflections.
-        Absolute "absolute" "Light that was measured, in cd/m²";
+        Absolute "absolute" "Measured luminances in cd/m², to which nothing is added";
     }
 }
 

@@ -25,8 +25,8 @@ impl ViewSpec {
                 let sides = [*left, *right, *up, *below].map(f64::abs);
                 if let Some(tangents) = radians(view, sides) {
                     doubts.push(format!(
-                        "the frustum looks like angles in radians: with their tangents pixels are square; it is taken \
-                         as tangents, and {} would be those of these angles",
+                        "the frustum values look like angles in radians, because the tangents of these angles give square \
+                         pixels; they are used as tangents; the tangents of these angles would be {}",
                         listed(tangents)
                     ));
                 }
@@ -35,8 +35,8 @@ impl ViewSpec {
                 if across.max(down) > WIDEST_DEG =>
             {
                 doubts.push(format!(
-                    "the screen fills {across:.1}° x {down:.1}°, more than any: the distance is in metres, a \
-                     pixel in millimetres"
+                    "the screen fills {across:.1}° x {down:.1}°, more than any real screen: the distance must be in \
+                     metres and the pixel size in millimetres"
                 ));
             }
             _ => {}
@@ -44,10 +44,10 @@ impl ViewSpec {
         if ppd > DENSEST_PPD {
             let unit = match self {
                 ViewSpec::PixelPitch { .. } | ViewSpec::Screen { .. } => {
-                    "the distance is in metres, a pixel in millimetres"
+                    "the distance must be in metres and the pixel size in millimetres"
                 }
-                ViewSpec::Frustum { .. } => "a frustum is made of the tangents of the half angles",
-                _ => "a field of view is in degrees, not in radians",
+                ViewSpec::Frustum { .. } => "a frustum is given by the tangents of its half angles",
+                _ => "a field of view is given in degrees, not in radians",
             };
             doubts.push(format!(
                 "the view has {ppd:.0} pixels per degree at its centre, more than any display: {unit}"
@@ -61,8 +61,8 @@ impl ViewSpec {
         );
         if by_sides && aspect > OBLONG {
             doubts.push(format!(
-                "pixels are {aspect:.2} times as long one way as the other (focal lengths {:.1} and {:.1} px): check \
-                 that the angles belong to frames of {}x{}, and their order",
+                "pixels are {aspect:.2} times as long in one direction as in the other (focal lengths {:.1} and {:.1} px): \
+                 check that the angles belong to frames of {}x{} and are in the right order",
                 view.focal_px[0], view.focal_px[1], view.width, view.height
             ));
         }
@@ -148,7 +148,7 @@ mod tests {
             (frustum([-0.87, 0.73, 0.83, -0.83]), (2000, height.round() as usize), "in radians"),
             (frustum([1.1, 1.1, 1.2, 0.9]), (2112, 1000), "check that the angles"),
             (fov(None, Some(1.92)), (1440, 1600), "not in radians"),
-            (fov(Some(100.0), Some(60.0)), (1000, 1000), "their order"),
+            (fov(Some(100.0), Some(60.0)), (1000, 1000), "in the right order"),
             (ViewSpec::FovDiagonal { diagonal_deg: 1.92 }, (1440, 1600), "not in radians"),
             (ViewSpec::PixelPitch { distance_m: 600.0, pitch_mm: 0.25 }, (1920, 1080), "metres"),
             (ViewSpec::PixelPitch { distance_m: 0.6, pitch_mm: 250.0 }, (1920, 1080), "metres"),

@@ -22,7 +22,7 @@ pub enum GazeTraceError {
     #[error("it has the column {0} twice")]
     TwoColumns(&'static str),
     /// A cell is not a number.
-    #[error("line {line}: {column} is {found:?}, not {wanted}")]
+    #[error("line {line}: {column} has {found:?} instead of {wanted}")]
     Number {
         /// Line of the file, from 1.
         line: u64,
@@ -34,7 +34,7 @@ pub enum GazeTraceError {
         wanted: &'static str,
     },
     /// Two rows belong to one frame.
-    #[error("line {line}: there is a row for frame {frame} already")]
+    #[error("line {line}: there is already a row for frame {frame}")]
     Twice {
         /// Line of the file, from 1.
         line: u64,
@@ -42,7 +42,7 @@ pub enum GazeTraceError {
         frame: i64,
     },
     /// Rows are out of order, or two rows have the same time.
-    #[error("line {line}: {clock} {at} does not come after the {before} before it")]
+    #[error("line {line}: {clock} {at} is not greater than {before} in the row before")]
     Order {
         /// Line of the file, from 1.
         line: u64,
@@ -58,7 +58,8 @@ pub enum GazeTraceError {
     Empty,
     /// The positions are shares of the frame, not pixels.
     #[error(
-        "all its positions lie within {from} to {to}: they look like shares of the frame, and x_px and y_px are pixels"
+        "all its positions are between {from} and {to}: they look like fractions of the frame, but x_px and \
+         y_px must be pixels"
     )]
     Shares {
         /// The smallest coordinate.
@@ -67,7 +68,7 @@ pub enum GazeTraceError {
         to: f64,
     },
     /// The trace gives times, but there is no frame rate.
-    #[error("it gives times, and a time names a frame only with a frame rate")]
+    #[error("it gives times in seconds, but the frame rate is not known")]
     NoFps,
     /// The trace has no gaze for a frame.
     #[error("it has no gaze for frame {frame}; it covers the frames {from} to {to}")]
@@ -94,7 +95,7 @@ pub enum GazeTraceError {
         to_s: f64,
     },
     /// A frame is a blink, or not covered by the trace, and there is no earlier gaze to hold.
-    #[error("frame {frame} has no gaze of its own, and there is none before it to hold")]
+    #[error("frame {frame} has no gaze, and there is no earlier gaze that could be kept")]
     NothingToHold {
         /// The frame's number.
         frame: i64,
@@ -169,14 +170,15 @@ impl GazeTraceError {
                 "multiply x_px by the frame's width and y_px by its height (pixels from the top-left corner)"
             }
             Self::Number { found, .. } if found.contains(',') => {
-                "write numbers with a decimal point and without separators of thousands"
+                "write numbers with a decimal point and without thousands separators"
             }
             Self::Column { export: Some(export), .. } => export.help(),
             Self::Csv(error) if matches!(error.kind(), csv::ErrorKind::UnequalLengths { .. }) => {
-                "every row has as many cells as the heading; numbers have a decimal point, not a comma"
+                "every row needs as many cells as the header; numbers need a decimal point, not a comma"
             }
             _ => {
-                "a gaze trace is CSV with the columns frame,x_px,y_px (or time_s,x_px,y_px), rows rising"
+                "a gaze trace is CSV with the columns frame,x_px,y_px (or time_s,x_px,y_px), with rows in \
+                 increasing order"
             }
         }
     }

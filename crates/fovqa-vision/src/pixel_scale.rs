@@ -14,7 +14,7 @@ words! {
     pub enum Tangential {
         /// As many pixels as along that line (VaFR divides its Eq. 6 and 20 by the radial dr/de).
         #[default]
-        Paper "paper" "As along it, the papers' convention";
+        Paper "paper" "The same number of pixels as along the curve: the papers' convention";
         /// A degree of visual angle.
         Angle "angle" "A degree of visual angle";
     }

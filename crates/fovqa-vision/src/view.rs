@@ -99,8 +99,8 @@ pub enum ViewError {
     NoFov,
     /// The tangents do not open to both sides.
     #[error(
-        "the frustum tangents left {left}, right {right}, up {up}, down {down} do not open to \
-         both sides of the axis"
+        "the frustum tangents must be positive and at most 6000 (or left and down negative, as in \
+         OpenXR): left {left}, right {right}, up {up}, down {down}"
     )]
     Frustum {
         /// Left tangent as given.
@@ -114,8 +114,8 @@ pub enum ViewError {
     },
     /// Tangents of more than 85°, which are most likely angles in degrees.
     #[error(
-        "a frustum whose tangents are {} sees more than 85° to one side; if these are degrees, the \
-         tangents are {}",
+        "a frustum with the tangents {} extends more than 85° to one side; if these are angles in degrees, \
+         the tangents are {}",
         with_commas(*given), with_commas(given.map(|angle| libm::tan(angle.to_radians())))
     )]
     FrustumAngles {

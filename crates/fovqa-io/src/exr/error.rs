@@ -18,7 +18,7 @@ pub(super) fn damaged(error: ::exr::error::Error) -> ReadErrorKind {
             }
             // The file points to a position that does not exist in it.
             ErrorKind::InvalidInput | ErrorKind::InvalidData => {
-                let detail = format!("it points to where nothing is: {error}");
+                let detail = format!("it points to a place without data: {error}");
                 ReadErrorKind::Damaged { format: "OpenEXR", detail }
             }
             _ => ReadErrorKind::Io(error),

@@ -209,7 +209,7 @@ pub(crate) fn read(
             let block = block?;
             let (part, Vec2(x, y)) = (block.index.layer, block.index.pixel_position);
             if !blocks_seen.insert((part, x, y)) {
-                let detail = "one of its blocks is there twice".to_owned();
+                let detail = "one of its blocks appears twice".to_owned();
                 return Err(ReadErrorKind::Damaged { format: "OpenEXR", detail });
             }
             for filling in fillings.iter_mut().filter(|filling| filling.request.part == part) {
@@ -234,7 +234,7 @@ fn decompress(chunk: Chunk, meta: &MetaData) -> Result<UncompressedBlock, ReadEr
     check_dwa_counters(&chunk, meta)?;
     contained(|| UncompressedBlock::decompress_chunk(chunk, meta, false)).map_or_else(
         || {
-            let detail = "the decoder broke down on it".to_owned();
+            let detail = "the decoder failed on it".to_owned();
             Err(ReadErrorKind::Damaged { format: "OpenEXR", detail })
         },
         |block| block.map_err(damaged),

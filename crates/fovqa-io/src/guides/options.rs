@@ -73,7 +73,7 @@ words! {
         Frame "frame" "Widths and heights of the frame";
         /// Half the width and half the height: coordinates run from -1 to 1 across the display
         /// window.
-        Ndc "ndc" "Halves of them: coordinates from -1 to 1";
+        Ndc "ndc" "Halves of the width and height: coordinates from -1 to 1";
     }
 }
 

@@ -85,7 +85,7 @@ impl<'a> Bits<'a> {
     fn bad_code(&self) -> ReadErrorKind {
         match self.check() {
             Err(error) => error,
-            Ok(()) => damaged("its data holds a Huffman code that is not in the table"),
+            Ok(()) => damaged("its data contains a Huffman code that is not in the table"),
         }
     }
 
@@ -136,7 +136,7 @@ impl<'a> Bits<'a> {
         if left >= 8 {
             let bytes = left / 8;
             return Err(damaged(format!(
-                "{bytes} extraneous bytes of entropy-coded data stand in front of a marker"
+                "{bytes} extraneous bytes of entropy-coded data precede a marker"
             )));
         }
         Ok(())
@@ -145,7 +145,7 @@ impl<'a> Bits<'a> {
 
 #[cold]
 fn too_short() -> ReadErrorKind {
-    damaged("its entropy-coded data ends too early, in front of a marker")
+    damaged("its entropy-coded data ends too early, before a marker")
 }
 
 #[cfg(test)]

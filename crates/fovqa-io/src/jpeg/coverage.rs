@@ -30,13 +30,13 @@ impl Coverage {
         for component in &scan.components {
             let known = &mut self.0[component.index];
             if coding == Coding::Progressive && scan.from > 0 && known[0].is_none() {
-                return wrong("a component has coefficients before it has means");
+                return wrong("a component has AC coefficients before it has DC coefficients");
             }
             for bit in &mut known[scan.from..=scan.to] {
                 if *bit != before {
                     return wrong(match bit {
-                        None => "one refines coefficients that are not there yet",
-                        Some(_) => "one repeats what another has brought",
+                        None => "one refines coefficients that no earlier scan contains",
+                        Some(_) => "one repeats what an earlier scan contains",
                     });
                 }
                 *bit = Some(scan.low);
@@ -55,7 +55,7 @@ impl Coverage {
             return Err(damaged("the scan of a component is missing"));
         }
         if self.0.as_flattened().iter().any(|bit| *bit != Some(0)) {
-            return Err(damaged("its last scans are missing, which bring the finest detail"));
+            return Err(damaged("its last scans, which contain the finest detail, are missing"));
         }
         Ok(())
     }

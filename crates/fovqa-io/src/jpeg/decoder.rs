@@ -97,7 +97,7 @@ impl Decoder {
                 let steps = settings.quantisation[number];
                 self.steps[component.index] = steps.ok_or_else(|| {
                     damaged(format!(
-                        "a component uses quantisation table {number}, which is not there"
+                        "a component uses quantisation table {number}, which is missing"
                     ))
                 })?;
             }

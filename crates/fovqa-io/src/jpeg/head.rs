@@ -41,7 +41,7 @@ impl Settings {
             // The settings of arithmetic coding have no meaning here, and a restart marker after
             // the last interval does no harm.
             marker::COM | marker::DAC | marker::TEM | marker::RST0..=marker::RST7 => Ok(()),
-            other => Err(damaged(format!("the marker 0xFF{other:02X} stands in a wrong place"))),
+            other => Err(damaged(format!("the marker 0xFF{other:02X} is in a wrong place"))),
         }
     }
 }
@@ -79,7 +79,7 @@ impl<'a> Head<'a> {
                     }
                 }
                 marker::SOS => {
-                    let missing = || damaged("a scan stands in front of the frame header");
+                    let missing = || damaged("a scan precedes the frame header");
                     let mut frame = frame.ok_or_else(missing)?;
                     if frame.height == 0 {
                         frame.set_height(height_behind_scan(segments.clone())?);
@@ -101,7 +101,7 @@ fn height_behind_scan(mut segments: Segments<'_>) -> Result<usize> {
     match declared_height(segment) {
         Some(height) if height > 0 => Ok(height),
         _ => Err(damaged(
-            "its frame header declares a height of 0, and no segment behind the first scan has another",
+            "its frame header declares a height of 0, and no segment after the first scan gives another",
         )),
     }
 }

@@ -129,7 +129,7 @@ impl Tables {
     pub(super) fn means(&self, number: usize) -> Result<&Huffman> {
         let table = found(&self.dc, number)?;
         if !table.has_only_sizes() {
-            return Err(damaged("a Huffman table for means holds symbols above 15"));
+            return Err(damaged("a Huffman table for DC coefficients has symbols above 15"));
         }
         Ok(table)
     }
@@ -142,7 +142,7 @@ impl Tables {
 
 fn found(tables: &[Option<Huffman>; 4], number: usize) -> Result<&Huffman> {
     let table = tables.get(number).and_then(Option::as_ref);
-    table.ok_or_else(|| damaged(format!("a scan uses Huffman table {number}, which is not there")))
+    table.ok_or_else(|| damaged(format!("a scan uses Huffman table {number}, which is missing")))
 }
 
 #[cfg(test)]

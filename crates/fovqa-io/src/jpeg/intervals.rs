@@ -29,12 +29,14 @@ impl Intervals {
             let fill = data[at..].iter().position(|byte| *byte != 0xff).ok_or_else(missing)?;
             match data[at + fill] {
                 0 if fill == 1 => intervals.bytes.push(0xff),
-                0 => return Err(damaged("its entropy-coded data holds bytes that mean nothing")),
+                0 => {
+                    return Err(damaged("its entropy-coded data contains bytes without a meaning"));
+                }
                 restart @ marker::RST0..=marker::RST7 => {
                     let expected = marker::RST0 + (intervals.ends.len() % 8) as u8;
                     if restart != expected {
                         return Err(damaged(format!(
-                            "restart marker {} stands where {} should be",
+                            "restart marker {} is where {} should be",
                             restart - marker::RST0,
                             expected - marker::RST0
                         )));
@@ -61,7 +63,7 @@ impl Intervals {
         let one_too_many = found == count + 1 && from(count) == self.ends[count];
         if found != count && !one_too_many {
             return Err(damaged(format!(
-                "a scan has {found} restart intervals where its size asks for {count}"
+                "a scan has {found} restart intervals, but its size needs {count}"
             )));
         }
         Ok((0..count).map(move |i| &self.bytes[from(i)..self.ends[i]]))

@@ -50,7 +50,7 @@ impl fmt::Display for JpegKind {
             Self::Components { count } => write!(f, "{count} components"),
             Self::Sampling { factors: (h, v), largest: (max_h, max_v) } => write!(
                 f,
-                "a component with {h}x{v} samples where others have {max_h}x{max_v}, which is no whole ratio"
+                "a component with {h}x{v} samples where others have {max_h}x{max_v}, which is not an integer ratio"
             ),
             Self::ColourTransform { transform, components } => {
                 write!(f, "colour transform {transform} with {components} components")

@@ -52,7 +52,7 @@ pub(crate) fn read(mut file: impl BufRead + Seek, options: &ReadOptions) -> Resu
     let mut bytes = Vec::new();
     file.by_ref().take(MAX_BYTES + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(damaged("it is longer than any image of its kind, 1 GiB"));
+        return Err(damaged("it is longer than 1 GiB, the limit for JPEG files"));
     }
     let head = Head::read(&bytes)?;
     let frame = head.frame.clone();

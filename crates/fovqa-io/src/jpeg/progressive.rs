@@ -83,7 +83,7 @@ pub(super) fn refine(
             }
             0 => 0,
             1 => bits.value(1) as i16 * one,
-            _ => return Err(damaged("its data holds a new coefficient of more than one bit")),
+            _ => return Err(damaged("its data contains a new coefficient of more than one bit")),
         };
         // Skips the coefficients that are known already, and as many zeros as the run says.
         loop {

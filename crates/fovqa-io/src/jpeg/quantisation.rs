@@ -55,7 +55,7 @@ pub(super) fn parse(mut data: &[u8], tables: &mut [Option<Steps>; 4]) -> Result<
         for (value, place) in values.chunks_exact(width).zip(ZIGZAG) {
             let step = value.iter().fold(0, |sum, byte| sum << 8 | u16::from(*byte));
             if step == 0 {
-                return Err(wrong("holds a step of 0"));
+                return Err(wrong("has a step of 0"));
             }
             steps[usize::from(place)] = step;
         }

@@ -56,7 +56,7 @@ impl ScanHeader {
     }
 
     fn check(mut self, frame: &FrameHeader) -> Result<Self> {
-        let wrong = |what: &str| Err(damaged(format!("a scan header asks for {what}")));
+        let wrong = |what: &str| Err(damaged(format!("a scan header declares {what}")));
         if self.components.len() > 1 {
             let blocks = |c: &ScanComponent| {
                 let (h, v) = frame.components[c.index].factors;
@@ -81,7 +81,7 @@ impl ScanHeader {
                     return wrong("a range of coefficients that does not exist");
                 }
                 if self.from > 0 && self.components.len() > 1 {
-                    return wrong("other coefficients than means of several components at once");
+                    return wrong("AC coefficients of several components at once");
                 }
                 if self.low > 13 || (self.high > 0 && self.high != self.low + 1) {
                     return wrong("bits out of order");

@@ -87,7 +87,7 @@ impl<'a> Segments<'a> {
         let rest = self.rest();
         if rest.first().is_some_and(|byte| *byte != 0xff) {
             let bytes = rest.iter().position(|byte| *byte == 0xff).unwrap_or(rest.len());
-            return Err(damaged(format!("{bytes} extraneous bytes stand in front of a marker")));
+            return Err(damaged(format!("{bytes} extraneous bytes precede a marker")));
         }
         // A marker's code may follow any number of fill bytes.
         let Some(fill) = rest.iter().position(|byte| *byte != 0xff) else {
@@ -95,7 +95,7 @@ impl<'a> Segments<'a> {
         };
         let code = rest[fill];
         if code == 0 {
-            return Err(damaged("entropy-coded data stands where a marker should be"));
+            return Err(damaged("entropy-coded data is where a marker should be"));
         }
         self.at += fill + 1;
         Ok(code)

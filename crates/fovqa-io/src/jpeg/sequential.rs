@@ -55,10 +55,10 @@ pub(super) fn block(
 
 #[cold]
 pub(super) fn beyond_block() -> ReadErrorKind {
-    damaged("its data holds a run of coefficients beyond the end of a block")
+    damaged("its data contains a run of coefficients beyond the end of a block")
 }
 
 #[cold]
 pub(super) fn impossible() -> ReadErrorKind {
-    damaged("its data holds a coefficient that no image of 8-bit samples has")
+    damaged("its data contains a coefficient that no image of 8-bit samples has")
 }

@@ -15,7 +15,7 @@ pub enum ListingError {
     #[error("{}: there is no such file or folder", .0.display())]
     NotFound(PathBuf),
     /// It is a link to something that does not exist.
-    #[error("{}: it is a link to {}, which is not there", link.display(), to.display())]
+    #[error("{}: it is a link to {}, which does not exist", link.display(), to.display())]
     Dangling {
         /// The link.
         link: PathBuf,
@@ -42,7 +42,7 @@ pub enum ListingError {
         other_files: usize,
     },
     /// Two images have the same stem.
-    #[error("{} and {} have one stem: which is the frame?", .0.display(), .1.display())]
+    #[error("{} and {} have the same name without the ending, so the frame is ambiguous", .0.display(), .1.display())]
     SameStem(PathBuf, PathBuf),
     /// The pattern is not valid.
     #[error("{}: it is not a pattern: {detail}", path.display())]
@@ -56,9 +56,9 @@ pub enum ListingError {
 
 fn nothing(other_files: usize) -> String {
     match other_files {
-        0 => "no file is there".to_owned(),
-        1 => "no image is there, only a file of another type".to_owned(),
-        n => format!("no image is there, only {n} files of other types"),
+        0 => "it matches no file".to_owned(),
+        1 => "it matches no image, only a file of another type".to_owned(),
+        n => format!("it matches no image, only {n} files of other types"),
     }
 }
 
@@ -96,11 +96,13 @@ impl ListingError {
     pub fn help(&self) -> &'static str {
         match self {
             Self::NotFound(_) => "check the path; a relative one starts in {start}",
-            Self::Dangling { .. } => "fetch the file (git annex get, dvc pull), or mend the link",
+            Self::Dangling { .. } => {
+                "fetch the file (git annex get, dvc pull), or correct the link"
+            }
             Self::NotRegular(_) => {
                 "give a file, a folder or a pattern; - stands for a y4m video on standard input"
             }
-            Self::Io { .. } => "check that it may be read",
+            Self::Io { .. } => "check that it can be read",
             Self::Empty { .. } => {
                 "give a folder with .png, .jpg or .exr files, a pattern that matches some, or a y4m video by its name"
             }

@@ -61,7 +61,7 @@ pub enum PairingError {
     #[error("{}", unpaired(.0))]
     Unpaired(Unpaired),
     /// Several numbers change in the names.
-    #[error("{argument}: {}; either could be the number of the frame", .doubt.in_words())]
+    #[error("{argument}: {}; more than one could be the frame number", .doubt.in_words())]
     Ambiguous {
         /// The folder or glob.
         argument: String,
@@ -78,7 +78,7 @@ pub enum PairingError {
     },
     /// The length of both sources is unknown.
     #[error(
-        "{reference} and {test} are both of unknown length, and one of them has to say how many frames there are"
+        "the lengths of {reference} and {test} are both unknown, but one of them must be known"
     )]
     Endless {
         /// The reference argument.
@@ -96,8 +96,8 @@ impl PairingError {
                 "render the missing frames, or score the others with {allow_missing}".to_owned()
             }
             Self::Nothing { .. } => {
-                "frames pair by the name without its ending, then by the number that changes from \
-                 name to name; a pattern such as 'renders/f_%04d.png' says which that is"
+                "frames are paired by the name without its ending, then by the number that changes from \
+                 name to name; a pattern such as 'renders/f_%04d.png' selects this number"
                     .to_owned()
             }
             Self::Endless { .. } => "give a file for one of them".to_owned(),
@@ -105,7 +105,7 @@ impl PairingError {
                 let patterns: Vec<String> =
                     patterns.iter().map(|pattern| format!("'{pattern}.*'")).collect();
                 let patterns = patterns.join(" or ");
-                format!("say which with a pattern instead of the folder, such as {patterns}")
+                format!("give a pattern that selects the number instead of the folder, such as {patterns}")
             }
             Self::Ambiguous { .. } => "give a pattern with the number, such as %04d".to_owned(),
         }

@@ -71,7 +71,7 @@ impl Colour {
         let why = if tag.contains("alpha") { ", which has alpha" } else { "" };
         let known: Vec<&str> = TAGS.iter().map(|(name, ..)| *name).collect();
         let tag: String = tag.chars().take(32).flat_map(char::escape_debug).collect();
-        Err(format!("its colour tag is C{tag}{why}; those that are read are {}", known.join(", ")))
+        Err(format!("its colour tag is C{tag}{why}; the supported tags are {}", known.join(", ")))
     }
 
     /// The format of a video without a tag.
@@ -100,7 +100,7 @@ mod tests {
         let error = Colour::of_tag("444alpha").unwrap_err();
         assert!(error.starts_with("its colour tag is C444alpha, which has alpha; "), "{error}");
         let error = Colour::of_tag("420p16").unwrap_err();
-        assert!(error.contains("C420p16; those that are read are 420, 420jpeg, "), "{error}");
+        assert!(error.contains("C420p16; the supported tags are 420, 420jpeg, "), "{error}");
         assert!(!Colour::of_tag("4\u{1b}[2J").unwrap_err().contains('\u{1b}'));
     }
 

@@ -73,7 +73,7 @@ pub(crate) fn open_video(
     let (frames, rest) = find_frames(&video, reader, length)?;
     let count = frames.len() + usize::from(rest.is_some());
     if count == 0 {
-        let message = format!("{}: it has a header and no frames", video.name);
+        let message = format!("{}: it has a header but no frames", video.name);
         return Err(SourceError::new(message, "check how it was written"));
     }
     let length = if rest.is_some() { Length::Damaged(count) } else { Length::Whole(count) };

@@ -52,8 +52,8 @@ pub(super) fn not_a_frame(line: &Line) -> Option<(String, &'static str)> {
         return Some(("it is cut short before its pixels".to_owned(), AGAIN));
     }
     if bytes.starts_with(super::header::MAGIC) {
-        let message = "another video begins here, whose frames may be of another size".to_owned();
-        return Some((message, "give each video as a file of its own"));
+        let message = "another video begins here, whose frames may have another size".to_owned();
+        return Some((message, "give each video as a separate file"));
     }
     let begins: String = String::from_utf8_lossy(&bytes[..bytes.len().min(16)]).into_owned();
     Some((format!("it begins with {begins:?} instead of FRAME"), AGAIN))
@@ -117,22 +117,24 @@ impl Video {
     pub(super) fn damaged(&self, whole: usize) -> SourceError {
         match whole {
             0 => self.end("is damaged from its beginning"),
-            1 => self.end("is damaged behind its first frame"),
-            _ => self.end(&format!("is damaged behind its first {whole} frames")),
+            1 => self.end("is damaged after its first frame"),
+            _ => self.end(&format!("is damaged after its first {whole} frames")),
         }
     }
 
     fn end(&self, how: &str) -> SourceError {
         SourceError {
             has_ended: true,
-            ..SourceError::new(format!("{} {how}", self.name), "check which frames are asked for")
+            ..SourceError::new(format!("{} {how}", self.name), "check which frames are requested")
         }
     }
 
     /// The error for a frame whose pixels are incomplete.
     pub(super) fn cut(&self, frame: usize, bytes: u64) -> SourceError {
-        let what =
-            format!("it is cut short: {bytes} of {} bytes are there", self.header.frame_bytes());
+        let what = format!(
+            "it is cut short: only {bytes} of {} bytes are present",
+            self.header.frame_bytes()
+        );
         self.error(frame, &what, AGAIN)
     }
 
@@ -151,8 +153,9 @@ impl Video {
         let converted = self.conversion.frame(&self.header, bytes);
         let picture: Frame = converted.map_err(|BadCode { plane, x, y, code }| {
             let bits = self.header.colour.bits;
-            let what =
-                format!("{plane} at ({x}, {y}) of its plane is {code}, more than {bits} bits hold");
+            let what = format!(
+                "{plane} at ({x}, {y}) of its plane is {code}, more than {bits} bits can hold"
+            );
             self.error(frame, &what, "write it again with the colour tag that fits its samples")
         })?;
         let missing = if guides { self.missing() } else { MissingGuides::default() };
@@ -185,7 +188,7 @@ impl Video {
 pub(super) fn unreadable(name: &str, error: &io::Error) -> SourceError {
     SourceError::new(
         format!("{name}: it cannot be read: {error}"),
-        "check that it is there and may be read",
+        "check that it exists and can be read",
     )
 }
 

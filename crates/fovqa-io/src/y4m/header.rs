@@ -59,7 +59,11 @@ impl Header {
                     // Comments of other programs are ignored.
                     None => continue,
                 },
-                _ => return Err(damaged(format!("its header has {field:?}, which is no field"))),
+                _ => {
+                    return Err(damaged(format!(
+                        "its header has {field:?}, which is not a field of y4m"
+                    )));
+                }
             };
             let before = place.replace(value);
             check_new(before, key)?;
@@ -108,7 +112,7 @@ impl Fields<'_> {
             let message = format!(
                 "it declares {width}x{height} pixels, more than the limit of {megapixels} megapixels"
             );
-            return Err((message, "raise {max_megapixels} if the size is meant"));
+            return Err((message, "raise {max_megapixels} if the size is correct"));
         }
         let too_large = || ("a frame does not fit into memory".to_owned(), REWRITE);
         let width = usize::try_from(width).map_err(|_| too_large())?;
@@ -122,12 +126,12 @@ impl Fields<'_> {
         match self.interlacing {
             None | Some("" | "p" | "?") => {}
             Some("t" | "b" | "m") => {
-                let message = "it is interlaced: each frame holds two moments".to_owned();
+                let message = "it is interlaced: each frame contains two points in time".to_owned();
                 return Err((message, "deinterlace it first, such as with ffmpeg's -vf bwdif"));
             }
             Some(other) => {
                 let message =
-                    format!("its interlacing is {:?}, which is none of p, t, b, m", short(other));
+                    format!("its interlacing is {:?}, which is not p, t, b or m", short(other));
                 return Err((message, REWRITE));
             }
         }
@@ -177,7 +181,7 @@ fn side(value: Option<&str>, key: char) -> Result<u64, Refused> {
     match digits(value) {
         Some(pixels) if pixels > 0 => Ok(pixels),
         _ => Err((
-            format!("its {what} is {:?}, which is no number of pixels", short(value)),
+            format!("its {what} is {:?}, which is not a number of pixels", short(value)),
             REWRITE,
         )),
     }
@@ -199,7 +203,7 @@ fn ratio(value: Option<&str>, key: char) -> Result<Option<f64>, Refused> {
         _ => {
             let what = if key == 'F' { "frame rate" } else { "pixel aspect" };
             let message = format!(
-                "its {what} is {:?}, which is no ratio such as {key}30000:1001",
+                "its {what} is {:?}, which is not a ratio such as {key}30000:1001",
                 short(value)
             );
             Err((message, REWRITE))
@@ -239,7 +243,7 @@ mod tests {
             ("YUV4MPEG W2 H2", "does not begin with YUV4MPEG2"),
             ("YUV4MPEG2 H2", "no width (W)"),
             ("YUV4MPEG2 W2", "no height (H)"),
-            ("YUV4MPEG2 W0 H2", "width is \"0\", which is no number of pixels"),
+            ("YUV4MPEG2 W0 H2", "width is \"0\", which is not a number of pixels"),
             ("YUV4MPEG2 W+2 H2", "width is \"+2\""),
             ("YUV4MPEG2 W2 H99999999999999999999", "height is \"99999999999999999999\""),
             (
@@ -257,7 +261,7 @@ mod tests {
             ("YUV4MPEG2 W2 H2 F30:0", "frame rate is \"30:0\""),
             ("YUV4MPEG2 W2 H2 A1:-1", "pixel aspect is \"1:-1\""),
             ("YUV4MPEG2 W2 H2 C411", "colour tag is C411"),
-            ("YUV4MPEG2 W2 H2 Q1", "\"Q1\", which is no field"),
+            ("YUV4MPEG2 W2 H2 Q1", "\"Q1\", which is not a field of y4m"),
         ] {
             let error = parse(line).unwrap_err();
             assert!(error.contains(said), "{line}: {error}");

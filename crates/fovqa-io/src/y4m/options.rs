@@ -15,7 +15,7 @@ words! {
 }
 
 impl OrAuto for CodeRange {
-    const AUTO: &'static str = "What XCOLORRANGE says; limited where it says nothing";
+    const AUTO: &'static str = "The value of XCOLORRANGE; limited if it is not given";
 }
 
 words! {
@@ -23,9 +23,9 @@ words! {
     /// converted.
     pub enum ColourMatrix {
         /// Rec. ITU-R BT.601: 0.299, 0.587, 0.114.
-        Bt601 "bt601" "Rec. ITU-R BT.601, of standard definition";
+        Bt601 "bt601" "Rec. ITU-R BT.601, for standard definition";
         /// Rec. ITU-R BT.709: 0.2126, 0.7152, 0.0722.
-        Bt709 "bt709" "Rec. ITU-R BT.709, of high definition";
+        Bt709 "bt709" "Rec. ITU-R BT.709, for high definition";
         /// Rec. ITU-R BT.2020 with non-constant luminance: 0.2627, 0.6780, 0.0593.
         Bt2020 "bt2020" "Rec. ITU-R BT.2020, non-constant luminance";
     }

@@ -25,13 +25,10 @@ pub(crate) fn standard_input(options: &ReadOptions) -> Result<Arc<dyn Source>, S
     };
     if io::stdin().is_terminal() {
         let help = "pipe a y4m video into it, such as from ffmpeg -i FILE -f yuv4mpegpipe -";
-        return refused("it is a terminal, where a video is expected", help);
+        return refused("it is a terminal, but a video is expected", help);
     }
     if IS_TAKEN.swap(true, Ordering::Relaxed) {
-        return refused(
-            "it is asked for twice, and can be read but once",
-            "give a file for the other",
-        );
+        return refused("it is used twice, but can only be read once", "give a file for the other");
     }
     video_stream(STANDARD_INPUT.to_owned(), io::stdin(), options)
 }
@@ -94,7 +91,7 @@ impl VideoStream {
     fn bytes(&self, frame: usize) -> Result<Vec<u8>, SourceError> {
         let mut state = self.lock();
         if state.end.is_none() && frame < state.next {
-            let what = "it has gone by: a stream can be read but once, in order";
+            let what = "it has already passed: a stream can only be read once and in order";
             return Err(self.video.error(frame, what, "write the stream to a file first"));
         }
         let mut bytes = Vec::new();
@@ -208,7 +205,8 @@ mod tests {
         assert_eq!(clip.has_more(), Ok(true));
         let third = clip.read(2, false).unwrap().frame.sample(0, 0, 0);
         assert!((third - (101.0 - 16.0) / 219.0).abs() < 1e-6);
-        let gone = "clip, frame 1: it has gone by: a stream can be read but once, in order";
+        let gone =
+            "clip, frame 1: it has already passed: a stream can only be read once and in order";
         assert_eq!(message(&*clip, 1), (gone.to_owned(), false));
         assert_eq!(clip.has_more(), Ok(false));
         assert_eq!(message(&*clip, 3), ("clip ends after 3 frames".to_owned(), true));
@@ -219,14 +217,14 @@ mod tests {
     fn whole_frames_before_a_damaged_one_count() {
         let clip = stream(&THREE[..THREE.len() - 1]);
         assert!(clip.read(1, false).is_ok());
-        let cut = "clip, frame 2: it is cut short: 1 of 2 bytes are there";
+        let cut = "clip, frame 2: it is cut short: only 1 of 2 bytes are present";
         assert_eq!(message(&*clip, 2), (cut.to_owned(), false));
-        let end = "clip is damaged behind its first 2 frames";
+        let end = "clip is damaged after its first 2 frames";
         assert_eq!(message(&*clip, 3), (end.to_owned(), true));
         let other = stream(b"YUV4MPEG2 W2 H1 Cmono\nFRAME\nabYUV4MPEG2 W4 H1\nFRAME\n");
         assert!(other.read(0, false).is_ok());
         assert!(message(&*other, 1).0.starts_with("clip, frame 1: another video begins here"));
-        let end = "clip is damaged behind its first frame";
+        let end = "clip is damaged after its first frame";
         assert_eq!(message(&*other, 2), (end.to_owned(), true));
     }
 }

@@ -130,7 +130,7 @@ fn missing_guides_are_none_and_reported() {
     let ours = options(named(["flow.U", "flow.V"]), depth_named("far"));
     let decoded = frame_of(vec![part(&["R", "G", "B"])], &ours).unwrap();
     is_said(&decoded.guide_search.missing_motion().unwrap(), &["flow.U + flow.V"]);
-    is_said(&decoded.guide_search.missing_depth().unwrap(), &["as far;"]);
+    is_said(&decoded.guide_search.missing_depth().unwrap(), &["for far);"]);
 }
 
 #[test]

@@ -50,8 +50,8 @@ fn blocks_of_guides_that_are_missing_or_there_twice() {
     let folder = Folder::new();
     let whole = fs::read(folder.file(colour_and_guides())).unwrap();
     let twice = folder.bytes(with_block_as(&whole, 1, 2, 0));
-    is_said(&read_frame(&twice, &ours()).unwrap_err().kind, &["one of its blocks is there twice"]);
-    is_said(&read_guides(&twice, &ours()).unwrap_err().kind, &["there twice"]);
+    is_said(&read_frame(&twice, &ours()).unwrap_err().kind, &["one of its blocks appears twice"]);
+    is_said(&read_guides(&twice, &ours()).unwrap_err().kind, &["appears twice"]);
     read_frame(&twice, &ReadOptions::default()).unwrap();
     // A block of one part claims to belong to the other.
     let starts = block_starts(&whole);

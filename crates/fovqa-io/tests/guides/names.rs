@@ -123,7 +123,7 @@ fn several_that_could_be_meant_are_an_error() {
         "could be the motion",
         "left.near.Vector.X + left.near.Vector.Y",
         "left.far.Vector.X + left.far.Vector.Y",
-        "name the one",
+        "name the right one",
     ];
     is_said(&motion.unwrap_err(), &pairs);
     let depth = options(MotionChannels::None, depth_named("Depth.Z"));

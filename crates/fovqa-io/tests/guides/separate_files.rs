@@ -100,7 +100,7 @@ fn a_guide_missing_from_a_separate_file_is_an_error() {
     is_said(&error, &["no motion", "motion.X + motion.Y", "channels are Z, normal", "render them"]);
     let ours = options(MotionChannels::Auto, depth_named("far"));
     let error = guides_of(vec![part(&["motion.X", "motion.Y"])], &ours).unwrap_err();
-    is_said(&error, &["no depth", "as far;", "channels are motion.X, motion.Y"]);
+    is_said(&error, &["no depth", "for far);", "channels are motion.X, motion.Y"]);
     assert_eq!(
         guides_of(vec![part(&["any"])], &ReadOptions::default()).unwrap().guides,
         Guides::default(),

@@ -78,5 +78,5 @@ fn a_preset_looks_for_its_own_names_alone() {
     let decoded = frame_of(parts, &preset(GuidePreset::Blender)).unwrap();
     assert_eq!(decoded.guides, Guides::default());
     let missing = decoded.guide_search.missing_motion().unwrap();
-    is_said(&missing, &["looked for as Vector.X + Vector.Y;"]);
+    is_said(&missing, &["searched for Vector.X + Vector.Y);"]);
 }

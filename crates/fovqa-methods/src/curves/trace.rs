@@ -108,7 +108,7 @@ fn shading(
     let setting = screen.setting()?;
     let ([x, y], [at_x, at_y]) = (screen.gaze_px, setting.gaze_px());
     let outside = ((x - at_x).abs() + (y - at_y).abs() > 0.0).then(|| {
-        format!("the gaze ({x}, {y}) is outside of the frame: it is taken at ({at_x}, {at_y})")
+        format!("the gaze ({x}, {y}) is outside the frame; ({at_x}, {at_y}) on its border is used")
     });
     let foveation = method.apply(&setting)?;
     let screen = &CurveSetting { gaze_px: setting.gaze_px(), ..*screen };
@@ -142,9 +142,9 @@ fn stretched(screen: &CurveSetting) -> Option<String> {
     ((fx - fy).abs() > 1e-6 * fx).then(|| {
         let what = match eccentricity {
             EccentricityKind::Planar => {
-                "planar eccentricity and methods take their geometric mean, `angular` takes both"
+                "planar eccentricity and methods use their geometric mean, `angular` uses both"
             }
-            EccentricityKind::Angular => "methods take their geometric mean",
+            EccentricityKind::Angular => "methods use their geometric mean",
         };
         format!(
             "pixels of {}x{} are not square, the focal lengths are {fx:.2} and {fy:.2} px: {what}",
@@ -156,7 +156,7 @@ fn stretched(screen: &CurveSetting) -> Option<String> {
 fn without_points(points: &[CurvePoint], range: CurveRange) -> Option<String> {
     points.is_empty().then(|| {
         format!(
-            "no rate is defined at any step from 0° to {}°: take a finer step or go further",
+            "no rate is defined at any step from 0° to {}°: use a finer step or a larger range",
             range.to_deg
         )
     })
@@ -313,7 +313,7 @@ mod tests {
         assert_eq!(border.notes.len(), 1, "{:?}", border.notes);
         assert!(border.notes[0].contains("DEAMP"));
         assert_eq!(outside.notes.len(), 2);
-        let said = "the gaze (1500, 800) is outside of the frame: it is taken at (1440, 800)";
+        let said = "the gaze (1500, 800) is outside the frame; (1440, 800) on its border is used";
         assert_eq!(outside.notes[0], said);
         assert!(!of([720.0, -1.0]).notes.is_empty());
         assert!(curve(find("rmfr", &[]), screen(CENTRE, 0.0, Tangential::Paper)).notes.is_empty());

@@ -119,16 +119,16 @@ fn refused_at_the_very_ends() {
         assert!(error.contains(what), "{error}");
     };
     for bounds in [[0.0, 20.0, 45.0], [10.0, 20.0, 90.0], [10.0, 10.0, 45.0]] {
-        refused("deamp", &[("bounds_deg", list(&bounds))], "do not rise between 0° and 90°");
+        refused("deamp", &[("bounds_deg", list(&bounds))], "must increase between 0° and 90°");
     }
     for bounds in [[0.0, 20.0], [10.0, 90.0], [10.0, 10.0]] {
-        refused("guenter", &[("bounds_deg", list(&bounds))], "do not rise between 0° and 90°");
+        refused("guenter", &[("bounds_deg", list(&bounds))], "must increase between 0° and 90°");
     }
     refused("guenter", &[("scales", list(&[1.0, 2.0, 0.09]))], "0.1 and 1000");
     refused("deamp", &[("sigmas", list(&[1.0, 2.0, 0.09]))], "0.1 and 1000");
-    refused("linear", &[("outer_deg", number(10.0))], "does not lie above");
+    refused("linear", &[("outer_deg", number(10.0))], "must be above");
     let pairs = |pairs: &[[f64; 2]]| [("ratio", ParamValue::Pairs(pairs.to_vec()))];
-    refused("vafr", &pairs(&[[5.0, 1.0], [5.0, 2.0]]), "do not rise");
+    refused("vafr", &pairs(&[[5.0, 1.0], [5.0, 2.0]]), "must increase");
     refused("vafr", &pairs(&[[5.0, 0.009]]), "0.01 and 100");
     assert!(method("deamp", &[("sigmas", list(&[0.1, 1.0, 1000.0]))]).apply(&setting).is_ok());
 }
@@ -317,7 +317,7 @@ fn budgets_reach_as_far_as_their_parameters() {
     near(least, 1e-4, 1e-9);
     near(most, 16.0, 1e-9);
     let error = polar.at_budget(&setting, f64::INFINITY, BudgetSamples::OnScreen).unwrap_err();
-    assert!(error.to_string().contains("from 1.000e-4 to 16.0000"), "{error}");
+    assert!(error.to_string().contains("allows 1.000e-4 to 16.0000"), "{error}");
 }
 
 #[test]

@@ -133,7 +133,7 @@ fn lafr_states_the_range_of_alpha() {
     let error = with("foveal_deg", 0.05).unwrap_err().to_string();
     assert!(error.contains("(1 px)"), "{error}");
     let error = with("alpha", 50.0).unwrap_err().to_string();
-    let range = error.split("alpha lies between ").nth(1).unwrap();
+    let range = error.split("alpha must be between ").nth(1).unwrap();
     let ends: Vec<f64> = range.split(' ').filter_map(|word| word.parse().ok()).collect();
     assert_eq!(ends.len(), 2, "{error}");
     // Near the lower limit U_f is below the smallest float.

@@ -26,14 +26,14 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     unit: "dB",
     needs: Needs { view: true, foveal_weight: true, ..Needs::NOTHING },
     statistics: &[Statistic::VALUE.over_eyes(Pooling::Decibels).over_frames(Pooling::Decibels)],
-    about: "PSNR under the square of the visible cut-off frequency; compare methods, not papers",
+    about: "PSNR weighted by the square of the visible cut-off frequency; values can be compared between methods, not with papers",
     source: "Lee, Pattichis, Bovik 2002; weights after Geisler and Perry 1998",
     params: &[
         ParamInfo {
             name: "weight",
             default: "\"lee2002\"",
             values: ParamValues::Word(&["lee2002", "acuity"]),
-            about: "the curve (FSSIM too)",
+            about: "weighting curve (also for FSSIM)",
         },
         ParamInfo {
             name: "alpha",
@@ -57,19 +57,19 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
             name: "acuity",
             default: "\"piecewise\"",
             values: ParamValues::Word(&["piecewise", "linear_mar"]),
-            about: "acuity: the model",
+            about: "acuity: the acuity model",
         },
         ParamInfo {
             name: "knots_deg",
             default: "[0, 10, 20, 30, 60]",
             values: ParamValues::Numbers,
-            about: "piecewise: eccentricities, °, rising from 0",
+            about: "piecewise: eccentricities, °, increasing from 0",
         },
         ParamInfo {
             name: "knots_cpd",
             default: "[40, 10, 6, 5, 4]",
             values: ParamValues::Numbers,
-            about: "piecewise: acuity there, cpd, 0.01 to 1000",
+            about: "piecewise: acuity at these eccentricities, cpd, 0.01 to 1000",
         },
         ParamInfo {
             name: "m",
@@ -81,7 +81,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
             name: "omega0_deg",
             default: "0.020833333333333332",
             values: ParamValues::Number(1e-4, 10.0),
-            about: "linear_mar: one cycle at the fovea, °",
+            about: "linear_mar: angle of one cycle at the fovea, °",
         },
     ],
     ..MetricInfo::FIDELITY
@@ -175,7 +175,7 @@ impl MetricParams for Params {
             expected,
         };
         if self.knots_cpd.iter().any(|f| !(0.01..=1000.0).contains(f)) {
-            return Err(wrong("acuity lies between 0.01 and 1000 cycles per degree".to_owned()));
+            return Err(wrong("acuity must be between 0.01 and 1000 cycles per degree".to_owned()));
         }
         let curve = PiecewiseMar::new(&self.knots_deg, &self.knots_cpd);
         curve.map(|_| ()).map_err(|error| wrong(error.to_string()))

@@ -9,8 +9,8 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "fssim",
     label: "FSSIM",
     needs: Needs { view: true, foveal_weight: true, ..Needs::NOTHING },
-    about: "the SSIM map under FPSNR's weight",
-    source: "ours: the map of ssim under the weight of fpsnr",
+    about: "the SSIM map weighted as in FPSNR",
+    source: "a definition of fovqa: the map of ssim with the weight of fpsnr",
     ..MetricInfo::FIDELITY
 };
 

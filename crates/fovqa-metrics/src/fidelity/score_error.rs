@@ -29,13 +29,13 @@ pub enum ScoreError {
     #[error("the mask leaves no pixel to score")]
     NothingLeft,
     /// The mask has no complete window.
-    #[error("the mask leaves no whole window for {}", metric.info().label)]
+    #[error("the mask leaves no complete window for {}", metric.info().label)]
     NoWindow {
         /// The metric.
         metric: Metric,
     },
     /// The mask leaves fewer than two values.
-    #[error("the mask leaves fewer than two whole {what} for {}", metric.info().label)]
+    #[error("the mask leaves fewer than two complete {what} for {}", metric.info().label)]
     TooFew {
         /// The metric.
         metric: Metric,

@@ -58,13 +58,13 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
             name: "levels",
             default: "5",
             values: ParamValues::Whole(1, MAX_LEVELS),
-            about: "levels; level l is of blocks of 2^l px a side",
+            about: "number of levels; level l describes blocks of 2^l x 2^l px",
         },
         ParamInfo {
             name: "orientations",
             default: "false",
             values: ParamValues::Flag,
-            about: "LH, HL and HH one by one too",
+            about: "also report LH, HL and HH separately",
         },
     ],
     ..MetricInfo::PROFILE

@@ -24,13 +24,13 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
             name: "signal",
             default: "\"luma\"",
             values: ParamValues::Word(&["luma", "luminance"]),
-            about: "of the encoded signal, or of linear light after exposure",
+            about: "signal: encoded luma, or linear luminance after exposure",
         },
         ParamInfo {
             name: "normalise",
             default: "\"none\"",
             values: ParamValues::Word(&["none", "mean"]),
-            about: "divided by the band's mean",
+            about: "division by the band's mean, or none",
         },
     ],
     ..MetricInfo::PROFILE

@@ -44,7 +44,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
         name: "depth_tolerance",
         default: "0.05",
         values: ParamValues::NumberOr(0.0, 1e6, "off"),
-        about: "how much depth may differ along the motion, as a share; off leaves depth out",
+        about: "largest relative difference of depth along the motion; off ignores depth",
     }],
     ..MetricInfo::FIDELITY
 };

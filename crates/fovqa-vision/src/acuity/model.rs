@@ -98,14 +98,14 @@ pub(super) const CPD: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
 const PIECEWISE: AcuityInfo = AcuityInfo {
     key: "piecewise",
     label: "Piecewise MAR",
-    about: "1/f linear between knots, and beyond the last on at its slope",
+    about: "1/f is linear between knots and continues with the last slope",
     source: "VaFR (Zhang, Gai, Li), Eq. 12",
     params: &[
         ParamInfo {
             name: "knots_deg",
             default: "[0, 10, 20, 30, 60]",
             values: ParamValues::Numbers,
-            about: "eccentricities of the knots, °, rising from 0",
+            about: "eccentricities of the knots, °, increasing from 0",
         },
         ParamInfo {
             name: "knots_cpd",
@@ -117,7 +117,7 @@ const PIECEWISE: AcuityInfo = AcuityInfo {
             name: "cap_cpd",
             default: "\"none\"",
             values: ParamValues::NumberOr(*CPD.start(), *CPD.end(), "none"),
-            about: "highest frequency a device shows, cycles per degree (9: Vive Pro Eye)",
+            about: "highest frequency that a device shows, cycles per degree (9: Vive Pro Eye)",
         },
     ],
 };

@@ -66,8 +66,8 @@ impl PiecewiseParams {
 pub enum PiecewiseMarError {
     /// There are fewer than two knots, or the two lists differ in length.
     #[error(
-        "{eccentricities} eccentricities and {frequencies} frequencies are no knots: give two or \
-         more, as many of one as of the other"
+        "{eccentricities} eccentricities and {frequencies} frequencies do not form knots: give at \
+         least two, with one frequency per eccentricity"
     )]
     Count {
         /// Number of eccentricities given.
@@ -76,10 +76,10 @@ pub enum PiecewiseMarError {
         frequencies: usize,
     },
     /// The eccentricities do not rise from 0.
-    #[error("the knots' eccentricities do not start at 0° and rise, up to 180°")]
+    #[error("the eccentricities of the knots must start at 0° and increase up to at most 180°")]
     Order,
     /// Acuity rises at the end: beyond the last knot it would grow without bound.
-    #[error("acuity does not fall from the knot before the last to the last")]
+    #[error("acuity must decrease between the last two knots")]
     Rising,
     /// A frequency is beyond that of any eye.
     #[error("the knot of {found_cpd} cpd is not between 0.01 and 1000 cycles per degree")]

@@ -15,11 +15,11 @@ use super::window::{Window, at_first_frame};
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum TimeError {
     /// There is no frame rate.
-    #[error("FovVideoVDP of a sequence needs its frames a second, and none are given")]
+    #[error("FovVideoVDP of a sequence needs the frame rate, but none is given")]
     NoFps,
     /// The frame rate is out of the range for which filters can be made.
     #[error(
-        "FovVideoVDP needs more than {TOO_SLOW_FPS} and at most {FASTEST_FPS} frames a second; the sequence has {fps}"
+        "FovVideoVDP needs more than {TOO_SLOW_FPS} and at most {FASTEST_FPS} frames per second; the sequence has {fps}"
     )]
     Fps {
         /// The given frame rate, or the effective one if frames are skipped.

@@ -79,7 +79,7 @@ impl MetricParams for Params {
 const MAP: MapInfo = MapInfo {
     name: "gmsd",
     block: 2,
-    about: "gradient magnitude similarity, one value for 2x2 pixels; coloured from 1 (alike) to 0",
+    about: "gradient magnitude similarity, one value per 2x2 pixels; coloured from 1 (identical) to 0",
     scale: MapScale::Linear { none: 1.0, most: 0.0 },
 };
 

@@ -30,7 +30,7 @@ pub(crate) const MAP_PIXELS: &str = "map_pixels";
 pub(crate) const MAP: MapInfo = MapInfo {
     name: "ssim",
     block: 1,
-    about: "SSIM around each pixel, mean over channels; coloured from 1 (alike) to 0",
+    about: "SSIM around each pixel, mean over channels; coloured from 1 (identical) to 0",
     scale: MapScale::Linear { none: 1.0, most: 0.0 },
 };
 
@@ -51,7 +51,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
             name: "sigma",
             default: "1.5",
             values: ParamValues::Number(MIN_SIGMA, MAX_SIGMA),
-            about: "Gaussian window, px (MS-SSIM and FSSIM too)",
+            about: "standard deviation of the Gaussian window, px (also for MS-SSIM and FSSIM)",
         },
         ParamInfo {
             name: "radius",
