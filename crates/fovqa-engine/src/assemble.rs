@@ -108,7 +108,8 @@ fn in_order(
                         let (scene, frames) =
                             (&scene.name, if alone == 1 { "frame" } else { "frames" });
                         events.warn(&format!(
-                            "{scene}, {method}: {alone} {frames} of one eye have no partner of the other, and are not in the results of both"
+                            "{scene}, {method}: left out of the results of both eyes: {alone} {frames} of one \
+                             eye without a partner of the other eye"
                         ));
                     }
                     Some(both)

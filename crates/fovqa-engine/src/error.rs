@@ -26,13 +26,13 @@ pub enum EngineError {
     #[error(transparent)]
     Pairing(#[from] PairingError),
     /// A source that was to be given and is not.
-    #[error("the plan has the source {name:?}, and it is not given")]
+    #[error("the plan uses the source {name:?}, but no such source was given")]
     NotGiven {
         /// What the plan calls it.
         name: String,
     },
     /// A selection without a frame.
-    #[error("no frame is selected; there are frames {first} to {last}")]
+    #[error("the selection contains no frame; the frames are {first} to {last}")]
     NoFrames {
         /// Lowest number there is.
         first: i64,
@@ -40,7 +40,7 @@ pub enum EngineError {
         last: i64,
     },
     /// Frames that are asked for by number, where the names have none that tell them apart.
-    #[error("{argument}: {what} goes by the numbers of frames, and those in the names do not tell the frames apart: {}", doubt.in_words())]
+    #[error("{argument}: {what} needs frame numbers, but the numbers in the file names do not identify the frames: {}", doubt.in_words())]
     NoNumbers {
         /// The reference argument.
         argument: String,
@@ -53,13 +53,13 @@ pub enum EngineError {
     #[error(transparent)]
     View(#[from] ViewError),
     /// Something that needs a view, without one.
-    #[error("{what} needs a view, and none is given")]
+    #[error("{what} needs a view, but no view is given")]
     NoView {
         /// What needs it.
         what: String,
     },
     /// Something that needs the display's photometry, without it.
-    #[error("{what} needs the display's photometry, and {}", unlit(display.as_ref()))]
+    #[error("{what} needs the display's photometry, but {}", unlit(display.as_ref()))]
     NoLuminance {
         /// What needs it.
         what: String,
@@ -106,7 +106,7 @@ pub enum EngineError {
     },
     /// Frames that do not fit into memory.
     #[error(
-        "frames of {}x{} pixels need at least {} of memory ({needed}), and {} are available",
+        "frames of {}x{} pixels need at least {} of memory ({needed}), but only {} is available",
         size.0, size.1, gigabytes(needed.bytes()), gigabytes(*available)
     )]
     Memory {
@@ -205,30 +205,30 @@ impl EngineError {
                 "give a pattern that has the number, such as 'renders/f_%04d.png', or rename the files"
                     .to_owned()
             }
-            Self::NotGiven { .. } => "give a source of that name beside the plan".to_owned(),
+            Self::NotGiven { .. } => "give a source with this name together with the plan".to_owned(),
             Self::NoFrames { .. } => {
-                "{frames} selects by number, from A up to, but without, B".to_owned()
+                "{frames} selects by number, from A up to, but not including, B".to_owned()
             }
             Self::View(_) => {
-                "angles lie between 0° and 180°, lengths and tangents above 0".to_owned()
+                "angles must be between 0° and 180°, lengths and tangents above 0".to_owned()
             }
             Self::NoView { .. } => "give {view}".to_owned(),
             Self::NoLuminance { .. } => {
                 "give {luminance}, or a display that has it (`fovqa list displays`)".to_owned()
             }
             Self::ShownWrongly { .. } => {
-                "give {transfer} of the files as it is, and {luminance} of a display with that eotf"
+                "check that {transfer} matches the files, and give {luminance}, for a display with the same eotf"
                     .to_owned()
             }
-            Self::Time(TimeError::NoFps) => "give {fps}; one frame alone is a still".to_owned(),
+            Self::Time(TimeError::NoFps) => "give {fps}; a single frame is scored as a still and needs no frame rate".to_owned(),
             Self::Time(TimeError::Fps { .. }) => {
-                "check {fps}; frames that are passed over make it slower".to_owned()
+                "check {fps}; skipped frames make it lower".to_owned()
             }
             Self::Map { .. } => "give another folder with {maps}, or free some space".to_owned(),
             Self::Param(_) => {
                 "`fovqa list metrics` shows every parameter with its range".to_owned()
             }
-            Self::GazeFile { .. } => "give a CSV file; a gaze point is written {gaze}".to_owned(),
+            Self::GazeFile { .. } => "give a CSV file, or write a gaze point as {gaze}".to_owned(),
             Self::GazeTrace { error, .. } => error.help().to_owned(),
             Self::Memory { needed, .. } => {
                 let fvvdp = if needed.is_of_fvvdp() {
@@ -240,14 +240,15 @@ impl EngineError {
             }
             Self::Mask(error) => error.kind.help().to_owned(),
             Self::Journal { .. } => {
-                "free some space: frames in the journal are not lost, and {resume} goes on with them"
+                "free some space; frames in the journal are not lost, and {resume} continues with them"
                     .to_owned()
             }
             Self::JournalChanged { .. } => {
-                "cut the file off in front of that line to go on from there, or leave {resume} out to score all again"
+                "delete this line and all lines after it to continue from there, or leave out {resume} to score \
+                 everything again"
                     .to_owned()
             }
-            Self::JournalRead { .. } => "mend that, or leave {resume} out".to_owned(),
+            Self::JournalRead { .. } => "correct this, or leave out {resume}".to_owned(),
         }
     }
 }
@@ -255,7 +256,7 @@ impl EngineError {
 fn unlit(display: Option<&String>) -> String {
     match display {
         None => "none is given".to_owned(),
-        Some(name) => format!("that of {} is not known", name.replace('_', "-")),
+        Some(name) => format!("the photometry of {} is not known", name.replace('_', "-")),
     }
 }
 

@@ -108,7 +108,8 @@ fn refuse_streams(plan: &Plan, view: &FoundView) -> Result<(), EngineError> {
         None => Ok(()),
         Some(stream) => {
             let message = format!(
-                "{}: FovVideoVDP begins with frames that come later, and a stream is read but once, in order",
+                "{}: with this fvvdp.temp_padding, FovVideoVDP begins with later frames, but a stream can only \
+                 be read once and in order",
                 stream.listing().argument
             );
             let help = "write it to a file first, or leave fvvdp.temp_padding at replicate";

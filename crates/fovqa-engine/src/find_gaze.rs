@@ -42,8 +42,8 @@ fn of_point([x, y]: [f64; 2]) -> Option<String> {
     let share = |at: f64| (0.0..=1.0).contains(&at);
     (share(x) && share(y) && (x > 0.0 || y > 0.0)).then(|| {
         format!(
-            "the gaze ({x}, {y}) lies in the first pixel of the frame: it is in pixels from the top-left corner; \
-             of shares, multiply by the frame's width and height"
+            "the gaze ({x}, {y}) is in the first pixel of the frame: it is given in pixels from the top-left corner; \
+             if these are fractions of the frame, multiply them by its width and height"
         )
     })
 }
@@ -55,18 +55,20 @@ fn of_trace(plan: &Plan, path: &Path, trace: &GazeTrace) -> Vec<String> {
     let mut remarks = Vec::new();
     if !trace.unused_quality_columns().is_empty() {
         remarks.push(format!(
-            "{file}: not applied: {}; rows that are not to count need an empty x_px or y_px, or a column valid with 0",
+            "{file}: not applied: {}; to exclude a row, leave its x_px or y_px empty, or write 0 in a column \
+             named valid",
             trace.unused_quality_columns().join(", ")
         ));
     }
     if trace.is_in_first_pixel() {
         remarks.push(format!(
-            "{file}: all positions lie in the first pixel of the frame: x_px and y_px are pixels, not shares of the frame"
+            "{file}: all positions are in the first pixel of the frame: x_px and y_px must be pixels, not \
+             fractions of the frame"
         ));
     }
     if let Some(interval) = trace.interval_s().filter(|s| *s > LONGEST_INTERVAL_S) {
         remarks.push(format!(
-            "{file}: time_s rises by {interval} s from row to row: is it in seconds, as it should be?"
+            "{file}: time_s increases by {interval} s from row to row; check that it is in seconds"
         ));
     }
     remarks

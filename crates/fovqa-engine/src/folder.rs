@@ -74,7 +74,7 @@ pub struct ResultsFolder {
 #[derive(Debug, Error)]
 pub enum FolderError {
     /// The system refuses.
-    #[error("{}: results cannot be written there: {error}", path.display())]
+    #[error("{}: cannot write results to this folder: {error}", path.display())]
     Io {
         /// The folder.
         path: PathBuf,
@@ -82,7 +82,7 @@ pub enum FolderError {
         error: io::Error,
     },
     /// The file system has no locks, or refuses this one.
-    #[error("{}: it cannot be locked against another run: {error}", path.display())]
+    #[error("{}: cannot lock this folder: {error}", path.display())]
     Lock {
         /// The folder.
         path: PathBuf,
@@ -90,10 +90,10 @@ pub enum FolderError {
         error: io::Error,
     },
     /// Another process writes to it.
-    #[error("{}: another run is writing there", .0.display())]
+    #[error("{}: another run is writing to this folder", .0.display())]
     Busy(PathBuf),
     /// It has results of the other kind: of a run, or of curves.
-    #[error("{}: it has the results of {of}", path.display())]
+    #[error("{}: the folder contains the results of {of}", path.display())]
     Other {
         /// The folder.
         path: PathBuf,
@@ -101,7 +101,7 @@ pub enum FolderError {
         of: &'static str,
     },
     /// It has files that a run would replace, and that are of no run.
-    #[error("{}: it has a {file} that is of no run", path.display())]
+    #[error("{}: the folder contains a {file} that no run of fovqa has written", path.display())]
     Foreign {
         /// The folder.
         path: PathBuf,
@@ -114,11 +114,12 @@ impl FolderError {
     /// How to mend it.
     pub fn help(&self) -> &'static str {
         match self {
-            Self::Io { .. } => "give a folder that can be written to with {output}",
+            Self::Io { .. } => "give a writable folder with {output}",
             Self::Lock { .. } => {
-                "write to a local disk with {output}, or use --no-lock and see to it that nothing else writes there"
+                "write to a local disk with {output}, or use --no-lock and make sure that nothing else writes \
+                 to the folder"
             }
-            Self::Busy(_) => "wait until it is done, or give another folder with {output}",
+            Self::Busy(_) => "wait until it has finished, or give another folder with {output}",
             Self::Other { .. } | Self::Foreign { .. } => {
                 "move it away, or give another folder with {output}"
             }
@@ -132,7 +133,7 @@ fn locked(folder: &Path) -> Result<File, FolderError> {
     let path = folder.join(LOCK);
     // Opening a pipe would wait for its other end.
     if fs::metadata(&path).is_ok_and(|file| !file.is_file()) {
-        let error = io::Error::other(format!("{LOCK} in it is not a regular file"));
+        let error = io::Error::other(format!("{LOCK} is not a regular file"));
         return Err(failed(error));
     }
     let file = File::options().create(true).append(true).open(&path).map_err(failed)?;

@@ -49,14 +49,14 @@ impl Inputs {
                 None => plan.base.join(shown),
             };
             match std::fs::metadata(&path) {
-                Err(_) => return Some(format!("{shown} is not there any more")),
+                Err(_) => return Some(format!("{shown} no longer exists")),
                 Ok(file) if file.is_file() && file.len() == id.bytes => {}
                 Ok(_) => return Some(format!("{shown} has changed")),
             }
             match id_of_file(&path) {
                 Ok(now) if now == **id => None,
                 Ok(_) => Some(format!("{shown} has changed")),
-                Err(error) => Some(format!("{shown} cannot be read any more: {error}")),
+                Err(error) => Some(format!("{shown} can no longer be read: {error}")),
             }
         };
         files.par_iter().filter_map(change).collect()
@@ -94,7 +94,7 @@ mod tests {
         std::fs::write(folder.path().join("longer"), "aa").unwrap();
         std::fs::write(folder.path().join("other"), "b").unwrap();
         std::fs::remove_file(folder.path().join("gone")).unwrap();
-        let wanted = ["gone is not there any more", "longer has changed", "other has changed"];
+        let wanted = ["gone no longer exists", "longer has changed", "other has changed"];
         assert_eq!(inputs.changes(&plan, &BTreeMap::new()), wanted);
     }
 }

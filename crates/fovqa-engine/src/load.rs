@@ -15,14 +15,14 @@ pub(crate) enum LoadError {
     Read(#[from] SourceError),
     #[error("{file}: {error}")]
     Crop { file: String, error: CropError },
-    #[error("{reference} has {}x{} pixels and {test} has {}x{}", reference_size.0, reference_size.1, test_size.0, test_size.1)]
+    #[error("{reference} has {}x{} pixels, but {test} has {}x{}", reference_size.0, reference_size.1, test_size.0, test_size.1)]
     Size {
         reference: String,
         reference_size: (usize, usize),
         test: String,
         test_size: (usize, usize),
     },
-    #[error("{file}: no file of {what} belongs to it")]
+    #[error("{file}: no {what} file matches this frame")]
     NoGuideFile { file: String, what: &'static str },
     #[error("{file}: channel {} is {} at pixel ({}, {}){}", bad.channel, bad.value, bad.x, bad.y, more(bad.pixels))]
     Nonfinite { file: String, bad: BadPixel },
@@ -42,13 +42,13 @@ impl LoadError {
             Self::Read(error) => &error.help,
             Self::Crop { .. } => "{crop} is in pixels of the file",
             Self::Size { .. } => {
-                "nothing is resampled: render both at one size, or cut with {crop}"
+                "fovqa does not resample: render both at the same size, or crop them with {crop}"
             }
             Self::NoGuideFile { .. } => {
-                "files of motion and depth pair with the reference by name, then by the number of the frame"
+                "motion and depth files are paired with the reference by name, then by frame number"
             }
             Self::Nonfinite { .. } => {
-                "mend the render, or leave such pixels out with {nonfinite=mask}"
+                "correct the render, or leave out such pixels with {nonfinite=mask}"
             }
         }
     }
@@ -272,7 +272,7 @@ impl Loader<'_> {
             let (low, high) = frame.range();
             if low < 0.0 || high > 1.0 {
                 let range =
-                    "values beyond 0 to 1, which an encoded signal cannot have, are clamped";
+                    "values outside 0 to 1, which an encoded signal cannot have, are clamped";
                 notes.push(range.to_owned());
             }
         }

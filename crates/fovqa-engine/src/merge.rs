@@ -14,10 +14,10 @@ use crate::unit::Unit;
 #[derive(Debug, Error)]
 pub enum MergeError {
     /// A folder without one.
-    #[error("{}: there is no shard of a run in it", .0.display())]
+    #[error("{}: the folder contains no shard of a run", .0.display())]
     NoShard(PathBuf),
     /// A folder with a whole run.
-    #[error("{}: it has a whole run, not a shard of one", .0.display())]
+    #[error("{}: the folder contains a complete run, not a shard", .0.display())]
     Whole(PathBuf),
     /// A journal that cannot be read.
     #[error("{}: the journal cannot be read: {error}", path.display())]
@@ -28,7 +28,7 @@ pub enum MergeError {
         error: std::io::Error,
     },
     /// One in the format of another version.
-    #[error("{}: the shard is of another version of fovqa, in its format {format}", path.display())]
+    #[error("{}: another version of fovqa wrote this shard, in format {format}", path.display())]
     Format {
         /// The folder.
         path: PathBuf,
@@ -44,7 +44,7 @@ pub enum MergeError {
         line: usize,
     },
     /// Two that saw a scene in other ways.
-    #[error("{} and {} do not agree in the {what} of scene {scene}", first.display(), second.display())]
+    #[error("{} and {} have different {what} in scene {scene}", first.display(), second.display())]
     Disagree {
         /// A folder.
         first: PathBuf,
@@ -64,7 +64,7 @@ pub enum MergeError {
         shard: Shard,
     },
     /// Two that are not of one run.
-    #[error("{} and {} are not of one run: {what}", first.display(), second.display())]
+    #[error("{} and {} belong to different runs: {what}", first.display(), second.display())]
     Differ {
         /// A folder.
         first: PathBuf,
@@ -74,7 +74,7 @@ pub enum MergeError {
         what: String,
     },
     /// Shards of another version.
-    #[error("{}: it is of fovqa {version}, and this is {}", path.display(), env!("CARGO_PKG_VERSION"))]
+    #[error("{}: fovqa {version} wrote this shard, but this is fovqa {}", path.display(), env!("CARGO_PKG_VERSION"))]
     Version {
         /// A folder.
         path: PathBuf,
@@ -82,7 +82,7 @@ pub enum MergeError {
         version: String,
     },
     /// The same one twice.
-    #[error("shard {shard} is there twice: {} and {}", first.display(), second.display())]
+    #[error("shard {shard} was given twice: {} and {}", first.display(), second.display())]
     Twice {
         /// Which.
         shard: Shard,
@@ -100,7 +100,7 @@ pub enum MergeError {
         of: u32,
     },
     /// A file that was not the same for all.
-    #[error("{file} was not the same file for all shards: {}", path.display())]
+    #[error("{}: {file} differs from the file that another shard used", path.display())]
     Input {
         /// The file.
         file: String,
@@ -126,18 +126,18 @@ impl MergeError {
             Self::NoShard(_) | Self::Io { .. } => {
                 "give the folders that `fovqa run --shard` wrote to"
             }
-            Self::Whole(_) => "it needs no merging; `fovqa report` draws it again",
-            Self::Unfinished { .. } => "go on with it: `fovqa run --shard I/N --resume`",
+            Self::Whole(_) => "a complete run needs no merging; `fovqa report` draws it again",
+            Self::Unfinished { .. } => "continue it with `fovqa run --shard I/N --resume`",
             Self::Differ { .. } | Self::Version { .. } | Self::Format { .. } => {
-                "score all shards with one version, of one experiment file, with the same --frames"
+                "score all shards with the same version, the same experiment file and the same --frames"
             }
             Self::Changed { .. } => {
-                "fetch it again from where it was made, or score the shard again"
+                "copy it again from the machine that wrote it, or score the shard again"
             }
             Self::Disagree { .. } => "score both shards again",
             Self::Twice { .. } => "give each shard once",
             Self::Missing { .. } => "score them, and give their folders too",
-            Self::Input { .. } => "score all shards of the same files",
+            Self::Input { .. } => "score all shards with the same files",
         }
     }
 }
@@ -242,11 +242,11 @@ impl Shards {
                 (Some(one), Some(other)) if one.bands_deg != other.bands_deg => {
                     "eccentricity bands"
                 }
-                (Some(one), Some(other)) if one.size != other.size => "size of the frames",
+                (Some(one), Some(other)) if one.size != other.size => "frame sizes",
                 (Some(one), Some(other))
                     if (one.focal_px, one.eccentricity) != (other.focal_px, other.eccentricity) =>
                 {
-                    "view"
+                    "views"
                 }
                 _ => continue,
             };
@@ -293,9 +293,9 @@ fn difference(one: &Header, other: &Header) -> Option<String> {
     } else if one.frames != other.frames {
         differ("frames", &frames(one), &frames(other))
     } else if of(one) != of(other) {
-        differ("shards of", &of(one).to_string(), &of(other).to_string())
+        differ("shard counts", &of(one).to_string(), &of(other).to_string())
     } else if one.views != other.views {
-        Some("other files, or other bands, were found for them".to_owned())
+        Some("they found different files or different bands".to_owned())
     } else {
         None
     }

@@ -10,7 +10,7 @@ use crate::load::{LoadError, Loaded, Step};
 
 /// What keeps frames without a partner from being an error.
 const HELP: &str =
-    "give both as many frames, or score those that have a partner with {allow_missing}";
+    "give both the same number of frames, or score those that have a partner with {allow_missing}";
 
 /// What has ended of a view.
 pub(crate) struct OpenEnded<'a> {
@@ -46,7 +46,7 @@ impl<'a> OpenEnded<'a> {
         let (frames, have) =
             if frames == 1 { ("1 frame", "has") } else { (&*format!("{frames} frames"), "have") };
         if self.scene.allow_missing {
-            let message = format!("{end}: {frames} without a partner are passed over");
+            let message = format!("{end}: skipped {frames} without a partner");
             warnings.once_a_view("ended", &message);
             return Some(Ended::PassedOver);
         }
@@ -70,7 +70,7 @@ impl<'a> OpenEnded<'a> {
         let source = open.find(|source| source.has_more() == Ok(true))?;
         let frames = self.view.frames.len();
         let message = format!(
-            "{}: it goes on behind its first {frames} frames, which are all that the other sequence has",
+            "{}: it continues after its first {frames} frames, but the other sequence ends there",
             source.listing().argument
         );
         if self.scene.allow_missing {

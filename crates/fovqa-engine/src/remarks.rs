@@ -35,14 +35,14 @@ pub(crate) fn remarks(
         (Numbering::Doubtful(doubt), None) => {
             let doubt = doubt.in_words();
             remarks.push(format!(
-                "{}: the numbers in the names do not tell the frames apart: {doubt}; frames count by \
-                 their position from 0, and a pattern such as 'f_%04d.png' picks those of one sequence",
+                "{}: the numbers in the file names do not identify the frames: {doubt}; frames are numbered by \
+                 their position from 0, and a pattern such as 'f_%04d.png' selects one sequence",
                 sources.reference.listing().argument
             ));
         }
         (Numbering::LastOfSeveral(name), Some(what)) => remarks.push(format!(
-            "{name} has several numbers, and {what} goes by the last of them: give a pattern such as \
-             'f_%04d.png' if that is not the frame's"
+            "{name} has several numbers, and {what} uses the last one: if this is not the frame number, give a \
+             pattern such as 'f_%04d.png'"
         )),
         _ => {}
     }
@@ -50,13 +50,13 @@ pub(crate) fn remarks(
     if !missing.is_empty() {
         let (are, them) = if missing.count() == 1 { ("is", "it") } else { ("are", "them") };
         remarks.push(format!(
-            "{missing} {are} missing in reference and test: no difference over time is taken across {them}"
+            "{missing} {are} missing in reference and test; no difference over time is computed across {them}"
         ));
     }
     for listing in sources.all().map(Source::listing) {
         if let Some(Length::Damaged(frames)) = listing.length() {
             remarks.push(format!(
-                "{}: its frame {} is damaged, and nothing behind it is found",
+                "{}: its frame {} is damaged, and no frame after it can be found",
                 listing.argument,
                 frames.saturating_sub(1)
             ));
@@ -69,7 +69,7 @@ pub(crate) fn remarks(
     {
         let [first, second] = [first, second].map(|source| &source.listing().argument);
         remarks.push(format!(
-            "{first} has {} frames a second and {second} has {}: the first counts, unless {{fps}} says otherwise",
+            "{first} has {} frames per second, but {second} has {}; the first rate is used unless {{fps}} is given",
             shown(rate),
             shown(other)
         ));

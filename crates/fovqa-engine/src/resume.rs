@@ -39,15 +39,17 @@ pub fn resume(
     let text = match journal::read(folder) {
         Ok(journal::Content::Nothing) => return Ok(Resumed::default()),
         Ok(journal::Content::Other) => {
-            return changed(vec![format!("{JOURNAL} is not in the format of this version")]);
+            return changed(vec![format!(
+                "{JOURNAL} does not have the format of this version of fovqa"
+            )]);
         }
         Ok(journal::Content::OtherFormat(format)) => {
             let kept = format!("{JOURNAL}.old");
             std::fs::rename(folder.join(JOURNAL), folder.join(&kept))
                 .map_err(|error| EngineError::JournalRead { path: folder.join(JOURNAL), error })?;
             return changed(vec![format!(
-                "{JOURNAL} is of another version of fovqa, in its format {format}; it is kept as {kept}, and \
-                 that version can go on with it under its own name"
+                "another version of fovqa wrote {JOURNAL}, in format {format}; it is kept as {kept}, and that \
+                 version can continue with it once it is named {JOURNAL} again"
             )]);
         }
         Ok(journal::Content::Journal(text)) => text,
@@ -88,13 +90,14 @@ fn origins(plan: &Plan, found: &FoundInputs) -> BTreeMap<String, Origin> {
 }
 
 /// Said where maps are asked for that finished frames do not have.
-pub const NO_MAPS: &str = "maps of finished frames are not in the folder of --maps";
+pub const NO_MAPS: &str = "the --maps folder does not contain the maps of finished frames";
 
 /// What keeps one run from going on with what another has found.
 fn differences(then: &Header, now: &Header) -> Vec<String> {
     let mut differences = Vec::new();
     if then.version != now.version {
-        differences.push(format!("it is of fovqa {}, and this is {}", then.version, now.version));
+        differences
+            .push(format!("fovqa {} wrote it, but this is fovqa {}", then.version, now.version));
     }
     if then.experiment_sha256 != now.experiment_sha256 {
         differences.push("the experiment file has changed".to_owned());
@@ -104,7 +107,11 @@ fn differences(then: &Header, now: &Header) -> Vec<String> {
             None => "all frames".to_owned(),
             Some(frames) => format!("--frames {frames}"),
         };
-        differences.push(format!("it is of {}, and this is of {}", frames(then), frames(now)));
+        differences.push(format!(
+            "its run used {}, but this run uses {}",
+            frames(then),
+            frames(now)
+        ));
     }
     // What is finished has no maps, or has them elsewhere.
     if now.maps.is_some() && then.maps != now.maps {
@@ -112,10 +119,10 @@ fn differences(then: &Header, now: &Header) -> Vec<String> {
     }
     if then.shard != now.shard {
         let shard = |header: &Header| match header.shard {
-            None => "a whole run".to_owned(),
+            None => "a complete run".to_owned(),
             Some(shard) => format!("shard {shard}"),
         };
-        differences.push(format!("it is of {}, and this is {}", shard(then), shard(now)));
+        differences.push(format!("it contains {}, but this is {}", shard(then), shard(now)));
     }
     // What follows is of another experiment, or of other frames of it.
     if differences.is_empty() {
@@ -133,11 +140,11 @@ fn other_files(then: &[ViewFiles], now: &[ViewFiles], shard: Option<Shard>) -> V
         Some(eye) => format!("{}, {} eye", view.scene, Eye::name(eye)),
     };
     let gone = then.iter().filter(|old| !now.iter().any(|new| same(old, new)));
-    let gone = gone.map(|view| format!("{}: its frames are not found any more", named(view)));
+    let gone = gone.map(|view| format!("{}: its frames can no longer be found", named(view)));
     let new = now.iter().filter_map(|new| match then.iter().find(|old| same(old, new)) {
         Some(old) if old == new => None,
         Some(_) => Some(format!(
-            "{}: its files, or the bands they decide, are others than before",
+            "{}: its files, or the bands that follow from them, have changed",
             named(new)
         )),
         None if shard.is_none() => None,

@@ -213,7 +213,7 @@ impl<'a> Scoring<'a> {
         }
         let alone = self.view.passed_over;
         if alone > 0 {
-            let message = format!("{alone} frames without a partner are passed over");
+            let message = format!("skipped frames without a partner: {alone}");
             warnings.once_a_view("alone", &message);
         }
         Ok(metrics)

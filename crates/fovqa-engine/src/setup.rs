@@ -77,9 +77,9 @@ impl<'a> Setup<'a> {
             && fvvdp.geometry().passes_90_deg()
         {
             let message = format!(
-                "the field is too wide for its {:.2} pixels per degree: beyond 90° FovVideoVDP takes a negative \
-                 frequency for its lowest, as the original does, so differences at the edges count too much and \
-                 the JOD is no measure of quality; use frames of more pixels, a narrower field, or \
+                "the field is too wide for its {:.2} pixels per degree: beyond 90°, FovVideoVDP uses a negative \
+                 frequency as its lowest, as the original does, so differences at the edges count too much and \
+                 the JOD does not measure quality; use frames with more pixels, a narrower field, or \
                  fvvdp.foveated = false",
                 fvvdp.geometry().pixels_per_degree
             );
@@ -102,8 +102,8 @@ impl<'a> Setup<'a> {
             && let Some(viewing) = &retinas.maker.viewing
         {
             let message = format!(
-                "the view shows {:.2} cycles per degree at most, less than the eye sees anywhere in the \
-                 frame: the foveal weight is flat, and foveal metrics equal their plain forms",
+                "the view shows at most {:.2} cycles per degree, less than the eye can see anywhere in the \
+                 frame: the foveal weight is constant, and foveal metrics equal their unweighted forms",
                 viewing.view.nyquist_cpd()
             );
             warnings.once_a_view("flat weight", &message);
@@ -125,10 +125,10 @@ impl<'a> Setup<'a> {
         }
         Err(Fault {
             message: format!(
-                "{file} says that its pixels are {pixel_aspect} times as wide as high, and in the view they are \
-                 {seen:.4} times"
+                "{file} declares pixels that are {pixel_aspect} times as wide as high, but in the view they are \
+                 {seen:.4} times as wide as high"
             ),
-            help: "give the horizontal and the vertical field of view, or the frustum, as it was rendered; if the \
+            help: "give the horizontal and the vertical field of view, or the frustum, that was used for rendering; if the \
                    pixels are square, write that into the file (pixelAspectRatio 1 of OpenEXR, A1:1 of y4m)"
                 .to_owned(),
         })
@@ -211,7 +211,7 @@ fn look(
     })?;
     if let Some([dw, dh]) = resolved.stretched_from {
         let fvvdp = if inputs.metrics.contains(&Metric::Fvvdp) {
-            "; FovVideoVDP takes each of their pixels for one of the display's"
+            "; FovVideoVDP treats each of their pixels as one pixel of the display"
         } else {
             ""
         };
@@ -273,10 +273,10 @@ fn fit_mask(
     }
     Err(Fault {
         message: format!(
-            "the mask has {}x{} pixels and the frames have {width}x{height}",
+            "the mask has {}x{} pixels, but the frames have {width}x{height}",
             mask.width(),
             mask.height()
         ),
-        help: "a mask has the size of the frames".to_owned(),
+        help: "the mask must have the size of the frames".to_owned(),
     })
 }

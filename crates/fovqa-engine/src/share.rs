@@ -18,7 +18,7 @@ pub struct Shard {
 
 /// Text that is no share.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0:?} is not a shard: write I/N, I from 1 to N, N at most {most}", most = Shard::MOST)]
+#[error("{0:?} is not a shard: write I/N, with I from 1 to N and N at most {most}", most = Shard::MOST)]
 pub struct ShardError(String);
 
 impl Shard {

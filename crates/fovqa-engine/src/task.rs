@@ -33,16 +33,16 @@ pub struct Task {
 #[derive(Debug, Error)]
 pub enum TaskError {
     /// Something that is no task.
-    #[error("this is no task: {0}")]
+    #[error("this is not a unit of work: {0}")]
     Format(String),
     /// A task of another version.
-    #[error("the task is of fovqa {version}, and this is {}", env!("CARGO_PKG_VERSION"))]
+    #[error("fovqa {version} wrote this unit of work, but this is fovqa {}", env!("CARGO_PKG_VERSION"))]
     Version {
         /// Its version.
         version: String,
     },
     /// Frames that are not there, or others than those the task was cut from.
-    #[error("scene {0:?}: the frames found here are others than those of the task")]
+    #[error("scene {0:?}: the frames found here differ from those in the unit of work")]
     OtherFrames(String),
     /// What keeps the plan from being run.
     #[error(transparent)]
@@ -74,7 +74,7 @@ impl Task {
             serde_json::from_str(json).map_err(|error| TaskError::Format(error.to_string()))?;
         let eyes = task.plan.scenes.get(task.unit.scene).map(|scene| scene.eyes.len());
         if task.schema != SCHEMA || eyes.is_none_or(|eyes| task.unit.eye >= eyes) {
-            return Err(TaskError::Format("it is of another format, or damaged".to_owned()));
+            return Err(TaskError::Format("it has another format, or it is damaged".to_owned()));
         }
         if task.version != env!("CARGO_PKG_VERSION") {
             return Err(TaskError::Version { version: task.version });
@@ -123,7 +123,8 @@ impl TaskFindings {
         };
         let findings = crate::journal::findings_of(&task.plan, lines, &own);
         let findings = findings.filter(|findings| findings.has_all_of(&task.unit));
-        let other = || TaskError::Format("these are not the findings of the task".to_owned());
+        let other =
+            || TaskError::Format("these results do not belong to the unit of work".to_owned());
         findings.map(Self).ok_or_else(other)
     }
 

@@ -192,10 +192,10 @@ impl<'a> ViewRun<'a> {
         }
         Err(Fault {
             message: format!(
-                "{} has {}x{} pixels and {}, the first of the sequence, has {}x{}",
+                "{} has {}x{} pixels, but {}, the first of the sequence, has {}x{}",
                 reference.file, size.0, size.1, setup.first_file, setup.size.0, setup.size.1
             ),
-            help: "a sequence has one size".to_owned(),
+            help: "all frames of a sequence must have the same size".to_owned(),
         })
     }
 
@@ -310,8 +310,9 @@ fn warn_of_left_out(metrics: &[Metric], rows: &Rows, frame: i64, warnings: &mut 
     };
     for metric in metrics.iter().filter(left_out) {
         let label = metric.info().label;
-        let message =
-            format!("{label} is left out of frame {frame}: the mask leaves no whole window for it");
+        let message = format!(
+            "{label} is left out of frame {frame}: the mask leaves no complete window for it"
+        );
         warnings.once_a_view(&format!("{label} without windows"), &message);
     }
 }
@@ -320,7 +321,7 @@ pub(crate) fn warn_of_gaze(gaze: [f64; 2], size: (usize, usize), warnings: &mut 
     let inside = |at: f64, side: usize| (0.0..=side as f64).contains(&at);
     if !(inside(gaze[0], size.0) && inside(gaze[1], size.1)) {
         let message = format!(
-            "the gaze ({}, {}) lies outside the frame of {}x{}; eccentricities are measured from it all the same",
+            "the gaze ({}, {}) is outside the frame of {}x{}; eccentricities are still measured from it",
             gaze[0], gaze[1], size.0, size.1
         );
         warnings.once_a_view("gaze outside", &message);

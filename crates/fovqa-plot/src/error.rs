@@ -43,7 +43,7 @@ pub enum PlotError {
     Svg(#[source] Box<dyn Error + Send + Sync>),
     /// The scale does not make a picture.
     #[error(
-        "the scale {scale} makes a PNG of {width} x {height} pixels, not of 1 to {} a side",
+        "the scale {scale} makes a PNG of {width} x {height} pixels; each side must have 1 to {}",
         crate::limits::MAX_SIDE_PX
     )]
     Size {

@@ -57,7 +57,7 @@ pub enum ReportError {
     #[error(transparent)]
     File(#[from] FileError),
     /// A page that is none of ours to replace.
-    #[error("{}: it is not of fovqa", path.display())]
+    #[error("{}: fovqa did not write this file, so it is not replaced", path.display())]
     Foreign {
         /// The page.
         path: PathBuf,

@@ -151,7 +151,7 @@ fn fvvdp_in_words(fvvdp: &FvvdpSummary) -> String {
         return format!("FovVideoVDP: no value: {reason}\n{display}");
     };
     let frames = match fvvdp.frame_jod.filter(|_| fvvdp.frames > 1) {
-        Some(spread) => format!("; frames by themselves {:.3} to {:.3}", spread.min, spread.max),
+        Some(spread) => format!("; single frames {:.3} to {:.3}", spread.min, spread.max),
         None => String::new(),
     };
     format!("FovVideoVDP: {jod:.3} JOD (10: no visible difference){frames}\n{display}")
@@ -165,7 +165,7 @@ fn atd_in_words(atd: &AtdSummary) -> String {
     let ratio = atd.ratio.map(|_| format!(", {} of it", percent(atd.ratio))).unwrap_or_default();
     let left_out = atd.left_out.unwrap_or(0.0) * 100.0;
     let along = match atd.motion {
-        GuideSource::None => "without motion vectors, so that whatever moves counts",
+        GuideSource::None => "without motion vectors, so that all movement counts",
         GuideSource::Reference => "along the reference's motion",
         GuideSource::Test => "each along its own motion",
     };
@@ -208,8 +208,8 @@ fn heading(report: &ScoreReport) -> String {
         let gaze = match report.gaze_held {
             None => format!("({gx:.1}, {gy:.1})"),
             Some(0) => "from a trace".to_owned(),
-            Some(1) => "from a trace, held over in 1 frame".to_owned(),
-            Some(held) => format!("from a trace, held over in {held} frames"),
+            Some(1) => "from a trace, kept from an earlier frame in 1 frame".to_owned(),
+            Some(held) => format!("from a trace, kept from an earlier frame in {held} frames"),
         };
         let _ = writeln!(
             text,

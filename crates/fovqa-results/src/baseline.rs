@@ -152,7 +152,7 @@ impl Baseline {
         match twice {
             None => Ok(baseline),
             Some(one) => {
-                let detail = format!("the comparison {} stands twice", one.named());
+                let detail = format!("the comparison {} appears twice", one.named());
                 Err(FileError::Format { path: path.to_owned(), expected, detail })
             }
         }
@@ -190,7 +190,7 @@ impl Baseline {
             let version = metric.info().version;
             if before.version != version {
                 return Some(format!(
-                    "it has version {} of {key}, and this fovqa has version {version}",
+                    "it has version {} of {key}, but this fovqa has version {version}",
                     before.version
                 ));
             }
@@ -252,7 +252,8 @@ impl Baseline {
         }
         if let Some(why) = self.refuses(&new.resolved) {
             return Err(format!(
-                "values of some scenes cannot be put beside those of others that were taken otherwise: {why}"
+                "values of some scenes cannot be combined with values of other scenes that were measured \
+                 differently: {why}"
             ));
         }
         let of = |comparisons: &[BaselineComparison], taken: bool| {

@@ -49,7 +49,8 @@ pub fn check_files(folder: &Path, record: &RunRecord) -> Result<Option<String>, 
     if record.files.is_empty() {
         let folder = folder.display();
         return Ok(Some(format!(
-            "{folder}: an earlier version wrote it, without checksums: whether its files were changed since is not known"
+            "{folder}: an earlier version of fovqa wrote it without checksums, so later changes to its files \
+             cannot be detected"
         )));
     }
     let found = checksums(folder)?;
@@ -59,8 +60,8 @@ pub fn check_files(folder: &Path, record: &RunRecord) -> Result<Option<String>, 
         None => Ok(None),
         Some((name, _)) => Err(FileError::Format {
             path: folder.join(name),
-            expected: "as the run has written it",
-            detail: "its checksum is another one than run.json has".to_owned(),
+            expected: "as the run wrote it",
+            detail: "its checksum differs from that in run.json".to_owned(),
         }),
     }
 }

@@ -14,7 +14,7 @@ use crate::finished_run::FinishedRun;
 /// When there is none in the file.
 pub fn read_baseline(path: &Path) -> Result<Baseline, Error> {
     Baseline::read(path).map_err(|error| {
-        Error::input(error.to_string(), "`fovqa baseline save` makes one of a run")
+        Error::input(error.to_string(), "`fovqa baseline save` makes a baseline from a run")
     })
 }
 
@@ -23,7 +23,7 @@ fn of_run(results: &Path) -> Result<Baseline, Error> {
     let finished = FinishedRun::read(results)?;
     if let Some(error) = finished.values.errors.first() {
         let message = format!("{}: not everything was scored: {error}", results.display());
-        let help = "a baseline is of a whole run: mend the inputs and run again";
+        let help = "a baseline needs a complete run: correct the inputs and run again";
         return Err(Error::input(message, help));
     }
     let rules = &finished.record.resolved.gates;
@@ -41,8 +41,8 @@ fn write(baseline: &Baseline, path: &Path) -> Result<(), Error> {
 /// When it is there, or not everything was scored.
 pub fn save_baseline(results: &Path, path: &Path) -> Result<Baseline, Error> {
     if replaces(path) {
-        let message = format!("{}: it is there already", path.display());
-        let help = "`fovqa baseline accept` shows what differs and renews it";
+        let message = format!("{}: the file already exists", path.display());
+        let help = "`fovqa baseline accept` shows what differs and updates it";
         return Err(Error::input(message, help));
     }
     let baseline = of_run(results)?;
@@ -69,7 +69,7 @@ pub fn accept_baseline(results: &Path, path: &Path, scenes: &[String]) -> Result
     let new = of_run(results)?;
     let baseline = before.accepting(&new, scenes).map_err(|why| {
         let message = format!("{}: {why}", path.display());
-        Error::input(message, "accept all of the run, without --scene")
+        Error::input(message, "accept the complete run, without --scene")
     })?;
     let taken_otherwise = before.refuses(&new.resolved);
     let differences = before.differences(&new, scenes);

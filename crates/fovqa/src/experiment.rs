@@ -12,7 +12,7 @@ use crate::error::Error;
 /// When it cannot be read, or has mistakes in it: all that can be told, in one go.
 pub fn read_experiment(path: &Path) -> Result<Experiment, Error> {
     if matches!(fovqa_config::is_curves(path), Ok(true)) {
-        let message = format!("{}: this is a file of curves", path.display());
+        let message = format!("{}: this is a curve file", path.display());
         let help = "`fovqa curves` draws it, and `fovqa check` checks it";
         return Err(Error::usage(message, help));
     }

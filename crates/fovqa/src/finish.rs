@@ -41,7 +41,7 @@ pub(crate) fn finish(
     let errors = failures.clone().count();
     say_failures(failures, "summary.json", events);
     if let Err(error) = write(experiment, results, folder.path()) {
-        let help = "free some space, or give another folder with {output}; {resume} goes on with what is scored";
+        let help = "free some space, or give another folder with {output}; {resume} continues with the frames that are already scored";
         return Err(Error::input(error.to_string(), help));
     }
     let drawn = fovqa_report::draw(folder.path())
@@ -56,7 +56,8 @@ pub fn text_hash(text: &str) -> String {
 }
 
 /// What is left to do when only the drawing failed.
-const DRAW_AGAIN: &str = "the results are written: mend this, and `fovqa report` draws them";
+const DRAW_AGAIN: &str =
+    "the results are written; correct this problem, and `fovqa report` draws them";
 
 /// Says what could not be scored of a shard, which has no results of its own.
 pub(crate) fn say_failures_of_shard(failures: &[(Named<'_>, &Failure)], events: &dyn Events) {
@@ -65,7 +66,7 @@ pub(crate) fn say_failures_of_shard(failures: &[(Named<'_>, &Failure)], events: 
         [Some(scene), Some(method), named.eye.map(|eye| Eye::name(eye).to_owned())]
     };
     let failures = failures.iter().map(|(named, failure)| (place(named), *failure));
-    say_failures(failures, "its journal", events);
+    say_failures(failures, "the journal of the shard", events);
 }
 
 /// Says what could not be scored; of a great many, the first.
@@ -87,7 +88,7 @@ fn say_failures<'a, T: AsRef<str>>(
         events.failure(&format!("{}: {}", place.join(", "), failure.message), &failure.help);
     }
     if more > 0 {
-        events.note(&format!("{more} more errors stand in {all}"));
+        events.note(&format!("{all} lists {more} more errors"));
     }
 }
 

@@ -30,11 +30,13 @@ impl FinishedRun {
             let shown = folder.display();
             let (message, help) = match shard_in(folder) {
                 Some(shard) => (
-                    format!("{shown}: it has shard {shard} of a run, and no results yet"),
-                    "`fovqa merge` puts shards together",
+                    format!(
+                        "{shown}: the folder contains shard {shard} of a run, but no results yet"
+                    ),
+                    "`fovqa merge` joins shards",
                 ),
                 None => (
-                    format!("{shown}: there is no finished run in it"),
+                    format!("{shown}: the folder contains no finished run"),
                     "give the folder that `fovqa run` wrote to",
                 ),
             };

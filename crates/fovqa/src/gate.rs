@@ -60,7 +60,7 @@ fn judge(finished: &FinishedRun, file: &str, baseline: Option<&Baseline>) -> Ver
         let other = baseline.other_inputs(&finished.record, &text_hash).into_iter();
         verdict.notes.extend(other.map(|folder| {
             let folder = if folder.is_empty() { ".".to_owned() } else { folder };
-            format!("the inputs in {folder} are others than those of the baseline")
+            format!("the inputs in {folder} differ from those of the baseline")
         }));
     }
     verdict
@@ -70,15 +70,17 @@ fn judge(finished: &FinishedRun, file: &str, baseline: Option<&Baseline>) -> Ver
 fn check(rules: &[GateRule], file: &Path, baseline: Option<&Path>) -> Result<(), Error> {
     let file = file.display();
     if rules.is_empty() {
-        let message = format!("{file}: there is no [[gate]] in it, and no rule is no pass");
+        let message =
+            format!("{file}: it has no [[gate]] rule, and a gate without rules cannot pass");
         let help = "write a rule, such as metric = \"psnr\" with at_least = 30";
         return Err(Error::usage(message, help));
     }
     if let Some(rule) = rules.iter().find(|rule| rule.needs_baseline())
         && baseline.is_none()
     {
-        let message = format!("{file}:{}: {} is held against a baseline", rule.line, rule.quantity);
-        let help = "give it with {baseline}; `fovqa baseline save` makes one";
+        let message =
+            format!("{file}:{}: the rule for {} needs a baseline", rule.line, rule.quantity);
+        let help = "give one with {baseline}; `fovqa baseline save` makes one";
         return Err(Error::usage(message, help));
     }
     Ok(())
@@ -88,12 +90,12 @@ fn check(rules: &[GateRule], file: &Path, baseline: Option<&Path>) -> Result<(),
 fn fitting(path: Option<&Path>, run: &Resolved) -> Result<Option<Baseline>, Error> {
     let Some(path) = path else { return Ok(None) };
     let baseline = Baseline::read(path).map_err(|error| {
-        Error::input(error.to_string(), "`fovqa baseline save` makes one of a run")
+        Error::input(error.to_string(), "`fovqa baseline save` makes a baseline from a run")
     })?;
     let Some(why) = baseline.refuses(run) else { return Ok(Some(baseline)) };
     let file = path.display();
-    let message = format!("{file}: the baseline is of values that were taken otherwise: {why}");
-    let help = "run the experiment, look at it, and `fovqa baseline accept` it";
+    let message = format!("{file}: the baseline's values were measured differently: {why}");
+    let help = "run the experiment, look at the results, and update the baseline with `fovqa baseline accept`";
     Err(Error::input(message, help))
 }
 
@@ -103,12 +105,12 @@ fn fitting(path: Option<&Path>, run: &Resolved) -> Result<Option<Baseline>, Erro
 /// When there are fewer than two runs, they are of something else, or have nothing that the rules are of.
 pub fn calibrate(experiment: &Experiment, folders: &[PathBuf]) -> Result<Calibration, Error> {
     if experiment.gates.is_empty() {
-        let message = format!("{}: there is no [[gate]] in it", experiment.path.display());
-        let help = "name what is to be limited: [[gate]] with a metric, and any limit";
+        let message = format!("{}: it has no [[gate]] rule", experiment.path.display());
+        let help = "add a [[gate]] rule with a metric and any limit";
         return Err(Error::usage(message, help));
     }
     if folders.len() < 2 {
-        let message = "one run alone says nothing of how values vary";
+        let message = "a single run does not show how values vary";
         return Err(Error::usage(message, "give the folders of several runs of one build"));
     }
     let resolved = experiment.resolved();
@@ -117,13 +119,14 @@ pub fn calibrate(experiment: &Experiment, folders: &[PathBuf]) -> Result<Calibra
         let run = FinishedRun::read(folder)?;
         let other = run.record.resolved.differs(&resolved);
         if let Some(why) = other.or_else(|| run.values.errors.first().cloned()) {
-            let message = format!("{}: no limits come of it: {why}", folder.display());
+            let message = format!("{}: this run gives no limits: {why}", folder.display());
             return Err(Error::input(message, "run the experiment again"));
         }
         runs.push((folder.display().to_string(), run.values));
     }
     let calibration = proposals(&experiment.gates, &runs).map_err(|lacking| {
-        let (message, help) = (lacking.to_string(), "mend the rule, or run the experiment again");
+        let (message, help) =
+            (lacking.to_string(), "correct the rule, or run the experiment again");
         if matches!(lacking, Lacking::Band(_)) {
             Error::usage(message, help)
         } else {
@@ -131,7 +134,7 @@ pub fn calibrate(experiment: &Experiment, folders: &[PathBuf]) -> Result<Calibra
         }
     })?;
     if calibration.proposals.is_empty() {
-        return Err(Error::input("the runs have nothing that the rules are of", "check the rules"));
+        return Err(Error::input("the rules apply to nothing in these runs", "check the rules"));
     }
     Ok(calibration)
 }

@@ -44,7 +44,7 @@ impl Source for InMemory {
 
     fn read_guides(&self, _frame: usize) -> Result<PictureGuides, SourceError> {
         let message = format!("{}: it has neither motion nor depth", self.listing.argument);
-        Err(SourceError::new(message, "give files of motion and depth"))
+        Err(SourceError::new(message, "give motion and depth files"))
     }
 
     fn origins(&self, _frame: usize) -> Vec<(String, Origin)> {

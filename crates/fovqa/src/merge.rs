@@ -21,14 +21,15 @@ pub fn merge(
     events: &dyn Events,
 ) -> Result<Finished, Error> {
     if let Some(shard) = shards.iter().find(|shard| same(shard, output)) {
-        let message = format!("{}: it is one of the shards", shard.display());
+        let message = format!("{}: this folder is one of the shards", shard.display());
         return Err(Error::usage(message, "give another folder with {output}"));
     }
     let failed = |error: fovqa_engine::MergeError| Error::input(error.to_string(), error.help());
     let read = Shards::read(shards).map_err(failed)?;
     let header = read.header();
     let Some(experiment) = experiment(header) else {
-        let message = format!("{}: its experiment is none", shards[0].display());
+        let message =
+            format!("{}: its record of the experiment cannot be read", shards[0].display());
         return Err(Error::input(message, "score its shard again"));
     };
     let plan = &experiment.plan;

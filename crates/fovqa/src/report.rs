@@ -26,14 +26,14 @@ pub enum Report {
 pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
     let shown = folder.display();
     if folder.join(CURVES_JSON).is_file() {
-        let message = format!("{shown}: these are curves");
+        let message = format!("{shown}: the folder contains curves");
         let help = "draw them again with `fovqa curves`, from their file";
         return Err(Error::input(message, help));
     }
     if !folder.join(RUN_JSON).is_file() && folder.is_dir() {
         let index = fovqa_report::draw_index(folder);
         let index =
-            index.map_err(|error| Error::input(error.to_string(), "mend it or move it away"))?;
+            index.map_err(|error| Error::input(error.to_string(), "correct it or move it away"))?;
         if let Some(folders) = index {
             return Ok(Report::Index(folders));
         }
@@ -42,12 +42,12 @@ pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
     if !folder.join(RUN_JSON).is_file() {
         return Err(match shard_in(folder) {
             Some(shard) => Error::input(
-                format!("{shown}: it has shard {shard} of a run, and no results yet"),
-                "`fovqa merge` puts shards together",
+                format!("{shown}: the folder contains shard {shard} of a run, but no results yet"),
+                "`fovqa merge` joins shards",
             ),
             None => Error::input(
-                format!("{shown}: there is no finished run in it"),
-                "give the folder that `fovqa run` wrote to, or one with such folders in it",
+                format!("{shown}: the folder contains no finished run"),
+                "give the folder that `fovqa run` wrote to, or a folder that contains such folders",
             ),
         });
     }

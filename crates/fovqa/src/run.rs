@@ -76,8 +76,8 @@ impl Finished {
             n => format!("{n} errors"),
         };
         Some(match self.scored {
-            0 => format!("{errors}, nothing was scored"),
-            scored => format!("{errors}, {scored} frames scored all the same"),
+            0 => format!("{errors}, and nothing was scored"),
+            scored => format!("{errors}, but {scored} frames were scored"),
         })
     }
 }
@@ -153,7 +153,7 @@ impl Run {
         if self.options.shard.is_some() {
             for problem in &self.found.problems {
                 let scene = &plan.scenes[problem.scene].name;
-                let merged = "it will be an error of what is merged";
+                let merged = "this will be an error after merging";
                 events.warn(&format!("{scene}: {} ({merged})", problem.error));
             }
             let failures = findings.failures(plan);
@@ -199,7 +199,7 @@ impl Run {
             let pairs = resumed.known.pairs();
             if pairs > 0 {
                 let frames = if pairs == 1 { "1 frame is" } else { &format!("{pairs} frames are") };
-                events.note(&format!("{shown}: {frames} finished; going on from there"));
+                events.note(&format!("{shown}: {frames} finished; continuing from there"));
             }
             return Ok(resumed.known);
         }
@@ -209,7 +209,9 @@ impl Run {
         if changes.len() > SHOWN {
             events.warn(&format!("{shown}: {} more changes", changes.len() - SHOWN));
         }
-        events.warn(&format!("{shown}: what is finished there is not used: all is scored"));
+        events.warn(&format!(
+            "{shown}: its finished frames are not used; everything is scored again"
+        ));
         Ok(Findings::default())
     }
 

@@ -57,5 +57,5 @@ pub(crate) fn frame<T: Sample>(name: &str, pixels: ArrayView3<'_, T>) -> Result<
         }
     };
     Frame::new(width, height, channels, T::samples(pixels))
-        .map_err(|error| Error::input(format!("the {name}: {error}"), "give one with pixels"))
+        .map_err(|error| Error::input(format!("the {name}: {error}"), "give an array with pixels"))
 }

@@ -22,7 +22,7 @@ pub fn score_files(
     events: &dyn Events,
 ) -> Result<ScoreReport, Error> {
     if let Some(message) = maps_lacking(plan.metrics.metrics()).filter(|_| maps.is_some()) {
-        return Err(Error::usage(message, "ask for one of them with {metrics}"));
+        return Err(Error::usage(message, "request one of them with {metrics}"));
     }
     let maps = maps.map(|folder| MapsFolder::new(folder.to_owned(), false));
     comparison(plan, given, events, &mut |entry| {

@@ -39,7 +39,7 @@ impl<'de> Deserialize<'de> for Token {
                 Ok(Token::Nothing)
             }
             fn visit_bool<E: Error>(self, mean: bool) -> Result<Token, E> {
-                if mean { Ok(Token::Mean) } else { Err(E::custom("false is no number")) }
+                if mean { Ok(Token::Mean) } else { Err(E::custom("false is not a number")) }
             }
             fn visit_f64<E: Error>(self, number: f64) -> Result<Token, E> {
                 Ok(Token::Number(number))
@@ -55,7 +55,7 @@ impl<'de> Deserialize<'de> for Token {
                     "inf" => Ok(Token::Number(f64::INFINITY)),
                     "-inf" => Ok(Token::Number(f64::NEG_INFINITY)),
                     "nan" => Ok(Token::Number(f64::NAN)),
-                    other => Err(E::custom(format!("{other:?} is no number"))),
+                    other => Err(E::custom(format!("{other:?} is not a number"))),
                 }
             }
         }

@@ -48,7 +48,7 @@ fn score_help(error: &ScoreError) -> &'static str {
         ScoreError::TooSmall { .. } => "render larger frames",
         ScoreError::Masked { .. } => "score without a mask",
         ScoreError::NothingLeft | ScoreError::NoWindow { .. } | ScoreError::TooFew { .. } => {
-            "check the mask: white is visible"
+            "check the mask: white pixels are scored"
         }
         ScoreError::NoView { .. } => "give a view",
     }

@@ -23,8 +23,8 @@ use crate::timing::timings;
 use sequence::{Missing, Sequence, State};
 
 /// Said where linear files are shown in cd/m² and none of their values is above 1.
-const CANDELA: &str = "no pixel of the reference is brighter than 1 cd/m², as linear values are taken for cd/m² on this display: \
-     where 1 stands for white or for another amount of light, say how much with fvvdp.cd_m2_per_unit";
+const CANDELA: &str = "no pixel of the reference is brighter than 1 cd/m²: linear values are read as cd/m² on this display; \
+     if a value of 1 stands for white or for another luminance, give that luminance with fvvdp.cd_m2_per_unit";
 
 /// The light of a view's frames, as long as it is needed.
 pub(super) struct LuminanceMeter {

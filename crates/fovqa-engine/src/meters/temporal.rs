@@ -14,7 +14,7 @@ use crate::load::{Fault, Side};
 
 /// Said where differences over time are taken without motion vectors.
 const NO_MOTION: &str =
-    "ATD is taken without motion vectors: whatever moves counts as a difference";
+    "ATD is computed without motion vectors: all movement counts as a difference";
 
 /// The frames before the present one: of the reference, and of each test.
 pub(super) struct Temporal {
@@ -92,9 +92,9 @@ fn agree(all: &mut Option<bool>, here: bool, file: &str, what: &str) -> Result<(
         return Ok(());
     }
     let message = if here {
-        format!("{file} has {what}, and frames before it have none")
+        format!("{file} has {what}, but earlier frames have none")
     } else {
-        format!("{file} has no {what}, and frames before it have some")
+        format!("{file} has no {what}, but earlier frames have some")
     };
     let help = "render them for all frames, or leave atd out of {metrics}".to_owned();
     Err(Fault { message, help })

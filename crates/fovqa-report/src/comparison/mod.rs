@@ -36,11 +36,11 @@ pub struct ComparisonTable {
 /// What the rows of the papers' table are.
 const SCENE: &str = "scene";
 
-const FOVEAL_NOTE: &str = "FPSNR and FSSIM: the papers print no constants for the foveal weight, \
-                           so compare methods, not papers.";
+const FOVEAL_NOTE: &str = "FPSNR and FSSIM: the papers print no constants for the foveal weight; \
+                           values can be compared between methods, not with papers.";
 
-const FVVDP_NOTE: &str = "FovVideoVDP: JOD of the sequence, 10 for no visible difference; 1 less where 75 % of observers \
-                          prefer the reference. It has no lower end.";
+const FVVDP_NOTE: &str = "FovVideoVDP: JOD of the sequence; 10 means no visible difference, 1 less means that 75 % of \
+                          observers prefer the reference. There is no lower limit.";
 
 const ATD_NOTE: &str =
     "ATD: average temporal difference of the test in percent of the reference's.";
@@ -244,7 +244,7 @@ fn without_motion(overview: &Overview, scenes: &[&str], methods: &[String]) -> O
     let still: Vec<&str> = scenes.iter().filter(still).copied().collect();
     let which = still.join(", ");
     (!still.is_empty()).then(|| {
-        format!("ATD without motion vectors, whatever moves counts as a difference: {which}.")
+        format!("ATD without motion vectors, where all movement counts as a difference: {which}.")
     })
 }
 

@@ -91,8 +91,8 @@ impl ComparisonTable {
     }
 }
 
-const NOTE: &str = "Of means over frames (max |c|: of the largest). 100 % is as much as in the reference; \
-                    – where the reference has nothing, or nothing was measured.";
+const NOTE: &str = "Ratios of means over frames (max |c|: of the largest values). 100 % means the same value as in the \
+                    reference; – means that the reference is 0, or that nothing was measured.";
 
 impl Ratios<'_> {
     fn label(&self) -> String {

@@ -83,7 +83,7 @@ pub(super) fn half_axis(plot: &CurvePlot) -> NamedFigure {
         series,
         ..LineChart::default()
     });
-    named(plot, "half-axis", "Where RMFR's mapping takes a half axis", figure)
+    named(plot, "half-axis", "RMFR's mapping of a half axis", figure)
 }
 
 fn named(plot: &CurvePlot, name: &str, caption: &str, figure: Figure) -> NamedFigure {

@@ -110,8 +110,11 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
         RateKind::Tangential => "Tangential shading rate",
         RateKind::Both => "Radial and tangential shading rate",
     };
-    let cut =
-        if cut { "; the axis ends above acuity and display, and faster rates are cut" } else { "" };
+    let cut = if cut {
+        "; the axis ends above acuity and display, and higher rates are cut off"
+    } else {
+        ""
+    };
     let caption = plot.title.clone().unwrap_or_else(|| format!("{what} against eccentricity"));
     let name = plot.name.clone().unwrap_or_else(|| "rates".to_owned());
     NamedFigure { name, caption: format!("{caption}{cut}"), figure }

@@ -116,7 +116,7 @@ fn samples(curves: &[&Curve]) -> PlainTable {
     ];
     if has_beyond(curves) {
         said.push(
-            "VaFR's are its own count, up to 60°, without what a wider frame needs beyond."
+            "For VaFR, these are its own counts, up to 60°, without the samples that a wider frame needs beyond."
                 .to_owned(),
         );
     }
@@ -176,14 +176,14 @@ fn speed_up(curves: &[&Curve]) -> PlainTable {
         Some(row)
     });
     let mut said = vec![
-        "Ideal counts: a real buffer has whole sides. Speed-up: the display's pixels over the \
-         samples, what shading alone could gain."
+        "Ideal counts: the sides of a real buffer are whole numbers of pixels. Speed-up: the display's \
+         pixels divided by the samples, the most that shading alone could gain."
             .to_owned(),
     ];
     if beyond {
         said.push(
-            "Beyond: what a frame wider than 60° needs on top of VaFR's own count; share, speed-up \
-             and what is on screen are with it."
+            "Beyond: the samples that a frame wider than 60° needs in addition to VaFR's own count; share, \
+             speed-up and samples on screen include them."
                 .to_owned(),
         );
     }
@@ -206,7 +206,7 @@ fn acuity(source: &Source<'_>, curves: &[&Curve]) -> PlainTable {
         Column::new("tangential", "below_tangential"),
         Column::new("either", "below"),
         Column::new("Samples above", "samples_above"),
-        Column::new("of those seen", "above"),
+        Column::new("of those on screen", "above"),
     ];
     let rows = curves.iter().filter_map(|curve| {
         let field = curve.shares?;
@@ -227,14 +227,14 @@ fn acuity(source: &Source<'_>, curves: &[&Curve]) -> PlainTable {
         set => format!(" with {}", set.replace(';', ", ")),
     };
     let mut said = vec![format!(
-        "Against {} acuity{set} ({}): the share of the frame's pixels where the rate is below it, and \
-         the samples seen that are more than it asks for. Taken at the centres of cells: shares are \
-         exact to about a thousandth, samples to about a hundredth.",
+        "Compared with {} acuity{set} ({}): the share of the frame's pixels where the rate is below acuity, \
+         and the samples on screen that exceed what acuity needs. Evaluated at the centres of cells: \
+         shares are exact to about a thousandth, samples to about a hundredth.",
         model.label, model.source
     )];
     said.extend(notes(curves.iter()));
     PlainTable {
-        caption: "The field against acuity".to_owned(),
+        caption: "The field compared with acuity".to_owned(),
         columns,
         rows: rows.collect(),
         notes: said,

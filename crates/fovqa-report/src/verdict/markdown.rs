@@ -16,7 +16,7 @@ pub fn markdown(verdict: &Verdict) -> String {
     };
     let state = verdict.state();
     let mut text = format!("### {} {}\n\n", mark(state), escaped_markdown(&outcome(verdict)));
-    text.push_str("| | rule | of | value | limit | margin | worst frame |\n");
+    text.push_str("| | rule | scene, method | value | limit | margin | worst frame |\n");
     text.push_str("| --- | --- | --- | ---: | ---: | ---: | ---: |\n");
     for rule in &verdict.rules {
         let title = escaped_markdown(&rule.title());

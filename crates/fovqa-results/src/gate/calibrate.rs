@@ -139,7 +139,7 @@ impl Calibration {
     pub fn toml(&self) -> String {
         let runs = self.runs;
         let mut text = format!(
-            "# Limits from {runs} repeated runs: as far beyond the worst value as all of them lie apart.\n"
+            "# Limits from {runs} repeated runs: the worst value, with the observed range as a margin.\n"
         );
         for proposal in &self.proposals {
             let Proposal { place, quantity, min, max, deviation, .. } = proposal;
@@ -148,7 +148,7 @@ impl Calibration {
                 let place = comment(&named(place));
                 let _ = write!(
                     text,
-                    "\n# {place}: {quantity} {min} to {max} in {runs} runs: no limit comes of an infinite value\n"
+                    "\n# {place}: {quantity} {min} to {max} in {runs} runs: an infinite value gives no limit\n"
                 );
                 continue;
             }

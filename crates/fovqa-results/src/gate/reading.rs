@@ -34,7 +34,7 @@ impl RunValues {
         let stranger = values.places.iter().find(|(_, values)| values.summary.is_none());
         if let Some(((scene, method, _), _)) = stranger {
             return Err(broken(format!(
-                "it has values of {scene}, {method} that {SUMMARY_JSON} has not"
+                "it has values of {scene}, {method} that {SUMMARY_JSON} does not have"
             )));
         }
         values.errors = errors
@@ -73,8 +73,7 @@ fn place(comparison: &ComparisonSummary) -> ComparisonName {
 /// Whether the rows of a comparison are those that its summary is of.
 fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String> {
     let ComparisonSummary { scene, method, .. } = comparison;
-    let lacks =
-        |what: &str| format!("it has other {what} of {scene}, {method} than {SUMMARY_JSON}");
+    let lacks = |what: &str| format!("its {what} of {scene}, {method} differ from {SUMMARY_JSON}");
     let rows = values.rows.values().flatten();
     let frames: BTreeSet<i64> = rows.filter_map(|row| row.frame).collect();
     if frames.len() != comparison.frames {
@@ -104,7 +103,7 @@ fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String>
     let bands = comparison.bands.len();
     for ((metric, statistic, ..), rows) in &values.rows {
         if is_double(rows) {
-            return Err(format!("it has a row of {metric} of {scene}, {method} twice"));
+            return Err(format!("a row of {metric} of {scene}, {method} appears twice in it"));
         }
         // Of one orientation of the wavelet there used to be no rows of bands without a block.
         let seldom = ["_lh", "_hl", "_hh"].iter().any(|of| statistic.ends_with(of));

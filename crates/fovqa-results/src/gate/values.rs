@@ -311,7 +311,7 @@ fn known_bands(quantity: &Quantity, edges: &[[f64; 2]]) -> String {
     edges.dedup();
     let known: Vec<String> = edges.iter().map(|[from, to]| format!("{from} to {to}")).collect();
     format!(
-        "{quantity}: the band does not begin and end with bands that are scored: {}",
+        "{quantity}: the band must begin and end at edges of scored bands: {}",
         known.join(", ")
     )
 }

@@ -171,7 +171,7 @@ impl Verdict {
 fn strangers(run: &RunValues, baseline: &Baseline) -> Vec<String> {
     let here: BTreeSet<&ComparisonName> = run.places().collect();
     let gone = baseline.comparisons.iter().filter(|c| !here.contains(&c.place()));
-    gone.map(|c| format!("the baseline has {}, and the run has not", c.named())).collect()
+    gone.map(|c| format!("the baseline has {}, but the run does not", c.named())).collect()
 }
 
 /// Whether a rule is of a comparison: of both eyes together, where it names none.
@@ -187,14 +187,15 @@ pub(super) fn is_of(rule: &GateRule, (scene, method, eye): &ComparisonName) -> b
 fn judged(rule: &GateRule, run: &RunValues, baseline: Option<&Baseline>) -> RuleVerdict {
     let places = run.places().filter(|place| is_of(rule, place));
     let checks: Vec<Check> = places.map(|place| check(rule, run, place, baseline)).collect();
-    let nothing = checks.is_empty().then(|| "nothing was compared that this rule is of".to_owned());
+    let nothing =
+        checks.is_empty().then(|| "the rule applies to no comparison of the run".to_owned());
     // A comparison that the rule is of, and that is no longer there, is no pass either.
     let lost = baseline.filter(|_| rule.needs_baseline()).and_then(|baseline| {
         let gone = baseline.comparisons.iter().find(|c| {
             let place = c.place();
             is_of(rule, &place) && !run.places().any(|here| *here == place)
         });
-        gone.map(|c| format!("the baseline has {}, and the run has not", c.named()))
+        gone.map(|c| format!("the baseline has {}, but the run does not", c.named()))
     });
     RuleVerdict { rule: rule.clone(), checks, failure: nothing.or(lost) }
 }
@@ -241,7 +242,7 @@ fn check(
     if let Some(was) = baseline.filter(|_| before.is_some()).and_then(|b| b.frames_of(place))
         && was != frames
     {
-        let why = format!("the baseline is of {was} frames, and the run of {frames}");
+        let why = format!("the baseline has {was} frames, but the run has {frames}");
         check.outcome = Outcome::NotScored(why);
         return check;
     }

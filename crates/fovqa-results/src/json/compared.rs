@@ -178,7 +178,7 @@ const PER_ORIENTATION: usize = 3;
 
 /// The three statistics, in their order, as the three fields.
 fn sides<T: Clone>(values: Vec<SideValues<T>>) -> HaarSides<T> {
-    debug_assert!(values.len() <= PER_ORIENTATION, "one a statistic");
+    debug_assert!(values.len() <= PER_ORIENTATION, "one per statistic");
     HaarSides {
         reference: three(&values, |sides| sides.reference.clone()),
         test: three(&values, |sides| sides.test.clone()),

@@ -66,14 +66,14 @@ pub fn read_summary(
     read_from(open().map_err(read)?, &mut take).map_err(|fault| match fault {
         Fault::Read(error) => read(error),
         Fault::Format(detail) => {
-            // Of all that may be wrong, a key that stands twice explains the most.
+            // Of all that may be wrong, a key that appears twice explains the most.
             let detail = open().ok().and_then(key_twice).unwrap_or(detail);
             FileError::Format { path: path.clone(), expected: "a summary of a run", detail }
         }
     })
 }
 
-/// Which key stands twice, where one does.
+/// Which key appears twice, where one does.
 fn key_twice(file: impl Read) -> Option<String> {
     let error = serde_json::from_reader::<_, CheckedKeys>(file).err()?;
     error.is_data().then(|| error.to_string())
@@ -248,7 +248,7 @@ mod tests {
     #[test]
     fn a_key_that_stands_twice_is_found_behind_other_faults() {
         let text = r#"{"comparisons": null, "schema": "x", "comparisons": []}"#;
-        assert!(key_twice(text.as_bytes()).unwrap().contains("\"comparisons\" stands twice"));
+        assert!(key_twice(text.as_bytes()).unwrap().contains("\"comparisons\" appears twice"));
         assert_eq!(key_twice(&br#"{"a": 1, "b": {"a": 2}}"#[..]), None);
         assert_eq!(key_twice(&b"{\"a\": 1"[..]), None);
     }
@@ -264,11 +264,11 @@ mod tests {
             (r#"{"schema":"x/2","a":"#, "its schema is x/2, not fovqa.summary/1"),
             (r#"{"schema":"fovqa.summary/1","errors":[]}"#, "missing field `comparisons`"),
             (r#"{"schema":"fovqa.summary/1","comparisons":[]}"#, "missing field `errors`"),
-            (&good.replace("\"errors\"", "\"comparisons\""), "\"comparisons\" stands twice"),
-            (&good.replace("[]", "[{\"a\":1,\"a\":2}]"), "the key \"a\" stands twice"),
+            (&good.replace("\"errors\"", "\"comparisons\""), "\"comparisons\" appears twice"),
+            (&good.replace("[]", "[{\"a\":1,\"a\":2}]"), "the key \"a\" appears twice"),
             (&good.replace("[]", "[{\"a\":1}]"), "missing field"),
             (&good.replace("[]", "{}"), "invalid type: map"),
-            (&good.replace("]}", "],\"x\":{\"a\":1,\"a\":2}}"), "the key \"a\" stands twice"),
+            (&good.replace("]}", "],\"x\":{\"a\":1,\"a\":2}}"), "the key \"a\" appears twice"),
             (&format!("{good}x"), "trailing characters"),
             (&good[..good.len() / 2], "EOF"),
         ] {

@@ -1,4 +1,4 @@
-//! JSON in which no key stands twice: of two values of one name, nobody can tell which is meant.
+//! JSON in which no key appears twice: of two values of one name, nobody can tell which is meant.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -75,9 +75,9 @@ impl<'de> Visitor<'de> for Check {
     }
 }
 
-/// The error of a key that stands twice.
+/// The error of a key that appears twice.
 pub(super) fn stands_twice<E: Error>(key: &str) -> E {
-    E::custom(format!("the key {key:?} stands twice"))
+    E::custom(format!("the key {key:?} appears twice"))
 }
 
 struct AnyValue;
@@ -155,9 +155,9 @@ mod tests {
         for text in [r#"{"a": 1, "a": 1}"#, r#"[{"b": {"a": 1, "a": 2}}]"#, r#"{"a":1,"\u0061":2}"#]
         {
             let error = serde_json::from_str::<UniqueKeys>(text).err().unwrap().to_string();
-            assert!(error.contains("the key \"a\" stands twice at line 1"), "{error}");
+            assert!(error.contains("the key \"a\" appears twice at line 1"), "{error}");
             let checked = serde_json::from_str::<CheckedKeys>(text).err().unwrap().to_string();
-            assert!(checked.contains("the key \"a\" stands twice at line 1"), "{checked}");
+            assert!(checked.contains("the key \"a\" appears twice at line 1"), "{checked}");
         }
     }
 }

@@ -47,7 +47,7 @@ impl<'de> Deserialize<'de> for Number {
                     "inf" => Ok(Number(f64::INFINITY)),
                     "-inf" => Ok(Number(f64::NEG_INFINITY)),
                     "nan" => Ok(Number(f64::NAN)),
-                    other => Err(E::custom(format!("{other:?} is no number"))),
+                    other => Err(E::custom(format!("{other:?} is not a number"))),
                 }
             }
         }

@@ -147,7 +147,7 @@ fn number(cell: &str) -> Result<Option<f64>, String> {
     if cell.is_empty() {
         return Ok(None);
     }
-    let wrong = || format!("{cell:?} is no number");
+    let wrong = || format!("{cell:?} is not a number");
     let value: f64 = cell.parse().map_err(|_| wrong())?;
     if value.is_finite() || matches!(cell, "inf" | "-inf") { Ok(Some(value)) } else { Err(wrong()) }
 }
@@ -156,5 +156,5 @@ fn whole<T: std::str::FromStr>(cell: &str) -> Result<Option<T>, String> {
     if cell.is_empty() {
         return Ok(None);
     }
-    cell.parse().map(Some).map_err(|_| format!("{cell:?} is no whole number"))
+    cell.parse().map(Some).map_err(|_| format!("{cell:?} is not a whole number"))
 }
