@@ -215,7 +215,7 @@ fn sequence(folder: &Path) {
             wall_s: added(|c| c.wall_s) / frames,
             peak_mib: added(|c| c.peak_mib),
         };
-        row("4K: what ATD adds to profiles, a frame", Some(8.2944), Some(added), Some("0.08"));
+        row("4K: what ATD adds to profiles, per frame", Some(8.2944), Some(added), Some("0.08"));
     }
 }
 
@@ -265,7 +265,7 @@ fn visible_difference(folder: &Path) {
     row(&format!("{name} beyond"), Some(megapixels), beyond(video, decode), None);
     let small = |side: &str| folder.join("small").join(side).display().to_string();
     let (a, b) = (small("gt"), small("a"));
-    for (frames, aim) in [("0..30", None), ("0..1000", Some("as 30 frames, MiB"))] {
+    for (frames, aim) in [("0..30", None), ("0..1000", Some("the MiB of 30 frames"))] {
         let more = ["--display", "standard-fhd", "--fps", "90", "--frames", frames];
         let count = frames.trim_start_matches("0..");
         row(&format!("64x64 PNG, {count} frames: FovVideoVDP"), None, score(&a, &b, &more), aim);
@@ -303,7 +303,7 @@ fn compare(name: &str, pair: &Pair, aim: Option<&str>, aim_beyond: Option<&str>)
     row(&format!("{name}: beyond decoding"), megapixels, beyond(score), aim_beyond);
     let profiles = measure(fovqa, &[&["score", a, b][..], &PROFILES].concat());
     let aim = aim_beyond.map(|_| "0.06");
-    let what = format!("{name}: contrast, wavelet beyond that");
+    let what = format!("{name}: what contrast and wavelet add");
     row(&what, megapixels, beyond(profiles), aim);
 }
 

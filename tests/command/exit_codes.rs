@@ -151,7 +151,7 @@ const RUN: &[Case] = &[
     ("run e.toml --output r --maps file", 3, "file"),
     ("run gone.toml --output r", 3, "gone"),
     ("run trace.toml --output r", 3, "no.csv"),
-    ("run onebad.toml --output r", 3, "11 frames scored all the same"),
+    ("run onebad.toml --output r", 3, "but 11 frames were scored"),
     ("run e.toml --output file", 3, "file"),
     ("check e.toml", 0, ""),
     ("check", 2, "EXPERIMENT"),
@@ -192,7 +192,7 @@ const OTHERS: &[Case] = &[
     ("schema", 0, ""),
     ("baseline", 2, "Usage"),
     ("baseline save reports/e", 2, "BASELINE"),
-    ("baseline save reports/e b.json", 3, "it is there already"),
+    ("baseline save reports/e b.json", 3, "the file already exists"),
     ("baseline save reports/e no/b.json", 3, "it cannot be written"),
     ("baseline save room c.json", 3, "no finished run"),
     ("baseline save cut c.json", 3, "summary.json"),
@@ -218,7 +218,7 @@ const GATE: &[Case] = &[
     ("gate e.toml", 0, ""),
     ("gate reports/e", 0, ""),
     ("gate drop.toml --baseline b.json", 0, ""),
-    ("gate e.toml --calibrate reports/e reports/e", 0, "the same to the last digit"),
+    ("gate e.toml --calibrate reports/e reports/e", 0, "identical to the last digit"),
     ("gate fails.toml", 1, ""),
     ("gate tight.toml --baseline high.json", 1, ""),
     ("gate", 2, "TARGET"),
@@ -232,10 +232,10 @@ const GATE: &[Case] = &[
     ("gate drop.toml", 2, "--baseline"),
     ("gate e.toml --annotations jenkins", 2, "jenkins"),
     ("gate e.toml --format json --annotations github", 2, "--annotations"),
-    ("gate e.toml --calibrate reports/e", 2, "one run alone"),
+    ("gate e.toml --calibrate reports/e", 2, "a single run"),
     ("gate e.toml --calibrate", 2, "--calibrate"),
     ("gate ungated.toml --calibrate reports/e reports/e", 2, "no [[gate]]"),
-    ("gate reports/e --frames 0..2", 2, "has been scored"),
+    ("gate reports/e --frames 0..2", 2, "has already been scored"),
     ("gate e.toml --baseline no.json", 3, "no.json"),
     ("gate e.toml --baseline cut.json", 3, "it is not a baseline"),
     ("gate e.toml --baseline version.json", 3, "version 9 of psnr"),
@@ -300,7 +300,7 @@ fn ends_as_it_should(cases: &[Case]) {
                 let error =
                     ["error:", "  × ", "Usage:"].iter().any(|word| run.stderr.contains(word));
                 assert!(error, "fovqa {line}\n{said}");
-                let scored = said.contains("frames scored all the same");
+                let scored = said.contains("frames were scored");
                 // A plan is no result.
                 let plan = line.starts_with("check ");
                 assert!(run.stdout.is_empty() || scored || plan, "fovqa {line}\n{said}");

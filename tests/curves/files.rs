@@ -152,7 +152,7 @@ fn the_whole_format_is_drawn_and_again_the_same() {
     }
     let page = String::from_utf8(first["index.html"].clone()).unwrap();
     assert!(page.contains("ahead &amp; aside") && page.contains("table-acuity.csv"));
-    assert!(page.contains("reconstruction from the paper"));
+    assert!(page.contains("reconstruction from the text of the paper"));
 
     let marked = String::from_utf8(first["plots/marked.csv"].clone()).unwrap();
     assert!(marked.contains("Thibos 1996,30.0,5.0"), "{marked}");
@@ -213,7 +213,7 @@ fn tables_hold_what_the_papers_print() {
         let found: Vec<&str> = row.split('|').map(str::trim).skip(2).step_by(2).take(5).collect();
         assert_eq!(found, cells, "{name}");
     }
-    assert!(text.contains("no independent check"), "VaFR_Rep says where its shares come from");
+    assert!(text.contains("not an independent check"), "VaFR_Rep says where its shares come from");
     let csv = fs::read_to_string(folder.path("out/table-samples.csv")).unwrap();
     assert!(csv.contains("samples 2560x1440") && csv.contains("VaFR_Dup,1061733.65"), "{csv}");
 }
@@ -248,7 +248,7 @@ const MISTAKES: &[Mistake] = &[
     ("name = \"good\"", "name = \"good\"\nacuity = {}", &["acuity has no model"], true),
     ("fov_vertical_deg = 110", "fov_vertical_deg = 180", &["cannot be 180"], true),
     ("fov_vertical_deg = 110", "", &["no view is given", "fov_vertical_deg = 110"], false),
-    ("resolutions = [\"1440x1600\"]", "", &["no resolution is given"], false),
+    ("resolutions = [\"1440x1600\"]", "", &["needs a resolution"], false),
     (
         "resolutions = [\"1440x1600\"]",
         "resolutions = [\"0x1600\"]",
@@ -302,16 +302,16 @@ const MISTAKES: &[Mistake] = &[
     (
         "method = { model = \"rmfr\" }",
         "method = { model = \"vafr\", knots_deg = [0, 9, 5, 30, 60] }",
-        &["do not start at 0° and rise"],
+        &["must start at 0° and increase"],
         false,
     ),
     (
         "method = { model = \"rmfr\" }",
         "method = { model = \"deamp\", sigmas = [2] }",
-        &["one for each layer"],
+        &["one of each per layer"],
         false,
     ),
-    ("method = { model = \"rmfr\" }", "", &["of no method and no acuity model"], false),
+    ("method = { model = \"rmfr\" }", "", &["neither a method nor an acuity model"], false),
     (
         "method = { model = \"rmfr\" }",
         "method = { model = \"rmfr\" }\nacuity = { model = \"piecewise\" }",
@@ -327,13 +327,13 @@ const MISTAKES: &[Mistake] = &[
     (
         "method = { model = \"rmfr\" }",
         "method = { model = \"guenter\" }\nbudget = 0.9",
-        &["reaches from"],
+        &["cannot reach a budget of 0.9"],
         false,
     ),
     (
         "method = { model = \"rmfr\" }",
         "method = { model = \"rmfr\" }\nbudget_of = \"buffer\"",
-        &["there is none"],
+        &["none is given"],
         false,
     ),
     (
@@ -351,7 +351,7 @@ const MISTAKES: &[Mistake] = &[
     (
         "acuity = { model = \"piecewise\" }",
         "acuity = { model = \"piecewise\" }\nbudget = 0.1",
-        &["budget is of a method"],
+        &["budget needs a method"],
         false,
     ),
     ("name = \"B\"", "name = \"A\"", &["\"A\""], false),
@@ -360,22 +360,32 @@ const MISTAKES: &[Mistake] = &[
     (
         "kind = \"rates\"",
         "kind = \"rates\"\nf = [2]",
-        &["f says nothing about a plot of kind \"rates\""],
+        &["f does not apply to a plot of kind \"rates\""],
         false,
     ),
     (
         "kind = \"rates\"",
         "kind = \"rates\"\nunit = \"per_pixel\"\nmarks = [{ name = \"a\", at = [1, 2] }]",
-        &["marks are cycles per degree"],
+        &["marks are in cycles per degree"],
         false,
     ),
     ("kind = \"rates\"", "kind = \"rates\"\nmarks = [{ at = [1, 2] }]", &["has no name"], true),
-    ("kind = \"rates\"", "kind = \"half_axis\"", &["has no f"], false),
+    ("kind = \"rates\"", "kind = \"half_axis\"", &["needs values of f"], false),
     ("kind = \"rates\"", "kind = \"half_axis\"\nf = [0.5]", &["cannot be 0.5"], true),
-    ("kind = \"rates\"", "kind = \"accumulated\"", &["none of its curves is"], false),
+    ("kind = \"rates\"", "kind = \"accumulated\"", &["needs a curve of deamp"], false),
     ("kind = \"rates\"", "kind = \"density\"\ncurves = [\"B\"]", &["nothing to show"], false),
-    ("kind = \"rates\"", "kind = \"rates\"\ny_limits = [5, 5]", &["ends before it begins"], false),
-    ("kind = \"rates\"", "kind = \"rates\"\ny_limits = [0, 5]\nlog = true", &["has no 0"], false),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\ny_limits = [5, 5]",
+        &["is not above its lower end"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\ny_limits = [0, 5]\nlog = true",
+        &["cannot include 0"],
+        false,
+    ),
     (
         "kind = \"rates\"",
         "kind = \"rates\"\n[[table]]\nkind = \"samples\"\ncurves = [\"B\"]",
@@ -588,24 +598,26 @@ fn the_example_of_the_docs_is_right() {
 fn files_and_experiments_are_told_apart() {
     let folder = Folder::new();
     folder.write("e.toml", GOOD);
-    folder.run(&["run", "e.toml"]).fails(2, &["this is a file of curves", "fovqa curves"]);
+    folder.run(&["run", "e.toml"]).fails(2, &["this is a curve file", "fovqa curves"]);
     folder.run(&["curves", "e.toml"]).ok();
     let report = folder.run(&["report", "reports/good"]);
-    report.fails(3, &["these are curves", "fovqa curves"]);
+    report.fails(3, &["the folder contains curves", "fovqa curves"]);
     // One page over all.
     folder.write("f.toml", GOOD.replace("\"good\"", "\"fine\""));
     folder.run(&["curves", "e.toml", "f.toml", "--output", "all"]).ok();
     folder.run(&["report", "all"]).ok().says(&["2 folders of results"]);
     let page = fs::read_to_string(folder.path("all/index.html")).unwrap();
     assert!(page.contains("good/plots/rates.svg") && page.contains("fine/index.html"));
-    folder.run(&["curves", "e.toml", "e.toml"]).fails(2, &["have one name", "\"good\""]);
+    folder.run(&["curves", "e.toml", "e.toml"]).fails(2, &["have the same name", "\"good\""]);
     // One wrong file, and nothing is drawn.
     folder.write("g.toml", GOOD.replace("\"good\"", "\"g\"").replace("rmfr", "x"));
     folder.run(&["curves", "f.toml", "g.toml", "--output", "none"]).fails(2, &["no method \"x\""]);
     assert!(!folder.path("none/fine").exists());
     // A folder of somebody else's stays as it is.
     folder.write("mine/curves.csv", "mine");
-    folder.run(&["curves", "e.toml", "--output", "mine"]).fails(3, &["of no run"]);
+    folder
+        .run(&["curves", "e.toml", "--output", "mine"])
+        .fails(3, &["that no run of fovqa has written"]);
     assert_eq!(fs::read_to_string(folder.path("mine/curves.csv")).unwrap(), "mine");
     // What is drawn no longer is taken away.
     let other = GOOD.replace("kind = \"rates\"", "kind = \"density\"");
@@ -631,12 +643,12 @@ fn runs_and_curves_keep_each_others_folders() {
     folder.run(&["run", "run.toml"]).ok();
     let before = files(&folder.path("reports/good"));
     let refused = folder.run(&["curves", "curves.toml"]);
-    refused.fails(3, &["it has the results of `fovqa run`", "--output"]);
+    refused.fails(3, &["the folder contains the results of `fovqa run`", "--output"]);
     assert_eq!(files(&folder.path("reports/good")), before);
     folder.run(&["curves", "curves.toml", "--output", "c"]).ok();
     let before = files(&folder.path("c"));
     let refused = folder.run(&["run", "run.toml", "--output", "c"]);
-    refused.fails(3, &["it has the results of `fovqa curves`"]);
+    refused.fails(3, &["the folder contains the results of `fovqa curves`"]);
     assert_eq!(files(&folder.path("c")), before);
 }
 
@@ -653,16 +665,16 @@ fn what_differs_decides_what_is_drawn_and_how_often() {
     folder.write("e.toml", many(49));
     folder
         .run(&["check", "e.toml"])
-        .fails(2, &["the figure has 49 panels, and 48 at most", "panels = \"one\""]);
+        .fails(2, &["the figure has 49 panels, but at most 48", "panels = \"one\""]);
     folder.write(
         "e.toml",
         many(49).replace("kind = \"rates\"", "kind = \"rates\"\npanels = \"one\""),
     );
     folder.run(&["check", "e.toml"]).ok();
     folder.write("e.toml", many(49).replace("[[plot]]\nkind = \"rates\"", ""));
-    folder.run(&["check", "e.toml"]).fails(2, &["panels, and 48 at most"]);
+    folder.run(&["check", "e.toml"]).fails(2, &["panels, but at most 48"]);
     folder.write("e.toml", many(101));
-    folder.run(&["check", "e.toml"]).fails(2, &["a list of 1 to 100"]);
+    folder.run(&["check", "e.toml"]).fails(2, &["a list of 1 to 100 values"]);
 
     // A direction is no other picture, and what is written twice no other curve.
     let twice = GOOD

@@ -86,7 +86,8 @@ fn a_budget_sets_the_free_parameter() {
     let (_, on_screen, _) = share("budget = 0.1\nbudget_of = \"on_screen\"");
     assert!((on_screen - 0.1).abs() < 1e-9);
     let flags = ["--method", "guenter", "--budget", "0.9"];
-    curves(&[&flags, &HEADSET[..]].concat()).fails(2, &["cannot shade 0.9", "reaches from 0.03"]);
+    curves(&[&flags, &HEADSET[..]].concat())
+        .fails(2, &["cannot reach a budget of 0.9", "allows 0.03"]);
     let full = ["--method", "full", "--budget", "0.5"];
     curves(&[&full, &HEADSET[..]].concat())
         .fails(2, &["full has no parameter that a budget could set"]);
@@ -98,8 +99,8 @@ const WRONG: &[(&[&str], &[&str])] = &[
     (&["--method", "rmf"], &["did you mean rmfr?", "visual-polar"]),
     (&["--acuity", "piecwise"], &["did you mean piecewise?"]),
     (&["--method", "rmfr", "--acuity", "piecewise"], &["cannot be used with"]),
-    (&["--method", "rmfr"], &["give a view, such as --fov-vertical 110"]),
-    (&["--method", "rmfr", "--fov-vertical", "110"], &["give its size, --resolution"]),
+    (&["--method", "rmfr"], &["give one, such as --fov-vertical 110"]),
+    (&["--method", "rmfr", "--fov-vertical", "110"], &["give it, such as --resolution"]),
     (
         &["--method", "kfr", "--fov-vertical", "180", "--resolution", "8x8"],
         &["180° is not between 0° and 180°"],
@@ -122,7 +123,7 @@ const WRONG: &[(&[&str], &[&str])] = &[
     (&["--method", "cps", "--set", "quantise=floor"], &["ceil or nearest or continuous"]),
     (
         &["--acuity", "piecewise", "--set", "knots_deg=[0,20,10,30,60]"],
-        &["do not start at 0° and rise"],
+        &["must start at 0° and increase"],
     ),
     (
         &["--acuity", "piecewise", "--set", "knots_cpd=[40,10]"],
@@ -138,8 +139,8 @@ const WRONG: &[(&[&str], &[&str])] = &[
     ),
     (&["--acuity", "linear-mar", "--fov-vertical", "190"], &["190° is not between"]),
     (&["--acuity", "piecewise", "--step", "0"], &["write degrees from 0.001 to 60"]),
-    (&["--acuity", "piecewise", "--to", "200"], &["above 0, up to 179"]),
-    (&["--acuity", "piecewise", "--budget", "0.1"], &["--budget is of a --method"]),
+    (&["--acuity", "piecewise", "--to", "200"], &["above 0 and at most 179"]),
+    (&["--acuity", "piecewise", "--budget", "0.1"], &["--budget needs --method"]),
     (&["--acuity", "piecewise", "--output", "out"], &["cannot be used with"]),
     (&["nothing.toml", "--step", "0.5"], &["cannot be used with"]),
     (&["nothing.toml", "--display", "vive-pro-eye"], &["cannot be used with"]),
@@ -160,7 +161,7 @@ fn every_wrong_flag_is_said() {
         curves(&[arguments, screen].concat()).fails(2, words);
     }
     let deamp = ["--method", "deamp", "--set", "sigmas=[2,3]"];
-    curves(&[&deamp, &HEADSET[..]].concat()).fails(2, &["one for each layer"]);
+    curves(&[&deamp, &HEADSET[..]].concat()).fails(2, &["one of each per layer"]);
 }
 
 #[test]
@@ -169,11 +170,11 @@ fn what_has_to_be_said_is_a_note() {
     of(&["--method", "visual-polar"]).says(&["note: Visual-Polar is a reconstruction"]);
     of(&["--method", "deamp"])
         .says(&["note: the angles of DEAMP's layers scale", "45° is 52.12° x 55.00°"]);
-    of(&["--method", "kfr", "--budget", "0.1"]).says(&["for this budget sigma=3.16227"]);
+    of(&["--method", "kfr", "--budget", "0.1"]).says(&["the budget gives sigma=3.16227"]);
     // KFR has no rate within a pixel, and so a curve that ends there has none at all.
     of(&["--method", "kfr", "--to", "0.09", "--step", "0.05"]).says(&["no rate is defined"]);
     of(&["--method", "rmfr", "--gaze", "5000,-3", "--direction", "135"])
-        .says(&["the gaze (5000, -3) is outside of the frame: it is taken at (1440, 0)"]);
+        .says(&["the gaze (5000, -3) is outside the frame; (1440, 0) on its border is used"]);
     assert_eq!(of(&["--method", "rmfr"]).stderr, "");
     let stretched = ["--method", "full", "--display", "vive-pro-eye", "--resolution", "720x1600"];
     curves(&stretched).ok().says(&["pixels of 720x1600 are not square", "geometric mean"]);

@@ -33,15 +33,15 @@ fn missing_files_and_folders() {
         .score(&["a.png", pattern])
         .fails(3, &["no/such/folder: there is no such file or folder"]);
     fs::create_dir_all(folder.path("empty/x").parent().unwrap()).unwrap();
-    refuses(&folder, "empty", &["no file is there"]);
+    refuses(&folder, "empty", &["it matches no file"]);
     folder.write("texts/readme.txt", "hello");
-    refuses(&folder, "texts", &["no image is there, only a file of another type"]);
-    refuses(&folder, "*.tiff", &["no file is there"]);
+    refuses(&folder, "texts", &["it matches no image, only a file of another type"]);
+    refuses(&folder, "*.tiff", &["it matches no file"]);
     folder.png_pair("gt/0.png", "gt/1.png", 8, 8);
     folder.score(&["gt", "a.png"]).fails(3, &["no file of gt has a partner in a.png"]);
     folder.write("twice/0.exr", "");
     folder.png_pair("twice/0.png", "twice/1.png", 8, 8);
-    refuses(&folder, "twice", &["0.exr", "0.png", "one stem"]);
+    refuses(&folder, "twice", &["0.exr", "0.png", "the same name without the ending"]);
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn frames_of_different_sizes() {
     folder.png("wide.png", 49, 40, &codes(49, 40, 3, 1));
     folder
         .score(&["a.png", "wide.png"])
-        .fails(3, &["a.png has 48x40 pixels and wide.png has 49x40", "nothing is resampled"]);
+        .fails(3, &["a.png has 48x40 pixels, but wide.png has 49x40", "fovqa does not resample"]);
 }
 
 #[test]
@@ -102,7 +102,7 @@ fn files_that_are_no_image() {
     refuses(&folder, "empty.png", &["not a PNG, JPEG or OpenEXR file"]);
     fs::create_dir(folder.path("gt")).unwrap();
     fs::create_dir(folder.path("gt/folder.png")).unwrap();
-    refuses(&folder, "gt", &["no file is there"]);
+    refuses(&folder, "gt", &["it matches no file"]);
 }
 
 #[test]
@@ -208,7 +208,7 @@ fn exr_of_kinds_that_are_not_read() {
     let mut newer = whole.clone();
     newer[at + compression.len()] = 99;
     folder.write("newer.exr", &newer);
-    refuses(&folder, "newer.exr", &["of a kind that is not read"]);
+    refuses(&folder, "newer.exr", &["this kind of OpenEXR file is not supported"]);
     let mut subsampled = whole.clone();
     let channel = b"R\0\x01\0\0\0\0\0\0\0\x01\0\0\0\x01\0\0\0";
     let at = whole.windows(channel.len()).position(|w| w == channel).unwrap();
@@ -226,7 +226,7 @@ fn exr_of_kinds_that_are_not_read() {
     let mut same = whole.clone();
     same.copy_within(table..table + 8, table + 8);
     folder.write("same.exr", &same);
-    refuses(&folder, "same.exr", &["one of its blocks is there twice"]);
+    refuses(&folder, "same.exr", &["one of its blocks appears twice"]);
 }
 
 /// Deflated zeros (RFC 1951, fixed codes): one literal, then `matches` copies of 258 bytes.

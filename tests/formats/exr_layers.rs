@@ -130,7 +130,7 @@ fn cryptomattes_are_no_colour() {
     write(&folder, "a.exr", named.clone().saying("cryptomatte/1234567/name", "VL.Things"));
     folder.score(&score).ok();
     let run = folder.score(&[&score[..], &["--layer", "VL.Things00"]].concat());
-    run.fails(3, &["VL.Things00", "Cryptomatte", "no colour"]);
+    run.fails(3, &["VL.Things00", "Cryptomatte", "not colour"]);
     let run = folder.score(&[&score[..], &["--layer", "none"]].concat());
     run.fails(3, &["it has no colour layer \"none\"; it has: VL.Combined\n"]);
     // Without the attribute they could be anything.

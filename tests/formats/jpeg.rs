@@ -42,7 +42,7 @@ fn is_not_read(bytes: &[u8], words: &[&str]) {
     let folder = Folder::new();
     folder.write("a.jpg", bytes);
     let run = folder.score(&["a.jpg", "a.jpg"]);
-    run.fails(3, &["a.jpg", "it is a JPEG of a kind that is not read"]).says(words);
+    run.fails(3, &["a.jpg", "this kind of JPEG file is not supported"]).says(words);
 }
 
 /// A file of these bytes has the pixels of a case.
@@ -145,10 +145,10 @@ fn restart_markers_have_to_count() {
     let mut swapped = restart.clone();
     let marker = find(&restart, [0xff, 0xd1]);
     swapped[marker + 1] = 0xd2;
-    is_damaged(&swapped, &["restart marker 2 stands where 1 should be"]);
+    is_damaged(&swapped, &["restart marker 2 is where 1 should be"]);
     let mut missing = restart.clone();
     missing.drain(marker..marker + 2);
-    is_damaged(&missing, &["restart marker 2 stands where 1 should be"]);
+    is_damaged(&missing, &["restart marker 2 is where 1 should be"]);
     let mut behind = restart.clone();
     let last = restart.windows(2).rposition(|p| p[0] == 0xff && (0xd0..0xd8).contains(&p[1]));
     let next = 0xd0 + (restart[last.unwrap() + 1] - 0xd0 + 1) % 8;
@@ -162,9 +162,12 @@ fn scans_have_to_be_complete() {
     let scans: Vec<usize> =
         (0..progressive.len() - 1).filter(|&i| progressive[i..i + 2] == START_OF_SCAN).collect();
     let last = *scans.last().unwrap();
-    is_damaged(&[&progressive[..last], &END].concat(), &["last scans are missing"]);
+    is_damaged(
+        &[&progressive[..last], &END].concat(),
+        &["its last scans, which contain the finest detail, are missing"],
+    );
     let twice = [&progressive[..progressive.len() - 2], &progressive[last..]].concat();
-    is_damaged(&twice, &["repeats what another has brought"]);
+    is_damaged(&twice, &["repeats what an earlier scan contains"]);
     let each = bytes("jpeg-kinds/scans.jpg");
     let last = each.windows(2).rposition(|pair| pair == START_OF_SCAN).unwrap();
     is_damaged(&[&each[..last], &END].concat(), &["scan of a component is missing"]);

@@ -74,7 +74,7 @@ fn renderers_are_known_by_their_channels() {
     }
     let folder = moved(2);
     let run = folder.score(&["gt", "test", "--metrics", "atd", "--motion", "falcor"]);
-    run.says(&["it has no motion, which was looked for as mvec.R + mvec.G"]);
+    run.says(&["it has no motion channel (searched for mvec.R + mvec.G)"]);
 }
 
 #[test]
@@ -146,7 +146,7 @@ fn motion_is_missing_in_the_first_frame_alone() {
     }
     let run = folder.score(&["gt", "test", "--metrics", "atd", "--format", "json"]);
     assert_eq!(run.code, 3);
-    run.says(&["frame 1: gt/0001.exr has depth, and frames before it have none"]);
+    run.says(&["frame 1: gt/0001.exr has depth, but earlier frames have none"]);
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn channels_that_are_not_there_are_said_with_those_that_are() {
     );
     fails(
         &["--depth", "distance"],
-        &["gt/0000.exr: it has no depth", "as distance", "B, G, R, motion.X, motion.Y"],
+        &["gt/0000.exr: it has no depth", "for distance", "B, G, R, motion.X, motion.Y"],
     );
     folder.write("e.toml", experiment("motion = { channels = [\"u\", \"v\"] }\n"));
     let run = folder.run(&["run", "e.toml"]);
@@ -210,16 +210,16 @@ fn motion_files_that_do_not_fit_are_errors_of_their_frame() {
     write(&folder, "motion/0002.exr", small);
     let run = score();
     assert_eq!(run.code, 3);
-    let run = run.says(&["frame 2: gt/0002.exr has 64x32 pixels and motion/0002.exr has 10x8"]);
+    let run = run.says(&["frame 2: gt/0002.exr has 64x32 pixels, but motion/0002.exr has 10x8"]);
     assert_eq!(with_atd(&run.json()), [(0, false), (1, true)]);
     std::fs::remove_file(folder.path("motion/0002.exr")).unwrap();
     let run = score();
     assert_eq!(run.code, 3);
-    run.says(&["frame 2: gt/0002.exr: no file of motion belongs to it"]);
+    run.says(&["frame 2: gt/0002.exr: no motion file matches this frame"]);
     folder.png("motion/0002.png", W, H, &codes(W, H, 3, 1));
     let run = score();
     assert_eq!(run.code, 3);
-    run.says(&["motion/0002.png: this is not an OpenEXR file, the only kind that motion"]);
+    run.says(&["motion/0002.png: this is not an OpenEXR file; motion and depth are only read"]);
     folder
         .score(&["gt", "test", "--motion-files", "nowhere"])
         .fails(3, &["nowhere: there is no such file or folder"]);

@@ -47,7 +47,7 @@ fn an_eye_of_blender_has_its_own_motion_and_depth() {
     case(&["--layer", RIGHT, "--motion", &format!("{x},{y}")]).fails(
         2,
         &[
-            "as blender writes them",
+            "blender writes these channels",
             "--motion blender,",
             &format!("--motion blender:{x},{y}"),
             &format!("+{x},+{y}"),
@@ -56,7 +56,7 @@ fn an_eye_of_blender_has_its_own_motion_and_depth() {
     let run = case(&["--layer", RIGHT, "--motion", "Speed.X,Speed.Y"]);
     assert_eq!(run.code, 3);
     run.says(&[
-        "no motion, which was looked for as Speed.X + Speed.Y",
+        "no motion channel (searched for Speed.X + Speed.Y)",
         "--motion RENDERER:X,Y",
         "X,-Y for y up",
     ]);
@@ -89,12 +89,13 @@ fn experiments_say_how_named_channels_are_encoded() {
         assert_eq!(resolved.get("encoding"), motion.as_ref());
     }
     folder.write("e.toml", experiment(channels));
-    folder
-        .run(&["run", "e.toml"])
-        .fails(2, &["as blender writes them", "add encoding = \"blender\", or sign = [1, 1]"]);
+    folder.run(&["run", "e.toml"]).fails(
+        2,
+        &["blender writes these channels", "add encoding = \"blender\", or sign = [1, 1]"],
+    );
     folder
         .write("e.toml", experiment(&format!("{channels}, encoding = \"blender\", sign = [1, 1]")));
-    folder.run(&["run", "e.toml"]).fails(2, &["both sign and an encoding that has its own"]);
+    folder.run(&["run", "e.toml"]).fails(2, &["both sign and an encoding with its own"]);
 }
 
 /// Blender's passes of a layer, moving as `motion` says.
@@ -196,7 +197,7 @@ fn motion_of_the_other_view_alone_is_not_taken() {
     run.says(&[names, "belongs to another view or layer", "without motion vectors"]);
     let run = atd(&folder, &["--layer", "left", "--motion", "blender"]);
     assert_eq!(run.code, 3);
-    run.says(&["no motion of the colour's view and layer", names, "--motion RENDERER:X,Y"]);
+    run.says(&["no motion for the view and layer of the colour", names, "--motion RENDERER:X,Y"]);
     // Unless it is named in full.
     let [x, y] = ["X", "Y"].map(|axis| format!("VL.Vector-right.VL.Vector.{axis}"));
     let run = atd(&folder, &["--layer", "left", "--motion", &format!("blender:{x},{y}")]).ok();
@@ -234,8 +235,8 @@ fn view_layers_have_their_own_motion_and_depth() {
     let all: &Value = &run.json()["sequence"]["atd"];
     assert_eq!((&all["motion"], &all["depth"]), (&json!("none"), &json!("none")));
     run.says(&[
-        "Back.Vector.X + Back.Vector.Y is not taken for the motion",
-        "Back.Depth.Z is not taken",
+        "Back.Vector.X + Back.Vector.Y is not used as the motion",
+        "Back.Depth.Z is not used",
     ]);
 }
 
@@ -258,6 +259,6 @@ fn the_motion_of_unreal_comes_with_a_warning() {
     for which in ["auto", "unreal"] {
         let run = atd(&folder, &["--motion", which]).ok();
         is_steady(&run.json()["sequence"]["atd"]);
-        run.says(&["2 (v - 0.5) of the frame", "try it on a known motion"]);
+        run.says(&["2 (v - 0.5) of the frame", "check it with a known motion"]);
     }
 }

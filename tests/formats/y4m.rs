@@ -256,13 +256,13 @@ fn a_cut_video_keeps_its_whole_frames() {
         piped(&folder, &["a.y4m", "-", "--metrics", "psnr", "--format", "json"], bytes(cut))
     };
     for (behind, said) in [
-        (9, "frame 3: it is cut short: 3 of 384 bytes are there"),
+        (9, "frame 3: it is cut short: only 3 of 384 bytes are present"),
         (3, "frame 3: it is cut short before its pixels"),
     ] {
         let cut = &whole[..header + 3 * frame + behind];
         folder.write("b.y4m", cut);
         let from_file = folder.score(&arguments);
-        let in_file = "b.y4m: its frame 3 is damaged, and nothing behind it is found";
+        let in_file = "b.y4m: its frame 3 is damaged, and no frame after it can be found";
         let in_pipe =
             "standard input is damaged behind its first 3 frames, and 1 frame of the other";
         for (end, run) in [(in_file, from_file), (in_pipe, from_pipe(cut.to_vec()))] {
@@ -293,10 +293,10 @@ fn a_pipe_that_is_shorter_or_longer_is_said() {
     let run = piped(&folder, &["a.y4m", "-", "--metrics", "psnr"], bytes(long.clone()));
     assert_eq!(run.code, 3);
     let run =
-        run.says(&["standard input: it goes on behind its first 3 frames", "--allow-missing"]);
+        run.says(&["standard input: it continues after its first 3 frames", "--allow-missing"]);
     assert!(run.stdout.contains("PSNR"), "{}", run.stdout);
     let arguments = ["a.y4m", "-", "--metrics", "psnr", "--allow-missing"];
-    piped(&folder, &arguments, bytes(long)).ok().says(&["it goes on behind its first 3 frames"]);
+    piped(&folder, &arguments, bytes(long)).ok().says(&["it continues after its first 3 frames"]);
     let short = video("", SIZE, &[28, 31]);
     let run = piped(&folder, &["a.y4m", "-", "--metrics", "psnr"], bytes(short.clone()));
     assert_eq!(run.code, 3);
@@ -310,7 +310,7 @@ fn a_pipe_that_is_shorter_or_longer_is_said() {
 fn what_a_pipe_cannot_do_is_said() {
     let folder = videos(6, 6);
     let b = || bytes(file(&videos(6, 6), "b.y4m"));
-    piped(&folder, &["-", "-"], b()).fails(2, &["standard input (-), which can be read but once"]);
+    piped(&folder, &["-", "-"], b()).fails(2, &["standard input (-), which can only be read once"]);
     piped(&folder, &["a.y4m", "-"], bytes(Vec::new())).fails(3, &["standard input: it is empty"]);
     let arguments = [
         "a.y4m",
@@ -322,7 +322,7 @@ fn what_a_pipe_cannot_do_is_said() {
         "--set",
         "fvvdp.temp_padding=circular",
     ];
-    let said = ["FovVideoVDP begins with frames that come later", "write it to a file first"];
+    let said = ["FovVideoVDP begins with later frames", "write it to a file first"];
     piped(&folder, &arguments, b()).fails(3, &said);
     let png = bytes(b"\x89PNG\r\n\x1a\n".to_vec());
     piped(&folder, &["a.y4m", "-"], png).fails(3, &["it does not begin with YUV4MPEG2"]);
@@ -339,7 +339,7 @@ fn what_is_no_video_that_is_read_is_said() {
         (
             "tag",
             gray("YUV4MPEG2 W24 H16 C420p16"),
-            &["colour tag is C420p16", "those that are read are 420, "],
+            &["colour tag is C420p16", "the supported tags are 420, "],
         ),
         ("alpha", gray("YUV4MPEG2 W24 H16 C444alpha"), &["C444alpha, which has alpha"]),
         ("magic", gray("YUV4MPEG W24 H16 Cmono"), &["does not begin with YUV4MPEG2"]),
@@ -350,7 +350,7 @@ fn what_is_no_video_that_is_read_is_said() {
         ),
         ("range", gray("YUV4MPEG2 W24 H16 XCOLORRANGE=PC"), &["XCOLORRANGE is \"PC\""]),
         ("empty", Vec::new(), &["it is empty, where a y4m video should begin"]),
-        ("no frames", b"YUV4MPEG2 W24 H16 Cmono\n".to_vec(), &["it has a header and no frames"]),
+        ("no frames", b"YUV4MPEG2 W24 H16 Cmono\n".to_vec(), &["it has a header but no frames"]),
         ("cut header", b"YUV4MPEG2 W24 H1".to_vec(), &["its header is cut short"]),
         ("long header", [b"YUV4MPEG2 X", &[b'x'; 5000][..]].concat(), &["longer than 4096 bytes"]),
         ("binary", vec![0xff; 300], &["does not begin with YUV4MPEG2"]),
@@ -365,7 +365,7 @@ fn what_is_no_video_that_is_read_is_said() {
     folder.run(&["score", "a.y4m", "gone.y4m"]).fails(3, &["gone.y4m"]);
     folder.write("videos_1.y4m", "");
     folder.write("videos_2.y4m", "");
-    folder.score(&["videos_%d.y4m", "a.y4m"]).fails(3, &["each video is a sequence by itself"]);
+    folder.score(&["videos_%d.y4m", "a.y4m"]).fails(3, &["each video is a sequence of its own"]);
 }
 
 #[test]
@@ -378,10 +378,7 @@ fn a_frame_that_cannot_be_used_costs_itself_alone() {
     let arguments = ["--metrics", "psnr", "--format", "json"];
     let run = folder.score(&[&["a.y4m", "c.y4m"], &arguments[..]].concat());
     assert_eq!((run.code, psnrs(&run.json()).len()), (3, 2));
-    run.says(&[
-        "c.y4m, frame 2: another video begins here",
-        "give each video as a file of its own",
-    ]);
+    run.says(&["c.y4m, frame 2: another video begins here", "give each video as a separate file"]);
     // A code of more than the tag's bits.
     let mut bytes = b"YUV4MPEG2 W2 H1 Cmono10\n".to_vec();
     for code in [400u16, 1024, 500] {
@@ -391,10 +388,10 @@ fn a_frame_that_cannot_be_used_costs_itself_alone() {
     folder.write("d.y4m", bytes);
     let run = folder.score(&[&["d.y4m", "d.y4m"], &arguments[..]].concat());
     assert_eq!((run.code, numbers(&run.json())), (3, vec![0, 2]));
-    run.says(&["d.y4m, frame 1: Y' at (0, 0) of its plane is 1024, more than 10 bits hold"]);
+    run.says(&["d.y4m, frame 1: Y' at (0, 0) of its plane is 1024, more than 10 bits can hold"]);
     // Two sizes.
     folder.write("e.y4m", video("", (8, 8), &[1, 2, 3]));
-    folder.score(&["a.y4m", "e.y4m"]).says(&["a.y4m has 24x16 pixels and e.y4m has 8x8"]);
+    folder.score(&["a.y4m", "e.y4m"]).says(&["a.y4m has 24x16 pixels, but e.y4m has 8x8"]);
 }
 
 #[test]
@@ -419,7 +416,7 @@ fn the_rate_comes_from_the_header() {
     assert_ne!(other, plain);
     folder.write("c.y4m", video("F24:1", (64, 64), &[1, 2, 3, 4]));
     let run = folder.score(&["a25.y4m", "c.y4m"]).ok();
-    run.says(&["a25.y4m has 25 frames a second and c.y4m has 24: the first counts"]);
+    run.says(&["a25.y4m has 25 frames per second, but c.y4m has 24; the first rate is used"]);
 }
 
 #[test]
@@ -431,7 +428,7 @@ fn the_shape_of_pixels_is_looked_at() {
     let run = folder.score(&["a.y4m", "b.y4m", "--fov-vertical", "60"]);
     run.fails(
         3,
-        &["a.y4m says that its pixels are 1.3333334 times as wide as high", "A1:1 of y4m"],
+        &["a.y4m declares pixels that are 1.3333334 times as wide as high", "A1:1 of y4m"],
     );
 }
 
@@ -508,7 +505,7 @@ fn other_videos_and_other_places_are_explained() {
     ];
     for (name, bytes, said) in other {
         folder.write(name, bytes);
-        let said = [name, said, "of which y4m alone is read", "-f yuv4mpegpipe"];
+        let said = [name, said, "but only y4m video is supported", "-f yuv4mpegpipe"];
         folder.score(&["a.y4m", name]).fails(3, &said);
         folder.score(&[name, name]).fails(3, &said);
     }

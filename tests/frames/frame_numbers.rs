@@ -174,22 +174,22 @@ fn names_that_do_not_number_the_frames_are_questioned() {
     frames(&folder, &["gt/cover.png", "gt/0001.png", "gt/0002.png"]);
     let plain = ["gt", "gt", "--metrics", "psnr"];
     let run = folder.score(&[&plain[..], &["--format", "json"]].concat()).ok();
-    let run = run.says(&["do not tell the frames apart: cover has none"]);
+    let run = run.says(&["do not identify the frames: cover has none"]);
     assert_eq!(numbers(&run.json()), [0, 1, 2]);
     folder.write("gaze.csv", "frame,x_px,y_px\n0,1,9\n1,2,9\n2,3,9\n");
     let trace = ["--gaze", "gaze.csv", "--fov-vertical", "60"];
-    let words = ["a gaze trace goes by the numbers of frames", "cover has none"];
+    let words = ["a gaze trace needs frame numbers", "cover has none"];
     folder.score(&[&plain[..], &trace].concat()).fails(3, &words);
-    let words = ["a selection of frames goes by the numbers", "%04d"];
+    let words = ["a selection of frames needs frame numbers", "%04d"];
     folder.score(&[&plain[..], &["--frames", "0..2"]].concat()).fails(3, &words);
     // A single file has no others to compare its numbers with.
     frames(&folder, &["a/gt_0001_1080p.png", "b/gt_0001_1080p.png"]);
     folder.write("gaze.csv", "frame,x_px,y_px\n1080,5,9\n");
     let one = ["a", "b", "--metrics", "psnr"];
-    folder.score(&[&one[..], &trace].concat()).ok().says(&["goes by the last of them"]);
+    folder.score(&[&one[..], &trace].concat()).ok().says(&["uses the last one"]);
     // Stems that differ in capitals alone.
     frames(&folder, &["c/F1.png", "c/f1.png"]);
-    folder.score(&["c", "c"]).fails(3, &["have one stem"]);
+    folder.score(&["c", "c"]).fails(3, &["have the same name without the ending"]);
 }
 
 #[cfg(unix)]
@@ -218,7 +218,7 @@ fn a_frame_that_is_not_there_is_an_error_and_a_hole() {
     );
     let gate = folder.run(&["gate", "x.toml", "--output", "r"]);
     assert_eq!(gate.code, 3, "{}", gate.stdout);
-    folder.run(&["check", "x.toml"]).says(&["f.0002.exr: it is not a file that is there"]);
+    folder.run(&["check", "x.toml"]).says(&["f.0002.exr: the file is missing"]);
 }
 
 #[cfg(target_os = "linux")]

@@ -67,7 +67,7 @@ fn separators_and_encodings_are_read() {
         assert_eq!(json["frames"][0]["gaze_px"], json!([3.5, 4.0]), "{file}");
     }
     folder.write("comma.csv", "frame;x_px;y_px\n0;3,5;4\n");
-    score(&folder, "comma.csv", &[]).fails(3, &["x_px is \"3,5\"", "decimal point"]);
+    score(&folder, "comma.csv", &[]).fails(3, &["x_px has \"3,5\"", "decimal point"]);
     folder.write("comma.csv", "frame,x_px,y_px\n0,3,5,4\n");
     score(&folder, "comma.csv", &[]).fails(3, &["decimal point"]);
 }
@@ -89,7 +89,8 @@ fn exports_of_trackers_are_told_what_to_do() {
         score(&folder, "gaze.csv", &[]).fails(3, &[words, "frame,x_px,y_px", "it has no column"]);
     }
     folder.write("gaze.csv", "frame,x_px,y_px\n0,3,4\n0,3,5\n1,3,4\n");
-    score(&folder, "gaze.csv", &[]).fails(3, &["line 3", "frame 0 already", "one row per frame"]);
+    score(&folder, "gaze.csv", &[])
+        .fails(3, &["line 3", "already a row for frame 0", "one row per frame"]);
 }
 
 #[test]
@@ -107,12 +108,12 @@ fn samples_that_are_not_valid_are_no_gaze() {
 fn shares_of_the_frame_are_questioned() {
     let folder = two_frames();
     folder.write("gaze.csv", "frame,x_px,y_px\n0,0.5,0.5\n1,0.25,1.03\n");
-    let words = ["look like shares of the frame", "multiply x_px by the frame's width"];
+    let words = ["look like fractions of the frame", "multiply x_px by the frame's width"];
     score(&folder, "gaze.csv", &[]).fails(3, &words);
-    score(&folder, "0.5,0.5", &[]).ok().says(&["lies in the first pixel"]);
+    score(&folder, "0.5,0.5", &[]).ok().says(&["is in the first pixel"]);
     let corner = score(&folder, "0,0", &[]).ok();
     assert!(!corner.stderr.contains("first pixel"), "{}", corner.stderr);
     folder.write("gaze.csv", "time_s,x_px,y_px\n0,5,5\n11,6,6\n22,7,7\n");
     let held = score(&folder, "gaze.csv", &["--fps", "90", "--gaze-hold"]).ok();
-    held.says(&["time_s rises by 11 s from row to row"]);
+    held.says(&["time_s increases by 11 s from row to row"]);
 }

@@ -18,9 +18,9 @@ fn frusta_in_other_units() {
         let doubted = ["frustum", "pixels are", "per degree at its centre"];
         assert!(!doubted.iter().any(|words| stderr.contains(words)), "{right}: {stderr}");
     }
-    score("50,45,42,48").fails(2, &["if these are degrees", "1.1918, 1, 0.9004, 1.1106"]);
-    score("-50,45,42,-48").fails(2, &["if these are degrees"]);
-    score("12,12,0.9,0.9").fails(2, &["sees more than 85° to one side"]);
+    score("50,45,42,48").fails(2, &["if these are angles in degrees", "1.1918, 1, 0.9004, 1.1106"]);
+    score("-50,45,42,-48").fails(2, &["if these are angles in degrees"]);
+    score("12,12,0.9,0.9").fails(2, &["extends more than 85° to one side"]);
     // 1.2 and 1 are the tangents of 0.876 and 0.785 radians.
     score("0.876058,0.876058,0.785398,0.785398")
         .ok()
@@ -39,7 +39,7 @@ fn fields_and_distances_in_other_units() {
     large(&["--fov-vertical", "1.6"]).ok().says(&["300 pixels per degree", "not in radians"]);
     large(&["--distance-m", "600", "--pixel-pitch-mm", "0.25"])
         .ok()
-        .says(&["distance is in metres"]);
+        .says(&["distance must be in metres"]);
     large(&["--distance-m", "0.6", "--pixel-pitch-mm", "250"]).ok().says(&["the screen fills 179"]);
 }
 
@@ -68,6 +68,6 @@ fn experiments_and_curves_too() {
     let curve = |frustum: &str| {
         folder.run(&["curves", "--method", "rmfr", "--resolution", "800x800", "--frustum", frustum])
     };
-    curve("50,45,42,48").fails(2, &["if these are degrees"]);
+    curve("50,45,42,48").fails(2, &["if these are angles in degrees"]);
     curve("2,2,1,1").ok().says(&["pixels are 2.00 times"]);
 }

@@ -67,7 +67,7 @@ fn frames_are_picked_by_number() {
     assert_eq!(numbers("1..:3"), [1, 4, 7]);
     folder
         .score(&["gt", "test", "--frames", "20..30"])
-        .fails(3, &["no frame is selected", "0 to 7"]);
+        .fails(3, &["the selection contains no frame", "0 to 7"]);
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn one_bad_frame_does_not_cost_the_others() {
     folder.png("test/rmfr_0003.png", 50, 40, &codes(50, 40, 3, 1));
     let run = folder.score(&["gt", "test", "--format", "json"]).says(&[
         "frame 1: test/rmfr_0001.png: this is not a PNG",
-        "frame 3: gt/0003.png has 48x40 pixels and test/rmfr_0003.png has 50x40",
+        "frame 3: gt/0003.png has 48x40 pixels, but test/rmfr_0003.png has 50x40",
     ]);
     assert_eq!(run.code, 3);
     let json = run.json();
@@ -109,7 +109,8 @@ fn a_sequence_has_one_size() {
     for name in ["gt/0002.png", "test/rmfr_0002.png"] {
         folder.png(name, 60, 40, &codes(60, 40, 3, 1));
     }
-    let run = folder.score(&["gt", "test"]).says(&["gt/0002.png has 60x40 pixels and gt/0000.png"]);
+    let run =
+        folder.score(&["gt", "test"]).says(&["gt/0002.png has 60x40 pixels, but gt/0000.png"]);
     assert_eq!(run.code, 3);
 }
 
@@ -154,7 +155,7 @@ fn gaze_traces_move_the_bands() {
         }
     }
     let held = folder.score(&[&arguments[..], &["--format", "table"]].concat()).ok().stdout;
-    assert!(held.contains("gaze from a trace, held over in 1 frame"), "{held}");
+    assert!(held.contains("gaze from a trace, kept from an earlier frame in 1 frame"), "{held}");
 }
 
 #[test]
@@ -184,7 +185,7 @@ fn gaze_traces_over_time_need_a_frame_rate() {
     let folder = sequence(3);
     folder.write("gaze.csv", "time_s,x_px,y_px\n0.000000,10,10\n0.013889,20,20\n0.027778,30,30\n");
     let arguments = ["gt", "test", "--fov-vertical", "60", "--gaze", "gaze.csv"];
-    folder.score(&arguments).fails(2, &["only with a frame rate", "--fps"]);
+    folder.score(&arguments).fails(2, &["but the frame rate is not known", "--fps"]);
     let json = folder.json(&[&arguments[..], &["--fps", "72"]].concat());
     assert_eq!(json["frames"][2]["gaze_px"], serde_json::json!([30.0, 30.0]));
 }
@@ -196,7 +197,7 @@ fn a_missing_first_frame_does_not_shift_the_gaze() {
     folder.write("gaze.csv", "time_s,x_px,y_px\n0.0,10,10\n0.1,20,20\n0.2,30,30\n");
     let arguments = ["gt", "test", "--fov-vertical", "60", "--gaze", "gaze.csv", "--fps", "10"];
     let run = folder.score(&[&arguments[..], &["--allow-missing", "--format", "json"]].concat());
-    let run = run.ok().says(&["1 frames without a partner are passed over"]);
+    let run = run.ok().says(&["skipped frames without a partner: 1"]);
     let gaze = |frame: usize| run.json()["frames"][frame]["gaze_px"].clone();
     assert_eq!(
         (gaze(0), gaze(1)),
@@ -225,10 +226,10 @@ fn gaze_traces_that_do_not_fit_are_errors() {
         .fails(3, &["no gaze for frame 2", "0 to 1", "--gaze-hold"]);
     with("frame,x_px,y_px\n0,1,1\n1,2,2\n", &["--gaze-hold"]).ok();
     with("frame,x_px,y_px\n1,1,1\n2,2,2\n", &["--gaze-hold"])
-        .fails(3, &["frame 0 has no gaze of its own", "none before it to hold"]);
-    with("frame,x_px,y_px\n1,1,1\n0,2,2\n", &[]).fails(3, &["line 3", "does not come after"]);
+        .fails(3, &["frame 0 has no gaze", "no earlier gaze that could be kept"]);
+    with("frame,x_px,y_px\n1,1,1\n0,2,2\n", &[]).fails(3, &["line 3", "is not greater than"]);
     with("x,y\n1,2\n", &[]).fails(3, &["no column frame (or time_s)", "x, y"]);
-    with("frame,x_px,y_px\n0,one,2\n", &[]).fails(3, &["line 2", "x_px is \"one\""]);
+    with("frame,x_px,y_px\n0,one,2\n", &[]).fails(3, &["line 2", "x_px has \"one\""]);
     with("", &[]).fails(3, &["gaze.csv"]);
     with("\u{0}\u{1}\u{2}PNG", &[]).fails(3, &["gaze.csv"]);
     folder.write("binary.csv", [0xff, 0xfe, 0x00, 0x80, b'\n', 0xff]);
@@ -247,10 +248,8 @@ fn gaze_traces_that_do_not_fit_are_errors() {
 fn a_gaze_outside_the_frame_is_a_warning() {
     let folder = sequence(2);
     let arguments = ["gt", "test", "--metrics", "psnr", "--fov-vertical", "60", "--gaze"];
-    let run = folder
-        .score(&[&arguments[..], &["-30,20"]].concat())
-        .ok()
-        .says(&["(-30, 20) lies outside"]);
+    let run =
+        folder.score(&[&arguments[..], &["-30,20"]].concat()).ok().says(&["(-30, 20) is outside"]);
     assert_eq!(run.stderr.matches("warning").count(), 1, "{}", run.stderr);
     let border = folder.score(&[&arguments[..], &["48,40"]].concat()).ok();
     assert_eq!(border.stderr, "", "borders are inside");

@@ -126,10 +126,12 @@ fn a_mask_keeps_pixels_out() {
     folder.png("stripes.png", 48, 40, &stripes);
     let striped = ["a.png", "b.png", "--mask", "stripes.png"];
     let run = folder.score(&[&striped[..], &["--format", "json"]].concat()).ok();
-    let run = run.says(&["SSIM is left out of frame 0", "no whole window"]);
+    let run = run.says(&["SSIM is left out of frame 0", "no complete window"]);
     let metrics = run.json()["frames"][0]["metrics"].clone();
     assert!(metrics["psnr"].is_f64() && metrics.get("ssim").is_none());
-    folder.score(&[&striped[..], &["--metrics", "ssim"]].concat()).fails(3, &["no whole window"]);
+    folder
+        .score(&[&striped[..], &["--metrics", "ssim"]].concat())
+        .fails(3, &["no complete window"]);
 
     // A mask larger than the files is of other files, whatever the crop.
     folder.png("wide.png", 100, 80, &[255; 8000]);
@@ -138,7 +140,7 @@ fn a_mask_keeps_pixels_out() {
     folder.png("other.png", 30, 40, &[255; 1200]);
     folder
         .score(&["a.png", "b.png", "--mask", "other.png"])
-        .fails(3, &["mask has 30x40 pixels and the frames have 48x40"]);
+        .fails(3, &["mask has 30x40 pixels, but the frames have 48x40"]);
     folder.png("black.png", 48, 40, &[0; 48 * 40]);
     folder.score(&["a.png", "b.png", "--mask", "black.png"]).fails(3, &["leaves no pixel"]);
     folder

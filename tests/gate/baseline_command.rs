@@ -79,7 +79,7 @@ fn baselines_are_renewed_whole_or_by_scene() {
     let original = fs::read_to_string(folder.path("b.json")).unwrap();
     folder
         .run(&["baseline", "save", "reports/e", "b.json"])
-        .fails(3, &["it is there already", "baseline accept"]);
+        .fails(3, &["the file already exists", "baseline accept"]);
     for scene in ["room", "hall"] {
         for of in ["gt", "a"] {
             let source = folder.path(&format!("{scene}/{of}/0000.png"));
@@ -90,7 +90,7 @@ fn baselines_are_renewed_whole_or_by_scene() {
     let accept = |options: &[&str]| {
         folder.run(&[&["baseline", "accept", "reports/e", "b.json"], options].concat())
     };
-    let dry = accept(&["--dry-run"]).ok().says(&["values differ; nothing is written"]);
+    let dry = accept(&["--dry-run"]).ok().says(&["values differ; nothing was written"]);
     assert!(dry.stdout.contains("psnr min") && dry.stdout.contains("hall, A"), "{}", dry.stdout);
     assert_eq!(fs::read_to_string(folder.path("b.json")).unwrap(), original);
     accept(&["--scene", "nope"]).fails(3, &["the run has no scene nope"]);
@@ -137,8 +137,8 @@ fn values_of_some_scenes_do_not_stand_beside_those_taken_otherwise() {
     let accept = ["baseline", "accept", "reports/e", "b.json"];
     folder
         .run(&[&accept[..], &["--scene", "room"]].concat())
-        .fails(3, &["cannot be put beside", "ssim.sigma = 1.5", "without --scene"]);
-    folder.run(&accept).ok().says(&["warning", "the values were taken otherwise"]);
+        .fails(3, &["cannot be combined with", "ssim.sigma = 1.5", "without --scene"]);
+    folder.run(&accept).ok().says(&["warning", "the values were measured differently"]);
     against(&folder).ok();
 }
 
@@ -177,7 +177,7 @@ fn a_comparison_that_stands_twice_is_refused() {
     {
         let path = root().join("tests/cases/baseline-duplicate").join(file);
         let path = path.display().to_string();
-        let said = [file, "it is not a baseline: the comparison ", twice, " stands twice"];
+        let said = [file, "it is not a baseline: the comparison ", twice, " appears twice"];
         folder.run(&["baseline", "show", &path]).fails(3, &said);
         folder.run(&["gate", "e.toml", "--baseline", &path]).fails(3, &said);
     }
@@ -187,7 +187,7 @@ fn a_comparison_that_stands_twice_is_refused() {
         comparisons.push(comparisons[1].clone());
     });
     let doubled = fs::read(folder.path("b.json")).unwrap();
-    folder.run(&["baseline", "accept", "reports/e", "b.json"]).fails(3, &["stands twice"]);
+    folder.run(&["baseline", "accept", "reports/e", "b.json"]).fails(3, &["appears twice"]);
     assert_eq!(fs::read(folder.path("b.json")).unwrap(), doubled, "it is left as it is");
     folder.write("b.json", before.to_string());
     assert_eq!(against(&folder).code, 0);
@@ -204,14 +204,15 @@ fn a_key_that_stands_twice_is_refused() {
         text
     };
     let baseline = twice("b.json", "\"psnr min\":");
-    against(&folder).fails(3, &["b.json: it is not a baseline: the key \"psnr min\" stands twice"]);
+    against(&folder)
+        .fails(3, &["b.json: it is not a baseline: the key \"psnr min\" appears twice"]);
     folder.write("b.json", baseline);
     let record = twice("reports/e/run.json", "\"name\":");
     let arguments = ["gate", "reports/e", "--baseline", "b.json"];
-    folder.run(&arguments).fails(3, &["run.json", "the key \"name\" stands twice"]);
+    folder.run(&arguments).fails(3, &["run.json", "the key \"name\" appears twice"]);
     folder.write("reports/e/run.json", record);
     let summary = twice("reports/e/summary.json", "\"comparisons\":");
-    folder.run(&["report", "reports/e"]).fails(3, &["summary.json", "stands twice"]);
+    folder.run(&["report", "reports/e"]).fails(3, &["summary.json", "appears twice"]);
     folder.write("reports/e/summary.json", summary);
     folder.run(&["report", "reports/e"]).ok();
 }

@@ -127,7 +127,11 @@ fn what_is_on_one_side_alone_fails_and_says_so() {
     folder.write("e.toml", gone);
     let run = against(&folder);
     assert_eq!(run.code, 1, "{}", run.stdout);
-    assert!(run.stdout.contains("the baseline has hall, A, and the run has not"), "{}", run.stdout);
+    assert!(
+        run.stdout.contains("the baseline has hall, A, but the run does not"),
+        "{}",
+        run.stdout
+    );
     // A rule that is of another scene holds, with a note.
     let rule = DROP.replace("[[gate]]\n", "[[gate]]\nscene = \"room\"\n");
     let text = experiment(&format!("{METRICS}{rule}"));
@@ -136,7 +140,9 @@ fn what_is_on_one_side_alone_fails_and_says_so() {
         text.replace("[[scene]]\nname = \"hall\"\nreference = \"{scene}/gt\"\n", ""),
     );
     let verdict = against(&folder).ok().json();
-    assert!(verdict["notes"].to_string().contains("the baseline has hall, B, and the run has not"));
+    assert!(
+        verdict["notes"].to_string().contains("the baseline has hall, B, but the run does not")
+    );
 }
 
 #[test]
@@ -145,17 +151,17 @@ fn values_that_were_taken_otherwise_are_refused() {
     let original = fs::read(folder.path("b.json")).unwrap();
     edit(&folder, |baseline| baseline["metrics"]["psnr"]["version"] = json!(7));
     against(&folder)
-        .fails(3, &["it has version 7 of psnr, and this fovqa has version", "baseline accept"]);
+        .fails(3, &["it has version 7 of psnr, but this fovqa has version", "baseline accept"]);
     folder.write("b.json", &original);
     edit(&folder, |baseline| baseline["metrics"]["ssim"]["parameters"]["sigma"] = json!(2));
-    against(&folder).fails(3, &["it has ssim.sigma = 2, and not 1.5"]);
+    against(&folder).fails(3, &["it has ssim.sigma = 2 instead of 1.5"]);
     folder.write("b.json", &original);
     let good = experiment(&format!("{METRICS}{DROP}"));
     let room = "reference = \"room/gt\"";
     for (place, change, words) in [
         ("fov_vertical_deg = 60", "fov_vertical_deg = 61", "view.fov_vertical_deg = 60.0 in scene"),
-        ("ssim = {}", "ssim = { k1 = 0.02 }", "it has ssim.k1 = 0.01, and not 0.02"),
-        (room, "reference = \"room/gt\"\nfps = 30", "fps = null in scene room, and not 30"),
+        ("ssim = {}", "ssim = { k1 = 0.02 }", "it has ssim.k1 = 0.01 instead of 0.02"),
+        (room, "reference = \"room/gt\"\nfps = 30", "fps = null in scene room instead of 30"),
         (room, "reference = \"room/gt\"\nframes = \"0..2\"", "frames = null in scene room"),
         (
             room,
@@ -176,13 +182,13 @@ fn values_that_were_taken_otherwise_are_refused() {
     ] {
         folder.write("e.toml", good.replacen(place, change, 1));
         fs::remove_dir_all(folder.path("reports")).unwrap();
-        against(&folder).fails(3, &["taken otherwise", words]);
+        against(&folder).fails(3, &["measured differently", words]);
         assert!(!folder.path("reports/e/results.csv").exists(), "before anything is scored");
     }
     folder.write("e.toml", &good);
     folder
         .run(&["gate", "e.toml", "--baseline", "b.json", "--frames", "0..2"])
-        .fails(3, &["--frames = null, and not \"0..2:1\""]);
+        .fails(3, &["--frames = null instead of \"0..2:1\""]);
     // Other limits, and what does not change a value, are none of it.
     folder
         .write("e.toml", good.replace("max_drop = 0.5", "max_drop = 1").replace("ssim = {}\n", ""));
@@ -196,14 +202,11 @@ fn other_frames_are_no_baseline_and_other_inputs_are_noted() {
     assert_eq!(verdict["notes"], json!([]));
     fs::copy(folder.path("room/gt/0001.png"), folder.path("room/a/0001.png")).unwrap();
     let verdict = against(&folder).ok().json();
-    assert_eq!(
-        verdict["notes"],
-        json!(["the inputs in room/a are others than those of the baseline"])
-    );
+    assert_eq!(verdict["notes"], json!(["the inputs in room/a differ from those of the baseline"]));
     for of in ["gt", "a", "b"] {
         fs::remove_file(folder.path(&format!("room/{of}/0002.png"))).unwrap();
     }
     let run = against(&folder);
     assert_eq!(run.code, 3, "{}", run.stdout);
-    assert!(run.stdout.contains("the baseline is of 3 frames, and the run of 2"), "{}", run.stdout);
+    assert!(run.stdout.contains("the baseline has 3 frames, but the run has 2"), "{}", run.stdout);
 }

@@ -99,7 +99,7 @@ fn limits_lie_as_far_beyond_the_worst_as_the_runs_lie_apart() {
         let of = |run: usize| {
             let folder = folder.run(&["gate", &format!("runs/{run}"), "--format", "json"]);
             let text = folder.stderr;
-            assert!(text.contains("is held against a baseline"), "{text}");
+            assert!(text.contains("needs a baseline"), "{text}");
         };
         (0..3).for_each(of);
         // Without the rule that needs a baseline.
@@ -146,26 +146,26 @@ fn limits_lie_as_far_beyond_the_worst_as_the_runs_lie_apart() {
 #[test]
 fn runs_without_a_spread_or_of_something_else_are_said() {
     let folder = runs([1, 1, 2]);
-    folder.run(&["gate", "e.toml", "--calibrate", "runs/0"]).fails(2, &["one run alone"]);
+    folder.run(&["gate", "e.toml", "--calibrate", "runs/0"]).fails(2, &["a single run"]);
     folder
         .run(&["gate", "e.toml", "--calibrate", "runs/0", "runs/1"])
         .ok()
-        .says(&["warning", "the same to the last digit"]);
+        .says(&["warning", "identical to the last digit"]);
     folder
         .run(&["gate", "e.toml", "--calibrate", "runs/0", "nope"])
-        .fails(3, &["nope: there is no finished run in it"]);
+        .fails(3, &["nope: the folder contains no finished run"]);
     for (from, to, words) in [
-        ("ssim = {}", "ssim = { sigma = 2.0 }", "ssim.sigma = 1.5, and not 2"),
+        ("ssim = {}", "ssim = { sigma = 2.0 }", "ssim.sigma = 1.5 instead of 2"),
         ("ssim = {}", "ssim = {}\nfpsnr = {}", "it has the metrics"),
         ("fov_vertical_deg = 60", "fov_vertical_deg = 50", "view.fov_vertical_deg = 60.0"),
-        ("name = \"s\"", "name = \"t\"", "it has the scenes [\"s\"], and not [\"t\"]"),
+        ("name = \"s\"", "name = \"t\"", "it has the scenes [\"s\"] instead of [\"t\"]"),
         ("name = \"A ", "name = \"B ", "it has the methods"),
     ] {
         folder.write("e.toml", text().replacen(from, to, 1));
-        folder.run(&ALL).fails(3, &["runs/0: no limits come of it", words]);
+        folder.run(&ALL).fails(3, &["runs/0: this run gives no limits", words]);
     }
     folder.write("e.toml", text().replace(RULES, ""));
-    folder.run(&ALL).fails(2, &["there is no [[gate]] in it"]);
+    folder.run(&ALL).fails(2, &["it has no [[gate]] rule"]);
     folder.write("e.toml", text());
     folder.run(&[&ALL[..], &["--output", "x"]].concat()).fails(2, &["--output"]);
     folder
@@ -185,7 +185,7 @@ fn no_limit_comes_of_what_is_infinite() {
     }
     folder.run(&["run", "e.toml", "--output", "runs/2"]).ok();
     let limits = folder.run(&ALL).ok().stdout;
-    assert!(limits.contains("no limit comes of an infinite value"), "{limits}");
+    assert!(limits.contains("an infinite value gives no limit"), "{limits}");
     assert!(!limits.contains("inf\n") && !limits.to_lowercase().contains("nan"), "{limits}");
     folder.write("e.toml", format!("{}\n{limits}", text().replace(RULES, "")));
     folder.run(&["check", "e.toml"]).ok();
@@ -196,5 +196,5 @@ fn a_run_that_lacks_a_value_is_named() {
     let folder = runs([1, 2, 3]);
     fs::write(folder.path("test/0001.png"), "no picture").unwrap();
     assert_eq!(folder.run(&["run", "e.toml", "--output", "runs/1"]).code, 3);
-    folder.run(&ALL).fails(3, &["runs/1: no limits come of it: s, A", "frame 1"]);
+    folder.run(&ALL).fails(3, &["runs/1: this run gives no limits: s, A", "frame 1"]);
 }

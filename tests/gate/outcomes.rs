@@ -130,7 +130,7 @@ fn default_bands_are_known_when_frames_are_read() {
         let text = format!("[metrics]\npsnr = {{}}\n[[gate]]\n{rule}\nat_least = 0\n");
         let (code, reason) = outcome(&folder, VIEW, &text);
         assert_eq!(code, 2, "{rule}: {reason}");
-        assert!(reason.contains("bands that are scored: 0 to 5, 5 to 10"), "{reason}");
+        assert!(reason.contains("edges of scored bands: 0 to 5, 5 to 10"), "{reason}");
     }
     let text =
         "[metrics]\npsnr = {}\n[[gate]]\nmetric = \"psnr\"\nband_deg = [0, 45]\nat_least = 0\n";
@@ -156,7 +156,7 @@ fn a_rule_that_nothing_is_compared_for_fails() {
     let rule = "[[gate]]\nmetric = \"psnr\"\nscene = \"hall\"\nmethod = \"B\"\nat_least = 1\n";
     let run = scenes(rule).run(&["gate", "e.toml"]);
     assert_eq!(run.code, 1, "{}", run.stdout);
-    assert!(run.stdout.contains("nothing was compared that this rule is of"), "{}", run.stdout);
+    assert!(run.stdout.contains("the rule applies to no comparison of the run"), "{}", run.stdout);
     assert!(run.stdout.contains("the gate fails: 1 of 1 rule"), "{}", run.stdout);
     let run = scenes(&format!("{HOLDS}{rule}")).run(&["gate", "e.toml"]);
     assert_eq!(run.code, 1, "{}", run.stdout);
@@ -218,27 +218,23 @@ type Damage = (&'static str, fn(&str) -> String, &'static str);
 const DAMAGES: &[Damage] = &[
     ("results.csv", |_| String::new(), "it has no column"),
     ("results.csv", |t| t[..t.len() / 2].to_owned(), "results.csv: it is not the results of a run"),
-    (
-        "results.csv",
-        |t| t.lines().take(40).fold(String::new(), |a, l| a + l + "\n"),
-        "it has other",
-    ),
+    ("results.csv", |t| t.lines().take(40).fold(String::new(), |a, l| a + l + "\n"), "differ from"),
     (
         "results.csv",
         |t| t.replacen("\nroom,A,,,1,pair,psnr", "\nroom,A,,,7,pair,psnr", 1),
-        "it has other frames of room, A",
+        "its frames of room, A differ",
     ),
     (
         "results.csv",
         |t| t.replacen(",psnr,,,,,", ",psnr,,,,,9", 1),
-        "it has other values of psnr of room, A",
+        "its values of psnr of room, A differ",
     ),
     (
         "results.csv",
         |t| {
             t.replacen("room,A,,,0,pair,pixels,,,0.0,5.0,", "room,A,,,0,pair,pixels,,,0.0,5.0,1", 1)
         },
-        "it has other pixels",
+        "its pixels of room, A differ",
     ),
     (
         "results.csv",
@@ -246,24 +242,24 @@ const DAMAGES: &[Damage] = &[
             let row = "room,A,,,0,pair,psnr,,,,,";
             t.replacen(row, &format!("room,A,,,0,pair,x,,,,,nan\n{row}"), 1)
         },
-        "line 2: \"nan\" is no number",
+        "line 2: \"nan\" is not a number",
     ),
     (
         "results.csv",
         |t| t.replacen("room,A,,,0,pair,psnr,,,,,", "room,A,,,0,pair,psnr,,,,,1e999", 1),
-        "is no number",
+        "is not a number",
     ),
     (
         "results.csv",
         |t| t.replacen("room,A,,,0,", "room,A,,,1.5,", 1),
-        "\"1.5\" is no whole number",
+        "\"1.5\" is not a whole number",
     ),
     (
         "results.csv",
         |t| t.replacen("room,A,,,0,", "room,A,,,99999999999999999999,", 1),
-        "is no whole number",
+        "is not a whole number",
     ),
-    ("results.csv", |t| t.replacen("room,A,,,0,", "cellar,A,,,0,", 1), "it has "),
+    ("results.csv", |t| t.replacen("room,A,,,0,", "cellar,A,,,0,", 1), "differ from"),
     ("results.csv", |t| t.replacen("room,A", "room", 1), "line 2: it has 11 cells, not 12"),
     ("summary.json", |t| t[..t.len() / 2].to_owned(), "it is not a summary of a run"),
     (
@@ -272,7 +268,11 @@ const DAMAGES: &[Damage] = &[
         "its schema is fovqa.summary/2",
     ),
     ("summary.json", |t| t.replacen("\"frames\": 3", "\"frames\": \"three\"", 1), "invalid type"),
-    ("summary.json", |t| t.replacen("\"frames\": 3", "\"frames\": 2", 1), "it has other frames"),
+    (
+        "summary.json",
+        |t| t.replacen("\"frames\": 3", "\"frames\": 2", 1),
+        "its frames of room, A differ",
+    ),
     ("summary.json", |t| t.replacen("\"frames\": 3", "\"frames\": 1e400", 1), "out of range"),
     ("summary.json", |_| "[]".to_owned(), "its schema is not"),
     ("run.json", |t| t[..t.len() / 2].to_owned(), "it is not the record of a run"),
@@ -290,7 +290,7 @@ const DAMAGES: &[Damage] = &[
     (
         "run.json",
         |t| t.replacen("\"aggregate\": \"mean\"", "\"aggregate\": \"p1000\"", 1),
-        "no aggregate",
+        "is not an aggregate",
     ),
 ];
 
@@ -322,7 +322,7 @@ fn changed_results_are_refused_by_everything_that_reads_them() {
         let path = folder.path(&format!("reports/e/{name}"));
         let original = fs::read_to_string(&path).unwrap();
         fs::write(&path, format!("{original}\n")).unwrap();
-        let said = [name, "it is not as the run has written it", "run the experiment again"];
+        let said = [name, "it is not as the run wrote it", "run the experiment again"];
         for command in [
             &["gate", "reports/e"][..],
             &["report", "reports/e"],
@@ -345,7 +345,7 @@ fn changed_results_are_refused_by_everything_that_reads_them() {
     assert_eq!(record["files"].as_object().unwrap().len(), 2);
     record.as_object_mut().unwrap().remove("files");
     fs::write(&path, record.to_string()).unwrap();
-    let said = "an earlier version wrote it, without checksums";
+    let said = "an earlier version of fovqa wrote it without checksums";
     folder.run(&["report", "reports/e"]).ok().says(&[said]);
     let run = folder.run(&["gate", "reports/e"]).ok();
     assert!(run.stdout.contains(said), "{}", run.stdout);
@@ -358,18 +358,20 @@ fn a_folder_has_been_scored_and_needs_rules() {
     for option in [["--frames", "0..2"], ["--output", "x"], ["--threads", "1"]] {
         folder
             .run(&[&["gate", "reports/e"], &option[..]].concat())
-            .fails(2, &[option[0], "reports/e has been scored"]);
+            .fails(2, &[option[0], "reports/e has already been scored"]);
     }
-    folder.run(&["gate", "room"]).fails(3, &["room: there is no finished run in it"]);
+    folder.run(&["gate", "room"]).fails(3, &["room: the folder contains no finished run"]);
     let folder = scenes("");
     folder.run(&["run", "e.toml"]).ok();
     for target in ["e.toml", "reports/e"] {
         folder
             .run(&["gate", target])
-            .fails(2, &["there is no [[gate]] in it", "no rule is no pass"]);
+            .fails(2, &["it has no [[gate]] rule", "a gate without rules cannot pass"]);
     }
     let folder = scenes("[[gate]]\nmetric = \"psnr\"\nmax_drop = 1\n");
-    folder.run(&["gate", "e.toml"]).fails(2, &["e.toml:19: psnr mean is held against a baseline"]);
+    folder
+        .run(&["gate", "e.toml"])
+        .fails(2, &["e.toml:19: the rule for psnr mean needs a baseline"]);
     assert!(!folder.path("reports").join("e").exists());
     folder.run(&["run", "e.toml"]).ok();
     folder.run(&["gate", "reports/e"]).fails(2, &["reports/e/e.toml:19", "--baseline"]);
@@ -404,7 +406,7 @@ fn heat_maps_of_a_gate_are_those_of_a_run() {
     assert!(maps.len() >= 3 && maps == files("run-maps"));
     folder
         .run(&["gate", "reports/e", "--maps", "more"])
-        .fails(2, &["--maps is of scoring", "give the experiment file"]);
+        .fails(2, &["--maps only applies to scoring", "give the experiment file"]);
     folder.write("e.toml", text.replace("fvvdp", "fpsnr"));
     folder.run(&["gate", "e.toml", "--maps", "more"]).fails(2, &["none of the metrics has a map"]);
 }

@@ -116,7 +116,7 @@ const MISTAKES: &[Mistake] = &[
         "metric = \"haar\"\nstatistic = \"energy\"\nimage = \"test\"\nlevel = 1\nband_deg = [0, 5]\nmax_drop = 1",
         &[
             "max_drop points the wrong way",
-            "neither high nor low is better",
+            "neither higher nor lower is better",
             "at_least and at_most",
         ],
         (6, 12),
@@ -130,7 +130,7 @@ const MISTAKES: &[Mistake] = &[
     ),
     (
         "metric = \"rms_contrast\"\nimage = \"ratio\"\nband_deg = [0, 5]\nat_least = 2\nat_most = 1",
-        &["no value is at least 2 and at most 1"],
+        &["no value can be at least 2 and at most 1"],
         (5, 11),
         false,
     ),
@@ -163,7 +163,7 @@ const MISTAKES: &[Mistake] = &[
     ),
     (
         "metric = \"psnr\"\nscene = \"hall\"\neye = \"left\"\nat_least = 1",
-        &["the rule is of an eye, and none of its scenes has two"],
+        &["the rule names an eye, but none of its scenes has two eyes"],
         (3, 7),
         false,
     ),
@@ -199,49 +199,49 @@ const MISTAKES: &[Mistake] = &[
     ),
     (
         "metric = \"psnr\"\nstatistic = \"pooled\"\naggregate = \"min\"\nat_least = 1",
-        &["pooled is of the whole sequence", "leave aggregate out"],
+        &["pooled describes the whole sequence", "leave out aggregate"],
         (3, 13),
         false,
     ),
     (
         "metric = \"ssim\"\nstatistic = \"pooled\"\nat_least = 1",
-        &["ssim has no statistic \"pooled\"", "leave statistic out"],
+        &["ssim has no statistic \"pooled\"", "leave out statistic"],
         (2, 13),
         false,
     ),
     (
         "metric = \"psnr\"\nstatistic = \"poled\"\nat_least = 1",
-        &["psnr has no statistic \"poled\"", "it is one of \"pooled\""],
+        &["psnr has no statistic \"poled\"", "choose one of \"pooled\""],
         (2, 13),
         false,
     ),
     (
         "metric = \"haar\"\nimage = \"test\"\nlevel = 1\nband_deg = [0, 5]\nat_least = 1",
-        &["a gate on haar names its statistic", "energy"],
+        &["a gate on haar needs a statistic", "energy"],
         (1, 10),
         false,
     ),
     (
         "metric = \"haar\"\nstatistic = \"energy\"\nlevel = 1\nband_deg = [0, 5]\nat_least = 1",
-        &["a gate on haar names its image"],
+        &["a gate on haar needs an image"],
         (1, 10),
         false,
     ),
     (
         "metric = \"haar\"\nstatistic = \"energy\"\nimage = \"test\"\nband_deg = [0, 5]\nat_least = 1",
-        &["names its level"],
+        &["needs a level"],
         (1, 10),
         false,
     ),
     (
         "metric = \"haar\"\nstatistic = \"energy\"\nimage = \"test\"\nlevel = 1\nat_least = 1",
-        &["a gate on haar names its band"],
+        &["a gate on haar needs a band"],
         (1, 10),
         false,
     ),
     (
         "metric = \"haar\"\nstatistic = \"energy\"\nimage = \"test\"\nlevel = 4\nband_deg = [0, 5]\nat_least = 1",
-        &["haar has 3 levels, and no level 4"],
+        &["haar has 3 levels, so it has no level 4"],
         (4, 9),
         false,
     ),
@@ -255,13 +255,13 @@ const MISTAKES: &[Mistake] = &[
     ("metric = \"psnr\"\nlevel = 0\nat_least = 1", &["level"], (2, 9), true),
     (
         "metric = \"psnr\"\nimage = \"test\"\nat_least = 1",
-        &["psnr is of the pair: it has no test"],
+        &["psnr has one value per pair of images, and so no test"],
         (2, 9),
         false,
     ),
     (
         "metric = \"atd\"\nimage = \"pair\"\nat_most = 1",
-        &["atd is of each picture, not of the pair"],
+        &["atd has values for each image, not for the pair"],
         (2, 9),
         false,
     ),
@@ -273,28 +273,28 @@ const MISTAKES: &[Mistake] = &[
     ),
     (
         "metric = \"psnr\"\nband_deg = [0, 7]\nat_least = 1",
-        &["does not begin and end with bands that are scored", "0 to 5, 5 to 10, 10 to 20"],
+        &["must begin and end at edges of scored bands", "0 to 5, 5 to 10, 10 to 20"],
         (2, 12),
         false,
     ),
     (
         "metric = \"psnr\"\nband_deg = [0, 30]\nat_least = 1",
-        &["does not begin and end"],
+        &["must begin and end"],
         (2, 12),
         false,
     ),
-    ("metric = \"psnr\"\nband_deg = [5, 5]\nat_least = 1", &["has nothing in it"], (2, 12), false),
-    ("metric = \"psnr\"\nband_deg = [10, 0]\nat_least = 1", &["has nothing in it"], (2, 12), false),
+    ("metric = \"psnr\"\nband_deg = [5, 5]\nat_least = 1", &["is empty"], (2, 12), false),
+    ("metric = \"psnr\"\nband_deg = [10, 0]\nat_least = 1", &["is empty"], (2, 12), false),
     ("metric = \"psnr\"\nband_deg = [0, 5, 10]\nat_least = 1", &["a list of 3"], (2, 12), true),
     (
         "metric = \"atd\"\nband_deg = [0, 10]\nat_most = 1",
-        &["atd of several bands cannot be put together"],
+        &["atd of several bands cannot be combined"],
         (2, 12),
         false,
     ),
     (
         "metric = \"rms_contrast\"\nimage = \"test\"\nband_deg = [0, 20]\nat_most = 1",
-        &["rms_contrast of several bands cannot be put together", "name one band"],
+        &["rms_contrast of several bands cannot be combined", "name one band"],
         (3, 12),
         false,
     ),
@@ -327,12 +327,15 @@ fn visible_difference_has_statistics_of_its_own() {
         .replace("fov_vertical_deg = 60", "display = \"htc_vive_pro\"")
         .replace("atd = {}", "fvvdp = {}");
     for (rule, words) in [
-        ("aggregate = \"min\"\nat_least = 9", &["jod is of the whole sequence", "frame_jod"][..]),
-        ("at_most = 9", &["at_most points the wrong way: of fvvdp jod, higher is better"]),
-        ("statistic = \"q\"\nat_least = 1", &["at_least points the wrong way: of fvvdp q, lower"]),
-        ("statistic = \"share\"\nat_most = 1", &["a gate on fvvdp names its band"]),
-        ("statistic = \"share\"\nband_deg = [0, 5]\nmax_rise = 1", &["neither high nor low"]),
-        ("statistic = \"q_sustained\"\nat_most = 1", &["q_sustained names its level"]),
+        (
+            "aggregate = \"min\"\nat_least = 9",
+            &["jod describes the whole sequence", "frame_jod"][..],
+        ),
+        ("at_most = 9", &["at_most points the wrong way: for fvvdp jod, higher is better"]),
+        ("statistic = \"q\"\nat_least = 1", &["at_least points the wrong way: for fvvdp q, lower"]),
+        ("statistic = \"share\"\nat_most = 1", &["a gate on fvvdp needs a band"]),
+        ("statistic = \"share\"\nband_deg = [0, 5]\nmax_rise = 1", &["neither higher nor lower"]),
+        ("statistic = \"q_sustained\"\nat_most = 1", &["q_sustained needs a level"]),
         ("statistic = \"jod\"\nlevel = 1\nat_least = 1", &["fvvdp has no levels"]),
         ("band_deg = [0, 5]\nat_least = 1", &["fvvdp jod has no value per band", "share"]),
         ("statistic = \"pooled\"\nat_least = 1", &["fvvdp has no statistic \"pooled\""]),
@@ -348,7 +351,7 @@ fn a_band_needs_a_view_in_every_scene_of_the_rule() {
     let text = "name = \"e\"\n[[scene]]\nname = \"room\"\nreference = \"gt\"\nfov_vertical_deg = 60\n\
         [[scene]]\nname = \"flat\"\nreference = \"gt\"\n[[method]]\nname = \"A\"\ntest = \"a\"\n\
         [metrics]\npsnr = {}\n[[gate]]\nmetric = \"psnr\"\nband_deg = [0, 5]\nat_least = 1\n";
-    check(&folder, text).fails(2, &["bands need a view, and a scene of the rule has none"]);
+    check(&folder, text).fails(2, &["bands need a view, but a scene of the rule has none"]);
     check(&folder, &format!("{text}scene = \"flat\"\n")).fails(2, &["bands need a view"]);
     check(&folder, &format!("{text}scene = \"room\"\n")).ok();
 }
@@ -357,5 +360,5 @@ fn a_band_needs_a_view_in_every_scene_of_the_rule() {
 fn all_mistakes_of_all_rules_are_said_at_once() {
     let rules = "metric = \"psnr\"\nat_most = 1\nband_deg = [0, 7]\n[[gate]]\nmetric = \"mse\"\n";
     check(&folder(), &format!("{GOOD}{rules}"))
-        .fails(2, &["does not begin and end", "the gate on mse has no limit", "2 mistakes"]);
+        .fails(2, &["must begin and end", "the gate on mse has no limit", "2 mistakes"]);
 }

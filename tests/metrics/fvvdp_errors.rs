@@ -17,13 +17,13 @@ fn a_display_is_needed_and_has_to_be_able_to_show_the_files() {
         score(&["--fov-vertical", "60"])
             .fails(2, &["display's photometry", "none is given", "--luminance", "list displays"]);
         score(&["--display", "vive-pro-eye"])
-            .fails(2, &["that of vive-pro-eye is not known", "--luminance"]);
+            .fails(2, &["the photometry of vive-pro-eye is not known", "--luminance"]);
         score(&["--display", "standard-hmd", "--transfer", "pq"])
-            .fails(2, &["encoded as PQ", "takes sRGB", "--transfer"]);
+            .fails(2, &["encoded as PQ", "expects sRGB", "--transfer"]);
         score(&["--display", "standard-hdr-pq", "--transfer", "srgb"])
-            .fails(2, &["encoded as sRGB", "takes PQ"]);
+            .fails(2, &["encoded as sRGB", "expects PQ"]);
         score(&["--display", "standard-hdr-linear", "--transfer", "gamma2.2"])
-            .fails(2, &["a power of 2.2", "takes light"]);
+            .fails(2, &["a power of 2.2", "expects luminance"]);
     }
     folder.score(&["gt", "test", "--metrics", "fvvdp"]).fails(2, &["FovVideoVDP needs a view"]);
     // PU-PSNR has no geometry.
@@ -36,7 +36,7 @@ fn photometry_by_hand_is_checked() {
     for (text, words) in [
         ("vive", &["no such display", "did you mean vive-pro-eye?"][..]),
         ("vive-pro-eye", &["the photometry of vive-pro-eye is not known"]),
-        ("contrast=100", &["peak_cd_m2 is missing"]),
+        ("contrast=100", &["peak_cd_m2, the luminance of the display's white, is missing"]),
         ("peak_cd_m2=0", &["peak_cd_m2 of 0", "between 0.01"]),
         ("peak_cd_m2=bright", &["peak_cd_m2: write a number"]),
         ("peak_cd_m2=100,min=1", &["no such key", "min_cd_m2"]),
@@ -72,10 +72,11 @@ fn photometry_by_hand_is_checked() {
 fn a_sequence_needs_a_rate_that_can_be_filtered() {
     let folder = sequence(3, (48, 40));
     let score = |more: &[&str]| folder.score(&[&["gt", "test"][..], &HEADSET, more].concat());
-    score(&[]).fails(2, &["needs its frames a second", "--fps"]);
+    score(&[]).fails(2, &["needs the frame rate", "--fps"]);
     score(&["--fps", "4"]).fails(2, &["more than 4 and at most 1000", "the sequence has 4"]);
     score(&["--fps", "2000"]).fails(2, &["the sequence has 2000"]);
-    score(&["--fps", "7", "--frames", "0..:2"]).fails(2, &["the sequence has 3.5", "passed over"]);
+    score(&["--fps", "7", "--frames", "0..:2"])
+        .fails(2, &["the sequence has 3.5", "skipped frames"]);
     score(&["--fps", "4.001"]).ok();
     // One frame is a still, whatever its rate.
     score(&["--frames", "1..2"]).ok();
@@ -233,7 +234,7 @@ fn an_experiment_shows_the_place() {
         &lit("\"htc-vive-pro\""),
         "",
         "fvvdp = {}",
-        &["s: FovVideoVDP of a sequence needs its frames a second", "give fps"],
+        &["s: FovVideoVDP of a sequence needs the frame rate", "give fps"],
     );
     fails(&lit("\"htc-vive-pro\""), "fps = 3", "fvvdp = {}", &["the sequence has 3"]);
     let run = check(

@@ -181,7 +181,7 @@ fn without_motion_vectors_the_difference_is_plain() {
         folder.png(&format!("test/{frame}.png"), W, H, &disturbed(&picture(frame), 40.0, 1));
     }
     let run = folder.score(&["gt", "test", "--format", "json"]).ok();
-    let run = run.says(&["ATD is taken without motion vectors"]);
+    let run = run.says(&["ATD is computed without motion vectors"]);
     assert_eq!(run.stderr.matches("without motion vectors").count(), 1, "{}", run.stderr);
     let json = run.json();
     let all = &json["sequence"]["atd"];

@@ -33,13 +33,13 @@ fn outer_share() -> Vec<PageRow> {
         one("text", format!("outer layer's share, {name}"), cell)
     };
     vec![
-        share(Projection::Linear, "linear in angle").because("not the layers of section 3.3").more(
-            "The share comes out when layers are as large as their angles. Section 3.3 and the published \
-             code make them as large as the tangents.",
+        share(Projection::Linear, "linear in angle").because("contradicts section 3.3").more(
+            "The printed share results if the size of a layer is proportional to its angle. In section 3.3 and \
+             the published code, the size is proportional to the tangent of the angle.",
         ),
-        share(Projection::Tan, "by tangents").because("against its section 3.3").more(
-            "With layers as large as the tangents of their angles, as section 3.3 and the published code \
-             have them, the outer layer is larger; the printed share takes layers linear in angle.",
+        share(Projection::Tan, "by tangents").because("contradicts section 3.3").more(
+            "If the size of a layer is proportional to the tangent of its angle, as in section 3.3 and the published \
+             code, the outer layer is larger; the printed share assumes sizes proportional to the angle.",
         ),
     ]
 }
@@ -59,14 +59,14 @@ fn speed_ups() -> Vec<PageRow> {
         let [rate, full] = rates;
         rows.push(
             row(&format!("speed-up, {FULL_MS} / {ms} ms"), printed, FULL_MS / ms)
-                .because("a ratio of rounded rates")
+                .because("the paper divides rounded frame rates")
                 .more(format!(
-                    "The milliseconds do not give it. The frame rates do, after rounding: {rate} over {full}.",
+                    "The times do not give the printed value. The rounded frame rates do: {rate} / {full}.",
                 )),
         );
         rows.push(
-            row(&format!("speed-up, {rate} / {full} frames a second"), printed, rate / full)
-                .because("of rates rounded before"),
+            row(&format!("speed-up, {rate} / {full} frames per second"), printed, rate / full)
+                .because("the frame rates were rounded first"),
         );
     }
     rows
@@ -166,16 +166,16 @@ fn study() -> Vec<PageRow> {
     let with_freedom = |anova: &Anova, second| row(anova, [anova.freedom[0], second]);
     let printed = ANOVAS.iter().map(|anova| {
         let [first, second] = anova.freedom;
-        row(anova, anova.freedom).because("not of these degrees").more(format!(
-            "It does not follow from the printed F and degrees of freedom ({first}, {second}). Second \
-             degrees of freedom that give it: {}.",
+        row(anova, anova.freedom).because("p does not match the degrees of freedom").more(format!(
+            "p does not follow from the printed F and degrees of freedom ({first}, {second}). Second degrees of \
+             freedom that give the printed p: {}.",
             fitting(&Printed::new(anova.p), anova.f, first),
         ))
     });
     let fitted = ANOVAS.iter().map(|anova| {
-        with_freedom(anova, anova.fitting).read_off().because("degrees chosen to fit").more(format!(
-            "The degrees of freedom are not the printed ones, but chosen to give the printed p; second \
-             degrees of freedom that do: {}.",
+        with_freedom(anova, anova.fitting).read_off().because("degrees of freedom chosen to fit").more(format!(
+            "These are not the printed degrees of freedom. They were chosen to give the printed p. Second \
+             degrees of freedom that give it: {}.",
             fitting(&Printed::new(anova.p), anova.f, anova.freedom[0]),
         ))
     });

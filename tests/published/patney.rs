@@ -36,9 +36,9 @@ fn quads() -> Vec<PageRow> {
     let taking = "Taking Table 1's shares as shares of the frame's quads";
     vec![
         one("text", "quads saved", Cell::new("", Printed::new("3/4"), most / 100.0, 3))
-            .because("in quarters, as printed")
+            .because("printed in quarters")
             .more(format!(
-                "{taking}: {least:.1} to {most:.1} % are saved; the most is 3/4 to the nearest quarter.",
+                "{taking}: {least:.1} to {most:.1} % are saved. Rounded to quarters, the maximum is 3/4.",
             )),
         one(
             "text",
@@ -47,14 +47,14 @@ fn quads() -> Vec<PageRow> {
         )
         .because("less in its Table 1")
         .more(format!(
-            "{taking}, the most saved of those that Guenter's method shades is {most_of_guenter:.1} %; \
-             to the nearest ten it would be 50 %.",
+            "{taking}, at most {most_of_guenter:.1} % of the quads that Guenter's method shades are saved. \
+             Rounded to tens, this is 50 %.",
         )),
         one("text", "quads saved, \"up to\", of all", Cell::new("", Printed::new("70 %"), most, 1))
             .because("more in its Table 1")
             .more(format!(
-                "{taking}, {least:.1} to {most:.1} % are saved: the printed limit is passed; to the \
-                 nearest ten it would be 70 %.",
+                "{taking}, {least:.1} to {most:.1} % are saved, which exceeds the printed limit. Rounded to \
+                 tens, this is 70 %.",
             )),
     ]
 }

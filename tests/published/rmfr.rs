@@ -139,8 +139,8 @@ fn densities() -> Vec<PageRow> {
         one("Fig. 11", format!("mean density at 110°, {name}"), cell("", mean.at(FOV_VERTICAL_DEG)))
             .because(format!("RMFR's is {rmfr}"))
             .more(format!(
-                "The paper compares at equal mean density, RMFR's being 1 / σ² = {rmfr}. That of {what} \
-                 is equal to it in a vertical field of {:.1}°.",
+                "The paper compares at equal mean density; RMFR's is 1 / σ² = {rmfr}. The density of {what} \
+                 has this value for a vertical field of {:.1}°.",
                 mean.fov_deg(target)
             ))
     };
@@ -151,8 +151,8 @@ fn densities() -> Vec<PageRow> {
         PageRow::joined(Paper::Rmfr, "Fig. 11", format!("{name} / linear in one field"), " / ", cells)
             .because("no field fits both")
             .more(format!(
-                "Among vertical fields from {:.0}° to {:.0}°, in tenths, {fov:.1}° comes nearest to RMFR's \
-                 {rmfr} with both methods.",
+                "Among vertical fields from {:.0}° to {:.0}° in steps of 0.1°, {fov:.1}° brings both methods \
+                 closest to RMFR's {rmfr}.",
                 FIELDS_DEG[0], FIELDS_DEG[1],
             ))
     };

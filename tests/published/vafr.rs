@@ -58,8 +58,8 @@ fn size(last_cpd: f64, cap_cpd: Option<f64>) -> [f64; 2] {
     with_knot(last_cpd, cap_cpd).counts().buffers[0]
 }
 
-const MIXED: &str = "The paper mixes two sets of knots: its samples are those of f(60°) = 4 cpd, its \
-                     buffer is that of f(60°) = 5 cpd.";
+const MIXED: &str = "The paper mixes two sets of knots: its samples belong to f(60°) = 4 cpd, its \
+                     buffer belongs to f(60°) = 5 cpd.";
 
 fn buffer() -> Vec<PageRow> {
     let cell = |name, printed, computed| Cell::new(name, Printed::new(printed), computed, 1);
@@ -79,7 +79,9 @@ fn buffer() -> Vec<PageRow> {
         ];
         rows.extend(two);
     }
-    rows.into_iter().map(|row| row.because("one of two sets of knots").more(MIXED)).collect()
+    rows.into_iter()
+        .map(|row| row.because("the paper mixes two sets of knots").more(MIXED))
+        .collect()
 }
 
 /// Thousands per eye: W H, W H / δ², ∫ l du; further digits are cut off in print.
@@ -108,10 +110,10 @@ fn table_1() -> Vec<PageRow> {
         "cells",
         Some(cells),
     )
-    .because("cut off, not rounded")
+    .because("the paper truncates digits")
     .more(
         "GT, LaFR(2.2), LaFR(1.8) and VaFR_Dup at five resolutions, per eye: W H, W H / δ² and the \
-             sample count with f(60°) = 4 cpd. Digits below a thousand are cut off in print.",
+             sample count with f(60°) = 4 cpd. The paper truncates digits below a thousand.",
     );
 
     let printed = ["637", "743", "849", "955", "1035"];
@@ -124,10 +126,10 @@ fn table_1() -> Vec<PageRow> {
     let what = "thousands, VaFR_Rep";
     let rep = PageRow::counted(Paper::Vafr, "Table 1", what, "cells", Some(cells.collect()))
         .read_off()
-        .because("shares read off the table")
+        .because("the shares come from the table")
         .more(
-            "The shares of the second eye that reprojection leaves to shade (20, 40, 60, 80, 95 %) were \
-             read off this very table.",
+            "The shares of the second eye that remain to be shaded after reprojection (20, 40, 60, 80, 95 %) were \
+             taken from this table itself.",
         );
     vec![all, rep]
 }
@@ -146,12 +148,12 @@ fn savings() -> Vec<PageRow> {
     vec![
         both("samples saved at 9 / 18 cpd", &|cap| samples(FALLING_CPD, cap))
             .because("with f(60°) = 4")
-            .more("By the samples, with the knots that give their count, neither number comes out."),
+            .more("The sample counts, with the knots that give the printed count, reproduce neither number."),
         both("buffer width saved at 9 / 18 cpd", &|cap| size(FLAT_CPD, cap)[0])
             .because("with f(60°) = 5")
             .more(
-                "The buffer's width, with the knots that give its size, is nearer, but does not give \
-                 both numbers either.",
+                "The buffer width, with the knots that give its printed size, is closer, but does not reproduce both \
+                 numbers either.",
             ),
     ]
 }
@@ -170,10 +172,10 @@ fn retinal() -> Vec<PageRow> {
     let cell = Cell::new("", Printed::new("76.8 M"), millions, 1);
     let eye = PageRow::one(Paper::Vafr, "text", "retinal pixels", cell)
         .read_off()
-        .because("the field is our guess")
+        .because("the field is our assumption")
         .more(format!(
             "At {per_degree:.0} pixels per degree, two for each cycle of f(0), a field of {:.0}° x {:.0}° \
-             has as many; the field was read off the number.",
+             has as many pixels; the field was derived from the number.",
             FIELD_OF_EYE_DEG[0], FIELD_OF_EYE_DEG[1],
         ));
     vec![eye, product]

@@ -74,20 +74,25 @@ const MISTAKES: &[Mistake] = &[
         &["more than one way: display, fov_vertical_deg"],
         false,
     ),
-    ("fov_vertical_deg = 60", "distance_m = 0.5", &["distance_m alone is no view"], false),
+    (
+        "fov_vertical_deg = 60",
+        "distance_m = 0.5",
+        &["distance_m alone does not define a view"],
+        false,
+    ),
     (
         "fov_vertical_deg = 60",
         "frustum = { left = -1, right = -1, up = 1, down = 1 }",
-        &["do not open to both sides"],
+        &["the frustum tangents must be positive"],
         false,
     ),
     ("fov_vertical_deg = 60", "bands_deg = [0, 10]", &["eccentricity bands needs a view"], false),
     ("fov_vertical_deg = 60", "gaze = [1, 2]", &["a gaze needs a view"], false),
-    ("fov_vertical_deg = 60", "", &["fpsnr needs a view, and scene \"room\" has none"], false),
+    ("fov_vertical_deg = 60", "", &["fpsnr needs a view, but scene \"room\" has none"], false),
     (
         "fov_vertical_deg = 60",
         "fov_vertical_deg = 60\nbands_deg = [0, 10, 5]",
-        &["5 does not lie above the one before it, 10"],
+        &["5 is not above the edge before it, 10"],
         false,
     ),
     ("fov_vertical_deg = 60", "fov_vertical_deg = 60\nbands_deg = [0]", &["a list of 1"], true),
@@ -116,14 +121,14 @@ const MISTAKES: &[Mistake] = &[
     (
         "reference = \"gt\"",
         "reference = \"{scen}\"",
-        &["{scen} in it, which stands for nothing"],
+        &["{scen}, which is not a known placeholder"],
         false,
     ),
     ("reference = \"gt\"", "reference = \"{scene\"", &["opens a brace"], false),
     (
         "reference = \"gt\"",
         "reference = \"gt\"\ncrop = [0, 0, 0, 5]",
-        &["crop has no pixels"],
+        &["crop contains no pixels"],
         false,
     ),
     (
@@ -135,14 +140,14 @@ const MISTAKES: &[Mistake] = &[
     (
         "reference = \"gt\"",
         "reference = { left = \"gt\", right = \"gt\" }",
-        &["two eyes, and method \"A\" one test", "{eye}"],
+        &["two eyes, but method \"A\" has one test", "{eye}"],
         false,
     ),
     ("reference = \"gt\"", "reference = { left = \"gt\" }", &["has no right"], true),
     (
         "test = \"a\"",
         "test = \"{eye}\"",
-        &["a test for each eye, and scene \"room\" has one"],
+        &["a test for each eye, but scene \"room\" has one"],
         false,
     ),
     (
@@ -217,12 +222,7 @@ const MISTAKES: &[Mistake] = &[
         &["has no key `left`"],
         true,
     ),
-    (
-        "fov_vertical_deg = 60",
-        "eccentricity = \"planar\"",
-        &["a kind of eccentricity needs a view"],
-        false,
-    ),
+    ("fov_vertical_deg = 60", "eccentricity = \"planar\"", &["eccentricity needs a view"], false),
     (
         "fpsnr = {}",
         "mse = {}\n[[scene]]\nname = \"hall\"\nreference = \"gt\"\n[[plot]]\nkind = \"bars\"\nscenes = [\"hall\"]\nmethods = [\"C\"]\n[[method]]\nname = \"C\"\ntest = \"a\"\nscenes = [\"room\"]",
@@ -246,19 +246,19 @@ const MISTAKES: &[Mistake] = &[
     (
         "fpsnr = {}",
         "fpsnr = {}\n[[plot]]\nkind = \"profile\"\nmetric = \"psnr\"\nlevels = [1]",
-        &["levels is of the wavelet, and the plot is not", "metric = \"haar\""],
+        &["levels only applies to the wavelet", "metric = \"haar\""],
         false,
     ),
     (
         "fpsnr = {}",
         "haar = {}\n[[plot]]\nkind = \"profile\"\nlevels = [1]",
-        &["levels is of the wavelet, and the plot is not"],
+        &["levels only applies to the wavelet"],
         false,
     ),
     (
         "fpsnr = {}",
         "haar = { levels = 3 }\n[[plot]]\nkind = \"profile\"\nmetric = \"haar\"\nlevels = [1, 4]",
-        &["level 4 is not scored: there are 3", "haar = { levels = 4 }"],
+        &["level 4 is not scored: the number of levels is 3", "haar = { levels = 4 }"],
         false,
     ),
     (
@@ -270,7 +270,7 @@ const MISTAKES: &[Mistake] = &[
     (
         "fpsnr = {}",
         "haar = {}\n[[plot]]\nkind = \"table\"\nstatistic = \"energy\"",
-        &["statistic is of the wavelet, and the plot is not"],
+        &["statistic only applies to the wavelet"],
         false,
     ),
     (
@@ -282,19 +282,19 @@ const MISTAKES: &[Mistake] = &[
     (
         "fpsnr = {}",
         "haar = {}\n[[plot]]\nkind = \"bars\"\nmetric = \"haar\"",
-        &["haar is of each picture by eccentricity: draw it as profile or ratios", "psnr"],
+        &["haar describes each image by eccentricity: draw it as profile or ratios", "psnr"],
         false,
     ),
     (
         "fpsnr = {}",
         "rms_contrast = {}\n[[plot]]\nkind = \"sequence\"\nmetric = \"rms_contrast\"",
-        &["rms_contrast is of each picture by eccentricity"],
+        &["rms_contrast describes each image by eccentricity"],
         false,
     ),
     (
         "fpsnr = {}",
         "haar = {}\n[[plot]]\nkind = \"ratios\"\nmetric = \"ssim\"",
-        &["ssim compares test with reference itself, so that it has no ratio", "haar"],
+        &["ssim already compares test with reference, and so has no ratio", "haar"],
         false,
     ),
     (
@@ -323,7 +323,7 @@ const MISTAKES: &[Mistake] = &[
     (
         "reference = \"gt\"",
         "reference = \"gt\"\nmotion = { channels = [\"u\", \"v\"], sign = [1, 0.5] }",
-        &["a sign is 1 or -1", "other factors are a scale"],
+        &["a sign must be 1 or -1", "use scale for other factors"],
         false,
     ),
     (
@@ -335,25 +335,25 @@ const MISTAKES: &[Mistake] = &[
     (
         "reference = \"gt\"",
         "reference = \"gt\"\nmotion = { channels = [\"u\", \"v\"], scale = 0 }",
-        &["a scale of 0 leaves no motion"],
+        &["a scale of 0 removes all motion"],
         false,
     ),
     (
         "reference = \"gt\"",
         "reference = \"gt\"\nmotion = { channels = [\"u\", \"v\"], scale = [1, 0.0] }",
-        &["a scale of 0 leaves no motion"],
+        &["a scale of 0 removes all motion"],
         false,
     ),
     (
         "reference = \"gt\"",
         "reference = \"gt\"\nmotion = { sign = [1, -1] }",
-        &["sign is that of channels, and none are named", "add channels"],
+        &["sign describes channels, but none are named", "add channels"],
         false,
     ),
     (
         "reference = \"gt\"",
         "reference = \"gt\"\nmotion = { preset = \"falcor\", unit = \"ndc\" }",
-        &["unit is that of channels, and none are named", "a preset has its own"],
+        &["unit describes channels, but none are named", "a preset has its own"],
         false,
     ),
     (
@@ -503,9 +503,11 @@ fn the_whole_format_is_read_and_resolved() {
     folder.write("room/gaze.csv", "frame,x_px,y_px\n0,10,10\n");
     assert!(schema_allows(RICH));
     let plan = check(&folder, RICH).ok().stdout;
-    for words in
-        ["room, left eye: 2 frames, 0 to 1 of 40x40 px", "held over in 1 frame", "16 test frames"]
-    {
+    for words in [
+        "room, left eye: 2 frames, 0 to 1 of 40x40 px",
+        "kept from an earlier frame in 1 frame",
+        "16 test frames",
+    ] {
         assert!(plan.contains(words), "{words}:\n{plan}");
     }
     folder.run(&["run", "e.toml"]).ok();
@@ -555,8 +557,9 @@ fn two_eyes_have_a_view_each_or_none() {
         .replace("\"gt\"", "{ left = \"gt\", right = \"gt\" }")
         .replace("test = \"a\"", "test = { left = \"a\", right = \"a\" }")
         .replace("test = \"b\"", "test = { left = \"b\", right = \"b\" }");
-    check(&folder, &text).fails(2, &["scene \"room\" has a view for its left eye alone"]);
-    check(&folder, &text.replace("left = { fov", "right = { fov")).fails(2, &["right eye alone"]);
+    check(&folder, &text).fails(2, &["scene \"room\" has a view only for its left eye"]);
+    check(&folder, &text.replace("left = { fov", "right = { fov"))
+        .fails(2, &["only for its right eye"]);
     check(&folder, &text.replace("left = { fov_vertical_deg = 60 }", "")).ok();
 }
 
@@ -568,7 +571,7 @@ fn a_scene_needs_a_method() {
         .replace("test = \"b\"", &format!("test = \"b\"\n{scene}"));
     let hall = "[[scene]]\nname = \"hall\"\nreference = \"gt\"\n";
     check(&folder(), &format!("{text}{hall}"))
-        .fails(2, &["no method is scored in scene \"hall\"", "take it out"]);
+        .fails(2, &["no method is scored in scene \"hall\"", "remove it"]);
 }
 
 #[test]
@@ -646,7 +649,7 @@ fn inputs_that_are_not_there_are_said_by_check() {
         &GOOD.replace("reference = \"gt\"", "reference = \"gt\"\nframes = \"5..9\""),
     );
     assert_eq!(run.code, 3);
-    run.says(&["room: no frame is selected; there are frames 0 to 0"]);
+    run.says(&["room: the selection contains no frame; the frames are 0 to 0"]);
     let run = check(
         &folder,
         &GOOD.replace("reference = \"gt\"", "reference = \"gt\"\nmask = \"no.png\""),

@@ -71,8 +71,8 @@ fn one_bad_input_costs_its_own_rows_alone() {
     folder.png("hall/b/0002.png", 50, 40, &codes(50, 40, 3, 1));
     let run = folder.run(&["run", "e.toml"]).says(&[
         "room, A, frame 1: room/a/0001.png: this is not a PNG",
-        "hall, B, frame 2: hall/gt/0002.png has 48x40 pixels and hall/b/0002.png has 50x40",
-        "2 errors, 10 frames scored all the same",
+        "hall, B, frame 2: hall/gt/0002.png has 48x40 pixels, but hall/b/0002.png has 50x40",
+        "2 errors, but 10 frames were scored",
     ]);
     assert_eq!(run.code, 3);
     let rows = rows(&folder, "reports/e");
@@ -107,7 +107,7 @@ fn a_bad_reference_is_an_error_of_every_method() {
     let run = folder.run(&["run", "e.toml"]).says(&[
         "room, A, frame 1",
         "room, B, frame 1",
-        "2 errors, 10",
+        "2 errors, but 10",
     ]);
     assert_eq!(run.code, 3);
 }
@@ -140,7 +140,7 @@ fn missing_inputs_are_said_and_the_rest_is_scored() {
     fs::remove_dir_all(folder.path("room")).unwrap();
     folder
         .run(&["run", "e.toml"])
-        .fails(3, &["room, A: room/gt: there is no such file", "4 errors, nothing was scored"]);
+        .fails(3, &["room, A: room/gt: there is no such file", "4 errors, and nothing was scored"]);
     let rows = self::rows(&folder, "reports/e");
     assert!(rows.len() == 4 && rows.iter().all(|row| row["metric"] == "error"));
     assert!(!folder.path("reports/e/table.md").exists());
@@ -441,7 +441,9 @@ fn frames_of_two_eyes_meet() {
              [[method]]\nname = \"B\"\nscenes = [\"sequence\"]\ntest = \"a/{{eye}}\"\n"
         ),
     );
-    folder.run(&["run", "e.toml"]).ok().says(&["sequence, B: 1 frame of one eye have no partner"]);
+    folder.run(&["run", "e.toml"]).ok().says(&[
+        "sequence, B: left out of the results of both eyes: 1 frame of one eye without a partner",
+    ]);
     let frames = |scene: &str| {
         let both = rows(&folder, "reports/e").into_iter();
         both.filter(|r| {
@@ -524,7 +526,7 @@ fn frames_stay_in_order_whichever_are_missing() {
     fs::remove_file(folder.path("room/b/0001.png")).unwrap();
     let text = experiment("").replace("\"room/gt\"", "\"room/gt\"\nallow_missing = true");
     folder.write("e.toml", text);
-    folder.run(&["run", "e.toml"]).ok().says(&["room: 2 frames without a partner are passed over"]);
+    folder.run(&["run", "e.toml"]).ok().says(&["room: skipped frames without a partner: 2"]);
     let rows = rows(&folder, "reports/e");
     let frames = |method: &str| {
         let of = |row: &&BTreeMap<String, String>| {

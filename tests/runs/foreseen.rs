@@ -17,12 +17,9 @@ fn check_warns_of_what_run_warns_of() {
     let folder = two_scenes();
     folder.write("gaze.csv", "frame,x_px,y_px\n0,24,20\n1,90,20\n2,24,20\n");
     for (view, wanted) in [
-        ("fov_vertical_deg = 60\ngaze = [24, 90]", "lies outside the frame of 48x40"),
+        ("fov_vertical_deg = 60\ngaze = [24, 90]", "is outside the frame of 48x40"),
         ("display = \"htc-vive-pro\"", "stretched over the display's"),
-        (
-            "fov_vertical_deg = 60\ngaze = { trace = \"gaze.csv\" }",
-            "the gaze (90, 20) lies outside",
-        ),
+        ("fov_vertical_deg = 60\ngaze = { trace = \"gaze.csv\" }", "the gaze (90, 20) is outside"),
     ] {
         let text = experiment("").replace("fov_vertical_deg = 60", view);
         folder.write("e.toml", text);
@@ -73,7 +70,7 @@ fn frames_beyond_memory_are_an_error_before_anything_is_scored() {
         ["gt", "test", "--metrics", "fvvdp", "--display", "htc-vive-pro", "--fps", "90"];
     let large = ["--max-megapixels", "4000"];
     let run = folder.score(&[&arguments[..], &large].concat());
-    let words = ["60000x60000 pixels need at least 7", "FovVideoVDP 7", "are available", "--crop"];
+    let words = ["60000x60000 pixels need at least 7", "FovVideoVDP 7", "is available", "--crop"];
     run.fails(3, &words);
     // Of a crop, the files are decoded whole all the same.
     let part = folder.score(&[&arguments[..], &large, &["--crop", "0,0,64,64"]].concat());

@@ -111,7 +111,7 @@ fn other_kinds_of_samples_and_slices() {
     assert!(error.to_string().contains("the reference has 2 channels"), "{error}");
     let error =
         score(codes.view(), two.slice_axis(ndarray::Axis(2), (..1).into()), &options).unwrap_err();
-    assert!(error.to_string().contains("180x150 pixels and test has 8x8"), "{error}");
+    assert!(error.to_string().contains("180x150 pixels, but test has 8x8"), "{error}");
     let empty = Array3::<u8>::zeros((0, 8, 3));
     assert!(score(empty.view(), empty.view(), &options).is_err());
 }
@@ -172,14 +172,17 @@ fn a_task_of_other_frames_or_text_is_refused() {
     let text = task.to_json().unwrap();
     for wrong in ["", "{}", &text.replace("fovqa.task/1", "fovqa.task/0"), &text[..text.len() / 2]]
     {
-        assert!(Task::from_json(wrong).unwrap_err().to_string().contains("no task"), "{wrong}");
+        assert!(
+            Task::from_json(wrong).unwrap_err().to_string().contains("not a unit of work"),
+            "{wrong}"
+        );
     }
     let lines = task.run(&Given::default(), &Silent).unwrap().to_lines(&task);
     for wrong in ["", "x\n", lines.split_once('\n').unwrap().0, &lines.replace("\"s\"", "\"t\"")] {
         let error = TaskFindings::from_lines(&task, wrong).unwrap_err().to_string();
-        assert!(error.contains("not the findings"), "{error}");
+        assert!(error.contains("do not belong to the unit of work"), "{error}");
     }
     fs::remove_file(folder.path().join("a/0003.png")).unwrap();
     let error = task.run(&Given::default(), &Silent).unwrap_err().to_string();
-    assert!(error.contains("others than those of the task"), "{error}");
+    assert!(error.contains("differ from those in the unit of work"), "{error}");
 }

@@ -82,11 +82,11 @@ fn a_folder_that_cannot_be_written_is_found_before_scoring() {
     folder.write("file", "");
     folder.write("room/gt/0000.png", "no picture: scoring would say so");
     let run = folder.run(&["run", "e.toml", "--output", "file/results"]);
-    let run = run.fails(3, &["file/results: results cannot be written there", "--output"]);
+    let run = run.fails(3, &["file/results: cannot write results to this folder", "--output"]);
     assert!(!run.stderr.contains("0000.png"), "{}", run.stderr);
     folder
         .run(&["run", "e.toml", "--output", "file"])
-        .fails(3, &["file: results cannot be written"]);
+        .fails(3, &["file: cannot write results to this folder"]);
     // What is not ours is not replaced: neither results nor drawings, nor by way of a list of files.
     for file in ["index.html", "table.csv", "journal.jsonl", "run.json", "report.json"] {
         let folder_of = format!("own/{file}");
@@ -94,7 +94,7 @@ fn a_folder_that_cannot_be_written_is_found_before_scoring() {
         folder.write(&format!("{folder_of}/thesis.tex"), "mine");
         folder
             .run(&["run", "e.toml", "--output", &folder_of])
-            .fails(3, &["that is of no run", file]);
+            .fails(3, &["that no run of fovqa has written", file]);
         assert!(folder.path(&format!("{folder_of}/thesis.tex")).exists());
     }
     folder.run(&["report", "own/run.json"]).fails(3, &["run.json"]);
@@ -102,7 +102,7 @@ fn a_folder_that_cannot_be_written_is_found_before_scoring() {
     folder.write("mine/results.csv", "a,b\n");
     folder
         .run(&["run", "e.toml", "--output", "mine"])
-        .fails(3, &["mine: it has a results.csv that is of no run"]);
+        .fails(3, &["mine: the folder contains a results.csv that no run of fovqa has written"]);
     assert_eq!(fs::read(folder.path("mine/results.csv")).unwrap(), b"a,b\n");
 }
 
@@ -151,7 +151,7 @@ fn one_run_at_a_time_and_a_killed_one_leaves_its_journal() {
     wait_for_frames(&journal);
     folder
         .run(&["run", "e.toml"])
-        .fails(3, &["reports/e: another run is writing there", "--output"]);
+        .fails(3, &["reports/e: another run is writing to this folder", "--output"]);
     folder.run(&["run", "e.toml", "--frames", "0..1", "--output", "other"]).ok();
     first.kill().unwrap();
     first.wait().unwrap();
@@ -194,7 +194,7 @@ fn another_run_takes_the_place_of_the_last() {
 #[test]
 fn a_report_needs_a_finished_run() {
     let folder = two_scenes();
-    folder.run(&["report", "nowhere"]).fails(3, &["nowhere: there is no finished run in it"]);
+    folder.run(&["report", "nowhere"]).fails(3, &["nowhere: the folder contains no finished run"]);
     folder.run(&["run", "e.toml", "--output", "out"]).ok();
     let whole = fs::read_to_string(folder.path("out/run.json")).unwrap();
     let newer = whole.replace("fovqa.run/1", "fovqa.run/9");

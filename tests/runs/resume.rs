@@ -226,23 +226,31 @@ fn what_has_changed_is_said_and_all_is_scored() {
         folder.write("out/journal.jsonl", journal);
         let run = ["run", "e.toml", "--resume", "--output", "out"];
         let run = folder.run(&[&run[..], more].concat()).ok().says(words);
-        assert!(run.stderr.contains("all is scored") != words.is_empty(), "{}", run.stderr);
+        assert!(
+            run.stderr.contains("everything is scored again") != words.is_empty(),
+            "{}",
+            run.stderr
+        );
         if !more.contains(&"--shard") {
             let kept = marks(&folder, "out").iter().filter(|(_, marked)| *marked).count();
             assert_eq!(kept > 0, words.is_empty(), "{kept}");
         }
     };
     resumed(&cut, &[], &[]);
-    resumed(&cut, &["--frames", "0..2"], &["it is of all frames, and this is of --frames 0..2:1"]);
-    resumed(&cut, &["--shard", "1/2"], &["it is of a whole run, and this is shard 1/2"]);
+    resumed(
+        &cut,
+        &["--frames", "0..2"],
+        &["its run used all frames, but this run uses --frames 0..2:1"],
+    );
+    resumed(&cut, &["--shard", "1/2"], &["it contains a complete run, but this is shard 1/2"]);
     let older = cut.replacen("\"version\":\"0.1.0\"", "\"version\":\"0.0.9\"", 1);
     let older: String = older.split_inclusive('\n').map(sealed).collect();
-    resumed(&older, &[], &["it is of fovqa 0.0.9, and this is 0.1.0"]);
+    resumed(&older, &[], &["fovqa 0.0.9 wrote it, but this is fovqa 0.1.0"]);
     resumed(
         "{\"schema\":\"fovqa.journal/9\"}\n",
         &[],
         &[
-            "of another version of fovqa, in its format fovqa.journal/9; it is kept as journal.jsonl.old",
+            "another version of fovqa wrote journal.jsonl, in format fovqa.journal/9; it is kept as journal.jsonl.old",
         ],
     );
     for (file, bytes) in [
@@ -264,12 +272,12 @@ fn what_has_changed_is_said_and_all_is_scored() {
         let last = folder.path(&format!("hall/{side}/0002.png"));
         fs::copy(last, folder.path(&format!("hall/{side}/0003.png"))).unwrap();
     }
-    resumed(&cut, &[], &["hall: its files, or the bands they decide, are others than before"]);
+    resumed(&cut, &[], &["hall: its files, or the bands that follow from them, have changed"]);
     for side in ["gt", "a", "b"] {
         fs::remove_file(folder.path(&format!("hall/{side}/0003.png"))).unwrap();
         fs::remove_file(folder.path(&format!("room/{side}/0002.png"))).unwrap();
     }
-    resumed(&cut, &[], &["room: its files, or the bands they decide, are others than before"]);
+    resumed(&cut, &[], &["room: its files, or the bands that follow from them, have changed"]);
 }
 
 /// A scene that was missing altogether costs the others nothing when it comes.
@@ -361,7 +369,10 @@ fn maps_are_all_there() {
     assert_eq!(bytes(&folder.path("maps")), wanted);
     folder.write("out/journal.jsonl", &cut);
     let run = folder.run(&[&run[..], &["others"]].concat()).ok();
-    run.says(&["maps of finished frames are not in the folder of --maps", "all is scored"]);
+    run.says(&[
+        "the --maps folder does not contain the maps of finished frames",
+        "everything is scored again",
+    ]);
     assert_eq!(bytes(&folder.path("others")), wanted);
 }
 
@@ -380,7 +391,7 @@ fn maps_of_an_earlier_run_are_made_again() {
     folder.png_pair("a.png", "c.png", 48, 41);
     folder.run(&["run", "e.toml"]).ok();
     let run = folder.run(&["run", "e.toml", "--resume", "--maps", "maps"]).ok();
-    run.says(&["maps of finished frames are not in the folder of --maps"]);
+    run.says(&["the --maps folder does not contain the maps of finished frames"]);
     let kept = bytes(&folder.path("maps"));
     folder.run(&["run", "e.toml", "--maps", "fresh"]).ok();
     assert_eq!(kept, bytes(&folder.path("fresh")));
@@ -419,26 +430,26 @@ fn a_full_disk_loses_nothing() {
         let journal = fs::read_to_string(folder.path("disk/out/journal.jsonl"));
         journal.unwrap_or_default().matches("\"values\"").count()
     };
-    folder.run(&run).fails(3, &["the journal cannot be written", "--resume goes on"]);
+    folder.run(&run).fails(3, &["the journal cannot be written", "--resume continues"]);
     let finished = frames();
     assert!(finished > 0 && finished < 24, "{finished}");
     assert!(!folder.path("disk/out/results.csv").exists());
     // Still full, and then not to be written to at all: what is there stays.
     folder.run(&run).fails(3, &[]);
     assert!(disk.mount("remount,ro"));
-    folder.run(&run).fails(3, &["results cannot be written there"]);
+    folder.run(&run).fails(3, &["cannot write results to this folder"]);
     assert_eq!(frames(), finished);
     let lines = journal(&folder, "disk/out");
     let whole: Vec<String> = lines.into_iter().filter(|line| line.ends_with('\n')).collect();
     assert!(disk.mount("remount,rw,size=64m"));
     folder.write("disk/out/journal.jsonl", marked(&whole).concat());
-    folder.run(&run).ok().says(&["finished; going on from there"]);
+    folder.run(&run).ok().says(&["finished; continuing from there"]);
     let kept = marks(&folder, "disk/out").iter().filter(|(_, marked)| *marked).count();
     assert!(kept >= finished - 1, "{kept} of {finished}");
     folder.write("disk/out/journal.jsonl", whole.concat());
     folder.run(&run).ok();
     assert_same(&results(&folder.path("disk/out")), &wanted, "with space again");
-    // Full when all is scored: the results are still to be written.
+    // Full when everything is scored again: the results are still to be written.
     let journal = fs::read_to_string(folder.path("disk/out/journal.jsonl")).unwrap();
     fs::remove_dir_all(folder.path("disk/out")).unwrap();
     folder.write("disk/out/journal.jsonl", &journal);
@@ -446,7 +457,7 @@ fn a_full_disk_loses_nothing() {
     assert!(disk.mount(&format!("remount,size={}k", pages * 4)));
     let run_full = folder.run(&run);
     assert_eq!(run_full.code, 3, "{}", run_full.stderr);
-    run_full.says(&["cannot be written", "--resume goes on"]);
+    run_full.says(&["cannot be written", "--resume continues"]);
     assert!(disk.mount("remount,size=64m"));
     folder.run(&run).ok().says(&["24 frames are finished"]);
     assert_same(&results(&folder.path("disk/out")), &wanted, "all was scored");
@@ -466,7 +477,7 @@ fn a_line_that_was_changed_is_refused() {
         folder.write("out/journal.jsonl", changed.concat());
         let said = format!("journal.jsonl:{}: this line of the journal was changed", at + 1);
         let run = folder.run(&["run", "e.toml", "--resume", "--output", "out"]);
-        run.fails(3, &[&said, "cut the file off in front of that line"]);
+        run.fails(3, &[&said, "delete this line and all lines after it"]);
         let kept = fs::read_to_string(folder.path("out/journal.jsonl")).unwrap();
         assert!(kept == changed.concat(), "it is left as it is");
     }

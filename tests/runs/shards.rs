@@ -110,7 +110,7 @@ fn motion_that_stops_is_seen_by_shards() {
     }
     let run = folder.run(&["run", "e.toml", "--output", "whole"]);
     assert_eq!(run.code, 3);
-    run.says(&["has no motion vectors, and frames before it have some"]);
+    run.says(&["has no motion vectors, but earlier frames have some"]);
     for of in [2, 5, 24] {
         divided(&folder, of, 3);
     }
@@ -203,13 +203,15 @@ fn a_shard_leaves_its_journal_and_nothing_else() {
     folder.run(&["run", "e.toml", "--output", "s"]).ok();
     let run = folder.run(&["run", "e.toml", "--shard", "2/3", "--output", "s"]).ok();
     assert_eq!(run.stdout, "", "nothing that looks like a result");
-    run.says(&["s: shard 2/3 of e, 12 frames; `fovqa merge` puts shards together"]);
+    run.says(&["s: shard 2/3 of e, 12 frames; `fovqa merge` joins shards"]);
     assert_eq!(bytes(&folder.path("s")).into_keys().collect::<Vec<_>>(), ["journal.jsonl"]);
     let lines = journal(&folder, "s");
     assert!(lines[0].contains("\"shard\":\"2/3\""));
     assert_eq!(*lines.last().unwrap(), sealed("{\"done\":true,\"sum\":\"\"}\n"));
     for command in ["report", "gate"] {
-        folder.run(&[command, "s"]).fails(3, &["s: it has shard 2/3 of a run", "`fovqa merge`"]);
+        folder
+            .run(&[command, "s"])
+            .fails(3, &["s: the folder contains shard 2/3 of a run", "`fovqa merge`"]);
     }
     // Where no folder is named, each has one of its own.
     let run = folder.run(&["run", "e.toml", "--shard", "36/40"]).ok();
@@ -250,7 +252,7 @@ fn a_shard_is_gone_on_with() {
         // Another share of the same run is no beginning of this one.
         let run =
             folder.run(&["run", "e.toml", "--shard", "2/4", "--resume", "--output", "s-2-of-3"]);
-        run.says(&["it is of shard 2/3, and this is shard 2/4", "all is scored"]);
+        run.says(&["it contains shard 2/3, but this is shard 2/4", "everything is scored again"]);
     }
 }
 
@@ -294,19 +296,22 @@ fn shards_that_do_not_belong_together_are_told() {
     fails(&[one, three], &["a shard is missing: 2/3"]);
     fails(&[two], &["shards are missing: 1/3, 3/3"]);
     fs::create_dir(folder.path("empty")).unwrap();
-    fails(&[one, two, three, two], &["shard 2/3 is there twice: s-2-of-3 and s-2-of-3"]);
-    fails(&[one, two, "empty"], &["empty: there is no shard of a run in it"]);
-    fails(&[one, two, "nowhere"], &["nowhere: there is no shard of a run in it"]);
-    fails(&[one, two, "e.toml"], &["e.toml: there is no shard of a run in it"]);
+    fails(&[one, two, three, two], &["shard 2/3 was given twice: s-2-of-3 and s-2-of-3"]);
+    fails(&[one, two, "empty"], &["empty: the folder contains no shard of a run"]);
+    fails(&[one, two, "nowhere"], &["nowhere: the folder contains no shard of a run"]);
+    fails(&[one, two, "e.toml"], &["e.toml: the folder contains no shard of a run"]);
     folder.run(&["run", "e.toml", "--output", "all"]).ok();
-    fails(&["all"], &["all: it has a whole run, not a shard of one"]);
+    fails(&["all"], &["all: the folder contains a complete run, not a shard"]);
     folder.run(&["merge", one, two, three, "--output", one]).fails(2, &["one of the shards"]);
     folder.run(&["merge", "--output", "none"]).fails(2, &[]);
     // Of the version before values had one form.
     let lines = journal(&folder, three);
     let old = lines.concat().replace("fovqa.journal/2", "fovqa.journal/1");
     folder.write("s-3-of-3/journal.jsonl", old);
-    fails(&[one, two, three], &["of another version of fovqa, in its format fovqa.journal/1"]);
+    fails(
+        &[one, two, three],
+        &["another version of fovqa wrote this shard, in format fovqa.journal/1"],
+    );
     // Not finished, in several ways.
     let write = |lines: &[String]| folder.write("s-3-of-3/journal.jsonl", lines.concat());
     let unfinished = ["s-3-of-3: shard 3/3 is not finished", "--resume"];
@@ -328,24 +333,36 @@ fn shards_that_do_not_belong_together_are_told() {
         folder.write("s-3-of-3/journal.jsonl", text);
         fails(&[one, two, three], words);
     };
-    other("\"version\":\"0.1.0\"", "\"version\":\"0.0.9\"", &["of fovqa 0.0.9", "this is 0.1.0"]);
-    other("\"frames\":null", "\"frames\":\"0..2:1\"", &["frames all and 0..2:1", "one run"]);
+    other(
+        "\"version\":\"0.1.0\"",
+        "\"version\":\"0.0.9\"",
+        &["fovqa 0.0.9 wrote", "this is fovqa 0.1.0"],
+    );
+    other(
+        "\"frames\":null",
+        "\"frames\":\"0..2:1\"",
+        &["frames all and 0..2:1", "belong to different runs"],
+    );
     other(
         "\"experiment_file\":\"e.toml\"",
         "\"experiment_file\":\"f.toml\"",
         &["e.toml and f.toml"],
     );
-    other("\"shard\":\"3/3\"", "\"shard\":\"3/4\"", &["shards of 3 and 4"]);
+    other("\"shard\":\"3/3\"", "\"shard\":\"3/4\"", &["shard counts 3 and 4"]);
     let sha = lines.iter().find(|line| line.contains("\"input\"")).unwrap();
     let sha = sha.split("\"sha256\":\"").nth(1).unwrap()[..64].to_owned();
-    other(&sha, &"0".repeat(64), &["was not the same file for all shards", "s-3-of-3"]);
+    other(&sha, &"0".repeat(64), &["differs from the file that another shard used", "s-3-of-3"]);
     // Bands and sizes that other shards have seen otherwise: `journal-bands` of public reports.
-    let said = "s-2-of-3 and s-3-of-3 do not agree in the";
+    let said = "s-2-of-3 and s-3-of-3 have different";
     let bands = lines.iter().rfind(|line| line.contains("\"bands_deg\":[[")).unwrap();
     let bands = bands.split("\"bands_deg\":").nth(1).unwrap().split("]]").next().unwrap();
     let fewer = format!("{}]", bands.rsplit_once(",[").unwrap().0);
-    other(&format!("{bands}]]"), &fewer, &[said, "eccentricity bands of scene", "score both"]);
-    other("\"size\":[48,40]", "\"size\":[48,41]", &[said, "size of the frames of scene"]);
+    other(
+        &format!("{bands}]]"),
+        &fewer,
+        &[said, "different eccentricity bands in scene", "score both"],
+    );
+    other("\"size\":[48,40]", "\"size\":[48,41]", &[said, "different frame sizes in scene"]);
     // A line that is not as it was written.
     let text = lines.concat().replacen("\"frame\":", "\"frame\":1", 1);
     folder.write("s-3-of-3/journal.jsonl", text);
@@ -358,7 +375,7 @@ fn shards_that_do_not_belong_together_are_told() {
             .unwrap();
     }
     shard(&folder, "s", 3, 3).ok();
-    fails(&[one, two, three], &["other files, or other bands, were found for them"]);
+    fails(&[one, two, three], &["they found different files or different bands"]);
     folder.write("e.toml", fs::read_to_string(folder.path("e.toml")).unwrap() + "# other\n");
     shard(&folder, "s", 3, 3).ok();
     fails(&[one, two, three], &["their experiments differ"]);
@@ -372,7 +389,8 @@ fn a_merge_keeps_what_is_not_its_own() {
         shard(&folder, "s", index, 2).ok();
     }
     folder.write("mine/results.csv", "a,b\n");
-    merge(&folder, &names("s", 2), "mine").fails(3, &["it has a results.csv that is of no run"]);
+    merge(&folder, &names("s", 2), "mine")
+        .fails(3, &["the folder contains a results.csv that no run of fovqa has written"]);
     folder.run(&["run", "e.toml", "--output", "out", "--frames", "0..1"]).ok();
     folder.write("out/mine.txt", "mine");
     merge(&folder, &names("s", 2), "out").ok();
