@@ -264,7 +264,7 @@ fn a_cut_video_keeps_its_whole_frames() {
         let from_file = folder.score(&arguments);
         let in_file = "b.y4m: its frame 3 is damaged, and no frame after it can be found";
         let in_pipe =
-            "standard input is damaged behind its first 3 frames, and 1 frame of the other";
+            "standard input is damaged after its first 3 frames, and 1 frame of the other";
         for (end, run) in [(in_file, from_file), (in_pipe, from_pipe(cut.to_vec()))] {
             assert_eq!(run.code, 3, "{}", run.stderr);
             assert_eq!(psnrs(&run.json()), all[..3], "{end} {behind}");
