@@ -1,5 +1,7 @@
 //! `fovqa curves`.
 
+mod figures;
 pub(crate) mod files;
 mod flags;
 mod golden;
+mod mistakes;

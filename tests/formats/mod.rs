@@ -9,3 +9,4 @@ mod png;
 mod special_files;
 mod stereo_layers;
 mod y4m;
+mod y4m_golden;

@@ -6,5 +6,7 @@ mod gmsd;
 mod golden;
 mod maps;
 mod profiles;
+mod profiles_of_eyes;
 mod temporal;
+mod temporal_masks;
 mod wide_fields;

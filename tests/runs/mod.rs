@@ -1,8 +1,10 @@
 //! `fovqa run`: experiments, their results folders, resume, shards, figures.
 
+mod comparison_table;
 mod crafted_names;
 pub(crate) mod experiment_files;
 pub(crate) mod experiment_folder;
+mod experiment_mistakes;
 mod experiments;
 mod figures;
 mod foreseen;

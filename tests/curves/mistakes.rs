@@ -1,0 +1,198 @@
+//! Mistakes in curve files are shown in their place.
+
+use super::files::{RICH, schema_allows};
+use crate::fovqa::Folder;
+
+/// A mistake: the line it replaces, the line itself, the words of the message, whether a schema can
+/// tell.
+type Mistake = (&'static str, &'static str, &'static [&'static str], bool);
+
+pub(super) const GOOD: &str = r#"
+name = "good"
+[view]
+fov_vertical_deg = 110
+resolutions = ["1440x1600"]
+[[curve]]
+name = "A"
+method = { model = "rmfr" }
+[[curve]]
+name = "B"
+acuity = { model = "piecewise" }
+[[plot]]
+kind = "rates"
+"#;
+
+const MISTAKES: &[Mistake] = &[
+    ("name = \"good\"", "nam = \"good\"", &["did you mean name?"], true),
+    (
+        "name = \"good\"",
+        "name = \"good\"\nstep_deg = 0",
+        &["step_deg cannot be 0", "from 0.001 to 60"],
+        true,
+    ),
+    ("name = \"good\"", "name = \"good\"\nacuity = {}", &["acuity has no model"], true),
+    ("fov_vertical_deg = 110", "fov_vertical_deg = 180", &["cannot be 180"], true),
+    ("fov_vertical_deg = 110", "", &["no view is given", "fov_vertical_deg = 110"], false),
+    ("resolutions = [\"1440x1600\"]", "", &["needs a resolution"], false),
+    (
+        "resolutions = [\"1440x1600\"]",
+        "resolutions = [\"0x1600\"]",
+        &["cannot be \"0x1600\"", "1 to 100000"],
+        true,
+    ),
+    (
+        "resolutions = [\"1440x1600\"]",
+        "resolutions = [\"1440x1600\"]\ngazes = [[1]]",
+        &["a list of 1"],
+        true,
+    ),
+    (
+        "resolutions = [\"1440x1600\"]",
+        "resolutions = [\"1440x1600\"]\ntangential = \"round\"",
+        &["cannot be \"round\""],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmf\" }",
+        &["no method \"rmf\"", "did you mean \"rmfr\"?"],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { sigma = 2 }",
+        &["has no model", "\"deamp\""],
+        true,
+    ),
+    ("method = { model = \"rmfr\" }", "method = { model = 3 }", &["text in quotes"], true),
+    ("method = { model = \"rmfr\" }", "method = \"rmfr\"", &["a table such as"], true),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmfr\", sigma = 0 }",
+        &["sigma cannot be 0", "0.1 to 1000"],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmfr\", sgma = 2 }",
+        &["no parameter `sgma`", "did you mean sigma?"],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"vafr\", ratio = [1, 2] }",
+        &["ratio"],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"vafr\", knots_deg = [0, 9, 5, 30, 60] }",
+        &["must start at 0° and increase"],
+        false,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"deamp\", sigmas = [2] }",
+        &["one of each per layer"],
+        false,
+    ),
+    ("method = { model = \"rmfr\" }", "", &["neither a method nor an acuity model"], false),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmfr\" }\nacuity = { model = \"piecewise\" }",
+        &["both a method and an acuity model"],
+        false,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmfr\" }\nbudget = 0",
+        &["budget cannot be 0"],
+        true,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"guenter\" }\nbudget = 0.9",
+        &["cannot reach a budget of 0.9"],
+        false,
+    ),
+    (
+        "method = { model = \"rmfr\" }",
+        "method = { model = \"rmfr\" }\nbudget_of = \"buffer\"",
+        &["none is given"],
+        false,
+    ),
+    (
+        "acuity = { model = \"piecewise\" }",
+        "acuity = { model = \"piecewise\", knots_cpd = [40, 5] }",
+        &["5 eccentricities and 2 frequencies"],
+        false,
+    ),
+    (
+        "acuity = { model = \"piecewise\" }",
+        "acuity = { model = \"piecewise\", cap_cpd = \"high\" }",
+        &["cap_cpd"],
+        true,
+    ),
+    (
+        "acuity = { model = \"piecewise\" }",
+        "acuity = { model = \"piecewise\" }\nbudget = 0.1",
+        &["budget needs a method"],
+        false,
+    ),
+    ("name = \"B\"", "name = \"A\"", &["\"A\""], false),
+    ("kind = \"rates\"", "kind = \"rate\"", &["did you mean \"rates\"?"], true),
+    ("kind = \"rates\"", "kind = \"rates\"\ncurves = [\"C\"]", &["there is no curve \"C\""], false),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\nf = [2]",
+        &["f does not apply to a plot of kind \"rates\""],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\nunit = \"per_pixel\"\nmarks = [{ name = \"a\", at = [1, 2] }]",
+        &["marks are in cycles per degree"],
+        false,
+    ),
+    ("kind = \"rates\"", "kind = \"rates\"\nmarks = [{ at = [1, 2] }]", &["has no name"], true),
+    ("kind = \"rates\"", "kind = \"half_axis\"", &["needs values of f"], false),
+    ("kind = \"rates\"", "kind = \"half_axis\"\nf = [0.5]", &["cannot be 0.5"], true),
+    ("kind = \"rates\"", "kind = \"accumulated\"", &["needs a curve of deamp"], false),
+    ("kind = \"rates\"", "kind = \"density\"\ncurves = [\"B\"]", &["nothing to show"], false),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\ny_limits = [5, 5]",
+        &["is not above its lower end"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\ny_limits = [0, 5]\nlog = true",
+        &["cannot include 0"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\n[[table]]\nkind = \"samples\"\ncurves = [\"B\"]",
+        &["nothing to show"],
+        false,
+    ),
+    ("kind = \"rates\"", "kind = \"rates\"\n[[scene]]\nname = \"x\"", &["no key `scene`"], true),
+];
+
+#[test]
+fn every_mistake_is_shown_in_its_place_and_the_schema_agrees() {
+    let folder = Folder::new();
+    folder.write("e.toml", GOOD);
+    folder.run(&["check", "e.toml"]).ok();
+    assert!(schema_allows(GOOD) && schema_allows(RICH));
+    for (line, instead, words, structural) in MISTAKES {
+        assert_eq!(GOOD.matches(line).count(), 1, "{line}");
+        let text = GOOD.replace(line, instead);
+        folder.write("e.toml", &text);
+        let run = folder.run(&["curves", "e.toml"]).fails(2, words);
+        assert!(run.stderr.contains("e.toml"), "{}", run.stderr);
+        assert_eq!(schema_allows(&text), !structural, "{instead}");
+    }
+    assert!(!folder.path("reports/good/curves.csv").exists());
+}
