@@ -1,10 +1,8 @@
 //! Video as YUV4MPEG2, compared with an independent program.
 
 use std::fs;
-use std::io::Read;
 use std::path::PathBuf;
 
-use fovqa_frame::source::Source;
 use fovqa_io::{SourceOptions, open_source};
 use serde_json::{Value, json};
 
