@@ -11,7 +11,7 @@ use fovqa_plan::Nonfinite;
 
 use super::values::{crop, finite, words};
 
-/// Otherwise the parser would take `Option` for an option that need not be given.
+/// Without this alias, the clap parser would take `Option` for an optional option.
 type TransferOrAuto = Option<Transfer>;
 type RangeOrAuto = Option<CodeRange>;
 type MatrixOrAuto = Option<ColourMatrix>;
