@@ -50,7 +50,7 @@ impl Group {
         Self { label, unit: "% of reference", better, key, digits: Digits::Percent }
     }
 
-    /// Label, unit, and an arrow or sign for the better direction.
+    /// Label, unit, and an arrow for the better direction.
     pub(crate) fn heading(&self) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
         let arrow = match self.better {
