@@ -1,20 +1,20 @@
-//! Whether a view's frames fit into memory, by arithmetic, before any of them is read.
+//! Estimates whether a view's frames fit into memory, before any of them is read.
 //!
-//! An allocation that fails ends the process. What follows is a lower bound of what is held at once,
-//! for frames of `n` pixels, so that nothing is refused that would have gone through:
+//! A failed allocation ends the process. The table gives lower bounds of the memory that is in use at
+//! the same time, for frames of `n` pixels, so that no view is refused that would have fitted:
 //!
-//! | held by | bytes |
+//! | used by | bytes |
 //! | --- | --- |
-//! | decoded frames | 6 n for a pair of 8-bit RGB, 12 n for half floats; in a sequence the next pair too |
-//! | FovVideoVDP | luminance, 4 n for each picture |
+//! | decoded frames | 6 n for a pair of 8-bit RGB, 12 n for half floats; in a sequence also for the next pair |
+//! | FovVideoVDP | luminance, 4 n for each image |
 //! | FovVideoVDP over time | 4 n for each frame of its window (0.25 s), once for the reference and once for each method; 16 n for the filtered channels of both |
 //! | FovVideoVDP of several methods | 16/3 n, and 32/3 n for each channel of the reference |
 //! | FovVideoVDP's pyramids | 5/4 n for each channel of reference and test: two levels at a time |
-//! | ATD | luma, 4 n for this frame and the one before: of the reference, and of each method |
-//! | maps | 7 n for the values and the picture of each, of GMSD for a quarter of the pixels |
-//! | MS-SSIM | its second level: 3 n for both pictures |
+//! | ATD | luma, 4 n for each of this frame and the one before, for the reference and for each method |
+//! | maps | 7 n for the values and the image of each map; GMSD has a quarter of the pixels |
+//! | MS-SSIM | 3 n for the second level of both images |
 //!
-//! What is kept row by row or in bands of rows does not count.
+//! Data that is kept row by row, or in bands of rows, is not counted.
 
 use std::collections::BTreeMap;
 

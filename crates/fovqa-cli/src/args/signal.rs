@@ -11,7 +11,7 @@ use fovqa_plan::Nonfinite;
 
 use super::values::{crop, finite, words};
 
-/// Without this alias, the clap parser would take `Option` for an optional option.
+/// With this alias, clap does not read the `Option` as an argument that may be omitted.
 type TransferOrAuto = Option<Transfer>;
 type RangeOrAuto = Option<CodeRange>;
 type MatrixOrAuto = Option<ColourMatrix>;

@@ -216,8 +216,7 @@ const LUMINANCE: &[Key] = &[
     key("gamma", Kind::Number(0.1, 10.0), "exponent of eotf = \"gamma\" (default 2.2)"),
 ];
 
-/// Names of [`fovqa_vision::Eotf`].
-/// What both eyes share.
+/// Keys that both eyes share.
 const SHARED: &[Key] = &[
     key(
         "luminance",

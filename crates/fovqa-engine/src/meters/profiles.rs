@@ -6,7 +6,7 @@ use fovqa_plan::Plan;
 
 use super::{Lumas, Pair};
 
-/// Profiles of the pictures of a pair.
+/// Measures the profiles of the images of a pair.
 pub(super) struct Profiles {
     profiler: Profiler,
     /// The profiles of the present reference, if they are the same for all tests.
