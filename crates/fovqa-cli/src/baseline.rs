@@ -45,7 +45,7 @@ fn accept(results: &Path, path: &Path, scenes: &[String], dry: bool) -> Result<E
         return Ok(printed);
     }
     if printed != Exit::Done {
-        // What could not be shown is not taken over.
+        // If the differences could not be shown, the new baseline is not written.
         return Ok(printed);
     }
     accepted.write(path)?;

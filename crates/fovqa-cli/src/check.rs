@@ -1,4 +1,5 @@
-//! `fovqa check`: the plan, the frames found, and what a run will warn of, without reading a pixel.
+//! `fovqa check`: shows the plan, the frames that were found, and the warnings of a run, without
+//! reading a pixel.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -30,7 +31,7 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
     };
     let found = fovqa::find(&experiment.plan, &Given::default());
     let terminal = Terminal::speaking(Dialect::Experiment);
-    // The warnings come where those of a run do, after the plan.
+    // The warnings come after the plan, as they do in a run.
     let warnings = Later::default();
     let metrics = match fovqa::foresee(&experiment.plan, &found, &warnings) {
         Ok(metrics) => metrics,
@@ -66,7 +67,7 @@ impl Events for Later {
     fn progress(&self, _done: usize, _total: usize) {}
 }
 
-/// The curves, tables and figures of a file.
+/// Checks and shows the curves, tables and figures of a file.
 fn curves(args: &CheckArgs) -> Exit {
     let file = match experiment::read_curves(&args.experiment) {
         Ok(file) => file,
@@ -94,7 +95,7 @@ fn curves(args: &CheckArgs) -> Exit {
     output::write(|out| out.write_all(text.as_bytes()))
 }
 
-/// Whether every mask is there and can be read.
+/// Checks that every mask exists and can be read.
 fn masks(experiment: &Experiment) -> bool {
     let eyes = experiment.plan.scenes.iter().flat_map(|scene| &scene.eyes);
     let masks: BTreeSet<&Path> = eyes.filter_map(|eye| eye.settings.mask.as_deref()).collect();

@@ -1,4 +1,4 @@
-//! `fovqa curves`: one curve as CSV, or the figures and tables of files.
+//! `fovqa curves`: writes one curve as CSV, or makes the figures and tables of files.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -16,7 +16,7 @@ pub(crate) fn run(args: &CurvesArgs) -> Exit {
     if args.curves.is_empty() { one(args) } else { files(args) }
 }
 
-/// The curve of the flags.
+/// Writes the curve that the options describe.
 fn one(args: &CurvesArgs) -> Exit {
     let traced =
         args.spec().and_then(|spec| trace(&spec, args.range()).map_err(|error| error.to_string()));
@@ -49,8 +49,8 @@ fn csv(curve: &Curve) -> String {
     text
 }
 
-/// Figures and tables of files, each into a folder of its own. Nothing is drawn while one of the
-/// files is wrong.
+/// Makes the figures and tables of files, each in its own folder. If one of the files contains a
+/// mistake, nothing is made.
 fn files(args: &CurvesArgs) -> Exit {
     let mut files: Vec<CurvesFile> = Vec::new();
     let mut wrong = None;
@@ -83,7 +83,7 @@ fn files(args: &CurvesArgs) -> Exit {
         let folder = args.output.as_ref();
         let folder =
             folder.map(|folder| if alone { folder.clone() } else { folder.join(&file.name) });
-        // What is wrong with one folder is no reason to leave the others out.
+        // An error in one folder does not prevent the others from being written.
         if let Err(exit) = draw(file, folder.as_deref(), args.lock.locking()) {
             outcome = exit;
         }

@@ -1,26 +1,27 @@
-//! Messages on stderr: what, where, and how to mend it. In colour on a terminal that shows it.
+//! Messages on stderr. They say what is wrong, where, and how to correct it. They are coloured if
+//! the terminal supports it.
 
 use std::io::Write;
 
 use anstyle::{AnsiColor, Style};
 
-/// An error, with a line on how to mend it unless that is empty.
+/// Prints an error and, unless `help` is empty, a line on how to correct it.
 pub(crate) fn error(message: &str, help: &str) {
     say("error", AnsiColor::Red, message, help);
 }
 
-/// A warning.
+/// Prints a warning.
 pub(crate) fn warning(message: &str) {
     say("warning", AnsiColor::Yellow, message, "");
 }
 
-/// A remark.
+/// Prints a note.
 pub(crate) fn note(message: &str) {
     say("note", AnsiColor::Cyan, message, "");
 }
 
-/// A message as a terminal may show it: what a file put into it (names, cells) must neither steer
-/// the terminal nor fill it.
+/// A message that is safe for a terminal. Text from a file (names, cells) must neither control the
+/// terminal nor fill it.
 pub(crate) fn shown(message: &str) -> String {
     const LONGEST: usize = 4000;
     let mut shown = String::new();
@@ -34,7 +35,7 @@ pub(crate) fn shown(message: &str) -> String {
     shown
 }
 
-/// A message that has been laid out already.
+/// Prints a message whose layout is complete already.
 pub(crate) fn block(text: &str) {
     // A closed stderr must not change how the run ends.
     let _ = writeln!(anstream::stderr().lock(), "{}\n", text.trim_end());

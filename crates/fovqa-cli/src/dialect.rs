@@ -1,18 +1,19 @@
-//! Settings in the words of whoever reads: options of the command line, or keys of an experiment.
+//! Spells settings in the user's terms: options of the command line, or keys of an experiment file.
 //!
-//! The crates below name settings in braces, `{alpha=ignore}`, because they know neither.
+//! The library crates name settings in braces, `{alpha=ignore}`, because they do not know which of
+//! the two the user writes.
 
-/// Which words a user has.
+/// The terms in which settings are named.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Dialect {
-    /// Options.
+    /// Options of the command line.
     #[default]
     Options,
-    /// TOML keys.
+    /// Keys of an experiment file.
     Experiment,
 }
 
-/// Setting, option, key.
+/// Setting, option, and key.
 const SETTINGS: [(&str, &str, &str); 21] = [
     ("allow_missing", "--allow-missing", "allow_missing = true"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),

@@ -1,4 +1,4 @@
-//! Exit codes, and what happens on the ways out nobody chose.
+//! Exit codes, and the handling of panics and interrupts.
 
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,23 +8,23 @@ use crate::diagnostic;
 /// How a run ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Exit {
-    /// Done.
+    /// The command is done.
     Done,
-    /// A gate fails.
+    /// A gate failed.
     Gate,
-    /// The command line is wrong.
+    /// The command line contains a mistake.
     Usage,
     /// An input is missing, unreadable or does not fit, or the output cannot be written.
     Input,
-    /// A mistake of ours.
+    /// A bug in fovqa.
     Bug,
 }
 
 const INTERRUPTED: i32 = 130;
 
 impl Exit {
-    /// Of two ways to end, the one that counts: what is wrong with the command line before inputs, and
-    /// these before gates.
+    /// The more important of two exits: mistakes on the command line come before errors of inputs,
+    /// and these before gates.
     pub(crate) fn or_worse(self, other: Self) -> Self {
         let rank = |exit| match exit {
             Exit::Done => 0,
@@ -53,10 +53,11 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Whether a bug has been said.
+/// Whether a bug was reported.
 static SAID: AtomicBool = AtomicBool::new(false);
 
-/// The exit of a bug, which is said if no hook could tell it from a decoder's mistake.
+/// The exit for a bug. The bug is reported here if the panic hook could not distinguish it from the
+/// error of a decoder.
 pub(crate) fn bug() -> Exit {
     if !SAID.load(Ordering::Relaxed) {
         diagnostic::error(
@@ -67,7 +68,8 @@ pub(crate) fn bug() -> Exit {
     Exit::Bug
 }
 
-/// A panic that is not about to become a file's error is a bug: say so, in our own words.
+/// Reports a panic in fovqa's own words if it is a bug. A panic that becomes the error of a file is
+/// not reported here.
 pub(crate) fn watch_panics() {
     std::panic::set_hook(Box::new(|info| {
         if fovqa_io::is_contained() {
@@ -83,9 +85,10 @@ pub(crate) fn watch_panics() {
     }));
 }
 
-/// Ctrl-C ends the process with 130; files are only ever written whole, so nothing is half done.
+/// Ends the process with code 130 on Ctrl-C. Files are always written as a whole, so no partial
+/// file remains.
 pub(crate) fn watch_interrupts() {
-    // Without a handler the system's own way out is left, which is as good.
+    // If no handler can be set, the operating system ends the process, which has the same effect.
     let _ = ctrlc::set_handler(|| {
         diagnostic::note("interrupted");
         #[allow(clippy::exit, reason = "the one place where the process ends from outside")]

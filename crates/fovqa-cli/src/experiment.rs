@@ -1,4 +1,5 @@
-//! Reading an experiment file for a command, and saying what is wrong: with a file in its own lines.
+//! Reads an experiment file for a command and reports its errors. Mistakes in the file are shown
+//! with their lines.
 
 use std::path::Path;
 
@@ -11,28 +12,29 @@ use crate::diagnostic;
 use crate::dialect::Dialect;
 use crate::exit::Exit;
 
-/// Mistakes that are shown in full; the others are counted.
+/// Number of mistakes that are shown in full; the others are only counted.
 const SHOWN: usize = 20;
 
-/// A line longer than this is not shown: nobody would find the place in it.
+/// Maximum number of characters in a line that is shown. In a longer line, the place would be hard
+/// to find.
 const LONGEST_LINE: usize = 400;
 
-/// The experiment; what is wrong with it has been said otherwise.
+/// Reads an experiment. Errors are reported before this returns.
 pub(crate) fn read(path: &Path) -> Result<Experiment, Exit> {
     fovqa::read_experiment(path).map_err(|error| failed(&error))
 }
 
-/// A file of curves; what is wrong with it has been said otherwise.
+/// Reads a curves file. Errors are reported before this returns.
 pub(crate) fn read_curves(path: &Path) -> Result<CurvesFile, Exit> {
     fovqa::read_curves(path).map_err(|error| failed(&error))
 }
 
-/// Says why something cannot be done, to a user who writes experiment files.
+/// Reports an error to a user who writes experiment files.
 pub(crate) fn failed(error: &fovqa::Error) -> Exit {
     said(error, Dialect::Experiment)
 }
 
-/// Says why something cannot be done, in a user's words.
+/// Reports an error in the given terms.
 pub(crate) fn said(error: &fovqa::Error, dialect: Dialect) -> Exit {
     match error {
         fovqa::Error::Experiment(error) => of_file(error),
@@ -66,7 +68,7 @@ fn say(file: &str, text: &str, faults: &[Fault]) {
     for fault in faults.iter().take(SHOWN) {
         let whole = fault.span.is_empty() && fault.span.start == 0;
         if whole || long {
-            // What is about the whole file has no place in it.
+            // A mistake that concerns the whole file has no position.
             let place = if whole { String::new() } else { format!(":{}", place(text, fault)) };
             let label = if fault.label.is_empty() { "" } else { "; " };
             let message = format!("{file}{place}: {}{label}{}", fault.message, fault.label);
@@ -80,7 +82,7 @@ fn say(file: &str, text: &str, faults: &[Fault]) {
     }
 }
 
-/// Line and column of a mistake, from 1.
+/// Line and column of a mistake, both counted from 1.
 fn place(text: &str, fault: &Fault) -> String {
     let before = text.get(..fault.span.start).unwrap_or(text);
     let line = before.matches('\n').count() + 1;
@@ -88,8 +90,8 @@ fn place(text: &str, fault: &Fault) -> String {
     format!("{line}:{column}")
 }
 
-/// The text with control characters replaced by as many bytes: it must not steer the terminal, and
-/// places in it stay.
+/// The text with each control character replaced by the same number of bytes. It must not control
+/// the terminal, and positions in the text must stay the same.
 fn printable(text: &str) -> String {
     let shown = |c: char| match c {
         '\n' | '\t' => c,
@@ -104,14 +106,14 @@ fn printable(text: &str) -> String {
 fn rendered(fault: &Shown<'_>) -> String {
     let mut text = String::new();
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode());
-    // Rendering to a string does not fail; without it the words are still there.
+    // Rendering to a string does not fail. If it did, the message would still be shown.
     if handler.with_width(100).with_context_lines(1).render_report(&mut text, fault).is_err() {
         text = fault.to_string();
     }
     text
 }
 
-/// A mistake with the text it is in.
+/// A mistake together with the text that contains it.
 #[derive(Debug)]
 struct Shown<'a> {
     fault: &'a Fault,

@@ -1,4 +1,4 @@
-//! `fovqa gate`: score, or take what was scored, and hold the rules against it.
+//! `fovqa gate`: scores an experiment, or uses the results of a finished run, and checks the rules.
 
 use std::path::Path;
 
@@ -32,7 +32,7 @@ fn gate(args: &GateArgs) -> Result<Exit, Exit> {
     Ok(judged.or_worse(printed).or_worse(written))
 }
 
-/// The verdict of a run that is finished.
+/// The verdict for a finished run.
 fn of_folder(args: &GateArgs) -> Result<Verdict, Exit> {
     let options = [
         ("--output", args.output.is_some()),
@@ -51,7 +51,7 @@ fn of_folder(args: &GateArgs) -> Result<Verdict, Exit> {
         .map_err(|error| experiment::failed(&error))
 }
 
-/// The verdict of an experiment, which is scored.
+/// Scores an experiment and returns the verdict.
 fn of_experiment(args: &GateArgs) -> Result<Verdict, Exit> {
     let experiment = experiment::read(&args.target)?;
     threads::started(args.threads)?;
@@ -69,7 +69,7 @@ fn of_experiment(args: &GateArgs) -> Result<Verdict, Exit> {
         .map_err(|error| experiment::failed(&error))
 }
 
-/// Each file that is asked for, whatever becomes of the others.
+/// Writes each requested file, even if another one cannot be written.
 fn write_files(args: &GateArgs, verdict: &Verdict) -> Exit {
     let mut exit = Exit::Done;
     let mut write = |path: &Path, text: &str| {
@@ -110,7 +110,7 @@ fn print(args: &GateArgs, verdict: &Verdict) -> Exit {
     }
 }
 
-/// Prints limits that come from repeated runs.
+/// Prints proposed limits from repeated runs.
 fn propose(args: &GateArgs) -> Result<Exit, Exit> {
     let mut experiment = experiment::read(&args.target)?;
     experiment.plan.frames = args.frames;

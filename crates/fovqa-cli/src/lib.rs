@@ -1,4 +1,4 @@
-//! The command: arguments, progress, exit codes. Everything else is in the crates below.
+//! The command: arguments, progress and exit codes. Everything else is in the library crates.
 
 mod args;
 mod baseline;
@@ -26,7 +26,7 @@ use clap::{CommandFactory, Parser};
 use args::{Cli, Command};
 use exit::Exit;
 
-/// Runs the command on the arguments of this process.
+/// Runs the command with the arguments of this process.
 pub fn main() -> ExitCode {
     exit::watch_panics();
     exit::watch_interrupts();
@@ -60,11 +60,11 @@ fn dispatch(cli: Cli) -> Exit {
     }
 }
 
-/// What clap has to say: help and version on stdout, errors on stderr.
+/// Prints the output of clap: help and version on stdout, errors on stderr.
 fn usage(error: &clap::Error) -> Exit {
     let printed = error.print();
     if error.use_stderr() {
-        // Nothing is left to do when stderr is closed.
+        // If stderr is closed, nothing more can be done.
         return Exit::Usage;
     }
     output::outcome(printed)

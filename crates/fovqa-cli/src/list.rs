@@ -1,4 +1,4 @@
-//! `fovqa list`: what there is.
+//! `fovqa list`: lists the available names.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! `fovqa merge`: the shards of a run to its results.
+//! `fovqa merge`: merges the shards of a run.
 
 use crate::args::MergeArgs;
 use crate::dialect::Dialect;

@@ -11,8 +11,8 @@ pub(crate) fn write(results: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> E
     outcome(results(&mut out).and_then(|()| out.flush()))
 }
 
-/// How a run ends after writing to stdout. A reader that closed its end has seen enough: that is
-/// success.
+/// How the command ends after writing to stdout. If the reader has closed its end, that is a
+/// success, because it has read enough.
 pub(crate) fn outcome(written: io::Result<()>) -> Exit {
     match written {
         Ok(()) => Exit::Done,

@@ -1,4 +1,4 @@
-//! Warnings and a progress bar on stderr; no bar where stderr is not a terminal.
+//! Shows warnings and a progress bar on stderr. There is no bar if stderr is not a terminal.
 
 use std::cell::OnceCell;
 use std::io::IsTerminal;
@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::diagnostic;
 use crate::dialect::Dialect;
 
-/// What a run says goes to stderr.
+/// Prints the messages of a run on stderr.
 #[derive(Default)]
 pub(crate) struct Terminal {
     dialect: Dialect,
@@ -17,7 +17,7 @@ pub(crate) struct Terminal {
 }
 
 impl Terminal {
-    /// Speaks to a user in these words.
+    /// Makes a listener that uses the given terms.
     pub(crate) fn speaking(dialect: Dialect) -> Self {
         Self { dialect, ..Self::default() }
     }
@@ -44,7 +44,7 @@ impl Events for Terminal {
         bar.set_position(done as u64);
     }
 
-    /// Takes the bar off the screen.
+    /// Removes the progress bar from the screen.
     fn finish(&self) {
         if let Some(bar) = self.bar.get() {
             bar.finish_and_clear();

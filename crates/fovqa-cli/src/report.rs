@@ -1,4 +1,4 @@
-//! `fovqa report`: tables and figures of a finished run, drawn again.
+//! `fovqa report`: makes the tables and figures of a finished run again.
 
 use fovqa::{Finished, Report};
 

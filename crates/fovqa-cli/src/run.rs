@@ -1,4 +1,5 @@
-//! `fovqa run`: experiment, frames, scores, files, tables and figures; or one shard of the scores.
+//! `fovqa run`: scores an experiment and writes files, tables and figures; or scores one shard of
+//! it.
 
 use fovqa::{Finished, Given, Run, RunOptions, Shard};
 
@@ -35,7 +36,7 @@ fn scored(args: &RunArgs) -> Result<Exit, Exit> {
     Ok(printed)
 }
 
-/// The comparison on stdout, and where the files are on stderr.
+/// Prints the comparison table on stdout, and the location of the files on stderr.
 pub(crate) fn say(finished: &Finished) -> Exit {
     let table = finished.drawn.as_ref().and_then(|drawn| drawn.table.as_ref());
     let printed = match table {
@@ -55,7 +56,7 @@ pub(crate) fn say(finished: &Finished) -> Exit {
     }
 }
 
-/// Where a shard is, which has no results of its own.
+/// Prints where a shard is. A shard has no results of its own.
 fn say_shard(name: &str, shard: Shard, finished: &Finished) -> Exit {
     let errors = finished.errors_in_words();
     if let Some(errors) = &errors {

@@ -1,4 +1,4 @@
-//! `fovqa schema`: the JSON Schema of a file.
+//! `fovqa schema`: prints the JSON Schema of a file format.
 
 use crate::args::SchemaOf;
 use crate::exit::Exit;

@@ -1,4 +1,4 @@
-//! `fovqa score`: plan, run, results.
+//! `fovqa score`: scores one comparison and prints the results.
 
 use fovqa::{Given, write_csv, write_json};
 
@@ -9,7 +9,7 @@ use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{experiment, output, threads};
 
-/// Of a great many failures, as many as a terminal holds.
+/// Maximum number of failures that are shown, so that they fit on a terminal.
 const FAILURES_SHOWN: usize = 20;
 
 pub(crate) fn run(args: ScoreArgs) -> Exit {
@@ -45,7 +45,7 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
             "{more} more frames could not be scored; --format json lists them"
         ));
     }
-    // Nothing that looks like a result where nothing was scored.
+    // If nothing was scored, print nothing that looks like a result.
     let written = if report.frames.is_empty() {
         Exit::Done
     } else {

@@ -1,16 +1,16 @@
-//! The pool all work runs on.
+//! The thread pool for all parallel work.
 
 use crate::diagnostic;
 use crate::exit::Exit;
 
-/// More than this only takes longer to start.
+/// Maximum number of threads. More threads only take longer to start.
 const MOST: usize = 256;
 
-/// Starts the pool with as many threads as are asked for, or as the environment or the machine
-/// has, within reason.
+/// Starts the pool. The number of threads is `asked`, otherwise that of the environment, otherwise
+/// that of the machine, up to the maximum.
 fn start(asked: Option<u16>) -> Result<(), String> {
     let from_environment = || std::env::var("RAYON_NUM_THREADS").ok()?.parse::<usize>().ok();
-    // 0 leaves the choice to the pool: one thread a core.
+    // For 0, the pool itself chooses one thread per core.
     let threads = asked.map(usize::from).or_else(from_environment).unwrap_or(0).min(MOST);
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)

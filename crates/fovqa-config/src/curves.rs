@@ -1,4 +1,4 @@
-//! A file of curves to a plan of curves.
+//! Turns a curves file into a plan of curves.
 
 use std::path::Path;
 
@@ -9,28 +9,28 @@ use crate::file;
 use crate::grammar::CURVES;
 use crate::resolve;
 
-/// Reads a file of curves. No other file is looked at.
+/// Reads a curves file. No other file is read.
 ///
 /// # Errors
-/// When it cannot be read, or has mistakes in it: all that can be told, in one go.
+/// If it cannot be read or contains mistakes. All mistakes that can be found are returned together.
 pub fn read_curves(path: &Path) -> Result<CurvesFile, ExperimentError> {
     parse_curves(path, file::read(path)?)
 }
 
-/// Parses the text of a file of curves.
+/// Parses the text of a curves file.
 ///
 /// # Errors
-/// When it has mistakes in it.
+/// If it contains mistakes.
 pub fn parse_curves(path: &Path, text: String) -> Result<CurvesFile, ExperimentError> {
     let (name, about, plan) = file::parse(path, &text, CURVES, resolve::curves)?;
     Ok(CurvesFile { name, about, path: path.to_owned(), text, plan })
 }
 
-/// Whether a file is one of curves rather than an experiment: it has curves, plots or tables, and nothing
-/// that is scored.
+/// Whether a file is a curves file rather than an experiment: it contains curves, plots or tables,
+/// and nothing that is scored.
 ///
 /// # Errors
-/// When it cannot be read.
+/// If it cannot be read.
 pub fn is_curves(path: &Path) -> Result<bool, ExperimentError> {
     let text = file::read(path)?;
     let any = |keys: &[&str]| file::has(&text, keys);

@@ -1,4 +1,4 @@
-//! An experiment file to an experiment.
+//! Turns an experiment file into an experiment.
 
 use std::path::Path;
 
@@ -9,19 +9,19 @@ use crate::file;
 use crate::grammar::EXPERIMENT;
 use crate::resolve;
 
-/// Reads an experiment file. No other file is looked at.
+/// Reads an experiment file. No other file is read.
 ///
 /// # Errors
-/// When it cannot be read, or has mistakes in it: all that can be told, in one go.
+/// If it cannot be read or contains mistakes. All mistakes that can be found are returned together.
 pub fn read_experiment(path: &Path) -> Result<Experiment, ExperimentError> {
     let text = file::read(path)?;
     parse_experiment(path, text)
 }
 
-/// Parses the text of an experiment file; relative paths in it begin in the folder of `path`.
+/// Parses the text of an experiment file. Its relative paths start in the folder of `path`.
 ///
 /// # Errors
-/// When it has mistakes in it.
+/// If it contains mistakes.
 pub fn parse_experiment(path: &Path, text: String) -> Result<Experiment, ExperimentError> {
     let resolved = file::parse(path, &text, EXPERIMENT, |root, faults| {
         resolve::experiment(root, path, &text, faults)

@@ -1,20 +1,20 @@
-//! What can be wrong with an experiment file, and where in it.
+//! Mistakes in an experiment file and their positions.
 
 use std::ops::Range;
 use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// One mistake: what, where, and how to mend it.
+/// One mistake: what is wrong, where, and how to correct it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
     /// What is wrong.
     pub message: String,
-    /// The bytes of the file it is about; empty where it is about the whole.
+    /// The range of bytes in the file that it concerns; empty if it concerns the whole file.
     pub span: Range<usize>,
-    /// A few words at the place, such as "did you mean psnr?"; may be empty.
+    /// A short label at the position, such as "did you mean psnr?"; may be empty.
     pub label: String,
-    /// How to mend it; may be empty.
+    /// How to correct it; may be empty.
     pub help: String,
 }
 
@@ -32,15 +32,15 @@ impl Fault {
     }
 }
 
-/// The mistakes of a file, as far as anybody will read them.
+/// The mistakes of a file, up to a maximum number.
 #[derive(Debug, Default)]
 pub(crate) struct Faults(Vec<Fault>);
 
 impl Faults {
-    /// Beyond these nothing is added: a mistake may name everything there is, and a file may have a
-    /// million of them.
+    /// Maximum number of mistakes that are stored. A message may list every known name, and a file
+    /// may contain a million mistakes.
     const MOST: usize = 10_000;
-    /// With these nothing is looked for that takes a look at everything else.
+    /// From this number on, checks that compare an item with all others are skipped.
     const MANY: usize = 1000;
 
     pub(crate) fn push(&mut self, fault: Fault) {
@@ -57,21 +57,21 @@ impl Faults {
         self.0.len()
     }
 
-    /// Whether there is no use in looking far for more.
+    /// Whether there are so many mistakes that slow checks are skipped.
     pub(crate) fn are_many(&self) -> bool {
         self.0.len() >= Self::MANY
     }
 
-    /// In the order of the file.
+    /// The mistakes in the order of the file.
     pub(crate) fn in_order(mut self) -> Vec<Fault> {
         self.0.sort_by_key(|fault| (fault.span.start, fault.span.end));
-        // What is general is read once for each scene and eye.
+        // General tables are checked again for each scene and eye, which repeats their mistakes.
         self.0.dedup();
         self.0
     }
 }
 
-/// An experiment file that is none.
+/// Why an experiment file or a curves file is not valid.
 #[derive(Debug, Error)]
 pub enum ExperimentError {
     /// A file that cannot be read.

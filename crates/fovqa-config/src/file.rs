@@ -1,4 +1,4 @@
-//! A TOML file, read, parsed and held against a grammar.
+//! Reads and parses a TOML file, and checks it against a grammar.
 
 use std::path::Path;
 
@@ -9,10 +9,10 @@ use crate::fault::{ExperimentError, Fault, Faults};
 use crate::grammar::{Key, check};
 use crate::node::Node;
 
-/// Far more than anybody writes.
+/// Maximum size of a file in bytes, far more than anybody writes.
 const MAX_BYTES: u64 = 4 << 20;
 
-/// The text of a file. No other file is looked at.
+/// Reads the text of a file. No other file is read.
 pub(crate) fn read(path: &Path) -> Result<String, ExperimentError> {
     let unreadable = |reason: String| ExperimentError::Unreadable { path: path.to_owned(), reason };
     let bytes = read_small_file(path, MAX_BYTES).map_err(|error| unreadable(reason(&error)))?;
@@ -26,7 +26,7 @@ fn reason(error: &std::io::Error) -> String {
     }
 }
 
-/// What a text says, once the grammar has found it right and `resolve` has no fault with it.
+/// The content of a text, if neither the grammar nor `resolve` finds a mistake.
 pub(crate) fn parse<T>(
     path: &Path,
     text: &str,
@@ -53,8 +53,8 @@ fn parsed<T>(
         }
     };
     check(keys, document.get_ref(), "the experiment", 0..0, &mut faults);
-    // What refers to something is looked at only in a file that is written right: a table whose name
-    // is misspelled would be missed in a dozen other places.
+    // References are checked only in a file that the grammar accepts. If the name of a table is
+    // misspelled, every reference to it would be reported as well.
     if !faults.is_empty() {
         return Err(faults);
     }
@@ -64,14 +64,14 @@ fn parsed<T>(
 
 fn document(text: &str) -> Result<serde_spanned::Spanned<DeTable<'_>>, Fault> {
     DeTable::parse(text).map_err(|error| {
-        // A mistake at the very end has no character of its own to point to.
+        // A mistake at the end of the file has no character that it could point to.
         let span = error.span().unwrap_or_default();
         let span = span.start.min(text.len())..span.end.min(text.len());
         Fault::new(span, format!("this is not TOML: {}", error.message()))
     })
 }
 
-/// Whether a text has any of these keys at its top.
+/// Whether a text has any of these keys at the top level.
 pub(crate) fn has(text: &str, keys: &[&str]) -> bool {
     document(text)
         .is_ok_and(|document| keys.iter().any(|key| document.get_ref().contains_key(*key)))

@@ -1,7 +1,8 @@
-//! TOML files to plans: an experiment file ([`read_experiment`]) and a file of curves ([`read_curves`]).
+//! Turns TOML files into plans: an experiment file ([`read_experiment`]) or a curves file
+//! ([`read_curves`]).
 //!
-//! A file is parsed to tables that know where each word stands, held against one grammar (which is the JSON
-//! Schema too, [`schema`]), and resolved to a plan.
+//! A file is parsed into tables that know the position of each word. It is checked against one
+//! grammar, from which the JSON Schema ([`schema`]) is made as well, and then resolved to a plan.
 
 mod curves;
 mod experiment;

@@ -1,9 +1,9 @@
-//! "Did you mean": the name nearest to one that is not there.
+//! Finds the known name that is most similar to an unknown one, for "did you mean".
 
-/// The name of `known` that a slip is likely to have meant; `-` and `_`, upper and lower case are
-/// alike.
+/// The name in `known` that a misspelled name most likely stands for. `-` and `_` count as the
+/// same, and so do upper and lower case.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    /// Jaro-Winkler similarity above which a slip is likelier than another intent.
+    /// The Jaro-Winkler similarity above which a misspelling is likely.
     const LIKELY: f64 = 0.75;
     let plain = |name: &str| name.to_lowercase().replace('_', "-");
     let name = plain(name);
@@ -11,7 +11,7 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .into_iter()
         .map(|known| (strsim::jaro_winkler(&name, &plain(known)), known))
         .filter(|(similarity, _)| *similarity > LIKELY)
-        // The first of the most similar ones, so that the answer does not depend on ties.
+        // If several names are equally similar, the first one is taken.
         .reduce(|best, other| if other.0 > best.0 { other } else { best })
         .map(|(_, known)| known)
 }

@@ -1,4 +1,5 @@
-//! Typed access to tables that the grammar has found right: what it has refused reads as absent.
+//! Typed access to tables that the grammar has checked. A value that it has refused is treated as
+//! absent.
 
 use std::ops::Range;
 
@@ -21,7 +22,7 @@ impl<'a> Node<'a> {
         self.0.get(key)
     }
 
-    /// Where a value stands.
+    /// The position of a value.
     pub(crate) fn span(self, key: &str) -> Range<usize> {
         self.value(key).map(Spanned::span).unwrap_or_default()
     }
@@ -59,7 +60,7 @@ impl<'a> Node<'a> {
         table(self.value(key)?)
     }
 
-    /// The tables of an array, each with its place.
+    /// The tables of an array, each with its position.
     pub(crate) fn tables(self, key: &str) -> Vec<(Node<'a>, Range<usize>)> {
         let items = match self.value(key).map(Spanned::get_ref) {
             Some(DeValue::Array(items)) => items.as_ref(),
@@ -68,7 +69,7 @@ impl<'a> Node<'a> {
         items.iter().filter_map(|item| Some((table(item)?, item.span()))).collect()
     }
 
-    /// The names of a list, each with its place.
+    /// The names in a list, each with its position.
     pub(crate) fn names(self, key: &str) -> Option<Vec<(&'a str, Range<usize>)>> {
         let DeValue::Array(items) = self.value(key)?.get_ref() else { return None };
         Some(items.iter().filter_map(|item| Some((text(item)?, item.span()))).collect())

@@ -1,4 +1,5 @@
-//! What was found of all pairs to the results of a run: comparison by comparison, in order.
+//! Turns the findings about all pairs into the results of a run, comparison by comparison, in
+//! order.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +10,7 @@ use fovqa_results::{Comparison, Failure, RunResults, ScoreReport, both_eyes};
 use crate::events::Events;
 use crate::findings::{ComparisonIndex, Findings, Outcome, Settled, ViewFindings, ViewIndex};
 
-/// A failure of a whole comparison.
+/// A failure that concerns a whole comparison.
 pub(crate) fn whole(message: String, help: String) -> Failure {
     Failure { frame: None, reference: String::new(), test: String::new(), message, help }
 }
@@ -63,7 +64,7 @@ fn report_view(
     }
 }
 
-/// What holds for a sequence as a whole.
+/// Adds to a report what holds for its sequence as a whole.
 fn settle(report: &mut ScoreReport, method: usize, settled: &Settled) {
     report.view.clone_from(&settled.view);
     report.metrics.clone_from(&settled.metrics);
@@ -72,7 +73,8 @@ fn settle(report: &mut ScoreReport, method: usize, settled: &Settled) {
     if let Some(fvvdp) = &mut report.fvvdp {
         fvvdp.missing = settled.missing.get(&method).cloned();
     }
-    // A frame that could not be scored has said so; one that was never there has not.
+    // A frame that could not be scored has its own error already. A frame that was never there has
+    // none.
     let missing = report.fvvdp.as_ref().and_then(|fvvdp| fvvdp.missing.clone());
     if let Some(why) = missing.filter(|_| report.failures.is_empty()) {
         let message = format!("FovVideoVDP has no value for the sequence: {why}");
@@ -81,7 +83,8 @@ fn settle(report: &mut ScoreReport, method: usize, settled: &Settled) {
     }
 }
 
-/// Comparisons in the order of scenes, methods and eyes, with both eyes behind the two.
+/// The comparisons in the order of scenes, methods and eyes. The comparison of both eyes follows
+/// the two single eyes.
 fn in_order(
     plan: &Plan,
     events: &dyn Events,

@@ -1,9 +1,10 @@
-//! How much memory this process can still get: Linux says it, other systems are not asked.
+//! How much memory this process can still get. Only Linux is asked; on other systems the amount is
+//! unknown.
 
 use std::fs;
 use std::path::Path;
 
-/// Free memory and swap space, and what the control groups of this process leave of it. `None` where
+/// Bytes of free memory and swap space, limited by the control groups of this process. `None` if
 /// nothing is known.
 pub(crate) fn available_bytes() -> Option<u64> {
     let system = fs::read_to_string("/proc/meminfo").ok().and_then(|text| of_meminfo(&text));
@@ -12,7 +13,7 @@ pub(crate) fn available_bytes() -> Option<u64> {
     [system, groups].into_iter().flatten().min()
 }
 
-/// `MemAvailable` and `SwapFree` of /proc/meminfo, in bytes.
+/// The sum of `MemAvailable` and `SwapFree` in the text of /proc/meminfo, in bytes.
 fn of_meminfo(text: &str) -> Option<u64> {
     let value = |key: &str| {
         let line = text.lines().find_map(|line| line.strip_prefix(key))?;
@@ -22,7 +23,8 @@ fn of_meminfo(text: &str) -> Option<u64> {
     Some(value("MemAvailable:")? + value("SwapFree:").unwrap_or(0))
 }
 
-/// What the groups in /proc/self/cgroup, and those they lie in, leave. Of version 1 `memory` alone.
+/// The bytes that are left in the groups listed in /proc/self/cgroup and in their parent groups. Of
+/// cgroup version 1, only the `memory` controller is read.
 fn of_groups(text: &str, mounted: &Path) -> Option<u64> {
     let left = text.lines().filter_map(|line| {
         let mut parts = line.splitn(3, ':').skip(1);
@@ -42,11 +44,12 @@ fn of_groups(text: &str, mounted: &Path) -> Option<u64> {
     left.min()
 }
 
-/// The limit of a group less what it uses; pages of files that nobody has used lately are given back.
+/// The limit of a group minus its usage. The system gives back pages of files that have not been
+/// used lately, so they do not count as used.
 fn left_in(folder: &Path, [limit, used, unused]: [&str; 3]) -> Option<u64> {
     let number =
         |file: &str| fs::read_to_string(folder.join(file)).ok()?.trim().parse::<u64>().ok();
-    // Not a number, `max`, where there is no limit.
+    // If there is no limit, the file contains `max`, which is not a number.
     let (limit, used) = (number(limit)?, number(used)?);
     let statistics = fs::read_to_string(folder.join("memory.stat")).unwrap_or_default();
     let unused = statistics.lines().find_map(|line| line.strip_prefix(unused)?.parse().ok());

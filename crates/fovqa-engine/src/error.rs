@@ -1,4 +1,4 @@
-//! What keeps a run from starting at all.
+//! Errors that prevent a run from starting.
 
 use std::path::{Path, PathBuf};
 
@@ -16,62 +16,62 @@ use crate::needed_memory::{Needed, gigabytes};
 /// Why a run could not start.
 #[derive(Debug, Error)]
 pub enum EngineError {
-    /// A path argument that stands for nothing.
+    /// A path argument that matches nothing.
     #[error(transparent)]
     Listing(#[from] ListingError),
-    /// A path argument that is there, and no sequence of frames.
+    /// A path argument that exists but is not a sequence of frames.
     #[error(transparent)]
     Source(#[from] SourceError),
-    /// Frames without partners.
+    /// Frames that have no partners.
     #[error(transparent)]
     Pairing(#[from] PairingError),
-    /// A source that was to be given and is not.
+    /// A source that the caller had to provide and did not.
     #[error("the plan uses the source {name:?}, but no such source was given")]
     NotGiven {
-        /// What the plan calls it.
+        /// The name of the source in the plan.
         name: String,
     },
-    /// A selection without a frame.
+    /// A selection that contains no frame.
     #[error("the selection contains no frame; the frames are {first} to {last}")]
     NoFrames {
-        /// Lowest number there is.
+        /// Lowest frame number that exists.
         first: i64,
-        /// Highest number there is.
+        /// Highest frame number that exists.
         last: i64,
     },
-    /// Frames that are asked for by number, where the names have none that tell them apart.
+    /// Frames are requested by number, but the file names have no numbers that tell them apart.
     #[error("{argument}: {what} needs frame numbers, but the numbers in the file names do not identify the frames: {}", doubt.in_words())]
     NoNumbers {
         /// The reference argument.
         argument: String,
-        /// What goes by numbers.
+        /// What depends on the numbers.
         what: &'static str,
-        /// Why they do not.
+        /// Why the names have no such numbers.
         doubt: Doubt,
     },
-    /// A view that cannot be.
+    /// A view that is not possible.
     #[error(transparent)]
     View(#[from] ViewError),
-    /// Something that needs a view, without one.
+    /// Something needs a view, and there is none.
     #[error("{what} needs a view, but no view is given")]
     NoView {
         /// What needs it.
         what: String,
     },
-    /// Something that needs the display's photometry, without it.
+    /// Something needs the photometry of the display, and there is none.
     #[error("{what} needs the display's photometry, but {}", unlit(display.as_ref()))]
     NoLuminance {
         /// What needs it.
         what: String,
-        /// The display, where one is given.
+        /// The name of the display, if one is given.
         display: Option<String>,
     },
     /// A display that cannot show the files as they are encoded.
     #[error("{what}: {why}")]
     ShownWrongly {
-        /// What is of its light.
+        /// What depends on the luminance of the display.
         what: String,
-        /// Why it cannot.
+        /// Why the display cannot show the files.
         why: String,
     },
     /// A sequence that cannot be filtered over time.
@@ -85,7 +85,7 @@ pub enum EngineError {
         /// The reason.
         error: std::io::Error,
     },
-    /// A parameter that cannot be.
+    /// A parameter with a value that is not possible.
     #[error(transparent)]
     Param(#[from] ParamError),
     /// A gaze file that cannot be opened.
@@ -96,7 +96,7 @@ pub enum EngineError {
         /// The reason.
         error: std::io::Error,
     },
-    /// A gaze file that is none, or does not fit.
+    /// A file that is not a valid gaze trace, or a gaze trace that does not fit the frames.
     #[error("{}: {error}", path.display())]
     GazeTrace {
         /// The file.
@@ -112,9 +112,9 @@ pub enum EngineError {
     Memory {
         /// Width and height of the frames.
         size: (usize, usize),
-        /// What is held at once.
+        /// The memory that is in use at once.
         needed: Needed,
-        /// Bytes that are available.
+        /// Bytes of memory that are available.
         available: u64,
     },
     /// A mask that cannot be read.
@@ -128,12 +128,12 @@ pub enum EngineError {
         /// The reason.
         error: std::io::Error,
     },
-    /// A journal with a line that is not as it was written.
+    /// A journal with a line that was changed after it was written.
     #[error("{}:{line}: this line of the journal was changed or damaged", path.display())]
     JournalChanged {
         /// The file.
         path: PathBuf,
-        /// The line, from 1.
+        /// Number of the line, counted from 1.
         line: usize,
     },
     /// A journal that cannot be read.
@@ -156,7 +156,7 @@ impl From<OpenError> for EngineError {
 }
 
 impl EngineError {
-    /// The same of other paths: as results show them.
+    /// The same error with its paths as results show them.
     pub(crate) fn with_paths(self, shown: &dyn Fn(&Path) -> PathBuf) -> Self {
         match self {
             Self::Listing(error) => Self::Listing(error.with_paths(shown)),
@@ -169,7 +169,7 @@ impl EngineError {
         }
     }
 
-    /// Whether the command line is wrong, rather than an input.
+    /// Whether the error is in the command line rather than in an input.
     pub fn is_usage(&self) -> bool {
         match self {
             Self::View(_)
@@ -195,7 +195,7 @@ impl EngineError {
         }
     }
 
-    /// How to mend it.
+    /// How to correct the error.
     pub fn help(&self) -> String {
         match self {
             Self::Listing(error) => error.help().to_owned(),
@@ -260,7 +260,7 @@ fn unlit(display: Option<&String>) -> String {
     }
 }
 
-/// The metrics that lack a view.
+/// The error for metrics that need a view where there is none.
 pub(crate) fn no_view(metrics: &[Metric]) -> EngineError {
     let names: Vec<_> = metrics.iter().map(|m| m.info().label).collect();
     EngineError::NoView { what: names.join(" and ") }

@@ -1,29 +1,30 @@
-//! What a run has to say while it goes on.
+//! Messages and progress that a run reports while it works.
 
 use std::collections::BTreeSet;
 
 /// Receives warnings and progress.
 pub trait Events {
-    /// Something the user should know; said once.
+    /// Something that the user should know. It is reported once.
     fn warn(&self, message: &str);
 
-    /// `done` of `total` frames are through.
+    /// `done` of `total` frames are finished.
     fn progress(&self, done: usize, total: usize);
 
-    /// All frames are through.
+    /// All frames are finished.
     fn finish(&self) {}
 
-    /// Something that could not be done, while the rest goes on: what, where, and how to mend it.
+    /// Something could not be done, and the rest continues. The texts say what failed, where, and
+    /// how to correct it.
     fn failure(&self, _message: &str, _help: &str) {}
 
-    /// Something worth knowing.
+    /// Something that may interest the user.
     fn note(&self, _message: &str) {}
 }
 
-/// Warnings that are said once, whatever number of frames they are true of.
+/// Reports each warning once, however many frames it applies to.
 pub(crate) struct Warnings<'a> {
     events: &'a dyn Events,
-    /// Scene and eye, where there are several.
+    /// Names of the scene and the eye, if there are several.
     place: String,
     frames: usize,
     said: BTreeSet<(String, String)>,
@@ -34,13 +35,13 @@ impl<'a> Warnings<'a> {
         Self { events, place: String::new(), frames: 0, said: BTreeSet::new() }
     }
 
-    /// Goes on to another view, of so many frames.
+    /// Continues with another view, which has `frames` frames.
     pub(crate) fn enter(&mut self, place: String, frames: usize) {
         (self.place, self.frames) = (place, frames);
     }
 
-    /// Says `message`, unless something was said under the same `key` anywhere: for what is true of
-    /// a file.
+    /// Warns of `message`, unless a warning with the same `key` was reported in any view. For facts
+    /// about a file.
     pub(crate) fn once(&mut self, key: &str, message: &str) {
         if self.said.insert((String::new(), key.to_owned())) {
             let once = if self.frames > 1 { " (said once for all frames)" } else { "" };
@@ -48,20 +49,21 @@ impl<'a> Warnings<'a> {
         }
     }
 
-    /// Says `message` with the place: it is about the frames as a whole.
+    /// Warns of `message` together with the place, because it is about the frames as a whole.
     pub(crate) fn of_view(&mut self, message: &str) {
         let place = if self.place.is_empty() { String::new() } else { format!("{}: ", self.place) };
         self.events.warn(&format!("{place}{message}"));
     }
 
-    /// Notes something with the place, where there is something to note.
+    /// Reports a note together with the place, if there is a message.
     pub(crate) fn note_of_view(&mut self, message: Option<&str>) {
         let Some(message) = message else { return };
         let place = if self.place.is_empty() { String::new() } else { format!("{}: ", self.place) };
         self.events.note(&format!("{place}{message}"));
     }
 
-    /// Says `message` with the place, unless something was said of this view under the same `key`.
+    /// Warns of `message` together with the place, unless a warning with the same `key` was
+    /// reported for this view.
     pub(crate) fn once_a_view(&mut self, key: &str, message: &str) {
         if self.said.insert((self.place.clone(), key.to_owned())) {
             let once = if self.frames > 1 { " (said once for all frames)" } else { "" };
@@ -72,7 +74,7 @@ impl<'a> Warnings<'a> {
     }
 }
 
-/// How far a run is.
+/// Counts how many frames of a run are finished.
 pub(crate) struct Progress<'a> {
     events: &'a dyn Events,
     done: usize,
@@ -85,7 +87,7 @@ impl<'a> Progress<'a> {
         Self { events, done: 0, total }
     }
 
-    /// So many more frames are through.
+    /// Adds `frames` frames to those that are finished.
     pub(crate) fn step(&mut self, frames: usize) {
         self.done += frames;
         self.events.progress(self.done, self.total);

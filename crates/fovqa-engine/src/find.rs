@@ -1,5 +1,5 @@
-//! What can be settled before a pixel is read: the frames of every scene, paired, and the gaze of
-//! each.
+//! Finds what is known before any pixel is read: the paired frames of every scene and the gaze for
+//! each frame.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,8 +18,8 @@ use crate::sources::{Given, Opener};
 use crate::timing::timings;
 use crate::view_sources::ViewSources;
 
-/// Finds and pairs the frames of every scene. Reads names and gaze traces, no pixels. `given` are the sources
-/// that the plan names and does not have.
+/// Finds and pairs the frames of every scene. Reads names and gaze traces, but no pixels. `given`
+/// are the sources that the plan names but does not contain.
 pub fn find(plan: &Plan, given: &Given) -> FoundInputs {
     let mut found = FoundInputs { views: Vec::new(), problems: Vec::new() };
     for (scene_index, scene) in plan.scenes.iter().enumerate() {
@@ -100,7 +100,7 @@ pub fn find(plan: &Plan, given: &Given) -> FoundInputs {
     found
 }
 
-/// Refuses streams where FovVideoVDP begins a sequence with frames that come later.
+/// Refuses streams if FovVideoVDP needs later frames to begin a sequence.
 fn refuse_streams(plan: &Plan, view: &FoundView) -> Result<(), EngineError> {
     let mut streams = view.sources.all().filter(|source| source.is_read_once());
     let looks_ahead = plan.params.fvvdp.temp_padding != Padding::Replicate;
@@ -118,8 +118,9 @@ fn refuse_streams(plan: &Plan, view: &FoundView) -> Result<(), EngineError> {
     }
 }
 
-/// Two eyes with one frame each, of different numbers: the numbers tell the eyes apart, and no
-/// frames. (With a gaze trace they have found their gaze by them, and stay.)
+/// Gives both eyes the same frame number if each has one frame and the numbers differ: the numbers
+/// then tell the eyes apart, not the frames. (With a gaze trace the numbers stay, because the gaze
+/// was found by them.)
 fn number_alike(views: &mut [FoundView], scene: usize) {
     let first = views.partition_point(|view| view.scene < scene);
     if let [left, right] = &mut views[first..]
@@ -132,8 +133,8 @@ fn number_alike(views: &mut [FoundView], scene: usize) {
     }
 }
 
-/// The pairs of all methods, by number and reference. A reference that is one file can be of
-/// several numbers, where a test beside it carries its number and another does not.
+/// The pairs of all methods, ordered by number and reference. If the reference is a single file, it
+/// can have several numbers: one test carries its own number and another does not.
 fn merge(pairings: Vec<(usize, Pairs)>, spacing: &Spacing) -> Vec<FoundFrame> {
     let mut frames: BTreeMap<(i64, usize), FoundFrame> = BTreeMap::new();
     let mut order: Vec<(i64, usize)> = Vec::new();
@@ -149,12 +150,12 @@ fn merge(pairings: Vec<(usize, Pairs)>, spacing: &Spacing) -> Vec<FoundFrame> {
             frame.tests.push((method, test));
         }
     }
-    // A stable sort: what has one number stays as it was found.
+    // The sort is stable: items with the same number stay in the order in which they were found.
     order.sort_by_key(|(number, _)| *number);
     order.into_iter().filter_map(|key| frames.remove(&key)).collect()
 }
 
-/// The frames both the plan and the scene ask for.
+/// Keeps the frames that both the plan and the scene ask for.
 fn select(
     plan: &Plan,
     scene: &Scene,

@@ -1,4 +1,4 @@
-//! The gaze of each frame that was found, where it comes from a trace.
+//! Finds the gaze for each frame, if the gaze comes from a trace.
 
 use std::path::Path;
 
@@ -9,13 +9,13 @@ use fovqa_vision::{FrameAt, GazeAt, GazeTrace};
 use crate::error::EngineError;
 use crate::found_frame::FoundFrame;
 
-/// Hours of gaze at any rate a tracker has.
+/// Largest size of a gaze file in bytes: enough for hours of gaze at the rate of any eye tracker.
 const MAX_GAZE_BYTES: u64 = 64 << 20;
 
-/// The gaze of each frame, where it comes from a trace, and what the user should know of it.
+/// The gaze for each frame, if it comes from a trace, and remarks about it for the user.
 ///
 /// # Errors
-/// When a trace cannot be read, or has no gaze for a frame.
+/// If a trace cannot be read, or has no gaze for a frame.
 pub(crate) fn gaze(
     plan: &Plan,
     view: &EyeView,
@@ -37,7 +37,8 @@ pub(crate) fn gaze(
     Ok((Some(gaze), remarks))
 }
 
-/// A point that looks like shares of the frame. The corner itself is the same in both.
+/// A remark about a gaze point that looks like fractions of the frame size instead of pixels. The
+/// corner is excluded, because it is the same in both units.
 fn of_point([x, y]: [f64; 2]) -> Option<String> {
     let share = |at: f64| (0.0..=1.0).contains(&at);
     (share(x) && share(y) && (x > 0.0 || y > 0.0)).then(|| {
@@ -49,7 +50,8 @@ fn of_point([x, y]: [f64; 2]) -> Option<String> {
 }
 
 fn of_trace(plan: &Plan, path: &Path, trace: &GazeTrace) -> Vec<String> {
-    /// Trackers are faster, and so are frames that show motion.
+    /// Longest plausible interval in seconds. Eye trackers are faster, and so are frames that show
+    /// motion.
     const LONGEST_INTERVAL_S: f64 = 1.0;
     let file = plan.shown(path);
     let mut remarks = Vec::new();

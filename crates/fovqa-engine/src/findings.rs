@@ -1,4 +1,5 @@
-//! What a run has found so far, pair by pair: what its journal holds, and what its results are made of.
+//! What a run has found so far, pair by pair. Its journal stores the findings, and its results are
+//! made from them.
 
 use std::collections::BTreeMap;
 
@@ -9,12 +10,12 @@ use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, Input, ViewRe
 use crate::error::EngineError;
 use crate::inputs::Inputs;
 
-/// What was found: of a whole run, of one of its shards, or of one that was broken off.
+/// The findings of a whole run, of one of its shards, or of a run that was interrupted.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Findings {
-    /// Views by the indices of scene and eye.
+    /// Findings for each view, by the indices of scene and eye.
     pub(crate) views: BTreeMap<ViewIndex, ViewFindings>,
-    /// What kept whole comparisons from being scored before any file was read.
+    /// Errors that prevented whole comparisons from being scored before any file was read.
     pub(crate) problems: Vec<(ComparisonIndex, Failure)>,
     pub(crate) inputs: Inputs,
 }
@@ -25,27 +26,27 @@ pub(crate) type ViewIndex = (usize, usize);
 /// Indices of a scene, a method and an eye's view.
 pub(crate) type ComparisonIndex = (usize, usize, usize);
 
-/// What was found of a view.
+/// The findings about a view.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct ViewFindings {
-    /// Pairs by their place among all of the view.
+    /// Outcomes of the pairs, by their index among all pairs of the view.
     pub(crate) pairs: BTreeMap<usize, Outcome>,
-    /// What holds for all of them, once they are through.
+    /// What holds for all pairs, once all of them are finished.
     pub(crate) settled: Option<Settled>,
-    /// Why none of it could be scored.
+    /// Why no pair of the view could be scored.
     pub(crate) failed: Option<Failure>,
-    /// Pairs in front of those to be scored that could not be compared, with their methods: once they can
-    /// be, those after them are others.
+    /// Pairs before those to be scored that could not be compared, with their methods. Once they
+    /// can be compared, the results of later pairs change.
     pub(crate) before: Vec<(usize, Failure)>,
 }
 
-/// What became of a pair.
+/// The outcome of one pair.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Outcome {
     /// Index of the method.
     pub(crate) method: usize,
     pub(crate) result: Result<FrameResult, Failure>,
-    /// What its differences over time were taken along, where it has some.
+    /// Which motion and depth the temporal differences used, if there are any differences.
     pub(crate) guides: AtdGuides,
 }
 
@@ -55,20 +56,22 @@ pub struct Settled {
     pub(crate) view: Option<ViewResult>,
     pub(crate) metrics: Vec<Metric>,
     pub(crate) gaze_held: Option<usize>,
-    /// How FovVideoVDP sees the sequence of a method.
+    /// The viewing conditions of FovVideoVDP for the sequence of each method, by the index of the
+    /// method.
     pub(crate) fvvdp: BTreeMap<usize, FvvdpViewing>,
-    /// Why it has no value for it, as far as the sequence goes here.
+    /// Why FovVideoVDP has no value for the sequence of a method, as far as the sequence was read
+    /// here.
     pub(crate) missing: BTreeMap<usize, String>,
 }
 
-/// Names of what a line of the journal is about.
+/// The names that identify what a line of the journal is about.
 #[derive(Debug, Clone, Copy)]
 pub struct Named<'a> {
     /// The scene.
     pub scene: &'a str,
     /// The method.
     pub method: &'a str,
-    /// The eye, in a scene with two.
+    /// The eye, if the scene has two.
     pub eye: Option<Eye>,
 }
 
@@ -82,37 +85,37 @@ impl<'a> Named<'a> {
 /// A pair, scored or not, as soon as it is finished.
 #[derive(Debug, Clone, Copy)]
 pub struct Finished<'a> {
-    /// Whose it is.
+    /// The names that identify the pair.
     pub named: Named<'a>,
-    /// Its place among the pairs of its view.
+    /// Its index among the pairs of its view.
     pub step: usize,
     /// Its result.
     pub result: Result<&'a FrameResult, &'a Failure>,
-    /// What its differences over time were taken along, where it has some.
+    /// Which motion and depth the temporal differences used, if there are any differences.
     pub guides: AtdGuides,
-    /// Its maps, where they are asked for.
+    /// Its maps, if they are requested.
     pub maps: &'a [Map],
 }
 
-/// Something that is to be taken down.
+/// An entry to be recorded.
 #[derive(Debug, Clone, Copy)]
 pub enum Entry<'a> {
     /// An input, when it is first read.
     Input(&'a Input),
     /// A pair.
     Pair(Finished<'a>),
-    /// A pair before those to be scored that could not be compared: those after it are scored
-    /// without it.
+    /// A pair before those to be scored that could not be compared. Later pairs are scored without
+    /// it.
     Before(Named<'a>, &'a Failure),
     /// A comparison that could not be scored.
     Problem(Named<'a>, &'a Failure),
     /// A view that could not be scored.
     ViewFailed(&'a str, Option<Eye>, &'a Failure),
-    /// A view that is through, with the names of all methods.
+    /// A view that is finished, with the names of all methods.
     Settled(&'a str, Option<Eye>, &'a Settled, &'a [String]),
 }
 
-/// Takes down what is found; an error ends the run.
+/// Records findings. An error ends the run.
 pub type Record<'a> = dyn FnMut(Entry<'_>) -> Result<(), EngineError> + 'a;
 
 impl Findings {
@@ -130,7 +133,7 @@ impl Findings {
             .filter_map(|(named, outcome)| Some((named, outcome.result.as_ref().ok()?)))
     }
 
-    /// What could not be scored of the pairs that were to be.
+    /// The failures among the items that were to be scored.
     pub fn failures<'a>(&'a self, plan: &'a Plan) -> Vec<(Named<'a>, &'a Failure)> {
         let views = self.views.iter().filter_map(|(&(scene, eye), view)| {
             let tests = plan.scenes[scene].eyes[eye].tests.iter();
@@ -150,7 +153,7 @@ impl Findings {
         })
     }
 
-    /// Takes all of it down again, in the order of a run.
+    /// Records all findings again, in the order of a run.
     pub(crate) fn record(&self, plan: &Plan, record: &mut Record<'_>) -> Result<(), EngineError> {
         for (place, failure) in &self.problems {
             record(Entry::Problem(Named::of(plan, *place), failure))?;

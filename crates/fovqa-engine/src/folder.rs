@@ -1,4 +1,5 @@
-//! The folder a run writes to: one run at a time, found wanting before any scoring.
+//! The results folder of a run. It accepts one run at a time, and problems with it are reported
+//! before any scoring.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -13,10 +14,10 @@ use thiserror::Error;
 
 use crate::journal::JOURNAL;
 
-/// Its lock is what counts, not that it is there.
+/// Name of the lock file. The lock on the file counts, not its existence.
 const LOCK: &str = ".fovqa.lock";
 
-/// What a run writes, and what is drawn of it at its top.
+/// The files that a run writes, and the figures at the top level of its folder.
 const OURS: [&str; 12] = [
     RESULTS_CSV,
     RESULTS_PARQUET,
@@ -32,7 +33,8 @@ const OURS: [&str; 12] = [
     "table.tex",
 ];
 
-/// Whether a folder has the results of a run, or what one that was killed, or had no room, has left.
+/// Whether a folder contains the results of a run, or the remains of a run that was killed or had
+/// no disk space.
 fn is_ours(path: &Path) -> bool {
     begins(path, RUN_JSON, "fovqa.run")
         || begins(path, JOURNAL, "fovqa.journal")
@@ -40,40 +42,41 @@ fn is_ours(path: &Path) -> bool {
         || begins(path, CURVES_JSON, "fovqa.curves")
 }
 
-/// Whether a file in a folder begins as one of a schema does.
+/// Whether a file in a folder begins like a file with the given schema.
 fn begins(path: &Path, file: &str, schema: &str) -> bool {
     const HEAD_BYTES: u64 = 256;
     let head = read_head(&path.join(file), HEAD_BYTES).unwrap_or_default();
     String::from_utf8_lossy(&head).contains(&format!("\"{schema}/"))
 }
 
-/// Whether there is something to lose. (A full disk leaves empty files.)
+/// Whether a file contains data that could be lost. (A full disk leaves empty files.)
 fn has_content(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|file| !file.is_file() || file.len() > 0)
 }
 
-/// Whether a folder is locked while it is written to.
+/// Whether a folder is locked while results are written to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Locking {
-    /// One process at a time writes there.
+    /// The folder is locked: only one process at a time writes to it.
     #[default]
     Locked,
-    /// Whoever asks for it takes care of that: some network file systems have no locks.
+    /// The folder is not locked: the caller ensures that only one process writes. Some network file
+    /// systems have no locks.
     Unlocked,
 }
 
-/// A folder of results, locked for as long as this lives.
+/// A results folder, locked for as long as this value lives.
 #[derive(Debug)]
 pub struct ResultsFolder {
     path: PathBuf,
-    /// The system releases it with the process, however that ends.
+    /// The operating system releases the lock when the process ends, in whatever way it ends.
     _lock: Option<File>,
 }
 
 /// A folder that cannot be written to.
 #[derive(Debug, Error)]
 pub enum FolderError {
-    /// The system refuses.
+    /// The operating system refuses.
     #[error("{}: cannot write results to this folder: {error}", path.display())]
     Io {
         /// The folder.
@@ -92,15 +95,15 @@ pub enum FolderError {
     /// Another process writes to it.
     #[error("{}: another run is writing to this folder", .0.display())]
     Busy(PathBuf),
-    /// It has results of the other kind: of a run, or of curves.
+    /// It contains results of the other kind: of a run, or of rate-distortion curves.
     #[error("{}: the folder contains the results of {of}", path.display())]
     Other {
         /// The folder.
         path: PathBuf,
-        /// Whose they are.
+        /// What the results belong to.
         of: &'static str,
     },
-    /// It has files that a run would replace, and that are of no run.
+    /// It contains files that a run would replace and that do not belong to a run.
     #[error("{}: the folder contains a {file} that no run of fovqa has written", path.display())]
     Foreign {
         /// The folder.
@@ -111,7 +114,7 @@ pub enum FolderError {
 }
 
 impl FolderError {
-    /// How to mend it.
+    /// How to correct the error.
     pub fn help(&self) -> &'static str {
         match self {
             Self::Io { .. } => "give a writable folder with {output}",
@@ -153,11 +156,11 @@ fn not_locked(folder: &Path, error: TryLockError) -> FolderError {
 }
 
 impl ResultsFolder {
-    /// Makes the folder of a run, and locks it.
+    /// Creates the folder of a run and locks it.
     ///
     /// # Errors
-    /// When it cannot be made or written to, another process has it, or its files are not those of a
-    /// run.
+    /// If the folder cannot be created or written to, another process uses it, or its files do not
+    /// belong to a run.
     pub fn open(path: &Path, locking: Locking) -> Result<Self, FolderError> {
         if begins(path, CURVES_JSON, "fovqa.curves") {
             return Err(FolderError::Other { path: path.to_owned(), of: "`fovqa curves`" });
@@ -165,11 +168,11 @@ impl ResultsFolder {
         Self::of_any(path, locking)
     }
 
-    /// The same of curves.
+    /// Creates the folder of curves and locks it.
     ///
     /// # Errors
-    /// When it cannot be made or written to, another process has it, or its files are not those of
-    /// curves.
+    /// If the folder cannot be created or written to, another process uses it, or its files do not
+    /// belong to curves.
     pub fn open_for_curves(path: &Path, locking: Locking) -> Result<Self, FolderError> {
         if begins(path, RUN_JSON, "fovqa.run") || begins(path, JOURNAL, "fovqa.journal") {
             return Err(FolderError::Other { path: path.to_owned(), of: "`fovqa run`" });
@@ -189,7 +192,7 @@ impl ResultsFolder {
             Locking::Locked => Some(locked(path)?),
             Locking::Unlocked => None,
         };
-        // The lock file may be older than what now keeps others from being made.
+        // The lock file may be older than the cause that now prevents new files.
         try_writing(path).map_err(failed)?;
         for folder in [path, &path.join("plots")] {
             sweep(folder);
@@ -202,11 +205,12 @@ impl ResultsFolder {
         &self.path
     }
 
-    /// Takes away the results of an earlier run, so that they cannot be taken for this one's. Its
-    /// journal stays until another is begun: the folder is ours all the while.
+    /// Removes the results of an earlier run, so that they cannot be mistaken for the results of
+    /// this one. The old journal stays until a new one begins, so that the folder can always be
+    /// recognised as the folder of a run.
     ///
     /// # Errors
-    /// When the system refuses.
+    /// If the operating system refuses.
     pub fn clear(&self) -> Result<(), FolderError> {
         for file in [RESULTS_CSV, RESULTS_PARQUET, SUMMARY_JSON, RUN_JSON, CURVES_CSV, CURVES_JSON]
         {
@@ -282,7 +286,7 @@ mod tests {
         ours.clear().unwrap();
         assert!(!folder.path().join(RESULTS_CSV).exists());
         drop(ours);
-        // What a full disk leaves is nobody's loss.
+        // An empty file, which a full disk leaves, contains nothing that could be lost.
         fs::write(folder.path().join(JOURNAL), "").unwrap();
         drop(open(folder.path()).unwrap());
         fs::write(folder.path().join("table.md"), "mine").unwrap();

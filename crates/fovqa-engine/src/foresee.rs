@@ -1,4 +1,4 @@
-//! What a run will warn of, as far as settings, frame numbers and the headers of files tell.
+//! Predicts the warnings of a run from its settings, frame numbers and the headers of its files.
 
 use fovqa_metrics::Metric;
 use fovqa_plan::Plan;
@@ -11,11 +11,11 @@ use crate::scoring::{Scoring, scene_bands};
 use crate::setup::{Inputs, Setup};
 use crate::view::warn_of_gaze;
 
-/// Warns of what [`crate::run`] will warn of without reading a pixel, and returns the metrics that it
-/// will score, in any of the views.
+/// Reports the warnings of [`crate::run`] that can be known without reading a pixel. Returns the
+/// metrics that the run will score in any of the views.
 ///
 /// # Errors
-/// When the plan itself cannot be ([`crate::check`]).
+/// If the plan itself is not possible ([`crate::check`]).
 pub fn foresee(
     plan: &Plan,
     found: &FoundInputs,
@@ -39,7 +39,7 @@ pub fn foresee(
     Ok(metrics)
 }
 
-/// Settles a view as its first frame will; the metrics that fit.
+/// Prepares a view as its first frame will, and returns the metrics that fit.
 fn settle(
     plan: &Plan,
     view: &FoundView,
@@ -48,7 +48,7 @@ fn settle(
     warnings: &mut Warnings<'_>,
 ) -> Vec<Metric> {
     let settings = &plan.scenes[view.scene].eyes[view.eye].settings;
-    // What cannot be read now is an error of its frame.
+    // A file that cannot be read now becomes an error of its frame during the run.
     let reference = &view.sources.reference;
     let first = view.frames.iter().find_map(|f| Some((f, reference.size(f.reference).ok()?)));
     let Some((first, file_size)) = first else { return metrics };

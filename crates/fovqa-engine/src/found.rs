@@ -1,4 +1,5 @@
-//! What was found for a plan before any pixel is read: frames, gaze, and inputs that cannot be scored.
+//! What was found for a plan before any pixel is read: frames, gaze, and inputs that cannot be
+//! scored.
 
 use fovqa_plan::{Plan, Scene};
 use fovqa_vision::GazeAt;
@@ -10,7 +11,7 @@ use crate::view_sources::ViewSources;
 /// The frames of a plan, and what is wrong with its inputs.
 #[derive(Debug)]
 pub struct FoundInputs {
-    /// One a scene and eye, in the order of the plan.
+    /// One entry per scene and eye, in the order of the plan.
     pub views: Vec<FoundView>,
     /// Inputs that cannot be scored.
     pub problems: Vec<Problem>,
@@ -27,18 +28,19 @@ pub struct FoundView {
     pub sources: ViewSources,
     /// The frames, in order.
     pub frames: Vec<FoundFrame>,
-    /// Frames a second: those of the scene, else what the reference or a test says of itself.
+    /// Frames per second: the rate of the scene, otherwise the rate that the reference or a test
+    /// declares.
     pub fps: Option<f64>,
-    /// The gaze of each frame, where it comes from a trace.
+    /// The gaze for each frame, if it comes from a trace.
     pub trace: Option<Vec<GazeAt>>,
-    /// Files without a partner that the plan says to pass over.
+    /// Number of files without a partner, which the plan says to ignore.
     pub passed_over: usize,
-    /// What the user should know of the frames that were found: a sentence each.
+    /// Remarks for the user about the frames that were found. Each is one sentence.
     pub remarks: Vec<String>,
 }
 
 impl FoundView {
-    /// How many tests there are to score.
+    /// Number of tests to score.
     pub fn pairs(&self) -> usize {
         self.frames.iter().map(|frame| frame.tests.len()).sum()
     }
@@ -51,7 +53,7 @@ pub struct Problem {
     pub scene: usize,
     /// Index of the eye's view in it.
     pub eye: usize,
-    /// Index of the method; `None`: all of them.
+    /// Index of the method; `None` for all methods.
     pub method: Option<usize>,
     /// What is wrong.
     pub error: EngineError,

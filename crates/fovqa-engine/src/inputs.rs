@@ -1,4 +1,4 @@
-//! The files a run has read, each taken down once.
+//! The files that a run has read, each recorded once.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 pub(crate) struct Inputs(BTreeMap<String, InputId>);
 
 impl Inputs {
-    /// Takes a file down; the input, if it is a new one.
+    /// Records a file. Returns the input if it is new.
     pub(crate) fn add(&mut self, path: &str, id: &InputId) -> Option<Input> {
         if self.0.contains_key(path) {
             return None;
@@ -22,23 +22,23 @@ impl Inputs {
         Some(input((path, id)))
     }
 
-    /// What is known of a file.
+    /// The identity of a file.
     pub(crate) fn get(&self, path: &str) -> Option<&InputId> {
         self.0.get(path)
     }
 
-    /// All files, by path.
+    /// All files with their identities, ordered by path.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &InputId)> {
         self.0.iter().map(|(path, id)| (path.as_str(), id))
     }
 
-    /// All of them, by path.
+    /// All files as inputs, ordered by path.
     pub(crate) fn all(&self) -> Vec<Input> {
         self.0.iter().map(|(path, id)| input((path.as_str(), id))).collect()
     }
 
-    /// What is not as it was, by name, in words. `known` says what the names stand for, which they do not
-    /// where names are not UTF-8.
+    /// Describes what has changed, by name. `known` contains the files that the names stand for;
+    /// names that are not UTF-8 do not identify a file by themselves.
     pub(crate) fn changes(&self, plan: &Plan, known: &BTreeMap<String, Origin>) -> Vec<String> {
         let files: Vec<(&String, &InputId)> = self.0.iter().collect();
         let change = |(shown, id): &(&String, &InputId)| {

@@ -1,7 +1,7 @@
-//! From a plan to results: frames are found, read ahead, checked and scored in order.
+//! Turns a plan into results: frames are found, read ahead, checked and scored in order.
 //!
-//! Knows nothing of TOML, drawing or the terminal; what it has to say on the way goes through
-//! [`Events`].
+//! This crate does not depend on TOML, drawing or the terminal. It reports messages and progress
+//! through [`Events`].
 
 mod assemble;
 mod available_memory;

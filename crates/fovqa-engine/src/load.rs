@@ -1,4 +1,4 @@
-//! Frames of sources, and pairs of them that may be compared.
+//! Loads frames from sources, and checks whether pairs of them may be compared.
 
 use fovqa_frame::source::{InputId, MissingGuides, Source, SourceError};
 use fovqa_frame::{BadPixel, CropError, Frame, Guides, Mask, Motion, Plane, Transfer};
@@ -54,7 +54,7 @@ impl LoadError {
     }
 }
 
-/// Why a frame has no scores: what is wrong, and how to mend it.
+/// Why a frame has no scores: the error and how to correct it.
 #[derive(Debug, Clone)]
 pub(crate) struct Fault {
     pub(crate) message: String,
@@ -67,29 +67,29 @@ impl From<LoadError> for Fault {
     }
 }
 
-/// One test to load, with the reference of its frame where it is the first of it.
+/// One test to load. The reference comes with the first test of its frame.
 #[derive(Debug)]
 pub(crate) struct Step<'a> {
     /// Index of the frame.
     pub(crate) frame: usize,
     /// The frame.
     pub(crate) found: &'a FoundFrame,
-    /// Whether the reference comes with it.
+    /// Whether the reference is loaded as well.
     pub(crate) reference: bool,
     /// Index of the method.
     pub(crate) method: usize,
-    /// ComparisonIndex of the test in the method's source.
+    /// Index of the test in the method's source.
     pub(crate) test: usize,
 }
 
-/// What a step has brought.
+/// The frames that a step has loaded.
 pub(crate) struct Loaded {
     pub(crate) reference: Option<Result<Side, LoadError>>,
     pub(crate) test: Result<Side, LoadError>,
 }
 
 impl Loaded {
-    /// Bytes of its pixels.
+    /// Size of its pixels in bytes.
     pub(crate) fn bytes(&self) -> usize {
         let bytes = |side: &Result<Side, LoadError>| match side {
             Ok(side) => side.frame.bytes() + side.guides.bytes(),
@@ -99,17 +99,17 @@ impl Loaded {
     }
 }
 
-/// A frame with what was found in it.
+/// A frame with what its files contain.
 pub(crate) struct Side {
-    /// The file, as results show it.
+    /// Name of the file, as results show it.
     pub(crate) file: String,
     pub(crate) frame: Frame,
-    /// Motion and depth, where they are wanted and there.
+    /// Motion and depth, if they are wanted and exist.
     pub(crate) guides: Guides,
-    /// The files read for it, where they are hashed.
+    /// The files read for the frame with their identities, if they are hashed.
     pub(crate) ids: Vec<(String, InputId)>,
     pub(crate) notes: Vec<String>,
-    /// Width of a pixel over its height, as the file declares it.
+    /// Width of a pixel divided by its height, as the file declares it.
     pub(crate) pixel_aspect: f32,
     bad: Option<BadPixel>,
     missing: MissingGuides,
@@ -121,7 +121,8 @@ impl Side {
     }
 }
 
-/// Whether two frames may be compared, and where both are finite; `None`: everywhere.
+/// Checks whether two frames may be compared. Returns where both are finite; `None` means
+/// everywhere.
 pub(crate) fn comparable(
     reference: &Side,
     test: &Side,
@@ -150,23 +151,23 @@ pub(crate) fn comparable(
     Ok(finite)
 }
 
-/// What loading depends on.
+/// The settings that loading depends on.
 #[derive(Debug)]
 pub(crate) struct Loader<'a> {
     pub(crate) settings: &'a Settings,
     pub(crate) sources: &'a ViewSources,
-    /// Whether motion and depth are of any use.
+    /// Whether any metric uses motion and depth.
     pub(crate) guides: bool,
 }
 
 impl Loader<'_> {
-    /// How many steps may be loaded at a time.
+    /// The number of steps that may be loaded at the same time.
     pub(crate) fn loaders(&self) -> usize {
         let in_turn = self.sources.all().any(Source::is_read_once);
         if in_turn { 1 } else { rayon::current_num_threads() }
     }
 
-    /// The frames of a step, at the same time.
+    /// Loads the frames of a step in parallel.
     pub(crate) fn load(&self, step: &Step<'_>) -> Loaded {
         let first = step.frame == 0;
         let (reference, test) = rayon::join(
@@ -176,7 +177,7 @@ impl Loader<'_> {
         Loaded { reference, test }
     }
 
-    /// The frames of a pair by themselves: for what looks ahead in a sequence.
+    /// Loads the frames of a pair alone, for code that looks ahead in a sequence.
     pub(crate) fn pair(&self, frame: &FoundFrame, method: usize) -> Result<[Frame; 2], Fault> {
         let test = frame.tests.iter().find(|(m, _)| *m == method).map(|(_, test)| *test);
         let Some(test) = test else { unreachable!("the frame is of the method's sequence") };
@@ -189,7 +190,7 @@ impl Loader<'_> {
         Ok([reference.frame, test.frame])
     }
 
-    /// A reference with its motion and depth, from its own source or from others.
+    /// Loads a reference with its motion and depth, from its own source or from others.
     fn reference(&self, found: &FoundFrame, first: bool) -> Result<Side, LoadError> {
         let mut side = self.side(&*self.sources.reference, found.reference, self.guides)?;
         if !self.guides {
@@ -210,7 +211,7 @@ impl Loader<'_> {
         if let Some((source, at)) = self.sources.depth.as_ref().zip(own.depth) {
             side.guides.depth = self.guides_of(&**source, at, &mut side)?.depth;
         }
-        // What a user has named has to be there; what is only looked for need not.
+        // A file that the user has named must exist. A file that fovqa only looks for need not.
         let missing_motion = side.missing.motion.take().filter(|_| !first && own.motion.is_none());
         let missing_depth = side.missing.depth.take().filter(|_| own.depth.is_none());
         match missing_motion.or(missing_depth) {
@@ -219,7 +220,7 @@ impl Loader<'_> {
         }
     }
 
-    /// Motion or depth from a source of its own.
+    /// Loads motion or depth from a source of its own.
     fn guides_of(
         &self,
         source: &dyn Source,

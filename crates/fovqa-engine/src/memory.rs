@@ -1,20 +1,20 @@
-//! Whether a view's frames fit into memory, by arithmetic, before any of them is read.
+//! Estimates whether a view's frames fit into memory, before any of them is read.
 //!
-//! An allocation that fails ends the process. What follows is a lower bound of what is held at once,
-//! for frames of `n` pixels, so that nothing is refused that would have gone through:
+//! A failed allocation ends the process. The table gives lower bounds of the memory that is in use at
+//! the same time, for frames of `n` pixels, so that no view is refused that would have fitted:
 //!
-//! | held by | bytes |
+//! | used by | bytes |
 //! | --- | --- |
-//! | decoded frames | 6 n for a pair of 8-bit RGB, 12 n for half floats; in a sequence the next pair too |
-//! | FovVideoVDP | luminance, 4 n for each picture |
+//! | decoded frames | 6 n for a pair of 8-bit RGB, 12 n for half floats; in a sequence also for the next pair |
+//! | FovVideoVDP | luminance, 4 n for each image |
 //! | FovVideoVDP over time | 4 n for each frame of its window (0.25 s), once for the reference and once for each method; 16 n for the filtered channels of both |
 //! | FovVideoVDP of several methods | 16/3 n, and 32/3 n for each channel of the reference |
 //! | FovVideoVDP's pyramids | 5/4 n for each channel of reference and test: two levels at a time |
-//! | ATD | luma, 4 n for this frame and the one before: of the reference, and of each method |
-//! | maps | 7 n for the values and the picture of each, of GMSD for a quarter of the pixels |
-//! | MS-SSIM | its second level: 3 n for both pictures |
+//! | ATD | luma, 4 n for each of this frame and the one before, for the reference and for each method |
+//! | maps | 7 n for the values and the image of each map; GMSD has a quarter of the pixels |
+//! | MS-SSIM | 3 n for the second level of both images |
 //!
-//! What is kept row by row or in bands of rows does not count.
+//! Data that is kept row by row, or in bands of rows, is not counted.
 
 use std::collections::BTreeMap;
 
@@ -28,19 +28,19 @@ use crate::found::FoundView;
 use crate::needed_memory::{FVVDP, Needed, gigabytes};
 use crate::timing::timings;
 
-/// What the arithmetic is of.
+/// The quantities that the memory estimate depends on.
 #[derive(Debug, Clone, Copy)]
 struct Amount<'a> {
-    /// Pixels of a file, and of the crop of it that is scored.
+    /// Number of pixels of a file, and of the crop that is scored.
     pixels: [u64; 2],
-    /// Bytes of a pixel of a decoded file.
+    /// Bytes per pixel of a decoded file.
     pixel_bytes: u64,
     frames: u64,
     methods: u64,
     metrics: &'a [Metric],
-    /// Frames that FovVideoVDP's filters reach over; 1 for stills.
+    /// Number of frames in the window of FovVideoVDP's temporal filters; 1 for still images.
     window: u64,
-    /// Whether maps are asked for.
+    /// Whether maps are requested.
     maps: bool,
 }
 
@@ -63,7 +63,7 @@ impl Amount<'_> {
         };
         let of = |metric, bytes| if has(metric) { bytes } else { 0 };
         let atd = if self.frames > 1 { of(Metric::Atd, planes(3 + self.methods)) } else { 0 };
-        // Metrics of one map share it.
+        // Metrics with a common map share its memory.
         let maps = self.metrics.iter().filter_map(|metric| metric.info().map);
         let maps: BTreeMap<&str, u64> =
             maps.map(|map| (map.name, pixels / (map.block * map.block) * 7)).collect();
@@ -78,10 +78,10 @@ impl Amount<'_> {
     }
 }
 
-/// A view that needs more bytes than this says so before its first frame is read.
+/// If a view needs more bytes than this, a message says so before its first frame is read.
 const ANNOUNCED: u64 = 4_000_000_000;
 
-/// What is said of a view that needs much memory.
+/// The message about a view that needs much memory.
 fn announcement((width, height): (usize, usize), needed: &Needed) -> Option<String> {
     let bytes = needed.bytes();
     (bytes > ANNOUNCED).then(|| {
@@ -90,8 +90,8 @@ fn announcement((width, height): (usize, usize), needed: &Needed) -> Option<Stri
     })
 }
 
-/// Refuses a view whose frames cannot fit. What cannot be known, neither the size of the frames nor how
-/// much memory there is, is no reason. `Some`: what has to be said of a view that needs much.
+/// Refuses a view whose frames cannot fit into memory. If the size of the frames or the available
+/// memory is unknown, the view is accepted. Returns a message if the view needs much memory.
 ///
 /// # Errors
 /// [`EngineError::Memory`].
@@ -129,7 +129,7 @@ pub(crate) fn check(
     }
 }
 
-/// Whether the limit on a file's size lets it be read at all.
+/// Whether the limit on the file size allows the file to be read.
 fn is_read(read: &ReadOptions, pixels: u64) -> bool {
     pixels <= read.max_megapixels.saturating_mul(1_000_000)
 }
@@ -152,7 +152,7 @@ mod tests {
         }
     }
 
-    /// 23 frames of 299 MB, of reference and test, and the filtered channels.
+    /// The window has 23 frames of 299 MB, for reference and test, plus the filtered channels.
     #[test]
     fn a_window_of_retinal_frames_takes_as_much_as_was_measured() {
         let bytes = amount(&[Metric::Fvvdp]).needed().bytes();

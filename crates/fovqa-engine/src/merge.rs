@@ -1,4 +1,4 @@
-//! Shards of a run, put together: the findings are those of the whole run.
+//! Merges the shards of a run. The merged findings are those of the whole run.
 
 use std::path::{Path, PathBuf};
 
@@ -10,13 +10,13 @@ use crate::journal::{self, Content, Header, Text, place};
 use crate::share::Shard;
 use crate::unit::Unit;
 
-/// Shards that cannot be put together.
+/// Why shards cannot be merged.
 #[derive(Debug, Error)]
 pub enum MergeError {
-    /// A folder without one.
+    /// A folder without the journal of a shard.
     #[error("{}: the folder contains no shard of a run", .0.display())]
     NoShard(PathBuf),
-    /// A folder with a whole run.
+    /// A folder with the journal of a whole run.
     #[error("{}: the folder contains a complete run, not a shard", .0.display())]
     Whole(PathBuf),
     /// A journal that cannot be read.
@@ -27,7 +27,7 @@ pub enum MergeError {
         /// The reason.
         error: std::io::Error,
     },
-    /// One in the format of another version.
+    /// A journal with another version of the format.
     #[error("{}: another version of fovqa wrote this shard, in format {format}", path.display())]
     Format {
         /// The folder.
@@ -35,15 +35,15 @@ pub enum MergeError {
         /// The name of the format.
         format: String,
     },
-    /// One with a line that is not as it was written.
+    /// A journal with a line that was changed after it was written.
     #[error("{}:{line}: this line of the journal was changed or damaged", path.join(journal::JOURNAL).display())]
     Changed {
         /// The folder.
         path: PathBuf,
-        /// The line, from 1.
+        /// Number of the line, counted from 1.
         line: usize,
     },
-    /// Two that saw a scene in other ways.
+    /// Two shards that viewed a scene under different conditions.
     #[error("{} and {} have different {what} in scene {scene}", first.display(), second.display())]
     Disagree {
         /// A folder.
@@ -55,15 +55,15 @@ pub enum MergeError {
         /// In what they differ.
         what: &'static str,
     },
-    /// One that is not done.
+    /// A shard that is not finished.
     #[error("{}: shard {shard} is not finished", path.display())]
     Unfinished {
         /// The folder.
         path: PathBuf,
-        /// Which it is.
+        /// The unfinished shard.
         shard: Shard,
     },
-    /// Two that are not of one run.
+    /// Two shards that do not belong to the same run.
     #[error("{} and {} belong to different runs: {what}", first.display(), second.display())]
     Differ {
         /// A folder.
@@ -73,38 +73,38 @@ pub enum MergeError {
         /// What differs.
         what: String,
     },
-    /// Shards of another version.
+    /// Shards that were written by another version of fovqa.
     #[error("{}: fovqa {version} wrote this shard, but this is fovqa {}", path.display(), env!("CARGO_PKG_VERSION"))]
     Version {
         /// A folder.
         path: PathBuf,
-        /// Its version.
+        /// The version that wrote it.
         version: String,
     },
-    /// The same one twice.
+    /// The same shard twice.
     #[error("shard {shard} was given twice: {} and {}", first.display(), second.display())]
     Twice {
-        /// Which.
+        /// The repeated shard.
         shard: Shard,
         /// A folder.
         first: PathBuf,
         /// The other one.
         second: PathBuf,
     },
-    /// Some that are not there.
+    /// Some shards are missing.
     #[error("{} missing: {}", if missing.len() == 1 { "a shard is" } else { "shards are" }, listed(missing, *of))]
     Missing {
-        /// Which.
+        /// Indices of the missing shards.
         missing: Vec<u32>,
-        /// How many there are to be.
+        /// Number of shards of the run.
         of: u32,
     },
-    /// A file that was not the same for all.
+    /// A file that was not the same for all shards.
     #[error("{}: {file} differs from the file that another shard used", path.display())]
     Input {
         /// The file.
         file: String,
-        /// A folder where it is another one than in one before.
+        /// A folder whose shard read a different file than an earlier one.
         path: PathBuf,
     },
 }
@@ -120,7 +120,7 @@ fn listed(missing: &[u32], of: u32) -> String {
 }
 
 impl MergeError {
-    /// How to mend it.
+    /// How to correct the error.
     pub fn help(&self) -> &'static str {
         match self {
             Self::NoShard(_) | Self::Io { .. } => {
@@ -145,15 +145,15 @@ impl MergeError {
 /// All shards of a run.
 pub struct Shards {
     header: Header,
-    /// In order.
+    /// The folder, index and journal of each shard, in order.
     shards: Vec<(PathBuf, Shard, Text)>,
 }
 
 impl Shards {
-    /// Reads the shards in some folders: all of one run, each once.
+    /// Reads the shards in some folders. Each shard of one run must be there exactly once.
     ///
     /// # Errors
-    /// When they are something else.
+    /// If that is not the case.
     pub fn read(folders: &[PathBuf]) -> Result<Self, MergeError> {
         let mut shards: Vec<(PathBuf, Shard, Text)> = Vec::new();
         for path in folders {
@@ -193,15 +193,15 @@ impl Shards {
         Ok(Self { header, shards })
     }
 
-    /// What the whole run is of.
+    /// The header of the whole run.
     pub fn header(&self) -> &Header {
         &self.header
     }
 
-    /// What all of them have found; `plan` is that of their experiment.
+    /// The findings of all shards. `plan` must be the plan of their experiment.
     ///
     /// # Errors
-    /// When one is not done, or files were not the same for all.
+    /// If a shard is not finished, or a file was not the same for all shards.
     pub fn findings(&self, plan: &Plan) -> Result<Findings, MergeError> {
         let mut all = Findings::default();
         for (path, shard, text) in &self.shards {
@@ -227,7 +227,7 @@ impl Shards {
         Ok(all)
     }
 
-    /// Refuses a shard that has seen a scene otherwise than those before it.
+    /// Refuses a shard that viewed a scene under other conditions than earlier shards.
     fn agree(
         &self,
         plan: &Plan,
@@ -279,7 +279,7 @@ fn text(path: &Path) -> Result<Text, MergeError> {
     Ok(text)
 }
 
-/// What keeps two shards from being of one run.
+/// The difference that prevents two shards from belonging to the same run.
 fn difference(one: &Header, other: &Header) -> Option<String> {
     let frames = |header: &Header| header.frames.clone().unwrap_or_else(|| "all".to_owned());
     let of = |header: &Header| header.shard.map_or(0, Shard::of);
@@ -301,7 +301,7 @@ fn difference(one: &Header, other: &Header) -> Option<String> {
     }
 }
 
-/// Whether a shard has all that it should have.
+/// Whether a shard contains all of its pairs.
 fn is_complete(plan: &Plan, text: &Text, findings: &Findings) -> bool {
     let shares = text.header.views.iter().zip(&text.shares);
     shares.filter(|(_, share)| !share.is_empty()).all(|(view, share)| {

@@ -1,18 +1,18 @@
-//! How much memory a view needs, part by part.
+//! The memory that a view needs, part by part.
 
 use std::fmt;
 
-/// The memory that is in use at once, part by part.
+/// The parts of the memory that is in use at the same time: the name and the bytes of each.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Needed(pub(crate) Vec<(&'static str, u64)>);
 
 impl Needed {
-    /// Bytes in all.
+    /// The sum in bytes.
     pub(crate) fn bytes(&self) -> u64 {
         self.0.iter().fold(0, |sum, (_, bytes)| sum.saturating_add(*bytes))
     }
 
-    /// Whether most of it is held by FovVideoVDP.
+    /// Whether FovVideoVDP uses most of it.
     pub(crate) fn is_of_fvvdp(&self) -> bool {
         self.0.iter().max_by_key(|(_, bytes)| *bytes).is_some_and(|(who, _)| *who == FVVDP)
     }
@@ -27,10 +27,10 @@ impl fmt::Display for Needed {
     }
 }
 
-/// The part that FovVideoVDP needs.
+/// The name of the part that FovVideoVDP needs.
 pub(crate) const FVVDP: &str = "FovVideoVDP";
 
-/// Bytes as a message shows them.
+/// Formats a number of bytes for a message.
 pub(crate) fn gigabytes(bytes: u64) -> String {
     format!("{:.1} GB", bytes as f64 / 1e9)
 }

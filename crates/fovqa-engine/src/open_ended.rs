@@ -1,4 +1,5 @@
-//! Sources whose length is not known before they end: what is alone there is found while they are read.
+//! Sources whose length is unknown until they end. Frames without a partner are found while the
+//! sources are read.
 
 use fovqa_frame::source::{Length, Source, SourceError};
 use fovqa_plan::{Plan, Scene};
@@ -8,24 +9,24 @@ use crate::events::Warnings;
 use crate::found::FoundView;
 use crate::load::{LoadError, Loaded, Step};
 
-/// What keeps frames without a partner from being an error.
+/// How the user can allow frames without a partner.
 const HELP: &str =
     "give both the same number of frames, or score those that have a partner with {allow_missing}";
 
-/// What has ended of a view.
+/// Tracks which sources of a view have ended.
 pub(crate) struct OpenEnded<'a> {
     plan: &'a Plan,
     scene: &'a Scene,
     view: &'a FoundView,
-    /// Whether it has been said.
+    /// Whether this was reported already.
     said: bool,
 }
 
-/// What becomes of a step whose source has ended.
+/// What happens to a step whose source has ended.
 pub(crate) enum Ended {
-    /// It is passed over.
+    /// The step is ignored.
     PassedOver,
-    /// It stands for all frames without a partner.
+    /// The step fails, on behalf of all frames without a partner.
     Failed(Failure),
 }
 
@@ -34,7 +35,7 @@ impl<'a> OpenEnded<'a> {
         Self { plan, scene, view, said: false }
     }
 
-    /// What becomes of a step; `None`: its sources have not ended.
+    /// What happens to a step; `None` if its sources have not ended.
     pub(crate) fn of_step(
         &mut self,
         step: &Step<'_>,
@@ -57,7 +58,7 @@ impl<'a> OpenEnded<'a> {
         Some(Ended::Failed(self.failure(Some(step.found.number), message)))
     }
 
-    /// What is left of sources of which all was asked for.
+    /// Frames that remain in a source although all of its expected frames were read.
     pub(crate) fn left(&self, warnings: &mut Warnings<'_>) -> Option<Failure> {
         if self.plan.frames.is_some() || self.scene.frames.is_some() {
             return None;
@@ -90,7 +91,7 @@ impl<'a> OpenEnded<'a> {
 }
 
 impl Loaded {
-    /// What sources had to say instead of a frame.
+    /// The errors that sources returned in place of a frame.
     fn errors(&self) -> impl Iterator<Item = &SourceError> {
         let sides = self.reference.iter().chain([&self.test]);
         sides.filter_map(|side| match side {

@@ -1,17 +1,17 @@
-//! Loading the next items while this one is worked on.
+//! Loads the next items while the present one is processed.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 
-/// Bytes of loaded items that may wait to be worked on, however small they are.
+/// Maximum size in bytes of loaded items that wait, however small each item is.
 const WAITING_BYTES: usize = 256 << 20;
 
-/// Loads items on up to `loaders` threads and hands them over in order. `size` tells the bytes of
-/// a loaded item: as many are loaded ahead as fit into 256 MiB, by the largest so far, but always
-/// one. Memory is that and the item `consume` works on, however many items there are. When `consume`
-/// breaks off, nothing more is loaded.
+/// Loads items on up to `loaders` threads and passes them to `consume` in order. `size` returns the
+/// bytes of a loaded item. The number of items loaded ahead is limited to 256 MiB, estimated from
+/// the largest item so far, but is at least one. The memory use is this limit plus the item in
+/// `consume`, however many items there are. If `consume` stops early, nothing more is loaded.
 pub(crate) fn read_ahead<I: Sync, T: Send>(
     items: &[I],
     loaders: usize,
@@ -49,7 +49,7 @@ pub(crate) fn read_ahead<I: Sync, T: Send>(
     });
 }
 
-/// What loaders and consumer share.
+/// The queue that loaders and consumer share.
 struct Queue<T> {
     state: Mutex<State<T>>,
     changed: Condvar,
@@ -58,9 +58,9 @@ struct Queue<T> {
 }
 
 struct State<T> {
-    /// The next to be loaded.
+    /// Index of the next item to be loaded.
     next: usize,
-    /// How many the consumer has taken.
+    /// Number of items that the consumer has taken.
     handed_over: usize,
     /// Bytes of the largest item so far; 0 before the first.
     largest: usize,
@@ -73,7 +73,8 @@ impl<T> Queue<T> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The next item to load, once there is room for it; `None` when all are taken care of.
+    /// Index of the next item to load, as soon as there is room for it; `None` if no items are
+    /// left.
     fn start(&self) -> Option<usize> {
         let mut state = self.lock();
         loop {
@@ -99,7 +100,7 @@ impl<T> Queue<T> {
         self.changed.notify_all();
     }
 
-    /// Waits for an item; `None` when it will never come.
+    /// Waits for an item; `None` if it will never arrive.
     fn take(&self, index: usize) -> Option<T> {
         let mut state = self.lock();
         loop {
@@ -116,7 +117,7 @@ impl<T> Queue<T> {
     }
 }
 
-/// Ends all waiting when it is dropped: on the way out of a panic, on either side, and at the end.
+/// Ends all waiting when it is dropped: after a panic on either side, and at the normal end.
 struct Abandon<'a, T>(&'a Queue<T>);
 
 impl<T> Drop for Abandon<'_, T> {
@@ -139,7 +140,8 @@ mod tests {
         }
     }
 
-    /// The most items of `bytes` alive at a time, with the order checked.
+    /// The largest number of items of `bytes` bytes that existed at the same time. The order of the
+    /// items is checked as well.
     fn most_alive(loaders: usize, bytes: usize) -> usize {
         let (alive, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let items: Vec<usize> = (0..300).collect();
@@ -150,7 +152,7 @@ mod tests {
             |&item| {
                 let now = alive.fetch_add(1, Ordering::SeqCst) + 1;
                 most.fetch_max(now, Ordering::SeqCst);
-                // Some are slower than those behind them.
+                // Some items load more slowly than those after them.
                 if item % 7 == 0 {
                     thread::sleep(std::time::Duration::from_micros(200));
                 }

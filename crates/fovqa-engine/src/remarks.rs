@@ -1,4 +1,4 @@
-//! What the user should know of the frames that were found, before a pixel is read.
+//! Remarks for the user about the frames that were found, before any pixel is read.
 
 use fovqa_frame::source::{Length, Numbering, Source};
 use fovqa_io::sequence::Spacing;
@@ -8,10 +8,10 @@ use crate::error::EngineError;
 use crate::found::is_wanted;
 use crate::view_sources::ViewSources;
 
-/// What the user should know of the frames of a view.
+/// Remarks for the user about the frames of a view.
 ///
 /// # Errors
-/// When frames are asked for by numbers that the names do not have.
+/// If frames are requested by number, but the names have no numbers.
 pub(crate) fn remarks(
     plan: &Plan,
     scene: &Scene,
@@ -77,7 +77,7 @@ pub(crate) fn remarks(
     Ok(remarks)
 }
 
-/// A rate with as many decimals as anybody reads.
+/// Rounds a frame rate to the decimals that a message shows.
 fn shown(rate: f64) -> f64 {
     (rate * 1000.0).round() / 1000.0
 }

@@ -1,4 +1,4 @@
-//! Going on with a run that was broken off: what its journal has that still holds.
+//! Continues a run that was interrupted: finds out what in its journal is still valid.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -15,20 +15,20 @@ use crate::journal::{self, Header, JOURNAL, ViewFiles};
 use crate::share::{Shard, shares};
 use crate::timing::timings;
 
-/// What can be gone on with.
+/// What a run can continue with.
 #[derive(Debug, Default)]
 pub struct Resumed {
-    /// What is known already: nothing, where all begins afresh.
+    /// The findings that are known already; empty if the run starts again.
     pub known: Findings,
-    /// Why all begins afresh although something was there, in words: what has changed since.
+    /// Why the run starts again although there was a journal: what has changed since, in words.
     pub changes: Vec<String>,
 }
 
-/// Looks for what a run that begins now, with this header, would find once more. Every file it has read
-/// is read again, for its hash.
+/// Looks for earlier findings that a run with this header would produce again. Every file that the
+/// earlier run read is read again to compare its hash.
 ///
 /// # Errors
-/// When the journal is there and cannot be read.
+/// If the journal exists and cannot be read.
 pub fn resume(
     folder: &Path,
     header: &Header,
@@ -71,7 +71,7 @@ pub fn resume(
     Ok(Resumed { known, changes: Vec::new() })
 }
 
-/// All that a run reads, by how results show it.
+/// All files that a run reads, by the names that results show.
 fn origins(plan: &Plan, found: &FoundInputs) -> BTreeMap<String, Origin> {
     let settings = plan.scenes.iter().flat_map(|scene| &scene.eyes).map(|eye| &eye.settings);
     let beside = settings.flat_map(|settings| {
@@ -89,10 +89,10 @@ fn origins(plan: &Plan, found: &FoundInputs) -> BTreeMap<String, Origin> {
     beside.chain(frames).collect()
 }
 
-/// Said where maps are asked for that finished frames do not have.
+/// The reason if maps are requested that finished frames do not have.
 pub const NO_MAPS: &str = "the --maps folder does not contain the maps of finished frames";
 
-/// What keeps one run from going on with what another has found.
+/// The differences that prevent a run from continuing with the findings of another.
 fn differences(then: &Header, now: &Header) -> Vec<String> {
     let mut differences = Vec::new();
     if then.version != now.version {
@@ -113,7 +113,7 @@ fn differences(then: &Header, now: &Header) -> Vec<String> {
             frames(now)
         ));
     }
-    // What is finished has no maps, or has them elsewhere.
+    // The finished frames have no maps, or have them in another folder.
     if now.maps.is_some() && then.maps != now.maps {
         differences.push(NO_MAPS.to_owned());
     }
@@ -124,15 +124,16 @@ fn differences(then: &Header, now: &Header) -> Vec<String> {
         };
         differences.push(format!("it contains {}, but this is {}", shard(then), shard(now)));
     }
-    // What follows is of another experiment, or of other frames of it.
+    // If there are other differences, this is another experiment, or other frames of it, so the
+    // files need no comparison.
     if differences.is_empty() {
         differences.extend(other_files(&then.views, &now.views, now.shard));
     }
     differences
 }
 
-/// Views of other files than before. A view that has come new costs the others nothing, but in a shard,
-/// whose share it changes.
+/// Names the views whose files have changed. A new view does not affect the others, except in a
+/// shard, because it changes the shard's range.
 fn other_files(then: &[ViewFiles], now: &[ViewFiles], shard: Option<Shard>) -> Vec<String> {
     let same = |a: &ViewFiles, b: &ViewFiles| a.scene == b.scene && a.eye == b.eye;
     let named = |view: &ViewFiles| match view.eye {
@@ -153,7 +154,7 @@ fn other_files(then: &[ViewFiles], now: &[ViewFiles], shard: Option<Shard>) -> V
     gone.chain(new).collect()
 }
 
-/// What of a journal still holds, whatever becomes of the rest.
+/// The findings of a journal that are still valid, whatever happens to the rest.
 fn still_good(
     plan: &Plan,
     found: &FoundInputs,
@@ -168,7 +169,7 @@ fn still_good(
             findings.views.insert(place, of_view(plan, view, range, known)?);
         }
     }
-    // What is wrong now is found again.
+    // Present problems are found again.
     findings.problems.clear();
     Ok(findings)
 }
@@ -181,9 +182,10 @@ fn of_view(
 ) -> Result<ViewFindings, EngineError> {
     let (metrics, _) = view.metrics(plan)?;
     known.failed = None;
-    // What could not be scored may have been mended.
+    // The cause of a failure may have been corrected since.
     known.pairs.retain(|_, outcome| outcome.result.is_ok());
-    // The first pair that can be compared settles size and bands of all: that must not be another now.
+    // The first pair that can be compared determines the size and bands of all pairs, so this pair
+    // must not change.
     let begun = range.start > 0 || known.pairs.contains_key(&0);
     if !known.before.is_empty() || !begun {
         return Ok(ViewFindings::default());
@@ -198,7 +200,7 @@ fn of_view(
             let timed = timings.get(&outcome.method).is_some_and(|timing| timing.time.is_ok());
             !(fvvdp && timed && !frame.rows.has(Metric::Fvvdp))
         };
-        // Each pair has seen those before it.
+        // Each pair depends on those before it.
         let first = range.clone().find(|index| !good(index)).unwrap_or(range.end);
         known.pairs.split_off(&first);
     }

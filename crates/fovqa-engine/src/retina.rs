@@ -1,5 +1,5 @@
-//! What depends on view and gaze alone, computed once a gaze: a fixation serves many frames, and eyes
-//! come back to where they were.
+//! Data that depend only on view and gaze. They are computed once per gaze, because a fixation
+//! covers many frames and the eyes return to earlier positions.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,35 +10,37 @@ use fovqa_metrics::fvvdp::{Fvvdp, FvvdpRegions};
 use fovqa_metrics::{BlockRegions, Params, Regions, WeightField};
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, View};
 
-/// Largest precomputed weight field: 8K UHD fits, the retinal 11520x6480 is computed row by row.
+/// Maximum size in bytes of a precomputed weight field. 8K UHD fits; the retinal resolution of
+/// 11520x6480 is computed row by row.
 const MAX_FIELD_BYTES: usize = 256 << 20;
 
-/// Memory for retinas that may be asked for again.
+/// Bytes of memory for retinas that may be needed again.
 const KEPT_BYTES: usize = 256 << 20;
 
-/// A gaze that serves fewer pairs does not pay for its weight field being written down.
+/// Minimum number of pairs per gaze at which precomputing the weight field saves time.
 const USES_OF_A_FIELD: usize = 3;
 
 /// Bands and weights of one gaze.
 #[derive(Debug)]
 pub(crate) struct Retina {
     pub(crate) bands: BandMap,
-    /// Bands of blocks, by how many levels of them a metric needs.
+    /// Bands of blocks, by the number of block levels that a metric needs.
     blocks: BTreeMap<usize, Vec<BandMap>>,
     pub(crate) weight: Option<WeightField>,
     /// Bands of the levels of FovVideoVDP.
     pub(crate) fvvdp: Option<FvvdpRegions>,
-    /// What the mask leaves of the bands.
+    /// The bands without the pixels that the mask leaves out.
     masked: Option<(Regions<'static>, Blocks<'static>)>,
-    /// Memory it takes, without what the mask leaves, which is of the same size.
+    /// Bytes of memory in use. The masked copy, which has the same size, is not included.
     bytes: usize,
 }
 
-/// Bands of blocks, less what a mask leaves out, by how many levels of them a metric needs.
+/// Bands of blocks without the blocks that a mask leaves out, by the number of block levels that a
+/// metric needs.
 pub(crate) type Blocks<'a> = BTreeMap<usize, BlockRegions<'a>>;
 
 impl Retina {
-    /// The regions of a frame: bands, less what the mask leaves out.
+    /// The regions of a frame: bands without the pixels that the mask leaves out.
     pub(crate) fn regions(&self) -> (Cow<'_, Regions<'_>>, Cow<'_, Blocks<'_>>) {
         if let Some((regions, blocks)) = &self.masked {
             return (Cow::Borrowed(regions), Cow::Borrowed(blocks));
@@ -48,7 +50,7 @@ impl Retina {
         (Cow::Owned(Regions::unmasked(&self.bands)), Cow::Owned(blocks.collect()))
     }
 
-    /// The same for a frame of which only these pixels count.
+    /// The regions of a frame in which only some pixels count.
     pub(crate) fn regions_within(
         &self,
         mask: &Mask,
@@ -64,7 +66,7 @@ fn masked(blocks: &BTreeMap<usize, Vec<BandMap>>, mask: &Mask) -> Blocks<'static
     masked.collect()
 }
 
-/// How an eye sees the frames.
+/// The conditions under which an eye sees the frames.
 #[derive(Debug)]
 pub(crate) struct Viewing {
     pub(crate) view: View,
@@ -72,25 +74,25 @@ pub(crate) struct Viewing {
     pub(crate) edges: BandEdges,
 }
 
-/// How retinas are made.
+/// Makes retinas.
 #[derive(Debug)]
 pub(crate) struct RetinaMaker<'a> {
-    /// `None` without a view: no bands then.
+    /// The viewing conditions; `None` without a view, and then there are no bands.
     pub(crate) viewing: Option<Viewing>,
     pub(crate) size: (usize, usize),
     pub(crate) params: &'a Params,
     pub(crate) foveal: bool,
-    /// How many levels of blocks metrics need, each its own.
+    /// The numbers of block levels that the metrics need.
     pub(crate) block_levels: BTreeSet<usize>,
     pub(crate) fvvdp: Option<Fvvdp>,
     pub(crate) mask: Option<Mask>,
-    /// Radius of the windows whose every pixel has to count.
+    /// Radius in pixels of the windows in which every pixel has to count.
     pub(crate) window_radius: usize,
-    /// How many pairs each gaze serves.
+    /// The number of pairs for each gaze.
     pub(crate) uses: BTreeMap<Key, usize>,
 }
 
-/// A gaze, to the bit.
+/// A gaze position, compared bit by bit.
 pub(crate) type Key = [u64; 2];
 
 pub(crate) fn key(gaze_px: [f64; 2]) -> Key {
@@ -144,7 +146,7 @@ impl RetinaMaker<'_> {
     }
 }
 
-/// Retinas that were made, as many as fit into a bound: those used last.
+/// The most recently used retinas, as many as fit into a limit.
 #[derive(Debug)]
 pub(crate) struct Retinas<'a> {
     pub(crate) maker: RetinaMaker<'a>,
@@ -165,7 +167,7 @@ impl<'a> Retinas<'a> {
         Self { maker, kept: BTreeMap::new(), bound_bytes: KEPT_BYTES, bytes: 0, clock: 0 }
     }
 
-    /// The retina of a gaze.
+    /// The retina for a gaze.
     pub(crate) fn at(&mut self, gaze_px: [f64; 2]) -> Arc<Retina> {
         self.clock += 1;
         if let Some(kept) = self.kept.get_mut(&key(gaze_px)) {
@@ -180,7 +182,8 @@ impl<'a> Retinas<'a> {
         retina
     }
 
-    /// Lets go of what was not used for longest, until the rest is within the bound.
+    /// Removes the retinas that have not been used for the longest time, until the rest fits into
+    /// the limit.
     fn forget(&mut self) {
         while self.bytes > self.bound_bytes && self.kept.len() > 1 {
             let oldest = self.kept.iter().min_by_key(|(_, kept)| kept.used).map(|(key, _)| *key);

@@ -1,4 +1,5 @@
-//! A plan's frames to findings: one pass over the files of each view, all methods and all metrics.
+//! Turns the frames of a plan into findings, in one pass over the files of each view for all
+//! methods and metrics.
 
 use fovqa_plan::Plan;
 use fovqa_results::RunResults;
@@ -11,19 +12,20 @@ use crate::found::{FoundInputs, FoundView, Problem};
 use crate::scoring::{Recorder, Scoring, scene_bands};
 use crate::unit::{Unit, units};
 
-/// Checks what needs no file: parameters, and that what needs a view has one.
+/// Checks everything that needs no file: parameters, and whether metrics that need a view have one.
 ///
 /// # Errors
-/// The first that cannot be.
+/// The first error that is found.
 pub fn check(plan: &Plan) -> Result<(), EngineError> {
     let mut views = plan.scenes.iter().flat_map(|scene| &scene.eyes);
     views.try_for_each(|view| crate::settle::metrics(plan, &view.settings).map(|_| ()))
 }
 
-/// Scores every frame that was found. What cannot be scored is in the failures of its comparison.
+/// Scores every frame that was found. Items that cannot be scored become failures of their
+/// comparison.
 ///
 /// # Errors
-/// When the plan itself cannot be ([`check`]), or what is finished cannot be taken recorder.
+/// If the plan itself is not possible ([`check`]), or a result cannot be recorded.
 pub fn run(
     plan: &Plan,
     found: &FoundInputs,
@@ -34,11 +36,11 @@ pub fn run(
     Ok(results(plan, events, findings))
 }
 
-/// Scores the pairs of some units that are not `known` (as [`crate::resume`] has it), and returns what is
-/// known then. Each step of it is taken recorder, but what was known before.
+/// Scores the pairs of some units that are not `known` yet (see [`crate::resume`]), and returns all
+/// findings. Each new finding is recorded; the known ones are not recorded again.
 ///
 /// # Errors
-/// As [`run`].
+/// See [`run`].
 pub fn score(
     plan: &Plan,
     found: &FoundInputs,
@@ -80,7 +82,7 @@ pub fn score(
     Ok(findings)
 }
 
-/// The comparisons a problem is of.
+/// The comparisons that a problem affects.
 fn places(plan: &Plan, problem: &Problem) -> Vec<ComparisonIndex> {
     let tests = &plan.scenes[problem.scene].eyes[problem.eye].tests;
     let methods = tests.iter().map(|(method, _)| *method);

@@ -1,4 +1,4 @@
-//! One view's share of a run: its files in order, every test against its reference.
+//! Scores the pairs of one view: its files in order, and every test against its reference.
 
 use std::ops::{ControlFlow, Range};
 
@@ -24,18 +24,18 @@ use crate::setup::farthest_deg;
 use crate::view::ViewRun;
 use crate::work::Work;
 
-/// What is to be scored.
+/// What to score in a view.
 pub(crate) struct Scoring<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) scene: &'a Scene,
     pub(crate) view: &'a FoundView,
-    /// Bands of the whole scene, where both eyes' views decide them.
+    /// Bands of the whole scene, if they depend on the views of both eyes.
     pub(crate) bands: Option<&'a BandEdges>,
-    /// Which of the view's pairs, not none of them.
+    /// Range of the view's pairs to score. It is not empty.
     pub(crate) range: Range<usize>,
 }
 
-/// Where it goes.
+/// Receives the findings, warnings and progress.
 pub(crate) struct Recorder<'a, 'e, 'r> {
     pub(crate) inputs: &'a mut Inputs,
     pub(crate) warnings: &'a mut Warnings<'e>,
@@ -48,7 +48,7 @@ impl Recorder<'_, '_, '_> {
         self.inputs.add(path, id).map_or(Ok(()), |input| (self.record)(Entry::Input(&input)))
     }
 
-    /// The files that were read for a step.
+    /// Records the files that were read for a step.
     fn inputs_of(&mut self, loaded: &Loaded) -> Result<(), EngineError> {
         let sides = loaded.reference.iter().chain([&loaded.test]).flatten();
         let mut ids = sides.flat_map(|side| &side.ids);
@@ -66,7 +66,7 @@ impl<'a> Scoring<'a> {
         Named { scene, method, eye: self.eye().eye }
     }
 
-    /// Scores what is not known.
+    /// Scores the pairs that are not known yet.
     pub(crate) fn run(
         &self,
         known: ViewFindings,
@@ -103,8 +103,8 @@ impl<'a> Scoring<'a> {
         Ok(ViewFindings { settled: Some(settled), ..findings })
     }
 
-    /// Brings a run to where it would be before the first pair that is to be scored; the frame it is
-    /// at then.
+    /// Reads the pairs that are needed before the first pair to be scored. Returns the present
+    /// frame afterwards.
     fn take_up(
         &self,
         work: &Work<'_>,
@@ -149,7 +149,7 @@ impl<'a> Scoring<'a> {
             |nth, loaded| {
                 let (index, step) = &steps[nth];
                 written = recorder.inputs_of(&loaded);
-                // What cannot be taken down any more is not worth scoring.
+                // If results can no longer be recorded, further scoring is useless.
                 if written.is_err() {
                     return ControlFlow::Break(());
                 }
@@ -195,7 +195,7 @@ impl<'a> Scoring<'a> {
         Settled { view, metrics, gaze_held, fvvdp: fvvdp.collect(), missing: missing.collect() }
     }
 
-    /// Settles the metrics, and says what has to be said before the first frame.
+    /// Selects the metrics, and reports the warnings that belong before the first frame.
     pub(crate) fn begin(&self, warnings: &mut Warnings<'_>) -> Result<Vec<Metric>, EngineError> {
         let place = match self.eye().eye {
             None => self.scene.name.clone(),
@@ -219,7 +219,7 @@ impl<'a> Scoring<'a> {
         Ok(metrics)
     }
 
-    /// Whether the frames fit into memory; `Some`: what has to be said of how much they take.
+    /// Checks whether the frames fit into memory. Returns a message if they need much of it.
     pub(crate) fn fits(&self, metrics: &[Metric]) -> Result<Option<String>, EngineError> {
         memory::check(self.plan, self.view, metrics)
     }
@@ -231,7 +231,7 @@ impl<'a> Scoring<'a> {
         mask.transpose().map_err(|error| shown(EngineError::Mask(error)))
     }
 
-    /// What is read once for all frames: mask and gaze trace.
+    /// Records the files that are read once for all frames: mask and gaze trace.
     fn inputs_beside(&self, recorder: &mut Recorder<'_, '_, '_>) -> Result<(), EngineError> {
         let settings = &self.eye().settings;
         let trace = match &settings.gaze {
@@ -240,7 +240,8 @@ impl<'a> Scoring<'a> {
         };
         let files = [settings.mask.as_ref(), trace].into_iter().flatten();
         for path in files.filter(|_| self.plan.hash_inputs) {
-            // They have been read; one that has gone since is no input of another run either.
+            // These files have been read already. If one has disappeared since, another run cannot
+            // use it either.
             if let Ok(id) = id_of_file(path) {
                 recorder.input(&self.plan.shown(path), &id)?;
             }
@@ -249,7 +250,8 @@ impl<'a> Scoring<'a> {
     }
 }
 
-/// The bands of a scene with two eyes and none given: one list, as far as either eye sees.
+/// The bands of a scene with two eyes and no given bands: one list, up to the largest eccentricity
+/// that either eye sees.
 pub(crate) fn scene_bands(scene: &Scene, found: &FoundInputs, index: usize) -> Option<BandEdges> {
     let default = |view: &EyeView| view.settings.view.is_some() && view.settings.bands.is_none();
     if scene.eyes.len() < 2 || !scene.eyes.iter().all(default) {

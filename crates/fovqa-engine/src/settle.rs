@@ -1,4 +1,4 @@
-//! Which metrics a view allows, before a pixel is read.
+//! Selects the metrics that a view allows, before any pixel is read.
 
 use fovqa_metrics::{Metric, MetricKind};
 use fovqa_plan::{MetricChoice, Plan, Settings};
@@ -7,10 +7,11 @@ use fovqa_vision::ViewSpec;
 use crate::error::{EngineError, no_view};
 use crate::found::FoundView;
 
-/// The metrics of a view, and those of the default ones that are left out for want of one.
+/// The metrics of a view, and the default metrics that are left out because there is no view.
 ///
 /// # Errors
-/// When a parameter cannot be, or something that was asked for needs a view that is not there.
+/// If the value of a parameter is not possible, or a requested metric needs a view and there is
+/// none.
 pub(crate) fn metrics(
     plan: &Plan,
     settings: &Settings,
@@ -42,7 +43,7 @@ pub(crate) fn metrics(
 }
 
 impl FoundView {
-    /// The same for frames that were found: one alone has no differences over time.
+    /// The metrics for frames that were found. A single frame has no temporal differences.
     pub(crate) fn metrics(&self, plan: &Plan) -> Result<(Vec<Metric>, Vec<Metric>), EngineError> {
         let settings = &plan.scenes[self.scene].eyes[self.eye].settings;
         let (mut metrics, left_out) = metrics(plan, settings)?;
@@ -53,7 +54,7 @@ impl FoundView {
     }
 }
 
-/// Whether what is of light has a display that can show the files.
+/// Checks that luminance-based metrics have a display that can show the files.
 fn check_light(metrics: &[Metric], settings: &Settings) -> Result<(), EngineError> {
     let of_light = metrics.iter().filter(|metric| metric.info().needs.luminance);
     let names: Vec<&str> = of_light.map(|metric| metric.info().label).collect();

@@ -1,4 +1,5 @@
-//! What the size of the first frame settles for all: metrics that fit, view, bands, weights, mask.
+//! Data that the size of the first frame determines for all frames: metrics that fit, view, bands,
+//! weights and mask.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,31 +15,31 @@ use crate::events::Warnings;
 use crate::load::Fault;
 use crate::retina::{Key, Retina, RetinaMaker, Retinas, Viewing, key};
 
-/// Settled once, used for every frame.
+/// The data are computed once and used for every frame.
 pub(crate) struct Setup<'a> {
     pub(crate) size: (usize, usize),
-    /// The file whose size it is.
+    /// The file that determines the size.
     pub(crate) first_file: String,
-    /// Those that fit the frames.
+    /// The metrics that fit the frames.
     pub(crate) metrics: Vec<Metric>,
     pub(crate) view: Option<ViewResult>,
     retinas: Retinas<'a>,
-    /// That of the present gaze.
+    /// The retina of the present gaze.
     retina: Arc<Retina>,
 }
 
-/// What a setup is made from.
+/// The inputs that a setup is made from.
 pub(crate) struct Inputs<'a, 'b> {
     pub(crate) plan: &'a Plan,
     pub(crate) settings: &'a Settings,
-    /// Bands of the whole scene, where both eyes' views decide them.
+    /// Bands of the whole scene, if they depend on the views of both eyes.
     pub(crate) scene_bands: Option<&'a BandEdges>,
     pub(crate) metrics: &'b [Metric],
     pub(crate) mask: Option<&'b Mask>,
     pub(crate) trace: Option<&'a [GazeAt]>,
-    /// How many pairs each frame has.
+    /// Number of pairs of each frame.
     pub(crate) pairs: &'b [usize],
-    /// Size of the files, before any crop.
+    /// Width and height of the files in pixels, before any crop.
     pub(crate) file_size: (usize, usize),
 }
 
@@ -111,15 +112,16 @@ impl<'a> Setup<'a> {
         Ok(Self { size, first_file, metrics, view, retinas, retina })
     }
 
-    /// Whether a file may be seen so: where it declares that its pixels are not square, the view has to
-    /// agree within a hundredth, which no rounding of the two reaches.
+    /// Checks the pixel aspect ratio of a file. If the file declares pixels that are not square,
+    /// the view has to agree within one percent, which is more than the rounding of either value.
     pub(crate) fn check_pixels(&self, file: &str, pixel_aspect: f32) -> Result<(), Fault> {
         const TOLERANCE: f64 = 0.01;
         let Some(viewing) = &self.retinas.maker.viewing else { return Ok(()) };
         let [x, y] = viewing.view.focal_px;
         let (declared, seen) = (f64::from(pixel_aspect), y / x);
         let is = |aspect: f64| (declared / aspect - 1.0).abs() <= TOLERANCE;
-        // Files without square pixels say so; those that say nothing, or 1, leave it to the view.
+        // A file without square pixels declares that. If the file declares nothing, or 1, the view
+        // decides.
         if is(1.0) || is(seen) {
             return Ok(());
         }
@@ -134,29 +136,29 @@ impl<'a> Setup<'a> {
         })
     }
 
-    /// Moves the gaze, where there is a view.
+    /// Moves the gaze, if there is a view.
     pub(crate) fn look_at(&mut self, gaze_px: [f64; 2]) {
         if self.view.is_some() {
             self.retina = self.retinas.at(gaze_px);
         }
     }
 
-    /// What depends on the present gaze.
+    /// The data for the present gaze.
     pub(crate) fn retina(&self) -> Arc<Retina> {
         Arc::clone(&self.retina)
     }
 
-    /// Radius of the windows whose every pixel has to count.
+    /// Radius in pixels of the windows in which every pixel has to count.
     pub(crate) fn window_radius(&self) -> usize {
         self.retinas.maker.window_radius
     }
 
-    /// How many bands there are.
+    /// The number of bands.
     pub(crate) fn bands(&self) -> usize {
         self.view.as_ref().map_or(0, |view| view.bands_deg.len())
     }
 
-    /// FovVideoVDP for these frames, where it is asked for.
+    /// FovVideoVDP for these frames, if it is requested.
     pub(crate) fn fvvdp(&self) -> Option<&Fvvdp> {
         self.retinas.maker.fvvdp.as_ref()
     }
@@ -166,7 +168,7 @@ impl<'a> Setup<'a> {
         self.retinas.maker.mask.as_ref()
     }
 
-    /// Where pixels are finite, less what the lens mask leaves out.
+    /// Where pixels are finite, without those that the lens mask leaves out.
     pub(crate) fn within_mask(&self, finite: &Mask) -> Mask {
         let mut both = finite.clone();
         if let Some(mask) = self.mask() {
@@ -175,7 +177,7 @@ impl<'a> Setup<'a> {
         both
     }
 
-    /// How far the gaze has moved, degrees; `None` without a view.
+    /// The distance between two gaze positions in degrees; `None` without a view.
     pub(crate) fn gaze_step_deg(&self, from_px: [f64; 2], to_px: [f64; 2]) -> Option<f64> {
         let viewing = self.retinas.maker.viewing.as_ref()?;
         let from = Eccentricity::new(viewing.view, from_px, EccentricityKind::Angular);
@@ -183,12 +185,12 @@ impl<'a> Setup<'a> {
     }
 }
 
-/// Whether FovVideoVDP is defined for frames of a size; where it is not, the scorer says so.
+/// Whether FovVideoVDP is defined for frames of this size. If not, the scorer returns the error.
 fn fits_fvvdp((width, height): (usize, usize)) -> bool {
     width.min(height) >= SMALLEST_SIDE
 }
 
-/// How many pairs each gaze serves.
+/// The number of pairs for each gaze.
 fn uses(inputs: &Inputs<'_, '_>, gaze_px: [f64; 2]) -> BTreeMap<Key, usize> {
     let mut uses = BTreeMap::new();
     for (frame, pairs) in inputs.pairs.iter().enumerate() {
@@ -198,7 +200,7 @@ fn uses(inputs: &Inputs<'_, '_>, gaze_px: [f64; 2]) -> BTreeMap<Key, usize> {
     uses
 }
 
-/// Settles how the frames are seen.
+/// Determines the viewing conditions of the frames.
 fn look(
     inputs: &Inputs<'_, '_>,
     spec: &ViewSpec,
@@ -247,7 +249,7 @@ fn first_gaze(settings: &Settings, trace: Option<&[GazeAt]>, view: &View) -> [f6
     }
 }
 
-/// The largest eccentricity of any pixel in any frame: where the default bands end.
+/// The largest eccentricity in degrees of any pixel in any frame. The default bands end there.
 pub(crate) fn farthest_deg(settings: &Settings, trace: Option<&[GazeAt]>, view: &View) -> f64 {
     let gazes = trace.map_or_else(
         || vec![first_gaze(settings, None, view)],
@@ -257,7 +259,8 @@ pub(crate) fn farthest_deg(settings: &Settings, trace: Option<&[GazeAt]>, view: 
     gazes.into_iter().map(farthest).fold(0.0, f64::max)
 }
 
-/// A mask has the size of the frames, or of the files they are cropped from.
+/// Fits a mask to the frames. The mask must have the size of the frames, or of the files they are
+/// cropped from.
 fn fit_mask(
     inputs: &Inputs<'_, '_>,
     mask: &Mask,

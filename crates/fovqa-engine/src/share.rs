@@ -1,4 +1,4 @@
-//! Shares of a run: which of all its pairs are to be scored here.
+//! Shards of a run: which of all its pairs are scored here.
 
 use std::fmt;
 use std::ops::Range;
@@ -7,8 +7,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// One of several shares of a run: the I-th of N, written `I/N`. All pairs of all views, one behind the
-/// other, are cut into N stretches.
+/// One of several shards of a run: the I-th of N, written `I/N`. The pairs of all views are put in
+/// one sequence, which is cut into N ranges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Shard {
@@ -16,26 +16,26 @@ pub struct Shard {
     of: u32,
 }
 
-/// Text that is no share.
+/// A text that does not name a shard.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0:?} is not a shard: write I/N, with I from 1 to N and N at most {most}", most = Shard::MOST)]
 pub struct ShardError(String);
 
 impl Shard {
-    /// As many as a run can be cut into.
+    /// Maximum number of shards of a run.
     pub const MOST: u32 = 10_000;
 
-    /// Which it is, from 1 on.
+    /// Index of the shard, counted from 1.
     pub fn index(self) -> u32 {
         self.index
     }
 
-    /// How many there are.
+    /// Number of shards of the run.
     pub fn of(self) -> u32 {
         self.of
     }
 
-    /// The pairs it has of so many.
+    /// The range of this shard among `pairs` pairs.
     pub(crate) fn range(self, pairs: usize) -> Range<usize> {
         let end = |index: u32| (pairs as u64 * u64::from(index) / u64::from(self.of)) as usize;
         end(self.index - 1)..end(self.index)
@@ -46,7 +46,7 @@ impl FromStr for Shard {
     type Err = ShardError;
 
     fn from_str(text: &str) -> Result<Self, ShardError> {
-        // Plain digits: no sign, nothing else that parses.
+        // Only plain digits are allowed; a sign or anything else that parses is refused.
         let number = |digits: &str| {
             let plain = digits.len() <= 6 && digits.bytes().all(|b| b.is_ascii_digit());
             if plain { digits.parse::<u32>().ok() } else { None }
@@ -79,7 +79,8 @@ impl From<Shard> for String {
     }
 }
 
-/// What a share has of each view, of which the first has `pairs[0]` and so on; `None`: all of them.
+/// The range of pairs of each view in a shard; `None` stands for the whole run. `pairs` contains
+/// the number of pairs of each view.
 pub(crate) fn shares(shard: Option<Shard>, pairs: &[usize]) -> Vec<Range<usize>> {
     let total = pairs.iter().sum();
     let own = shard.map_or(0..total, |shard| shard.range(total));

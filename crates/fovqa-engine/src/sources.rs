@@ -1,4 +1,4 @@
-//! The sources of a view: opened once, before any frame is read.
+//! Opens the sources of a view once, before any frame is read.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ use fovqa_plan::{EyeView, Plan, SourceSpec};
 use crate::error::EngineError;
 use crate::found_frame::{FoundFrame, GuideFrames};
 
-/// Sources that a plan names and does not have ([`SourceSpec::Given`]), by their names.
+/// Sources that a plan names but does not contain ([`SourceSpec::Given`]), by their names.
 pub type Given = BTreeMap<String, Arc<dyn Source>>;
 
 /// Opens the sources of a view.
@@ -26,12 +26,12 @@ pub(crate) struct Opener<'a> {
 }
 
 impl Opener<'_> {
-    /// The reference.
+    /// Opens the reference.
     pub(crate) fn reference(&self) -> Result<Arc<dyn Source>, EngineError> {
         self.open(&self.view.reference, self.view.settings.read.layer.as_deref())
     }
 
-    /// The tests of a method.
+    /// Opens the tests of a method.
     pub(crate) fn test(
         &self,
         method: usize,
@@ -60,8 +60,9 @@ impl Opener<'_> {
         SourceOptions { base: self.plan.base.clone(), read, hash: self.plan.hash_inputs }
     }
 
-    /// What is looked for beside the colour: not the names a user has given channels of files of their
-    /// own, which may be those of colours here.
+    /// Which motion and depth to look for in the same files as the colour. The user's channel names
+    /// for separate files are not used here, because they may be names of colour channels in these
+    /// files.
     fn beside_colour(&self) -> GuideOptions {
         let settings = &self.view.settings;
         let mut wanted = settings.guides.clone();
@@ -76,9 +77,9 @@ impl Opener<'_> {
         wanted
     }
 
-    /// Opens the files of motion and depth, where there are such files and they are of any use, and finds
-    /// those that belong to the references. A frame without one has none: whether that is a mistake is
-    /// seen along the whole sequence.
+    /// Opens the files of motion and depth, if there are any and a metric uses them, and finds
+    /// those that belong to each reference. A frame may have none: whether that is an error depends
+    /// on the whole sequence.
     pub(crate) fn guides(
         &self,
         reference: &dyn Source,
@@ -116,5 +117,5 @@ impl Opener<'_> {
     }
 }
 
-/// Files of motion or depth, and which of them belongs to which reference.
+/// Files of motion or depth, and the index of the file for each reference.
 type OwnFiles = (Arc<dyn Source>, BTreeMap<usize, usize>);

@@ -1,5 +1,5 @@
-//! A unit of work as another process can do it: written down with its plan, and its findings written down
-//! in turn.
+//! A unit of work for another process. The unit is written to JSON with its plan, and its findings
+//! are written in the same way.
 
 use fovqa_plan::Plan;
 use serde::{Deserialize, Serialize};
@@ -17,58 +17,59 @@ use crate::unit::Unit;
 /// Name and version of the format.
 const SCHEMA: &str = "fovqa.task/1";
 
-/// A unit of work with its plan. As JSON it can be given to another process, which sees the same files below
-/// the same paths.
+/// A unit of work with its plan. It can be passed as JSON to another process that sees the same
+/// files under the same paths.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Task {
     schema: String,
     version: String,
     plan: Plan,
     unit: Unit,
-    /// The files of the unit's view when it was cut: those of another process have to be the same.
+    /// The files of the unit's view when the task was made. The other process must find the same
+    /// files.
     files: ViewFiles,
 }
 
-/// A task that cannot be done.
+/// Why a task cannot be run.
 #[derive(Debug, Error)]
 pub enum TaskError {
-    /// Something that is no task.
+    /// A text that is not a task.
     #[error("this is not a unit of work: {0}")]
     Format(String),
-    /// A task of another version.
+    /// A task of another fovqa version.
     #[error("fovqa {version} wrote this unit of work, but this is fovqa {}", env!("CARGO_PKG_VERSION"))]
     Version {
-        /// Its version.
+        /// The version that wrote it.
         version: String,
     },
-    /// Frames that are not there, or others than those the task was cut from.
+    /// Frames that do not exist, or differ from those that the task was made from.
     #[error("scene {0:?}: the frames found here differ from those in the unit of work")]
     OtherFrames(String),
-    /// What keeps the plan from being run.
+    /// An error of the plan.
     #[error(transparent)]
     Engine(#[from] EngineError),
 }
 
 impl Task {
-    /// A unit of a plan whose frames were found.
+    /// Makes a task from a unit of a plan whose frames were found.
     pub fn new(plan: &Plan, found: &crate::found::FoundInputs, unit: Unit) -> Option<Self> {
         let files = view_files(plan, found, unit.scene, unit.eye)?;
         let (schema, version) = (SCHEMA.to_owned(), env!("CARGO_PKG_VERSION").to_owned());
         Some(Self { schema, version, plan: plan.clone(), unit, files })
     }
 
-    /// The task as JSON.
+    /// Writes the task as JSON.
     ///
     /// # Errors
-    /// When a path of the plan is not UTF-8.
+    /// If a path of the plan is not UTF-8.
     pub fn to_json(&self) -> Result<String, TaskError> {
         serde_json::to_string(self).map_err(|error| TaskError::Format(error.to_string()))
     }
 
-    /// A task that was written as JSON.
+    /// Reads a task from JSON.
     ///
     /// # Errors
-    /// When it is none, or one of another version.
+    /// If the text is not a task, or the task has another version.
     pub fn from_json(json: &str) -> Result<Self, TaskError> {
         let task: Self =
             serde_json::from_str(json).map_err(|error| TaskError::Format(error.to_string()))?;
@@ -85,8 +86,8 @@ impl Task {
     /// Finds the frames of the task and scores them.
     ///
     /// # Errors
-    /// When the frames are not those that the task was cut from, or the plan cannot be run. A frame that
-    /// cannot be scored is a failure among the findings.
+    /// If the frames are not those that the task was made from, or the plan cannot be run. A frame
+    /// that cannot be scored is a failure among the findings.
     pub fn run(&self, given: &Given, events: &dyn Events) -> Result<TaskFindings, TaskError> {
         let found = find(&self.plan, given);
         let files = view_files(&self.plan, &found, self.unit.scene, self.unit.eye);
@@ -94,7 +95,7 @@ impl Task {
             return Err(TaskError::OtherFrames(self.plan.scenes[self.unit.scene].name.clone()));
         }
         let units = std::slice::from_ref(&self.unit);
-        // Problems of other views are not the task's.
+        // Problems of other views do not belong to this task.
         let found = crate::found::FoundInputs { problems: Vec::new(), ..found };
         let nothing = &mut |_: crate::findings::Entry<'_>| Ok(());
         let findings = score(&self.plan, &found, units, Findings::default(), events, nothing)?;
@@ -102,20 +103,20 @@ impl Task {
     }
 }
 
-/// What a task has found.
+/// The findings of a task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskFindings(Findings);
 
 impl TaskFindings {
-    /// The findings as lines of JSON, those of a journal.
+    /// The findings as lines of JSON, in the format of a journal.
     pub fn to_lines(&self, task: &Task) -> String {
         crate::journal::lines_of(&task.plan, &self.0)
     }
 
-    /// Findings that were written as lines.
+    /// Reads findings that were written as lines.
     ///
     /// # Errors
-    /// When they are not those of the task, whole.
+    /// If they are not the complete findings of the task.
     pub fn from_lines(task: &Task, lines: &str) -> Result<Self, TaskError> {
         let Unit { scene, eye, pairs } = &task.unit;
         let own = |place, step: Option<usize>| {
@@ -128,8 +129,8 @@ impl TaskFindings {
         findings.map(Self).ok_or_else(other)
     }
 
-    /// The findings of all tasks of a plan together, in the order of their units, as one run of it all would
-    /// have them.
+    /// Merges the findings of all tasks of a plan, in the order of their units. The result is the
+    /// same as that of a single run.
     pub fn merge(tasks: impl IntoIterator<Item = Self>) -> Findings {
         let mut all = Findings::default();
         for Self(findings) in tasks {

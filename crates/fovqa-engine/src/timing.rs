@@ -1,4 +1,4 @@
-//! Which frames of a view are a method's sequence, and how far they lie apart: what FovVideoVDP filters
+//! Finds the frames of a method's sequence and the time between them, which FovVideoVDP filters
 //! over.
 
 use std::collections::BTreeMap;
@@ -7,18 +7,18 @@ use fovqa_metrics::fvvdp::{Params, Time, TimeError};
 
 use crate::found::FoundView;
 
-/// The sequence of a method.
+/// The frames and frame rate of a method's sequence.
 #[derive(Debug, Clone)]
 pub(crate) struct Timing {
     /// Indices of its frames in the view.
     pub(crate) frames: Vec<usize>,
-    /// Frames a second; `None` for a still.
+    /// Frames per second; `None` for a still image.
     pub(crate) fps: Option<f64>,
-    /// Why it cannot be filtered, or how it is.
+    /// How the sequence is filtered, or why it cannot be.
     pub(crate) time: Result<Time, Gap>,
 }
 
-/// Frames that do not lie equally far apart: the numbers of two between which some are missing.
+/// Frames that are not equally spaced: the numbers of two frames between which some are missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Gap(i64, i64);
 
@@ -31,7 +31,7 @@ impl std::fmt::Display for Gap {
 /// The sequences of all methods of a view, by the index of the method.
 ///
 /// # Errors
-/// When a sequence has no frame rate, or none that can be filtered.
+/// If a sequence has no frame rate, or a rate that cannot be filtered.
 pub(crate) fn timings(
     view: &FoundView,
     fps: Option<f64>,
@@ -47,7 +47,7 @@ pub(crate) fn timings(
         let frame = |index: &usize| &view.frames[*index];
         let step =
             |pair: &[usize]| frame(&pair[1]).position.saturating_sub(frame(&pair[0]).position);
-        // Every second frame of 60 a second are 30 a second.
+        // For example, every second frame of 60 frames per second gives 30 frames per second.
         let nearest = frames.windows(2).map(step).min().unwrap_or(1).max(1);
         let fps = fps.map(|fps| fps / nearest as f64).filter(|_| frames.len() > 1);
         let time = Time::new(frames.len(), fps, params.temp_padding)?;

@@ -1,4 +1,4 @@
-//! Units of work: what can be done by itself, here or elsewhere.
+//! Units of work that can be scored independently, here or in another process.
 
 use std::ops::Range;
 
@@ -7,20 +7,21 @@ use serde::{Deserialize, Serialize};
 use crate::found::{FoundInputs, FoundView};
 use crate::share::{Shard, shares};
 
-/// A unit of work: a stretch of the pairs of one sequence. The frames before it that its measures over time
-/// have to have seen are read by whoever runs it.
+/// A unit of work: a range of the pairs of one sequence. Temporal metrics also need frames before
+/// the range, which are read again when the unit is run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Unit {
     /// Index of the scene in the plan.
     pub scene: usize,
     /// Index of the eye's view in it.
     pub eye: usize,
-    /// Places among the pairs of the view: frame by frame, and of each frame method by method.
+    /// Indices among the pairs of the view. The pairs are ordered by frame, and within a frame by
+    /// method.
     pub pairs: Range<usize>,
 }
 
 impl Unit {
-    /// The same in pieces of so many pairs at most.
+    /// Splits the unit into pieces of at most `most` pairs.
     pub fn pieces(&self, most: usize) -> Vec<Unit> {
         let most = most.max(1);
         let starts = self.pairs.clone().step_by(most);
@@ -32,8 +33,8 @@ impl Unit {
     }
 }
 
-/// The units of what was found, one a sequence, or those of a shard of it: all pairs of all views, one
-/// behind the other, are cut into as many stretches as there are shards.
+/// The units of the frames that were found, one per sequence, or those of a shard: the pairs of all
+/// views are put in one sequence, which is cut into as many ranges as there are shards.
 pub fn units(found: &FoundInputs, shard: Option<Shard>) -> Vec<Unit> {
     let pairs: Vec<usize> = found.views.iter().map(FoundView::pairs).collect();
     let units = found.views.iter().zip(shares(shard, &pairs));

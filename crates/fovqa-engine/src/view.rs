@@ -1,5 +1,5 @@
-//! One eye's view of a scene, frame by frame: each reference is kept for all tests of its frame, and what is
-//! measured over time for the frames after it.
+//! Scores one eye's view of a scene, frame by frame. Each reference is kept for all tests of its
+//! frame, and the data for temporal metrics are kept for the frames after it.
 
 use std::collections::BTreeSet;
 
@@ -62,20 +62,21 @@ impl<'a> ViewRun<'a> {
         }
     }
 
-    /// Gets ready to go on before the first pair that is to be scored: the pairs before it that what is
-    /// measured over time has to have seen.
+    /// Prepares to continue before the first pair to be scored. Returns the earlier pairs that the
+    /// temporal metrics must read again.
     pub(crate) fn go_on(&mut self, work: &Work<'_>) -> BTreeSet<usize> {
         self.meters.lead_in(work)
     }
 
-    /// Whether a pair decides something of those that are to be scored, which is not yet decided.
+    /// Whether a pair decides something for the pairs to be scored that is not decided yet.
     pub(crate) fn wants(&self, step: &Step<'_>, work: &Work<'_>) -> bool {
         let [reference, test] = self.meters.lacks(step.method, step.frame == 0);
         let is_lacking = reference || (test && work.is_of(step.method));
         self.setup.is_none() || (is_lacking && !work.todo.is_empty())
     }
 
-    /// Takes a pair in without scoring it; `kept`: with all that those after it need of it.
+    /// Processes a pair without scoring it. If `kept` is true, the data that later pairs need are
+    /// kept.
     pub(crate) fn take_in(
         &mut self,
         step: &Step<'_>,
@@ -88,7 +89,7 @@ impl<'a> ViewRun<'a> {
             if !kept {
                 return Ok(());
             }
-            // What depends on the gaze decides nothing but what the mask leaves.
+            // The gaze affects only one decision here: which pixels the mask leaves.
             let gaze_px = run.view.trace.as_ref().map(|trace| trace[step.frame].px);
             let gaze_px = gaze_px.filter(|_| finite.is_some());
             run.with_pair(step, (reference, test), gaze_px, finite.as_ref(), |meters, pair| {
@@ -97,28 +98,30 @@ impl<'a> ViewRun<'a> {
         })
     }
 
-    /// What the differences over time of a method were taken along.
+    /// Which motion and depth the temporal differences of a method used.
     pub(crate) fn atd_guides(&self, method: usize) -> AtdGuides {
         self.meters.atd_guides(method)
     }
 
-    /// How FovVideoVDP sees the sequence of a method, where it is asked for and a pair could be compared.
+    /// The viewing conditions of FovVideoVDP for the sequence of a method, if the metric is
+    /// requested and a pair could be compared.
     pub(crate) fn fvvdp(&self, method: usize) -> Option<FvvdpViewing> {
         self.meters.fvvdp(method, self.setup.as_ref()?)
     }
 
-    /// Why FovVideoVDP has no value for the sequence of a method, as far as it goes here.
+    /// Why FovVideoVDP has no value for the sequence of a method, as far as the sequence was read
+    /// here.
     pub(crate) fn missing(&self, method: usize) -> Option<String> {
         self.meters.missing(method, |index| self.view.frames[index].number.to_string())
     }
 
-    /// The view and the metrics that fit it, once a pair could be compared.
+    /// The view and the metrics that fit it, as soon as a pair could be compared.
     pub(crate) fn settled(&self) -> Option<(Option<ViewResult>, Vec<Metric>)> {
         let setup = self.setup.as_ref()?;
         Some((setup.view.clone(), setup.metrics.clone()))
     }
 
-    /// Scores one test, and takes over the reference that comes with it.
+    /// Scores one test. Keeps the reference if it comes with this step.
     pub(crate) fn step(
         &mut self,
         step: &Step<'_>,
@@ -131,7 +134,7 @@ impl<'a> ViewRun<'a> {
         })
     }
 
-    /// Takes over the reference that comes with a step, and does something with the pair.
+    /// Keeps the reference if it comes with the step, and processes the pair.
     fn take<T>(
         &mut self,
         step: &Step<'_>,
@@ -166,7 +169,7 @@ impl<'a> ViewRun<'a> {
         })
     }
 
-    /// Settles what the first frame decides, and holds the others against it.
+    /// Decides what depends on the first frame, and checks later frames against it.
     fn settle(&mut self, reference: &Side, warnings: &mut Warnings<'_>) -> Result<(), Fault> {
         let (size, view) = (reference.size(), self.view);
         let setup = match &mut self.setup {
@@ -199,7 +202,8 @@ impl<'a> ViewRun<'a> {
         })
     }
 
-    /// Checks that a pair may be compared, and that it fits those before it; where both are finite.
+    /// Checks that a pair may be compared and that it fits the pairs before it. Returns where both
+    /// images are finite.
     fn enter(
         &mut self,
         step: &Step<'_>,
@@ -259,7 +263,7 @@ impl<'a> ViewRun<'a> {
         Ok((result, maps))
     }
 
-    /// Shows a pair, seen with a gaze, to the meters.
+    /// Passes a pair with its gaze to the meters.
     fn with_pair<T>(
         &mut self,
         step: &Step<'_>,
@@ -301,7 +305,7 @@ impl<'a> ViewRun<'a> {
     }
 }
 
-/// Says which metrics a mask leaves no window for.
+/// Warns of metrics for which the mask leaves no window.
 fn warn_of_left_out(metrics: &[Metric], rows: &Rows, frame: i64, warnings: &mut Warnings<'_>) {
     let left_out = |metric: &&Metric| {
         metric.is(MetricKind::Fidelity)

@@ -9,16 +9,16 @@ use fovqa_frame::source::{Length, Listing, Origin, Picture, PictureGuides, Sourc
 
 use crate::found_frame::FoundFrame;
 
-/// Where the frames of a view come from.
+/// The sources that the frames of a view come from.
 #[derive(Debug, Clone)]
 pub struct ViewSources {
     /// The reference.
     pub reference: Arc<dyn Source>,
     /// The tests, by the index of their method.
     pub tests: BTreeMap<usize, Arc<dyn Source>>,
-    /// The motion, where it has files of its own.
+    /// The motion, if it has files of its own.
     pub motion: Option<Arc<dyn Source>>,
-    /// The same of the depth.
+    /// The depth, if it has files of its own.
     pub depth: Option<Arc<dyn Source>>,
 }
 
@@ -31,13 +31,13 @@ impl ViewSources {
         &**source
     }
 
-    /// All of them.
+    /// All sources of the view.
     pub fn all(&self) -> impl Iterator<Item = &dyn Source> {
         let guides = self.motion.iter().chain(&self.depth);
         [&self.reference].into_iter().chain(self.tests.values()).chain(guides).map(|s| &**s)
     }
 
-    /// The places of a frame in all sources that it comes from.
+    /// The indices of a frame in all sources that it comes from.
     pub fn of_frame<'a>(
         &'a self,
         frame: &'a FoundFrame,
@@ -52,7 +52,7 @@ impl ViewSources {
 
 #[cfg(test)]
 impl ViewSources {
-    /// Of frames that are never read.
+    /// Sources for frames that are never read.
     pub(crate) fn empty() -> Self {
         let listing = Listing::counted(String::new(), Length::Whole(0));
         let (tests, reference) = (BTreeMap::new(), Arc::new(Never(listing)));

@@ -7,20 +7,20 @@ use crate::findings::Outcome;
 use crate::found::FoundView;
 use crate::load::Step;
 
-/// A view's pairs, and those of them that are to be scored: places among all pairs of the view.
+/// A view's pairs, and the indices of those to be scored.
 pub(crate) struct Work<'a> {
     view: &'a FoundView,
-    /// Each pair's frame, and its place among the tests of that frame.
+    /// For each pair, the index of its frame and the index among the tests of that frame.
     pairs: Vec<(usize, usize)>,
     range: Range<usize>,
-    /// Those that are to be scored, in order.
+    /// Indices of the pairs to be scored, in order.
     pub(crate) todo: Vec<usize>,
-    /// Their methods.
+    /// Methods of the pairs to be scored.
     of: BTreeSet<usize>,
 }
 
 impl<'a> Work<'a> {
-    /// Of the pairs in `range`, those that are not known.
+    /// Selects the pairs in `range` that are not known yet.
     pub(crate) fn new(
         view: &'a FoundView,
         range: Range<usize>,
@@ -35,7 +35,7 @@ impl<'a> Work<'a> {
         work
     }
 
-    /// The first that is to be scored; behind the last of the range, where there is none.
+    /// The first pair to be scored; if there is none, the end of the range.
     pub(crate) fn first(&self) -> usize {
         self.todo.first().copied().unwrap_or(self.range.end)
     }
@@ -46,27 +46,28 @@ impl<'a> Work<'a> {
         self.view.frames[frame].tests[nth].0
     }
 
-    /// The methods of the range.
+    /// The methods of the pairs in the range.
     pub(crate) fn methods(&self) -> BTreeSet<usize> {
         self.range.clone().map(|index| self.method(index)).collect()
     }
 
-    /// Whether a pair of a method is to be scored.
+    /// Whether any pair of a method is to be scored.
     pub(crate) fn is_of(&self, method: usize) -> bool {
         self.of.contains(&method)
     }
 
-    /// The pairs of a method before some pair.
+    /// The pairs of a method before the pair `end`.
     pub(crate) fn before(&self, end: usize, method: usize) -> Vec<usize> {
         (0..end).filter(|index| self.method(*index) == method).collect()
     }
 
-    /// Behind the last pair of the range.
+    /// The index after the last pair of the range.
     pub(crate) fn end(&self) -> usize {
         self.range.end
     }
 
-    /// A pair, with its reference unless that has come with `frame` before.
+    /// The step for a pair. It loads the reference unless the reference was already loaded with
+    /// `frame`.
     pub(crate) fn step(&self, index: usize, frame: Option<usize>) -> Step<'a> {
         let (of, nth) = self.pairs[index];
         let found = &self.view.frames[of];
@@ -74,7 +75,8 @@ impl<'a> Work<'a> {
         Step { frame: of, found, reference: frame != Some(of), method, test }
     }
 
-    /// All that is to be scored, behind `frame`, with their places.
+    /// The steps for all pairs to be scored, continuing after `frame`, with the indices of the
+    /// pairs.
     pub(crate) fn steps(&self, mut frame: Option<usize>) -> Vec<(usize, Step<'a>)> {
         let step = |&index: &usize| {
             let step = self.step(index, frame);
@@ -121,7 +123,7 @@ mod tests {
             steps.iter().map(|(_, step)| step.reference).collect()
         };
         assert_eq!(brings(work.steps(None)), [true, false, true, true, false]);
-        // From within a frame that is there already, and from one that is not.
+        // The steps begin inside a frame that is loaded already, and inside one that is not.
         let work = Work::new(&view, 4..5, &BTreeMap::new());
         assert_eq!(brings(work.steps(Some(2))), [false]);
         assert_eq!(brings(work.steps(Some(1))), [true]);

@@ -1,4 +1,5 @@
-//! A file of curves: foveation methods over eccentricity, and what is drawn and tabulated of them.
+//! The content of a curves file: foveation methods over eccentricity, and the figures and tables of
+//! them.
 
 use std::path::PathBuf;
 
@@ -6,35 +7,35 @@ use fovqa_methods::curves::{CurveRange, CurveSpec};
 use fovqa_params::words;
 use fovqa_vision::acuity::AcuityModel;
 
-/// What a file of curves asks for.
+/// A curves file and its plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurvesFile {
-    /// Its name.
+    /// Name of the curves.
     pub name: String,
-    /// What it shows, for its page; may be empty.
+    /// Description for the page; may be empty.
     pub about: String,
-    /// Its file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// The file's text.
+    /// Text of the file.
     pub text: String,
-    /// What is to be computed.
+    /// The plan: what is computed.
     pub plan: CurvePlan,
 }
 
 /// Curves, figures and tables.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CurvePlan {
-    /// The curves, a method's for each of its settings one after the other.
+    /// The curves. The curves of one method for different settings are consecutive.
     pub curves: Vec<CurveSpec>,
-    /// What rates are held against.
+    /// The acuity model that rates are compared with.
     pub acuity: AcuityModel,
-    /// Its parameters that are not at their defaults, as those of a curve.
+    /// Parameters of the acuity model that differ from their defaults, written as those of a curve.
     pub acuity_parameters: String,
-    /// The eccentricities.
+    /// The eccentricities at which curves are computed.
     pub range: CurveRange,
-    /// Figures; all that fit, where a file names none and no table.
+    /// The figures. If the file names no figure and no table, these are all figures that fit.
     pub plots: Vec<CurvePlot>,
-    /// Tables; likewise.
+    /// The tables. If the file names no figure and no table, these are all tables that fit.
     pub tables: Vec<CurveTable>,
 }
 
@@ -43,31 +44,32 @@ pub struct CurvePlan {
 pub struct CurvePlot {
     /// What it shows.
     pub kind: CurvePlotKind,
-    /// Its file's name; the kind's without.
+    /// Name of its file; `None` for the name of the kind.
     pub name: Option<String>,
-    /// What stands above it.
+    /// The title above the figure.
     pub title: Option<String>,
-    /// Names of its curves; all without.
+    /// Names of its curves; `None` for all.
     pub curves: Option<Vec<String>>,
-    /// Which rate.
+    /// Which rate it shows.
     pub rate: RateKind,
-    /// In which unit.
+    /// The unit of the rate.
     pub unit: RateUnit,
-    /// What has a panel of its own.
+    /// What each panel shows.
     pub panels: PanelOf,
-    /// Whether over- and under-sampled areas are shaded; without, where a panel has one curve.
+    /// Whether over- and under-sampled areas are shaded. `None` shades them if a panel has only one
+    /// curve.
     pub areas: Option<bool>,
-    /// Whether the display's own rate is drawn too.
+    /// Whether the display's own rate is drawn as well.
     pub display: bool,
-    /// Ends of the vertical axis.
+    /// Lower and upper end of the vertical axis.
     pub y_limits: Option<[f64; 2]>,
-    /// Measured values: a name, an eccentricity in degrees and cycles per degree.
+    /// Measured values: a name, an eccentricity in degrees, and a value in cycles per degree.
     pub marks: Vec<(String, [f64; 2])>,
-    /// Whether values stand on a logarithmic axis.
+    /// Whether values are shown on a logarithmic axis.
     pub log: bool,
-    /// Eccentricities whose rings are drawn over a picture, degrees.
+    /// Eccentricities in degrees whose rings are drawn over an image.
     pub rings_deg: Vec<f64>,
-    /// Values of f, of RMFR's half axis.
+    /// Values of RMFR's parameter f for the figure of the half axis.
     pub f: Vec<f64>,
 }
 
@@ -131,12 +133,12 @@ words! {
     }
 }
 
-/// A table.
+/// A table of curves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveTable {
     /// What it shows.
     pub kind: CurveTableKind,
-    /// Names of its curves; all without.
+    /// Names of its curves; `None` for all.
     pub curves: Option<Vec<String>>,
 }
 

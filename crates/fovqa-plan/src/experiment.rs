@@ -1,4 +1,4 @@
-//! An experiment: a plan, and what is made of its results.
+//! An experiment: a plan, and the output that is made from its results.
 
 use std::path::PathBuf;
 
@@ -7,22 +7,22 @@ use crate::output::OutputSettings;
 use crate::plan::Plan;
 use crate::plots::Plot;
 
-/// What an experiment file asks for.
+/// The content of an experiment file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Experiment {
-    /// Its name.
+    /// Name of the experiment.
     pub name: String,
-    /// What it shows.
+    /// Description of what it shows.
     pub about: Option<String>,
-    /// Its file.
+    /// Path of its file.
     pub path: PathBuf,
-    /// The file's text.
+    /// Text of the file.
     pub text: String,
-    /// What is to be scored.
+    /// The plan: what is scored.
     pub plan: Plan,
     /// How the results are written.
     pub output: OutputSettings,
-    /// Tables and figures; none: all that fit.
+    /// Tables and figures; if empty, all that fit are made.
     pub plots: Vec<Plot>,
     /// The rules of its gate.
     pub gates: Vec<GateRule>,

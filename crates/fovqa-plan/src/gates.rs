@@ -1,50 +1,50 @@
-//! The rules of a gate: what has to hold of a run's values.
+//! The rules of a gate: conditions on the values of a run.
 
 use std::fmt;
 
 use fovqa_metrics::{Better, Key, Metric, Subject};
 use serde::{Deserialize, Serialize};
 
-/// One rule. It holds where it holds in every comparison it is of.
+/// One rule. It passes if it passes in every comparison that it applies to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GateRule {
-    /// Its line in the experiment file, from 1.
+    /// Its line in the experiment file, counted from 1.
     pub line: usize,
-    /// What it is called; `None`: by what it says.
+    /// Its name; `None` if the rule is named after its content.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// What is measured.
+    /// The value that is checked.
     pub quantity: Quantity,
-    /// Its scene; `None`: every one.
+    /// The scene it applies to; `None` for all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scene: Option<String>,
-    /// Its method; `None`: every one.
+    /// The method it applies to; `None` for all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub method: Option<String>,
-    /// Its eye, in scenes with two; `None`: both together.
+    /// The eye it applies to, in scenes with two; `None` for both together.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub eye: Option<String>,
-    /// Smallest value.
+    /// The smallest allowed value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_least: Option<f64>,
-    /// Largest value.
+    /// The largest allowed value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_most: Option<f64>,
-    /// How far it may fall below the baseline's.
+    /// How far the value may fall below that of the baseline.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_drop: Option<Allowance>,
-    /// How far it may rise above the baseline's.
+    /// How far the value may rise above that of the baseline.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_rise: Option<Allowance>,
 }
 
 impl GateRule {
-    /// Whether it is held against a baseline.
+    /// Whether the rule compares values with a baseline.
     pub fn needs_baseline(&self) -> bool {
         self.max_drop.is_some() || self.max_rise.is_some()
     }
 
-    /// What it asks, in words.
+    /// The limits in words.
     pub fn limits(&self) -> String {
         let limits = [
             self.at_least.map(|limit| format!("at least {limit}")),
@@ -56,23 +56,23 @@ impl GateRule {
     }
 }
 
-/// A value of a comparison: of a metric, over its frames.
+/// A value of a comparison: a statistic of a metric over its frames.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Quantity {
     /// Key of the metric.
     pub metric: String,
-    /// Which of its statistics; empty where it has one alone.
+    /// Name of the statistic; empty for the metric's own value.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub statistic: String,
-    /// Of which picture: `pair`, `reference`, `test` or `ratio`.
+    /// The image that it belongs to: `pair`, `reference`, `test` or `ratio`.
     pub image: String,
-    /// Level of the wavelet, or spatial band of FovVideoVDP, from 1.
+    /// Level of the wavelet, or spatial band of FovVideoVDP, counted from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<usize>,
-    /// From and to, degrees; `None`: the whole frame.
+    /// Lower and upper edge of the band in degrees; `None` for the whole frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub band_deg: Option<[f64; 2]>,
-    /// How frames become one value; `None`: it is of the whole sequence.
+    /// How the values of frames become one value; `None` for a value of the whole sequence.
     pub aggregate: Option<Aggregate>,
 }
 
@@ -95,13 +95,13 @@ impl Quantity {
         Self { statistic: "jod".to_owned(), aggregate: None, ..Self::of(metric, Aggregate::Mean) }
     }
 
-    /// Which way is better.
+    /// Whether higher or lower values are better.
     pub fn better(&self) -> Better {
         better(Metric::find(&self.metric), &self.statistic, &self.image)
     }
 }
 
-/// Which way a statistic of a metric is better.
+/// Whether higher or lower values of a statistic are better.
 pub fn better(metric: Option<Metric>, statistic: &str, image: &str) -> Better {
     let Some(metric) = metric.filter(|_| image != "reference") else { return Better::Neither };
     let key = Key::named(Subject::Metric(metric), statistic);
@@ -110,8 +110,8 @@ pub fn better(metric: Option<Metric>, statistic: &str, image: &str) -> Better {
 }
 
 impl fmt::Display for Quantity {
-    /// The same for the same quantity, and for no other: `psnr min`, `haar energy ratio mean, level 2, 0° to
-    /// 10°`.
+    /// Writes a text that identifies the quantity uniquely: `psnr min`, `haar energy ratio mean,
+    /// level 2, 0° to 10°`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.metric)?;
         if !self.statistic.is_empty() {
@@ -133,22 +133,22 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// How the values of frames become one.
+/// How the values of frames become one value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Aggregate {
-    /// Their mean; of decibels, over the frames that differ from the reference.
+    /// The mean. For decibels, it is over the frames that differ from the reference.
     Mean,
-    /// The smallest.
+    /// The smallest value.
     Min,
-    /// The largest.
+    /// The largest value.
     Max,
-    /// A percentile, 1 to 99, straight between the frames next to it.
+    /// A percentile, from 1 to 99, interpolated linearly between the nearest frames.
     Percentile(u8),
 }
 
 impl Aggregate {
-    /// The aggregate of a word: `mean`, `min`, `max`, `p01` to `p99`.
+    /// The aggregate with a given name: `mean`, `min`, `max`, `p01` to `p99`.
     pub fn find(word: &str) -> Option<Self> {
         match word {
             "mean" => Some(Self::Mean),
@@ -156,7 +156,7 @@ impl Aggregate {
             "max" => Some(Self::Max),
             word => {
                 let digits = word.strip_prefix('p').filter(|digits| digits.len() == 2)?;
-                // A number may have a sign; a percentile may not.
+                // A number may have a sign, but a percentile may not.
                 let plain = digits.bytes().all(|digit| digit.is_ascii_digit());
                 let percent: u8 = digits.parse().ok()?;
                 (plain && (1..=99).contains(&percent)).then_some(Self::Percentile(percent))
@@ -189,24 +189,24 @@ impl From<Aggregate> for String {
     }
 }
 
-/// How far a value may be from the baseline's.
+/// The allowed distance from the value of the baseline.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Allowance {
-    /// In the metric's unit.
+    /// Distance in the metric's unit.
     Units(f64),
-    /// In percent of the baseline's value.
+    /// Distance in percent of the baseline's value.
     Percent(f64),
 }
 
 impl Allowance {
-    /// A percentage as it is written, `2%` or `0.5 %`.
+    /// Parses a percentage, `2%` or `0.5 %`.
     pub fn percent(text: &str) -> Option<Self> {
         let number: f64 = text.trim().strip_suffix('%')?.trim().parse().ok()?;
         (0.0..=1000.0).contains(&number).then_some(Self::Percent(number))
     }
 
-    /// What that is of a baseline's value.
+    /// The allowed distance for a given value of the baseline.
     pub fn of(self, baseline: f64) -> f64 {
         match self {
             Self::Units(units) => units,

@@ -1,8 +1,10 @@
-//! What is to be done, as plain data: the scenes, methods and metrics of a comparison ([`Plan`]), an experiment
-//! around it ([`Experiment`]: tables, figures and the rules of a gate), and curves ([`CurvePlan`]).
+//! Plans as plain data: the scenes, methods and metrics of a comparison ([`Plan`]), an experiment
+//! that contains a plan ([`Experiment`], with tables, figures and the rules of a gate), and curves
+//! ([`CurvePlan`]).
 //!
-//! Nothing here knows of TOML or reads a file. `fovqa-config` makes a plan of an experiment file, the command
-//! line makes one of its arguments, and a program may build one by hand.
+//! This crate does not depend on TOML and reads no files. `fovqa-config` makes a plan from an
+//! experiment file, the command line makes one from its arguments, and a program can build one
+//! itself.
 
 mod curves;
 mod experiment;

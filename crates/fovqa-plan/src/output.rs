@@ -5,9 +5,10 @@ use fovqa_params::words;
 /// How the results of a run are written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutputSettings {
-    /// The files that hold the table of all values; at least one.
+    /// The files that contain the table of all values. There is at least one.
     pub tables: Vec<TableFormat>,
-    /// Whether no name in a CSV file can be taken for a formula.
+    /// Whether names in CSV files are protected so that a spreadsheet does not read them as
+    /// formulas.
     pub spreadsheet_safe: bool,
 }
 
@@ -18,7 +19,7 @@ impl Default for OutputSettings {
 }
 
 words! {
-    /// A file that holds the table of all values.
+    /// The format of a file that contains the table of all values.
     pub enum TableFormat {
         /// results.csv.
         Csv "csv" "results.csv";

@@ -1,4 +1,4 @@
-//! What is to be scored: scenes, methods, metrics, and how each eye sees.
+//! What is scored: scenes, methods and metrics, and how each eye sees.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,19 +11,19 @@ use serde::{Deserialize, Serialize};
 use crate::settings::Settings;
 use crate::source::SourceSpec;
 
-/// Which metrics.
+/// The choice of metrics.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MetricChoice {
-    /// [`Metric::DEFAULT`], less what does not fit.
+    /// [`Metric::DEFAULT`], without the metrics that do not fit.
     #[default]
     Default,
-    /// These; one that does not fit is an error.
+    /// The listed metrics. A metric that does not fit is an error.
     Named(Vec<Metric>),
 }
 
 impl MetricChoice {
-    /// The metrics, before any is left out because it does not fit.
+    /// The chosen metrics, before those that do not fit are left out.
     pub fn metrics(&self) -> &[Metric] {
         match self {
             Self::Default => &Metric::DEFAULT,
@@ -43,10 +43,10 @@ words! {
 }
 
 impl Eye {
-    /// Both.
+    /// Both eyes.
     pub const BOTH: [Eye; 2] = [Eye::Left, Eye::Right];
 
-    /// Its name in files: what `{eye}` stands for.
+    /// The name of the eye in paths, which replaces `{eye}`.
     pub fn name(self) -> &'static str {
         self.word()
     }
@@ -55,58 +55,59 @@ impl Eye {
 /// What one eye sees of a scene: one reference, and the test of each method.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct EyeView {
-    /// The eye; `None` in a scene with one picture a frame.
+    /// The eye; `None` if the scene has one image per frame.
     pub eye: Option<Eye>,
     /// The reference.
     pub reference: SourceSpec,
-    /// Each test, with the index of its method in [`Plan::methods`], which rises.
+    /// The tests, each with the index of its method in [`Plan::methods`], in ascending order.
     pub tests: Vec<(usize, SourceSpec)>,
-    /// The colour layer of the tests of a method, by its index, where it is another than that of
+    /// The colour layer of a method's tests, by the index of the method, if it differs from that of
     /// `settings.read`.
     pub test_layers: BTreeMap<usize, String>,
     /// How frames are read and seen.
     pub settings: Settings,
 }
 
-/// A scene.
+/// A scene with one or two views.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Scene {
-    /// Its name; empty where there is but one.
+    /// Name of the scene; empty if there is only one.
     pub name: String,
-    /// Which frames.
+    /// The selected frames; `None` for all.
     pub frames: Option<FrameRange>,
-    /// Whether frames without a partner are passed over.
+    /// Whether frames without a partner are ignored.
     pub allow_missing: bool,
-    /// Frames a second.
+    /// Frames per second.
     pub fps: Option<f64>,
-    /// One view, or the left and the right eye's.
+    /// One view, or the views of the left and the right eye.
     pub eyes: Vec<EyeView>,
 }
 
-/// A comparison: each method of each scene, measured alike.
+/// A comparison: all methods in all scenes, measured in the same way.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Plan {
-    /// Folder in which relative paths of the experiment begin; results show paths from there.
+    /// The folder in which relative paths of the experiment start. Results show paths relative to
+    /// it.
     pub base: PathBuf,
     /// The scenes.
     pub scenes: Vec<Scene>,
-    /// Names of the methods; one empty name where there is but one.
+    /// Names of the methods; one empty name if there is only one method.
     pub methods: Vec<String>,
     /// The metrics.
     pub metrics: MetricChoice,
-    /// Their parameters.
+    /// Parameters of the metrics.
     pub params: ParamSet,
-    /// Only these of each scene's frames.
+    /// The selected frames of each scene; `None` for all.
     pub frames: Option<FrameRange>,
-    /// Whether size and hash of every input are taken.
+    /// Whether the size and hash of every input are recorded.
     pub hash_inputs: bool,
-    /// Whether maps are made of the metrics that have some.
+    /// Whether to make maps for the metrics that have one.
     pub maps: bool,
 }
 
 impl Plan {
-    /// A path as results show it: from the experiment's folder where it begins there, else as it
-    /// is; `/` between folders, and bytes that are not UTF-8 as `\\xff`.
+    /// A path as results show it: relative to the experiment's folder if it is inside, otherwise
+    /// unchanged. Folders are separated by `/`, and bytes that are not UTF-8 are shown as `\\xff`.
     pub fn shown(&self, path: &Path) -> String {
         shown(&self.base, path)
     }

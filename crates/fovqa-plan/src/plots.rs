@@ -1,4 +1,4 @@
-//! Tables and figures an experiment asks for.
+//! Tables and figures that an experiment requests.
 
 use fovqa_params::words;
 use serde::{Deserialize, Serialize};
@@ -26,22 +26,22 @@ words! {
 pub struct Plot {
     /// What it shows.
     pub kind: PlotKind,
-    /// Key of its metric; `None`: each that fits.
+    /// Key of its metric; `None` for each metric that fits.
     pub metric: Option<String>,
-    /// Its scenes; `None`: all.
+    /// Its scenes; `None` for all.
     pub scenes: Option<Vec<String>>,
-    /// Its methods; `None`: all.
+    /// Its methods; `None` for all.
     pub methods: Option<Vec<String>>,
-    /// Levels of the wavelet; `None`: all.
+    /// Levels of the wavelet; `None` for all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub levels: Option<Vec<usize>>,
-    /// Statistic of the wavelet; `None`: its energy.
+    /// Statistic of the wavelet; `None` for the energy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statistic: Option<String>,
 }
 
 impl Plot {
-    /// A plot of one kind, of all there is.
+    /// A plot of one kind that shows everything.
     pub fn of(kind: PlotKind) -> Self {
         Self { kind, metric: None, scenes: None, methods: None, levels: None, statistic: None }
     }

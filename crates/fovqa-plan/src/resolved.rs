@@ -1,4 +1,4 @@
-//! An experiment with all its defaults written out, as run.json keeps it.
+//! An experiment with all its defaults written out, as it is stored in run.json.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -16,12 +16,12 @@ use crate::plan::{Eye, EyeView, MetricChoice, Plan};
 use crate::plots::Plot;
 use crate::settings::{Gaze, Settings};
 
-/// A resolved experiment. Paths are relative to its file, where they begin below it.
+/// A resolved experiment. Paths are relative to the folder of its file if they are inside it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Resolved {
-    /// Its name.
+    /// Name of the experiment.
     pub name: String,
-    /// What it shows.
+    /// Description of what it shows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub about: Option<String>,
     /// The scenes, in order.
@@ -30,56 +30,58 @@ pub struct Resolved {
     pub methods: Vec<String>,
     /// Every metric by its key, with all its parameters.
     pub metrics: BTreeMap<String, BTreeMap<String, Value>>,
-    /// Whether these are the default metrics, less what does not fit.
+    /// Whether these are the default metrics, without those that do not fit.
     pub default_metrics: bool,
-    /// Only these of each scene's frames.
+    /// The selected frames of each scene; `None` for all.
     pub frames: Option<String>,
-    /// Tables and figures; none: all that fit.
+    /// Tables and figures; if empty, all that fit are made.
     pub plots: Vec<Plot>,
     /// The rules of the gate.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gates: Vec<GateRule>,
-    /// Whether no name in a CSV file can be taken for a formula.
+    /// Whether names in CSV files are protected so that a spreadsheet does not read them as
+    /// formulas.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub spreadsheet_safe: bool,
 }
 
-/// A scene.
+/// A scene with its defaults written out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ResolvedScene {
-    /// Its name.
+    /// Name of the scene.
     pub name: String,
-    /// Only these frames.
+    /// The selected frames; `None` for all.
     pub frames: Option<String>,
-    /// Whether frames without a partner are passed over.
+    /// Whether frames without a partner are ignored.
     pub allow_missing: bool,
-    /// Frames a second.
+    /// Frames per second.
     pub fps: Option<f64>,
-    /// One view, or the left and the right eye's.
+    /// One view, or the views of the left and the right eye.
     pub eyes: Vec<ResolvedEye>,
 }
 
 /// What one eye sees of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ResolvedEye {
-    /// The eye; `None` in a scene with one picture a frame.
+    /// The eye; `None` if the scene has one image per frame.
     pub eye: Option<Eye>,
     /// The reference.
     pub reference: String,
-    /// The test of each method.
+    /// The tests, by the name of the method.
     pub tests: BTreeMap<String, String>,
-    /// The colour layer of a method's tests, where it has one of its own.
+    /// The colour layer of a method's tests, by the name of the method, if it differs from that of
+    /// the reference.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub test_layers: BTreeMap<String, String>,
-    /// View, gaze and bands, as keys of `[view]`.
+    /// View, gaze and bands, with the keys of `[view]`.
     pub view: Value,
-    /// How files are read, as keys of `[signal]`.
+    /// How files are read, with the keys of `[signal]`.
     pub signal: Value,
 }
 
 impl Resolved {
-    /// What of this is otherwise than in another experiment: metrics, parameters, scenes, methods, or how
-    /// those are seen and read. In words; `None`: they are the same.
+    /// Describes the difference from another experiment: metrics, parameters, scenes, methods, or
+    /// how scenes are seen and read. `None` if they are the same.
     pub fn differs(&self, other: &Self) -> Option<String> {
         let names = |resolved: &Self| resolved.scenes.iter().map(|s| s.name.clone()).collect();
         let scenes: [Vec<String>; 2] = [names(self), names(other)];
@@ -99,7 +101,8 @@ impl Resolved {
             .or_else(|| self.taken_otherwise(other))
     }
 
-    /// What of the scenes that two experiments share is seen or read otherwise in the other one.
+    /// Describes how the scenes that two experiments share are seen or read differently in the
+    /// other one; `None` if they are not.
     pub fn taken_otherwise(&self, other: &Self) -> Option<String> {
         let said = |key: &str, was: &Value, place: &str, is: &Value| {
             format!("it has {key} = {was}{place} instead of {is}")
@@ -131,7 +134,7 @@ impl Resolved {
     }
 }
 
-/// The first parameter of a metric that has another value, in words.
+/// Describes the first parameter of a metric that has another value.
 pub fn other_parameter(
     metric: &str,
     before: &BTreeMap<String, Value>,
@@ -143,7 +146,7 @@ pub fn other_parameter(
     })
 }
 
-/// The keys of a table of settings, with their values here and there.
+/// The keys of a table of settings, with the old and the new value of each.
 fn table_keys(table: &str, was: &Value, is: &Value) -> Vec<(String, Value, Value)> {
     let (Value::Object(was), Value::Object(is)) = (was, is) else { return Vec::new() };
     let keys = was.keys().chain(is.keys().filter(|key| !was.contains_key(*key)));
@@ -153,7 +156,7 @@ fn table_keys(table: &str, was: &Value, is: &Value) -> Vec<(String, Value, Value
     keys.map(|key| (format!("{table}.{key}"), of(was, key), of(is, key))).collect()
 }
 
-/// Whether two values are the same: `1` and `1.0` are.
+/// Whether two values are the same. `1` and `1.0` count as the same.
 fn alike(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::Number(a), Value::Number(b)) => {
@@ -202,7 +205,8 @@ impl Experiment {
     }
 }
 
-/// A default as the registry writes it: TOML, which for numbers, lists and quoted words is JSON.
+/// Parses a default from the registry. It is written in TOML; numbers, lists and quoted words are
+/// the same in JSON.
 fn literal(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|_| text.into())
 }
@@ -236,7 +240,7 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
         let last = bands.iter().last().map(|(_, to)| to);
         bands.iter().map(|(from, _)| from).chain(last).collect::<Vec<f64>>()
     });
-    // Default bands depend on the frames; summary.json has those that came out.
+    // Default bands depend on the frames. summary.json contains the bands that were used.
     view["bands_deg"] = json!(edges);
     let (signal, read) = (&settings.signal, &settings.read);
     let crop = settings.crop.map(|crop| [crop.x, crop.y, crop.width, crop.height]);
@@ -254,7 +258,7 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
         "motion": motion_keys(plan, settings),
         "depth": depth_keys(plan, settings),
     });
-    // Those of one format have their keys among the others, as in the experiment file.
+    // Keys that belong to one format are listed among the others, as in the experiment file.
     if let (Value::Object(keys), Ok(Value::Object(more))) =
         (&mut signal, serde_json::to_value(&read.formats))
     {
@@ -307,7 +311,7 @@ fn depth_keys(plan: &Plan, settings: &Settings) -> Value {
     keys
 }
 
-/// Adds files of their own, as the experiment file has them: in a table.
+/// Adds the separate files in a table, as in the experiment file.
 fn with_files(keys: &mut Value, plan: &Plan, files: Option<&Path>) {
     let Some(files) = files else { return };
     if let Value::String(word) = keys {
@@ -328,7 +332,7 @@ fn luminance_keys(luminance: &Luminance) -> Value {
         "reflectivity": reflectivity,
         "eotf": eotf,
     });
-    // Black in the dark goes before contrast.
+    // The black level in a dark room has priority over the contrast.
     match min_cd_m2 {
         Some(min) => keys["min_cd_m2"] = json!(min),
         None => keys["contrast"] = json!(contrast.unwrap_or(Luminance::CONTRAST)),

@@ -1,4 +1,4 @@
-//! How frames are read and seen.
+//! How frames are read and viewed.
 
 use std::path::PathBuf;
 
@@ -12,16 +12,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Gaze {
-    /// At the principal point.
+    /// The gaze is at the principal point.
     #[default]
     Centre,
-    /// At a point in pixels.
+    /// The gaze is at a point in pixels.
     Point([f64; 2]),
-    /// Along a trace.
+    /// The gaze follows a trace.
     Trace {
         /// The CSV file.
         path: PathBuf,
-        /// Whether frames beyond the trace keep its last gaze.
+        /// Whether frames after the end of the trace keep its last gaze.
         hold: bool,
     },
 }
@@ -38,14 +38,14 @@ words! {
     }
 }
 
-/// How frames are read and seen.
+/// How frames are read and viewed.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Settings {
     /// How files are read.
     pub read: ReadOptions,
     /// The visible part of each frame.
     pub crop: Option<Crop>,
-    /// A picture that is white where pixels count.
+    /// An image that is white where pixels count.
     pub mask: Option<PathBuf>,
     /// How samples become the signal.
     pub signal: SignalParams,
@@ -53,25 +53,25 @@ pub struct Settings {
     pub nonfinite: Nonfinite,
     /// The view.
     pub view: Option<ViewSpec>,
-    /// The photometry of the display, where it is not that of the view's preset.
+    /// The photometry of the display, if it differs from that of the view's preset.
     pub luminance: Option<Luminance>,
     /// The gaze.
     pub gaze: Gaze,
     /// How eccentricity is measured.
     pub eccentricity: EccentricityKind,
-    /// The bands; `None`: the default ones.
+    /// The bands; `None` for the default bands.
     pub bands: Option<BandEdges>,
-    /// Which channels hold motion and depth, for what compares frames over time. Those of `read` are
-    /// not looked at.
+    /// The channels that contain motion and depth, for temporal metrics. Those in `read` are
+    /// ignored.
     pub guides: GuideOptions,
-    /// Files of their own that hold the motion: file, folder, glob or printf pattern.
+    /// Separate files that contain the motion: file, folder, glob or printf pattern.
     pub motion_files: Option<PathBuf>,
-    /// The same of the depth.
+    /// Separate files that contain the depth: file, folder, glob or printf pattern.
     pub depth_files: Option<PathBuf>,
 }
 
 impl Settings {
-    /// What of these needs a view, where there is none.
+    /// The first setting that needs a view although there is none.
     pub fn lacks_view(&self) -> Option<&'static str> {
         match self.gaze {
             _ if self.view.is_some() => None,
@@ -81,7 +81,7 @@ impl Settings {
         }
     }
 
-    /// The photometry of the display: its own, or that of the view's preset, where it has one.
+    /// The photometry of the display: its own or, if there is none, that of the view's preset.
     pub fn photometry(&self) -> Option<Luminance> {
         self.luminance.or(match &self.view {
             Some(ViewSpec::Display(display)) => display.luminance,
@@ -89,7 +89,7 @@ impl Settings {
         })
     }
 
-    /// Why a display cannot show the files as they are said to be encoded; `None` where it can.
+    /// Why a display cannot show the files with their stated encoding; `None` if it can.
     pub fn shown_wrongly(&self) -> Option<String> {
         let eotf = self.photometry()?.eotf;
         let files = match self.signal.transfer? {

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 pub enum SourceSpec {
     /// A file, folder, glob or printf pattern.
     Files(PathBuf),
-    /// What whoever runs the plan gives under this name, such as pictures in memory.
+    /// A source that the program provides under this name when it runs the plan, such as images in
+    /// memory.
     Given(String),
 }
 

@@ -1,5 +1,5 @@
-//! Everything that is drawn from the files of a run, and from nothing else: drawing again gives the
-//! same bytes.
+//! Makes all tables, figures and the page from the files of a run alone, so that repeating it gives
+//! the same bytes.
 
 use std::path::Path;
 
@@ -13,21 +13,21 @@ use crate::overview::Overview;
 use crate::page::{PageFigure, page};
 use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, PLOTS, ReportError, Sheet};
 
-/// What was drawn.
+/// The tables and figures that were made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawn {
-    /// The first comparison table; `None` where nothing was scored.
+    /// The first comparison table; `None` if nothing was scored.
     pub table: Option<ComparisonTable>,
-    /// How many figures.
+    /// Number of figures.
     pub figures: usize,
-    /// What the user should know of the files of the run.
+    /// A warning about the files of the run.
     pub warning: Option<String>,
 }
 
-/// Draws tables, figures and the page of a run into its folder.
+/// Writes tables, figures and the page of a run into its folder.
 ///
 /// # Errors
-/// When a file of the run is missing or broken, or the folder cannot be written to.
+/// If a file of the run is missing or damaged, or the folder cannot be written to.
 pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let run: RunRecord = read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
     let overview = Overview::read(folder)?;

@@ -1,4 +1,4 @@
-//! The values of single frames, from results.csv.
+//! The values of single frames, from the table of results.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -6,16 +6,16 @@ use std::path::Path;
 use fovqa_metrics::{Image, Key, Metric};
 use fovqa_results::{CsvNames, FileError, GAZE_STEP, TableRow, Value, Which, read_results};
 
-/// Whole-frame values by scene, method and eye, in the order of the frames.
+/// Values of whole frames by scene, method and eye, in the order of the frames.
 #[derive(Debug, Default)]
 pub(crate) struct FrameValues(BTreeMap<(String, String, String), Comparison>);
 
-/// Those of one comparison.
+/// The values of one comparison.
 #[derive(Debug, Default)]
 struct Comparison {
-    /// By metric and image: of the pair, or of one of its pictures.
+    /// Values by metric and by image: of the pair, or of one of its images.
     values: BTreeMap<(Metric, Image), Vec<FrameValue>>,
-    /// How far the gaze has moved since the frame before, degrees.
+    /// How far the gaze has moved since the previous frame, in degrees.
     gaze_steps: Vec<FrameValue>,
 }
 
@@ -23,7 +23,7 @@ struct Comparison {
 pub(crate) type FrameValue = (i64, f64);
 
 impl FrameValues {
-    /// Reads them from a folder of results.
+    /// Reads the values from a results folder.
     pub(crate) fn read(folder: &Path, names: CsvNames) -> Result<Self, FileError> {
         let mut values = Self::default();
         read_results(folder, names, Which::WholeFrames, |row| {
@@ -36,7 +36,7 @@ impl FrameValues {
     fn take(&mut self, row: &TableRow<'_>) {
         let (Some(frame), Some(value)) = (row.frame, row.value.map(Value::number)) else { return };
         let known = Metric::ALL.into_iter().find(|m| m.key() == row.metric);
-        // Of what has several statistics a frame, the first stands for it.
+        // If a metric has several statistics per frame, the first one represents it.
         let first = known.map_or("", |metric| Key::of(metric).statistic().name);
         let plain = row.statistic == first && row.level.is_none();
         if row.band.is_some() || !plain || row.image == Image::Ratio {
@@ -59,7 +59,8 @@ impl FrameValues {
         self.0.get(&(scene.to_owned(), method.to_owned(), eye.to_owned()))
     }
 
-    /// The values of a method in a scene: of both eyes, where there are two.
+    /// The values of a method in a scene. If the scene has two eyes, these are the values of both
+    /// together.
     pub(crate) fn of(
         &self,
         scene: &str,
@@ -72,7 +73,7 @@ impl FrameValues {
         values.map(Vec::as_slice).unwrap_or_default()
     }
 
-    /// The frames in which the gaze of any eye jumps farther than `deg`, in order.
+    /// The frames in which the gaze of any eye moves by more than `deg` degrees, in order.
     pub(crate) fn jumps(&self, scene: &str, method: &str, deg: f64) -> Vec<i64> {
         let eyes = ["", "left", "right"].into_iter();
         let steps = eyes.filter_map(|eye| self.comparison(scene, method, eye));

@@ -1,4 +1,4 @@
-//! A page over several folders of results, such as all figures of the papers.
+//! A page about several results folders, such as those of all figures of the papers.
 
 use std::fmt::Write;
 use std::fs;
@@ -13,25 +13,26 @@ use fovqa_results::{
 use crate::page::{address, begin, end, escaped};
 use crate::sheet::{PLOTS, ReportError, drawn_before};
 
-/// Says that a page is one of ours, and may be replaced.
+/// Marks a page as written by fovqa, so that it may be replaced.
 const MARK: &str = "<meta name=\"generator\" content=\"fovqa report\">";
 
 /// A folder of results.
 struct Entry {
-    /// Its name below the folder of all.
+    /// Its name relative to the folder that contains all of them.
     folder: String,
     name: String,
     about: String,
-    /// Paths of its figures from the page, without their ending.
+    /// Paths of its figures relative to the page, without file extensions.
     figures: Vec<String>,
-    /// Paths of its tables in Markdown.
+    /// Paths of its tables in Markdown format.
     tables: Vec<String>,
 }
 
-/// Writes `index.html` over the folders of results within a folder; `None` where there are none.
+/// Writes `index.html` about the results folders within a folder. Returns the number of these
+/// folders; `None` if there are none.
 ///
 /// # Errors
-/// When a record cannot be read, or the page is somebody else's or cannot be written.
+/// If a record cannot be read, or the page was not written by fovqa or cannot be written.
 pub fn draw_index(folder: &Path) -> Result<Option<usize>, ReportError> {
     let unreadable = |error| FileError::Read { path: folder.to_owned(), error };
     let mut paths: Vec<PathBuf> = Vec::new();
@@ -58,15 +59,15 @@ pub fn draw_index(folder: &Path) -> Result<Option<usize>, ReportError> {
     Ok(Some(entries.len()))
 }
 
-/// Whether a page is one of ours.
+/// Whether a page was written by fovqa.
 fn is_ours(page: &Path) -> bool {
     let mut text = String::new();
     let read = open_result_file(page).map(|mut file| file.read_to_string(&mut text));
-    // A page that cannot be read is left to the writer, which says why.
+    // If a page cannot be read, the attempt to write it reports why.
     !matches!(read, Ok(Ok(_))) || text.contains(MARK)
 }
 
-/// Numbers in names as numbers: fig-8 before fig-10.
+/// A sort key that compares numbers in names as numbers, so that fig-8 comes before fig-10.
 fn sorting(name: &str) -> Vec<(String, u64)> {
     let mut parts: Vec<(String, u64)> = Vec::new();
     let mut rest = name;

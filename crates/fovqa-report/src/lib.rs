@@ -1,4 +1,4 @@
-//! Scores for people: tables for terminals and papers, figures, and the page of a run.
+//! Presents scores to people: tables for terminals and papers, figures, and the page of a run.
 
 mod comparison;
 mod curves;

@@ -1,5 +1,5 @@
-//! What tables and figures show of a run's summary. Of each comparison only these numbers are kept, as a run
-//! can have very many.
+//! The part of a run's summary that tables and figures show. A run can have very many comparisons,
+//! so only these numbers are kept of each.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,11 +10,12 @@ use fovqa_results::{
     HaarRecord, HaarValues, SideValues, Spread, Statistics, read_summary,
 };
 
-/// The comparisons of a run, and what could not be scored.
+/// The comparisons of a run, and its errors.
 #[derive(Debug, Default)]
 pub(crate) struct Overview {
     comparisons: Vec<Measured>,
-    /// By scene and method, the comparison that stands for them: of both eyes, where there are two.
+    /// For each scene and method, the index of the comparison that represents them. If the scene
+    /// has two eyes, it is the one of both.
     overall: BTreeMap<String, BTreeMap<String, usize>>,
     pub(crate) errors: Vec<ErrorRecord>,
 }
@@ -22,32 +23,32 @@ pub(crate) struct Overview {
 /// One method in one scene, for one eye or both.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Measured {
-    /// Whether it is of the left or of the right eye alone.
+    /// Whether the values belong to the left or the right eye alone.
     pub(crate) is_of_one_eye: bool,
-    /// Whether it is of two eyes together.
+    /// Whether the values belong to both eyes together.
     pub(crate) is_of_both_eyes: bool,
-    /// Frames that were scored.
+    /// Number of frames that were scored.
     pub(crate) frames: usize,
     scores: Box<[(Metric, Score)]>,
     pub(crate) bands: Box<[Band]>,
-    /// The wavelet by level and band.
+    /// The wavelet statistics by level and band.
     pub(crate) wavelet: Box<[WaveletBand]>,
     pub(crate) atd: Option<AtdSummary>,
     /// JOD of FovVideoVDP.
     pub(crate) jod: Option<f64>,
-    /// What each band of eccentricity has in FovVideoVDP's Q.
+    /// Share of each eccentricity band in the Q of FovVideoVDP.
     pub(crate) shares: Box<[EccentricityShare]>,
 }
 
-/// A metric over the frames.
+/// The score of a metric over the frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Score {
     pub(crate) mean: f64,
-    /// Of decibels, the frames without any error.
+    /// For decibels, the number of frames without any error.
     pub(crate) identical_frames: Option<usize>,
 }
 
-/// A band of eccentricity over the frames.
+/// The values of an eccentricity band over the frames.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Band {
     pub(crate) from_deg: f64,
@@ -56,7 +57,7 @@ pub(crate) struct Band {
     compared: Box<[(Metric, Compared)]>,
 }
 
-/// A level of the wavelet in a band of eccentricity.
+/// The values of a wavelet level in an eccentricity band.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct WaveletBand {
     pub(crate) level: u8,
@@ -66,13 +67,13 @@ pub(crate) struct WaveletBand {
     statistics: [Compared; 3],
 }
 
-/// A measure of the reference and of the test, and their ratio. NaN, which is no measured value, stands for a
-/// value that is missing.
+/// A measure of the reference, the same measure of the test, and their ratio. NaN, which is never a
+/// measured value, marks a missing value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Compared([f64; 3]);
 
 impl Overview {
-    /// Reads it from a folder of results.
+    /// Reads the overview from a results folder.
     pub(crate) fn read(folder: &Path) -> Result<Self, FileError> {
         let mut overview = Self::default();
         let errors = read_summary(folder, |comparison| overview.add(comparison))?;
@@ -93,7 +94,8 @@ impl Overview {
         &self.comparisons
     }
 
-    /// What was measured of a method in a scene: of both eyes, where there are two.
+    /// The values of a method in a scene. If the scene has two eyes, these are the values of both
+    /// together.
     pub(crate) fn of(&self, scene: &str, method: &str) -> Option<&Measured> {
         self.comparisons.get(*self.overall.get(scene)?.get(method)?)
     }
@@ -128,7 +130,7 @@ impl Measured {
         of(&self.scores, metric)
     }
 
-    /// Whether there is anything of a metric.
+    /// Whether there are any values of a metric.
     pub(crate) fn is_scored(&self, metric: Metric) -> bool {
         match metric.info().kind {
             _ if metric == Metric::Fvvdp => self.jod.is_some(),
@@ -139,8 +141,8 @@ impl Measured {
         }
     }
 
-    /// What the columns of tables and the bars show: means over the frames or, over time, the papers'
-    /// percentage.
+    /// The value in table columns and bars: the mean over the frames or, for temporal differences,
+    /// the percentage that the papers use.
     pub(crate) fn value(&self, metric: Metric) -> Option<f64> {
         match metric {
             Metric::Atd => Some(self.atd.as_ref()?.ratio? * 100.0),
@@ -169,7 +171,7 @@ impl Band {
         *of(&self.means, metric)?
     }
 
-    /// A measure of each picture.
+    /// The values of a measure that is computed for each image.
     pub(crate) fn compared(&self, metric: Metric) -> Option<&Compared> {
         of(&self.compared, metric)
     }
@@ -214,12 +216,12 @@ impl Compared {
         Self::new([of(&sides.reference), of(&sides.test), sides.ratio])
     }
 
-    /// The reference's.
+    /// Value of the reference.
     pub(crate) fn reference(&self) -> Option<f64> {
         self.get(0)
     }
 
-    /// The test's.
+    /// Value of the test.
     pub(crate) fn test(&self) -> Option<f64> {
         self.get(1)
     }

@@ -1,4 +1,5 @@
-//! The page of a run: its tables and figures on one sheet, readable without a network.
+//! The page of a run: a single HTML page with its tables and figures, which can be read without a
+//! network.
 
 use std::fmt::Write;
 
@@ -8,12 +9,12 @@ use crate::comparison::ComparisonTable;
 use crate::overview::Overview;
 use crate::text_table::printable;
 
-/// The most errors that the page lists.
+/// Maximum number of errors that the page lists.
 const MOST_ERRORS: usize = 100;
 
 /// A figure on the page.
 pub(crate) struct PageFigure<'a> {
-    /// Its path without the ending, from the page.
+    /// Its path relative to the page, without the file extension.
     pub(crate) path: &'a str,
     pub(crate) caption: &'a str,
 }
@@ -35,13 +36,13 @@ img.small{max-width:380px;max-height:320px}figure{margin:0}figure img{max-width:
 code{background:#f3f3f3;padding:0 .2em}
 ";
 
-/// What tables of very many methods need beside it.
+/// Additional style for tables with very many methods.
 const LONG_STYLE: &str = "\
 .long{overflow:auto;max-height:80vh}.long thead{position:sticky;top:0;z-index:1;background:#fff}
 .long tbody th{position:sticky;left:0;background:#fff}
 ";
 
-/// The page.
+/// Makes the page of a run.
 pub(crate) fn page(
     run: &RunRecord,
     overview: &Overview,
@@ -107,7 +108,7 @@ pub(crate) fn page(
     text
 }
 
-/// A table of very many methods: in a box of its own, or its files alone.
+/// Writes a table with very many methods in a box that scrolls, or only links to its files.
 fn long_table(text: &mut String, name: &str, table: &ComparisonTable) {
     let (caption, name) = (escaped(table.caption()), escaped(name));
     let _ = writeln!(text, "<h2>{caption}</h2>");
@@ -126,7 +127,7 @@ fn long_table(text: &mut String, name: &str, table: &ComparisonTable) {
     );
 }
 
-/// The page up to its heading.
+/// The beginning of the page up to its heading.
 pub(crate) fn begin(name: &str) -> String {
     begin_with(name, "")
 }
@@ -140,12 +141,12 @@ fn begin_with(name: &str, style: &str) -> String {
     )
 }
 
-/// What made it, and the end.
+/// Writes what made the page, and the end of the page.
 pub(crate) fn end(text: &mut String, made: &str) {
     let _ = writeln!(text, "<footer><p>{made}.</p></footer>\n</body>\n</html>");
 }
 
-/// Figures with their captions, side by side where there is room.
+/// Writes figures with their captions, side by side if there is space.
 pub(crate) fn figures(text: &mut String, figures: &[PageFigure<'_>]) {
     if figures.is_empty() {
         return;
@@ -166,7 +167,7 @@ fn count(n: usize, what: &str) -> String {
     if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
 }
 
-/// A path as an address: what has a meaning there, or is no plain character, as bytes.
+/// A path as a URL. Characters that are special in a URL or not plain ASCII are percent-encoded.
 pub(crate) fn address(path: &str) -> String {
     let mut plain = String::new();
     for byte in path.bytes() {
@@ -182,7 +183,7 @@ pub(crate) fn address(path: &str) -> String {
     plain
 }
 
-/// Text that HTML takes as it is, between tags and in attributes.
+/// Escapes text for HTML, for use between tags and in attributes.
 pub(crate) fn escaped(text: &str) -> String {
     let mut plain = String::new();
     for c in printable(text).chars() {
@@ -202,7 +203,7 @@ fn table_links(run: &RunRecord) -> String {
     let tables = run.files.keys().map(String::as_str).filter(|name| name.starts_with("results."));
     let mut tables: Vec<&str> = tables.collect();
     if tables.is_empty() {
-        // An earlier version wrote the folder.
+        // Earlier versions wrote this file without recording the formats.
         tables.push(RESULTS_CSV);
     }
     let links = tables.iter().map(|name| format!("<a href=\"{name}\">{name}</a>"));

@@ -1,5 +1,5 @@
-//! What is drawn into a folder of results: tables, figures and a page, and the list of them, by
-//! which the next drawing takes away what it no longer draws.
+//! Writes tables, figures and a page into a results folder, with a list of the files. The next
+//! report uses the list to remove files that it does not write again.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -18,20 +18,21 @@ use thiserror::Error;
 pub(crate) const PLOTS: &str = "plots";
 /// Name and version of the format of [`REPORT_JSON`].
 const SCHEMA: &str = "fovqa.report/1";
-/// Pixels of a PNG per pixel of the SVG: 288 dots an inch at half a page's width.
+/// Pixels of the PNG per pixel of the SVG. This gives 288 dots per inch at half the width of a
+/// page.
 const PNG_SCALE: f32 = 2.0;
 
-/// A figure with its name and what it says.
+/// A figure with its name and caption.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NamedFigure {
-    /// File name without folder and ending.
+    /// File name without folder and extension.
     pub(crate) name: String,
     pub(crate) caption: String,
     pub(crate) figure: Figure,
 }
 
-/// A table's name and, for each ending, what makes its text: a table of many methods is long, and its texts
-/// are made only when they are written.
+/// The name of a table and, for each file extension, a function that makes its text. A table of
+/// many methods is long, so its texts are made only when they are written.
 pub(crate) struct NamedTable<'a> {
     pub(crate) name: &'a str,
     pub(crate) files: Vec<(&'static str, MakeText<'a>)>,
@@ -40,29 +41,29 @@ pub(crate) struct NamedTable<'a> {
 /// Makes the text of a file.
 pub(crate) type MakeText<'a> = Box<dyn Fn() -> String + 'a>;
 
-/// What is drawn.
+/// Everything that is written into a results folder.
 pub(crate) struct Sheet<'a> {
     pub(crate) tables: Vec<NamedTable<'a>>,
     pub(crate) figures: Vec<NamedFigure>,
     /// The page, `index.html`.
     pub(crate) page: MakeText<'a>,
-    /// How names stand in its CSV files.
+    /// How names are written in CSV files.
     pub(crate) names: CsvNames,
 }
 
-/// Why nothing could be drawn.
+/// Why tables and figures could not be made.
 #[derive(Debug, Error)]
 pub enum ReportError {
     /// A file that cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A page that is none of ours to replace.
+    /// A page that was not written by fovqa and must not be replaced.
     #[error("{}: fovqa did not write this file, so it is not replaced", path.display())]
     Foreign {
         /// The page.
         path: PathBuf,
     },
-    /// A curve that cannot be.
+    /// A curve that is not possible.
     #[error("{name}: {error}")]
     Curve {
         /// The curve.
@@ -70,7 +71,7 @@ pub enum ReportError {
         /// The reason.
         error: CurveError,
     },
-    /// A figure that cannot be.
+    /// A figure that cannot be drawn.
     #[error("{name}: {error}")]
     Plot {
         /// The figure.
@@ -87,7 +88,7 @@ struct Manifest {
 }
 
 impl Sheet<'_> {
-    /// Writes all of it into a folder.
+    /// Writes all files into a folder.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), ReportError> {
         let table_files = self.tables.iter().flat_map(|table| {
             table.files.iter().map(|(ending, _)| format!("{}.{ending}", table.name))
@@ -97,8 +98,8 @@ impl Sheet<'_> {
         });
         let mut files: Vec<String> = table_files.chain(figure_files).collect();
         files.push("index.html".to_owned());
-        // Said before it is done: whoever comes after a drawing that was broken off knows what is
-        // there.
+        // The list is written before the files, so that after an interruption the next report knows
+        // which files exist.
         let old = drawn_before(folder);
         let either = old.iter().filter(|old| !files.contains(old)).chain(&files).cloned();
         write_manifest(folder, either.collect())?;
@@ -133,12 +134,12 @@ fn write_manifest(folder: &Path, files: Vec<String>) -> Result<(), FileError> {
     write_json_file(&folder.join(REPORT_JSON), &manifest)
 }
 
-/// Takes away what was drawn of an earlier run.
+/// Removes the tables and figures of an earlier run.
 pub fn clear(folder: &Path) {
     let old = drawn_before(folder);
     if !old.is_empty() {
         remove(folder, old.iter());
-        // Where it cannot be taken away, it tells nothing that is not so.
+        // If the list cannot be removed, it does no harm.
         let _ = take_away(&folder.join(REPORT_JSON));
     }
 }
@@ -155,7 +156,8 @@ fn write_figure(plots: &Path, figure: &NamedFigure, names: CsvNames) -> Result<(
     Ok(())
 }
 
-/// The files of the last manifest. Only what a drawing could have written: a list can be anybody's.
+/// The files in the last list. Only names that a report could have written are accepted, because
+/// anybody could have changed the list.
 pub(crate) fn drawn_before(folder: &Path) -> Vec<String> {
     let manifest = read_json_file(&folder.join(REPORT_JSON), SCHEMA, "a list of files");
     let Manifest { mut files, .. } = manifest.unwrap_or_default();
@@ -182,17 +184,17 @@ fn is_drawn(file: &str) -> bool {
 
 fn remove<'a>(folder: &Path, files: impl Iterator<Item = &'a String>) {
     for file in files {
-        // What somebody has taken away already is as good.
+        // The user may have removed the file already.
         let _ = take_away(&folder.join(file));
     }
 }
 
-/// File names that are given out once each.
+/// File names, each of which is used only once.
 #[derive(Default)]
 pub(crate) struct Names(BTreeSet<String>);
 
 impl Names {
-    /// The name, with a number behind it if it was given out before.
+    /// The name, with a number appended if it is used already.
     pub(crate) fn free(&mut self, name: &str) -> String {
         let mut free = name.to_owned();
         let mut count = 1;

@@ -1,4 +1,4 @@
-//! The tables `fovqa score` prints: whole frames first, then by eccentricity.
+//! The tables that `fovqa score` prints: whole frames first, then the values by eccentricity.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use fovqa_results::{AtdSummary, FvvdpSummary, GuideSource, ScoreReport, Statisti
 
 use crate::text_table::{aligned, plain_table, printable};
 
-/// The report as text: what was compared, each metric, and each band.
+/// The report as text: the input, the value of each metric, and the values in each band.
 pub fn score_table(report: &ScoreReport) -> String {
     let summary = Summary::of(report);
     let mut text = heading(report);
@@ -59,8 +59,8 @@ pub fn score_table(report: &ScoreReport) -> String {
     text
 }
 
-/// Each band with the metrics that have a value there; of contrast and differences over time, the test's
-/// and in brackets its share of the reference's.
+/// Each band with the metrics that have a value there. For contrast and temporal differences, the
+/// value of the test is shown, with the percentage of the reference's value in brackets.
 fn band_table(report: &ScoreReport, summary: &Summary) -> String {
     let per_band = report.metrics.iter().copied().filter(|m| m.info().per_band);
     let (fidelity, compared): (Vec<Metric>, Vec<Metric>) =
@@ -109,7 +109,7 @@ fn band_table(report: &ScoreReport, summary: &Summary) -> String {
     text
 }
 
-/// What is left of the energy of each level in each band.
+/// The share of the reference's energy that the test keeps, for each level and band.
 fn haar_table(summary: &Summary) -> String {
     let haar = Subject::Metric(Metric::Haar);
     let Some(energy) = Key::named(haar, "energy").map(|key| key.of_image(Image::Ratio)) else {

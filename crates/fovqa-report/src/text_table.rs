@@ -1,4 +1,4 @@
-//! Tables of plain text: names to the left, numbers to the right.
+//! Tables of plain text: names are aligned to the left, numbers to the right.
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
@@ -10,7 +10,8 @@ pub(crate) fn plain_table(header: &[&str]) -> Table {
     table
 }
 
-/// Its lines: names to the left, numbers to the right, nothing behind the last column.
+/// The lines of a table. Names are aligned to the left and numbers to the right, without trailing
+/// spaces.
 pub(crate) fn aligned(mut table: Table) -> String {
     for (index, column) in table.column_iter_mut().enumerate() {
         let side = if index == 0 { CellAlignment::Left } else { CellAlignment::Right };
@@ -20,8 +21,8 @@ pub(crate) fn aligned(mut table: Table) -> String {
     table.lines().map(|line| line.trim_end().to_owned()).collect::<Vec<_>>().join("\n")
 }
 
-/// Text in which nothing steers a terminal or begins another line: characters that are not seen are written as
-/// escapes.
+/// Text without characters that control a terminal or start a new line: invisible characters are
+/// written as escapes.
 pub(crate) fn printable(text: &str) -> String {
     let shown = |c: char| {
         if c.is_control() { c.escape_default().collect() } else { c.to_string() }

@@ -1,4 +1,5 @@
-//! A baseline: the values of a run that later ones are held against, as a small text file fit for git.
+//! A baseline contains the values of a run that later runs are compared with. It is a small text
+//! file that can be kept in git.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -16,7 +17,7 @@ use crate::report::Input;
 /// Name and version of the format.
 pub const BASELINE_SCHEMA: &str = "fovqa.baseline/1";
 
-/// The whole file.
+/// The content of a baseline file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Baseline {
     /// Name and version of the format.
@@ -27,18 +28,18 @@ pub struct Baseline {
     pub experiment: String,
     /// The metrics by their keys.
     pub metrics: BTreeMap<String, MetricRecord>,
-    /// The inputs, folder by folder.
+    /// The inputs, grouped by folder.
     pub inputs: BTreeMap<String, InputGroup>,
-    /// One entry a scene, method and eye.
+    /// One entry per scene, method and eye.
     pub comparisons: Vec<BaselineComparison>,
     /// The experiment with all its defaults.
     pub resolved: Resolved,
 }
 
-/// How a metric was taken.
+/// How a metric was computed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MetricRecord {
-    /// Its version: another one may have other values.
+    /// Version of the metric. Values of different versions may differ.
     pub version: u32,
     /// Its parameters.
     pub parameters: BTreeMap<String, Value>,
@@ -47,9 +48,9 @@ pub struct MetricRecord {
 /// The inputs of one folder.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct InputGroup {
-    /// How many there are.
+    /// Number of files.
     pub files: usize,
-    /// SHA-256 of their names and hashes.
+    /// SHA-256 of the names and hashes of the files.
     pub sha256: String,
 }
 
@@ -60,11 +61,11 @@ pub struct BaselineComparison {
     pub scene: String,
     /// The method.
     pub method: String,
-    /// `left`, `right` or `both`; empty in a scene with one picture a frame.
+    /// `left`, `right` or `both`; empty if the scene has one image per frame.
     pub eye: String,
-    /// Frames that were scored.
+    /// Number of frames that were scored.
     pub frames: usize,
-    /// By their names.
+    /// Values by their names.
     pub(crate) values: BTreeMap<String, Number>,
 }
 
@@ -74,34 +75,34 @@ impl BaselineComparison {
         (self.scene.clone(), self.method.clone(), self.eye.clone())
     }
 
-    /// The same in words.
+    /// Scene, method and eye in words.
     pub fn named(&self) -> String {
         let eye = if self.eye.is_empty() { String::new() } else { format!(", {}", self.eye) };
         format!("{}, {}{eye}", self.scene, self.method)
     }
 
-    /// Its values, by their names.
+    /// The values with their names.
     pub fn values(&self) -> impl Iterator<Item = (&str, f64)> {
         self.values.iter().map(|(name, value)| (name.as_str(), value.0))
     }
 }
 
-/// A value of a baseline beside a new one.
+/// A value of a baseline and the corresponding value of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
     /// Scene, method and eye.
     pub place: String,
     /// Name of the value.
     pub quantity: String,
-    /// In the baseline; `None`: it is new.
+    /// Value in the baseline; `None` if the value is new.
     pub before: Option<f64>,
-    /// In the run; `None`: it is gone.
+    /// Value in the run; `None` if the value no longer exists.
     pub after: Option<f64>,
 }
 
 impl Baseline {
-    /// The baseline of a run: the values its rules look at, and of each metric that points somewhere its
-    /// mean and its worst frame. `hash` is that of a text.
+    /// Makes the baseline of a run. It contains the values that the rules use and, for each metric
+    /// with a better direction, the mean and the worst frame. `hash` returns the hash of a text.
     pub fn of(
         run: &RunRecord,
         values: &RunValues,
@@ -140,10 +141,11 @@ impl Baseline {
         }
     }
 
-    /// Reads a file.
+    /// Reads a baseline file.
     ///
     /// # Errors
-    /// When it cannot be read, is no baseline, or has a comparison twice, as after a merge that went wrong.
+    /// If it cannot be read, is not a baseline, or contains a comparison twice, for example after a
+    /// wrong merge.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         let expected = "a baseline";
         let baseline: Self = read_json_file(path, BASELINE_SCHEMA, expected)?;
@@ -158,7 +160,7 @@ impl Baseline {
         }
     }
 
-    /// Frames of a comparison; `None`: there is no such comparison.
+    /// Number of frames of a comparison; `None` if there is no such comparison.
     pub(crate) fn frames_of(&self, place: &ComparisonName) -> Option<usize> {
         self.comparisons.iter().find(|c| c.place() == *place).map(|c| c.frames)
     }
@@ -180,8 +182,8 @@ impl Baseline {
             .ok_or_else(|| format!("the baseline has no {quantity} of {}", comparison.named()))
     }
 
-    /// Why a run cannot be held against this: metrics of another version, or taken otherwise. `None`: it
-    /// can.
+    /// Why a run cannot be compared with this baseline: metrics of another version, or computed
+    /// with other settings. `None` if it can be compared.
     pub fn refuses(&self, run: &Resolved) -> Option<String> {
         for (key, parameters) in &run.metrics {
             let (Some(before), Some(metric)) = (self.metrics.get(key), Metric::find(key)) else {
@@ -201,7 +203,7 @@ impl Baseline {
         self.resolved.taken_otherwise(run)
     }
 
-    /// The folders whose inputs are others than in the baseline.
+    /// The folders whose inputs differ from those of the baseline.
     pub fn other_inputs(&self, run: &RunRecord, hash: &dyn Fn(&str) -> String) -> Vec<String> {
         let now = grouped(&run.inputs, hash);
         let other = |(folder, before): (&String, &InputGroup)| {
@@ -210,7 +212,7 @@ impl Baseline {
         self.inputs.iter().filter_map(other).collect()
     }
 
-    /// Every value beside its new one, where the two differ.
+    /// The old and the new value wherever the two differ.
     pub fn differences(&self, new: &Self, scenes: &[String]) -> Vec<Difference> {
         let wanted = |c: &&BaselineComparison| scenes.is_empty() || scenes.contains(&c.scene);
         let mut differences = Vec::new();
@@ -238,10 +240,10 @@ impl Baseline {
         differences
     }
 
-    /// The baseline with the values of a run: all of it or, of some scenes, theirs alone.
+    /// The baseline with the values of a run. If scenes are given, only their values are replaced.
     ///
     /// # Errors
-    /// When a scene is not in the run, or what stays was taken otherwise.
+    /// If a scene is not in the run, or the values that stay were computed with other settings.
     pub fn accepting(&self, new: &Self, scenes: &[String]) -> Result<Self, String> {
         if scenes.is_empty() {
             return Ok(new.clone());
@@ -263,7 +265,7 @@ impl Baseline {
         let mut comparisons = of(&self.comparisons, false);
         comparisons.extend(of(&new.comparisons, true));
         comparisons.sort_by_key(BaselineComparison::place);
-        // What stays is still of the inputs it was of.
+        // Values that are not replaced still belong to their old inputs.
         let mut inputs = self.inputs.clone();
         let taken = new
             .inputs
@@ -296,7 +298,7 @@ impl Baseline {
     }
 }
 
-/// The values of a metric that are kept whatever the rules are.
+/// The values of a metric that are stored whatever the rules are.
 fn usual(metric: Metric) -> Vec<Quantity> {
     let of = |aggregate| Quantity::of(metric, aggregate);
     match (metric, metric.info().kind, metric.info().better) {
@@ -310,7 +312,7 @@ fn usual(metric: Metric) -> Vec<Quantity> {
     }
 }
 
-/// Inputs, folder by folder.
+/// The inputs, grouped by folder.
 fn grouped(inputs: &[Input], hash: &dyn Fn(&str) -> String) -> BTreeMap<String, InputGroup> {
     let mut folders: BTreeMap<String, Vec<&Input>> = BTreeMap::new();
     for input in inputs {

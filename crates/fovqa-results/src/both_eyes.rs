@@ -1,4 +1,5 @@
-//! Two eyes as one: the frames both have, each value pooled as its metric says.
+//! Combines two eyes into one report: the frames that both have, with each value pooled as its
+//! metric requires.
 
 use std::collections::BTreeMap;
 
@@ -7,12 +8,13 @@ use fovqa_metrics::{FrameRows, Layouts, Metric, Row, Rows, Subject};
 use crate::fvvdp;
 use crate::report::{AtdGuides, FrameResult, GuideSource, ScoreReport};
 
-/// The report of both eyes: the frames both have, by their numbers.
+/// The combined report of both eyes. It contains the frames that both have, matched by their
+/// numbers.
 pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
     let alike = left.edges() == right.edges();
     let fvvdp = fvvdp::sight_of_both(left, right);
     let same_frequencies = fvvdp::same_frequencies(left, right);
-    // Bands of other edges, or frequencies, have nothing in common.
+    // Bands with different edges or frequencies cannot be combined.
     let in_common = |row: &Row| {
         let of_bands = row.key.band.is_some()
             || row.key.statistic().is_of_bands
@@ -50,7 +52,7 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
     }
 }
 
-/// What holds for both eyes: nothing, where one of them has nothing.
+/// What holds for both eyes: none if one of them has none.
 fn common(left: GuideSource, right: GuideSource) -> GuideSource {
     match (left, right) {
         (GuideSource::None, _) | (_, GuideSource::None) => GuideSource::None,

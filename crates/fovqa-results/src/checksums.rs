@@ -1,5 +1,5 @@
-//! The checksums of a run's files. They are part of run.json, so that a file which was truncated or changed
-//! afterwards is noticed.
+//! The checksums of a run's files. They are part of run.json, so that a file that was truncated or
+//! changed later can be detected.
 
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, BufReader};
@@ -13,10 +13,10 @@ use crate::json::RunRecord;
 /// SHA-256 of each file of a run, in hexadecimal digits, by its name.
 pub type Checksums = BTreeMap<String, String>;
 
-/// The checksums of the files in the folder of a run.
+/// Computes the checksums of the files in the folder of a run.
 ///
 /// # Errors
-/// When one cannot be read.
+/// If a file cannot be read.
 pub fn checksums(folder: &Path) -> Result<Checksums, FileError> {
     let of = |name: &str| {
         let path = folder.join(name);
@@ -25,13 +25,14 @@ pub fn checksums(folder: &Path) -> Result<Checksums, FileError> {
             Err(error) => Err(FileError::Read { path, error }),
         }
     };
-    // A run has one of the tables or both.
+    // A run has one of the two tables or both.
     let tables =
         [RESULTS_CSV, RESULTS_PARQUET].into_iter().filter(|name| folder.join(name).exists());
     tables.chain([SUMMARY_JSON]).map(of).collect()
 }
 
-/// SHA-256 of a file. An editor's byte order mark does not count: whoever reads the file passes over it.
+/// SHA-256 of a file. The byte order mark that an editor adds is left out, because readers of the
+/// file skip it as well.
 fn checksum(path: &Path) -> io::Result<String> {
     let mut file = BufReader::new(open_regular_file(path)?);
     if file.fill_buf()?.starts_with(b"\xef\xbb\xbf") {
@@ -40,11 +41,11 @@ fn checksum(path: &Path) -> io::Result<String> {
     Ok(id_of(file)?.sha256)
 }
 
-/// Holds the files of a run against the checksums in its record. `Some`: what the user should know where it has
-/// none, as an earlier version wrote it.
+/// Compares the files of a run with the checksums in its record. Returns a message for the user if
+/// the record has no checksums, because an earlier version wrote it.
 ///
 /// # Errors
-/// When a file cannot be read, or is not as it was written.
+/// If a file cannot be read, or was changed after it was written.
 pub fn check_files(folder: &Path, record: &RunRecord) -> Result<Option<String>, FileError> {
     if record.files.is_empty() {
         let folder = folder.display();

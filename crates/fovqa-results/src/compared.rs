@@ -1,34 +1,35 @@
-//! Measures of reference and test alike, profiles and differences over time: the value of each picture,
-//! and their ratio.
+//! Measures that are computed for the reference and for the test in the same way, such as profiles
+//! and temporal differences: the value of each image and their ratio.
 
 use fovqa_metrics::{Image, Key, Row};
 
 use crate::report::FrameResult;
 
-/// Something of the reference and of the test.
+/// A pair of values: one for the reference and one for the test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Sides<T> {
-    /// The reference's.
+    /// Value of the reference.
     pub reference: T,
-    /// The test's.
+    /// Value of the test.
     pub test: T,
 }
 
 impl<T> Sides<T> {
-    /// The same thing of each.
+    /// Applies `of` to both values.
     pub fn map<'a, U>(&'a self, of: impl Fn(&'a T) -> U) -> Sides<U> {
         Sides { reference: of(&self.reference), test: of(&self.test) }
     }
 }
 
 impl Sides<Option<f64>> {
-    /// test / reference; `None` where either is missing, or the reference is 0: never an infinity.
+    /// test / reference; `None` if either value is missing, or if the reference is 0. The ratio is
+    /// never infinite.
     pub fn ratio(&self) -> Option<f64> {
         let reference = self.reference.filter(|value| *value != 0.0)?;
         Some(self.test? / reference)
     }
 
-    /// Why there is no ratio, where there is none.
+    /// Why there is no ratio; `None` if there is one.
     pub fn reason(&self) -> Option<&'static str> {
         match (self.reference, self.test) {
             _ if self.ratio().is_some() => None,
@@ -39,14 +40,15 @@ impl Sides<Option<f64>> {
 }
 
 impl FrameResult {
-    /// What is measured of each picture and compared, in the order of results, by the key of its ratio.
+    /// The measures of each image that are compared, in the order of results. The key is that of
+    /// the ratio.
     pub fn compared(&self) -> impl Iterator<Item = (Key, Sides<Option<f64>>)> {
         let of_picture = |key: &Key| key.image != Image::Pair && key.statistic().has_ratio;
         let mut rows = self.rows.of_keys(of_picture).peekable();
         std::iter::from_fn(move || {
             let of_reference = |row: &Row| row.key.image == Image::Reference;
             let Row { key, value: reference, .. } = rows.by_ref().find(of_reference)?;
-            // The test's row is the next.
+            // The row of the test follows that of the reference.
             let test = rows.peek().filter(|row| row.key == key.of_image(Image::Test));
             let test = test.and_then(|row| row.value);
             Some((key.of_image(Image::Ratio), Sides { reference, test }))

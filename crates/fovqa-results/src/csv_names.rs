@@ -1,5 +1,5 @@
-//! CsvNames in CSV files. A spreadsheet takes a cell that begins with one of a few characters for a formula, which
-//! may do anything; an apostrophe in front of it makes it text.
+//! Names in CSV files. A spreadsheet reads a cell as a formula if it begins with one of a few
+//! characters, and a formula can run anything. An apostrophe before it marks the cell as text.
 
 use std::borrow::Cow;
 
@@ -7,13 +7,13 @@ use fovqa_plan::{OutputSettings, Resolved};
 
 use crate::table::TableRow;
 
-/// How names stand in CSV files.
+/// How names are written in CSV files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CsvNames {
-    /// As they are.
+    /// Names are written unchanged.
     #[default]
     Plain,
-    /// With an apostrophe, where a spreadsheet would take them for formulas.
+    /// Names that a spreadsheet would read as formulas get an apostrophe in front.
     SpreadsheetSafe,
 }
 
@@ -35,11 +35,12 @@ impl From<bool> for CsvNames {
     }
 }
 
-/// What a formula begins with, and the apostrophe itself, so that each cell is of one name.
+/// Characters that a formula can begin with, and the apostrophe itself, so that each cell stands
+/// for exactly one name.
 const BEGINNINGS: [char; 7] = ['=', '+', '-', '@', '\t', '\r', '\''];
 
 impl CsvNames {
-    /// The cell of a name.
+    /// The cell for a name.
     pub fn written(self, name: &str) -> Cow<'_, str> {
         if self == Self::SpreadsheetSafe && name.starts_with(BEGINNINGS) {
             Cow::Owned(format!("'{name}"))
@@ -48,7 +49,7 @@ impl CsvNames {
         }
     }
 
-    /// The name of a cell.
+    /// The name in a cell.
     pub fn read(self, cell: &str) -> &str {
         match self {
             Self::Plain => cell,
@@ -56,12 +57,12 @@ impl CsvNames {
         }
     }
 
-    /// A row of a table, with its names read.
+    /// A table row with its names decoded.
     pub(crate) fn of_row(self, row: TableRow<'_>) -> TableRow<'_> {
         TableRow { scene: self.read(row.scene), method: self.read(row.method), ..row }
     }
 
-    /// The text of a CSV file in which any cell may be a name, unless it is a number.
+    /// Protects the text of a CSV file in which any cell may be a name, unless it is a number.
     pub fn in_csv(self, text: String) -> String {
         if self == Self::Plain {
             return text;

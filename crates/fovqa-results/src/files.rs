@@ -1,4 +1,4 @@
-//! The files of a run, by their names, and read again.
+//! Names of the files of a run, and functions that read them.
 
 use std::fs::File;
 use std::io;
@@ -11,24 +11,25 @@ use thiserror::Error;
 
 use crate::json::CheckedKeys;
 
-/// All values, a row each.
+/// All values, with one row per value.
 pub const RESULTS_CSV: &str = "results.csv";
-/// The same as Parquet.
+/// The table of all values as Parquet.
 pub const RESULTS_PARQUET: &str = "results.parquet";
-/// Values over the frames.
+/// Statistics over the frames.
 pub const SUMMARY_JSON: &str = "summary.json";
-/// What the run was of.
+/// The record of the run: experiment, settings and inputs.
 pub const RUN_JSON: &str = "run.json";
-/// Which files were drawn, so that another drawing takes away what it does not draw again.
+/// The list of figures and tables that were made. A later report uses it to remove files that it
+/// does not make again.
 pub const REPORT_JSON: &str = "report.json";
-/// Every value of a file of curves.
+/// All values of a curves file.
 pub const CURVES_CSV: &str = "curves.csv";
-/// The record of a file of curves.
+/// The record of a curves file.
 pub const CURVES_JSON: &str = "curves.json";
-/// Name and version of its format.
+/// Name and version of the format of [`CURVES_JSON`].
 pub const CURVES_SCHEMA: &str = "fovqa.curves/1";
 
-/// A file of a run that cannot be written, or read again.
+/// A file of a run that cannot be written or read.
 #[derive(Debug, Error)]
 pub enum FileError {
     /// It cannot be written.
@@ -47,33 +48,33 @@ pub enum FileError {
         /// The reason.
         error: io::Error,
     },
-    /// It is not what it should be.
+    /// It does not have the expected content.
     #[error("{}: it is not {expected}: {detail}", path.display())]
     Format {
         /// The file.
         path: PathBuf,
-        /// What it should be.
+        /// The expected content.
         expected: &'static str,
         /// What is wrong.
         detail: String,
     },
 }
 
-/// Far more than the summary of the largest run.
+/// Maximum size in bytes, far larger than the summary of the largest run.
 const MOST_BYTES: u64 = 4 << 30;
 
 /// Opens a file of a run.
 ///
 /// # Errors
-/// When it is not there, or is no regular file.
+/// If it does not exist, or is not a regular file.
 pub fn open_result_file(path: &Path) -> Result<File, FileError> {
     open_regular_file(path).map_err(|error| FileError::Read { path: path.to_owned(), error })
 }
 
-/// Reads a JSON file of a run, of one schema.
+/// Reads a JSON file of a run with a given schema.
 ///
 /// # Errors
-/// When it is not there, or is something else, or of another version, or has a key twice.
+/// If it does not exist, has another format or version, or contains a key twice.
 pub fn read_json_file<T: DeserializeOwned>(
     path: &Path,
     schema: &str,
@@ -82,7 +83,8 @@ pub fn read_json_file<T: DeserializeOwned>(
     let bytes = read_small_file(path, MOST_BYTES)
         .map_err(|error| FileError::Read { path: path.to_owned(), error })?;
     let format = |detail: String| FileError::Format { path: path.to_owned(), expected, detail };
-    // Never as a tree of JSON values, which takes ten times the memory of the text.
+    // Do not read the file into a tree of JSON values, which would take ten times the memory of the
+    // text.
     let read = |error: serde_json::Error| format(error.to_string());
     serde_json::from_slice::<CheckedKeys>(&bytes).map_err(read)?;
     let found: Schema = serde_json::from_slice(&bytes).unwrap_or_default();
@@ -94,7 +96,7 @@ pub fn read_json_file<T: DeserializeOwned>(
     serde_json::from_slice(&bytes).map_err(read)
 }
 
-/// What says of which format a file is.
+/// The part of a file that names its format.
 #[derive(Default, Deserialize)]
 struct Schema {
     schema: Option<serde_json::Value>,

@@ -1,4 +1,4 @@
-//! FovVideoVDP of a sequence: JOD of the mean Q, and what that is made of.
+//! FovVideoVDP of a sequence: the JOD of the mean Q, and the values that it is computed from.
 
 use fovqa_metrics::fvvdp::jod;
 use fovqa_metrics::{Key, Metric, Subject, pool};
@@ -7,34 +7,34 @@ use serde::{Deserialize, Serialize};
 use crate::report::{FrameResult, FvvdpViewing, ScoreReport};
 use crate::spread::{Gathered, Spread};
 
-/// FovVideoVDP of a sequence; of a still, a sequence of one frame.
+/// FovVideoVDP of a sequence. A still image is a sequence of one frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FvvdpSummary {
-    /// Just-objectionable differences: of the mean Q, not the mean of the frames' JOD. `None` where the
-    /// sequence has no value.
+    /// Quality in just-objectionable differences (JOD), computed from the mean Q. It is not the
+    /// mean of the frames' JOD. `None` if the sequence has no value.
     pub jod: Option<f64>,
-    /// Q, the mean over frames.
+    /// Mean of Q over the frames.
     pub q: Option<f64>,
-    /// Frames that have a value.
+    /// Number of frames that have a value.
     pub frames: usize,
-    /// JOD of the frames, each by itself.
+    /// JOD of the individual frames.
     pub frame_jod: Option<Spread>,
-    /// Q by spatial frequency, means over frames, the finest first.
+    /// Q per spatial frequency, as means over the frames, beginning with the highest frequency.
     pub spatial_bands: Vec<SpatialBand>,
-    /// What each band of eccentricity has in Q.
+    /// Share of each eccentricity band in Q.
     pub shares: Vec<EccentricityShare>,
-    /// What lies outside all of them has in it.
+    /// Share in Q of the pixels outside all bands.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub share_outside_bands: Option<f64>,
-    /// Pixels of the display in a degree at its centre.
+    /// Pixels per degree at the centre of the display.
     pub pixels_per_degree: f64,
-    /// White of the display, cd/m².
+    /// Luminance of the display's white in cd/m².
     pub peak_cd_m2: f64,
-    /// Its black, cd/m².
+    /// Luminance of the display's black in cd/m².
     pub black_cd_m2: f64,
-    /// Whether sensitivity falls off with eccentricity.
+    /// Whether sensitivity decreases with eccentricity.
     pub foveated: bool,
-    /// Frames a second; `None` for a still.
+    /// Frames per second; `None` for a still image.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fps: Option<f64>,
     /// Why there is no JOD.
@@ -42,31 +42,31 @@ pub struct FvvdpSummary {
     pub reason: Option<String>,
 }
 
-/// Q of a band of spatial frequencies.
+/// Q of one band of spatial frequencies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SpatialBand {
-    /// Its frequency at the centre of the display, cycles per degree.
+    /// Frequency of the band at the centre of the display, in cycles per degree.
     pub cpd: f64,
-    /// Q of its sustained channel.
+    /// Q of the sustained channel.
     pub sustained: f64,
-    /// Q of its transient channel; `None` in a still.
+    /// Q of the transient channel; `None` for a still image.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub transient: Option<f64>,
 }
 
-/// What a band of eccentricity has in Q.
+/// Share of an eccentricity band in Q.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EccentricityShare {
-    /// Lower edge.
+    /// Lower edge in degrees.
     pub from_deg: f64,
-    /// Upper edge.
+    /// Upper edge in degrees.
     pub to_deg: f64,
-    /// The share, 0 to 1; `None` where there is no difference at all.
+    /// The share, from 0 to 1; `None` if there is no difference at all.
     pub share: Option<f64>,
 }
 
 impl FvvdpSummary {
-    /// That of a report; `None` where it is not asked for.
+    /// The summary of a report; `None` if the metric is not requested.
     pub fn of(report: &ScoreReport) -> Option<Self> {
         let sight = report.fvvdp.as_ref()?;
         let [frame_jod, q, share, outside] = ["frame_jod", "q", "share", "share_outside_bands"]
@@ -105,14 +105,14 @@ impl FvvdpSummary {
     }
 }
 
-/// Mean and extremes; `None` without a value.
+/// Mean and extremes; `None` if there is no value.
 fn spread(values: impl Iterator<Item = f64>) -> Option<Spread> {
     let mut gathered = Gathered::default();
     values.for_each(|value| gathered.add(Some(value)));
     gathered.spread()
 }
 
-/// Q by spatial frequency, means over frames; without bands where frames have none in common.
+/// Q per spatial frequency, as means over the frames. Empty if the frames have no bands in common.
 pub(crate) fn spatial_bands(sight: &FvvdpViewing, frames: &[FrameResult]) -> Vec<SpatialBand> {
     let mean = |statistic: &str, level: usize| {
         let key = Key::named(Subject::Metric(Metric::Fvvdp), statistic)?.on_level(level);
@@ -125,7 +125,8 @@ pub(crate) fn spatial_bands(sight: &FvvdpViewing, frames: &[FrameResult]) -> Vec
     bands.collect()
 }
 
-/// Whether the bands of spatial frequency of two eyes are the same: eyes of different sizes have their own.
+/// Whether both eyes have the same bands of spatial frequency. Eyes with different frame sizes have
+/// different bands.
 pub(crate) fn same_frequencies(left: &ScoreReport, right: &ScoreReport) -> bool {
     let bits = |report: &ScoreReport| {
         let sight = report.fvvdp.iter();
@@ -134,7 +135,7 @@ pub(crate) fn same_frequencies(left: &ScoreReport, right: &ScoreReport) -> bool 
     bits(left) == bits(right)
 }
 
-/// How both eyes see: as each does, where they see alike.
+/// The common viewing conditions of both eyes; `None` if they differ.
 pub(crate) fn sight_of_both(left: &ScoreReport, right: &ScoreReport) -> Option<FvvdpViewing> {
     let (l, r) = (left.fvvdp.as_ref()?, right.fvvdp.as_ref()?);
     let jod = |report| FvvdpSummary::of(report)?.jod;

@@ -1,4 +1,4 @@
-//! Scores as data: what a run found, its summary, JSON and tidy CSV.
+//! Results as data: the findings of a run, its summary, JSON and tidy tables.
 
 mod baseline;
 mod both_eyes;

@@ -1,21 +1,21 @@
-//! What a run of `score` found.
+//! The results of `score` and of a run.
 
 use fovqa_metrics::{FrameRows, Metric};
 use fovqa_vision::EccentricityKind;
 use serde::{Deserialize, Serialize};
 
-/// The view the frames were scored under.
+/// The view under which the frames were scored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ViewResult {
     /// Width and height in pixels.
     pub size: [usize; 2],
     /// Focal length in pixels, along x and y.
     pub focal_px: [f64; 2],
-    /// Gaze in pixels; of the first frame where it moves.
+    /// Gaze in pixels. If the gaze moves, this is the gaze of the first frame.
     pub gaze_px: [f64; 2],
     /// `angular` or `planar`.
     pub eccentricity: EccentricityKind,
-    /// Edges of the bands, `(from_deg, to_deg)` each.
+    /// Edges of the bands in degrees, as `(from_deg, to_deg)`.
     pub bands_deg: Vec<(f64, f64)>,
 }
 
@@ -24,80 +24,81 @@ pub struct ViewResult {
 pub struct FrameResult {
     /// Frame number.
     pub frame: i64,
-    /// Reference file, `/` between folders.
+    /// Reference file, with `/` between folders.
     pub reference: String,
     /// Test file.
     pub test: String,
-    /// Gaze, where it comes from a trace.
+    /// Gaze in pixels, if it comes from a trace.
     pub gaze_px: Option<[f64; 2]>,
-    /// How far the gaze has moved since the frame before, degrees, where it comes from a trace.
+    /// How far the gaze has moved since the previous frame, in degrees, if it comes from a trace.
     pub gaze_step_deg: Option<f64>,
-    /// The values.
+    /// The measured values.
     pub rows: FrameRows,
 }
 
-/// Whose motion or depth a sequence was compared along.
+/// The source of the motion or depth that temporal differences use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum GuideSource {
-    /// Nobody's: there is none.
+    /// There is no source.
     #[default]
     None,
-    /// The reference's, for the test too.
+    /// The reference, which is also used for the test.
     Reference,
-    /// Each its own.
+    /// Reference and test each have their own.
     Test,
 }
 
-/// What differences over time were taken along.
+/// The motion and depth that temporal differences use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct AtdGuides {
-    /// Motion vectors.
+    /// Source of the motion vectors.
     pub motion: GuideSource,
-    /// Depth.
+    /// Source of the depth.
     pub depth: GuideSource,
 }
 
-/// How FovVideoVDP sees a sequence, and what came of it as a whole.
+/// The viewing conditions of FovVideoVDP for a sequence, and results for the sequence as a whole.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FvvdpViewing {
-    /// Pixels of the display in a degree at its centre.
+    /// Pixels per degree at the centre of the display.
     pub pixels_per_degree: f64,
-    /// White, cd/m².
+    /// Luminance of white in cd/m².
     pub peak_cd_m2: f64,
-    /// Black, cd/m².
+    /// Luminance of black in cd/m².
     pub black_cd_m2: f64,
-    /// Whether sensitivity falls off with eccentricity.
+    /// Whether sensitivity decreases with eccentricity.
     pub foveated: bool,
-    /// Frequencies of its bands at the centre of the display, cycles per degree, the finest first.
+    /// Frequencies of the bands at the centre of the display, in cycles per degree, beginning with
+    /// the highest.
     pub frequencies_cpd: Vec<f64>,
-    /// Frames a second; `None` for a still.
+    /// Frames per second; `None` for a still image.
     pub fps: Option<f64>,
     /// Why the sequence has no value.
     pub missing: Option<String>,
-    /// JOD of the left and of the right eye, where this is of both.
+    /// JOD of the left and of the right eye, if this is the result of both eyes.
     pub eyes_jod: Option<[f64; 2]>,
 }
 
 /// A frame that could not be scored, or a whole comparison.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failure {
-    /// Frame number; `None`: the whole comparison.
+    /// Frame number; `None` if the whole comparison failed.
     pub frame: Option<i64>,
-    /// Reference file, of a frame.
+    /// Reference file of the frame.
     pub reference: String,
-    /// Test file, of a frame.
+    /// Test file of the frame.
     pub test: String,
     /// What is wrong, and where.
     pub message: String,
-    /// How to mend it.
+    /// How to correct it.
     pub help: String,
 }
 
-/// What one comparison found: a test sequence against its reference.
+/// The results of one comparison: a test sequence against its reference.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ScoreReport {
-    /// The view; `None` when none was given.
+    /// The view; `None` if none was given.
     pub view: Option<ViewResult>,
     /// The metrics, in the order of tables.
     pub metrics: Vec<Metric>,
@@ -105,16 +106,16 @@ pub struct ScoreReport {
     pub frames: Vec<FrameResult>,
     /// Frames that could not be scored.
     pub failures: Vec<Failure>,
-    /// Frames whose gaze was held over from an earlier one; `None` without a trace.
+    /// Number of frames whose gaze was kept from an earlier frame; `None` without a trace.
     pub gaze_held: Option<usize>,
-    /// What differences over time were taken along.
+    /// The motion and depth that temporal differences use.
     pub atd_guides: AtdGuides,
-    /// How FovVideoVDP sees it, where it is asked for.
+    /// The viewing conditions of FovVideoVDP, if the metric is requested.
     pub fvvdp: Option<FvvdpViewing>,
 }
 
 impl ScoreReport {
-    /// Edges of the bands, degrees; none without a view.
+    /// Edges of the bands in degrees; empty without a view.
     pub fn edges(&self) -> &[(f64, f64)] {
         self.view.as_ref().map(|view| view.bands_deg.as_slice()).unwrap_or_default()
     }
@@ -127,28 +128,28 @@ pub struct Comparison {
     pub scene: String,
     /// The method.
     pub method: String,
-    /// `left`, `right` or `both`; empty in a scene with one picture a frame.
+    /// `left`, `right` or `both`; empty if the scene has one image per frame.
     pub eye: &'static str,
-    /// What was found.
+    /// The results.
     pub report: ScoreReport,
 }
 
 /// An input of a run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Input {
-    /// The file, from the experiment's folder.
+    /// Path of the file, relative to the experiment's folder.
     pub path: String,
-    /// Its length.
+    /// Size of the file in bytes.
     pub bytes: u64,
-    /// Its SHA-256, in hexadecimal digits.
+    /// SHA-256 of the file, in hexadecimal digits.
     pub sha256: String,
 }
 
-/// Everything a run found.
+/// All results of a run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RunResults {
-    /// Scene by scene, within it method by method, within it eye by eye.
+    /// The comparisons, ordered by scene, then by method, then by eye.
     pub comparisons: Vec<Comparison>,
-    /// The files that were read, by path, where they were hashed.
+    /// The files that were read, ordered by path, if they were hashed.
     pub inputs: Vec<Input>,
 }

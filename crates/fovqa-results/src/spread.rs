@@ -28,7 +28,7 @@ impl Gathered {
         self.count += 1;
     }
 
-    /// `None` without a value.
+    /// The mean and extremes; `None` if there is no value.
     pub(crate) fn spread(&self) -> Option<Spread> {
         self.extremes.map(|(min, max)| Spread { mean: self.sum / self.count as f64, min, max })
     }

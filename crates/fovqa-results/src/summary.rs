@@ -1,4 +1,4 @@
-//! Means, extremes and pooled forms over the frames of a run.
+//! Means, extremes and pooled values over the frames of a run.
 
 use std::collections::BTreeMap;
 
@@ -9,85 +9,87 @@ use crate::fvvdp::FvvdpSummary;
 use crate::report::{FrameResult, GuideSource, ScoreReport};
 use crate::spread::{Gathered, Spread};
 
-/// One measure over the frames.
+/// The statistics of one measure over the frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Statistics {
-    /// The mean; of decibels, over the frames that have a finite value, and infinite where none
-    /// has: one identical frame must not lift the mean of all.
+    /// The mean. The mean of decibels uses only the frames with a finite value, and is infinite if
+    /// there are none, so that one identical frame does not raise the mean of all frames.
     pub mean: f64,
     /// The smallest value.
     pub min: f64,
     /// The largest value.
     pub max: f64,
-    /// For decibels: frames without any error.
+    /// For decibels: number of frames without any error.
     pub identical_frames: Option<usize>,
-    /// Of metrics that pool their frames (the decibels of all errors): the value of all together.
+    /// For metrics that pool their frames (decibels of the error of all frames): the pooled value.
     pub pooled: Option<f64>,
 }
 
-/// A measure of reference and test alike over the frames.
+/// The statistics over the frames of a measure that is computed for reference and test in the same
+/// way.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SideStatistics {
-    /// The reference's; `None` where no frame has a value.
+    /// Values of the reference; `None` if no frame has a value.
     pub reference: Option<Spread>,
-    /// The test's.
+    /// Values of the test; `None` if no frame has a value.
     pub test: Option<Spread>,
-    /// test / reference: of the means or, of maxima, of the largest.
+    /// test / reference: the ratio of the means or, for maxima, of the largest values.
     pub ratio: Option<f64>,
 }
 
-/// Differences over time of a whole sequence.
+/// Temporal differences of a whole sequence.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct AtdSummary {
-    /// Mean over frames, of the reference; `None` where no two frames could be compared.
+    /// Mean over the frames of the reference; `None` if no two frames could be compared.
     pub reference: Option<f64>,
-    /// The same of the test.
+    /// Mean over the frames of the test; `None` if no two frames could be compared.
     pub test: Option<f64>,
-    /// test / reference: the papers' percentage.
+    /// test / reference, which the papers give as a percentage.
     pub ratio: Option<f64>,
-    /// Share of the pixels that were left out, 0 to 1.
+    /// Share of the pixels that were left out, from 0 to 1.
     pub left_out: Option<f64>,
-    /// The same of the test, where it was compared along its own motion or depth.
+    /// Share of the pixels of the test that were left out, if the test used its own motion or
+    /// depth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub left_out_test: Option<f64>,
-    /// Frames that could be compared with the one before.
+    /// Number of frames that could be compared with the previous one.
     pub frames: usize,
-    /// Whose motion it was taken along.
+    /// Source of the motion.
     pub motion: GuideSource,
-    /// Whose depth.
+    /// Source of the depth.
     pub depth: GuideSource,
     /// Why a value is missing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
 
-/// One band over the frames.
+/// The statistics of one band over the frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BandSummary {
-    /// Lower edge.
+    /// Lower edge in degrees.
     pub from_deg: f64,
-    /// Upper edge.
+    /// Upper edge in degrees.
     pub to_deg: f64,
-    /// Pixels in all frames together.
+    /// Number of pixels in all frames together.
     pub pixels: u64,
-    /// Each measure; `None` where no frame has a value.
+    /// The statistics of each measure; `None` if no frame has a value.
     pub statistics: BTreeMap<Metric, Option<Statistics>>,
 }
 
 /// All measures over the frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
-    /// Whole frames.
+    /// Statistics of whole frames.
     pub statistics: BTreeMap<Metric, Statistics>,
-    /// Bands.
+    /// Statistics of the bands.
     pub bands: Vec<BandSummary>,
-    /// What is measured of each picture, by the key of its ratio, in the order of results.
+    /// Measures of each image, by the key of their ratio, in the order of results.
     pub compared: BTreeMap<Key, SideStatistics>,
-    /// How many values there are in all frames together, where a metric counts them.
+    /// Number of values in all frames together, for metrics that count them.
     pub counts: BTreeMap<Key, u64>,
-    /// Differences over time, where they are asked for.
+    /// Temporal differences, if they are requested.
     pub atd: Option<AtdSummary>,
-    /// FovVideoVDP, where it is asked for.
+    /// FovVideoVDP, if it is requested.
     pub fvvdp: Option<FvvdpSummary>,
 }
 
@@ -124,7 +126,7 @@ impl Summary {
         }
     }
 
-    /// What is measured of each picture, metric by metric, level by level, band by band.
+    /// Measures of each image, ordered by metric, level and band.
     pub(crate) fn compared_by_metric(&self) -> Vec<(Key, &SideStatistics)> {
         let mut compared: Vec<_> = self.compared.iter().map(|(key, of)| (*key, of)).collect();
         compared.sort_by_key(|(key, _)| (key.subject, key.level, key.band));
@@ -132,7 +134,7 @@ impl Summary {
     }
 }
 
-/// What is measured of each picture, over the frames.
+/// Measures of each image over the frames.
 fn compared(frames: &[FrameResult]) -> BTreeMap<Key, SideStatistics> {
     let mut values: BTreeMap<Key, Sides<Gathered>> = BTreeMap::new();
     for (key, sides) in frames.iter().flat_map(FrameResult::compared) {
@@ -153,7 +155,7 @@ impl SideStatistics {
         Self { ratio: statistics.headline(maximum).ratio(), ..statistics }
     }
 
-    /// What stands for all frames: the means or, of maxima, the largest.
+    /// The value that represents all frames: the mean or, for maxima, the largest value.
     pub fn headline(&self, maximum: bool) -> Sides<Option<f64>> {
         let of = |spread: Spread| if maximum { spread.max } else { spread.mean };
         Sides { reference: self.reference.map(of), test: self.test.map(of) }
@@ -203,7 +205,7 @@ impl AtdSummary {
 }
 
 impl Statistics {
-    /// Of the values of a key; `None` where no frame has one.
+    /// The statistics of the values of a key; `None` if no frame has one.
     fn of_key(frames: &[FrameResult], key: Key) -> Option<Self> {
         let rows = || FrameRows::of_frames(frames.iter().map(|frame| &frame.rows), key);
         let values = rows().filter_map(|row| row.value);
@@ -213,7 +215,7 @@ impl Statistics {
         Some(Self { pooled: statistic.pools_frames().then(pooled).flatten(), ..statistics })
     }
 
-    /// `None` without a value.
+    /// The statistics of some values; `None` if there are none.
     fn of(metric: Metric, values: impl Iterator<Item = f64>) -> Option<Self> {
         let values: Vec<f64> = values.collect();
         let min = values.iter().copied().reduce(f64::min)?;

@@ -1,4 +1,4 @@
-//! Baselines: what a gate compares with.
+//! Reads, saves and updates the baselines that a gate compares with.
 
 use std::path::Path;
 
@@ -11,14 +11,14 @@ use crate::finished_run::FinishedRun;
 /// Reads a baseline.
 ///
 /// # Errors
-/// When there is none in the file.
+/// If the file does not contain a baseline.
 pub fn read_baseline(path: &Path) -> Result<Baseline, Error> {
     Baseline::read(path).map_err(|error| {
         Error::input(error.to_string(), "`fovqa baseline save` makes a baseline from a run")
     })
 }
 
-/// The baseline of a run in which everything was scored.
+/// Makes the baseline of a run. Everything in the run must have been scored.
 fn of_run(results: &Path) -> Result<Baseline, Error> {
     let finished = FinishedRun::read(results)?;
     if let Some(error) = finished.values.errors.first() {
@@ -35,10 +35,10 @@ fn write(baseline: &Baseline, path: &Path) -> Result<(), Error> {
         .map_err(|error| Error::input(error.to_string(), "give another file"))
 }
 
-/// Saves the values of a run as a baseline, in a file that is not there yet.
+/// Saves the values of a run as a baseline in a new file.
 ///
 /// # Errors
-/// When it is there, or not everything was scored.
+/// If the file exists already, or not everything was scored.
 pub fn save_baseline(results: &Path, path: &Path) -> Result<Baseline, Error> {
     if replaces(path) {
         let message = format!("{}: the file already exists", path.display());
@@ -50,20 +50,20 @@ pub fn save_baseline(results: &Path, path: &Path) -> Result<Baseline, Error> {
     Ok(baseline)
 }
 
-/// A baseline renewed, and not written yet.
+/// An updated baseline that is not written yet.
 #[derive(Debug)]
 pub struct Accepted {
     baseline: Baseline,
-    /// What differs.
+    /// The values that differ.
     pub differences: Vec<Difference>,
-    /// Why the values of the run were taken otherwise than those before.
+    /// Why the values of the run were computed under other conditions than the old ones.
     pub taken_otherwise: Option<String>,
 }
 
-/// What a baseline becomes with the values of a run: of all its scenes, or of some.
+/// Updates a baseline with the values of a run, for all scenes or only for some.
 ///
 /// # Errors
-/// When one of them cannot be read, or the two do not fit.
+/// If the run or the baseline cannot be read, or they do not fit together.
 pub fn accept_baseline(results: &Path, path: &Path, scenes: &[String]) -> Result<Accepted, Error> {
     let before = read_baseline(path)?;
     let new = of_run(results)?;
@@ -77,10 +77,10 @@ pub fn accept_baseline(results: &Path, path: &Path, scenes: &[String]) -> Result
 }
 
 impl Accepted {
-    /// Writes it.
+    /// Writes the baseline to a file.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
         write(&self.baseline, path)
     }

@@ -1,4 +1,4 @@
-//! Files of curves, drawn.
+//! Makes the figures and tables of curves files.
 
 use std::path::{Path, PathBuf};
 
@@ -10,11 +10,12 @@ use fovqa_report::DrawnCurves;
 use crate::error::Error;
 use crate::finish::in_folder;
 
-/// Traces the curves of a file, and writes its values, figures and tables into a folder: `output`, or
-/// `reports/NAME` below the working directory, NAME being the file's.
+/// Computes the curves of a file, and writes its values, figures and tables into a folder. The
+/// folder is `output`, or `reports/NAME` in the working directory, where NAME is the name in the
+/// file.
 ///
 /// # Errors
-/// When a curve cannot be, or the folder cannot be written to.
+/// If a curve is not possible, or the folder cannot be written to.
 pub fn curves(
     file: &CurvesFile,
     output: Option<&Path>,

@@ -1,20 +1,20 @@
-//! What can go wrong: what, where, and how to mend it.
+//! Errors. Each says what is wrong, where, and how to correct it.
 
 use fovqa_config::ExperimentError;
 use fovqa_engine::EngineError;
 use thiserror::Error;
 
-/// Something that cannot be done.
+/// Why a request cannot be fulfilled.
 ///
-/// Help texts have settings in braces, `{alpha=ignore}`: whoever shows them spells those as the user gives
-/// them, as an option of a command or as a key of an experiment file.
+/// Help texts contain settings in braces, `{alpha=ignore}`. The code that shows a text replaces
+/// them by what the user writes: an option of a command, or a key of an experiment file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// An experiment file, or a file of curves, with mistakes in it.
+    /// An experiment file or a curves file that contains mistakes.
     #[error(transparent)]
     Experiment(#[from] ExperimentError),
-    /// What was asked for cannot be: nothing was read.
+    /// The request is not possible. Nothing was read.
     #[error("{}", listed(.0))]
     Usage(Vec<Complaint>),
     /// An input is missing, unreadable or does not fit, or an output cannot be written.
@@ -22,27 +22,27 @@ pub enum Error {
     Input(Vec<Complaint>),
 }
 
-/// One thing that is wrong.
+/// One error.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Complaint {
     /// What is wrong, and where.
     pub message: String,
-    /// How to mend it; may be empty.
+    /// How to correct it; may be empty.
     pub help: String,
 }
 
 impl Error {
-    /// An error of what was asked for.
+    /// An error in the request.
     pub(crate) fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Usage(vec![Complaint { message: message.into(), help: help.into() }])
     }
 
-    /// An error of an input or an output.
+    /// An error in an input or an output.
     pub(crate) fn input(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Input(vec![Complaint { message: message.into(), help: help.into() }])
     }
 
-    /// Whether what was asked for is wrong, rather than an input.
+    /// Whether the error is in the request rather than in an input.
     pub fn is_usage(&self) -> bool {
         !matches!(self, Self::Input(_))
     }

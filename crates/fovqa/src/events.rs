@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use fovqa_engine::Events;
 
-/// Nobody.
+/// A listener that ignores everything.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Silent;
 
@@ -14,7 +14,7 @@ impl Events for Silent {
     fn progress(&self, _done: usize, _total: usize) {}
 }
 
-/// Collects the warnings.
+/// A listener that collects the warnings.
 #[derive(Debug, Default)]
 pub(crate) struct Kept(pub(crate) RefCell<Vec<String>>);
 

@@ -1,4 +1,4 @@
-//! Experiment files.
+//! Reads experiment files and curves files.
 
 use std::path::Path;
 
@@ -6,10 +6,10 @@ use fovqa_plan::{CurvesFile, Experiment};
 
 use crate::error::Error;
 
-/// Reads an experiment file. No other file is looked at.
+/// Reads an experiment file. No other file is read.
 ///
 /// # Errors
-/// When it cannot be read, or has mistakes in it: all that can be told, in one go.
+/// If it cannot be read or contains mistakes. All mistakes that can be found are returned together.
 pub fn read_experiment(path: &Path) -> Result<Experiment, Error> {
     if matches!(fovqa_config::is_curves(path), Ok(true)) {
         let message = format!("{}: this is a curve file", path.display());
@@ -19,10 +19,10 @@ pub fn read_experiment(path: &Path) -> Result<Experiment, Error> {
     Ok(fovqa_config::read_experiment(path)?)
 }
 
-/// Reads a file of curves. No other file is looked at.
+/// Reads a curves file. No other file is read.
 ///
 /// # Errors
-/// When it cannot be read, or has mistakes in it.
+/// If it cannot be read or contains mistakes.
 pub fn read_curves(path: &Path) -> Result<CurvesFile, Error> {
     Ok(fovqa_config::read_curves(path)?)
 }

@@ -1,4 +1,4 @@
-//! What is left to do once everything is scored: files, tables, figures.
+//! Steps after scoring: writes files, tables and figures.
 
 use std::path::Path;
 
@@ -13,20 +13,21 @@ use fovqa_results::{
 
 use crate::error::Error;
 
-/// Takes away what an earlier run has left, so that it cannot be taken for this one's.
+/// Removes the results of an earlier run, so that they cannot be mistaken for the results of this
+/// one.
 pub(crate) fn clear(folder: &ResultsFolder) -> Result<(), Error> {
     folder.clear().map_err(|error| in_folder(&error))?;
     fovqa_report::clear(folder.path());
     Ok(())
 }
 
-/// An error of a folder of results.
+/// Converts an error of a results folder.
 pub(crate) fn in_folder(error: &FolderError) -> Error {
     Error::input(error.to_string(), error.help())
 }
 
-/// Writes the results and draws them; how many errors there were, and what was drawn. What could not be
-/// scored is said.
+/// Writes the results and the report. Returns the number of errors and what the report contains.
+/// Reports the items that could not be scored.
 pub(crate) fn finish(
     experiment: &Experiment,
     results: RunResults,
@@ -55,11 +56,11 @@ pub fn text_hash(text: &str) -> String {
     id_of(text.as_bytes()).map(|id| id.sha256).unwrap_or_default()
 }
 
-/// What is left to do when only the drawing failed.
+/// The help text for the case that only the tables and figures failed.
 const DRAW_AGAIN: &str =
     "the results are written; correct this problem, and `fovqa report` draws them";
 
-/// Says what could not be scored of a shard, which has no results of its own.
+/// Reports the items of a shard that could not be scored. A shard has no results of its own.
 pub(crate) fn say_failures_of_shard(failures: &[(Named<'_>, &Failure)], events: &dyn Events) {
     let place = |named: &Named<'_>| {
         let (scene, method) = (named.scene.to_owned(), named.method.to_owned());
@@ -69,7 +70,8 @@ pub(crate) fn say_failures_of_shard(failures: &[(Named<'_>, &Failure)], events: 
     say_failures(failures, "the journal of the shard", events);
 }
 
-/// Says what could not be scored; of a great many, the first.
+/// Reports the items that could not be scored. If there are very many, only the first ones are
+/// reported.
 fn say_failures<'a, T: AsRef<str>>(
     failures: impl Iterator<Item = ([Option<T>; 3], &'a Failure)>,
     all: &str,

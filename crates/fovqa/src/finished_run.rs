@@ -1,4 +1,4 @@
-//! The folder of a finished run, read for whoever looks at its values.
+//! Reads the folder of a finished run.
 
 use std::path::Path;
 
@@ -9,14 +9,14 @@ use fovqa_results::{
 
 use crate::error::Error;
 
-/// What a run was of, and what it found.
+/// The record and the values of a finished run.
 #[derive(Debug)]
 pub struct FinishedRun {
-    /// What it was of.
+    /// The record: experiment, settings and inputs.
     pub record: RunRecord,
-    /// Its values.
+    /// The values.
     pub values: RunValues,
-    /// What the user should know of its files.
+    /// A warning about its files.
     pub warning: Option<String>,
 }
 
@@ -24,7 +24,7 @@ impl FinishedRun {
     /// Reads the folder of a run.
     ///
     /// # Errors
-    /// When there is no finished run in it, or it is damaged.
+    /// If it contains no finished run, or the run is damaged.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         if !folder.join(RUN_JSON).is_file() {
             let shown = folder.display();
@@ -45,7 +45,8 @@ impl FinishedRun {
         let read = || -> Result<Self, FileError> {
             let record: RunRecord =
                 read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
-            // What is wrong in them says more than that something is.
+            // The values are read before the checksums, because their errors explain more than a
+            // wrong checksum.
             let values = RunValues::read(folder, (&record.resolved).into())?;
             let warning = check_files(folder, &record)?;
             Ok(Self { record, values, warning })

@@ -1,4 +1,4 @@
-//! A gate: the rules of an experiment held against the values of a run.
+//! A gate checks the values of a run against the rules of an experiment.
 
 use std::path::{Path, PathBuf};
 
@@ -11,12 +11,13 @@ use crate::finish::text_hash;
 use crate::finished_run::FinishedRun;
 use crate::run::{Run, RunOptions};
 
-/// Scores an experiment and holds its rules against what comes out, and that against a baseline where one is
-/// given. `file` is what the verdict calls the experiment's file.
+/// Scores an experiment and checks the values against its rules and, if one is given, against a
+/// baseline. `file` is the name of the experiment file in the verdict.
 ///
 /// # Errors
-/// When there is no rule, a rule lacks its baseline, the baseline is of values that were taken otherwise, or
-/// the run cannot be. Frames that could not be scored are said, and stand in the verdict.
+/// If there are no rules, a rule needs a baseline and none is given, the values of the baseline
+/// were computed under other conditions, or the run is not possible. Frames that could not be
+/// scored are reported and are part of the verdict.
 pub fn gate(
     experiment: Experiment,
     options: RunOptions,
@@ -27,7 +28,7 @@ pub fn gate(
     let file = experiment.path.clone();
     check(&experiment.gates, &file, baseline)?;
     let run = Run::new(experiment, options, given)?;
-    // Before anything is scored.
+    // The baseline is checked before anything is scored.
     let baseline = fitting(baseline, &run.experiment().resolved())?;
     let scored = run.start(events)?;
     events.note(&scored.in_words());
@@ -38,10 +39,10 @@ pub fn gate(
     Ok(judge(&finished, &file.display().to_string(), baseline.as_ref()))
 }
 
-/// Holds the rules of a finished run against its values.
+/// Checks the values of a finished run against its rules.
 ///
 /// # Errors
-/// As [`gate`], and when there is no finished run in the folder.
+/// See [`gate`]. It is also an error if the folder contains no finished run.
 pub fn gate_folder(folder: &Path, baseline: Option<&Path>) -> Result<Verdict, Error> {
     let finished = FinishedRun::read(folder)?;
     let resolved = &finished.record.resolved;
@@ -66,7 +67,7 @@ fn judge(finished: &FinishedRun, file: &str, baseline: Option<&Baseline>) -> Ver
     verdict
 }
 
-/// Whether there are rules, and what they need.
+/// Checks that there are rules, and that a baseline is given if they need one.
 fn check(rules: &[GateRule], file: &Path, baseline: Option<&Path>) -> Result<(), Error> {
     let file = file.display();
     if rules.is_empty() {
@@ -86,7 +87,7 @@ fn check(rules: &[GateRule], file: &Path, baseline: Option<&Path>) -> Result<(),
     Ok(())
 }
 
-/// The baseline, where one is given, if it is of what is scored.
+/// Reads the baseline, if one is given, and checks that it fits the run.
 fn fitting(path: Option<&Path>, run: &Resolved) -> Result<Option<Baseline>, Error> {
     let Some(path) = path else { return Ok(None) };
     let baseline = Baseline::read(path).map_err(|error| {
@@ -99,10 +100,12 @@ fn fitting(path: Option<&Path>, run: &Resolved) -> Result<Option<Baseline>, Erro
     Err(Error::input(message, help))
 }
 
-/// Limits for the rules of an experiment, from the spread of repeated runs of one build.
+/// Proposes limits for the rules of an experiment, from the variation between repeated runs of one
+/// build.
 ///
 /// # Errors
-/// When there are fewer than two runs, they are of something else, or have nothing that the rules are of.
+/// If there are fewer than two runs, or they belong to another experiment, or contain no values
+/// that the rules apply to.
 pub fn calibrate(experiment: &Experiment, folders: &[PathBuf]) -> Result<Calibration, Error> {
     if experiment.gates.is_empty() {
         let message = format!("{}: it has no [[gate]] rule", experiment.path.display());

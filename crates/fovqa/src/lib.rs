@@ -1,8 +1,9 @@
-//! Scores foveated renders against ground truth, by eccentricity: what the command `fovqa` does, for programs.
+//! Scores foveated renders against ground truth by eccentricity. This crate offers the functions of the command
+//! `fovqa` to programs.
 //!
-//! # A pair of pictures
+//! # A pair of images
 //!
-//! [`score`] compares two pictures in memory. The numbers are those of `fovqa score`, to the last bit.
+//! [`score`] compares two images in memory. The numbers are exactly those of `fovqa score`.
 //!
 //! ```
 //! use fovqa::{Metric, ScoreOptions, Settings, ViewSpec, score};
@@ -29,9 +30,9 @@
 //! # Experiments
 //!
 //! An experiment names scenes, methods and metrics. [`read_experiment`] reads one from a TOML file, and a program
-//! may build one by hand ([`Experiment`], [`Plan`]). A [`Run`] finds its frames and scores them; results, tables
-//! and figures go to a folder, as `fovqa run` writes them. [`gate`] holds the rules of an experiment against
-//! what comes out.
+//! can also build one itself ([`Experiment`], [`Plan`]). A [`Run`] finds its frames and scores them. It writes
+//! results, tables and figures to a folder, as `fovqa run` does. [`gate`] checks the scores against the rules of
+//! an experiment.
 //!
 //! ```no_run
 //! use std::path::Path;
@@ -46,15 +47,15 @@
 //!
 //! # Frames from elsewhere
 //!
-//! Whatever implements [`Source`] is a sequence of frames: a plan names it ([`SourceSpec::Given`]), and
-//! whoever runs the plan gives it ([`Given`]). [`open_source`] is the source of a path, [`video_stream`] that of
-//! anything that gives the bytes of a y4m video.
+//! Any type that implements [`Source`] is a sequence of frames. A plan names it ([`SourceSpec::Given`]), and the
+//! program that runs the plan provides it ([`Given`]). [`open_source`] opens the source at a path. [`video_stream`]
+//! makes a source from any reader of the bytes of a y4m video.
 //!
 //! # Work for other processes
 //!
-//! [`units`] cuts a plan into stretches that can be scored by themselves. A [`Task`] is one of them with its plan;
-//! it is written as JSON, run anywhere that sees the same files, and its findings are written in turn and
-//! put together again ([`TaskFindings::merge`], [`results`]).
+//! [`units`] splits a plan into parts that can be scored independently. A [`Task`] is one unit with its plan. It
+//! can be written as JSON and run in any process that sees the same files. Its findings are written as text too,
+//! and the findings of all tasks are merged again ([`TaskFindings::merge`], [`results`]).
 
 mod baseline;
 mod curves;

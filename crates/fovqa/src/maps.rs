@@ -1,4 +1,4 @@
-//! Maps of each frame, as files: the values, and their pictures in colours.
+//! Writes the maps of each frame to files: the values, and images of them in colour.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -8,11 +8,11 @@ use fovqa_io::{exr_gray, exr_gray_half, png_rgb8};
 use fovqa_metrics::{Map, Metric};
 use fovqa_results::{FileError, FrameResult, make_folder, write_whole};
 
-/// A folder for maps.
+/// The folder that maps are written to.
 #[derive(Debug)]
 pub(crate) struct MapsFolder {
     folder: PathBuf,
-    /// Whether frames of several comparisons meet there, each in a folder of its own.
+    /// Whether several comparisons write to the folder. Each then has a subfolder.
     several: bool,
 }
 
@@ -21,7 +21,7 @@ impl MapsFolder {
         Self { folder, several }
     }
 
-    /// The folder of a comparison.
+    /// The folder for a comparison.
     fn folder(&self, named: Named<'_>) -> PathBuf {
         let mut folder = self.folder.clone();
         if self.several {
@@ -31,7 +31,7 @@ impl MapsFolder {
         folder
     }
 
-    /// Whether those of a frame are there, of the metrics that it has and that have some.
+    /// Whether the maps of a frame exist, for all its metrics that have maps.
     pub(crate) fn has(&self, named: Named<'_>, frame: &FrameResult) -> bool {
         let folder = self.folder(named);
         let scored = Metric::ALL.into_iter().filter(|metric| frame.rows.has(*metric));
@@ -41,7 +41,7 @@ impl MapsFolder {
         maps.all(|map| there(folder.join(values_file(map.name, frame.frame))))
     }
 
-    /// Writes those of a pair, where it has some.
+    /// Writes the maps of a pair, if there are any.
     pub(crate) fn write(&self, entry: &Entry<'_>) -> Result<(), EngineError> {
         let Entry::Pair(Finished { named, maps, result: Ok(frame), .. }) = *entry else {
             return Ok(());
@@ -68,7 +68,7 @@ impl MapsFolder {
     }
 }
 
-/// Why maps cannot be asked for: none of the metrics has one.
+/// Why maps cannot be requested: none of the metrics has one.
 pub fn maps_lacking(metrics: &[Metric]) -> Option<String> {
     let has = |metric: &Metric| metric.info().map.is_some();
     (!metrics.iter().any(has)).then(|| {
@@ -80,7 +80,7 @@ pub fn maps_lacking(metrics: &[Metric]) -> Option<String> {
     })
 }
 
-/// The files of a map, by their names.
+/// The files of a map, with their names.
 fn files(map: &Map, frame: i64) -> Vec<(String, io::Result<Vec<u8>>)> {
     let Map { name, width, height, values, .. } = map;
     let values = if map.is_half {
@@ -93,7 +93,7 @@ fn files(map: &Map, frame: i64) -> Vec<(String, io::Result<Vec<u8>>)> {
         let bytes = png_rgb8(*width, *height, &picture.codes);
         (format!("{name}-{}.png", padded(frame)), bytes)
     });
-    // The values last: where they are there, all are.
+    // The values are written last: if they exist, all files of the map exist.
     pictures.chain([(values_file(name, frame), values)]).collect()
 }
 
@@ -102,7 +102,7 @@ fn values_file(map: &str, frame: i64) -> String {
     format!("{map}-{}.exr", padded(frame))
 }
 
-/// A frame's number with four digits at least, behind the minus sign of a negative one.
+/// The number of a frame with at least four digits, after the minus sign if it is negative.
 fn padded(frame: i64) -> String {
     let sign = if frame < 0 { "-" } else { "" };
     format!("{sign}{:04}", frame.unsigned_abs())

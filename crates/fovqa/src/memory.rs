@@ -1,11 +1,11 @@
-//! Pictures in memory as a source of frames.
+//! Images in memory as a source of frames.
 
 use fovqa_frame::Frame;
 use fovqa_frame::source::{
     Entry, Frames, Listing, Numbering, Origin, Picture, PictureGuides, Source, SourceError,
 };
 
-/// One picture in memory.
+/// One image in memory.
 #[derive(Debug)]
 pub(crate) struct InMemory {
     listing: Listing,

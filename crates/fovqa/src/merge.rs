@@ -1,4 +1,4 @@
-//! The shards of a run to its results.
+//! Merges the shards of a run into its results.
 
 use std::path::{Path, PathBuf};
 
@@ -9,11 +9,11 @@ use crate::error::Error;
 use crate::finish::{clear, finish, in_folder};
 use crate::run::Finished;
 
-/// Puts the shards of a run together: what a run of all of it would have written. Neither the experiment file
-/// nor the frames are needed.
+/// Merges the shards of a run. The results are the same as those of the whole run. Neither the
+/// experiment file nor the frames are needed.
 ///
 /// # Errors
-/// When shards are missing or do not belong together, or the results cannot be written or drawn.
+/// If shards are missing or do not belong together, or the results cannot be written.
 pub fn merge(
     shards: &[PathBuf],
     output: &Path,
@@ -34,7 +34,7 @@ pub fn merge(
     };
     let plan = &experiment.plan;
     let findings = read.findings(plan).map_err(failed)?;
-    // Nothing is written before all of it is known to be right.
+    // Nothing is written until all shards are known to be correct.
     let folder = ResultsFolder::open(output, locking).map_err(|error| in_folder(&error))?;
     clear(&folder)?;
     Journal::begin(folder.path(), header, plan, &findings)?;
@@ -45,7 +45,7 @@ pub fn merge(
     Ok(Finished { folder: folder.path().to_owned(), scored, errors, drawn: Some(drawn) })
 }
 
-/// The experiment whose text a journal has.
+/// The experiment whose text is in a journal.
 fn experiment(header: &Header) -> Option<Experiment> {
     let path = Path::new(header.experiment_file());
     let text = header.experiment_text().to_owned();

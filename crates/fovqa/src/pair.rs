@@ -1,4 +1,4 @@
-//! A pair of pictures in memory, scored.
+//! Scores a pair of images in memory.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,50 +18,52 @@ use crate::score::comparison;
 /// How a pair is scored.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ScoreOptions {
-    /// How the pictures are seen and what becomes of their values: view, gaze, bands, signal, crop, mask.
+    /// How the images are viewed and how their values are interpreted: view, gaze, bands, signal,
+    /// crop and mask.
     pub settings: Settings,
-    /// Which metrics; by default [`Metric::DEFAULT`], less what does not fit.
+    /// The metrics; by default [`Metric::DEFAULT`], without those that do not fit.
     pub metrics: MetricChoice,
-    /// Their parameters.
+    /// Parameters of the metrics.
     pub params: ParamSet,
-    /// Whether maps are made of the metrics that have one.
+    /// Whether to make maps for the metrics that have one.
     pub maps: bool,
 }
 
-/// What was measured of a pair.
+/// The scores of a pair.
 #[derive(Debug, Clone)]
 pub struct PairScores {
-    /// Every value, as the command writes it ([`write_json`](crate::write_json),
+    /// All values, in the form that the command writes ([`write_json`](crate::write_json),
     /// [`write_csv`](crate::write_csv)).
     pub report: ScoreReport,
-    /// The maps, where they were asked for.
+    /// The maps, if they were requested.
     pub maps: Vec<ScoreMap>,
-    /// What the user should know: a sentence each.
+    /// Warnings for the user. Each is one sentence.
     pub warnings: Vec<String>,
 }
 
 /// A value for each pixel, or for each block of pixels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScoreMap {
-    /// What it is of: `ssim`, `squared_error`.
+    /// Name of the map, such as `ssim` or `squared_error`.
     pub name: &'static str,
-    /// Height x width.
+    /// Values with the shape height x width.
     pub values: Array2<f32>,
 }
 
 impl PairScores {
-    /// A metric's own value; `None` where it has none, or was not asked for.
+    /// A metric's own value; `None` if it has none or was not requested.
     pub fn value(&self, metric: Metric) -> Option<f64> {
         let frame: &FrameResult = self.report.frames.first()?;
         frame.rows.get(Key::of(metric))?.value
     }
 }
 
-/// Scores a test picture against a reference: arrays of height x width x channel, with one channel (gray) or
-/// three (RGB), of `u8`, `u16` or `f32`. The values are those of `fovqa score` to the last bit.
+/// Scores a test image against a reference. Both are arrays of height x width x channel with one
+/// channel (gray) or three (RGB), of type `u8`, `u16` or `f32`. The values are exactly those of
+/// `fovqa score`.
 ///
 /// # Errors
-/// When an array is no picture, the two have different sizes, or what was asked for cannot be.
+/// If an array is not an image, the two have different sizes, or the request is not possible.
 #[allow(clippy::needless_pass_by_value, reason = "a view is a borrow already")]
 pub fn score<R: Sample, T: Sample>(
     reference: ArrayView3<'_, R>,

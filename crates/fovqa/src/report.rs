@@ -1,4 +1,4 @@
-//! Tables and figures of a finished run, drawn again.
+//! Makes the tables and figures of a finished run again.
 
 use std::path::Path;
 
@@ -9,20 +9,20 @@ use fovqa_results::{CURVES_JSON, RUN_JSON};
 use crate::error::Error;
 use crate::finish::in_folder;
 
-/// What was drawn of a folder.
+/// What was made for a folder.
 #[derive(Debug)]
 pub enum Report {
     /// The tables and figures of a run.
     Run(Drawn),
-    /// A page over so many folders of results in it.
+    /// A page about this number of results folders in it.
     Index(usize),
 }
 
-/// Draws the tables, figures and page of a run again, without scoring; or, of a folder with several such
-/// folders in it, a page over all of them.
+/// Makes the tables, figures and page of a run again, without scoring. For a folder that contains
+/// several such folders, makes a page about all of them.
 ///
 /// # Errors
-/// When there is nothing in it that can be drawn, or it cannot be written to.
+/// If the folder contains no results, or cannot be written to.
 pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
     let shown = folder.display();
     if folder.join(CURVES_JSON).is_file() {
@@ -38,7 +38,8 @@ pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
             return Ok(Report::Index(folders));
         }
     }
-    // Looked at first: a folder that is none of ours must not become one.
+    // This is checked before the folder is opened, because a folder that contains no run must not
+    // be marked as a results folder.
     if !folder.join(RUN_JSON).is_file() {
         return Err(match shard_in(folder) {
             Some(shard) => Error::input(

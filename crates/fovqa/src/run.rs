@@ -1,4 +1,5 @@
-//! An experiment, run: frames found and scored, results written and drawn. Or one shard of the scores.
+//! Runs an experiment or one of its shards: finds and scores the frames, and writes results, tables
+//! and figures.
 
 use std::path::{Path, PathBuf};
 
@@ -18,18 +19,18 @@ use crate::maps::{MapsFolder, maps_lacking};
 /// How an experiment is run.
 #[derive(Debug, Clone, Default)]
 pub struct RunOptions {
-    /// The folder for the results; `None`: `reports/NAME` below the working directory, NAME being the
-    /// experiment's, or `reports/NAME-shard-I-of-N`.
+    /// The folder for the results. `None` stands for `reports/NAME` in the working directory, where
+    /// NAME is the name of the experiment, or for `reports/NAME-shard-I-of-N`.
     pub output: Option<PathBuf>,
-    /// Whether to go on with a run that was broken off.
+    /// Whether to continue a run that was interrupted.
     pub resume: bool,
-    /// Only this share of all frames; [`merge`](crate::merge) puts shards together.
+    /// Scores only this shard. [`merge`](crate::merge) combines the shards.
     pub shard: Option<Shard>,
-    /// Only these of each scene's frames.
+    /// Scores only these frames of each scene.
     pub frames: Option<FrameRange>,
     /// A folder for the maps of each frame.
     pub maps: Option<PathBuf>,
-    /// Whether the folder of the results is locked.
+    /// Whether the results folder is locked.
     pub locking: Locking,
 }
 
@@ -41,21 +42,21 @@ pub struct Run {
     found: FoundInputs,
 }
 
-/// How a run ended.
+/// The result of a run.
 #[derive(Debug)]
 pub struct Finished {
-    /// The folder of the results.
+    /// The results folder.
     pub folder: PathBuf,
-    /// Frames that were scored.
+    /// Number of frames that were scored.
     pub scored: usize,
-    /// How many things could not be scored. Each has been said.
+    /// Number of items that could not be scored. Each was reported.
     pub errors: usize,
-    /// What was drawn; `None` of a shard, which has no results of its own.
+    /// The tables and figures; `None` for a shard, which has no results of its own.
     pub drawn: Option<Drawn>,
 }
 
 impl Finished {
-    /// Where its results are, in words.
+    /// States in words where the results are.
     pub fn in_words(&self) -> String {
         let folder = self.folder.display();
         let figures = match self.drawn.as_ref().map_or(0, |drawn| drawn.figures) {
@@ -68,7 +69,7 @@ impl Finished {
         format!("{folder}: {table}, summary.json{figures}; look at {folder}/index.html")
     }
 
-    /// How much of it could not be scored, in words; `None`: all was.
+    /// States in words how many items could not be scored; `None` if everything was scored.
     pub fn errors_in_words(&self) -> Option<String> {
         let errors = match self.errors {
             0 => return None,
@@ -83,12 +84,12 @@ impl Finished {
 }
 
 impl Run {
-    /// Finds the frames of an experiment. Reads names and gaze traces, no pixels. `given` are the sources
-    /// that its plan names and does not have.
+    /// Finds the frames of an experiment. Reads names and gaze traces, but no pixels. `given` are
+    /// the sources that its plan names but does not contain.
     ///
     /// # Errors
-    /// When what was asked for cannot be. Frames that are not there are no error yet: the others are
-    /// scored all the same.
+    /// If the request is not possible. Frames that do not exist are not an error yet; the other
+    /// frames are still scored.
     pub fn new(experiment: Experiment, options: RunOptions, given: &Given) -> Result<Self, Error> {
         let mut experiment = experiment;
         experiment.plan.frames = options.frames;
@@ -120,23 +121,25 @@ impl Run {
         &self.found
     }
 
-    /// The units of work of it, or of its shard.
+    /// The units of work of the run, or of its shard.
     pub fn units(&self) -> Vec<Unit> {
         units(&self.found, self.options.shard)
     }
 
-    /// What is wrong with its inputs as a whole.
+    /// Errors that concern the inputs as a whole.
     pub fn problems(&self) -> Vec<Complaint> {
         problems(&self.experiment, &self.found)
     }
 
-    /// Scores it, writes the results and draws them.
+    /// Scores the frames, and writes the results, tables and figures.
     ///
     /// # Errors
-    /// When the results cannot be written or drawn. What could not be scored is said, and counted.
+    /// If the results or the figures cannot be written. Items that could not be scored are reported
+    /// and counted.
     pub fn start(&self, events: &dyn Events) -> Result<Finished, Error> {
         let folder = self.options.output.clone().unwrap_or_else(|| self.default_folder());
-        // Before anything is scored: a folder that cannot be written to is found now.
+        // The folder is opened before anything is scored, so that a folder that cannot be written
+        // to is noticed at once.
         let folder = ResultsFolder::open(&folder, self.options.locking)
             .map_err(|error| in_folder(&error))?;
         let maps = self.options.maps.as_deref();
@@ -176,7 +179,7 @@ impl Run {
         })
     }
 
-    /// What an earlier run of the same has left; what keeps it from being of use is said.
+    /// The findings of an earlier identical run. If they cannot be used, the reason is reported.
     fn known(
         &self,
         folder: &ResultsFolder,
@@ -240,7 +243,7 @@ impl Run {
     }
 }
 
-/// What is wrong with the inputs of an experiment as a whole.
+/// Errors that concern the inputs of an experiment as a whole.
 pub fn problems(experiment: &Experiment, found: &FoundInputs) -> Vec<Complaint> {
     let complaint = |problem: &fovqa_engine::Problem| {
         let scene = &experiment.plan.scenes[problem.scene];

@@ -1,14 +1,15 @@
-//! Arrays to frames.
+//! Converts arrays to frames.
 
 use fovqa_frame::{Channels, Frame, Samples};
 use ndarray::ArrayView3;
 
 use crate::error::Error;
 
-/// What an array may hold: codes of 8 or 16 bits, encoded for a display, or floats, which are linear light
-/// unless the settings say otherwise ([`SignalParams::transfer`](crate::SignalParams)).
+/// The element type of an array. `u8` and `u16` are codes that are encoded for a display. Floats
+/// are linear values unless the settings state another transfer function
+/// ([`SignalParams::transfer`](crate::SignalParams)).
 pub trait Sample: Copy + sealed::Sealed {
-    /// The samples of a picture of height x width x channel.
+    /// The samples of an image of height x width x channel.
     #[doc(hidden)]
     fn samples(pixels: ArrayView3<'_, Self>) -> Samples;
 }
@@ -34,7 +35,7 @@ impl Sample for u16 {
 
 impl Sample for f32 {
     fn samples(pixels: ArrayView3<'_, Self>) -> Samples {
-        // Floats are kept one channel after the other.
+        // Floats are stored one channel after another.
         Samples::F32(pixels.permuted_axes([2, 0, 1]).iter().copied().collect())
     }
 }
@@ -42,7 +43,7 @@ impl Sample for f32 {
 /// The frame of an array of height x width x channel, with one channel (gray) or three (RGB).
 ///
 /// # Errors
-/// When it has no pixels, or another number of channels.
+/// If it has no pixels, or another number of channels.
 #[allow(clippy::needless_pass_by_value, reason = "a view is a borrow already")]
 pub(crate) fn frame<T: Sample>(name: &str, pixels: ArrayView3<'_, T>) -> Result<Frame, Error> {
     let (height, width, channels) = pixels.dim();

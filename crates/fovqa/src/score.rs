@@ -1,4 +1,4 @@
-//! The one comparison of a plan: what `fovqa score` does.
+//! Scores the only comparison of a plan, as `fovqa score` does.
 
 use std::path::Path;
 
@@ -9,12 +9,12 @@ use fovqa_results::ScoreReport;
 use crate::error::Error;
 use crate::maps::{MapsFolder, maps_lacking};
 
-/// Scores the one comparison of a plan, and writes the maps of its frames into a folder, where one is given.
-/// Whatever is wrong with the whole of it is an error; frames that cannot be scored are failures in the
-/// report.
+/// Scores the only comparison of a plan. If a folder is given, the maps of its frames are written
+/// there. A problem with the whole comparison is an error; frames that cannot be scored are
+/// failures in the report.
 ///
 /// # Errors
-/// When the plan cannot be, frames do not pair, or a map cannot be written.
+/// If the plan is not possible, frames have no partner, or a map cannot be written.
 pub fn score_files(
     plan: &Plan,
     given: &Given,

@@ -174,7 +174,7 @@ impl CurvesArgs {
                 model.set(name, value).map_err(|error| error.to_string())?;
             }
             model.curve().map_err(|error| error.to_string())?;
-            // Not used, but a slip in it is still a slip.
+            // The value is not used here, but a mistake in it is still reported.
             if let Some(view) = self.view.spec()? {
                 view.check().map_err(|error| error.to_string())?;
             }

@@ -1,4 +1,4 @@
-//! `--motion`, `--depth`: what differences over time are taken along.
+//! `--motion` and `--depth`: the motion and depth that temporal differences use.
 
 use std::path::PathBuf;
 
@@ -66,11 +66,11 @@ fn motion(text: &str) -> Result<MotionChannels, String> {
     }))
 }
 
-/// What `--motion` may be.
+/// The forms that `--motion` accepts.
 const MOTION_FORMS: &str = "write auto, none, blender, falcor, unreal, mitsuba, two channels \
                             separated by a comma, or RENDERER:X,Y with the two channels of a renderer";
 
-/// The sign in front of the name of a channel, where there is one, and the name.
+/// The sign before the name of a channel, if there is one, and the name.
 fn signed(name: &str) -> (Option<f64>, &str) {
     match (name.strip_prefix('-'), name.strip_prefix('+')) {
         (Some(name), _) => (Some(-1.0), name),
@@ -79,8 +79,8 @@ fn signed(name: &str) -> (Option<f64>, &str) {
     }
 }
 
-/// Refuses names under which a renderer writes other values than pixels to the right and down, where
-/// nothing says that these are.
+/// Refuses channel names for which a renderer writes other values than pixels to the right and
+/// down, unless the argument states the form of the values.
 fn check_plain(channels: &[String; 2]) -> Result<(), String> {
     match GuidePreset::of_motion(channels).filter(|preset| !preset.is_plain()) {
         None => Ok(()),

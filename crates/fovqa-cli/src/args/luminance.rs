@@ -43,6 +43,6 @@ pub(super) fn luminance(text: &str) -> Result<Luminance, String> {
     Ok(luminance)
 }
 
-/// Of [`luminance`].
+/// The keys that [`luminance`] accepts.
 const KEYS: [&str; 7] =
     ["peak_cd_m2", "contrast", "min_cd_m2", "ambient_lux", "reflectivity", "eotf", "gamma"];

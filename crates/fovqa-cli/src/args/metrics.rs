@@ -39,7 +39,8 @@ fn assignment(text: &str) -> Result<Assignment, String> {
     let (name, param) = name.trim().split_once('.').ok_or_else(form)?;
     let metric = metric(name)?;
     let value = literal(value.trim())?;
-    // Said here, where the argument is at hand; later only what values do together is checked.
+    // The value is checked here, where the argument is known. Later, only combinations of values
+    // are checked.
     Params::default().set(metric, param, &value).map_err(|error| error.to_string())?;
     Ok(Assignment { metric, param: param.to_owned(), value })
 }

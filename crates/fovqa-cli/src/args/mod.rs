@@ -1,4 +1,4 @@
-//! The command line, as clap sees it.
+//! The command line as it is declared to clap.
 
 mod baseline;
 mod curves;

@@ -1,8 +1,8 @@
-//! What to say of a name that is not there.
+//! The message for an unknown name.
 
 use fovqa_config::nearest;
 
-/// The nearest name there is, and all of them.
+/// Names the most similar known name, and all known names.
 pub(crate) fn no_such(kind: &str, name: &str, known: &[String]) -> String {
     let guess = nearest(name, known.iter().map(String::as_str));
     let guess = guess.map(|near| format!(" (did you mean {near}?)")).unwrap_or_default();

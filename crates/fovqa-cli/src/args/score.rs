@@ -117,7 +117,7 @@ impl ScoreArgs {
             eyes: vec![eye],
         };
         Ok(Plan {
-            // Absolute paths are shown from the working directory, where they lie below it.
+            // Absolute paths inside the working directory are shown relative to it.
             base: std::env::current_dir().unwrap_or_default(),
             scenes: vec![scene],
             methods: vec![String::new()],

@@ -11,7 +11,7 @@ use fovqa_plan::Nonfinite;
 
 use super::values::{crop, finite, words};
 
-/// Otherwise the parser would take `Option` for an option that need not be given.
+/// With this alias, clap does not read the `Option` as an argument that may be omitted.
 type TransferOrAuto = Option<Transfer>;
 type RangeOrAuto = Option<CodeRange>;
 type MatrixOrAuto = Option<ColourMatrix>;

@@ -1,4 +1,4 @@
-//! Values that are more than a word: numbers with commas, TOML literals.
+//! Parses values that are more than one word: numbers with commas, and TOML literals.
 
 use std::str::FromStr;
 
@@ -6,7 +6,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use fovqa_frame::Crop;
 use fovqa_params::{ParamValue, Words};
 
-/// One of the words of a type, with `-` between the parts of a word.
+/// A parser for the words of a type, with `-` between the parts of a word.
 pub(crate) fn words<T: Words>() -> impl TypedValueParser<Value = T> {
     let option = |value: T| value.word().replace('_', "-");
     let value =
@@ -18,7 +18,7 @@ pub(crate) fn words<T: Words>() -> impl TypedValueParser<Value = T> {
     })
 }
 
-/// `N` numbers with commas between them.
+/// `N` numbers, separated by commas.
 pub(crate) fn numbers<const N: usize>(text: &str, form: &str) -> Result<[f64; N], String> {
     let parsed: Result<Vec<f64>, _> =
         text.split(',').map(|part| f64::from_str(part.trim())).collect();
@@ -28,7 +28,7 @@ pub(crate) fn numbers<const N: usize>(text: &str, form: &str) -> Result<[f64; N]
         .ok_or_else(|| format!("write {form}"))
 }
 
-/// A number that is finite.
+/// A finite number.
 pub(crate) fn finite(text: &str) -> Result<f64, String> {
     numbers::<1>(text, "a number").map(|[number]| number)
 }
@@ -50,7 +50,7 @@ pub(crate) fn crop(text: &str) -> Result<Crop, String> {
     }
 }
 
-/// A TOML literal, or else the text itself.
+/// A TOML literal, otherwise the text itself.
 pub(crate) fn literal(text: &str) -> Result<ParamValue, String> {
     let number = |value: &toml::Value| match value {
         toml::Value::Integer(n) => Some(*n as f64),

@@ -64,17 +64,17 @@ pub(crate) struct ViewArgs {
     bands: Option<BandEdges>,
 }
 
-/// A gaze as it is written.
+/// A gaze as the user wrote it.
 #[derive(Debug, Clone)]
 enum GazeArg {
     Point([f64; 2]),
     File(PathBuf),
 }
 
-/// What to say of a gaze that is not near.
+/// The message for a gaze that is far outside any frame.
 pub(super) const FAR: &str = "the gaze must be within a million pixels of the frame";
 
-/// Whether a gaze is not a long way outside any frame.
+/// Whether a gaze is not far outside any frame.
 pub(super) fn near(point: [f64; 2]) -> bool {
     const FARTHEST_PX: f64 = 1e6;
     point.iter().all(|v| v.abs() <= FARTHEST_PX)
@@ -84,7 +84,7 @@ fn gaze(text: &str) -> Result<GazeArg, String> {
     if let Ok(point) = numbers::<2>(text, "") {
         return if near(point) { Ok(GazeArg::Point(point)) } else { Err(FAR.to_owned()) };
     }
-    // Numbers that are no point are a slip, not a file name.
+    // Numbers that do not form a point are a mistake, not a file name.
     if text.split(',').all(|part| part.trim().parse::<f64>().is_ok()) {
         return Err("write X,Y in pixels, or the path of a CSV file".to_owned());
     }

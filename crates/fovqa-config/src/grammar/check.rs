@@ -1,4 +1,4 @@
-//! A parsed file against the grammar: unknown keys, wrong types, values out of range.
+//! Checks a parsed file against the grammar: unknown keys, wrong types, and values out of range.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use super::{Key, Kind, LONGEST_TEXT, parameter, quoted, resolution};
 use crate::fault::{Fault, Faults};
 use crate::nearest::nearest;
 
-/// Checks a table; `place` is how messages name it, `span` where it stands.
+/// Checks a table. `place` is its name in messages, and `span` is its position.
 pub(crate) fn check(
     keys: &[Key],
     table: &DeTable<'_>,
@@ -56,7 +56,7 @@ fn unknown<'a>(
     fault.label(label).help(format!("the {what}s are {}", known.collect::<Vec<_>>().join(", ")))
 }
 
-/// A table of metrics: each key a metric, each value a table of its parameters.
+/// Checks a table of metrics. Each key is a metric, and each value is a table of its parameters.
 fn check_metrics(value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Faults) {
     let DeValue::Table(table) = value.get_ref() else {
         return wrong_type(&Kind::Metrics, value, place, faults);
@@ -87,7 +87,7 @@ fn check_metrics(value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Faults)
     }
 }
 
-/// A parameter of a metric, model or method.
+/// Checks a parameter of a metric, model or method.
 fn check_param(
     known: &'static [ParamInfo],
     name: &Spanned<Cow<'_, str>>,
@@ -106,7 +106,7 @@ fn check_param(
     faults.push(if known.is_empty() { fault.help(none()) } else { fault });
 }
 
-/// A table that names a model, with its parameters.
+/// Checks a table that names a model and contains its parameters.
 fn check_model(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Faults) {
     let (Some((what, models)), DeValue::Table(table)) = (kind.models(), value.get_ref()) else {
         return wrong_type(kind, value, place, faults);
@@ -240,8 +240,8 @@ fn one_of(words: &[&str], text: &str, place: &str, span: Range<usize>, faults: &
     }
 }
 
-/// An entry of an array of tables with its name, where it has one that each of its mistakes can
-/// repeat.
+/// An entry of an array of tables with its name, if it has one that is short enough to be repeated
+/// in each of its mistakes.
 fn named(place: &str, table: &DeTable<'_>) -> String {
     match table.get("name").map(Spanned::get_ref) {
         Some(DeValue::String(name)) if name_fits(name).is_ok() => format!("{place} \"{name}\""),
@@ -325,7 +325,7 @@ fn type_of(value: &Spanned<DeValue<'_>>) -> &'static str {
     }
 }
 
-/// The value of a number; `None` where it is none, or too large for one.
+/// The value of a number; `None` if it is not a number, or is too large.
 pub(crate) fn number(value: &DeValue<'_>) -> Option<f64> {
     match value {
         DeValue::Integer(n) => i64::from_str_radix(n.as_str(), n.radix()).ok().map(|n| n as f64),
@@ -342,11 +342,12 @@ fn written(value: &DeValue<'_>) -> String {
     }
 }
 
-/// Whether text is a name: it stands in the headings of tables and, with other characters for some
-/// of its own, in file names.
+/// Whether a text can be a name. Names are used in the headings of tables and, with some characters
+/// replaced, in file names.
 fn name_fits(text: &str) -> Result<(), String> {
     const LONGEST: usize = 80;
-    /// With room for what stands around it in a file name, whose limit is 255.
+    /// Maximum number of bytes. A file name has at most 255, and contains other text around the
+    /// name.
     const LONGEST_BYTES: usize = 200;
     if text.trim().is_empty() || text.trim() != text {
         return Err("cannot be empty, or begin or end with a space".to_owned());

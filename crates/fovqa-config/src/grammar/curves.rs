@@ -1,4 +1,4 @@
-//! The keys of a file of curves.
+//! The keys of a curves file.
 
 use fovqa_methods::BudgetSamples;
 use fovqa_params::words_of;
@@ -8,14 +8,14 @@ use super::experiment::{POSITION_PAIR, VIEW, joined, key, required};
 use super::{Key, Kind};
 use fovqa_plan::{CurvePlotKind, CurveTableKind, PanelOf, RateKind, RateUnit};
 
-/// More are no longer told apart.
+/// Maximum number of curves. More could not be told apart.
 pub(crate) const MOST_CURVES: usize = 200;
 
-/// A gaze that is the same for all: a point, or the centre.
+/// A gaze that all curves share: a point, or the centre.
 const GAZE: Kind = Kind::Either(&[Kind::Word(&["center"]), POSITION_PAIR]);
 const NAMES: Kind = Kind::List(&Kind::Name, 1, 1000);
 
-/// On which screens: what a curve may have otherwise than the rest.
+/// Keys for screens, which each curve may override.
 const SCREENS: &[Key] = &[
     key(
         "resolutions",
@@ -62,7 +62,7 @@ static CURVE_TABLE: [Key; 5 + VIEW.len() + SCREENS.len()] = joined(&[
     SCREENS,
 ]);
 
-/// A measured value among curves.
+/// A measured value that is shown among curves.
 static MARK: [Key; 2] = [
     required("name", Kind::Name, "its name in the legend"),
     required(
@@ -155,5 +155,5 @@ static CURVES_TABLE: [Key; 10] = [
     ),
 ];
 
-/// The whole file.
+/// The top-level keys of the file.
 pub(crate) const CURVES: &[Key] = &CURVES_TABLE;

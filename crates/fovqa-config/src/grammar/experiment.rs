@@ -20,9 +20,9 @@ pub(super) const fn required(name: &'static str, kind: Kind, about: &'static str
 
 /// A full angle of view in degrees.
 const FOV: Kind = Kind::Above(0.0, 179.999);
-/// A tangent of a half angle; OpenXR's signs are fine.
+/// The tangent of a half angle. It may be negative, as in OpenXR.
 const TANGENT: Kind = Kind::Number(-6000.0, 6000.0);
-/// Pixels, a long way outside any frame.
+/// A position in pixels, which may be far outside any frame.
 const POSITION: Kind = Kind::Number(-1e6, 1e6);
 pub(super) const POSITION_PAIR: Kind = Kind::List(&POSITION, 2, 2);
 const LENGTH_M: Kind = Kind::Above(0.0, 1e4);
@@ -60,7 +60,7 @@ const FILES: Kind = Kind::Either(&[Kind::Text, Kind::Table(SIDES)]);
 
 const GAZE: &str = "where the eye looks: \"center\" (the principal point), [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }";
 
-/// The gaze of one eye or, with tables for each, of two.
+/// The gaze of one eye or, with a table for each, of both eyes.
 const VIEW_GAZE: &[Key] = &[key(
     "gaze",
     Kind::Either(&[Kind::Word(&["center"]), POSITION_PAIR, Kind::Table(TRACE)]),
@@ -70,7 +70,7 @@ const VIEW_GAZE: &[Key] = &[key(
 /// The gaze of one eye.
 const EYE_GAZE: &[Key] = &[key("gaze", Kind::Either(&ONE_GAZE), "where this eye looks")];
 
-/// The ways to say how a frame is seen.
+/// The ways to describe how a frame is viewed.
 pub(super) const VIEW: &[Key] = &[
     key("display", Kind::Display, "display preset; the frame fills its whole field"),
     key(
@@ -148,7 +148,7 @@ const SIGNAL: &[Key] = &[
     ),
 ];
 
-/// How motion or depth is found by itself, or by whom it was rendered.
+/// The presets for motion or depth: automatic detection, or the name of the renderer.
 const GUIDES: Kind = Kind::Words(guides);
 const PRESET: Kind = Kind::Words(words_of::<GuidePreset>);
 
@@ -216,8 +216,7 @@ const LUMINANCE: &[Key] = &[
     key("gamma", Kind::Number(0.1, 10.0), "exponent of eotf = \"gamma\" (default 2.2)"),
 ];
 
-/// Names of [`fovqa_vision::Eotf`].
-/// What both eyes share.
+/// Keys that both eyes share.
 const SHARED: &[Key] = &[
     key(
         "luminance",
@@ -348,7 +347,7 @@ static PLOT_TABLE: [Key; 6] = [
     ),
 ];
 
-/// How far a value may be from a baseline's.
+/// The allowed distance of a value from the baseline.
 const ALLOWANCE: Kind = Kind::Either(&[Kind::Number(0.0, 1e12), Kind::Text]);
 const LIMIT: Kind = Kind::Number(-1e12, 1e12);
 
@@ -419,5 +418,5 @@ static EXPERIMENT_TABLE: [Key; 11] = [
     key("gate", Kind::Tables(&GATE_TABLE, 1000), "the rules of `fovqa gate`"),
 ];
 
-/// The whole file.
+/// The top-level keys of the file.
 pub(crate) const EXPERIMENT: &[Key] = &EXPERIMENT_TABLE;

@@ -1,5 +1,5 @@
-//! What an experiment file may say: every key with its kind, its range and what it is. One
-//! description, from which the file is checked, mistakes are explained and the JSON Schema is made.
+//! The grammar of an experiment file: every key with its kind, range and description. This one
+//! description is used to check files, to explain mistakes and to make the JSON Schema.
 
 mod check;
 mod curves;
@@ -21,27 +21,28 @@ pub(crate) struct Key {
     pub(crate) name: &'static str,
     pub(crate) required: bool,
     pub(crate) kind: Kind,
-    /// One line, for editors.
+    /// One line of description, for editors.
     pub(crate) about: &'static str,
 }
 
-/// What a value may be.
+/// The kind of a value.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Kind {
     Bool,
-    /// Text that is not empty, of at most [`LONGEST_TEXT`] characters, none of them for control.
+    /// A text that is not empty, has at most [`LONGEST_TEXT`] characters, and contains no control
+    /// characters.
     Text,
-    /// A name: text that fits a file name and the heading of a table.
+    /// A name: a text that can be used in a file name and in the heading of a table.
     Name,
-    /// A finite number from the first to the second.
+    /// A finite number. Both limits are allowed.
     Number(f64, f64),
-    /// A finite number above the first, up to and with the second.
+    /// A finite number greater than the first limit and not greater than the second.
     Above(f64, f64),
-    /// A whole number from the first to the second.
+    /// An integer. Both limits are allowed.
     Whole(u64, u64),
-    /// The same, or a word.
+    /// A finite number with both limits allowed, or a word.
     NumberOr(f64, f64, &'static str),
-    /// A whole number from the first to the second, or a word.
+    /// An integer with both limits allowed, or a word.
     WholeOr(u64, u64, &'static str),
     /// One of these words.
     Word(&'static [&'static str]),
@@ -53,26 +54,26 @@ pub(crate) enum Kind {
     Display,
     /// The name of a metric.
     Metric,
-    /// A frame's size as text, `2560x1440`.
+    /// The size of a frame as text, `2560x1440`.
     Resolution,
-    /// A table of a foveation method, `model`, and its parameters.
+    /// A table with the name of a foveation method, `model`, and its parameters.
     Method,
-    /// The same of an acuity model.
+    /// A table with the name of an acuity model, `model`, and its parameters.
     Acuity,
-    /// A list of so many values of one kind.
+    /// A list of values of one kind, with the minimum and maximum number of values.
     List(&'static Kind, usize, usize),
     /// A table.
     Table(&'static [Key]),
-    /// An array of at most so many tables.
+    /// An array of tables, with the maximum number of tables.
     Tables(&'static [Key], usize),
-    /// A table with metrics for keys, and tables of their parameters.
+    /// A table whose keys are metrics and whose values are tables of parameters.
     Metrics,
-    /// One of several, of different types.
+    /// One of several kinds with different types.
     Either(&'static [Kind]),
 }
 
 impl Kind {
-    /// What the value has to be, in words.
+    /// What the value has to be, in words for a message.
     pub(crate) fn in_words(&self) -> String {
         match self {
             Kind::Bool => "true or false".to_owned(),
@@ -129,14 +130,15 @@ impl Kind {
     }
 }
 
-/// Characters of a text: a paragraph, or a path that systems still open.
+/// Maximum number of characters in a text: a paragraph, or the longest path that operating systems
+/// open.
 pub(crate) const LONGEST_TEXT: usize = 4096;
 
-/// A model that a table may name: its name and its parameters.
+/// A model that a table may name: the name and the parameters of the model.
 pub(crate) type Model = (&'static str, &'static [ParamInfo]);
 
 impl Kind {
-    /// The models a table of this kind may name, and what they are called.
+    /// The models that a table of this kind may name, and the term for such a model.
     pub(crate) fn models(&self) -> Option<(&'static str, Vec<Model>)> {
         match self {
             Kind::Method => {
@@ -152,7 +154,7 @@ impl Kind {
     }
 }
 
-/// Width and height of a frame's size as text, each 1 to 100000.
+/// Width and height from the text of a frame size. Each must be from 1 to 100000.
 pub fn resolution(text: &str) -> Option<[usize; 2]> {
     const MOST: usize = 100_000;
     let (width, height) = text.split_once(['x', '×'])?;
@@ -168,7 +170,7 @@ pub(crate) fn quoted<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     words.into_iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ")
 }
 
-/// The same of names that a file gives: as many as anybody looks through.
+/// The first few names in quotes, with commas between them, for names from a file.
 pub(crate) fn first_quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     const SHOWN: usize = 50;
     let mut names = names.into_iter();
@@ -183,7 +185,8 @@ pub(crate) fn first_quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> Stri
 pub(crate) fn parameter(values: ParamValues) -> Kind {
     const FINITE: Kind = Kind::Number(f64::NEG_INFINITY, f64::INFINITY);
     const PAIR: Kind = Kind::List(&FINITE, 2, 2);
-    /// Either needs a place for its kinds to live; every parameter of pairs has the same word.
+    /// `Either` needs static memory for its kinds. All parameters that are lists of pairs accept
+    /// the same word.
     const PAIRS_OR_NONE: [Kind; 2] = [Kind::List(&PAIR, 1, 1000), Kind::Word(&["none"])];
     match values {
         ParamValues::Number(min, max) => Kind::Number(min, max),

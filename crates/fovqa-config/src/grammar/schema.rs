@@ -1,4 +1,4 @@
-//! The grammar as JSON Schema, for editors.
+//! Makes the JSON Schema of the grammar, for editors.
 
 use fovqa_metrics::Metric;
 use fovqa_params::ParamInfo;
@@ -13,7 +13,7 @@ pub fn schema() -> Value {
     headed(table(EXPERIMENT), "fovqa experiment", about)
 }
 
-/// The JSON Schema of a file of curves.
+/// The JSON Schema of a curves file.
 pub fn curves_schema() -> Value {
     let about =
         "Foveation methods compared with acuity: curves, figures and tables of fovqa (TOML)";
@@ -51,7 +51,8 @@ fn table(keys: &[Key]) -> Value {
 }
 
 fn kind(kind: &Kind) -> Value {
-    /// A name: no slash or control character, no dot or space in front, no space behind.
+    /// A pattern for names: no slash or control character, no dot or space at the start, and no
+    /// space at the end.
     const NAME: &str = r"^[^\s./\\\u0000-\u001f\u007f-\u009f]([^/\\\u0000-\u001f\u007f-\u009f]*[^\s/\\\u0000-\u001f\u007f-\u009f])?$";
     const TEXT: &str = r"^[^\u0000-\u001f\u007f-\u009f]+$";
     match kind {
@@ -80,7 +81,7 @@ fn kind(kind: &Kind) -> Value {
             "pattern": r"^(-?[0-9]{1,18})?\.\.(=?-?[0-9]{1,18})?(:0{0,9}[1-9][0-9]{0,8})?$"
         }),
         Kind::Display => {
-            // Both spellings, `-` and `_`, as people write them.
+            // Users may write `-` or `_`.
             let names = displays().iter().map(|display| display.name.clone());
             let all = names.flat_map(|name| [name.replace('_', "-"), name]);
             let mut all: Vec<String> = all.collect();
@@ -128,7 +129,7 @@ fn params(known: &[ParamInfo]) -> Value {
 
 fn model((name, known): Model) -> Value {
     let mut schema = params(known);
-    // Both spellings, `-` and `_`, as people write them.
+    // Users may write `-` or `_`.
     let mut names = vec![name.to_owned(), name.replace('_', "-")];
     names.dedup();
     schema["properties"]["model"] = json!({ "enum": names });
@@ -140,7 +141,7 @@ fn either(kind: &Kind, word: &str) -> Value {
     json!({ "anyOf": [self::kind(kind), { "enum": [word] }] })
 }
 
-/// Whole numbers without a fraction, as people write them.
+/// A number as JSON. Integers have no fraction, as people write them.
 fn number(n: f64) -> Value {
     if n.fract() == 0.0 && n.abs() < 1e15 { (n as i64).into() } else { n.into() }
 }

@@ -15,7 +15,7 @@ use fovqa_plan::{Aggregate, Allowance, GateRule, Quantity, better};
 
 const ORIENTATIONS: [&str; 3] = ["lh", "hl", "hh"];
 
-/// The rules; mistakes go to `faults`.
+/// The rules. Mistakes are added to `faults`.
 pub(super) fn gates(
     root: Node<'_>,
     text: &str,
@@ -68,7 +68,7 @@ fn rule(
     Some(rule)
 }
 
-/// The metric, where it is scored.
+/// The metric, if it is scored.
 fn metric(table: Node<'_>, known: &Known<'_>, faults: &mut Faults) -> Option<Metric> {
     let key = table.text("metric")?;
     let scored = known.metrics.metrics();
@@ -107,7 +107,8 @@ fn quantity(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fau
             aggregate
         }
         None if whole => None,
-        // Of largest values the largest. A ratio is that of the largest already.
+        // The aggregate of maxima is the maximum. A ratio is already computed from the largest
+        // values.
         None if is_maximum(metric, &statistic) && image != "ratio" => Some(Aggregate::Max),
         None => Some(Aggregate::Mean),
     };
@@ -150,7 +151,7 @@ fn is_maximum(metric: Metric, statistic: &str) -> bool {
     key.is_some_and(|key| key.statistic().is_maximum())
 }
 
-/// The statistics that a gate may be of: those of single frames, and that of the whole sequence.
+/// The statistics that a rule can use: those of single frames, and that of the whole sequence.
 fn allowed(metric: Metric, orientations: bool) -> Vec<&'static str> {
     let of_orientation =
         |name: &str| ORIENTATIONS.iter().any(|of| name.ends_with(&format!("_{of}")));
@@ -223,8 +224,8 @@ fn level(
     given
 }
 
-/// Whether a rule's band is one, or several, of those that are scored, as far as that can be told before
-/// frames are read.
+/// Checks that a rule's band is one, or a union, of the scored bands, as far as this is known
+/// before frames are read.
 fn bands(
     table: Node<'_>,
     metric: Metric,
@@ -269,7 +270,7 @@ fn bands(
         }
         let known = match &settings.bands {
             Some(edges) => edges.iter().collect(),
-            // How many of them there are is seen with the frames.
+            // The number of default bands is known only when the frames are read.
             None => default_bands(),
         };
         let within = |edges: &&(f64, f64)| from <= edges.0 && edges.1 <= to;
@@ -288,7 +289,7 @@ fn bands(
             return;
         }
     }
-    // The pooled value of all frames is made of the metric's own.
+    // The pooled value of all frames is computed from the metric's own value.
     let statistic = if statistic == "pooled" { "" } else { statistic };
     let key = Key::named(Subject::Metric(metric), statistic);
     let apart = key.is_some_and(|key| key.statistic().bands == Pooling::None);
@@ -298,12 +299,12 @@ fn bands(
     }
 }
 
-/// The default bands as far as any eye sees.
+/// The default bands up to the largest possible eccentricity.
 fn default_bands() -> Vec<(f64, f64)> {
     fovqa_vision::BandEdges::default_up_to(179.0).iter().collect()
 }
 
-/// The name a key gives, where it is one of those there are.
+/// The name in a key, if it is one of the known names.
 fn one_of(table: Node<'_>, key: &str, known: &[&str], faults: &mut Faults) -> Option<String> {
     let name = table.text(key)?;
     if !known.contains(&name) {
@@ -331,7 +332,7 @@ fn allowance(table: Node<'_>, key: &str, faults: &mut Faults) -> Option<Allowanc
     percent
 }
 
-/// Whether a rule has limits, and they point the way that its metric does.
+/// Checks that a rule has limits, and that they have the same direction as its metric.
 fn direction(table: Node<'_>, span: Range<usize>, rule: &GateRule, faults: &mut Faults) {
     let Quantity { metric, statistic, image, .. } = &rule.quantity;
     let what = if statistic.is_empty() { metric.clone() } else { format!("{metric} {statistic}") };

@@ -1,4 +1,4 @@
-//! `motion` and `depth`: which channels, of which files.
+//! `motion` and `depth`: the channels and files that contain them.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use super::placeholders::{Placeholders, path};
 use crate::fault::{Fault, Faults};
 use crate::node::Node;
 
-/// Motion and depth, and the files that hold nothing else.
+/// The channels of motion and depth, and the separate files that contain only these.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Guides {
     pub(super) options: GuideOptions,
@@ -17,7 +17,7 @@ pub(super) struct Guides {
     pub(super) depth_files: Option<PathBuf>,
 }
 
-/// What the tables that have `motion` and `depth` say.
+/// Resolves the tables that contain `motion` and `depth`.
 pub(super) fn guides(
     motion: Option<Node<'_>>,
     depth: Option<Node<'_>>,
@@ -79,7 +79,7 @@ fn named_motion(table: Node<'_>, faults: &mut Faults) -> MotionChannels {
     }
     let known = GuidePreset::of_motion(&channels).filter(|preset| !preset.is_plain());
     if let Some(preset) = known.filter(|_| own.is_none()) {
-        // Nothing says that they are otherwise than their renderer writes them.
+        // Without further keys, the values are in the form that the renderer writes.
         let renderer = preset.word();
         let message = format!(
             "{renderer} writes these channels in another encoding than pixels to the right and down"
@@ -116,7 +116,7 @@ fn named_depth(table: Node<'_>, faults: &mut Faults) -> DepthChannels {
     }
 }
 
-/// Channels or a preset, not both; and something.
+/// Checks that a table has either channels or a preset.
 fn either(table: Node<'_>, channels: &str, faults: &mut Faults) {
     if table.has(channels) && table.has("preset") {
         let message = format!("both {channels} and a preset are given");

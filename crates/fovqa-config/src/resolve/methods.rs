@@ -1,4 +1,4 @@
-//! `[[method]]`: which tests each scene has.
+//! `[[method]]`: the tests of each scene.
 
 use std::path::Path;
 
@@ -11,10 +11,11 @@ use crate::nearest::nearest;
 use crate::node::Node;
 use fovqa_plan::Eye;
 
-/// Far more than fit a table. Each has a path of its own, and what is wrong with it.
+/// Maximum number of comparisons, far more than fit in a table. Memory is needed for the path and
+/// the mistakes of each.
 const MOST_COMPARISONS: usize = 100_000;
 
-/// The names of the methods; their tests go to the scenes.
+/// The names of the methods. Their tests are added to the scenes.
 pub(super) fn methods(
     root: Node<'_>,
     base: &Path,

@@ -26,7 +26,8 @@ pub(super) fn metrics(root: Node<'_>, faults: &mut Faults) -> (MetricChoice, Par
                 faults.push(Fault::new(at, error.to_string()));
             }
         }
-        // What only all parameters together can tell is said once, at the metric they belong to.
+        // A mistake that depends on all parameters together is reported once, at the metric that
+        // they belong to.
         if key == Metric::Fpsnr.key()
             && let Err(error) = params.check()
         {

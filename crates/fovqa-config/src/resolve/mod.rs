@@ -1,4 +1,5 @@
-//! From checked tables to the plan: overrides, placeholders, names that refer to each other.
+//! Turns checked tables into a plan: resolves overrides, placeholders, and names that refer to each
+//! other.
 
 mod curves;
 mod gates;
@@ -20,7 +21,7 @@ use crate::fault::Faults;
 use crate::node::Node;
 use fovqa_plan::{Experiment, Plan};
 
-/// The experiment; mistakes go to `faults`.
+/// The experiment. Mistakes are added to `faults`.
 pub(crate) fn experiment(
     root: Node<'_>,
     path: &Path,

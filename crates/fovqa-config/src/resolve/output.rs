@@ -6,7 +6,7 @@ use fovqa_plan::{OutputSettings, TableFormat};
 use crate::fault::{Fault, Faults};
 use crate::node::Node;
 
-/// The settings; a format that appears twice is a mistake.
+/// The settings. A format that appears twice is a mistake.
 pub(super) fn output(root: Node<'_>, faults: &mut Faults) -> OutputSettings {
     let Some(table) = root.table("output") else { return OutputSettings::default() };
     let mut tables: Vec<TableFormat> = Vec::new();

@@ -7,10 +7,11 @@ use fovqa_io::sequence::{is_glob, literal};
 
 use crate::fault::{Fault, Faults};
 
-/// The longest path that Linux opens. A text with nothing but placeholders could fill the memory.
+/// The longest path in bytes that Linux opens. Without a limit, a text that consists of
+/// placeholders could fill the memory.
 const LONGEST_PATH: usize = 4096;
 
-/// What braces in a path stand for.
+/// The values of the placeholders in a path.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Placeholders<'a> {
     pub(super) scene: &'a str,
@@ -20,13 +21,13 @@ pub(super) struct Placeholders<'a> {
 }
 
 impl Placeholders<'_> {
-    /// The path of a text from the file, below `base`.
+    /// Converts a text from the file to a path below `base`.
     fn path(&self, base: &Path, text: &str) -> Result<PathBuf, (String, String)> {
         if text == "-" {
             let message = "\"-\" is standard input, which an experiment cannot read".to_owned();
             return Err((message, "give a file; `fovqa score` reads standard input".to_owned()));
         }
-        // In a pattern, names stand for themselves, whatever characters they have.
+        // In a pattern, the inserted names are literal, whatever characters they contain.
         let pattern = is_glob(Path::new(text));
         let verbatim = |name: &str| {
             if pattern { literal(name) } else { name.to_owned() }

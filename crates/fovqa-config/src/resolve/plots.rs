@@ -11,7 +11,7 @@ use crate::node::Node;
 use fovqa_plan::MetricChoice;
 use fovqa_plan::{Plot, PlotKind};
 
-/// What plots may refer to.
+/// The names that plots may refer to.
 pub(super) struct Known<'a> {
     pub(super) scenes: &'a [SceneEntry],
     pub(super) methods: &'a [String],
@@ -46,7 +46,8 @@ pub(super) fn plots(root: Node<'_>, known: &Known<'_>, faults: &mut Faults) -> V
     plots.collect()
 }
 
-/// Whether any of a plot's methods is in any of its scenes and, for a profile, has bands there.
+/// Checks that at least one of a plot's methods is in one of its scenes and, for a profile, has
+/// bands there.
 fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut Faults) {
     let wanted = |names: &Option<Vec<String>>, name: &str| {
         names.as_ref().is_none_or(|names| names.iter().any(|n| n == name))
@@ -69,7 +70,7 @@ fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut
     faults.push(Fault::new(table.span("kind"), message).help(help));
 }
 
-/// Whether a plot's metric is scored, and fits its kind.
+/// Checks that a plot's metric is scored and fits the kind of plot.
 fn scored(table: Node<'_>, key: &str, kind: PlotKind, known: &Known<'_>, faults: &mut Faults) {
     let scored = known.metrics.metrics();
     let keys = || scored.iter().map(|metric| metric.key());
@@ -104,13 +105,13 @@ fn fits(metric: Metric, kind: PlotKind) -> bool {
     }
 }
 
-/// The levels of a list.
+/// The wavelet levels in a list.
 fn levels(table: Node<'_>) -> Option<Vec<usize>> {
     let levels = table.numbers("levels")?;
     Some(levels.into_iter().map(|level| level as usize).collect())
 }
 
-/// Whether levels and statistic are of a plot that has any.
+/// Checks that levels and statistic are given only for a plot that has them.
 fn wavelet(
     table: Node<'_>,
     metric: Option<&str>,
@@ -137,7 +138,7 @@ fn wavelet(
     }
 }
 
-/// Names of a list that have to be known.
+/// The names in a list, all of which have to be known.
 pub(super) fn subset(
     table: Node<'_>,
     key: &str,

@@ -13,10 +13,10 @@ use crate::fault::{Fault, Faults};
 use crate::node::Node;
 use fovqa_plan::{Eye, EyeView, MetricChoice, Scene};
 
-/// A scene, and what its methods need to know.
+/// A scene, and the data that its methods need.
 pub(super) struct SceneEntry {
     pub(super) scene: Scene,
-    /// What `{folder}` stands for.
+    /// The value of `{folder}`.
     pub(super) folder: String,
     pub(super) span: Range<usize>,
 }
@@ -98,7 +98,7 @@ pub(super) fn scenes(
         .collect()
 }
 
-/// General tables for one eye, where no scene has two.
+/// Reports general tables for one eye if no scene has two eyes.
 fn eyes_of_nobody(root: Node<'_>, scenes: &[(Node<'_>, Range<usize>)], faults: &mut Faults) {
     if scenes.iter().any(|(scene, _)| scene.table("reference").is_some()) {
         return;
@@ -112,10 +112,10 @@ fn eyes_of_nobody(root: Node<'_>, scenes: &[(Node<'_>, Range<usize>)], faults: &
     }
 }
 
-/// How a scene gets two eyes.
+/// How the user gives a scene two eyes.
 const TWO_EYES: &str = "give a scene reference = { left = \"…\", right = \"…\" }";
 
-/// Metrics asked for by name that need a view where there is none.
+/// Reports metrics that were requested by name and need a view, if there is none.
 fn foveal_without_view(
     root: Node<'_>,
     eyes: &[EyeView],
@@ -132,7 +132,7 @@ fn foveal_without_view(
     }
 }
 
-/// The metrics asked for by name that need something, each with its place.
+/// The metrics that were requested by name and need something, each with its position.
 fn asked_for<'a>(
     root: Node<'a>,
     metrics: &MetricChoice,
@@ -144,8 +144,8 @@ fn asked_for<'a>(
     entries.filter(|(key, ..)| needy(key)).map(|(key, span, _)| (key, span)).collect()
 }
 
-/// Metrics of light where the display has no photometry, or shows the files otherwise than they are
-/// encoded.
+/// Reports luminance-based metrics if the display has no photometry, or shows the files differently
+/// from their encoding.
 fn unlit(
     root: Node<'_>,
     eyes: &[EyeView],
@@ -167,11 +167,11 @@ fn unlit(
     }
 }
 
-/// Words of our own tables, and those that readers of CSV take for a missing value.
+/// Words that fovqa's tables use, and words that readers of CSV take for a missing value.
 const RESERVED: [&str; 10] =
     ["average", "best", "error", "#na", "<na>", "na", "nan", "none", "null", "inf"];
 
-/// Says which names are there twice, or cannot be.
+/// Reports names that appear twice or are not allowed.
 pub(super) fn unique(tables: &[(Node<'_>, Range<usize>)], what: &str, faults: &mut Faults) {
     let mut seen = BTreeSet::new();
     for (table, _) in tables {

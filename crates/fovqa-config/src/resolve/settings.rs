@@ -1,4 +1,4 @@
-//! `[view]`, `[signal]`, and what scenes and eyes override of them.
+//! `[view]`, `[signal]`, and the keys of scenes and eyes that override them.
 
 use std::ops::Range;
 use std::path::Path;
@@ -18,7 +18,7 @@ use crate::fault::{Fault, Faults};
 use crate::node::{Node, numbers, table};
 use fovqa_plan::{Eye, Gaze, Settings};
 
-/// Tables that say how one eye sees a scene, from the most general to the most special.
+/// The tables that describe how one eye sees a scene, from the most general to the most specific.
 pub(super) struct Layers<'a> {
     tables: Vec<Node<'a>>,
     eye: Option<Eye>,
@@ -37,7 +37,7 @@ impl<'a> Layers<'a> {
         Self { tables, eye }
     }
 
-    /// The most special table that has a key.
+    /// The most specific table that has a key.
     fn having(&self, key: &str) -> Option<Node<'a>> {
         self.tables.iter().rev().find(|table| table.has(key)).copied()
     }
@@ -46,7 +46,7 @@ impl<'a> Layers<'a> {
         self.having(key)?.text(key)
     }
 
-    /// The value of a word; its default where none is given.
+    /// The value of a word, or its default if none is given.
     fn word<T: Words + Default>(&self, key: &str) -> T {
         self.having(key).and_then(|table| table.word(key)).unwrap_or_default()
     }
@@ -55,7 +55,7 @@ impl<'a> Layers<'a> {
         self.having(key).map(|table| table.span(key)).unwrap_or_default()
     }
 
-    /// The settings; mistakes go to `faults`.
+    /// The settings. Mistakes are added to `faults`.
     pub(super) fn settings(
         &self,
         base: &Path,
@@ -128,7 +128,8 @@ impl<'a> Layers<'a> {
         }
     }
 
-    /// The view of the most special table that gives one: what a scene says replaces it whole.
+    /// The view of the most specific table that contains one. The view of a scene replaces the
+    /// general one completely.
     fn view(&self, faults: &mut Faults) -> Option<ViewSpec> {
         view(*self.tables.iter().rev().find(|table| gives_view(**table))?, faults)
     }

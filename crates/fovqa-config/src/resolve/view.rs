@@ -1,11 +1,11 @@
-//! The ways to give a view.
+//! The ways to describe a view.
 
 use fovqa_vision::{Eotf, Luminance, ViewSpec, find_display};
 
 use crate::fault::{Fault, Faults};
 use crate::node::Node;
 
-/// Keys that, one or two together, say what the view is.
+/// The keys that describe a view, alone or in pairs.
 const VIEW_WAYS: [&str; 8] = [
     "display",
     "fov_vertical_deg",
@@ -17,16 +17,16 @@ const VIEW_WAYS: [&str; 8] = [
     "screen_m",
 ];
 
-/// What a view may be given as.
+/// The forms in which a view can be given.
 pub(super) const VIEW_HELP: &str =
     "give one in [view], such as display = \"vive-pro-eye\" or fov_vertical_deg = 100";
 
-/// Whether a table gives a view.
+/// Whether a table contains a view.
 pub(super) fn gives_view(table: Node<'_>) -> bool {
     VIEW_WAYS.iter().any(|key| table.has(key))
 }
 
-/// The view of a table that gives one.
+/// The view in a table; `None` if there is none.
 pub(super) fn view(table: Node<'_>, faults: &mut Faults) -> Option<ViewSpec> {
     let given: Vec<&str> = VIEW_WAYS.into_iter().filter(|key| table.has(key)).collect();
     let number = |key| table.number(key);
@@ -76,10 +76,10 @@ pub(super) fn view(table: Node<'_>, faults: &mut Faults) -> Option<ViewSpec> {
     spec
 }
 
-/// What photometry may be given as.
+/// The forms in which photometry can be given.
 pub(super) const LUMINANCE_HELP: &str = "give luminance = { peak_cd_m2 = …, … } or luminance = \"htc-vive-pro\" in [view], or a display that has it (`fovqa list displays`)";
 
-/// The photometry that a table gives.
+/// The photometry in a table; `None` if there is none.
 pub(super) fn luminance(table: Node<'_>, faults: &mut Faults) -> Option<Luminance> {
     const KEY: &str = "luminance";
     if let Some(name) = table.text(KEY) {

@@ -1,5 +1,5 @@
-//! The first line of a journal: what a run is of. Two runs that have it in common find the same in the
-//! same files.
+//! The first line of a journal, which describes the run. Two runs with the same header find the
+//! same results in the same files.
 
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Read};
@@ -22,22 +22,22 @@ use crate::share::{Shard, shares};
 /// Name and version of the format.
 const SCHEMA: &str = "fovqa.journal/2";
 
-/// What a run is of.
+/// The description of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Header {
-    // In front, where folders are told by it.
+    // This field comes first, because folders are recognised by it.
     schema: String,
     pub(crate) version: String,
     pub(crate) experiment_sha256: String,
-    /// The file's name.
+    /// Name of the experiment file.
     pub(crate) experiment_file: String,
     pub(crate) experiment_text: String,
-    /// Only these of each scene's frames.
+    /// The selected frames of each scene; `None` for all frames.
     pub(crate) frames: Option<String>,
-    /// The folder of maps, where some are made.
+    /// The folder of maps, if maps are written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) maps: Option<String>,
-    /// `None`: all of it.
+    /// The shard that the run scores; `None` for the whole run.
     pub(crate) shard: Option<Shard>,
     pub(crate) views: Vec<ViewFiles>,
 }
@@ -47,9 +47,9 @@ pub struct Header {
 pub(crate) struct ViewFiles {
     pub(crate) scene: String,
     pub(crate) eye: Option<Eye>,
-    /// How many pairs are to be scored.
+    /// Number of pairs to be scored.
     pub(crate) pairs: usize,
-    /// SHA-256 of which files are paired with which, and of bands that other files decide.
+    /// SHA-256 of the pairing of files, and of bands that depend on other files.
     pub(crate) files: String,
 }
 
@@ -65,7 +65,7 @@ impl ViewFiles {
     }
 }
 
-/// The files of an eye's view of a scene; `None` where none were found.
+/// The files of one eye's view of a scene; `None` if none were found.
 pub(crate) fn view_files(
     plan: &Plan,
     found: &FoundInputs,
@@ -77,7 +77,7 @@ pub(crate) fn view_files(
 }
 
 impl Header {
-    /// That of a run of an experiment, whose frames were found, or of a shard of it.
+    /// The header of a run of an experiment, or of one of its shards, after its frames were found.
     pub fn new(experiment: &Experiment, found: &FoundInputs, shard: Option<Shard>) -> Self {
         let file = experiment.path.file_name().unwrap_or_default();
         let plan = &experiment.plan;
@@ -95,20 +95,20 @@ impl Header {
         }
     }
 
-    /// The same of a run that writes maps into a folder.
+    /// The header of a run that writes maps into a folder.
     #[must_use]
     pub fn with_maps(self, maps: Option<&Path>) -> Self {
         Self { maps: maps.map(|folder| folder.to_string_lossy().into_owned()), ..self }
     }
 
-    /// What the run, or its shard, has of each view.
+    /// The range of pairs of each view that the run or its shard scores.
     pub(super) fn shares(&self) -> BTreeMap<(&str, Option<Eye>), Range<usize>> {
         let pairs: Vec<usize> = self.views.iter().map(|view| view.pairs).collect();
         let views = self.views.iter().map(|view| (view.scene.as_str(), view.eye));
         views.zip(shares(self.shard, &pairs)).collect()
     }
 
-    /// The name of the experiment's file.
+    /// The name of the experiment file.
     pub fn experiment_file(&self) -> &str {
         &self.experiment_file
     }
@@ -118,25 +118,25 @@ impl Header {
         &self.experiment_text
     }
 
-    /// Which frames of each scene, as on the command line.
+    /// The selected frames of each scene, as on the command line.
     pub fn frames(&self) -> Option<&str> {
         self.frames.as_deref()
     }
 
-    /// That of the whole run of which this is of a shard, with these maps.
+    /// The header of the whole run that this shard belongs to, with these maps.
     #[must_use]
     pub(crate) fn of_all(&self, maps: Option<String>) -> Self {
         Self { shard: None, maps, ..self.clone() }
     }
 
-    /// A line of a journal as its first; `None` where it is something else.
+    /// Parses the first line of a journal; `None` if it is something else.
     pub(super) fn parse(line: &[u8]) -> Option<Self> {
         let header: Self = serde_json::from_slice(line).ok()?;
         let whole = sha256(header.experiment_text.as_bytes()) == header.experiment_sha256;
         (header.schema == SCHEMA && whole).then_some(header)
     }
 
-    /// The format of a line that is the first of a journal of another version.
+    /// The format name in the first line of a journal that has another version.
     pub(super) fn other_format(line: &[u8]) -> Option<String> {
         let header: serde_json::Value = serde_json::from_slice(line).ok()?;
         let schema = header.get("schema")?.as_str()?;
@@ -144,9 +144,10 @@ impl Header {
     }
 }
 
-/// The shard that a folder holds.
+/// The shard whose journal is in a folder.
 pub fn shard_in(folder: &Path) -> Option<Shard> {
-    /// An experiment is no longer than 4 MiB, and its text grows a little in JSON.
+    /// Longest first line in bytes. An experiment has at most 4 MiB, and its text becomes a little
+    /// longer in JSON.
     const LONGEST: u64 = 64 << 20;
     let file = open_regular_file(&folder.join(JOURNAL)).ok()?;
     let mut line = Vec::new();

@@ -1,8 +1,8 @@
-//! The journal: what is finished, line by line, so that a run that is killed loses nothing of it, and
-//! shards of a run can be put together.
+//! The journal lists, line by line, what is finished. A run that is killed therefore loses none of
+//! it, and the shards of a run can be merged.
 //!
-//! Each line is one JSON object, written in one go: a kill leaves whole lines and at most one piece
-//! of a line. Numbers are written so that they are read again to the last bit.
+//! Each line is one JSON object, written in one operation: a killed run leaves whole lines and at
+//! most one partial line. Numbers are written so that reading them gives exactly the same bits.
 
 mod header;
 mod number;
@@ -17,7 +17,7 @@ pub(crate) use read::{Content, Text, findings_of, place, read};
 pub use write::Journal;
 pub(crate) use write::lines_of;
 
-/// Its name in the folder of results.
+/// Name of the journal in the results folder.
 pub const JOURNAL: &str = "journal.jsonl";
 
 #[cfg(test)]

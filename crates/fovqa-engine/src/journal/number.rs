@@ -1,4 +1,5 @@
-//! Numbers in a journal: whatever a measure can be, infinite or none at all too.
+//! Numbers in a journal. They cover every value that a metric can have, including infinite and
+//! missing ones.
 
 use std::fmt;
 
@@ -6,12 +7,12 @@ pub(super) use fovqa_results::Number;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 use serde::ser::{Serialize, Serializer};
 
-/// A number of a frame's values.
+/// One item in the list of a frame's values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Token {
     /// `null`: there is no value.
     Nothing,
-    /// `true`: the value is the quotient of the two numbers behind it.
+    /// `true`: the value is the quotient of the two numbers that follow it.
     Mean,
     /// A number.
     Number(f64),
@@ -63,12 +64,12 @@ impl<'de> Deserialize<'de> for Token {
     }
 }
 
-/// A number that may not be there.
+/// Converts a number that may be missing for writing.
 pub(super) fn maybe(number: Option<f64>) -> Option<Number> {
     number.map(Number)
 }
 
-/// The same, read again.
+/// Converts a number that may be missing after reading.
 pub(super) fn read(number: Option<Number>) -> Option<f64> {
     number.map(|number| number.0)
 }

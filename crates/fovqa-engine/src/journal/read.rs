@@ -1,4 +1,4 @@
-//! Reading a journal again.
+//! Reads a journal.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -20,56 +20,57 @@ use super::seal::{Seal, seal_of};
 use crate::findings::{Findings, Outcome, ViewFindings, ViewIndex};
 use crate::share::shares;
 
-/// What was found of a journal.
+/// What a folder contains in place of a journal.
 pub(crate) enum Content {
-    /// None.
+    /// There is no journal.
     Nothing,
-    /// Something that is none of this format.
+    /// The file is not a journal.
     Other,
-    /// One in the format of another version, by its name.
+    /// The journal has another version of the format, with this name.
     OtherFormat(String),
-    /// One.
+    /// A journal of this format.
     Journal(Box<Text>),
 }
 
-/// A journal that is yet to be understood.
+/// A journal that was read but is not interpreted yet.
 pub(crate) struct Text {
     pub(crate) header: Header,
-    /// What it has, or is to have, of each view of its header.
+    /// For each view of the header, the range of pairs that the journal has or should have.
     pub(crate) shares: Vec<Range<usize>>,
-    /// Whether its first line is not as it was written.
+    /// Whether the first line was changed after it was written.
     is_changed: bool,
-    /// Its other lines.
+    /// The lines after the first.
     rest: Vec<u8>,
 }
 
-/// What a journal says.
+/// The content of a journal.
 pub(crate) struct Said {
     pub(crate) findings: Findings,
-    /// Whether its last line says that it is done.
+    /// Whether the last line marks the journal as finished.
     pub(crate) done: bool,
-    /// Whether something in it is not understood; what is behind that is not looked at.
+    /// Whether a line could not be interpreted. Later lines are ignored.
     pub(crate) torn: bool,
-    /// An input that was taken down with two hashes.
+    /// An input that was recorded with two different hashes.
     pub(crate) twice: Option<String>,
-    /// The number of a line, from 1, that is not as it was written; what is behind that is not looked at.
+    /// Number of a line, counted from 1, that was changed after it was written. Later lines are
+    /// ignored.
     pub(crate) changed: Option<usize>,
 }
 
-/// More than the journal of the largest run that fits into memory.
+/// Maximum size in bytes, larger than the journal of any run that fits into memory.
 const MOST_BYTES: u64 = 64 << 30;
 
-/// Reads the journal of a folder.
+/// Reads the journal in a folder.
 ///
 /// # Errors
-/// When the system refuses.
+/// If the operating system refuses.
 pub(crate) fn read(folder: &Path) -> io::Result<Content> {
     let bytes = match read_small_file(&folder.join(JOURNAL), MOST_BYTES) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Content::Nothing),
         Err(error) => return Err(error),
     };
-    // A run that was killed, or had no room, before it had written anything.
+    // The run was killed, or had no disk space, before it had written anything.
     if bytes.is_empty() {
         return Ok(Content::Nothing);
     }
@@ -86,9 +87,10 @@ pub(crate) fn read(folder: &Path) -> io::Result<Content> {
 }
 
 impl Text {
-    /// What it says of a plan, that of its experiment.
+    /// Interprets the journal with `plan`, which must be the plan of its experiment.
     pub(crate) fn said(&self, plan: &Plan) -> Said {
-        // What is of no view of this journal, or of no pair that it has, is not understood.
+        // A line about a view that is not in this journal, or about a pair outside its range, is
+        // not accepted.
         let own = |(scene, eye): ViewIndex, step: Option<usize>| {
             let (scene, eye) = (&plan.scenes[scene].name, plan.scenes[scene].eyes[eye].eye);
             let mut views = self.header.views.iter();
@@ -96,23 +98,24 @@ impl Text {
             index.is_some_and(|index| step.is_none_or(|step| self.shares[index].contains(&step)))
         };
         let mut said = Lines { plan, own: &own }.said(&self.rest);
-        // The header is the first line.
+        // The header is line 1, so the other numbers move by one.
         said.changed = if self.is_changed { Some(1) } else { said.changed.map(|line| line + 1) };
         said
     }
 }
 
-/// The findings that lines have, of what is `own`; `None` where one is not understood.
+/// The findings in some lines, restricted to what `own` accepts; `None` if a line cannot be
+/// interpreted.
 pub(crate) fn findings_of(plan: &Plan, lines: &str, own: &Own<'_>) -> Option<Findings> {
     let said = Lines { plan, own }.said(lines.as_bytes());
     let whole = !said.torn && said.twice.is_none() && said.changed.is_none();
     whole.then_some(said.findings)
 }
 
-/// Whether a view, and a pair of it, may be there.
+/// Whether a view, and optionally a pair in it, is allowed in the journal.
 pub(crate) type Own<'a> = dyn Fn(ViewIndex, Option<usize>) -> bool + 'a;
 
-/// What lines are of.
+/// What is needed to interpret lines.
 struct Lines<'a> {
     plan: &'a Plan,
     own: &'a Own<'a>,
@@ -130,7 +133,7 @@ impl Lines<'_> {
                 break;
             }
             let whole = line.last() == Some(&b'\n') && seal == Seal::Whole;
-            // Nothing comes behind the last line.
+            // No line may follow the last one.
             if said.done || !whole || self.line(line, &mut said, &mut layouts).is_none() {
                 (said.torn, said.done) = (true, false);
                 break;
@@ -139,7 +142,7 @@ impl Lines<'_> {
         said
     }
 
-    /// Takes a line in; `None` where it is not understood.
+    /// Interprets a line; `None` if that is not possible.
     fn line(
         &self,
         line: &[u8],
@@ -201,7 +204,7 @@ impl Lines<'_> {
         Some(())
     }
 
-    /// The findings of a view; `None` where there is none of that name, or no such pair.
+    /// The findings of a view; `None` if there is no view with that name, or no such pair in it.
     fn view<'a>(
         &self,
         findings: &'a mut Findings,
@@ -228,7 +231,7 @@ fn method(plan: &Plan, name: &str) -> Option<usize> {
     plan.methods.iter().position(|method| method == name)
 }
 
-/// The place of a view that is called by the name of its scene and its eye.
+/// The index of the view with this scene name and eye.
 pub(crate) fn place(plan: &Plan, scene: &str, eye: Option<Eye>) -> Option<ViewIndex> {
     let index = plan.scenes.iter().position(|of| of.name == scene)?;
     let eye = plan.scenes[index].eyes.iter().position(|view| view.eye == eye)?;

@@ -1,4 +1,4 @@
-//! The lines of a journal behind its first, one kind after the other.
+//! The lines of a journal after the first, one type per kind of line.
 
 use std::collections::BTreeMap;
 
@@ -23,22 +23,22 @@ pub(super) struct FrameRecord {
     test: String,
     gaze_px: Option<[f64; 2]>,
     gaze_step_deg: Option<Number>,
-    /// Number of the line of keys that its values are of.
+    /// Number of the line of keys that describes the values.
     keys: usize,
     values: Vec<Token>,
-    /// What differences over time were taken along, where there are some.
+    /// Which motion and depth the temporal differences used, if there are any differences.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     atd: Option<AtdGuides>,
 }
 
-/// What the values of frames behind it are of.
+/// The keys that describe the values of the frames after this line.
 #[derive(Serialize, Deserialize)]
 pub(super) struct KeysRecord {
     pub(super) number: usize,
     layout: Vec<KeyRecord>,
 }
 
-/// A key as a list: what is measured, statistic, picture, level, band, and how many numbers its parts are.
+/// A key as a list: metric or measure, statistic, image, level, band, and the number of its parts.
 #[derive(Serialize, Deserialize)]
 struct KeyRecord(String, String, String, Option<u8>, Option<u16>, usize);
 
@@ -52,7 +52,7 @@ impl KeysRecord {
         Self { number, layout: layout.keys().map(record).collect() }
     }
 
-    /// `None` where it names something that there is not.
+    /// The layout of these keys; `None` if a name is unknown.
     pub(super) fn read(self) -> Option<Layout> {
         let key = |KeyRecord(subject, statistic, image, level, band, parts): KeyRecord| {
             let mut key = Key::named(Subject::find(&subject)?, &statistic)?;
@@ -63,8 +63,8 @@ impl KeysRecord {
     }
 }
 
-/// A frame's values, each with its parts behind it; those that are the mean of their parts, as most are, are
-/// said to be.
+/// The values of a frame, each followed by its parts. A value that is the mean of its parts, as
+/// most are, is only marked as such.
 fn tokens(rows: &FrameRows) -> Vec<Token> {
     let mut tokens = Vec::new();
     for row in rows.iter() {
@@ -84,7 +84,7 @@ fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits()
 }
 
-/// The same, read again.
+/// Turns the items back into values and parts.
 fn numbers(tokens: &[Token]) -> Option<Vec<Option<f64>>> {
     let number = |token: Option<&Token>| match token {
         Some(Token::Number(number)) => Some(*number),
@@ -119,8 +119,8 @@ impl FrameRecord {
         }
     }
 
-    /// The result, and what its differences over time were taken along; `None` where it names a metric
-    /// that there is not.
+    /// The result, and which motion and depth its temporal differences used; `None` if the name of
+    /// a metric is unknown.
     pub(super) fn read(
         self,
         layouts: &BTreeMap<usize, Layout>,
@@ -137,8 +137,8 @@ impl FrameRecord {
     }
 }
 
-/// Something that could not be scored: a pair; a comparison, without a frame; or a view, without a
-/// method either.
+/// Something that could not be scored: a pair, a comparison (without a frame), or a view (without a
+/// frame and a method).
 #[derive(Serialize, Deserialize)]
 pub(super) struct ErrorRecord {
     pub(super) scene: String,
@@ -146,7 +146,7 @@ pub(super) struct ErrorRecord {
     pub(super) eye: Option<Eye>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) step: Option<usize>,
-    /// Whether it was looked at for the sake of pairs after it alone.
+    /// Whether the pair was read only because later pairs need it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(super) before: bool,
     pub(super) frame: Option<i64>,
@@ -179,7 +179,7 @@ impl ErrorRecord {
     }
 }
 
-/// What holds for a view.
+/// What holds for a whole view.
 #[derive(Serialize, Deserialize)]
 pub(super) struct SettledRecord {
     pub(super) scene: String,
@@ -187,7 +187,7 @@ pub(super) struct SettledRecord {
     view: Option<ViewRecord>,
     metrics: Vec<String>,
     gaze_held: Option<usize>,
-    /// By the names of methods.
+    /// The viewing conditions of FovVideoVDP, by the name of the method.
     fvvdp: BTreeMap<String, FvvdpViewing>,
     missing: BTreeMap<String, String>,
 }
@@ -223,7 +223,7 @@ impl SettledRecord {
         }
     }
 
-    /// `None` where it names a metric or a method that there is not.
+    /// Reads the line; `None` if the name of a metric or a method is unknown.
     pub(super) fn read(self, method: impl Fn(&str) -> Option<usize>) -> Option<Settled> {
         let view = self.view.map(|view| {
             let ViewRecord { size, focal_px, gaze_px, eccentricity, bands_deg } = view;

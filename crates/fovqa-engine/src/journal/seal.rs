@@ -1,27 +1,28 @@
-//! The checksum at the end of each line of a journal, so that a line which was truncated or changed is noticed.
+//! The checksum at the end of each line of a journal. It reveals lines that were truncated or
+//! changed.
 //!
-//! The last key of a line is `"sum"`, the CRC-32 (of ISO-HDLC, as PNG and gzip have it) of everything in front of
-//! it, as eight hexadecimal digits.
+//! The last key of a line is `"sum"`: the CRC-32 (ISO-HDLC, the variant of PNG and gzip) of all
+//! bytes before it, as eight hexadecimal digits.
 
-/// What stands around the digits.
+/// The text before the digits.
 const BEFORE: &[u8] = b",\"sum\":\"";
 const BEHIND: &[u8] = b"\"}";
 const DIGITS: usize = 8;
 
-/// What the checksum of a line says.
+/// The result of the checksum test for a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Seal {
     /// The line is as it was written.
     Whole,
-    /// It is not.
+    /// The line was changed after it was written.
     Broken,
-    /// There is no checksum: it is no line of a journal, or a piece of one.
+    /// There is no checksum: this is not a line of a journal, or only a part of one.
     None,
 }
 
-/// A JSON object as a line with its checksum.
+/// Writes a JSON object as a line with its checksum.
 pub(super) fn sealed(mut object: Vec<u8>) -> Vec<u8> {
-    // The brace that ends it.
+    // Remove the closing brace.
     object.pop();
     let sum = crc32fast::hash(&object);
     object.extend(BEFORE);
@@ -31,7 +32,7 @@ pub(super) fn sealed(mut object: Vec<u8>) -> Vec<u8> {
     object
 }
 
-/// Looks at the checksum of a line, with or without its end.
+/// Tests the checksum of a line, with or without its line end.
 pub(super) fn seal_of(line: &[u8]) -> Seal {
     let line = line.strip_suffix(b"\n").unwrap_or(line);
     let parts = line.strip_suffix(BEHIND).and_then(|line| {

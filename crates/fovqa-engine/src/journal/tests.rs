@@ -1,4 +1,4 @@
-//! What is written is read again, to the last bit; what is not whole is not.
+//! What is written can be read again without loss of a bit. Damaged lines are refused.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -26,7 +26,7 @@ fn plan() -> Plan {
     }
 }
 
-/// A frame with everything that a frame can have.
+/// A frame with every optional value.
 fn frame() -> FrameResult {
     let values = [0.1 + 0.2, f64::INFINITY, f64::NEG_INFINITY, -0.0, f64::MIN_POSITIVE, 1e22];
     let parts = [
@@ -63,7 +63,7 @@ fn frame() -> FrameResult {
     }
 }
 
-/// A frame with nothing that it need not have.
+/// A frame without any optional value.
 fn bare_frame() -> FrameResult {
     let mut rows = Rows::default();
     let parts = Parts::Mean { sum: 0.0, weight: 1.0 };
@@ -160,10 +160,10 @@ fn everything_is_read_again_to_the_last_bit() {
     assert_eq!(header.experiment_file(), "e.toml");
     let said = text.said(&plan);
     assert!(!said.torn && !said.done && said.twice.is_none());
-    // In words too: equal numbers may differ in their sign.
+    // The debug texts are compared too, because equal numbers may differ in their sign.
     assert_eq!(said.findings, findings);
     assert_eq!(format!("{:?}", said.findings), format!("{findings:?}"));
-    // What comes later counts.
+    // A later line replaces an earlier one.
     let mended = Outcome { method: 0, result: Ok(bare_frame()), guides: AtdGuides::default() };
     let finished = crate::findings::Finished {
         named: crate::findings::Named::of(&plan, (0, 0, 0)),
@@ -178,7 +178,7 @@ fn everything_is_read_again_to_the_last_bit() {
     assert!(!said.done);
 }
 
-/// Whatever the order in which lines were written, and whichever were written again.
+/// The order is the same however the lines were ordered, and whichever of them were written twice.
 #[test]
 fn what_is_finished_stands_in_one_order() {
     let folder = tempfile::tempdir().unwrap();
@@ -196,7 +196,7 @@ fn what_is_finished_stands_in_one_order() {
         let said = read_text(folder.path()).said(&plan);
         assert_eq!((said.done, said.torn), (shard.is_some(), false));
         assert_eq!(said.findings, findings);
-        // What is of no pair of the run is not understood when it is read again.
+        // A pair that does not belong to the run is refused on reading.
         let mut more = findings.clone();
         let pairs = &mut more.views.get_mut(&(0, 0)).unwrap().pairs;
         let (_, last) = pairs.last_key_value().unwrap();
@@ -244,7 +244,7 @@ fn a_piece_of_a_line_is_dropped_and_what_is_behind_it() {
             .filter(|line| String::from_utf8_lossy(line).contains("\"step\""));
         assert_eq!(said.findings.pairs(), frames.count(), "{end}");
     }
-    // Within the first line there is no journal yet.
+    // If the file ends within the first line, there is no journal yet.
     for end in [1, 20, lines[0].len() - 2] {
         std::fs::write(folder.path().join(JOURNAL), &whole[..end]).unwrap();
         assert!(matches!(read(folder.path()).unwrap(), Content::Other), "{end}");
@@ -253,7 +253,7 @@ fn a_piece_of_a_line_is_dropped_and_what_is_behind_it() {
     assert!(matches!(read(folder.path()).unwrap(), Content::Nothing));
 }
 
-/// Lines that were changed, as if they had been written so.
+/// Gives changed lines valid checksums, as if they had been written so.
 fn resealed(lines: &str) -> String {
     let line = |line: &str| match line.rsplit_once(",\"sum\":") {
         Some((object, _)) => String::from_utf8(sealed(format!("{object}}}").into_bytes())).unwrap(),
@@ -310,21 +310,21 @@ fn lines_of_something_else_are_not_understood() {
         line(named("three", "A", None), 3),
         line(named("one", "C", None), 3),
         line(named("one", "A", Some(Eye::Left)), 3),
-        // Of the second shard, and of none.
+        // One line belongs to the second shard, the other to no shard.
         line(named("two", "A", Some(Eye::Left)), 0),
         line(named("one", "A", None), 4),
         good.replace("\"mse\"", "\"msf\""),
         good.replace("\"pair\"", "\"pear\""),
         good.replace("\"inf\"", "\"much\""),
-        // A number too many, one too few, and parts that are none.
+        // One number too many, one too few, and invalid parts.
         good.replace("[5.0,", "[5.0,1.0,"),
         good.replace("[5.0,", "["),
         good.replace("0.0,1.0]", "0.0,null]"),
         good.replace("\"inf\"", "false"),
-        // A band, and a level, that no frame has.
+        // A band and a level that no frame has.
         good.replacen("\"pair\",null,null,0", "\"pair\",null,65536,0", 1),
         good.replacen("\"pair\",null,null,0", "\"pair\",257,null,0", 1),
-        // Keys in another order, one of them twice, and none of that number.
+        // Keys in another order, a repeated key, and a number of keys that does not exist.
         good.replace("\"mse\"", "\"ssim\""),
         good.replace("\"mse\"", "\"psnr\""),
         good.replace("\"keys\":0", "\"keys\":7"),
@@ -341,7 +341,7 @@ fn lines_of_something_else_are_not_understood() {
     };
     let twice = [id("0"), id("0"), id("1")].concat();
     assert_eq!(said(folder.path(), &[&head, twice.as_bytes()].concat()).twice.unwrap(), "x");
-    // A text that is not the one it says.
+    // A text that differs from the one in the header.
     let other = String::from_utf8(head).unwrap().replace("name = ", "nome = ");
     std::fs::write(folder.path().join(JOURNAL), other).unwrap();
     assert!(matches!(read(folder.path()).unwrap(), Content::Other));

@@ -1,4 +1,4 @@
-//! Writing a journal.
+//! Writes a journal.
 
 use std::fs::File;
 use std::io::Write;
@@ -24,20 +24,21 @@ pub struct Journal {
     path: PathBuf,
     file: File,
     lines: Lines,
-    /// When its bytes were last brought to the disk.
+    /// When the bytes were last flushed to the disk.
     synced: Instant,
 }
 
-/// Frames are brought to the disk one by one, but no more often than this: a loss of power costs no more
-/// than that, and waiting for the disk next to nothing.
+/// Shortest time between two flushes. Every frame is flushed, but not more often than this. A power
+/// failure then loses no more than this interval, and waiting for the disk takes almost no time.
 const BETWEEN_SYNCS: Duration = Duration::from_secs(1);
 
 impl Journal {
-    /// Begins a journal in place of the one that may be there: first what it is of, then what is known
-    /// of it already. The old one stays until the new one has all of that.
+    /// Starts a journal that replaces an existing one. It writes the header first and then the
+    /// findings that are known already. The old journal stays until the new one contains all of
+    /// that.
     ///
     /// # Errors
-    /// When the file cannot be made.
+    /// If the file cannot be created.
     pub fn begin(
         folder: &Path,
         header: &Header,
@@ -51,10 +52,10 @@ impl Journal {
         Ok(Self { path, file, lines, synced: Instant::now() })
     }
 
-    /// Takes something down.
+    /// Records an entry.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// If the file cannot be written.
     pub fn write(&mut self, entry: Entry<'_>) -> Result<(), EngineError> {
         let line = self.lines.of(entry);
         self.append(&line)?;
@@ -64,17 +65,19 @@ impl Journal {
         Ok(())
     }
 
-    /// What cannot be brought to the disk is written all the same: the system does so in its own time.
+    /// Flushes the file to the disk. A failure is ignored, because the data was written and the
+    /// system flushes it later.
     fn sync(&mut self) {
         let _ = self.file.sync_data();
         self.synced = Instant::now();
     }
 
-    /// Puts another in its place once the run, or its shard, is finished: with the same lines in one order,
-    /// however they came about. That of a shard says that it is done.
+    /// Replaces this journal when the run, or its shard, is finished. The new one contains the same
+    /// lines in a fixed order, however they were produced. The journal of a shard is marked as
+    /// finished.
     ///
     /// # Errors
-    /// When it cannot be written. This one stays then.
+    /// If it cannot be written. The present journal then stays.
     pub fn finish(
         self,
         header: &Header,
@@ -96,14 +99,14 @@ impl Drop for Journal {
     }
 }
 
-/// How far a run has come.
+/// How far a run has progressed.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Stage {
     Begun,
     Finished,
 }
 
-/// Writes a journal whole, line by line, with what was found of the pairs that its header has.
+/// Writes a whole journal, line by line, with the findings about the pairs in its header.
 fn write_in_order(
     path: &Path,
     header: &Header,
@@ -113,7 +116,7 @@ fn write_in_order(
 ) -> Result<Lines, EngineError> {
     let shares = header.shares();
     let has = |entry: &Entry<'_>| match entry {
-        // A source that goes on behind its last pair is an error of no pair.
+        // A source that continues after its last pair is an error that belongs to no pair.
         Entry::Pair(pair) => {
             let share = shares.get(&(pair.named.scene, pair.named.eye));
             share.is_some_and(|share| share.contains(&pair.step))
@@ -144,7 +147,7 @@ fn write_in_order(
     Ok(lines)
 }
 
-/// The lines of a journal without its first, as text.
+/// The lines of a journal after the first, as text.
 pub(crate) fn lines_of(plan: &Plan, findings: &Findings) -> String {
     let (mut lines, mut text) = (Lines::default(), Vec::new());
     let written = findings.record(plan, &mut |entry| {
@@ -157,12 +160,13 @@ pub(crate) fn lines_of(plan: &Plan, findings: &Findings) -> String {
     String::from_utf8_lossy(&text).into_owned()
 }
 
-/// The lines of a journal, and which keys those before have named.
+/// Writes the lines of a journal and remembers which keys were written already.
 #[derive(Debug, Default)]
 pub(super) struct Lines(Vec<Layout>);
 
 impl Lines {
-    /// The line of an entry, behind a line of keys where its values are of others than any before.
+    /// The line of an entry. A line of keys comes before it if no earlier line has the keys of its
+    /// values.
     pub(super) fn of(&mut self, entry: Entry<'_>) -> Vec<u8> {
         match entry {
             Entry::Input(Input { path, bytes, sha256 }) => {

@@ -1,4 +1,4 @@
-//! The fused pass over the signals of test and reference.
+//! The single pass over the signals of test and reference that several metrics share.
 
 use fovqa_frame::PairSignal;
 use fovqa_metrics::{Metric, ScoreError, Scored, Scorer};
@@ -7,7 +7,7 @@ use fovqa_plan::{MetricChoice, Plan};
 use super::Pair;
 use crate::load::Fault;
 
-/// Scores pairs, each by itself.
+/// Scores each pair independently of the others.
 pub(super) struct Fidelity {
     scorer: Scorer,
 }

@@ -1,15 +1,16 @@
-//! The luma of the pictures at hand, which the pass over a picture leaves for what is measured over time.
+//! The luma planes of the present images. The pass over an image stores them here for the temporal
+//! metrics.
 
 use fovqa_metrics::temporal::KeptPlane;
 
-/// The luma of a pair, and of the reference before it.
+/// The luma of a pair, and of the reference in the frame before it.
 #[derive(Default)]
 pub(super) struct Lumas {
-    /// Whether anybody wants them.
+    /// Whether any metric needs the luma.
     wanted: bool,
     reference: KeptPlane,
     reference_before: KeptPlane,
-    /// Positions of the frames the two are of.
+    /// Position of the frame that the luma of the reference belongs to.
     at: Option<usize>,
     before_at: Option<usize>,
     test: KeptPlane,
@@ -24,7 +25,7 @@ impl Lumas {
         self.wanted
     }
 
-    /// Where the reference's goes; `None` where it is there already, or not wanted.
+    /// The plane for the luma of the reference; `None` if it is filled already or not wanted.
     pub(super) fn reference_to_fill(&mut self, position: usize) -> Option<&mut KeptPlane> {
         if !self.wanted || self.at == Some(position) {
             return None;
@@ -34,22 +35,23 @@ impl Lumas {
         Some(&mut self.reference)
     }
 
-    /// Where the test's goes.
+    /// The plane for the luma of the test; `None` if it is not wanted.
     pub(super) fn test_to_fill(&mut self) -> Option<&mut KeptPlane> {
         self.wanted.then_some(&mut self.test)
     }
 
-    /// The reference's, now and in the frame at `before`; `None` where that is not there.
+    /// The luma of the reference in the present frame and in the frame at `before`; `None` if that
+    /// one is not there.
     pub(super) fn references(&self, before: usize) -> Option<(&KeptPlane, &KeptPlane)> {
         (self.before_at == Some(before)).then_some((&self.reference, &self.reference_before))
     }
 
-    /// The test's.
+    /// The luma of the test.
     pub(super) fn test(&self) -> &KeptPlane {
         &self.test
     }
 
-    /// Changes the test's for another plane, whose memory is used again.
+    /// Swaps the luma of the test with another plane, whose memory is used again.
     pub(super) fn swap_test(&mut self, plane: &mut KeptPlane) {
         std::mem::swap(&mut self.test, plane);
     }

@@ -1,4 +1,4 @@
-//! What is measured of the light that the display shows: FovVideoVDP and PU-PSNR.
+//! Metrics based on the luminance that the display shows: FovVideoVDP and PU-PSNR.
 
 mod sequence;
 
@@ -22,34 +22,35 @@ use crate::load::Fault;
 use crate::timing::timings;
 use sequence::{Missing, Sequence, State};
 
-/// Said where linear files are shown in cd/m² and none of their values is above 1.
+/// The warning if linear files are shown in cd/m² and none of their values is above 1.
 const CANDELA: &str = "no pixel of the reference is brighter than 1 cd/m²: linear values are read as cd/m² on this display; \
      if a value of 1 stands for white or for another luminance, give that luminance with fvvdp.cd_m2_per_unit";
 
-/// The light of a view's frames, as long as it is needed.
+/// Keeps the luminance of a view's frames as long as it is needed.
 pub(super) struct LuminanceMeter {
     params: Params,
     photometry: Photometry,
     tables: LuminanceTables,
     pu_psnr: bool,
     maps: bool,
-    /// Of the present frame, by its index.
+    /// Index of the present frame, and the luminance of its reference.
     reference: Option<(usize, Arc<Grid>)>,
-    /// Sequences of FovVideoVDP by the index of their method; none where it is not asked for.
+    /// Sequences of FovVideoVDP by the index of their method; empty if the metric is not requested.
     sequences: BTreeMap<usize, Sequence>,
-    /// The reference as it was seen last, for the other tests of a frame.
+    /// The most recently processed reference, for the other tests of the same frame.
     prepared: Option<(Seen, FvvdpReference)>,
 }
 
-/// The frames a reference is made from, and the gaze.
+/// The frames that a processed reference is made from, and the gaze.
 #[derive(Debug, PartialEq)]
 struct Seen(Vec<usize>, [u64; 2]);
 
-/// Loads the reference and the test of a method for another frame of the view, by its index.
+/// Loads the reference and the test for another frame of the view (first argument) and a method
+/// (second argument).
 pub(crate) type LoadPair<'a> = dyn Fn(usize, usize) -> Result<[Frame; 2], Fault> + 'a;
 
 impl LuminanceMeter {
-    /// `None` where no metric is of light.
+    /// Creates the meter; `None` if no metric is based on luminance.
     pub(super) fn new(
         plan: &Plan,
         settings: &Settings,
@@ -62,7 +63,7 @@ impl LuminanceMeter {
         }
         let params = plan.params.fvvdp;
         let photometry = Photometry::new(settings.photometry()?);
-        // That sequences can be timed was found out with their frames.
+        // The timing of the sequences was already checked when their frames were found.
         let timings = timings(view, fps, &params).unwrap_or_default().into_iter();
         let sequences = timings.map(|(method, timing)| (method, Sequence::new(timing)));
         let wants_fvvdp = metrics.contains(&Metric::Fvvdp);
@@ -78,14 +79,14 @@ impl LuminanceMeter {
         })
     }
 
-    /// Goes on with a method's sequence where `done` of its frames are through, up to `end`: those of
-    /// them that have to come once more, without being scored.
+    /// Continues a method's sequence of which `done` frames are finished, up to `end`. Returns
+    /// those of the finished frames that must be read again, without being scored.
     pub(super) fn go_on(&mut self, method: usize, done: usize, end: usize) -> Range<usize> {
         let sequence = self.sequences.get_mut(&method);
         sequence.map_or(done..done, |sequence| sequence.go_on(done, end))
     }
 
-    /// Takes a pair in without measuring it.
+    /// Adds a pair to its sequence without measuring it.
     pub(super) fn take_in(&mut self, pair: &Pair<'_>) {
         if self.sequences.contains_key(&pair.method) && pair.setup.fvvdp().is_some() {
             let reference = self.luminance_of_reference(pair.frame, &pair.reference.frame);
@@ -93,8 +94,8 @@ impl LuminanceMeter {
         }
     }
 
-    /// Whether a frame's values are taken for cd/m² without anybody having said so, and none is brighter
-    /// than 1: a scene's light in other units, most likely.
+    /// Whether pixel values are read as cd/m² by default and none is brighter than 1. The scene is
+    /// then most likely in other units.
     fn is_dim(&self, reference: &Frame) -> bool {
         let unsaid = self.params.cd_m2_per_unit.is_none() && self.tables.is_absolute(reference);
         unsaid && {
@@ -118,7 +119,8 @@ impl LuminanceMeter {
         Arc::new(Grid::luminance(frame, &self.tables))
     }
 
-    /// Measures a pair. Frames of a sequence come in order; one that is left out ends it.
+    /// Measures a pair. The frames of a sequence must come in order; a missing frame ends the
+    /// sequence.
     pub(super) fn measure(
         &mut self,
         pair: &Pair<'_>,
@@ -143,7 +145,7 @@ impl LuminanceMeter {
         }
     }
 
-    /// Takes a frame into its sequence; whether that still goes on.
+    /// Adds a frame to its sequence. Returns whether the sequence continues.
     fn step(&mut self, pair: &Pair<'_>, reference: &Arc<Grid>, test: &Arc<Grid>) -> bool {
         let &Pair { frame, method, load, .. } = pair;
         let Some(mut sequence) = self.sequences.remove(&method) else { return false };
@@ -224,7 +226,7 @@ impl LuminanceMeter {
         let frames = reference.frames().into_iter().map(|place| timing.frames[place]);
         let seen = Seen(frames.collect(), pair.gaze_px.map(f64::to_bits));
         if self.prepared.as_ref().is_none_or(|(before, _)| *before != seen) {
-            // Not both at a time.
+            // Free the old reference first, so that the two do not use memory at the same time.
             self.prepared = None;
             let channels = reference.channels(time);
             let prepared = metric.reference(channels, pair.gaze_px, pair.tests > 1);
@@ -247,7 +249,8 @@ impl LuminanceMeter {
         (frame, map)
     }
 
-    /// Why a method's sequence has no value, as far as it goes here; `number` names its frames.
+    /// Why a method's sequence has no value, as far as the sequence was read here. `number` gives
+    /// the names of its frames.
     pub(super) fn missing(
         &self,
         method: usize,
@@ -256,7 +259,7 @@ impl LuminanceMeter {
         self.sequences.get(&method)?.missing(number)
     }
 
-    /// How a method's sequence is seen.
+    /// The viewing conditions for a method's sequence.
     pub(super) fn sight(&self, method: usize, metric: &Fvvdp) -> Option<FvvdpViewing> {
         let sequence = self.sequences.get(&method)?;
         Some(FvvdpViewing {

@@ -1,7 +1,8 @@
-//! What runs over the frames of a view: one meter for the metrics that share a pass over the pixels.
+//! Meters measure the frames of a view. One meter serves all metrics that share a pass over the
+//! pixels.
 //!
-//! Each meter says what its metrics need, takes pairs in by their order, and gives rows. A meter of what is
-//! measured over time has a *lead-in*: pairs before the one it measures that it has to have seen.
+//! Each meter states what its metrics need, receives pairs in order, and returns rows. A meter for
+//! temporal metrics has a *lead-in*: the pairs before the measured one that it must have read.
 
 mod fidelity;
 mod lumas;
@@ -32,17 +33,17 @@ use own::Own;
 use profiles::Profiles;
 use temporal::Temporal;
 
-/// A meter.
+/// One group of metrics that share a pass over the pixels.
 enum Meter {
-    /// What compares the signals of test and reference: one fused pass.
+    /// Metrics that compare the signals of test and reference in one common pass.
     Fidelity(Fidelity),
-    /// What compares them too, each metric in a pass of its own.
+    /// Metrics that also compare them, each in a pass of its own.
     Own(Own),
-    /// What is of the light that the display shows.
+    /// Metrics based on the luminance that the display shows.
     Luminance(Box<LuminanceMeter>),
-    /// What is measured of each picture by itself.
+    /// Measures of each image by itself.
     Profiles(Profiles),
-    /// What is measured of each picture and the one before it.
+    /// Differences between each image and the one before it.
     Temporal(Box<Temporal>),
 }
 
@@ -50,11 +51,11 @@ enum Meter {
 pub(crate) struct Pair<'a> {
     /// Index of the frame in the view.
     pub(crate) frame: usize,
-    /// Its position in the sequence.
+    /// Position of the frame in the sequence.
     pub(crate) position: usize,
     /// Index of the method.
     pub(crate) method: usize,
-    /// How many tests the frame has.
+    /// Number of tests of the frame.
     pub(crate) tests: usize,
     pub(crate) reference: &'a Side,
     pub(crate) test: &'a Side,
@@ -62,29 +63,30 @@ pub(crate) struct Pair<'a> {
     pub(crate) tables: &'a SignalTables,
     pub(crate) setup: &'a Setup<'a>,
     pub(crate) retina: &'a Retina,
-    /// Which pixels count, and into which band.
+    /// The pixels that count, and the band of each.
     pub(crate) regions: &'a Regions<'a>,
-    /// The same of blocks, by how many levels of them a metric needs.
+    /// The regions of blocks, by the number of block levels that a metric needs.
     pub(crate) blocks: &'a Blocks<'a>,
-    /// Where both pictures are finite; `None`: everywhere.
+    /// Where both images are finite; `None` means everywhere.
     pub(crate) finite: Option<&'a Mask>,
     pub(crate) load: &'a LoadPair<'a>,
 }
 
-/// How far the pairs of a method are through.
+/// The progress through the pairs of a method.
 struct Sequence {
     /// Index of the method.
     method: usize,
-    /// How many are.
+    /// Number of pairs that are finished.
     done: usize,
-    /// The place behind the last that comes.
+    /// The index after the last pair that is read.
     end: usize,
-    /// Whether some are to be scored.
+    /// Whether any of the pairs are to be scored.
     goes_on: bool,
 }
 
 impl Meter {
-    /// Goes on with a method's pairs where some are through: those of them that it has to have seen.
+    /// Continues a method's pairs, of which some are finished. Returns those of them that the meter
+    /// must read again.
     fn lead_in(&mut self, sequence: &Sequence) -> Range<usize> {
         let &Sequence { method, done, end, goes_on } = sequence;
         match self {
@@ -98,7 +100,7 @@ impl Meter {
 }
 
 impl Pair<'_> {
-    /// Bands of so many levels of blocks; `None` of no level.
+    /// The bands for `levels` levels of blocks; `None` for zero levels.
     fn blocks_of(&self, levels: usize) -> Option<&BlockRegions<'_>> {
         let blocks = self.blocks.get(&levels);
         debug_assert!(levels == 0 || blocks.is_some(), "the blocks of every metric are made");
@@ -106,7 +108,7 @@ impl Pair<'_> {
     }
 }
 
-/// What was measured of a pair.
+/// The measurements of a pair.
 #[derive(Default)]
 pub(crate) struct Measured {
     pub(crate) rows: Rows,
@@ -127,7 +129,7 @@ pub(crate) struct Meters {
 }
 
 impl Meters {
-    /// The meters of some metrics.
+    /// Creates the meters for some metrics.
     pub(crate) fn new(
         plan: &Plan,
         settings: &Settings,
@@ -148,7 +150,7 @@ impl Meters {
         Self { meters: meters.into_iter().flatten().collect(), lumas }
     }
 
-    /// Goes on without the metrics that do not fit the frames.
+    /// Continues without the metrics that do not fit the frames.
     pub(crate) fn settle(&mut self, plan: &Plan, metrics: &[Metric]) {
         for meter in &mut self.meters {
             match meter {
@@ -160,8 +162,8 @@ impl Meters {
         }
     }
 
-    /// The pairs before the first that is to be scored that have to be taken in: those of each method
-    /// that a meter's lead-in reaches back to.
+    /// The pairs before the first pair to be scored that must be read. For each method, these are
+    /// the pairs in the lead-in of a meter.
     pub(crate) fn lead_in(&mut self, work: &Work<'_>) -> BTreeSet<usize> {
         let mut pairs = BTreeSet::new();
         for method in work.methods() {
@@ -176,12 +178,13 @@ impl Meters {
         pairs
     }
 
-    /// Whether a pair tells what the frames of the reference carry; or those of its method's tests.
+    /// Whether a pair would tell what the frames of the reference carry (first value) and what the
+    /// tests of its method carry (second value), which is not known yet.
     pub(crate) fn lacks(&self, method: usize, first: bool) -> [bool; 2] {
         self.temporal().map_or([false; 2], |temporal| temporal.lacks(method, first))
     }
 
-    /// Checks that a pair carries what those before it did.
+    /// Checks that a pair carries the same motion and depth as the pairs before it.
     pub(crate) fn check(
         &mut self,
         method: usize,
@@ -195,7 +198,7 @@ impl Meters {
         temporal.map_or(Ok(()), |temporal| temporal.check(method, sides, first))
     }
 
-    /// Takes what the next frame needs of a reference that goes.
+    /// Keeps what the next frame needs of a reference that is about to be dropped.
     pub(crate) fn leave(&mut self, reference: &Side, position: usize) {
         for meter in &mut self.meters {
             match meter {
@@ -233,12 +236,12 @@ impl Meters {
         Ok(measured)
     }
 
-    /// Takes a pair in without measuring it: for those after it.
+    /// Processes a pair without measuring it, for the pairs after it.
     pub(crate) fn take_in(&mut self, pair: &Pair<'_>) -> Result<(), Fault> {
         for meter in &mut self.meters {
             match meter {
-                // Whether too much is left out is a matter of this pair alone, and costs those after
-                // it too.
+                // Whether too many pixels are left out depends on this pair alone, but later pairs
+                // cannot be scored without it either.
                 Meter::Fidelity(fidelity) if pair.finite.is_some() => fidelity.check(pair)?,
                 Meter::Own(own) if pair.finite.is_some() => {
                     own.measure(pair, false).try_for_each(|scored| scored.map(|_| ()))?;
@@ -252,17 +255,19 @@ impl Meters {
         Ok(())
     }
 
-    /// What the differences over time of a method were taken along.
+    /// Which motion and depth the temporal differences of a method used.
     pub(crate) fn atd_guides(&self, method: usize) -> AtdGuides {
         self.temporal().map(|temporal| temporal.guides(method)).unwrap_or_default()
     }
 
-    /// How FovVideoVDP sees the sequence of a method, where it is asked for.
+    /// The viewing conditions of FovVideoVDP for the sequence of a method, if the metric is
+    /// requested.
     pub(crate) fn fvvdp(&self, method: usize, setup: &Setup<'_>) -> Option<FvvdpViewing> {
         self.light()?.sight(method, setup.fvvdp()?)
     }
 
-    /// Why FovVideoVDP has no value for the sequence of a method, as far as it goes here.
+    /// Why FovVideoVDP has no value for the sequence of a method, as far as the sequence was read
+    /// here.
     pub(crate) fn missing(
         &self,
         method: usize,

@@ -1,4 +1,4 @@
-//! Metrics of fidelity that share a pass with no other.
+//! Fidelity metrics that share a pass with no other metric.
 
 use fovqa_metrics::{BlockRegions, Metric, PairInput, Params, Scored};
 use fovqa_plan::Plan;
@@ -20,7 +20,7 @@ impl Own {
         Self { metrics: metrics.collect(), params: (*plan.params).clone(), maps: plan.maps }
     }
 
-    /// Measures a pair, metric by metric; with its maps, where they are wanted and asked for.
+    /// Measures a pair, metric by metric. The maps are included if they are wanted and requested.
     pub(super) fn measure(
         &self,
         pair: &Pair<'_>,

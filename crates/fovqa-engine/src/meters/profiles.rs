@@ -1,5 +1,4 @@
-//! What is measured of each picture by itself; the luma of both is left where what is measured over time
-//! finds it.
+//! Measures of each image by itself. The luma of both images is stored for the temporal metrics.
 
 use fovqa_metrics::temporal::KeptPlane;
 use fovqa_metrics::{BlockRegions, Image, Metric, Params, Profiler, Rows};
@@ -7,10 +6,10 @@ use fovqa_plan::Plan;
 
 use super::{Lumas, Pair};
 
-/// Profiles of the pictures of a pair.
+/// Measures the profiles of the images of a pair.
 pub(super) struct Profiles {
     profiler: Profiler,
-    /// Those of the present reference, where they are the same for all tests.
+    /// The profiles of the present reference, if they are the same for all tests.
     reference: Option<Rows>,
 }
 
@@ -19,7 +18,7 @@ impl Profiles {
         Self { profiler: Profiler::new(metrics, &plan.params), reference: None }
     }
 
-    /// Forgets the reference.
+    /// Drops the profiles of the reference.
     pub(super) fn leave(&mut self) {
         self.reference = None;
     }
@@ -39,7 +38,7 @@ impl Profiles {
     }
 }
 
-/// Leaves the luma of a pair.
+/// Stores the luma of a pair.
 pub(super) fn take_in(pair: &Pair<'_>, lumas: &mut Lumas) {
     let nothing = Profiler::new(&[], &Params::default());
     one(&nothing, pair, Image::Reference, lumas.reference_to_fill(pair.position));

@@ -1,4 +1,4 @@
-//! What is kept of a frame for the next one, and the differences between the two.
+//! Keeps data of a frame for the next one, and measures the differences between the two.
 
 use std::collections::BTreeMap;
 
@@ -12,40 +12,40 @@ use super::{Lumas, Pair};
 use crate::events::Warnings;
 use crate::load::{Fault, Side};
 
-/// Said where differences over time are taken without motion vectors.
+/// The warning if temporal differences are measured without motion vectors.
 const NO_MOTION: &str =
     "ATD is computed without motion vectors: all movement counts as a difference";
 
-/// The frames before the present one: of the reference, and of each test.
+/// The previous frames: of the reference, and of each test.
 pub(super) struct Temporal {
     params: atd::Params,
     reference: Reference,
     tests: BTreeMap<usize, Test>,
 }
 
-/// The reference, before.
+/// The previous frame of the reference.
 #[derive(Default)]
 struct Reference {
     depth: Depth,
     carries: Carries,
-    /// Its differences, where they are the same for all tests.
+    /// The differences of the reference, if they are the same for all tests.
     differences: Option<AtdFrame>,
 }
 
-/// A test, before.
+/// The previous frame of a test.
 #[derive(Default)]
 struct Test {
     luma: KeptPlane,
-    /// Position of the frame it is of.
+    /// Position of the frame that the luma belongs to.
     at: Option<usize>,
     depth: Depth,
-    /// Where it and its reference were finite; `None`: everywhere.
+    /// Where the test and its reference were finite; `None` means everywhere.
     finite: Option<Mask>,
     carries: Carries,
     guides: AtdGuides,
 }
 
-/// Depth of the frame before.
+/// Depth of the previous frame.
 #[derive(Default)]
 struct Depth {
     plane: KeptPlane,
@@ -65,7 +65,8 @@ impl Depth {
     }
 }
 
-/// What the frames of a sequence carry: all of them, or none. Its first frame needs no motion.
+/// What the frames of a sequence carry. Either all frames carry it or none does. The first frame
+/// needs no motion.
 #[derive(Default)]
 struct Carries {
     motion: Option<bool>,
@@ -73,7 +74,7 @@ struct Carries {
 }
 
 impl Carries {
-    /// Whether a frame would tell more.
+    /// Whether a frame would tell something that is not known yet.
     fn lacks(&self, first: bool) -> bool {
         self.depth.is_none() || (!first && self.motion.is_none())
     }
@@ -101,7 +102,7 @@ fn agree(all: &mut Option<bool>, here: bool, file: &str, what: &str) -> Result<(
 }
 
 impl Temporal {
-    /// `None` where no metric is of frames in time.
+    /// Creates the meter; `None` if no metric is temporal.
     pub(super) fn new(plan: &Plan, metrics: &[Metric]) -> Option<Self> {
         metrics.contains(&Metric::Atd).then(|| Self {
             params: plan.params.atd,
@@ -110,13 +111,14 @@ impl Temporal {
         })
     }
 
-    /// Whether a pair tells what the frames of the reference carry; or those of its method's tests.
+    /// Whether a pair would tell what the frames of the reference carry (first value) and what the
+    /// tests of its method carry (second value), which is not known yet.
     pub(super) fn lacks(&self, method: usize, first: bool) -> [bool; 2] {
         let test = self.tests.get(&method).is_none_or(|test| test.carries.lacks(first));
         [self.reference.carries.lacks(first), test]
     }
 
-    /// Checks that the reference and the test of a method carry what those before them did.
+    /// Checks that the reference and the test of a method carry the same as those before them.
     pub(super) fn check(
         &mut self,
         method: usize,
@@ -127,7 +129,7 @@ impl Temporal {
         self.tests.entry(method).or_default().carries.check(test, first)
     }
 
-    /// Takes what the next frame needs of a reference that goes.
+    /// Keeps what the next frame needs of a reference that is about to be dropped.
     pub(super) fn leave(&mut self, reference: &Side, position: usize) {
         self.reference.differences = None;
         if self.params.depth_tolerance.is_some() {
@@ -135,13 +137,14 @@ impl Temporal {
         }
     }
 
-    /// What the differences of a test were taken along.
+    /// Which motion and depth the differences of a test used.
     pub(super) fn guides(&self, method: usize) -> AtdGuides {
         self.tests.get(&method).map(|test| test.guides).unwrap_or_default()
     }
 
-    /// The differences of a pair to the one before it, once the lumas of both are there; none where there
-    /// is none before it. The present one is kept for the next.
+    /// Measures the differences between a pair and the one before it. The luma of both images must
+    /// be ready. The result is empty if there is no pair before it. The present pair is kept for
+    /// the next one.
     pub(super) fn measure(
         &mut self,
         pair: &Pair<'_>,
@@ -159,7 +162,7 @@ impl Temporal {
         self.take_in(pair, lumas);
     }
 
-    /// Keeps a pair for the next one, once the lumas of both are there.
+    /// Keeps a pair for the next one. The luma of both images must be ready.
     pub(super) fn take_in(&mut self, pair: &Pair<'_>, lumas: &mut Lumas) {
         let test = self.tests.entry(pair.method).or_default();
         lumas.swap_test(&mut test.luma);
@@ -207,7 +210,8 @@ impl Temporal {
         };
         let of_test = (lumas.test(), &test.luma);
         let params = &self.params;
-        // What is not finite is so in a pair: the reference's differences are not those of the next.
+        // Which pixels are finite depends on the pair, so the differences of the reference cannot
+        // be shared between tests.
         let shared = pair.finite.is_none() && test.finite.is_none();
         let known = reference.differences.clone().filter(|_| shared);
         let (of_reference, of_test) = if own_motion || own_depth {

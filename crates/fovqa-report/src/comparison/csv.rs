@@ -1,12 +1,13 @@
-//! The table as CSV.
+//! Writes the table as CSV.
 
 use fovqa_metrics::Better;
 
 use super::{Cell, ComparisonTable};
 
 impl ComparisonTable {
-    /// CSV: for each measure a column a method (`psnr RMFR`) and one with the best of
-    /// the row (`psnr best`; several share it with ` = ` between them), where one is. Full precision.
+    /// CSV with one column per measure and method (`psnr RMFR`), and one column per measure with
+    /// the best methods of the row (`psnr best`), if there is a best. Equally good methods are
+    /// separated by ` = `. Numbers have full precision.
     pub fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut header = vec![self.corner.to_owned()];
@@ -16,7 +17,7 @@ impl ComparisonTable {
                 header.push(format!("{} best", group.key));
             }
         }
-        // Writing to memory does not fail, and the rows are of one length.
+        // Writing to memory does not fail, and all rows have the same length.
         let _ = writer.write_record(&header);
         for row in &self.rows {
             let mut record = vec![row.label.clone()];

@@ -1,22 +1,22 @@
-//! A group of columns: one measure, within it a column a method.
+//! A group of columns: one measure, with one column per method.
 
 use fovqa_metrics::{Better, Metric};
 
-/// What the columns of a group show.
+/// The measure that the columns of a group show.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Group {
-    /// Its name for people.
+    /// Label that people read.
     pub(crate) label: String,
     /// Its unit; empty for a plain number.
     pub(crate) unit: &'static str,
-    /// Its direction.
+    /// Whether higher or lower values are better.
     pub(crate) better: Better,
-    /// Its name in CSV.
+    /// Name in CSV files.
     pub(crate) key: String,
     digits: Digits,
 }
 
-/// How numbers are written.
+/// How the digits of numbers are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Digits {
     Decibels,
@@ -27,7 +27,7 @@ enum Digits {
 }
 
 impl Group {
-    /// A metric's own values.
+    /// The group for a metric's own values.
     pub(crate) fn of(metric: Metric) -> Self {
         let info = metric.info();
         let digits = match metric {
@@ -45,12 +45,12 @@ impl Group {
         }
     }
 
-    /// Percentages of the reference's value.
+    /// The group for percentages of the reference's value.
     pub(crate) fn ratio(label: String, key: String, better: Better) -> Self {
         Self { label, unit: "% of reference", better, key, digits: Digits::Percent }
     }
 
-    /// Name, unit, and which way is better.
+    /// Label, unit, and an arrow for the better direction.
     pub(crate) fn heading(&self) -> String {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
         let arrow = match self.better {
@@ -61,7 +61,7 @@ impl Group {
         format!("{}{unit}{arrow}", self.label)
     }
 
-    /// A value for people.
+    /// Formats a value for people.
     pub(crate) fn shown(&self, value: Option<f64>) -> String {
         match (value, self.digits) {
             (None, _) => "–".to_owned(),

@@ -1,4 +1,4 @@
-//! The table on the page of a run.
+//! Writes the table for the page of a run.
 
 use std::fmt::Write;
 
@@ -6,19 +6,19 @@ use super::group::Group;
 use super::{Cell, ComparisonTable};
 use crate::page::escaped;
 
-/// With more methods than this, columns of methods cannot be read.
+/// Maximum number of methods that can be read as columns.
 const MOST_METHODS: usize = 20;
-/// With more cells than this, a page opens too slowly.
+/// Maximum number of cells. A page with more cells opens too slowly.
 const MOST_CELLS: usize = 200_000;
 
 impl ComparisonTable {
-    /// Whether it has so many methods that a page shows it in another form.
+    /// Whether the table has so many methods that the page shows it in another layout.
     pub(crate) fn is_long(&self) -> bool {
         self.methods.len() > MOST_METHODS
     }
 
-    /// HTML of a table with very many methods: each is a row. `None` where it is too large for a page, as
-    /// those of ratios are.
+    /// HTML of a table with very many methods, with one row per method. `None` if it is too large
+    /// for a page, or is a table of ratios.
     pub(crate) fn long_html(&self) -> Option<String> {
         let rows = self.rows.len();
         if !self.is_of_scenes() || self.methods.len() * self.groups.len() * rows > MOST_CELLS {
@@ -47,7 +47,7 @@ impl ComparisonTable {
         Some(text)
     }
 
-    /// HTML of the same layout.
+    /// HTML with the same layout as the table.
     pub(crate) fn html(&self) -> String {
         let corner = self.corner;
         let mut text = format!("<table>\n<thead>\n<tr><th rowspan=\"2\">{corner}</th>");
@@ -75,7 +75,7 @@ impl ComparisonTable {
     }
 }
 
-/// The cells of a group of columns.
+/// Writes the cells of a group of columns.
 fn html_cells<'a>(text: &mut String, group: &Group, cells: impl Iterator<Item = &'a Cell>) {
     for (index, cell) in cells.enumerate() {
         let first = if index == 0 { " class=\"first\"" } else { "" };

@@ -9,7 +9,7 @@ use super::{ComparedRow, ComparisonTable};
 use crate::text_table::printable;
 
 impl ComparisonTable {
-    /// A `tabular` to be put into a `table`; the best of each row in bold. Needs
+    /// A `tabular` for use in a `table`. The best value of each row is bold. Needs
     /// `\usepackage{booktabs}`.
     pub fn latex(&self) -> String {
         let mut text = String::new();
@@ -50,7 +50,7 @@ impl ComparisonTable {
             for cell in cells {
                 let number = number(group, cell.value);
                 if cell.best {
-                    // Mathematics is bold by a switch of its own.
+                    // Mathematics needs its own command for bold.
                     let switch = if number.contains('$') { "\\boldmath" } else { "" };
                     let _ = write!(text, " & \\textbf{{{switch}{number}}}");
                 } else {
@@ -81,7 +81,7 @@ fn number(group: &Group, value: Option<f64>) -> String {
         Some(value) if value.is_infinite() => "$\\infty$".to_owned(),
         value => {
             let text = group.shown(value);
-            // 1.36e-3 is code, and no number of a paper.
+            // Papers do not write numbers as 1.36e-3, which is the notation of code.
             match text.split_once('e') {
                 Some((digits, exponent)) => format!("${digits} \\cdot 10^{{{exponent}}}$"),
                 None => text,
@@ -90,7 +90,7 @@ fn number(group: &Group, value: Option<f64>) -> String {
     }
 }
 
-/// Text that LaTeX takes as it is.
+/// Escapes text so that LaTeX prints it unchanged.
 fn escaped(text: &str) -> String {
     let mut plain = String::new();
     for c in printable(text).chars() {

@@ -1,4 +1,4 @@
-//! The table in GitHub's Markdown.
+//! Writes the table as GitHub Markdown.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use super::ComparisonTable;
 use crate::text_table::printable;
 
 impl ComparisonTable {
-    /// GitHub's Markdown; the best of each row in bold.
+    /// GitHub Markdown. The best value of each row is bold.
     pub fn markdown(&self) -> String {
         let mut text = format!("| {} |", self.corner);
         for group in &self.groups {
@@ -40,7 +40,7 @@ impl ComparisonTable {
     }
 }
 
-/// Text that Markdown takes as it is.
+/// Escapes text so that Markdown shows it unchanged.
 pub(crate) fn escaped_markdown(text: &str) -> String {
     let mut plain = String::new();
     for c in printable(text).chars() {

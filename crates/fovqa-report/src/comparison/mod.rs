@@ -1,6 +1,6 @@
-//! Tables that compare methods: measures side by side, within each a column a method. The papers' (RMFR,
-//! Table 1) has a row a scene, the best of each row marked, an average row at the end; that of ratios
-//! ([`ratios`]) a row an eccentricity band.
+//! Tables that compare methods: measures side by side, with one column per method. The table of the
+//! papers (RMFR, Table 1) has one row per scene, marks the best value of each row, and ends with an
+//! average row. The table of ratios ([`ratios`]) has one row per eccentricity band.
 
 mod csv;
 mod group;
@@ -23,9 +23,9 @@ use crate::overview::Overview;
 /// A table of values over the frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparisonTable {
-    /// What it is of, for the page.
+    /// The caption on the page.
     caption: String,
-    /// What its rows are.
+    /// The heading of the first column, which names what the rows are.
     corner: &'static str,
     methods: Vec<String>,
     groups: Vec<Group>,
@@ -33,7 +33,7 @@ pub struct ComparisonTable {
     notes: Vec<String>,
 }
 
-/// What the rows of the papers' table are.
+/// Heading of the first column if each row is a scene.
 const SCENE: &str = "scene";
 
 const FOVEAL_NOTE: &str = "FPSNR and FSSIM: the papers print no constants for the foveal weight; \
@@ -48,9 +48,9 @@ const ATD_NOTE: &str =
 #[derive(Debug, Clone, PartialEq)]
 struct ComparedRow {
     label: String,
-    /// Whether it is of all scenes together.
+    /// Whether the row is an average over the scenes.
     average: bool,
-    /// Group by group, within it method by method.
+    /// The cells, by group and then by method.
     cells: Vec<Vec<Cell>>,
 }
 
@@ -61,8 +61,8 @@ struct Cell {
 }
 
 impl ComparisonTable {
-    /// The table a plot asks for: its scenes, methods and metric, or all. `None` where nothing was
-    /// scored.
+    /// The table that a plot describes, with its scenes, methods and metric, or with all of them.
+    /// `None` if nothing was scored.
     pub(crate) fn new(run: &RunRecord, overview: &Overview, plot: &Plot) -> Option<Self> {
         let wanted = |names: &Option<Vec<String>>, name: &String| {
             names.as_ref().is_none_or(|names| names.contains(name))
@@ -121,24 +121,24 @@ impl ComparisonTable {
         Some(Self { caption, corner, methods, groups, rows, notes })
     }
 
-    /// Whether its rows are scenes.
+    /// Whether each row is a scene.
     fn is_of_scenes(&self) -> bool {
         self.corner == SCENE
     }
 
-    /// What it is of.
+    /// The caption of the table.
     pub fn caption(&self) -> &str {
         &self.caption
     }
 
-    /// What has to be said of the numbers wherever they are shown.
+    /// Remarks that must be shown together with the numbers.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 }
 
-/// The scenes in which every method has a value of a metric: those that means over scenes are of, in
-/// tables and figures alike. Means over different scenes could not be compared.
+/// The scenes in which every method has a value of a metric. Means over scenes use only these, in
+/// tables and figures alike, because means over different scenes could not be compared.
 pub(crate) fn common_scenes<'a>(
     overview: &Overview,
     scenes: &[&'a str],
@@ -152,7 +152,7 @@ pub(crate) fn common_scenes<'a>(
     scenes.iter().copied().filter(all).collect()
 }
 
-/// What a mean over scenes is called, by how many of all scenes it is of.
+/// The label of a mean over `of` of `all` scenes.
 pub(crate) fn average_label(of: usize, all: usize) -> String {
     if of == all {
         "Average".to_owned()
@@ -161,7 +161,8 @@ pub(crate) fn average_label(of: usize, all: usize) -> String {
     }
 }
 
-/// The columns of a metric: its values or, over time, the papers' percentage.
+/// The columns of a metric: its values or, for temporal differences, the percentage that the papers
+/// use.
 fn group(metric: Metric) -> Group {
     let info = metric.info();
     match metric {
@@ -170,7 +171,8 @@ fn group(metric: Metric) -> Group {
     }
 }
 
-/// Values with the best marked: what prints as the best does is as good. One value alone is none.
+/// Values with the best ones marked. A value that prints the same as the best value counts as best.
+/// A single value is not marked.
 fn marked(group: &Group, values: impl Iterator<Item = Option<f64>>) -> Vec<Cell> {
     let values: Vec<Option<f64>> = values.collect();
     let found = values.iter().copied().flatten();
@@ -188,8 +190,8 @@ fn marked(group: &Group, values: impl Iterator<Item = Option<f64>>) -> Vec<Cell>
     values.into_iter().map(cell).collect()
 }
 
-/// The means over the scenes that all methods have ([`common_scenes`], measure by measure), of the
-/// measures for which there are at least two; `None` where there is no such measure.
+/// The means over the scenes that all methods have ([`common_scenes`], for each measure). Only
+/// measures with at least two such scenes are included; `None` if there is no such measure.
 fn average(groups: &[Group], rows: &[ComparedRow], common: &[Vec<&str>]) -> Option<ComparedRow> {
     let mut scenes = Vec::new();
     let cells = groups.iter().enumerate().map(|(index, group)| {
@@ -218,13 +220,13 @@ fn average(groups: &[Group], rows: &[ComparedRow], common: &[Vec<&str>]) -> Opti
     Some(ComparedRow { label, average: true, cells })
 }
 
-/// The plain mean; `None` without any value. Infinite with any that is: what cannot be beaten in one
-/// scene must not lose by it in the average.
+/// The arithmetic mean; `None` if there are no values. It is infinite if any value is, so that a
+/// perfect result in one scene does not lower the average.
 pub(crate) fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// What a note lists; of very many, the first.
+/// Lists items for a note. If there are very many, only the first ones are listed.
 fn first(listed: &[String], separator: &str) -> String {
     const MOST: usize = 20;
     let text = listed[..listed.len().min(MOST)].join(separator);
@@ -234,7 +236,7 @@ fn first(listed: &[String], separator: &str) -> String {
     }
 }
 
-/// The scenes in which differences over time were taken without motion vectors.
+/// A note on the scenes in which temporal differences were measured without motion vectors.
 fn without_motion(overview: &Overview, scenes: &[&str], methods: &[String]) -> Option<String> {
     let still = |scene: &&&str| {
         let atd = |method: &String| overview.of(scene, method)?.atd.as_ref();
@@ -248,7 +250,7 @@ fn without_motion(overview: &Overview, scenes: &[&str], methods: &[String]) -> O
     })
 }
 
-/// The scenes in which methods were not scored on the same number of frames.
+/// A note on the scenes in which the methods were not scored on the same number of frames.
 fn unequal_frames(overview: &Overview, scenes: &[&str], methods: &[String]) -> Option<String> {
     let unequal: Vec<String> = scenes
         .iter()
@@ -269,7 +271,7 @@ fn unequal_frames(overview: &Overview, scenes: &[&str], methods: &[String]) -> O
     })
 }
 
-/// The frames whose decibels are infinite and in no mean.
+/// A note on the frames with infinite decibels, which are not part of any mean.
 fn identical_frames(overview: &Overview, scenes: &[&str], methods: &[String]) -> Option<String> {
     let pairs = scenes.iter().flat_map(|scene| methods.iter().map(move |method| (scene, method)));
     let identical: Vec<String> = pairs

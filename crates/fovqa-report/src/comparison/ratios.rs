@@ -1,4 +1,4 @@
-//! What is left of the reference in each eccentricity band: test / reference, in percent.
+//! The ratio test / reference in each eccentricity band, in percent.
 
 use fovqa_metrics::{Better, Metric};
 use fovqa_plan::Plot;
@@ -8,27 +8,27 @@ use super::group::Group;
 use super::{Cell, ComparedRow, ComparisonTable};
 use crate::overview::{Measured, Overview, WaveletBand};
 
-/// What a table of ratios is of.
+/// The contents of a table of ratios.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Ratios<'a> {
     pub(crate) metric: Metric,
     pub(crate) scene: &'a str,
     pub(crate) methods: &'a [&'a str],
-    /// Levels of the wavelet; `None`: all.
+    /// Levels of the wavelet; `None` for all.
     pub(crate) levels: Option<&'a [usize]>,
     /// Statistic of the wavelet.
     pub(crate) statistic: &'a str,
 }
 
-/// The statistic of the wavelet that is shown where none is named.
+/// The statistic of the wavelet that is shown if none is named.
 pub(crate) const DEFAULT_STATISTIC: &str = "energy";
 
-/// What a plot says of the wavelet.
+/// The wavelet statistic of a plot.
 pub(crate) fn statistic(plot: &Plot) -> &str {
     plot.statistic.as_deref().unwrap_or(DEFAULT_STATISTIC)
 }
 
-/// A statistic of the wavelet for people.
+/// A wavelet statistic in words.
 pub(crate) fn statistic_in_words(statistic: &str) -> &'static str {
     match statistic {
         "mean_abs" => "mean |c|",
@@ -38,7 +38,7 @@ pub(crate) fn statistic_in_words(statistic: &str) -> &'static str {
 }
 
 impl ComparisonTable {
-    /// The table of one metric in one scene; `None` where nothing of it was scored.
+    /// The table of one metric in one scene; `None` if it was not scored.
     pub(crate) fn ratios(
         run: &RunRecord,
         overview: &Overview,
@@ -103,7 +103,7 @@ impl Ratios<'_> {
         }
     }
 
-    /// The levels to show; none but for the wavelet.
+    /// The levels to show. Only the wavelet has levels.
     fn levels_of(&self, found: &[&Measured]) -> Vec<usize> {
         if self.metric != Metric::Haar {
             return Vec::new();

@@ -1,12 +1,12 @@
-//! The table on a terminal.
+//! Writes the table for a terminal.
 
 use super::group::Group;
 use super::{Cell, ComparedRow, ComparisonTable};
 use crate::text_table::{aligned, plain_table, printable};
 
 impl ComparisonTable {
-    /// For a terminal: metric by metric below each other, or, where there is but one scene, method
-    /// by method; `*` behind the best of each scene.
+    /// Text for a terminal: one metric below another or, if there is only one scene, one method
+    /// below another. `*` marks the best value of each scene.
     pub fn terminal(&self) -> String {
         if let [row] = self.rows.as_slice() {
             return self.one_scene(row);

@@ -1,16 +1,16 @@
-//! What curves are called where several stand together: by what differs between them.
+//! Labels for curves that are shown together. They name what differs between the curves.
 
 use fovqa_methods::Method;
 use fovqa_methods::curves::{Curve, CurveSetting, CurveSource};
 use fovqa_plan::PanelOf;
 
-/// What tells the curves of a figure or table apart.
+/// The properties that distinguish the curves of a figure or table.
 pub(super) struct Labels {
-    /// What is not the same for all.
+    /// The properties that are not the same for all curves.
     differ: Vec<PanelOf>,
 }
 
-/// The screen of a curve of a method.
+/// The screen, if the curve is that of a method.
 pub(super) fn screen(curve: &Curve) -> Option<&CurveSetting> {
     match &curve.spec.source {
         CurveSource::Acuity(_) => None,
@@ -18,7 +18,7 @@ pub(super) fn screen(curve: &Curve) -> Option<&CurveSetting> {
     }
 }
 
-/// The name of a curve; one that its paper does not define says so.
+/// The name of a curve. It states if no paper defines the curve.
 pub(super) fn name(curve: &Curve) -> String {
     let name = &curve.spec.name;
     match &curve.spec.source {
@@ -31,7 +31,7 @@ pub(super) fn name(curve: &Curve) -> String {
     }
 }
 
-/// "2560 × 1440".
+/// A resolution such as "2560 × 1440".
 pub(super) fn resolution(screen: &CurveSetting) -> String {
     format!("{} × {}", screen.view.width, screen.view.height)
 }
@@ -55,14 +55,15 @@ impl Labels {
         let found = [
             (PanelOf::Curve, differ(&|curve| Some(curve.spec.name.clone()))),
             (PanelOf::Resolution, differ(&|curve| screen(curve).map(resolution))),
-            // In the centre of two frames it is one gaze.
+            // The centres of two frames with different sizes count as the same gaze.
             (PanelOf::Gaze, differ(&|curve| screen(curve).map(gaze))),
             (PanelOf::Direction, differ(&|curve| screen(curve).map(direction))),
         ];
         Self { differ: found.into_iter().filter(|(_, differ)| *differ).map(|(of, _)| of).collect() }
     }
 
-    /// The label of a curve, without what its panel's title says; in a panel of its own its name.
+    /// The label of a curve, without the parts that are in the title of its panel. A curve that has
+    /// its own panel is labelled with its name.
     pub(super) fn label(&self, curve: &Curve, panels: PanelOf) -> String {
         if panels == PanelOf::Curve {
             return name(curve);
@@ -71,13 +72,13 @@ impl Labels {
         if parts.is_empty() { name(curve) } else { parts.join(", ") }
     }
 
-    /// The name of a curve's row in a table that has a column of resolutions.
+    /// The name of a curve's row in a table that has a column for each resolution.
     pub(super) fn row(&self, curve: &Curve) -> String {
         let others = self.parts(curve, |of| !matches!(of, PanelOf::Curve | PanelOf::Resolution));
         std::iter::once(name(curve)).chain(others).collect::<Vec<_>>().join(", ")
     }
 
-    /// The title of a curve's panel; empty where it has none of its own.
+    /// The title of a curve's panel; empty if the curve has no panel of its own.
     pub(super) fn title(&self, curve: &Curve, panels: PanelOf) -> String {
         match panels {
             PanelOf::One => String::new(),

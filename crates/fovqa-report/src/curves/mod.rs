@@ -1,4 +1,4 @@
-//! Figures, tables and the page of a file of curves.
+//! Figures, tables and the page of a curves file.
 
 mod labels;
 mod models;
@@ -20,33 +20,33 @@ use crate::figures::slug;
 use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
 use plain_table::PlainTable;
 
-/// What was drawn of a file of curves.
+/// The figures and tables that were made from a curves file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnCurves {
-    /// The tables, for a terminal.
+    /// The tables as text for a terminal.
     pub tables: Vec<String>,
-    /// How many figures.
+    /// Number of figures.
     pub figures: usize,
 }
 
-/// What figures and tables are made from.
+/// The data that figures and tables are made from.
 struct Source<'a> {
     file: &'a CurvesFile,
     curves: &'a [Curve],
 }
 
 impl<'a> Source<'a> {
-    /// The curves of some names, or all.
+    /// The curves with the given names, or all curves.
     fn chosen(&self, names: Option<&[String]>) -> Vec<&'a Curve> {
         let chosen = |curve: &&Curve| names.is_none_or(|names| names.contains(&curve.spec.name));
         self.curves.iter().filter(chosen).collect()
     }
 }
 
-/// Writes curves, figures, tables and page into a folder.
+/// Writes curves, figures, tables and the page into a folder.
 ///
 /// # Errors
-/// When the folder cannot be written to, or a figure cannot be.
+/// If the folder cannot be written to, or a figure cannot be drawn.
 pub fn draw_curves(
     folder: &Path,
     file: &CurvesFile,
@@ -62,7 +62,7 @@ pub fn draw_curves(
             CurvePlotKind::Accumulated => models::accumulated(&source, plot),
             CurvePlotKind::HalfAxis => models::half_axis(plot),
         };
-        // A name is anything; a file's name is part of an address on the page.
+        // The name may contain any character, but a file name is part of an address on the page.
         let name = match slug(&drawn.name) {
             name if name.is_empty() => "figure".to_owned(),
             name => name,

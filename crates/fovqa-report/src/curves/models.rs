@@ -1,5 +1,5 @@
-//! Figures of one method's own: DEAMP's shaded pixels within an angle (Fig. 5b), RMFR's mapping of a
-//! half axis (Fig. 3).
+//! Figures for a single method: DEAMP's shaded pixels within an angle (Fig. 5b), and RMFR's mapping
+//! of a half axis (Fig. 3).
 
 use fovqa_methods::Method;
 use fovqa_methods::curves::CurveSource;
@@ -12,7 +12,7 @@ use super::Source;
 use super::labels::Labels;
 use crate::sheet::NamedFigure;
 
-/// Points of a curve.
+/// Number of points of a curve.
 const POINTS: u32 = 180;
 
 pub(super) fn accumulated(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
@@ -27,7 +27,7 @@ pub(super) fn accumulated(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure 
         else {
             continue;
         };
-        // It could be applied when the file was read.
+        // This does not fail, because the method was already applied when the file was read.
         let Some(deamp) = setting.setting().ok().and_then(|over| Deamp::new(params, &over).ok())
         else {
             continue;

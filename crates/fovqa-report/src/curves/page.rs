@@ -1,4 +1,4 @@
-//! The page of a file of curves.
+//! The page of a curves file.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! Samples per pixel over the field of view, as a picture with rings of equal eccentricity.
+//! Samples per pixel over the field of view, as an image with rings of equal eccentricity.
 
 use fovqa_methods::Place;
 use fovqa_methods::curves::{CurveSetting, CurveSource, density_map};
@@ -11,12 +11,13 @@ use super::labels::Labels;
 use super::tables::alike;
 use crate::sheet::{NamedFigure, ReportError};
 
-/// Cells along the longer side of the frame: as fine as a panel in print, and their data a file that
-/// opens.
+/// Number of cells along the longer side of the frame. This is fine enough for a panel in print,
+/// and the data file is small enough to open.
 const CELLS: usize = 240;
-/// So many pictures are large enough for that; of more each is small.
+/// Up to this number of images, each is large enough for that resolution. If there are more, each
+/// is small.
 const FEW: usize = 6;
-/// From one point of a ring to the next, degrees.
+/// Angle in degrees between neighbouring points of a ring.
 const RING_STEP_DEG: u32 = 2;
 const RINGS_DEG: [f64; 4] = [10.0, 20.0, 40.0, 60.0];
 
@@ -24,7 +25,7 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
     let name = plot.name.clone().unwrap_or_else(|| "density".to_owned());
     let mut curves = source.chosen(plot.curves.as_deref());
     curves.retain(|curve| curve.counts.is_some());
-    // A curve in another direction is of the same picture.
+    // Curves that differ only in direction have the same image.
     let curves = alike(curves);
     let labels = Labels::of(&curves);
     let cells = if curves.len() <= FEW { CELLS } else { CELLS / 2 };
@@ -40,7 +41,7 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
             plot.rings_deg.as_slice()
         };
         let (width, height) = (setting.view.width as f64, setting.view.height as f64);
-        // Where the method takes a gaze that is outside of the frame.
+        // The gaze that the method uses if the given gaze is outside the frame.
         let [gaze_x, gaze_y] = setting.gaze_px;
         let gaze_px = [gaze_x.clamp(0.0, width), gaze_y.clamp(0.0, height)];
         let seen = CurveSetting { gaze_px, ..*setting };
@@ -71,15 +72,16 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
     Ok(NamedFigure { name, caption: format!("{caption}; rings of equal eccentricity"), figure })
 }
 
-/// A value with six digits: more than colours show, and a third of the bytes in the figure's data.
+/// A value with six digits. Colours cannot show more, and the data of the figure needs only a third
+/// of the bytes.
 fn short(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// The ring of an eccentricity around the gaze.
+/// The ring around the gaze at an eccentricity in degrees.
 fn ring(setting: &CurveSetting, e: f64) -> RasterLine {
     let [gaze_x, gaze_y] = setting.gaze_px;
-    // Begun at the upper right, where its label is free of the axes.
+    // The ring starts at the upper right, where its label does not cover the axes.
     let points = (0..=360 / RING_STEP_DEG).map(|i| {
         let direction = Place::polar(0.0, f64::from(i * RING_STEP_DEG) - 45.0).direction;
         let at = PixelScale::at(

@@ -1,4 +1,4 @@
-//! A table of names and numbers, for Markdown, CSV, a page and a terminal.
+//! A table of names and numbers, for Markdown, CSV, the page and a terminal.
 
 use std::fmt::Write;
 
@@ -6,12 +6,12 @@ use crate::comparison::escaped_markdown;
 use crate::page::escaped;
 use crate::text_table::{aligned, plain_table, printable};
 
-/// A table; the first cells of rows are names.
+/// A table. The first cells of each row are names.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct PlainTable {
-    /// What it is of.
+    /// The caption.
     pub(super) caption: String,
-    /// Heads of the columns, each with its name in CSV.
+    /// Headings of the columns, each with its name in CSV.
     pub(super) columns: Vec<Column>,
     pub(super) rows: Vec<Vec<Cell>>,
     pub(super) notes: Vec<String>,
@@ -29,7 +29,7 @@ impl Column {
     }
 }
 
-/// What is read, and the value behind it.
+/// The text of a cell, and the value that it shows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Cell {
     pub(super) shown: String,
@@ -46,18 +46,18 @@ impl Cell {
         Self { shown, value: format!("{value:?}") }
     }
 
-    /// Of a share, in percent.
+    /// A share, shown in percent.
     pub(super) fn percent(share: f64) -> Self {
         Self::number(format!("{:.1} %", 100.0 * share), share)
     }
 
-    /// A count, in thousands where it is large.
+    /// A count, shown in thousands if it is large.
     pub(super) fn count(count: f64) -> Self {
         Self::number(grouped(count), count)
     }
 }
 
-/// A rounded number with a thin space between thousands.
+/// A rounded number with thin spaces as thousands separators.
 pub(super) fn grouped(count: f64) -> String {
     let digits = format!("{count:.0}");
     let mut text = String::new();
@@ -95,7 +95,7 @@ impl PlainTable {
     /// CSV with full precision.
     pub(super) fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        // Writing to memory does not fail, and the rows are of one length.
+        // Writing to memory does not fail, and all rows have the same length.
         let _ = writer.write_record(self.columns.iter().map(|column| &column.key));
         for row in &self.rows {
             let _ = writer.write_record(row.iter().map(|cell| &cell.value));

@@ -1,4 +1,5 @@
-//! Rates and acuity against eccentricity, with what is over- and under-sampled.
+//! Figures of rates and acuity against eccentricity, with the areas that are over- and
+//! under-sampled.
 
 use fovqa_methods::curves::{Curve, CurvePoint};
 use fovqa_plan::{CurvePlot, PanelOf, RateKind, RateUnit};
@@ -8,10 +9,11 @@ use super::Source;
 use super::labels::{Labels, resolution, screen};
 use crate::sheet::NamedFigure;
 
-/// Room above the highest acuity or display rate, where a rate grows without bound.
+/// Factor between the end of the axis and the highest acuity or display rate, if a rate grows
+/// without limit.
 const ROOM: f64 = 1.15;
 
-/// One of the two rates.
+/// The direction of a rate.
 #[derive(Clone, Copy, PartialEq)]
 enum Along {
     Radial,
@@ -42,9 +44,9 @@ struct Rates<'a> {
     source: &'a Source<'a>,
     plot: &'a CurvePlot,
     labels: Labels,
-    /// Labels in the order of the plan: the same curve looks the same in every panel.
+    /// Labels in the order of the plan, so that a curve looks the same in every panel.
     looks: Vec<String>,
-    /// Names of displays in the same order.
+    /// Names of displays, in the same order.
     displays: Vec<String>,
 }
 
@@ -90,7 +92,7 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
     }
     let cut = charts.iter().any(|chart| chart.y_limits.is_some()) && plot.y_limits.is_none();
     if charts.len() > 1 {
-        // The axis of a panel has no room for more.
+        // The axis of a panel has no space for more.
         for chart in &mut charts {
             chart.y.title = chart.y.title.replace("cycles per degree", "cpd");
         }
@@ -126,7 +128,8 @@ fn capitalised(word: &str) -> String {
 }
 
 impl<'a> Rates<'a> {
-    /// The curves of each panel, with its title. What is of no screen is in all panels of screens.
+    /// The curves of each panel, with its title. Curves without a screen are shown in all panels of
+    /// screens.
     fn groups(&self, curves: &[&'a Curve]) -> Vec<(String, Vec<&'a Curve>)> {
         let mut groups: Vec<(String, Vec<&Curve>)> = Vec::new();
         let everywhere = |curve: &Curve| {
@@ -170,10 +173,10 @@ impl<'a> Rates<'a> {
         if plot.display {
             series.extend(self.displays(group, along));
         }
-        // Over the curves: one that follows acuity would hide it.
+        // Acuity is drawn last, because a curve that follows it would hide it.
         series.extend(self.acuity(group, along));
         let rate = match plot.rate {
-            // Side by side the panels' titles say which.
+            // If the panels are side by side, their titles name the direction.
             RateKind::Both => "Rate".to_owned(),
             _ => format!("{} rate", capitalised(along.name())),
         };
@@ -197,7 +200,7 @@ impl<'a> Rates<'a> {
         }
     }
 
-    /// Ends of the axis where a rate is so high that nothing else would be seen.
+    /// Ends of the axis if a rate is so high that the other curves could not be seen.
     fn limits(&self, series: &[LineSeries]) -> Option<(f64, f64)> {
         let most = |reference: bool| {
             let of = series.iter().filter(|series| series.reference == reference);
@@ -221,8 +224,8 @@ impl<'a> Rates<'a> {
         curve.points.iter().map(|point| (point.eccentricity_deg, value(point))).collect()
     }
 
-    /// What the plan holds rates against, over the eccentricities of a panel; none among models of
-    /// acuity alone, and in pixels where the panel's screens differ.
+    /// The acuity that the plan compares rates with, over the eccentricities of a panel. `None` if
+    /// the panel shows only acuity models, or if the unit is pixels and the panel's screens differ.
     fn acuity(&self, group: &[&Curve], along: Along) -> Option<LineSeries> {
         let model = &self.source.file.plan.acuity;
         let acuity = model.curve().ok()?;
@@ -243,7 +246,8 @@ impl<'a> Rates<'a> {
         })
     }
 
-    /// The displays' own rates, each once, as far as any curve on it goes.
+    /// The displays' own rates. Each is drawn once, up to the largest eccentricity of any curve on
+    /// the display.
     fn displays(&self, group: &[&Curve], along: Along) -> Vec<LineSeries> {
         let mut found: Vec<(String, &Curve)> = Vec::new();
         for &curve in group {
@@ -259,7 +263,7 @@ impl<'a> Rates<'a> {
             let look = self.displays.iter().position(|known| *known == name).unwrap_or_default();
             LineSeries {
                 name,
-                // Acuity has the first look of a reference.
+                // Acuity has the first look of a reference, so displays start with the second.
                 look: Look::new(1 + look),
                 reference: true,
                 points: self.points(curve, |point| along.display(point), along),
@@ -269,7 +273,7 @@ impl<'a> Rates<'a> {
         found.into_iter().map(line).collect()
     }
 
-    /// Where the rate of a panel's only curve is below and above acuity.
+    /// The areas in which the rate of a panel's only curve is below and above acuity.
     fn fills(&self, group: &[&Curve], along: Along) -> Vec<Fill> {
         let shaded: Vec<&&Curve> = group.iter().filter(|c| screen(c).is_some()).collect();
         let wanted = self.plot.areas.unwrap_or(shaded.len() == 1);
@@ -294,7 +298,7 @@ impl<'a> Rates<'a> {
     }
 }
 
-/// Whether a degree has as many pixels in all curves of a panel.
+/// Whether all curves of a panel have the same number of pixels per degree.
 fn same_displays(group: &[&Curve]) -> bool {
     let mut views = group.iter().filter_map(|curve| screen(curve)).map(|screen| screen.view);
     views.next().is_none_or(|first| views.all(|other| other == first))

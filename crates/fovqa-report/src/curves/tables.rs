@@ -1,4 +1,4 @@
-//! Tables: samples and load, speed-up, the field against acuity.
+//! Tables of samples and load, of speed-up, and of the field compared with acuity.
 
 use fovqa_methods::Counts;
 use fovqa_methods::curves::Curve;
@@ -8,7 +8,7 @@ use super::Source;
 use super::labels::{Labels, resolution, screen};
 use super::plain_table::{Cell, Column, PlainTable};
 
-/// A table with the name of its files.
+/// A table and the name of its files.
 pub(super) fn table(source: &Source<'_>, table: &CurveTable) -> (&'static str, PlainTable) {
     let mut curves = source.chosen(table.curves.as_deref());
     curves.retain(|curve| curve.counts.is_some());
@@ -19,7 +19,7 @@ pub(super) fn table(source: &Source<'_>, table: &CurveTable) -> (&'static str, P
     }
 }
 
-/// Each method on each screen once: counts have no direction.
+/// Each method on each screen once, because sample counts do not depend on the direction.
 pub(super) fn alike(curves: Vec<&Curve>) -> Vec<&Curve> {
     let mut once: Vec<&Curve> = Vec::new();
     for curve in curves {
@@ -38,7 +38,7 @@ fn pixels(curve: &Curve) -> f64 {
     screen(curve).map_or(0.0, |s| s.view.width as f64 * s.view.height as f64)
 }
 
-/// Text with its long numbers rounded, as solved parameters have them.
+/// Text with its long numbers rounded. Solved parameters, for example, have long numbers.
 fn rounded(text: &str) -> String {
     const LONG: usize = 8;
     let mut shown = String::new();
@@ -57,7 +57,7 @@ fn rounded(text: &str) -> String {
     shown + rest
 }
 
-/// A note as a sentence.
+/// Formats a note as a sentence.
 pub(super) fn sentence(note: &str) -> String {
     let mut chars = note.chars();
     let first: String = chars.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
@@ -75,7 +75,8 @@ fn notes<'a>(curves: impl Iterator<Item = &'a &'a Curve>) -> Vec<String> {
     notes
 }
 
-/// A row a method, two columns a resolution: as VaFR's Table 1, in thousands.
+/// One row per method and two columns per resolution, as in Table 1 of VaFR. Counts are in
+/// thousands.
 fn samples(curves: &[&Curve]) -> PlainTable {
     let mut sizes: Vec<String> = Vec::new();
     let mut rows: Vec<(String, Vec<&Curve>)> = Vec::new();

@@ -1,5 +1,5 @@
-//! What is measured of each picture, against eccentricity: a line a method, the reference dashed. The
-//! wavelet has a panel a level (Patney et al. 2016, Figs. 4 and 10).
+//! Measures of each image against eccentricity: one line per method, with a dashed line for the
+//! reference. The wavelet has one panel per level (Patney et al. 2016, Figs. 4 and 10).
 
 use fovqa_metrics::Metric;
 use fovqa_plan::Plot;
@@ -9,10 +9,10 @@ use super::{MOST_EDGE_TICKS, NamedFigure, Selection, axis, slug};
 use crate::comparison::{statistic, statistic_in_words};
 use crate::overview::Measured;
 
-/// Panels beside each other.
+/// Number of panels side by side.
 const COLUMNS: usize = 3;
 
-/// A band's values of reference and test.
+/// Values of the reference and the test in a band.
 #[derive(Debug, Clone, Copy)]
 struct Values {
     from_deg: f64,
@@ -22,7 +22,7 @@ struct Values {
 }
 
 impl Selection<'_> {
-    /// The profile of a scene; `None` where nothing of it was scored.
+    /// The profile of a scene; `None` if it was not scored.
     pub(super) fn compared(&self, metric: Metric, scene: &str, plot: &Plot) -> Option<NamedFigure> {
         let name = format!("profile-{}", slug(metric.key()));
         let name = if self.scenes.len() == 1 { name } else { format!("{name}-{}", slug(scene)) };
@@ -34,7 +34,8 @@ impl Selection<'_> {
             metric => {
                 let values = |c: &Measured| banded(c, metric);
                 let chart = self.chart(scene, Axis::new(axis(metric)), values)?;
-                // Contrasts differ by little: their distance is read, not their height.
+                // Contrasts differ only slightly, so their distance matters, not their height above
+                // zero.
                 let y_from_zero = metric != Metric::RmsContrast;
                 let chart = LineChart { title: self.title(scene), y_from_zero, ..chart };
                 (Figure::Line(chart), metric.info().label.to_owned())
@@ -58,7 +59,8 @@ impl Selection<'_> {
             let chart = self.chart(scene, y, values)?;
             let side = 1u64 << level;
             let title = Some(format!("Level {level} ({side}×{side} px)"));
-            // Half as wide as a chart alone: of many edges every other one.
+            // The panel is half as wide as a single chart, so with many band edges only every other
+            // edge is labelled.
             let every =
                 |ticks: &Vec<f64>| if ticks.len() > MOST_EDGE_TICKS / 2 + 1 { 2 } else { 1 };
             let x_ticks = chart.x_ticks.map(|ticks| {
@@ -106,7 +108,7 @@ impl Selection<'_> {
                 ..LineSeries::default()
             });
         }
-        // Over the others, which it may hide behind.
+        // The reference is drawn last, because the other lines might hide it.
         series.push(reference?);
         edges.sort_by(f64::total_cmp);
         edges.dedup_by(|a, b| a.to_bits() == b.to_bits());

@@ -1,5 +1,5 @@
-//! Which figures a run has, and what is in them: values against eccentricity, per scene and
-//! method, and over frames. A method has one colour and marker in all of them.
+//! Selects the figures of a run and their contents: values against eccentricity, per scene and
+//! method, and over frames. A method has the same colour and marker in all of them.
 
 mod compared;
 mod parts;
@@ -19,30 +19,30 @@ use crate::frame_values::FrameValues;
 use crate::overview::Overview;
 use crate::sheet::NamedFigure;
 
-/// More edges than this do not fit the axis as ticks.
+/// Maximum number of band edges that fit on the axis as ticks.
 const MOST_EDGE_TICKS: usize = 13;
 
-/// What figures are made from.
+/// The data that figures are made from.
 pub(crate) struct Source<'a> {
     pub(crate) run: &'a RunRecord,
     pub(crate) overview: &'a Overview,
     pub(crate) values: &'a FrameValues,
 }
 
-/// A plot's own scenes and methods, or those of one of its figures.
+/// The scenes and methods of a plot, or of one of its figures.
 #[derive(Clone)]
 struct Selection<'a> {
     source: &'a Source<'a>,
     scenes: Vec<&'a str>,
-    /// Name and look.
+    /// Names of the methods with their looks.
     methods: Vec<(&'a str, Look)>,
     /// All methods of the plot.
     all: Vec<&'a str>,
-    /// Which of them are shown; `None`: all.
+    /// The methods that are shown; `None` for all.
     part: Option<Part>,
 }
 
-/// The plots of a run that asks for none: all that have something to show.
+/// The plots of a run that requests none: all plots that have something to show.
 pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
     let all = source.overview.all();
     let mut kinds = vec![PlotKind::Table, PlotKind::Ratios, PlotKind::Profile];
@@ -60,7 +60,7 @@ pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
     plots
 }
 
-/// The figures of a plot; none for a table.
+/// The figures of a plot; empty for a table.
 pub(crate) fn figures(source: &Source<'_>, plot: &Plot) -> Vec<NamedFigure> {
     let whole = Selection::new(source, plot);
     let of_part = |metric: Metric, part: &Selection<'_>| -> Vec<NamedFigure> {
@@ -82,7 +82,7 @@ pub(crate) fn figures(source: &Source<'_>, plot: &Plot) -> Vec<NamedFigure> {
     metrics(source, plot).into_iter().flat_map(of_metric).collect()
 }
 
-/// The tables of ratios of a plot: one a metric and scene.
+/// The tables of ratios of a plot: one per metric and scene.
 pub(crate) fn ratio_tables(source: &Source<'_>, plot: &Plot) -> Vec<(String, ComparisonTable)> {
     let selection = Selection::new(source, plot);
     let table = |(metric, scene): (Metric, &str)| {
@@ -104,15 +104,15 @@ pub(crate) fn ratio_tables(source: &Source<'_>, plot: &Plot) -> Vec<(String, Com
     each.filter_map(table).collect()
 }
 
-/// The metrics of a plot: its own, or all that were scored and fit, without MSE where PSNR says
-/// the same.
+/// The metrics of a plot: its own metric, or all that were scored and fit the plot. MSE is left out
+/// if PSNR is shown, because both express the same.
 pub(crate) fn metrics(source: &Source<'_>, plot: &Plot) -> Vec<Metric> {
     let all = source.overview.all();
     let scored = |metric: Metric| all.iter().any(|measured| measured.is_scored(metric));
     let fits = |metric: Metric| match plot.kind {
         PlotKind::Profile => metric.info().per_band,
         PlotKind::Ratios => !metric.is(MetricKind::Fidelity),
-        // Its share of the reference's stands in a column of the table.
+        // The ratio of the test to the reference is in a column of the table.
         PlotKind::Bars | PlotKind::Frames if plot.metric.is_none() => {
             metric.is(MetricKind::Fidelity)
         }
@@ -147,12 +147,13 @@ impl<'a> Selection<'a> {
         }
     }
 
-    /// The title of a figure of one scene among several.
+    /// The title of a figure that shows one of several scenes.
     fn title(&self, scene: &str) -> Option<String> {
         (self.scenes.len() > 1).then(|| scene.to_owned())
     }
 
-    /// The profile of each scene and, of a metric of fidelity in several, of their mean.
+    /// The profile of each scene. For a fidelity metric in several scenes, the profile of their
+    /// mean follows.
     fn profiles(&self, metric: Metric, plot: &Plot) -> Vec<NamedFigure> {
         if !metric.is(MetricKind::Fidelity) {
             let scenes = self.scenes.iter();
@@ -165,7 +166,7 @@ impl<'a> Selection<'a> {
         };
         let mut figures: Vec<NamedFigure> = Vec::new();
         let mut common = self.common_scenes(metric);
-        // Without a view a scene has values, but no bands.
+        // A scene without a view has values, but no bands.
         common.retain(|scene| {
             self.methods.iter().any(|(method, _)| !self.bands(metric, scene, method).is_empty())
         });
@@ -255,7 +256,7 @@ impl<'a> Selection<'a> {
         common_scenes(self.source.overview, &self.scenes, &self.all, metric)
     }
 
-    /// The mean over scenes, of the bands that all of them have.
+    /// The mean over scenes of the bands that all scenes have.
     fn mean_bands(&self, metric: Metric, scenes: &[&str], method: &str) -> Vec<Band> {
         let scenes: Vec<Vec<Band>> =
             scenes.iter().map(|scene| self.bands(metric, scene, method)).collect();
@@ -298,7 +299,8 @@ impl<'a> Selection<'a> {
         NamedFigure { name: format!("bars-{}", slug(metric.key())), caption, figure }
     }
 
-    /// The values of single frames: of the test, where the metric is of one picture.
+    /// The values of single frames. If the metric is computed for each image, these are the values
+    /// of the test.
     fn values(&self, scene: &str, method: &str, metric: Metric) -> Vec<f64> {
         let image = if metric.is(MetricKind::Fidelity) { Image::Pair } else { Image::Test };
         let values = self.source.values.of(scene, method, (metric, image));
@@ -320,7 +322,7 @@ impl<'a> Selection<'a> {
     }
 }
 
-/// A value of a band.
+/// The value of a metric in a band.
 #[derive(Debug, Clone, Copy)]
 struct Band {
     from_deg: f64,
@@ -335,7 +337,7 @@ impl Band {
     }
 }
 
-/// The title of a metric's axis: with its unit, and which way is better.
+/// The title of a metric's axis, with its unit and the better direction.
 fn axis(metric: Metric) -> String {
     let info = metric.info();
     let better = match info.better {
@@ -350,7 +352,7 @@ fn axis(metric: Metric) -> String {
     }
 }
 
-/// The same of values of single frames.
+/// The title of the axis for values of single frames.
 fn frame_axis(metric: Metric) -> String {
     match metric {
         Metric::Fvvdp => "FovVideoVDP of each frame in JOD (higher is better)".to_owned(),
@@ -358,15 +360,15 @@ fn frame_axis(metric: Metric) -> String {
     }
 }
 
-/// What a name may add to a file name.
+/// Maximum number of bytes that a name adds to a file name.
 const LONGEST_BYTES: usize = 120;
 
-/// A name as part of a file name.
+/// Converts a name to a part of a file name.
 pub(crate) fn slug(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() { c } else { '-' };
     let slug: String = name.to_lowercase().chars().map(plain).collect();
     let slug = slug.split('-').filter(|word| !word.is_empty()).collect::<Vec<_>>().join("-");
-    // Some characters take four bytes, and a file name has 255.
+    // Some characters take four bytes, and a file name has at most 255.
     let end = slug.floor_char_boundary(LONGEST_BYTES);
     slug[..end].to_owned()
 }

@@ -1,5 +1,6 @@
-//! Plots of more methods than one figure can show. Some dozens are split over several figures; of very many,
-//! each figure shows a choice. What is shown stands in the title and in the caption.
+//! Plots with more methods than one figure can show. Some dozens of methods are split over several
+//! figures. If there are very many, each figure shows a selection. The title and the caption state
+//! what is shown.
 
 use fovqa_metrics::{Better, Metric};
 use fovqa_plot::{Figure, Look};
@@ -7,26 +8,27 @@ use fovqa_plot::{Figure, Look};
 use super::{NamedFigure, Selection};
 use crate::comparison::mean;
 
-/// The most methods of one figure: with more, neither curves nor legend can be read.
+/// Maximum number of methods in one figure. With more, neither the curves nor the legend can be
+/// read.
 const MOST_METHODS: usize = 20;
-/// The most figures that one is split into.
+/// Maximum number of figures that one plot is split into.
 const MOST_PARTS: usize = 5;
-/// Of very many methods, how many of those shown are the best.
+/// Number of best methods that a selection from very many methods contains.
 const BEST: usize = MOST_METHODS / 2;
 
-/// Which methods a figure shows, where it does not show all.
+/// The methods that a figure shows, if it does not show all.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Part {
-    /// Behind the name of the file.
+    /// Suffix of the file name.
     suffix: String,
-    /// What it shows, in words.
+    /// Description of the methods that are shown.
     shown: String,
-    /// How many methods there are.
+    /// Number of methods in all.
     of: usize,
 }
 
 impl<'a> Selection<'a> {
-    /// The selection in pieces that one figure can show, for figures of a metric.
+    /// Splits the selection into parts that one figure each can show, for figures of a metric.
     pub(super) fn parts(&self, metric: Metric) -> Vec<Self> {
         if self.methods.len() <= MOST_METHODS {
             return vec![self.clone()];
@@ -41,7 +43,7 @@ impl<'a> Selection<'a> {
             let last = first + methods.len() - 1;
             let suffix = format!("-methods-{first}-{last}");
             let shown = format!("methods {first} to {last} of {of}");
-            // Not all methods of the plot may have values in its scenes.
+            // Some methods of the plot may have no values in its scenes.
             let part = (of > MOST_METHODS).then_some(Part { suffix, shown, of });
             self.of_methods(methods, part)
         });
@@ -67,8 +69,8 @@ impl<'a> Selection<'a> {
         self.of_methods(&chosen, part(shown))
     }
 
-    /// Methods from the best to the worst by a metric, or by another one where it has no better or worse.
-    /// Those without a value come last.
+    /// The methods from the best to the worst according to a metric. If the metric has no better
+    /// direction, another metric is used. Methods without a value come last.
     fn ranked(&self, methods: &[&'a str], metric: Metric) -> Option<(Metric, Vec<&'a str>)> {
         let values = |metric: Metric| -> Vec<Option<f64>> {
             let value = |method: &str| {
@@ -90,7 +92,7 @@ impl<'a> Selection<'a> {
             .map(|value| value.map_or(f64::INFINITY, |value| sign * value))
             .zip(methods.iter().copied())
             .collect();
-        // A stable sort: equally good methods stay in the order of the experiment.
+        // The sort is stable: equally good methods stay in the order of the experiment.
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         Some((by, ranked.into_iter().map(|(_, method)| method).collect()))
     }
@@ -99,14 +101,15 @@ impl<'a> Selection<'a> {
         self.scenes.iter().any(|scene| self.source.overview.of(scene, method).is_some())
     }
 
-    /// The same of some of its methods. Looks are given anew: there are only so many that can be told apart.
+    /// The selection with some of its methods. Looks are assigned again, because only a limited
+    /// number can be told apart.
     fn of_methods(&self, methods: &[&'a str], part: Option<Part>) -> Self {
         let methods = methods.iter().enumerate();
         let methods = methods.map(|(index, method)| (*method, Look::new(index))).collect();
         Self { methods, part, ..self.clone() }
     }
 
-    /// A figure with what it shows in its title and its caption, where it does not show all.
+    /// Adds to the title and caption of a figure which methods it shows, if it does not show all.
     pub(super) fn labelled(&self, figure: NamedFigure) -> NamedFigure {
         let Some(Part { suffix, shown, of }) = &self.part else { return figure };
         let NamedFigure { name, caption, mut figure } = figure;

@@ -1,5 +1,5 @@
-//! A metric frame by frame, with the frames marked in which the eye jumps (Patney et al. 2016,
-//! Fig. 12).
+//! A metric frame by frame. The frames in which the gaze jumps are marked (Patney et al. 2016, Fig.
+//! 12).
 
 use fovqa_metrics::{Image, Metric, MetricKind};
 use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Span};
@@ -7,12 +7,12 @@ use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Span};
 use super::{NamedFigure, Selection, frame_axis, slug};
 use crate::frame_values::FrameValue;
 
-/// A gaze that moves farther in a frame is in a saccade: at 72 frames a second 144° a second, which no
-/// pursuit reaches.
+/// Gaze movement per frame, in degrees, above which the eye is in a saccade. At 72 frames per
+/// second this is 144° per second, which no smooth pursuit reaches.
 const SACCADE_DEG: f64 = 2.0;
 
 impl Selection<'_> {
-    /// A figure a scene.
+    /// One figure per scene.
     pub(super) fn sequences(&self, metric: Metric) -> Vec<NamedFigure> {
         self.scenes.iter().filter_map(|scene| self.sequence(metric, scene)).collect()
     }
@@ -64,7 +64,7 @@ fn points(frames: &[FrameValue]) -> Vec<(f64, Option<f64>)> {
     frames.iter().map(|(frame, value)| (*frame as f64, Some(*value))).collect()
 }
 
-/// Frames in a row as one stretch, half a frame to each side.
+/// Combines consecutive frames into spans that extend half a frame to each side.
 fn spans(mut frames: Vec<i64>) -> Vec<Span> {
     frames.sort_unstable();
     frames.dedup();

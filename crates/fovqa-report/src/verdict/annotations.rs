@@ -1,4 +1,4 @@
-//! The verdict where CI systems show it: beside the line of the rule in the experiment file.
+//! The verdict in formats that CI systems show beside the line of the rule in the experiment file.
 
 use std::fmt::Write as _;
 
@@ -8,8 +8,8 @@ use serde_json::json;
 use super::{place, sentence};
 use crate::text_table::printable;
 
-/// Text that a job of GitHub shows and does not obey: a line that begins with `::`, or has `##[`, is a command
-/// there.
+/// Text that a GitHub job shows but does not execute. There, a line that begins with `::` or
+/// contains `##[` is a command.
 pub fn without_commands(text: &str) -> String {
     let lines = text.split_inclusive('\n').map(|line| {
         let behind = line.trim_start();
@@ -20,7 +20,7 @@ pub fn without_commands(text: &str) -> String {
     lines.collect()
 }
 
-/// Workflow commands of GitHub, a line a check that does not hold.
+/// Workflow commands of GitHub, with one line per check that did not pass.
 pub fn github_annotations(verdict: &Verdict) -> String {
     let mut text = String::new();
     let mut say = |line: Option<usize>, title: &str, message: &str| {
@@ -43,9 +43,10 @@ pub fn github_annotations(verdict: &Verdict) -> String {
     text
 }
 
-/// A Code Quality report of GitLab.
+/// A Code Quality report for GitLab.
 pub fn gitlab_report(verdict: &Verdict, fingerprint: impl Fn(&str) -> String) -> String {
-    // The same from one build to the next, whatever the value is.
+    // The fingerprint does not depend on the value, so that it stays the same from one build to the
+    // next.
     let issue = |name: &str, line: usize, (of, message): (&str, &str), severity: &str| {
         json!({
             "description": message,
@@ -66,10 +67,10 @@ pub fn gitlab_report(verdict: &Verdict, fingerprint: impl Fn(&str) -> String) ->
     format!("{issues:#}\n")
 }
 
-/// What there is to say of a rule that does not hold.
+/// The message for a rule that did not pass.
 struct Message<'a> {
     rule: &'a RuleVerdict,
-    /// Of which comparison; empty where it is of none.
+    /// The name of the comparison; empty if the message belongs to no comparison.
     of: String,
     text: String,
 }
@@ -89,12 +90,12 @@ fn messages(verdict: &Verdict) -> Vec<Message<'_>> {
     messages
 }
 
-/// Escaped as GitHub reads messages: one line, without what would steer a terminal.
+/// Escapes text for a GitHub message: one line, without characters that control a terminal.
 fn data(text: &str) -> String {
     printable(text).replace('%', "%25")
 }
 
-/// Escaped as GitHub reads properties.
+/// Escapes text for a property in a GitHub command.
 fn property(text: &str) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
 }

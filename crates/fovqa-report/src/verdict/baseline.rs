@@ -1,4 +1,4 @@
-//! A baseline, and how a new one differs, on a terminal.
+//! The contents of a baseline, and its differences from a new one, as text for a terminal.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use fovqa_results::{Baseline, Difference};
 use super::number;
 use crate::text_table::{aligned, plain_table, printable};
 
-/// What is in a baseline.
+/// The contents of a baseline.
 pub fn baseline_table(baseline: &Baseline) -> String {
     let mut text = format!(
         "{}, by fovqa {}: {} comparisons\n\n",
@@ -40,7 +40,7 @@ pub fn baseline_table(baseline: &Baseline) -> String {
     text
 }
 
-/// Every value that differs; empty where none does.
+/// All values that differ; empty if there are none.
 pub fn difference_table(differences: &[Difference]) -> String {
     if differences.is_empty() {
         return String::new();

@@ -1,15 +1,15 @@
-//! The verdict as JUnit XML: a test case a rule.
+//! The verdict as JUnit XML, with one test case per rule.
 
 use fovqa_results::{RuleVerdict, State, Verdict};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
 use super::{outcome, sentence};
 
-/// The file. What was not scored, and rules that are wrong, are errors; rules that do not hold are
-/// failures.
+/// The text of the file. Values that were not scored and incorrect rules are errors; violated rules
+/// are failures.
 ///
 /// # Errors
-/// When it cannot be put into XML.
+/// If the text cannot be written as XML.
 pub fn junit(verdict: &Verdict) -> Result<String, String> {
     let mut suite = TestSuite::new(visible(&verdict.experiment));
     for rule in &verdict.rules {
@@ -60,7 +60,7 @@ fn case(verdict: &Verdict, rule: &RuleVerdict) -> TestCase {
     case
 }
 
-/// Text that XML can hold.
+/// Text without characters that XML does not allow.
 fn visible(text: &str) -> String {
     let allowed = |c: &char| match c {
         '\n' | '\t' => true,

@@ -7,7 +7,7 @@ use fovqa_results::{State, Verdict};
 use super::{limit, margin, number, outcome, place, worst};
 use crate::comparison::escaped_markdown;
 
-/// A heading with the outcome, a table of all checks, and why those that do not hold do not.
+/// A heading with the outcome, a table of all checks, and the reasons of those that did not pass.
 pub fn markdown(verdict: &Verdict) -> String {
     let mark = |state: State| match state {
         State::Passed => "✅",

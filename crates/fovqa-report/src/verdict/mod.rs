@@ -1,4 +1,5 @@
-//! The verdict of a gate for people and for CI systems: a table, Markdown, JUnit XML, annotations.
+//! Presents the verdict of a gate to people and CI systems: a table, Markdown, JUnit XML and
+//! annotations.
 
 mod annotations;
 mod baseline;
@@ -16,7 +17,8 @@ use std::fmt::Write as _;
 
 use fovqa_results::{Check, ComparisonName, Limit, State, Verdict};
 
-/// A value as verdicts show it: short. On which side of a limit it lies, its margin says.
+/// A value in the short form that verdicts show. The margin shows on which side of a limit the
+/// value is.
 fn number(value: f64) -> String {
     if value.is_infinite() {
         return if value > 0.0 { "inf" } else { "-inf" }.to_owned();
@@ -36,7 +38,7 @@ fn limit(limit: &Limit) -> String {
     format!("{} {}", if limit.at_least { "≥" } else { "≤" }, number(limit.value))
 }
 
-/// A margin with its sign; one that is too small to be seen at four digits is shown as it is.
+/// A margin with its sign. A margin that is too small for four digits is shown in full.
 fn margin(limit: &Limit) -> String {
     let sign = if limit.margin >= 0.0 { "+" } else { "" };
     format!("{sign}{}", number(limit.margin))
@@ -51,7 +53,7 @@ fn worst(check: &Check) -> String {
     check.worst.map(|(frame, value)| format!("{frame} ({})", number(value))).unwrap_or_default()
 }
 
-/// What a check is, in one sentence.
+/// Describes a check in one sentence.
 fn sentence(check: &Check) -> String {
     let mut text = place(&check.place);
     if let Some(reason) = check.outcome.reason() {
@@ -67,7 +69,7 @@ fn sentence(check: &Check) -> String {
     text
 }
 
-/// The whole in one sentence.
+/// Describes the whole outcome in one sentence.
 fn outcome(verdict: &Verdict) -> String {
     let rules = verdict.rules.len();
     let broken = verdict.rules.iter().filter(|rule| rule.state() == State::Failed).count();

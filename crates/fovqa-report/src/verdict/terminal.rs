@@ -1,4 +1,4 @@
-//! The verdict on a terminal.
+//! The verdict as text for a terminal.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use fovqa_results::Verdict;
 use super::{limit, margin, number, outcome, place, worst};
 use crate::text_table::{aligned, plain_table, printable};
 
-/// A row a rule and comparison, and the outcome.
+/// One row per rule and comparison, followed by the outcome.
 pub fn verdict_table(verdict: &Verdict) -> String {
     let mut table =
         plain_table(&["rule", "of", "value", "limit", "margin", "worst frame", "verdict"]);

@@ -1,5 +1,5 @@
-//! What `fovqa curves` leaves of a file: every value as one tidy table, and a record of curves,
-//! settings and counts.
+//! The data files of `fovqa curves`: all values as one tidy table, and a record of curves, settings
+//! and counts.
 
 mod record;
 mod tidy;

@@ -1,4 +1,5 @@
-//! What was computed, as JSON: curves with their settings, counts and fields.
+//! The results of `fovqa curves` as JSON: curves with their settings, counts and shares of the
+//! field.
 
 use fovqa_methods::curves::{AcuityShares, Curve, CurveSource};
 use fovqa_params::Words;
@@ -7,23 +8,23 @@ use serde::{Deserialize, Serialize};
 
 use crate::files::CURVES_SCHEMA;
 
-/// A file of curves as it was computed.
+/// The record of a curves file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CurvesRecord {
     /// [`CURVES_SCHEMA`].
     pub schema: String,
     /// Version of fovqa.
     pub version: String,
-    /// Name of the file of curves.
+    /// Name of the curves file.
     pub name: String,
-    /// What it shows.
+    /// Description of what it shows.
     pub about: String,
-    /// What rates were held against.
+    /// The acuity model that rates are compared with.
     pub acuity: String,
-    /// Its parameters that are not at their defaults.
+    /// Parameters of the acuity model that differ from their defaults.
     #[serde(default)]
     pub acuity_parameters: String,
-    /// The file's text: everything that was asked for.
+    /// The text of the curves file, which contains all settings.
     #[serde(default)]
     pub text: String,
     /// The curves.
@@ -33,22 +34,22 @@ pub struct CurvesRecord {
 /// A curve.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CurveRecord {
-    /// Its name.
+    /// Name of the curve.
     pub name: String,
     /// Method or acuity model.
     pub model: String,
-    /// Parameters that are not at their defaults.
+    /// Parameters that differ from their defaults.
     pub parameters: String,
-    /// Where a method is.
+    /// The screen of a method.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub screen: Option<ScreenRecord>,
-    /// What a method shades.
+    /// The samples that a method shades.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shading: Option<ShadingRecord>,
-    /// The field against acuity.
+    /// Comparison of the field with acuity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub field: Option<FieldRecord>,
-    /// What has to be said of it.
+    /// Remarks about the curve.
     pub notes: Vec<String>,
 }
 
@@ -63,7 +64,7 @@ pub struct ScreenRecord {
     pub focal_px: [f64; 2],
     /// The gaze.
     pub gaze_px: [f64; 2],
-    /// Direction of the curve.
+    /// Direction of the curve in degrees.
     pub direction_deg: f64,
     /// `paper` or `angle`.
     pub tangential: String,
@@ -71,37 +72,37 @@ pub struct ScreenRecord {
     pub eccentricity: String,
 }
 
-/// What a method shades in a frame.
+/// The samples that a method shades in a frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ShadingRecord {
-    /// Width and height of each buffer, ideal.
+    /// Width and height of each buffer, as ideal values that are not rounded.
     pub buffers: Vec<[f64; 2]>,
-    /// Samples as the papers count them.
+    /// Number of samples as the papers count them.
     pub samples: f64,
-    /// These and those beyond over the frame's pixels.
+    /// The sum of `samples` and `samples_beyond`, divided by the number of pixels of the frame.
     pub share: f64,
-    /// The frame's pixels over these and those beyond.
+    /// The number of pixels of the frame, divided by the sum of `samples` and `samples_beyond`.
     pub speed_up: f64,
-    /// Samples that fall into the frame.
+    /// Number of samples inside the frame.
     pub samples_on_screen: f64,
-    /// Samples beyond the method's own field.
+    /// Number of samples outside the method's own field.
     pub samples_beyond: f64,
-    /// Samples that are seen.
+    /// Number of samples that are visible.
     pub samples_seen: f64,
 }
 
-/// Shares of the frame below and above acuity, as [`AcuityShares`] describes them.
+/// Shares of the frame below and above acuity; see [`AcuityShares`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FieldRecord {
-    /// Share of the frame whose radial rate is below acuity.
+    /// Share of the frame in which the radial rate is below acuity.
     pub below_radial: f64,
-    /// Share whose tangential rate is below acuity.
+    /// Share of the frame in which the tangential rate is below acuity.
     pub below_tangential: f64,
-    /// Share where at least one of the two is below acuity.
+    /// Share of the frame in which at least one of the two rates is below acuity.
     pub below: f64,
-    /// Shaded samples beyond what acuity asks for.
+    /// Number of shaded samples in excess of what acuity requires.
     pub samples_above: f64,
-    /// These samples as a share of all samples.
+    /// The excess samples as a share of all samples.
     pub above: f64,
 }
 
@@ -113,7 +114,7 @@ impl From<AcuityShares> for FieldRecord {
 }
 
 impl CurvesRecord {
-    /// The record of a file's curves.
+    /// Makes the record of the curves in a curves file.
     pub fn new(file: &CurvesFile, curves: &[Curve]) -> Self {
         Self {
             schema: CURVES_SCHEMA.to_owned(),

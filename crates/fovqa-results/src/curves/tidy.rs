@@ -1,4 +1,4 @@
-//! All values of all curves as one long, tidy table.
+//! Writes all values of all curves as one long, tidy table.
 
 use fovqa_methods::curves::{Curve, CurveSource};
 use fovqa_params::Words;
@@ -23,12 +23,12 @@ const HEADER: [&str; 16] = [
     "samples_per_pixel",
 ];
 
-/// A row an eccentricity of each curve, in the order of the plan, with the plan's acuity in the
-/// last column, `acuity_cpd`. Cells are empty where a column does not apply.
+/// One row per eccentricity of each curve, in the order of the plan. The last column, `acuity_cpd`,
+/// contains the plan's acuity. A cell is empty if its column does not apply.
 pub fn curves_csv(plan: &CurvePlan, curves: &[Curve]) -> String {
     let acuity = plan.acuity.curve().ok();
     let mut writer = csv::Writer::from_writer(Vec::new());
-    // Writing to memory does not fail, and the rows are of one length.
+    // Writing to memory does not fail, and all rows have the same length.
     let _ = writer.write_record(HEADER.into_iter().chain(["acuity_cpd"]));
     for curve in curves {
         let spec = &curve.spec;

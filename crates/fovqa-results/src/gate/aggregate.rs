@@ -1,9 +1,10 @@
-//! Many values to one.
+//! Combines several values into one.
 
 use fovqa_plan::Aggregate;
 
-/// The aggregate of values; `None` without any. The mean of decibels is over those that are finite, and
-/// infinite where none is: an identical frame must not lift the mean of all.
+/// The aggregate of values; `None` if there are none. The mean of decibels uses only finite values,
+/// and is infinite if there are none, so that an identical frame does not raise the mean of all
+/// frames.
 pub(super) fn aggregate(kind: Aggregate, values: &[f64], decibels: bool) -> Option<f64> {
     match kind {
         Aggregate::Mean => {
@@ -20,7 +21,8 @@ pub(super) fn aggregate(kind: Aggregate, values: &[f64], decibels: bool) -> Opti
     }
 }
 
-/// The value below which a share of all lies, straight between the two next to it.
+/// The percentile of the values at `share` (0 to 1), interpolated linearly between the two nearest
+/// values.
 fn percentile(share: f64, values: &[f64]) -> Option<f64> {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -28,7 +30,7 @@ fn percentile(share: f64, values: &[f64]) -> Option<f64> {
     let (below, rest) = (at as usize, at.fract());
     let from = sorted[below];
     match sorted.get(below + 1) {
-        // Between infinities there is no difference to go along.
+        // Between two equal infinities there is nothing to interpolate.
         Some(to) if rest > 0.0 && to.to_bits() != from.to_bits() => Some(from + (to - from) * rest),
         _ => Some(from),
     }

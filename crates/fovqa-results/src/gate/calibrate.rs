@@ -1,5 +1,5 @@
-//! Limits out of repeated renders of one build: how far a value goes up and down by itself says how far a
-//! limit has to be from it.
+//! Proposes limits from repeated renders of one build. The natural variation of a value determines
+//! how far the limit must be from it.
 
 use std::fmt::Write as _;
 
@@ -9,36 +9,36 @@ use fovqa_plan::{GateRule, Quantity};
 use super::values::{ComparisonName, Lacking, RunValues};
 use super::verdict::is_of;
 
-/// Limits for a gate, from repeated runs.
+/// Proposed limits for a gate, from repeated runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
-    /// How many runs they come from.
+    /// Number of runs.
     pub runs: usize,
-    /// One a rule and comparison.
+    /// One proposal per rule and comparison.
     pub proposals: Vec<Proposal>,
 }
 
-/// A limit for a value of a comparison.
+/// A proposed limit for a value of a comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proposal {
     /// Scene, method and eye.
     pub place: ComparisonName,
     /// The value.
     pub quantity: Quantity,
-    /// Whether the rule is held against a baseline.
+    /// Whether the rule compares the value with a baseline.
     pub relative: bool,
-    /// Smallest value of any run.
+    /// Smallest value among the runs.
     pub min: f64,
-    /// Largest value of any run.
+    /// Largest value among the runs.
     pub max: f64,
-    /// Standard deviation over the runs (n - 1).
+    /// Standard deviation over the runs (divisor n - 1).
     pub deviation: f64,
 }
 
-/// Proposes limits for rules from the values of repeated runs, each with its name.
+/// Proposes limits for rules from the values of repeated runs. Each run has a name.
 ///
 /// # Errors
-/// When a run lacks a value.
+/// If a run lacks a value.
 pub fn calibrate(rules: &[GateRule], runs: &[(String, RunValues)]) -> Result<Calibration, Lacking> {
     let mut proposals: Vec<Proposal> = Vec::new();
     let Some((_, first)) = runs.first() else { return Ok(Calibration { runs: 0, proposals }) };
@@ -78,12 +78,13 @@ impl Proposal {
         }
     }
 
-    /// The distance between the smallest and the largest value.
+    /// The observed range: the largest value minus the smallest.
     pub fn spread(&self) -> f64 {
         if self.min.to_bits() == self.max.to_bits() { 0.0 } else { self.max - self.min }
     }
 
-    /// The smallest value to allow: as far below the smallest seen as all that were seen lie apart.
+    /// The smallest value to allow: the smallest observed value, minus the observed range as a
+    /// margin.
     fn at_least(&self) -> f64 {
         rounded(self.min - self.spread(), self.spread(), f64::floor)
     }
@@ -92,12 +93,13 @@ impl Proposal {
         rounded(self.max + self.spread(), self.spread(), f64::ceil)
     }
 
-    /// How far two renders may lie apart: twice as far as those that were seen.
+    /// The allowed difference between two renders: twice the observed range.
     fn allowance(&self) -> f64 {
         rounded(2.0 * self.spread(), self.spread(), f64::ceil)
     }
 
-    /// The lines of its limits; none where a value is infinite, which has no distance from others.
+    /// The lines with the limits. There are none if a value is infinite, because it has no distance
+    /// from other values.
     fn limits(&self) -> Vec<String> {
         if !self.min.is_finite() || !self.max.is_finite() {
             return Vec::new();
@@ -115,18 +117,19 @@ impl Proposal {
     }
 }
 
-/// A value rounded to the second digit of what it varies by; as it is where it does not vary.
+/// Rounds a value to the second significant digit of its range. A value with zero range is not
+/// rounded.
 fn rounded(value: f64, spread: f64, round: impl Fn(f64) -> f64) -> f64 {
     if spread == 0.0 || !value.is_finite() {
         return value;
     }
     let digits = 1 - libm::floor(libm::log10(spread)) as i32;
-    // By a power of ten above one: its quotients print short.
+    // Dividing by a power of ten above one gives quotients that print with few digits.
     let power = libm::pow(10.0, f64::from(digits.abs()));
     if power.is_infinite() {
         return value;
     }
-    // What is a whole digit but for the last bits of a sum stays that.
+    // A number that differs from an integer only by rounding errors counts as that integer.
     let round = |value: f64| {
         let whole = value.round();
         if (value - whole).abs() < 1e-6 { whole } else { round(value) }
@@ -135,7 +138,7 @@ fn rounded(value: f64, spread: f64, round: impl Fn(f64) -> f64) -> f64 {
 }
 
 impl Calibration {
-    /// The limits as tables of an experiment file, each with where it comes from.
+    /// The limits as tables of an experiment file, each with a comment that states its source.
     pub fn toml(&self) -> String {
         let runs = self.runs;
         let mut text = format!(
@@ -191,12 +194,12 @@ impl Calibration {
     }
 }
 
-/// Text between quotes of TOML.
+/// A text in TOML quotes.
 fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
-/// A name within a comment: one line.
+/// A name for use in a comment: it must not contain a line break.
 fn comment(text: &str) -> String {
     text.replace(char::is_control, " ")
 }

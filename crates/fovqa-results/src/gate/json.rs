@@ -1,4 +1,4 @@
-//! The verdict as JSON, schema `fovqa.gate/1`. Keys may be added, never renamed.
+//! The verdict as JSON, schema `fovqa.gate/1`. New keys may be added, but keys are never renamed.
 
 use std::io::{self, Write};
 
@@ -67,10 +67,10 @@ impl<'a> CheckRecord<'a> {
     }
 }
 
-/// Writes a verdict, indented, with a newline at its end.
+/// Writes a verdict as indented JSON with a newline at its end.
 ///
 /// # Errors
-/// When the writer refuses.
+/// If the writer refuses.
 pub fn write_verdict_json(verdict: &Verdict, mut out: impl Write) -> io::Result<()> {
     let rule = |rule: &'_ RuleVerdict| -> (String, String, String) {
         (rule.title(), rule.rule.quantity.to_string(), rule.rule.limits())

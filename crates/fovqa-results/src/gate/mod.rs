@@ -1,4 +1,5 @@
-//! The gate: rules against the values of a finished run, and limits out of repeated ones.
+//! The gate checks the values of a finished run against rules, and proposes limits from repeated
+//! runs.
 
 mod aggregate;
 mod calibrate;

@@ -1,5 +1,5 @@
-//! The values of a finished run, from results.csv and summary.json. A file that lacks rows, or has others
-//! than were written, must not pass for a run: the two files have to agree.
+//! Reads the values of a finished run from results.csv and summary.json. A table with missing or
+//! added rows must not pass as a run, so the two files have to agree.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -13,10 +13,10 @@ use crate::json::{ComparisonSummary, read_summary};
 use crate::table::{ERROR, Value, Which, not_results, read_results, table_file};
 
 impl RunValues {
-    /// Reads those of a folder of results.
+    /// Reads the values in a results folder.
     ///
     /// # Errors
-    /// When its files are missing or not what they should be.
+    /// If its files are missing or do not have the expected content.
     pub fn read(folder: &Path, names: CsvNames) -> Result<Self, FileError> {
         let mut comparisons = Vec::new();
         let errors = read_summary(folder, |comparison| comparisons.push(comparison))?;
@@ -70,7 +70,7 @@ fn place(comparison: &ComparisonSummary) -> ComparisonName {
     (comparison.scene.clone(), comparison.method.clone(), comparison.eye.clone())
 }
 
-/// Whether the rows of a comparison are those that its summary is of.
+/// Checks that the rows of a comparison agree with its summary.
 fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String> {
     let ComparisonSummary { scene, method, .. } = comparison;
     let lacks = |what: &str| format!("its {what} of {scene}, {method} differ from {SUMMARY_JSON}");
@@ -105,7 +105,7 @@ fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String>
         if is_double(rows) {
             return Err(format!("a row of {metric} of {scene}, {method} appears twice in it"));
         }
-        // Of one orientation of the wavelet there used to be no rows of bands without a block.
+        // Earlier versions wrote no rows for a wavelet orientation in bands that contain no block.
         let seldom = ["_lh", "_hl", "_hh"].iter().any(|of| statistic.ends_with(of));
         if Subject::find(metric).is_some() && !seldom && lacks_bands(rows, bands) {
             return Err(lacks(&format!("values of {metric}")));
@@ -114,13 +114,13 @@ fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String>
     Ok(())
 }
 
-/// Whether a frame has two values of one statistic, for the whole of it or for a band.
+/// Whether a frame has two values of one statistic, for the whole frame or for a band.
 fn is_double(rows: &[ValueRow]) -> bool {
     let mut seen = BTreeSet::new();
     !rows.iter().all(|row| seen.insert((row.frame, row.band.map(|band| band.map(f64::to_bits)))))
 }
 
-/// Whether a frame has some bands of a statistic, but not all.
+/// Whether a frame has a statistic in some bands, but not in all.
 fn lacks_bands(rows: &[ValueRow], bands: usize) -> bool {
     let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
     let banded = rows.iter().filter(|row| row.band.is_some());

@@ -12,11 +12,11 @@ use crate::json::ComparisonSummary;
 /// Scene, method and eye.
 pub type ComparisonName = (String, String, String);
 
-/// The values of a run, comparison by comparison.
+/// The values of a run, by comparison.
 #[derive(Debug, Default)]
 pub struct RunValues {
     pub(super) places: BTreeMap<ComparisonName, Values>,
-    /// What could not be scored, in words.
+    /// The items that could not be scored, in words.
     pub errors: Vec<String>,
 }
 
@@ -25,44 +25,45 @@ pub struct RunValues {
 pub(super) struct Values {
     pub(super) rows: BTreeMap<Kind, Vec<ValueRow>>,
     pub(super) summary: Option<ComparisonSummary>,
-    /// Frames, or the whole, that could not be scored.
+    /// Number of frames, or whole comparisons, that could not be scored.
     pub(super) errors: usize,
 }
 
-/// What a row is of: metric, statistic, image, level.
+/// What a row contains: metric, statistic, image and level.
 pub(super) type Kind = (String, String, String, Option<usize>);
 
-/// A value.
+/// One row of the table.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ValueRow {
-    /// `None`: of the whole sequence.
+    /// Frame number; `None` for a value of the whole sequence.
     pub(super) frame: Option<i64>,
     pub(super) band: Option<[f64; 2]>,
     pub(super) value: Option<f64>,
 }
 
-/// A value of a comparison.
+/// A value of a comparison, with the values of its frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FoundValue {
     /// The value.
     pub value: f64,
-    /// The frames it is of, with theirs; empty where it is of the sequence alone.
+    /// The frames that the value is made from, with their values. Empty if only the sequence has a
+    /// value.
     pub frames: Vec<(i64, f64)>,
 }
 
 /// Why there is no value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Lacking {
-    /// The band is not one, or several, of those that were scored.
+    /// The requested band is not one, or a union, of the scored bands.
     Band(String),
-    /// There are pixels, but no value: what was asked for was not scored.
+    /// There are pixels, but no value: the requested quantity was not scored.
     NotScored(String),
-    /// There is nothing to have a value of.
+    /// There is nothing that could have a value.
     Nothing(String),
 }
 
 impl Lacking {
-    /// The same, with where that is in front.
+    /// Adds the place in front of the message.
     pub(super) fn within(self, place: &str) -> Self {
         let named = |why: String| format!("{place}: {why}");
         match self {
@@ -81,17 +82,17 @@ impl fmt::Display for Lacking {
 }
 
 impl RunValues {
-    /// Scene, method and eye of every comparison.
+    /// Scene, method and eye of each comparison.
     pub fn places(&self) -> impl Iterator<Item = &ComparisonName> {
         self.places.keys()
     }
 
-    /// Frames of a comparison that could not be scored.
+    /// Number of frames of a comparison that could not be scored.
     pub fn errors_of(&self, place: &ComparisonName) -> usize {
         self.places.get(place).map_or(0, |values| values.errors)
     }
 
-    /// Frames of a comparison that were scored.
+    /// Number of frames of a comparison that were scored.
     pub fn frames_of(&self, place: &ComparisonName) -> usize {
         let summary = self.places.get(place).and_then(|values| values.summary.as_ref());
         summary.map_or(0, |summary| summary.frames)
@@ -100,7 +101,7 @@ impl RunValues {
     /// A value of a comparison.
     ///
     /// # Errors
-    /// When there is none.
+    /// If there is none.
     pub fn of(&self, place: &ComparisonName, quantity: &Quantity) -> Result<FoundValue, Lacking> {
         let nothing = || Lacking::Nothing("there is no such comparison".to_owned());
         self.places.get(place).ok_or_else(nothing)?.of(quantity)
@@ -114,14 +115,14 @@ impl Values {
         let values: Vec<f64> = frames.iter().map(|(_, value)| *value).collect();
         let decibels = Metric::find(&quantity.metric).is_some_and(Metric::is_decibel);
         let value = match (kind, quantity.image.as_str()) {
-            // As tables have it: of the means, not the mean of the frames' ratios.
+            // As in the tables, this is the ratio of the means, not the mean of the frames' ratios.
             (Aggregate::Mean, "ratio") => self.ratio_of_means(quantity)?,
             (kind, _) => aggregate(kind, &values, decibels).ok_or_else(|| lacks(quantity))?,
         };
         Ok(FoundValue { value, frames })
     }
 
-    /// A value of the sequence as a whole: JOD, or decibels of the pooled error.
+    /// A value of the whole sequence: the JOD, or the decibels of the pooled error.
     fn of_sequence(&self, quantity: &Quantity) -> Result<FoundValue, Lacking> {
         let frame_statistic = if quantity.statistic == "jod" { "frame_jod" } else { "" };
         let of_frames = Quantity { statistic: frame_statistic.to_owned(), ..quantity.clone() };
@@ -138,9 +139,9 @@ impl Values {
         Ok(FoundValue { value: value.ok_or_else(|| lacks(quantity))?, frames })
     }
 
-    /// What all frames have together in a band, or several.
+    /// The pooled value of all frames in one or several bands.
     fn pooled_in_bands(&self, quantity: &Quantity) -> Result<f64, Lacking> {
-        // Says what is missing.
+        // This call returns the error if something is missing.
         self.frames(quantity)?;
         let pooling = statistic(quantity).map_or(Pooling::None, |statistic| statistic.frames);
         let parts = self.parts(quantity, pooling)?.into_values().flatten();
@@ -194,7 +195,8 @@ impl Values {
         }
     }
 
-    /// Frame by frame, test over reference of several bands together: not the mean of their ratios.
+    /// For each frame, the ratio test / reference of several bands together. It is not the mean of
+    /// the bands' ratios.
     fn ratios(&self, quantity: &Quantity) -> Result<Vec<(i64, f64)>, Lacking> {
         let of =
             |image: &str| self.frames(&Quantity { image: image.to_owned(), ..quantity.clone() });
@@ -208,7 +210,7 @@ impl Values {
         if frames.is_empty() { Err(no_ratio(quantity)) } else { Ok(frames) }
     }
 
-    /// The values of each frame's bands that a quantity is of, with what it takes to pool them.
+    /// The values of a quantity in the bands of each frame, with the weights that pool them.
     fn parts(
         &self,
         quantity: &Quantity,
@@ -239,7 +241,7 @@ impl Values {
                 frames.entry(frame).or_default().push(Part { value: row.value, weight, parts });
             }
         }
-        // Every band has its pixels, whatever else it lacks.
+        // Every band has a number of pixels, even if it has no other value.
         let pixels = ("pixels".to_owned(), String::new(), "pair".to_owned(), None);
         let pixels = self.rows.get(&pixels).into_iter().flatten();
         let edges: Vec<[f64; 2]> = pixels.filter_map(|row| row.band).collect();
@@ -252,7 +254,7 @@ impl Values {
         Ok(frames)
     }
 
-    /// What each band of each frame weighs and, of deviations, the mean there.
+    /// The weight of each band in each frame and, for deviations, the mean in the band.
     fn weights(&self, quantity: &Quantity) -> Result<(Weights, Weights), Lacking> {
         let of =
             |statistic: &str| self.by_band(quantity, (&quantity.metric, statistic, quantity.level));
@@ -264,7 +266,7 @@ impl Values {
         }
     }
 
-    /// The values of a statistic of the pair by frame and band.
+    /// The values of a pair's statistic, by frame and band.
     fn by_band(
         &self,
         quantity: &Quantity,
@@ -286,7 +288,7 @@ impl Values {
 /// Values by frame and band.
 type Weights = BTreeMap<(i64, [u64; 2]), f64>;
 
-/// How the statistic of a quantity is pooled.
+/// The rule by which the statistic of a quantity is pooled.
 fn statistic(quantity: &Quantity) -> Option<&'static Statistic> {
     let subject = Subject::Metric(Metric::find(&quantity.metric)?);
     Some(Key::named(subject, &quantity.statistic)?.statistic())
@@ -297,7 +299,7 @@ fn kind(quantity: &Quantity) -> Kind {
     (metric.clone(), statistic.clone(), image.clone(), *level)
 }
 
-/// A band of a frame.
+/// One band of a frame.
 #[derive(Debug, Clone, Copy)]
 struct Part {
     value: Option<f64>,
@@ -316,7 +318,8 @@ fn known_bands(quantity: &Quantity, edges: &[[f64; 2]]) -> String {
     )
 }
 
-/// Results of a version that did not write them: bands' pixels would be a wrong weight.
+/// The error for results of a version that did not write the weights. Pixel counts of the bands
+/// would be wrong weights.
 fn unweighted(quantity: &Quantity) -> Lacking {
     Lacking::NotScored(format!(
         "{quantity}: the results do not say how many pixels of each band have a value; score them again"

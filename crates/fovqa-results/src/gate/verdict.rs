@@ -1,4 +1,4 @@
-//! The rules of a gate against the values of a run.
+//! Checks the rules of a gate against the values of a run.
 
 use std::collections::BTreeSet;
 
@@ -8,79 +8,79 @@ use fovqa_plan::{Allowance, GateRule};
 use super::values::{ComparisonName, FoundValue, Lacking, RunValues};
 use crate::baseline::Baseline;
 
-/// What came of a gate.
+/// The result of a gate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verdict {
     /// Name of the experiment.
     pub experiment: String,
-    /// Its file, as it was named.
+    /// The experiment file, as the user named it.
     pub file: String,
-    /// Rule by rule.
+    /// The verdict of each rule.
     pub rules: Vec<RuleVerdict>,
-    /// What could not be scored.
+    /// The items that could not be scored.
     pub errors: Vec<String>,
-    /// What has to be said beside it.
+    /// Additional remarks.
     pub notes: Vec<String>,
 }
 
-/// What came of a rule.
+/// The result of a rule.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RuleVerdict {
     /// The rule.
     pub rule: GateRule,
-    /// Comparison by comparison.
+    /// The check of each comparison.
     pub checks: Vec<Check>,
     /// Why there is nothing to check.
     pub failure: Option<String>,
 }
 
-/// A rule in one comparison.
+/// The check of a rule in one comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Check {
     /// Scene, method and eye.
     pub place: ComparisonName,
-    /// The value, where there is one.
+    /// The value, if there is one.
     pub value: Option<f64>,
-    /// The limit it comes nearest to, or that it breaks most.
+    /// The limit with the smallest margin, or with the largest violation.
     pub limit: Option<Limit>,
-    /// The frame that is worst, with its value.
+    /// The worst frame with its value.
     pub worst: Option<(i64, f64)>,
-    /// The baseline's value, where one is looked at.
+    /// The value of the baseline, if the rule uses it.
     pub baseline: Option<f64>,
-    /// What came of it.
+    /// The result of the check.
     pub outcome: Outcome,
 }
 
-/// A limit, and how far a value keeps from it: below 0 where it is broken.
+/// A limit and the margin of a value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
-    /// Whether values have to be at least this, rather than at most.
+    /// Whether the limit is a minimum rather than a maximum.
     pub at_least: bool,
     /// The limit.
     pub value: f64,
-    /// How far the value is on the right side of it.
+    /// Distance of the value from the limit; negative if the limit is violated.
     pub margin: f64,
 }
 
-/// What came of a check.
+/// The result of a check.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Outcome {
-    /// It holds.
+    /// The value satisfies the rule.
     Passed,
-    /// It does not.
+    /// The value violates the rule. The text explains it.
     Failed(String),
-    /// There is no value to tell: never a pass.
+    /// There is no value to check. This never counts as passed.
     NotScored(String),
-    /// The rule cannot be of this run: the experiment is wrong.
+    /// The rule cannot apply to this run, so the experiment contains a mistake.
     Wrong(String),
 }
 
 /// The state of a gate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum State {
-    /// Every rule holds.
+    /// Every rule passed.
     Passed,
-    /// A rule does not.
+    /// A rule failed.
     Failed,
     /// Something was not scored.
     NotScored,
@@ -101,7 +101,7 @@ impl State {
 }
 
 impl Outcome {
-    /// The state it stands for.
+    /// The state that corresponds to the outcome.
     pub fn state(&self) -> State {
         match self {
             Self::Passed => State::Passed,
@@ -121,14 +121,14 @@ impl Outcome {
 }
 
 impl RuleVerdict {
-    /// The worst of its checks.
+    /// The worst state among the checks.
     pub fn state(&self) -> State {
         let checks = self.checks.iter().map(|check| check.outcome.state());
         let failed = self.failure.is_some().then_some(State::Failed);
         checks.chain(failed).max().unwrap_or(State::Failed)
     }
 
-    /// What it is called.
+    /// The title of the rule.
     pub fn title(&self) -> String {
         let GateRule { quantity, scene, method, eye, .. } = &self.rule;
         if let Some(name) = &self.rule.name {
@@ -145,7 +145,7 @@ impl RuleVerdict {
 }
 
 impl Verdict {
-    /// Holds the values of a run against rules and, where they ask for it, a baseline.
+    /// Checks the values of a run against rules and, if the rules use it, against a baseline.
     pub fn of(
         (experiment, file): (&str, &str),
         rules: &[GateRule],
@@ -158,23 +158,23 @@ impl Verdict {
         Self { experiment, file, rules, errors: run.errors.clone(), notes }
     }
 
-    /// The state of the whole.
+    /// The state of the whole gate.
     pub fn state(&self) -> State {
         let errors = (!self.errors.is_empty()).then_some(State::NotScored);
         let rules = self.rules.iter().map(RuleVerdict::state);
-        // No rule holds nothing: that is no pass.
+        // A gate without rules checks nothing, so it does not pass.
         rules.chain(errors).max().unwrap_or(State::Failed)
     }
 }
 
-/// Comparisons that only the baseline has: what is gone cannot get worse.
+/// Comparisons that only the baseline has. Values that no longer exist cannot be compared.
 fn strangers(run: &RunValues, baseline: &Baseline) -> Vec<String> {
     let here: BTreeSet<&ComparisonName> = run.places().collect();
     let gone = baseline.comparisons.iter().filter(|c| !here.contains(&c.place()));
     gone.map(|c| format!("the baseline has {}, but the run does not", c.named())).collect()
 }
 
-/// Whether a rule is of a comparison: of both eyes together, where it names none.
+/// Whether a rule applies to a comparison. A rule that names no eye applies to both eyes together.
 pub(super) fn is_of(rule: &GateRule, (scene, method, eye): &ComparisonName) -> bool {
     let wanted = |wanted: &Option<String>, name: &str| wanted.as_ref().is_none_or(|w| w == name);
     let of_eye = match &rule.eye {
@@ -189,7 +189,7 @@ fn judged(rule: &GateRule, run: &RunValues, baseline: Option<&Baseline>) -> Rule
     let checks: Vec<Check> = places.map(|place| check(rule, run, place, baseline)).collect();
     let nothing =
         checks.is_empty().then(|| "the rule applies to no comparison of the run".to_owned());
-    // A comparison that the rule is of, and that is no longer there, is no pass either.
+    // If a comparison that the rule applies to no longer exists, the rule does not pass either.
     let lost = baseline.filter(|_| rule.needs_baseline()).and_then(|baseline| {
         let gone = baseline.comparisons.iter().find(|c| {
             let place = c.place();
@@ -251,7 +251,7 @@ fn check(
     check.worst = worst(&found, rule, tightest);
     check.limit = tightest;
     check.outcome = match tightest {
-        // Not below: a value that is no number passes nothing.
+        // The test is `>=` rather than a negated `<`, so that NaN never passes.
         Some(limit) if limit.margin >= 0.0 => Outcome::Passed,
         Some(limit) => Outcome::Failed(broken(rule, limit, found.value, before)),
         None => Outcome::Failed("the rule has no limit".to_owned()),
@@ -270,16 +270,16 @@ fn broken(rule: &GateRule, limit: Limit, value: f64, before: Option<f64>) -> Str
     format!("{} is {value}, {side} {}{baseline}", rule.quantity, limit.value)
 }
 
-/// The limits of a rule, with a baseline's value.
+/// The limits of a rule, given the value and the value of the baseline.
 fn limits(rule: &GateRule, value: f64, before: Option<f64>) -> Vec<Limit> {
-    // Both infinite: neither is better.
+    // If both are infinite, neither is better.
     let apart = |a: f64, b: f64| if a.to_bits() == b.to_bits() { 0.0 } else { a - b };
     let least = |limit: f64| Limit { at_least: true, value: limit, margin: apart(value, limit) };
     let most = |limit: f64| Limit { at_least: false, value: limit, margin: apart(limit, value) };
     let moved = |allowance: Option<Allowance>, sign: f64| {
         let (allowance, before) = allowance.zip(before)?;
         let limit = before + sign * allowance.of(before);
-        // A share of infinity is none.
+        // A share of infinity is not a number; the limit is then the baseline itself.
         Some(if limit.is_nan() { before } else { limit })
     };
     [
@@ -293,7 +293,8 @@ fn limits(rule: &GateRule, value: f64, before: Option<f64>) -> Vec<Limit> {
     .collect()
 }
 
-/// The frame that is worst by the rule's direction, or nearest to its limit where it has none.
+/// The worst frame in the direction of the rule. If the rule has no direction, it is the frame
+/// nearest to its limit.
 fn worst(found: &FoundValue, rule: &GateRule, limit: Option<Limit>) -> Option<(i64, f64)> {
     let low = match rule.quantity.better() {
         Better::Higher => true,

@@ -1,5 +1,5 @@
-//! Measures of reference and test alike as JSON has them: of a frame (`T` a number), or over frames (`T` a
-//! mean with its extremes).
+//! JSON for measures that are computed for reference and test in the same way: of one frame (`T` is
+//! a number), or over frames (`T` is a mean with its extremes).
 
 use std::collections::BTreeMap;
 
@@ -11,21 +11,21 @@ use crate::report::{FrameResult, ViewResult};
 use crate::spread::Spread;
 use crate::summary::{SideStatistics, Summary};
 
-/// A measure of each picture, and their ratio.
+/// A measure of each image, and their ratio.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SideValues<T> {
-    /// The reference's; `None` where there is no value.
+    /// Value of the reference; `None` if there is none.
     pub reference: Option<T>,
-    /// The test's.
+    /// Value of the test; `None` if there is none.
     pub test: Option<T>,
-    /// test / reference; `None` where that is not a number.
+    /// test / reference; `None` if that is not a number.
     pub ratio: Option<f64>,
     /// Why there is no ratio.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
 
-/// The statistics of one picture's coefficients.
+/// The statistics of the wavelet coefficients of one image.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HaarValues<T> {
     /// Mean |c|.
@@ -36,12 +36,12 @@ pub struct HaarValues<T> {
     pub energy: Option<T>,
 }
 
-/// Coefficients of each picture, and the ratios of their statistics.
+/// The wavelet coefficients of each image, and the ratios of their statistics.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HaarSides<T> {
-    /// The reference's.
+    /// Statistics of the reference.
     pub reference: HaarValues<T>,
-    /// The test's.
+    /// Statistics of the test.
     pub test: HaarValues<T>,
     /// test / reference.
     pub ratio: HaarValues<f64>,
@@ -54,18 +54,18 @@ pub struct HaarSides<T> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(bound(deserialize = "T: Deserialize<'de>"))]
 pub struct HaarRecord<T> {
-    /// The level, from 1 on.
+    /// The level, counted from 1.
     pub level: usize,
-    /// Lower edge.
+    /// Lower edge in degrees.
     pub from_deg: f64,
-    /// Upper edge.
+    /// Upper edge in degrees.
     pub to_deg: f64,
-    /// How many coefficients.
+    /// Number of coefficients.
     pub coefficients: u64,
-    /// All together.
+    /// All orientations together.
     #[serde(flatten)]
     pub all: HaarSides<T>,
-    /// `lh`, `hl` and `hh` one by one, where that is asked for.
+    /// `lh`, `hl` and `hh` individually, if that is requested.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub orientations: BTreeMap<String, HaarSides<T>>,
 }
@@ -89,13 +89,13 @@ impl SideValues<Spread> {
     }
 }
 
-/// What is compared in a band, by its name.
+/// The compared measures in a band, by name.
 pub(crate) fn in_band(frame: &FrameResult, band: usize) -> Vec<(String, SideValues<f64>)> {
     let compared = frame.compared().filter(|(key, _)| is_in_band(key, band));
     compared.map(|(key, sides)| (name(&key), sides.into())).collect()
 }
 
-/// The same over the frames: of the metrics' own values.
+/// The compared measures in a band over the frames. Only the metrics' own values are included.
 pub(crate) fn in_summary_band(
     summary: &Summary,
     band: usize,
@@ -108,7 +108,7 @@ pub(crate) fn in_summary_band(
     summary.compared.iter().filter_map(of_band).collect()
 }
 
-/// The name of a value: the metric and, where it is not its own value, the statistic.
+/// The name of a value: the metric and, if it is not the metric's own value, the statistic.
 pub(crate) fn name(key: &Key) -> String {
     match key.statistic().name {
         "" => key.subject.name().to_owned(),
@@ -120,14 +120,14 @@ fn is_in_band(key: &Key, band: usize) -> bool {
     key.band.map(usize::from) == Some(band) && key.level.is_none()
 }
 
-/// The wavelet of a frame, level by level.
+/// The wavelet statistics of a frame, level by level.
 pub(crate) fn haar(frame: &FrameResult, view: Option<&ViewResult>) -> Vec<HaarRecord<f64>> {
     let edges = view.map(|view| view.bands_deg.as_slice()).unwrap_or_default();
     let values = frame.compared().map(|(key, sides)| (key, sides.into()));
     haar_records(values, edges, |key| frame.rows.number(key))
 }
 
-/// The wavelet over the frames.
+/// The wavelet statistics over the frames.
 pub(crate) fn summary_haar(summary: &Summary) -> Vec<HaarRecord<Spread>> {
     let edges: Vec<(f64, f64)> =
         summary.bands.iter().map(|band| (band.from_deg, band.to_deg)).collect();
@@ -138,7 +138,8 @@ pub(crate) fn summary_haar(summary: &Summary) -> Vec<HaarRecord<Spread>> {
     haar_records(values, &edges, |key| summary.counts.get(&key).copied().unwrap_or_default())
 }
 
-/// The statistics of a level in a band, all of them together or of an orientation, by its name.
+/// The statistics of a level in a band, by the name of the orientation; `None` is the key for all
+/// orientations together.
 type Grouped<T> = BTreeMap<Option<&'static str>, Vec<SideValues<T>>>;
 
 fn haar_records<T: Clone>(
@@ -165,18 +166,18 @@ fn haar_records<T: Clone>(
     places.into_iter().filter_map(record).collect()
 }
 
-/// The orientation that a statistic of the wavelet is of; `None`: of all.
+/// The orientation of a wavelet statistic; `None` for all orientations together.
 fn orientation(statistic: &str) -> Option<&'static str> {
     ORIENTATIONS.into_iter().find(|name| statistic.ends_with(&format!("_{name}")))
 }
 
-/// Low in x and high in y, high in x and low in y, high in both.
+/// Low frequencies in x and high in y; high in x and low in y; high in both.
 const ORIENTATIONS: [&str; 3] = ["lh", "hl", "hh"];
 
-/// Statistics of an orientation: `mean_abs`, `max_abs` and `energy`.
+/// Number of statistics per orientation: `mean_abs`, `max_abs` and `energy`.
 const PER_ORIENTATION: usize = 3;
 
-/// The three statistics, in their order, as the three fields.
+/// The three statistics, in this order, as three fields.
 fn sides<T: Clone>(values: Vec<SideValues<T>>) -> HaarSides<T> {
     debug_assert!(values.len() <= PER_ORIENTATION, "one per statistic");
     HaarSides {

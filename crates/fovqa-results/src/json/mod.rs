@@ -1,4 +1,5 @@
-//! JSON: what `score` prints, and the files of a run. Keys may be added, never renamed.
+//! JSON output of `score` and JSON files of a run. New keys may be added, but keys are never
+//! renamed.
 
 mod compared;
 mod run;

@@ -1,4 +1,5 @@
-//! run.json: what a run was of, so that it can be drawn again, repeated and trusted.
+//! run.json describes a run, so that its report can be made again and the run can be repeated and
+//! verified.
 
 use std::collections::BTreeMap;
 
@@ -11,8 +12,8 @@ use crate::report::Input;
 /// Name and version of the format.
 pub const RUN_SCHEMA: &str = "fovqa.run/1";
 
-/// The whole file. Nothing in it tells when, where or by how many threads a run was made: the same
-/// inputs give the same bytes.
+/// The content of run.json. It does not depend on the time, the place or the number of threads of
+/// the run: the same inputs give the same bytes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunRecord {
     /// Name and version of the format.
@@ -25,7 +26,7 @@ pub struct RunRecord {
     pub resolved: Resolved,
     /// Every file that was read, by path.
     pub inputs: Vec<Input>,
-    /// The checksums of the files beside this one; none in those of earlier versions.
+    /// The checksums of the files beside this one; empty in files of earlier versions.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub files: Checksums,
 }

@@ -1,4 +1,5 @@
-//! `--format json`, schema `fovqa.score/1`. Keys may be added, never renamed.
+//! The output of `--format json`, schema `fovqa.score/1`. New keys may be added, but keys are never
+//! renamed.
 
 use std::io::{self, Write};
 
@@ -16,10 +17,10 @@ use crate::summary::{AtdSummary, Summary};
 /// Name and version of the format.
 pub const SCORE_SCHEMA: &str = "fovqa.score/1";
 
-/// Writes a report as JSON, indented, with a newline at its end.
+/// Writes a report as indented JSON with a newline at its end.
 ///
 /// # Errors
-/// When the writer refuses.
+/// If the writer refuses.
 pub fn write_json(report: &ScoreReport, mut out: impl Write) -> io::Result<()> {
     let summary = Summary::of(report);
     let document = Document {
@@ -77,17 +78,17 @@ struct Sequence {
 #[derive(serde::Serialize)]
 struct Fvvdp {
     q: f64,
-    /// Of this frame alone: it does not average to the sequence's.
+    /// JOD of this frame alone. The mean over frames is not the JOD of the sequence.
     frame_jod: f64,
     spatial_bands: Vec<SpatialBand>,
 }
 
-/// Differences of a frame to the one before it.
+/// Differences between a frame and the one before it.
 #[derive(serde::Serialize)]
 struct Atd {
     #[serde(flatten)]
     sides: SideValues<f64>,
-    /// Share of pixels left out, of the reference and of the test.
+    /// Share of pixels left out, for the reference and for the test.
     left_out: f64,
     left_out_test: f64,
 }
@@ -123,7 +124,7 @@ fn is_zero(count: &u64) -> bool {
 impl<'a> Frame<'a> {
     fn of(frame: &'a FrameResult, report: &ScoreReport) -> Self {
         let rows = &frame.rows;
-        // FovVideoVDP has an entry of its own.
+        // FovVideoVDP has its own entry.
         let of_pair = |row: &Row| {
             let Key { image, level, band, .. } = row.key;
             let fvvdp = row.key.metric() == Some(Metric::Fvvdp);
@@ -144,7 +145,7 @@ impl<'a> Frame<'a> {
             haar: haar(frame, report.view.as_ref()),
             atd: Atd::of(frame),
             fvvdp: Fvvdp::of(frame, report),
-            // Without a view there are no bands to be outside of.
+            // Without a view there are no bands, so no pixels can lie outside them.
             pixels_outside_bands: rows.number(Key::pixels(Subject::PixelsOutsideBands)),
             pixels_left_out: rows.number(Key::pixels(Subject::PixelsLeftOut)),
         }
@@ -179,7 +180,7 @@ impl Fvvdp {
     }
 }
 
-/// Values by their names, in the order of results.
+/// Values with their names, in the order of results.
 struct NamedValues(Vec<(String, Number)>);
 
 impl Serialize for NamedValues {
@@ -192,7 +193,7 @@ struct Band {
     from_deg: f64,
     to_deg: f64,
     pixels: u64,
-    /// What scores of the band are pooled by.
+    /// The counts that the scores of the band are pooled by.
     counts: Vec<(String, u64)>,
     scores: Vec<(String, Option<Number>)>,
     compared: Vec<(String, SideValues<f64>)>,

@@ -1,4 +1,4 @@
-//! summary.json: a run's values over its frames, by scene, method and metric.
+//! summary.json contains the statistics of a run over its frames, by scene, method and metric.
 
 use std::collections::BTreeMap;
 
@@ -24,25 +24,25 @@ pub struct ComparisonSummary {
     pub scene: String,
     /// The method.
     pub method: String,
-    /// Values of swept parameters; empty where nothing is swept.
+    /// Values of swept parameters; empty if there is no sweep.
     pub parameters: String,
-    /// `left`, `right` or `both`; empty in a scene with one picture a frame.
+    /// `left`, `right` or `both`; empty if the scene has one image per frame.
     pub eye: String,
-    /// Frames that were scored.
+    /// Number of frames that were scored.
     pub frames: usize,
-    /// Frames, or whole comparisons, that could not be.
+    /// Number of frames, or whole comparisons, that could not be scored.
     pub errors: usize,
-    /// The view; `None` without one, and for both eyes.
+    /// The view; `None` if there is none, and for both eyes.
     pub view: Option<ViewRecord>,
     /// Each metric over the frames.
     #[serde(serialize_with = "metrics_out", deserialize_with = "metrics_in")]
     pub metrics: BTreeMap<Metric, Statistics>,
-    /// The same per eccentricity band.
+    /// The statistics per eccentricity band.
     pub bands: Vec<BandStatistics>,
-    /// The wavelet by level and band.
+    /// The wavelet statistics by level and band.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub haar: Vec<HaarRecord<Spread>>,
-    /// Differences over time.
+    /// Temporal differences.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub atd: Option<AtdSummary>,
     /// FovVideoVDP.
@@ -59,24 +59,24 @@ pub struct ViewRecord {
     pub height: usize,
     /// Focal length in pixels, along x and y.
     pub focal_px: [f64; 2],
-    /// Gaze in pixels; of the first frame where it moves.
+    /// Gaze in pixels. If the gaze moves, this is the gaze of the first frame.
     pub gaze_px: [f64; 2],
     /// `angular` or `planar`.
     pub eccentricity: EccentricityKind,
 }
 
-/// One band over the frames.
+/// The statistics of one band over the frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BandStatistics {
-    /// Lower edge.
+    /// Lower edge in degrees.
     pub from_deg: f64,
-    /// Upper edge.
+    /// Upper edge in degrees.
     pub to_deg: f64,
-    /// Pixels in all frames together.
+    /// Number of pixels in all frames together.
     pub pixels: u64,
-    /// Each metric; `None` where no frame has a value.
+    /// The statistics of each metric; `None` if no frame has a value.
     pub metrics: BTreeMap<Metric, Option<Statistics>>,
-    /// Measures of reference and test alike.
+    /// Measures that are computed for reference and test in the same way.
     pub compared: BTreeMap<Metric, SideValues<Spread>>,
 }
 
@@ -87,16 +87,16 @@ pub struct ErrorRecord {
     pub scene: String,
     /// The method.
     pub method: String,
-    /// The eye; empty in a scene with one picture a frame.
+    /// The eye; empty if the scene has one image per frame.
     pub eye: String,
-    /// The frame; `None`: the whole comparison.
+    /// Frame number; `None` if the whole comparison could not be scored.
     pub frame: Option<i64>,
     /// What is wrong.
     pub message: String,
 }
 
 impl ErrorRecord {
-    /// What could not be scored of a comparison.
+    /// The errors of a comparison.
     pub(super) fn all(comparison: &Comparison) -> impl Iterator<Item = Self> {
         comparison.report.failures.iter().map(|failure| Self {
             scene: comparison.scene.clone(),
@@ -112,7 +112,7 @@ impl ComparisonSummary {
     pub(super) fn of(comparison: &Comparison) -> Self {
         let report = &comparison.report;
         let summary = Summary::of(report);
-        // Both eyes have a view each, and none together.
+        // Each eye has its own view, but both together have none.
         let view = report.view.as_ref().filter(|_| comparison.eye != "both");
         Self {
             scene: comparison.scene.clone(),
@@ -172,7 +172,7 @@ fn metrics_in<'de, D: Deserializer<'de>>(
     Ok(metrics.into_iter().map(|(metric, stats)| (metric, stats.0)).collect())
 }
 
-/// Statistics ready to be written.
+/// The statistics as JSON.
 pub(crate) fn stats(metrics: &BTreeMap<Metric, Statistics>) -> MetricMap<Stats> {
     let stats =
         |(&metric, &statistics): (&Metric, &Statistics)| (metric, Stats { metric, statistics });

@@ -1,5 +1,5 @@
-//! summary.json as a file. A run may have very many comparisons, so they are written and read one after the
-//! other, and only one of them is in memory as JSON.
+//! Reads and writes summary.json. A run may have very many comparisons. They are written and read
+//! one after another, so that only one of them is in memory as JSON.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -20,7 +20,7 @@ use crate::report::RunResults;
 /// Writes the summary of a run as indented JSON.
 ///
 /// # Errors
-/// When the writer refuses.
+/// If the writer refuses.
 pub fn write_summary(
     experiment: &str,
     results: &RunResults,
@@ -45,10 +45,11 @@ pub fn write_summary(
     out.write_all(b"\n")
 }
 
-/// Reads summary.json of a folder: gives each comparison to `take`, and returns what could not be scored.
+/// Reads summary.json in a folder. Passes each comparison to `take`, and returns the errors of the
+/// run.
 ///
 /// # Errors
-/// When it is not there, or is something else, or of another version, or has a key twice.
+/// If the file does not exist, has another format or version, or contains a key twice.
 pub fn read_summary(
     folder: &Path,
     mut take: impl FnMut(ComparisonSummary),
@@ -66,14 +67,14 @@ pub fn read_summary(
     read_from(open().map_err(read)?, &mut take).map_err(|fault| match fault {
         Fault::Read(error) => read(error),
         Fault::Format(detail) => {
-            // Of all that may be wrong, a key that appears twice explains the most.
+            // If a key appears twice, that explains the problem best.
             let detail = open().ok().and_then(key_twice).unwrap_or(detail);
             FileError::Format { path: path.clone(), expected: "a summary of a run", detail }
         }
     })
 }
 
-/// Which key appears twice, where one does.
+/// The key that appears twice, if there is one.
 fn key_twice(file: impl Read) -> Option<String> {
     let error = serde_json::from_reader::<_, CheckedKeys>(file).err()?;
     error.is_data().then(|| error.to_string())
@@ -100,10 +101,10 @@ fn read_from(
     })
 }
 
-/// The whole file.
+/// The content of the whole file.
 struct Whole<'t> {
     take: &'t mut dyn FnMut(ComparisonSummary),
-    /// Why it is of another schema, where it is.
+    /// The name of the schema, if it is not the expected one.
     other_schema: &'t mut Option<String>,
 }
 

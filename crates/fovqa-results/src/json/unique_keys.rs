@@ -1,4 +1,5 @@
-//! JSON in which no key appears twice: of two values of one name, nobody can tell which is meant.
+//! JSON in which no key appears twice. If two values have the same name, it is not clear which one
+//! is meant.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -6,7 +7,7 @@ use std::fmt;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
 
-/// A value whose objects have each key once.
+/// A value in which each key of an object appears once.
 pub(crate) struct UniqueKeys(pub(crate) Value);
 
 impl<'de> Deserialize<'de> for UniqueKeys {
@@ -15,7 +16,7 @@ impl<'de> Deserialize<'de> for UniqueKeys {
     }
 }
 
-/// JSON whose objects were found to have each key once. Nothing of it is kept.
+/// The result of checking that each key of an object appears once. The values are not kept.
 pub(crate) struct CheckedKeys;
 
 impl<'de> Deserialize<'de> for CheckedKeys {
@@ -75,7 +76,7 @@ impl<'de> Visitor<'de> for Check {
     }
 }
 
-/// The error of a key that appears twice.
+/// The error for a key that appears twice.
 pub(super) fn stands_twice<E: Error>(key: &str) -> E {
     E::custom(format!("the key {key:?} appears twice"))
 }

@@ -1,4 +1,4 @@
-//! Numbers, metrics and statistics as JSON has them, both ways.
+//! Converts numbers, metrics and statistics to and from JSON.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,7 +10,8 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use crate::summary::Statistics;
 
-/// A number, to the last bit; with what JSON has no number for as a word, `"inf"`, `"-inf"`, `"nan"`.
+/// A number that keeps all its bits. Values that JSON has no number for are the words `"inf"`,
+/// `"-inf"` and `"nan"`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Number(pub f64);
 
@@ -55,7 +56,7 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-/// A list whose elements are made while it is written.
+/// A list whose elements are produced while it is written.
 pub(crate) struct Each<F>(pub(crate) F);
 
 impl<F, I> Serialize for Each<F>
@@ -68,7 +69,7 @@ where
     }
 }
 
-/// Values under the keys of their metrics, in the order of tables.
+/// Values with the keys of their metrics, in the order of tables.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MetricMap<T>(pub(crate) BTreeMap<Metric, T>);
 
@@ -100,7 +101,8 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for MetricMap<T> {
     }
 }
 
-/// Statistics with the name of their metric in front of what is pooled: `psnr_pooled`.
+/// Statistics in which the key of the pooled value begins with the name of the metric, for example
+/// `psnr_pooled`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stats {
     pub(crate) metric: Metric,
@@ -123,7 +125,7 @@ impl Serialize for Stats {
     }
 }
 
-/// Statistics of any metric: the key of what is pooled says which.
+/// Statistics of any metric. The key of the pooled value names the metric.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct AnyStats(pub(crate) Statistics);
 

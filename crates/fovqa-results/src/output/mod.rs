@@ -1,5 +1,5 @@
-//! Files that are written: whoever looks sees the old file or the new one, never half of either, and what
-//! is there survives a loss of power.
+//! Writes files so that a reader sees the old file or the new one, never a part of either, and that
+//! files survive a power failure.
 
 mod target;
 mod temporary;
@@ -15,21 +15,22 @@ use target::{Target, open_again, open_special};
 pub use temporary::sweep;
 use temporary::{Temporary, sweep_once};
 
-/// Writes a file of ours whole: under a temporary name beside it, then renamed.
+/// Writes a file of a run completely: under a temporary name in the same folder, which is then
+/// renamed.
 ///
-/// A symbolic link stays, and the file it leads to is replaced, or made. Whatever else stands there is
-/// replaced.
+/// A symbolic link stays, and the file that it points to is replaced or created. Anything else at
+/// this path is replaced.
 ///
 /// # Errors
-/// When the system refuses; nothing is left behind then, and what was there stays.
+/// If the operating system refuses. In that case nothing is left behind, and the old file stays.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write_whole_with(path, |out| out.write_all(bytes))
 }
 
-/// The same, of a file too large to be held in memory.
+/// Like [`write_whole`], for a file that is too large for memory.
 ///
 /// # Errors
-/// As [`write_whole`].
+/// See [`write_whole`].
 pub fn write_whole_with(
     path: &Path,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
@@ -41,7 +42,7 @@ pub fn write_whole_with(
 /// Writes a value as indented JSON with a newline at its end.
 ///
 /// # Errors
-/// As [`write_whole`].
+/// See [`write_whole`].
 pub fn write_json_file(path: &Path, value: &impl Serialize) -> Result<(), FileError> {
     write_whole_with(path, |mut out| {
         serde_json::to_writer_pretty(&mut out, value)?;
@@ -49,11 +50,11 @@ pub fn write_json_file(path: &Path, value: &impl Serialize) -> Result<(), FileEr
     })
 }
 
-/// Writes an output that somebody has named. A file is replaced as by [`write_whole`]; a device or a pipe is
-/// written to.
+/// Writes an output file that the user has named. A file is replaced as by [`write_whole`]; a
+/// device or a pipe is written to.
 ///
 /// # Errors
-/// As [`write_whole`].
+/// See [`write_whole`].
 pub fn write_output(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let written = Target::of(path).and_then(|target| {
         let mut out = match target {
@@ -67,10 +68,10 @@ pub fn write_output(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     written.map_err(|error| FileError::Write { path: path.to_owned(), error })
 }
 
-/// The same of a value, as JSON.
+/// Like [`write_output`], for a value that is written as JSON.
 ///
 /// # Errors
-/// As [`write_whole`].
+/// See [`write_whole`].
 pub fn write_json_output(path: &Path, value: &impl Serialize) -> Result<(), FileError> {
     write_output(path, &json(path, value)?)
 }
@@ -82,7 +83,7 @@ fn json(path: &Path, value: &impl Serialize) -> Result<Vec<u8>, FileError> {
     Ok(bytes)
 }
 
-/// Whether there is something that an output would replace.
+/// Whether an output would replace an existing file.
 pub fn replaces(path: &Path) -> bool {
     Target::of(path).is_ok_and(|target| match target {
         Target::File(file) => file.exists(),
@@ -90,10 +91,11 @@ pub fn replaces(path: &Path) -> bool {
     })
 }
 
-/// Takes a file of ours away, by way of a symbolic link too, which stays.
+/// Removes a file of a run. If the path is a symbolic link, the link stays and the file that it
+/// points to is removed.
 ///
 /// # Errors
-/// When the system refuses. That there is none is no error.
+/// If the operating system refuses. A file that does not exist is not an error.
 pub fn take_away(path: &Path) -> io::Result<()> {
     match fs::remove_file(Target::file_at(path)?) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -101,18 +103,19 @@ pub fn take_away(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Makes a folder, and those above it; where a symbolic link leads to none, that one.
+/// Creates a folder and its parent folders. If a symbolic link points to a folder that does not
+/// exist, that folder is created.
 ///
 /// # Errors
-/// When the system refuses.
+/// If the operating system refuses.
 pub fn make_folder(path: &Path) -> io::Result<()> {
     fs::create_dir_all(if path.is_dir() { path.to_owned() } else { Target::file_at(path)? })
 }
 
-/// Finds out whether files can be written in a folder.
+/// Checks that files can be written in a folder.
 ///
 /// # Errors
-/// When the system refuses.
+/// If the operating system refuses.
 pub fn try_writing(folder: &Path) -> io::Result<()> {
     let temporary = Temporary::new(folder)?;
     (&temporary.file).write_all(b"fovqa")?;
@@ -133,7 +136,7 @@ fn replace(
     temporary.become_file(path)
 }
 
-/// The folder a file stands in.
+/// The folder that contains a file.
 fn folder_of(path: &Path) -> PathBuf {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),

@@ -1,4 +1,4 @@
-//! Where the bytes of an output go.
+//! Finds the target that the bytes of an output are written to.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -6,32 +6,32 @@ use std::path::{Path, PathBuf};
 
 use super::folder_of;
 
-/// What an output is.
+/// The kind of an output.
 #[derive(Debug, PartialEq)]
 pub(super) enum Target {
-    /// A file to be replaced, or yet to be made. It is no symbolic link.
+    /// A file to be replaced or created. It is not a symbolic link.
     File(PathBuf),
     /// A device or a pipe.
     Special(PathBuf),
-    /// What a process has open, be it a file.
+    /// Something that a process has open; it may be a file.
     Open(PathBuf, Stream),
 }
 
-/// What a process has open.
+/// The kind of stream that a process has open.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Stream {
-    /// Standard output of this one.
+    /// Standard output of this process.
     Output,
-    /// Its standard error.
+    /// Standard error of this process.
     Error,
-    /// Something else.
+    /// Another stream.
     Other,
 }
 
 impl Target {
-    /// Follows symbolic links. What they lead to last need not be there.
+    /// Follows symbolic links. The last target need not exist.
     pub(super) fn of(path: &Path) -> io::Result<Self> {
-        /// As many as Linux follows.
+        /// The same limit as in Linux.
         const MOST_LINKS: usize = 40;
         let mut at = path.to_owned();
         for _ in 0..=MOST_LINKS {
@@ -43,7 +43,7 @@ impl Target {
                 found => found?.file_type(),
             };
             if !kind.is_symlink() {
-                // A folder is no file, as renaming to it will say.
+                // A folder is not a file, but renaming to it reports the error.
                 let is_file = kind.is_file() || kind.is_dir();
                 return Ok(if is_file { Self::File(at) } else { Self::Special(at) });
             }
@@ -52,8 +52,8 @@ impl Target {
         Err(io::Error::other("too many symbolic links, one behind the other"))
     }
 
-    /// The file to be replaced, where it is one of ours: whatever else stands at its path, a link to a device
-    /// too, gives way.
+    /// The path of the file to be replaced, for a file of a run. Anything else at its path is
+    /// replaced, including a link to a device.
     pub(super) fn file_at(path: &Path) -> io::Result<PathBuf> {
         Ok(match Self::of(path)? {
             Self::File(file) => file,
@@ -62,12 +62,12 @@ impl Target {
     }
 }
 
-/// Opens a device or a pipe, which may wait for a reader.
+/// Opens a device or a pipe. Opening may wait for a reader.
 pub(super) fn open_special(path: &Path) -> io::Result<Box<dyn Write>> {
     Ok(Box::new(File::options().write(true).open(path)?))
 }
 
-/// Goes on behind what is written to what a process has open.
+/// Opens a stream that a process has open, and continues after the data already written to it.
 pub(super) fn open_again(path: &Path, stream: Stream) -> io::Result<Box<dyn Write>> {
     Ok(match stream {
         Stream::Output => Box::new(Stdout),
@@ -76,7 +76,7 @@ pub(super) fn open_again(path: &Path, stream: Stream) -> io::Result<Box<dyn Writ
     })
 }
 
-/// Standard output. A reader that closed its end has seen enough: that is no error.
+/// Standard output. If the reader closes its end, that is not an error, because it has read enough.
 struct Stdout;
 
 impl Write for Stdout {
@@ -96,8 +96,9 @@ fn seen_enough<T>(written: io::Result<T>, all: T) -> io::Result<T> {
     }
 }
 
-/// Whether a path stands for what a process has open, such as `/dev/stdout` and `/dev/fd/3`, and which that is.
-/// It may be a file; whoever has it open would not see another in its place.
+/// Whether a path, such as `/dev/stdout` or `/dev/fd/3`, stands for something that a process has
+/// open, and which stream it is. It may be a file. The process that has it open would not notice a
+/// new file at its place.
 #[cfg(unix)]
 fn descriptor(path: &Path) -> Option<Stream> {
     let number: u32 = path.file_name()?.to_str()?.parse().ok()?;

@@ -1,7 +1,8 @@
-//! Files under temporary names, and what is left of them when a process is killed.
+//! Temporary files, and the removal of those that remain when a process is killed.
 //!
-//! A name is `.fovqa-`, 16 random hexadecimal digits, `.tmp`. Whoever writes such a file holds a lock on it,
-//! which goes with the process: one that can be locked is left from a process that is gone.
+//! The name is `.fovqa-`, 16 random hexadecimal digits and `.tmp`. A process that writes such a
+//! file holds a lock on it, and the lock is released when the process ends. If the file can be
+//! locked, its process no longer exists.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
@@ -14,12 +15,13 @@ const BEFORE: &str = ".fovqa-";
 const BEHIND: &str = ".tmp";
 const DIGITS: usize = 16;
 
-/// A name that nobody can foresee: the hasher's keys come from the system's random numbers.
+/// A name that cannot be predicted: the keys of the hasher come from the random numbers of the
+/// operating system.
 fn name() -> String {
     format!("{BEFORE}{:0DIGITS$x}{BEHIND}", RandomState::new().hash_one(()))
 }
 
-/// Whether a file of this name can be nothing else.
+/// Whether a file with this name is certainly a temporary file.
 fn is_temporary(name: &str) -> bool {
     let digits = name.strip_prefix(BEFORE).and_then(|name| name.strip_suffix(BEHIND));
     digits.is_some_and(|digits| {
@@ -28,16 +30,18 @@ fn is_temporary(name: &str) -> bool {
     })
 }
 
-/// A new file under a temporary name, which goes with this unless it becomes a file.
+/// A new file with a temporary name. It is removed when this value is dropped, unless it was
+/// renamed to its final name.
 pub(super) struct Temporary {
     pub(super) file: File,
-    /// `None` once it has another name, or is gone.
+    /// The path; `None` after the file was renamed or removed.
     path: Option<PathBuf>,
 }
 
 impl Temporary {
     pub(super) fn new(folder: &Path) -> io::Result<Self> {
-        /// Names are taken away only by a sweep within the instant before the lock.
+        /// Maximum number of attempts. A file can only be removed by a sweep in the moment before
+        /// it is locked.
         const MOST_TRIES: usize = 100;
         for _ in 0..MOST_TRIES {
             let path = folder.join(name());
@@ -49,17 +53,17 @@ impl Temporary {
             let temporary = Self { file, path: Some(path.clone()) };
             match lock {
                 Err(TryLockError::WouldBlock) => {}
-                // A sweep may have been faster than the lock.
+                // A sweep may have removed the file before it was locked.
                 Ok(()) if fs::symlink_metadata(&path).is_err() => {}
-                // Where there are no locks, nobody sweeps what others may be writing.
+                // If there are no locks, no sweep removes files that others may be writing.
                 Ok(()) | Err(TryLockError::Error(_)) => return Ok(temporary),
             }
         }
         Err(io::Error::other("temporary files are taken away as soon as they are made"))
     }
 
-    /// Gives the file its name, in the place of one that may be there. Its bytes, and then its name, are on
-    /// the disk when this returns.
+    /// Renames the file to its final name, replacing an existing file. When this returns, first the
+    /// bytes and then the name have been flushed to the disk.
     pub(super) fn become_file(mut self, path: &Path) -> io::Result<()> {
         sync(&self.file)?;
         if let Some(temporary) = &self.path {
@@ -78,7 +82,7 @@ impl Temporary {
 impl Drop for Temporary {
     fn drop(&mut self) {
         if let Some(path) = &self.path {
-            // Where it cannot be taken away, the next run into the folder tries again.
+            // If it cannot be removed, the next run that uses the folder tries again.
             let _ = fs::remove_file(path);
         }
     }
@@ -87,13 +91,13 @@ impl Drop for Temporary {
 fn sync(file: &File) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, Unsupported};
     match file.sync_all() {
-        // Some file systems have nothing to sync.
+        // Some file systems do not support flushing.
         Err(error) if matches!(error.kind(), InvalidInput | Unsupported) => Ok(()),
         synced => synced,
     }
 }
 
-/// The file is there, whatever becomes of this.
+/// Flushes a folder to the disk. The file exists even if this fails.
 #[cfg(unix)]
 fn sync_folder(folder: &Path) {
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
@@ -102,21 +106,23 @@ fn sync_folder(folder: &Path) {
 #[cfg(not(unix))]
 fn sync_folder(_: &Path) {}
 
-/// Who else may be writing to a folder.
+/// Which other processes may be writing to a folder.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Others {
-    /// Any process.
+    /// Any process may be writing.
     Maybe,
-    /// None: the folder is this process's own.
+    /// No other process: the folder belongs to this one.
     Nobody,
 }
 
-/// Takes away what writers that were killed have left in a folder where nobody else writes now.
+/// Removes the temporary files of killed processes from a folder to which no other process writes
+/// at present.
 pub fn sweep(folder: &Path) {
     sweep_beside(folder, Others::Nobody);
 }
 
-/// The same in any folder, when the process first writes there.
+/// Removes the temporary files of killed processes from any folder, when this process first writes
+/// there.
 pub(super) fn sweep_once(folder: &Path) {
     static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     let new = |folder: PathBuf| {
@@ -132,14 +138,14 @@ fn sweep_beside(folder: &Path, others: Others) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     let names = entries.flatten();
     for entry in names.filter(|entry| is_temporary(&entry.file_name().to_string_lossy())) {
-        // Opening something else than a file might have no end.
+        // Opening something other than a file might block.
         if entry.file_type().is_ok_and(|kind| kind.is_file()) {
             take_away_left(&entry.path(), others);
         }
     }
 }
 
-/// Takes a file away, unless somebody has it locked.
+/// Removes a file, unless a process has locked it.
 fn take_away_left(path: &Path, others: Others) {
     let Ok(file) = File::options().write(true).open(path) else { return };
     let is_left = match file.try_lock() {
@@ -148,7 +154,7 @@ fn take_away_left(path: &Path, others: Others) {
         Err(TryLockError::Error(_)) => others == Others::Nobody,
     };
     if is_left {
-        // Where it cannot be taken away, it is in nobody's way.
+        // If it cannot be removed, it does no harm.
         let _ = fs::remove_file(path);
     }
 }
@@ -190,7 +196,7 @@ mod tests {
             written.become_file(&target).unwrap();
             assert!(target.exists() && !path.exists());
         }
-        // Once for each folder.
+        // The sweep runs only once per folder.
         fs::write(&left, "half").unwrap();
         sweep_once(folder.path());
         assert!(left.exists());

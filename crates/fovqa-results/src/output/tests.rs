@@ -32,7 +32,7 @@ fn a_file_is_replaced_whole_or_not_at_all() {
     assert!(replaces(&path) && !replaces(&folder.path().join("c")));
 }
 
-/// The longest name that a file can have, beside which no longer one can stand.
+/// The name has the maximum length, so the temporary file beside it cannot have a longer one.
 #[test]
 fn a_name_may_be_as_long_as_any() {
     let folder = tempfile::tempdir().unwrap();
@@ -55,7 +55,7 @@ mod unix {
         symlink("real/old", at("first")).unwrap();
         symlink(at("first"), at("second")).unwrap();
         symlink("real/new", at("dangling")).unwrap();
-        // By way of a folder that is a link, `..` leads elsewhere than the path says.
+        // If the folder is a link, `..` leads to another place than the path suggests.
         symlink("real/deep", at("folder")).unwrap();
         symlink("folder/../up", at("through")).unwrap();
         let before = fs::metadata(at("real/old")).unwrap().ino();
@@ -112,7 +112,7 @@ mod unix {
         write_output(&null, b"x").unwrap();
         assert!(fs::symlink_metadata(&null).unwrap().is_symlink());
         assert!(!replaces(&null) && fs::metadata("/dev/null").unwrap().len() == 0);
-        // What is ours in a folder waits for nobody, and replaces no device elsewhere.
+        // Writing a file of a run never waits for a reader, and never replaces a device elsewhere.
         for name in ["pipe", "null"] {
             write_whole(&folder.path().join(name), b"ours").unwrap();
             assert_eq!(fs::read(folder.path().join(name)).unwrap(), b"ours");
@@ -127,7 +127,7 @@ mod unix {
         assert!(error.starts_with("/dev/full: it cannot be written: No space left"), "{error}");
     }
 
-    /// What a process has open is written behind what is there.
+    /// If a process has the file open, new data is written after the existing data.
     #[cfg(target_os = "linux")]
     #[test]
     fn an_open_file_is_appended_to() {

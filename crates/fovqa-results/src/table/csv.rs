@@ -1,6 +1,6 @@
-//! The table as CSV: what `score --format csv` prints, and results.csv, written and read. Cells are empty
-//! where a column does not apply. Measured values and edges keep their point (`5.0`), so that readers that
-//! guess a column's type from its first rows are not misled. Counts are whole numbers.
+//! Writes the table as CSV (the output of `score --format csv`, and results.csv) and reads it. A
+//! cell is empty if its column does not apply. Measured values and edges keep their decimal point
+//! (`5.0`), because some readers guess a column's type from its first rows. Counts are integers.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -14,14 +14,14 @@ use crate::csv_names::CsvNames;
 use crate::files::{FileError, open_result_file};
 use crate::report::{RunResults, ScoreReport};
 
-/// The column of the lower edge of a band.
+/// The column with the lower edge of a band.
 const FROM: usize = 9;
 
-/// Writes a report as CSV: each frame's values and then, without a frame, the statistics over
-/// all of them.
+/// Writes a report as CSV: the values of each frame, followed by the statistics over all frames,
+/// which have no frame number.
 ///
 /// # Errors
-/// When the writer refuses.
+/// If the writer refuses.
 pub fn write_csv(report: &ScoreReport, out: impl Write) -> io::Result<()> {
     let mut table = CsvTable::new(out, CsvNames::Plain)?;
     rows_of_report(report, &mut |row| table.write(row))?;
@@ -31,7 +31,7 @@ pub fn write_csv(report: &ScoreReport, out: impl Write) -> io::Result<()> {
 /// Writes the values of a run as results.csv, in the order of [`rows_of_run`].
 ///
 /// # Errors
-/// When the writer refuses.
+/// If the writer refuses.
 pub fn write_results_csv(results: &RunResults, names: CsvNames, out: impl Write) -> io::Result<()> {
     let mut table = CsvTable::new(out, names)?;
     rows_of_run(results, &mut |row| table.write(row))?;
@@ -68,7 +68,8 @@ impl<W: Write> CsvTable<W> {
     }
 }
 
-/// The reason itself, whose kind (a closed pipe, say) csv's own conversion would hide.
+/// The original error. The conversion of the csv crate would hide its kind, for example a closed
+/// pipe.
 fn io_error(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,
@@ -79,8 +80,8 @@ fn io_error(error: csv::Error) -> io::Error {
 /// Reads results.csv, row by row.
 ///
 /// # Errors
-/// When it is missing, is not what was written, or `take` says that it is wrong: in words, behind which
-/// the line is named.
+/// If it is missing, was changed after it was written, or `take` refuses a row. The reason from
+/// `take` is reported with the line number.
 pub(super) fn read_results_csv(
     path: &Path,
     names: CsvNames,
@@ -99,7 +100,8 @@ pub(super) fn read_results_csv(
     }
     let mut record = csv::StringRecord::new();
     while reader.read_record(&mut record).map_err(|error| unreadable(path, error))? {
-        // Most rows are of bands; to whom they are of no interest they need not be numbers.
+        // Most rows belong to bands. If bands are not wanted, their cells need not be valid
+        // numbers.
         let is_of_band = record.get(FROM).is_some_and(|cell| !cell.is_empty());
         if which == Which::WholeFrames && is_of_band {
             continue;
@@ -130,7 +132,7 @@ fn row_of(record: &csv::StringRecord) -> Result<TableRow<'_>, String> {
     })
 }
 
-/// A file that is not there is said as such.
+/// Reports a file that does not exist as such.
 fn unreadable(path: &Path, error: csv::Error) -> FileError {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => FileError::Read { path: path.to_owned(), error },
@@ -142,7 +144,7 @@ fn unreadable(path: &Path, error: csv::Error) -> FileError {
     }
 }
 
-/// A number of a cell, as it is written there: of what is infinite, `inf` alone, and no NaN.
+/// The number in a cell, in the format that is written: infinity only as `inf`, and no NaN.
 fn number(cell: &str) -> Result<Option<f64>, String> {
     if cell.is_empty() {
         return Ok(None);

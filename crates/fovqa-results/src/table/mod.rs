@@ -26,7 +26,7 @@ use crate::report::RunResults;
 /// Whether this build can write and read results.parquet.
 pub const HAS_PARQUET: bool = cfg!(feature = "parquet");
 
-/// The file of a format.
+/// The file name for a format.
 fn file(format: TableFormat) -> &'static str {
     match format {
         TableFormat::Csv => RESULTS_CSV,
@@ -34,10 +34,10 @@ fn file(format: TableFormat) -> &'static str {
     }
 }
 
-/// Writes the table of a run into its folder, in each of the formats that are asked for.
+/// Writes the table of a run into its folder, in each of the requested formats.
 ///
 /// # Errors
-/// When a file cannot be written, or this build has no support for a format.
+/// If a file cannot be written, or this build does not support a format.
 pub fn write_tables(
     folder: &Path,
     results: &RunResults,
@@ -60,17 +60,18 @@ pub fn write_tables(
     })
 }
 
-/// The file with the table of a results folder: results.csv, or results.parquet where there is no CSV.
+/// The file with the table of a results folder: results.csv, or results.parquet if there is no CSV.
 pub fn table_file(folder: &Path) -> PathBuf {
     let [csv, parquet] = [RESULTS_CSV, RESULTS_PARQUET].map(|name| folder.join(name));
     if !csv.exists() && parquet.exists() { parquet } else { csv }
 }
 
-/// Reads the table of a results folder, row by row; `names` says how those in results.csv stand there.
+/// Reads the table of a results folder, row by row. `names` states how names are written in
+/// results.csv.
 ///
 /// # Errors
-/// When it is missing, is not what a run has written, or `take` refuses a row: with its reason, and the line or
-/// row.
+/// If it is missing, was not written by a run, or `take` refuses a row. The reason is reported with
+/// the line or row number.
 pub fn read_results(
     folder: &Path,
     names: CsvNames,

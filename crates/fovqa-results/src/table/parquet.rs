@@ -1,5 +1,5 @@
-//! The table as Apache Parquet: results.parquet, written and read. Its columns are those of results.csv;
-//! where the CSV has an empty cell, the value is null.
+//! Writes and reads the table as Apache Parquet: results.parquet. It has the same columns as
+//! results.csv. A cell that is empty in the CSV is null here.
 
 use std::collections::HashMap;
 use std::io::{self, Write};
@@ -40,15 +40,15 @@ const SCHEMA: &str = "message results {
     optional double value;
 }";
 
-/// Rows of a row group: the writer holds as many in memory.
+/// Number of rows in a row group, all of which the writer keeps in memory.
 const GROUP_ROWS: usize = 1 << 16;
-/// Rows that the reader takes from each column at a time.
+/// Number of rows that the reader takes from each column at a time.
 const BATCH_ROWS: usize = 1 << 12;
 
 /// Writes the values of a run as Parquet, in the order of results.csv.
 ///
 /// # Errors
-/// When the writer refuses.
+/// If the writer refuses.
 pub fn write_results_parquet(results: &RunResults, out: impl Write + Send) -> io::Result<()> {
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
@@ -85,14 +85,14 @@ impl<T> Column<T> {
     }
 }
 
-/// Rows that are not written yet, column by column.
+/// Rows that are not written yet, stored by column.
 #[derive(Default)]
 struct Group {
     rows: usize,
     texts: [Column<ByteArray>; 7],
     whole: [Column<i64>; 2],
     numbers: [Column<f64>; 3],
-    /// The same few texts stand in all rows.
+    /// Texts that were used already: the same few texts occur in all rows.
     known: HashMap<String, ByteArray>,
 }
 
@@ -169,7 +169,7 @@ pub(super) fn read_results_parquet(
     read_groups(file, which, take).map_err(|detail| not_results(path, detail))
 }
 
-/// Runs a part of the Parquet reader, which may panic on a damaged file.
+/// Runs a part of the Parquet reader, which may panic if the file is damaged.
 fn guarded<T>(read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, String> {
     match contained(read) {
         Some(read) => read.map_err(|error| format!("the Parquet data is damaged: {error}")),
@@ -228,7 +228,7 @@ fn read_group(
     }
 }
 
-/// Rows that were read, column by column.
+/// Rows that were read, stored by column.
 #[derive(Default)]
 struct Batch {
     texts: Vec<Vec<Option<ByteArray>>>,
@@ -236,14 +236,14 @@ struct Batch {
     numbers: Vec<Vec<Option<f64>>>,
 }
 
-/// Puts values back to the rows that have one.
+/// Assigns the values to the rows that have one; the other rows get `None`.
 fn spread<T>(values: Vec<T>, levels: &[i16]) -> Vec<Option<T>> {
     let mut values = values.into_iter();
     levels.iter().map(|level| if *level > 0 { values.next() } else { None }).collect()
 }
 
 impl Batch {
-    /// Reads the next cells of a column; how many there are.
+    /// Reads the next cells of a column, and returns their number.
     fn read(&mut self, column: &mut ColumnReader) -> Result<usize, String> {
         macro_rules! cells {
             ($column:expr, $columns:expr) => {{
@@ -261,8 +261,8 @@ impl Batch {
         }
     }
 
-    /// A text of a row; `column` counts the columns with texts: all up to `eye`, then `image`, `metric` and
-    /// `statistic`.
+    /// The text in a row. `column` counts only the columns with texts: all up to `eye`, then
+    /// `image`, `metric` and `statistic`.
     fn text(&self, column: usize, row: usize) -> Result<&str, String> {
         match &self.texts[column][row] {
             None => Ok(""),

@@ -7,13 +7,13 @@ use crate::files::FileError;
 /// Which rows of the table are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Which {
-    /// All.
+    /// All rows.
     All,
-    /// Those of whole frames.
+    /// The rows of whole frames.
     WholeFrames,
 }
 
-/// The error of a file that is not what a run has written.
+/// The error for a file that was not written by a run.
 pub(crate) fn not_results(path: &Path, detail: String) -> FileError {
     FileError::Format { path: path.to_owned(), expected: "the results of a run", detail }
 }

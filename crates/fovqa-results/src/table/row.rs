@@ -20,10 +20,11 @@ pub(super) const COLUMNS: [&str; 12] = [
     "value",
 ];
 
-/// The metric of a row that stands for something that could not be scored.
+/// The metric name in a row for something that could not be scored.
 pub const ERROR: &str = "error";
 
-/// The metric of rows that say how far the gaze has moved since the frame before, degrees.
+/// The metric name in rows that state how far the gaze has moved since the previous frame, in
+/// degrees.
 pub const GAZE_STEP: &str = "gaze_step_deg";
 
 /// A row of the table. The column `parameters` is always empty: it is reserved for sweeps.
@@ -33,30 +34,30 @@ pub struct TableRow<'a> {
     pub scene: &'a str,
     /// The method.
     pub method: &'a str,
-    /// `left`, `right` or `both`; empty in a scene with one picture a frame.
+    /// `left`, `right` or `both`; empty if the scene has one image per frame.
     pub eye: &'a str,
-    /// The frame; `None`: of the whole sequence.
+    /// Frame number; `None` for a value of the whole sequence.
     pub frame: Option<i64>,
-    /// Of which picture.
+    /// The image that the value belongs to.
     pub image: Image,
-    /// What is measured or counted, or [`ERROR`].
+    /// Name of the metric or count, or [`ERROR`].
     pub metric: &'a str,
-    /// Which statistic of it; empty for the metric's own value.
+    /// Name of the statistic; empty for the metric's own value.
     pub statistic: &'a str,
-    /// The level, from 1 on.
+    /// The level, counted from 1.
     pub level: Option<usize>,
-    /// Edges of the band, degrees; `None`: the whole frame.
+    /// Edges of the band in degrees; `None` for the whole frame.
     pub band: Option<[f64; 2]>,
-    /// The value; `None` where there is nothing to have one of.
+    /// The value; `None` if nothing could be measured.
     pub value: Option<Value>,
 }
 
 /// A cell of the last column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Value {
-    /// Measured: it keeps its point.
+    /// A measured value, which keeps its decimal point.
     Measured(f64),
-    /// Counted: whole.
+    /// A count, which is an integer.
     Count(u64),
 }
 
@@ -73,7 +74,7 @@ impl Value {
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            // As readers of CSV know it.
+            // The spelling that readers of CSV know.
             Value::Measured(value) if value.is_nan() => f.write_str("nan"),
             Value::Measured(value) => write!(f, "{value:?}"),
             Value::Count(count) => write!(f, "{count}"),

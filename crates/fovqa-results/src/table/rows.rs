@@ -12,22 +12,24 @@ use crate::summary::{Statistics, Summary};
 
 const FVVDP: &str = "fvvdp";
 
-/// The rows of a report: each frame's values and then, without a frame, the statistics over all frames.
+/// The rows of a report: the values of each frame, followed by the statistics over all frames,
+/// which have no frame number.
 ///
 /// # Errors
-/// When the sink refuses a row.
+/// If the sink refuses a row.
 pub(super) fn rows_of_report(report: &ScoreReport, sink: &mut Sink<'_>) -> io::Result<()> {
     let mut table = Table(sink);
     table.frames(&TableRow::default(), report)?;
     table.statistics(report)
 }
 
-/// The rows of a run: each frame's values, comparison by comparison. After those of a comparison comes a row
-/// [`ERROR`] with the value `nan` for each frame that could not be scored, or one without a frame where the whole
-/// comparison could not be scored. FovVideoVDP of a sequence stands in a row without a frame.
+/// The rows of a run: the values of each frame, comparison by comparison. After the rows of a
+/// comparison, each frame that could not be scored has a row [`ERROR`] with the value `nan`. If the
+/// whole comparison could not be scored, there is one such row without a frame. FovVideoVDP of a
+/// sequence is in a row without a frame.
 ///
 /// # Errors
-/// When the sink refuses a row.
+/// If the sink refuses a row.
 pub(super) fn rows_of_run(results: &RunResults, sink: &mut Sink<'_>) -> io::Result<()> {
     let mut table = Table(sink);
     for Comparison { scene, method, eye, report } in &results.comparisons {
@@ -44,12 +46,12 @@ pub(super) fn rows_of_run(results: &RunResults, sink: &mut Sink<'_>) -> io::Resu
     Ok(())
 }
 
-/// Whether a number of pixels is of interest where it is 0.
+/// Whether a pixel count is written only if it is not 0.
 fn is_seldom(subject: Subject) -> bool {
     matches!(subject, Subject::PixelsOutsideBands | Subject::PixelsLeftOut)
 }
 
-/// Takes one row.
+/// Receives one row.
 pub(super) type Sink<'s> = dyn FnMut(&TableRow<'_>) -> io::Result<()> + 's;
 
 struct Table<'s, 'a>(&'a mut Sink<'s>);
@@ -69,7 +71,7 @@ impl Table<'_, '_> {
         Ok(())
     }
 
-    /// A measured value; behind those of both pictures, their ratio.
+    /// Writes a measured value. After the values of both images, it writes their ratio.
     fn measured(
         &mut self,
         row: &TableRow<'_>,
@@ -102,7 +104,7 @@ impl Table<'_, '_> {
         };
         self.write(&row)?;
         if key.image == Image::Test && statistic.has_ratio {
-            // The reference's row is the one before.
+            // The row of the reference comes directly before this one.
             let of_reference = |row: &Row| row.key == key.of_image(Image::Reference);
             let reference = before.filter(of_reference).and_then(|row| row.value);
             let value = Sides { reference, test: value }.ratio().map(Value::Measured);
@@ -111,7 +113,7 @@ impl Table<'_, '_> {
         Ok(())
     }
 
-    /// Where the eye looks, where that moves.
+    /// Writes the gaze, if it moves.
     fn gaze(&mut self, row: &TableRow<'_>, frame: &FrameResult) -> io::Result<()> {
         let [x, y] = frame.gaze_px.map_or([None; 2], |px| px.map(Some));
         for (metric, value) in
@@ -141,7 +143,7 @@ impl Table<'_, '_> {
         Ok(())
     }
 
-    /// FovVideoVDP of a sequence.
+    /// Writes FovVideoVDP of a sequence.
     fn fvvdp_sequence(&mut self, row: &TableRow<'_>, summary: &FvvdpSummary) -> io::Result<()> {
         let row = TableRow { metric: FVVDP, ..*row };
         let value = summary.jod.map(Value::Measured);
@@ -183,7 +185,7 @@ impl Table<'_, '_> {
         Ok(())
     }
 
-    /// What is measured of each picture, over the frames.
+    /// Writes the measures of each image over the frames.
     fn compared_statistics(&mut self, summary: &Summary) -> io::Result<()> {
         for (key, statistics) in summary.compared_by_metric() {
             let band = key.band.and_then(|index| summary.bands.get(usize::from(index)));

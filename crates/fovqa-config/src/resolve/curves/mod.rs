@@ -1,5 +1,5 @@
-//! A file of curves: every curve with each of its settings, methods applied once to see that they
-//! can be.
+//! Resolves a curves file: every curve with each of its settings. Each method is applied once to
+//! check that this is possible.
 
 mod plots;
 mod screens;
@@ -20,7 +20,7 @@ use fovqa_plan::{CurvePlan, CurvePlot, CurvePlotKind};
 use plots::{all_that_fit, few_panels, plot, table};
 use screens::Screens;
 
-/// Name, about and plan; mistakes go to `faults`.
+/// The name, the description and the plan. Mistakes are added to `faults`.
 pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, CurvePlan) {
     let text = |key| root.text(key).unwrap_or_default().to_owned();
     let default = CurveRange::default();
@@ -34,7 +34,8 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
     let mut curves = Vec::new();
     for (table, span) in &tables {
         curves.extend(curve(root, *table, span.clone(), faults));
-        // Before the next ones: each may have a budget to be solved.
+        // The number is checked before further curves are made, because each may have a budget to
+        // be solved.
         if curves.len() > MOST_CURVES {
             let message = format!("the file has more than {MOST_CURVES} curves");
             faults.push(Fault::new(root.span("curve"), message));
@@ -67,7 +68,7 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
     (text("name"), text("about"), plan)
 }
 
-/// The acuity model of a table's `acuity`.
+/// The acuity model in the key `acuity` of a table.
 fn acuity_model(table: Node<'_>, faults: &mut Faults) -> Option<AcuityModel> {
     let node = table.table("acuity")?;
     let mut model = AcuityModel::find(node.text("model")?)?;
@@ -80,7 +81,7 @@ fn acuity_model(table: Node<'_>, faults: &mut Faults) -> Option<AcuityModel> {
     Some(model)
 }
 
-/// Parameters of a model's table, with their places.
+/// The parameters in the table of a model, with their positions.
 fn params(node: Node<'_>) -> impl Iterator<Item = (&str, ParamValue, Range<usize>)> {
     node.entries()
         .filter(|(name, ..)| *name != "model")
@@ -93,7 +94,7 @@ fn said(set: Result<(), ParamError>, span: Range<usize>, faults: &mut Faults) {
     }
 }
 
-/// Parameters as they are written, in one line.
+/// The parameters in one line, as the file has them.
 fn written(node: Node<'_>) -> String {
     let written = params(node).map(|(name, value, _)| format!("{name}={}", value.in_words()));
     written.collect::<Vec<_>>().join(";")

@@ -1,4 +1,4 @@
-//! `[[plot]]` and `[[table]]` of a file of curves.
+//! `[[plot]]` and `[[table]]` of a curves file.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use fovqa_plan::{
     CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, PanelOf, RateKind, RateUnit,
 };
 
-/// The curves a plot or table shows.
+/// The curves that a plot or table shows.
 fn shown<'a>(
     plan: &'a CurvePlan,
     wanted: Option<&'a [String]>,
@@ -21,14 +21,14 @@ fn shown<'a>(
     plan.curves.iter().filter(wanted)
 }
 
-/// The plots and tables of a file that names none.
+/// The plots and tables for a file that names none.
 pub(super) fn all_that_fit(plan: &CurvePlan) -> (Vec<CurvePlot>, Vec<CurveTable>) {
     let mut plots = vec![CurvePlot::default()];
     if !plan.curves.iter().any(|spec| matches!(spec.source, CurveSource::Method { .. })) {
         plots[0].panels = PanelOf::One;
         return (plots, Vec::new());
     }
-    // Log-polar methods are so dense at the gaze that nothing else would be seen.
+    // Log-polar methods are so dense at the gaze that nothing else could be seen on a linear axis.
     plots.push(CurvePlot { kind: CurvePlotKind::Density, log: true, ..CurvePlot::default() });
     let all = [CurveTableKind::Samples, CurveTableKind::SpeedUp, CurveTableKind::Acuity];
     (plots, all.map(|kind| CurveTable { kind, curves: None }).to_vec())
@@ -69,7 +69,7 @@ pub(super) fn few_panels(
     }
 }
 
-/// A figure.
+/// Resolves a figure.
 pub(super) fn plot(
     table: Node<'_>,
     names: &[&str],
@@ -120,10 +120,11 @@ fn named_mark(mark: Node<'_>) -> Option<(String, [f64; 2])> {
     Some((mark.text("name")?.to_owned(), mark.array("at")?))
 }
 
-/// Ends of an axis nearer than this leave a drawing no digits.
+/// Minimum distance between the ends of an axis. If they are closer, the drawing has too few
+/// digits.
 const NEAREST: f64 = 1e-6;
 
-/// Whether a plot's keys are of its kind.
+/// Checks that the keys of a plot belong to its kind.
 fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Faults) {
     let (kind, keys): (&str, &[&str]) = match plot.kind {
         CurvePlotKind::Rates => ("rates", &["rings_deg", "f"]),
@@ -189,7 +190,7 @@ fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Faults) {
     }
 }
 
-/// A table.
+/// Resolves a table.
 pub(super) fn table(
     table: Node<'_>,
     names: &[&str],

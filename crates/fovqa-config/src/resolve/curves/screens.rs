@@ -1,4 +1,4 @@
-//! On which screens a curve is: every resolution with every gaze and direction.
+//! The screens of a curve: every resolution with every gaze and direction.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use crate::node::{Node, numbers, text};
 use crate::resolve::view::{gives_view, view};
 use fovqa_methods::curves::CurveSetting;
 
-/// Tables that say on which screens a curve is, the more special one last.
+/// The tables that describe the screens of a curve, with the most specific one last.
 pub(super) struct Screens<'a> {
     pub(super) tables: [Option<Node<'a>>; 2],
 }
@@ -97,7 +97,7 @@ impl<'a> Screens<'a> {
     }
 }
 
-/// What is written twice is one curve.
+/// Values that appear twice give only one curve.
 fn once<T: PartialEq>(values: Vec<T>) -> Vec<T> {
     let mut once = Vec::new();
     for value in values {

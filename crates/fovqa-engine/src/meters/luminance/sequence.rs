@@ -1,4 +1,4 @@
-//! How far FovVideoVDP has come in a method's sequence.
+//! The progress of FovVideoVDP in a method's sequence.
 
 use std::ops::Range;
 
@@ -10,32 +10,32 @@ use crate::timing::Timing;
 pub(super) struct Sequence {
     pub(super) timing: Timing,
     pub(super) state: State,
-    /// The first of its frames that comes.
+    /// Index of the first frame that is read.
     pub(super) start: usize,
-    /// The frame behind the last that comes.
+    /// Index after the last frame that is read.
     pub(super) end: usize,
 }
 
 pub(super) enum State {
-    /// Before its first frame.
+    /// No frame has been read.
     New,
-    /// So many frames are through.
+    /// `done` frames are finished.
     Going { reference: Stream, test: Stream, done: usize },
-    /// It cannot go on.
+    /// The sequence cannot continue.
     Broken(Missing),
 }
 
-/// What a sequence lacks.
+/// What the sequence lacks.
 #[derive(Debug, Clone)]
 pub(super) enum Missing {
     /// A frame that could not be scored, by its index in the view.
     Frame(usize),
-    /// Something else, in words.
+    /// Another reason, in words.
     Said(String),
 }
 
 impl Sequence {
-    /// From its first frame to its last.
+    /// The whole sequence, from its first frame to its last.
     pub(super) fn new(timing: Timing) -> Self {
         let state = match &timing.time {
             Ok(_) => State::New,
@@ -45,8 +45,8 @@ impl Sequence {
         Self { timing, state, start: 0, end }
     }
 
-    /// Goes on where `done` of its frames are through, up to `end`: those of them that have to come once
-    /// more.
+    /// Continues the sequence, of which `done` frames are finished, up to `end`. Returns those of
+    /// the finished frames that must be read again.
     pub(super) fn go_on(&mut self, done: usize, end: usize) -> Range<usize> {
         (self.start, self.end) = (0, end);
         let (State::New, Ok(time)) = (&self.state, &self.timing.time) else { return done..done };
@@ -55,12 +55,13 @@ impl Sequence {
             self.state = State::Going { reference, test, done };
             return done..done;
         }
-        // Where that is not the first frame, all that it brings in has gone out again by now.
+        // If this is not the first frame, the effect of the frames before it has left the filters
+        // by now.
         self.start = if done < time.reach() { 0 } else { done + 1 - time.reach() };
         self.start..done
     }
 
-    /// How many frames are through.
+    /// The number of frames that are finished.
     pub(super) fn done(&self) -> usize {
         match &self.state {
             State::Going { done, .. } => *done,
@@ -69,7 +70,7 @@ impl Sequence {
         }
     }
 
-    /// Why it has no value; `None` where all its frames that come are through.
+    /// Why the sequence has no value; `None` if all frames that are read are finished.
     pub(super) fn missing(&self, number: impl Fn(usize) -> String) -> Option<String> {
         let frame = match &self.state {
             State::Broken(Missing::Said(why)) => return Some(why.clone()),
