@@ -150,8 +150,9 @@ impl VisualPolar {
         r
     }
 
-    /// Rows of the column at a distance: linearly fewer towards the gaze inside the inner circle.
-    fn rows_at(&self, r: f64) -> f64 {
+    /// Rows of the column at a distance in pixels: linearly fewer towards the gaze inside the inner
+    /// circle.
+    pub fn rows_at(&self, r: f64) -> f64 {
         self.rows * (r / self.inner_px).min(1.0)
     }
 }
