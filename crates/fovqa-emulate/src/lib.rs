@@ -3,10 +3,15 @@
 mod counts;
 mod fetch;
 mod image;
+mod layer_axis;
+mod offsets;
 mod picture;
+mod radial;
 mod read_frame;
+mod rmfr;
 mod rounded;
 mod sampling;
+mod separable;
 mod write_frame;
 
 pub use counts::Counts;
