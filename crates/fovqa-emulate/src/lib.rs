@@ -1,6 +1,9 @@
 //! Emulation: what a foveation method would have shown, from a finished frame.
 
+mod blur;
+mod convolve;
 mod counts;
+mod deamp;
 mod fetch;
 mod image;
 mod layer_axis;
