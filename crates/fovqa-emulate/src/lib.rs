@@ -3,10 +3,14 @@
 mod blur;
 mod convolve;
 mod counts;
+mod cps;
 mod deamp;
 mod fetch;
+mod grids;
+mod guenter;
 mod image;
 mod layer_axis;
+mod linear;
 mod offsets;
 mod picture;
 mod radial;
@@ -15,6 +19,7 @@ mod rmfr;
 mod rounded;
 mod sampling;
 mod separable;
+mod sums;
 mod write_frame;
 
 pub use counts::Counts;
