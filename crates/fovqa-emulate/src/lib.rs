@@ -11,8 +11,10 @@ mod guenter;
 mod image;
 mod layer_axis;
 mod linear;
+mod log_polar;
 mod offsets;
 mod picture;
+mod places;
 mod radial;
 mod read_frame;
 mod rmfr;
@@ -20,6 +22,7 @@ mod rounded;
 mod sampling;
 mod separable;
 mod sums;
+mod turn;
 mod write_frame;
 
 pub use counts::Counts;
