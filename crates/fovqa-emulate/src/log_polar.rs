@@ -165,11 +165,14 @@ fn coordinates(
     vs: &mut [f32],
 ) {
     let (last, rows) = ((size[0] - 1) as f32, size[1] as f32);
-    for ((dx, u), v) in xs.iter().zip(us).zip(vs) {
-        *u = (column.at(dx * dx + dy * dy) - 0.5).max(0.0).min(last);
+    // Two loops: the one without a table works on many pixels at once.
+    for (dx, v) in xs.iter().zip(vs) {
         let row = turn(*dx, dy) * rows - 0.5;
         let row = if row < 0.0 { row + rows } else { row };
         *v = if row >= rows { 0.0 } else { row };
+    }
+    for (dx, u) in xs.iter().zip(us) {
+        *u = (column.at(dx * dx + dy * dy) - 0.5).max(0.0).min(last);
     }
 }
 

@@ -48,8 +48,11 @@ impl PolarView {
 /// Column coordinates, less 0.5, and directions of a row of pixels.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn coordinates(column: &Radial, xs: &[f32], dy: f32, columns: &mut [f32], turns: &mut [f32]) {
-    for ((dx, at), direction) in xs.iter().zip(columns).zip(turns) {
-        *at = column.at(dx * dx + dy * dy) - 0.5;
+    // Two loops: the one without a table works on many pixels at once.
+    for (dx, direction) in xs.iter().zip(turns) {
         *direction = turn(*dx, dy);
+    }
+    for (dx, at) in xs.iter().zip(columns) {
+        *at = column.at(dx * dx + dy * dy) - 0.5;
     }
 }

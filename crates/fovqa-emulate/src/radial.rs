@@ -22,7 +22,8 @@ pub(crate) enum Detail {
 /// A function of the distance from the gaze.
 #[derive(Debug, Clone)]
 pub(crate) struct Radial {
-    values: Vec<f32>,
+    /// Where chords begin, and how far they rise.
+    chords: Vec<[f32; 2]>,
     fraction_bits: u32,
 }
 
@@ -45,24 +46,29 @@ impl Radial {
             of(square.sqrt()) as f32
         };
         // The square of a pixel may be rounded up into the chord behind the last one.
-        let values = (first..end + 4).into_par_iter().with_min_len(1024).map(value).collect();
-        Self { values, fraction_bits }
+        let values: Vec<f32> =
+            (first..end + 4).into_par_iter().with_min_len(1024).map(value).collect();
+        let chords = values.windows(2).map(|ends| [ends[0], ends[1] - ends[0]]).collect();
+        Self { chords, fraction_bits }
     }
 
     /// The function at a squared distance in pixels.
     #[inline(always)]
     pub(crate) fn at(&self, square: f32) -> f32 {
         let offset = square.to_bits().max(FROM_BITS) - FROM_BITS;
-        let index = ((offset >> self.fraction_bits) as usize).min(self.values.len() - 2);
+        let index = ((offset >> self.fraction_bits) as usize).min(self.chords.len() - 1);
         let fraction = offset & ((1 << self.fraction_bits) - 1);
         let t = fraction as f32 * (1.0 / (1u32 << self.fraction_bits) as f32);
-        let (from, to) = (self.values[index], self.values[index + 1]);
-        from + (to - from) * t
+        let [from, rise] = self.chords[index];
+        from + rise * t
     }
 
     /// The largest value, up to the last chord.
     pub(crate) fn largest(&self) -> f32 {
-        self.values.iter().copied().fold(f32::NEG_INFINITY, f32::max)
+        self.chords
+            .iter()
+            .map(|[from, rise]| from.max(from + rise))
+            .fold(f32::NEG_INFINITY, f32::max)
     }
 }
 

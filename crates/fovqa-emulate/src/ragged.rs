@@ -31,6 +31,8 @@ pub(crate) struct Column {
 #[derive(Debug)]
 pub(crate) struct Ragged {
     columns: Vec<Column>,
+    /// Where the values of each column begin, and its rows: what reading needs, close together.
+    reads: Vec<(u32, f32)>,
     sampling: Sampling,
     setting: Setting,
 }
@@ -62,7 +64,10 @@ impl Ragged {
             start += rows + WRAPPED;
             column
         });
-        Self { columns: columns.collect(), sampling, setting: *setting }
+        let columns: Vec<Column> = columns.collect();
+        let reads =
+            columns.iter().map(|column| (column.start as u32, column.rows as f32)).collect();
+        Self { columns, reads, sampling, setting: *setting }
     }
 
     /// The columns from the gaze outwards.
@@ -143,10 +148,11 @@ impl Ragged {
         c: usize,
         turn: f32,
     ) -> [f32; C] {
-        let column = &self.columns[c];
-        let row = turn * column.rows as f32 + 0.5;
-        let at = (row as usize).min(column.rows);
-        let pair = &values.0[column.start + at..column.start + at + 2];
+        let (start, rows) = self.reads[c];
+        let row = turn * rows + 0.5;
+        let at = row as u32;
+        let from = (start + at) as usize;
+        let pair = &values.0[from..from + 2];
         lerp(pair[0], pair[1], row - at as f32)
     }
 
@@ -158,7 +164,7 @@ impl Ragged {
         column: f32,
         turn: f32,
     ) -> [f32; C] {
-        let last = self.columns.len() - 1;
+        let last = self.reads.len() - 1;
         let column = column.max(0.0).min(last as f32);
         let c = column as usize;
         let near = self.along(values, c, turn);

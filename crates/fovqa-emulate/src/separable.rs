@@ -79,17 +79,6 @@ impl Separable {
         })
     }
 
-    /// What one pixel of the frame reads in a buffer.
-    #[inline]
-    pub(crate) fn read_pixel<const C: usize>(
-        &self,
-        buffer: &Image<C>,
-        x: usize,
-        y: usize,
-    ) -> [f32; C] {
-        buffer.fetch(self.x.to[x], self.y.to[y])
-    }
-
     /// What the pixels `xs` of row `y` of the frame read in a buffer. `scratch` is kept between calls.
     pub(crate) fn read_row<const C: usize>(
         &self,
