@@ -1,7 +1,9 @@
 //! Smoothing of edges in a polar buffer: FXAA of Lottes's first kind, as in its WebGL ports. Neighbours
 //! in the next columns are taken in the same direction, one row of the sample's own column off.
 
+use crate::fetch::lerp;
 use crate::ragged::{Ragged, Values};
+use crate::texel::Texel;
 
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,7 +18,7 @@ pub(crate) struct Fxaa {
 
 impl Fxaa {
     /// The buffer, smoothed.
-    pub(crate) fn apply<const C: usize>(&self, buffer: &Ragged, values: &Values<C>) -> Values<C> {
+    pub(crate) fn apply(&self, buffer: &Ragged, values: &Values) -> Values {
         let last = buffer.columns().len() - 1;
         buffer.fill(|c, column, out| {
             let step = 1.0 / column.rows as f32;
@@ -58,14 +60,11 @@ fn wrapped(turn: f32) -> f32 {
     turn - turn.floor()
 }
 
-fn mean<const C: usize>(a: [f32; C], b: [f32; C]) -> [f32; C] {
-    std::array::from_fn(|c| (a[c] + b[c]) * 0.5)
+fn mean(a: Texel, b: Texel) -> Texel {
+    lerp(a, b, 0.5)
 }
 
-/// 0.299 R + 0.587 G + 0.114 B of the values as they are; gray itself.
-fn luma<const C: usize>(value: [f32; C]) -> f32 {
-    match value.as_slice() {
-        [r, g, b] => 0.299 * r + 0.587 * g + 0.114 * b,
-        other => other[0],
-    }
+/// 0.299 R + 0.587 G + 0.114 B of the values as they are; of gray, whose values are all the same, that.
+fn luma([r, g, b, _]: Texel) -> f32 {
+    0.299 * r + 0.587 * g + 0.114 * b
 }

@@ -71,6 +71,7 @@ mod space;
 mod spec;
 mod sums;
 mod temporal;
+mod texel;
 mod turn;
 mod vafr;
 mod visual_polar;

@@ -11,13 +11,14 @@ use multiversion::multiversion;
 
 use crate::blur::Blur;
 use crate::counts::Counts;
-use crate::fetch::{Tap, lerp, mean16};
+use crate::fetch::{lerp, mean16};
 use crate::image::Image;
 use crate::offsets::Offsets;
 use crate::places::{in_frame, place};
 use crate::radial::{Detail, Radial};
 use crate::rounded::rounded;
 use crate::sampling::Sampling;
+use crate::texel::{Texel, narrowed, widened};
 use crate::turn::turn;
 
 /// Which filters are on.
@@ -102,11 +103,11 @@ impl LogPolar {
     }
 
     /// The buffer of a frame, with its own filter where that is on.
-    pub(crate) fn buffer<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+    pub(crate) fn buffer<const C: usize, const L: usize>(&self, frame: &Image<C>) -> Image<L> {
         let [w, h] = self.size;
         let read = |distance_px: f64, direction: [f64; 2]| {
             let [x, y] = place(&self.setting, distance_px, direction);
-            frame.at(x, y)
+            widened(frame.at(x, y))
         };
         let buffer = Image::by_rows(w, h, |j, row| match self.sampling {
             Sampling::Point => {
@@ -125,7 +126,7 @@ impl LogPolar {
     }
 
     pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        let buffer = self.buffer(frame);
+        let buffer: Image<4> = self.buffer(frame);
         let width = frame.width();
         let shown = Image::by_blocks(width, frame.height(), |rows, pixels| {
             let (mut us, mut vs) = (vec![0.0; width], vec![0.0; width]);
@@ -133,7 +134,7 @@ impl LogPolar {
                 let dy = self.offsets.y[y];
                 coordinates(&self.column, &self.offsets.x, dy, self.size, &mut us, &mut vs);
                 for ((out, u), v) in out.iter_mut().zip(&us).zip(&vs) {
-                    *out = self.read(&buffer, *u, *v);
+                    *out = narrowed(self.read(&buffer, *u, *v));
                 }
             }
         });
@@ -145,12 +146,15 @@ impl LogPolar {
 
     /// The buffer at columns and rows less 0.5, both from 0 to below their number.
     #[inline(always)]
-    fn read<const C: usize>(&self, buffer: &Image<C>, u: f32, v: f32) -> [f32; C] {
-        let [w, h] = self.size;
+    fn read(&self, buffer: &Image<4>, u: f32, v: f32) -> Texel {
+        let [w, h] = self.size.map(|n| n as u32);
         let (i, j) = (u as u32, v as u32);
-        let x = Tap { at: i, next: (i + 1).min(w as u32 - 1), t: u - i as f32 };
-        let next = if j + 1 == h as u32 { 0 } else { j + 1 };
-        buffer.fetch(x, Tap { at: j, next, t: v - j as f32 })
+        let next = u32::from(i + 1 < w);
+        let upper = (j * w + i) as usize;
+        let lower = (if j + 1 == h { i } else { (j + 1) * w + i }) as usize;
+        let (t, pixels) = (u - i as f32, buffer.pixels());
+        let along = |at: usize| lerp(pixels[at], pixels[at + next as usize], t);
+        lerp(along(upper), along(lower), v - j as f32)
     }
 }
 

@@ -7,6 +7,7 @@ use crate::image::Image;
 use crate::offsets::Offsets;
 use crate::radial::{Detail, Radial};
 use crate::ragged::{Ragged, Values};
+use crate::texel::narrowed;
 use crate::turn::turn;
 
 /// From pixels to a buffer of ragged columns.
@@ -28,7 +29,7 @@ impl PolarView {
     pub(crate) fn show<const C: usize>(
         &self,
         buffer: &Ragged,
-        values: &Values<C>,
+        values: &Values,
         reach_px: f64,
     ) -> Image<C> {
         let width = self.offsets.width();
@@ -38,7 +39,7 @@ impl PolarView {
                 let (xs, dy) = (&self.offsets.x, self.offsets.y[y]);
                 coordinates(&self.column, xs, dy, &mut columns, &mut turns);
                 for x in self.offsets.within(y, reach_px) {
-                    out[x] = buffer.read(values, columns[x], turns[x]);
+                    out[x] = narrowed(buffer.read(values, columns[x], turns[x]));
                 }
             }
         })

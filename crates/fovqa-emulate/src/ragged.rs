@@ -13,6 +13,7 @@ use crate::fetch::{lerp, mean16};
 use crate::image::Image;
 use crate::places::{in_frame, place};
 use crate::sampling::Sampling;
+use crate::texel::{Texel, narrowed, widened};
 
 /// A column of a buffer.
 #[derive(Debug, Clone)]
@@ -40,7 +41,7 @@ pub(crate) struct Ragged {
 /// The samples of a buffer, column after column. Each column has its last sample before its first one
 /// and its first behind its last, so that reading between any two needs no wrapping.
 #[derive(Debug, Clone)]
-pub(crate) struct Values<const C: usize>(Vec<[f32; C]>);
+pub(crate) struct Values(Vec<Texel>);
 
 /// Values of a column beside its samples.
 const WRAPPED: usize = 2;
@@ -94,11 +95,11 @@ impl Ragged {
     }
 
     /// The samples of a frame.
-    pub(crate) fn sample<const C: usize>(&self, frame: &Image<C>) -> Values<C> {
+    pub(crate) fn sample<const C: usize>(&self, frame: &Image<C>) -> Values {
         self.fill(|_, column, out| {
             let read = |distance_px: f64, direction: [f64; 2]| {
                 let [x, y] = place(&self.setting, distance_px, direction);
-                frame.at(x, y)
+                widened(frame.at(x, y))
             };
             match self.sampling {
                 Sampling::Point => {
@@ -119,12 +120,9 @@ impl Ragged {
     }
 
     /// A buffer of this shape, computed column by column, in parallel.
-    pub(crate) fn fill<const C: usize>(
-        &self,
-        column: impl Fn(usize, &Column, &mut [[f32; C]]) + Sync,
-    ) -> Values<C> {
+    pub(crate) fn fill(&self, column: impl Fn(usize, &Column, &mut [Texel]) + Sync) -> Values {
         let length = self.columns.iter().map(|column| column.rows + WRAPPED).sum();
-        let mut values = vec![[0.0; C]; length];
+        let mut values = vec![Texel::default(); length];
         let mut rest = values.as_mut_slice();
         let mut parts = Vec::with_capacity(self.columns.len());
         for column in &self.columns {
@@ -142,12 +140,7 @@ impl Ragged {
 
     /// A column read in a direction, in turns from 0 to 1.
     #[inline(always)]
-    pub(crate) fn along<const C: usize>(
-        &self,
-        values: &Values<C>,
-        c: usize,
-        turn: f32,
-    ) -> [f32; C] {
+    pub(crate) fn along(&self, values: &Values, c: usize, turn: f32) -> Texel {
         let (start, rows) = self.reads[c];
         let row = turn * rows + 0.5;
         let at = row as u32;
@@ -158,12 +151,7 @@ impl Ragged {
 
     /// The buffer at a column less 0.5, clamped to the columns, and a direction in turns.
     #[inline(always)]
-    pub(crate) fn read<const C: usize>(
-        &self,
-        values: &Values<C>,
-        column: f32,
-        turn: f32,
-    ) -> [f32; C] {
+    pub(crate) fn read(&self, values: &Values, column: f32, turn: f32) -> Texel {
         let last = self.reads.len() - 1;
         let column = column.max(0.0).min(last as f32);
         let c = column as usize;
@@ -172,21 +160,18 @@ impl Ragged {
     }
 
     /// The samples of a column.
-    pub(crate) fn rows<'a, const C: usize>(
-        &self,
-        values: &'a Values<C>,
-        c: usize,
-    ) -> &'a [[f32; C]] {
+    pub(crate) fn rows<'a>(&self, values: &'a Values, c: usize) -> &'a [Texel] {
         let column = &self.columns[c];
         &values.0[column.start + 1..=column.start + column.rows]
     }
 
     /// The samples as an image: column by column from the top, 0 where a column has no more rows.
-    pub(crate) fn image<const C: usize>(&self, values: &Values<C>) -> Image<C> {
+    pub(crate) fn image<const C: usize>(&self, values: &Values) -> Image<C> {
         let [width, height] = self.size();
         Image::by_rows(width, height, |j, row| {
             for (c, out) in row.iter_mut().enumerate() {
-                *out = self.rows(values, c).get(j).copied().unwrap_or([0.0; C]);
+                let sample = self.rows(values, c).get(j).copied();
+                *out = narrowed(sample.unwrap_or_default());
             }
         })
     }

@@ -52,7 +52,7 @@ impl Vafr {
         self.counts.clone()
     }
 
-    fn values<const C: usize>(&self, frame: &Image<C>) -> Values<C> {
+    fn values<const C: usize>(&self, frame: &Image<C>) -> Values {
         let values = self.buffer.sample(frame);
         match &self.filter {
             Some(filter) => filter.apply(&self.buffer, &values),
