@@ -8,16 +8,19 @@ use std::ops::RangeInclusive;
 
 use rayon::prelude::*;
 
-use crate::convolve::{Kernel, Scratch, TILE, convolve, strips};
+use crate::convolve::{Kernel, STRIP, Scratch, convolve, strips};
 use crate::image::Image;
 use crate::offsets::Offsets;
 use crate::radial::Radial;
+
+/// Rows of a strip that are looked at together: they need few levels.
+const TILE_ROWS: usize = 64;
 
 /// The image convolved with one Gaussian of a width in pixels, edges clamped.
 pub(crate) fn gaussian<const C: usize>(image: &Image<C>, sigma_px: f64) -> Image<C> {
     let kernel = Kernel::new(sigma_px);
     let strip = |strip: usize| {
-        let mut out = vec![0.0; image.height() * TILE * C];
+        let mut out = vec![0.0; image.height() * STRIP * C];
         convolve(image, strip, 0..image.height(), &kernel, &mut Scratch::default(), &mut out);
         out
     };
@@ -60,22 +63,25 @@ impl Blur {
     }
 
     fn strip<const C: usize>(&self, image: &Image<C>, offsets: &Offsets, strip: usize) -> Vec<f32> {
-        let stride = TILE * C;
+        let stride = STRIP * C;
         let (height, width) = (image.height(), image.width());
-        let xs = strip * TILE..((strip + 1) * TILE).min(width);
-        let mut variances = vec![0.0f32; height * TILE];
+        let xs = strip * STRIP..((strip + 1) * STRIP).min(width);
+        let mut variances = vec![0.0f32; height * STRIP];
         let mut out = vec![0.0f32; height * stride];
-        for (y, row) in variances.chunks_exact_mut(TILE).enumerate() {
+        for (y, row) in variances.chunks_exact_mut(STRIP).enumerate() {
             for (variance, square) in row.iter_mut().zip(offsets.squares(y, xs.clone())) {
                 let s = self.width_px.at(square).max(0.0);
                 *variance = s * s;
             }
+            // Behind the edge nothing is needed that is not needed before it.
+            let edge = row[xs.len() - 1];
+            row[xs.len()..].fill(edge);
             let pixels = image.row(y)[xs.clone()].as_flattened();
             let out = &mut out[y * stride..][..pixels.len()];
             self.add::<C>(0, row, pixels, out);
         }
         let needed: Vec<RangeInclusive<usize>> =
-            variances.chunks(TILE * TILE).map(|tile| self.levels_of(tile)).collect();
+            variances.chunks(TILE_ROWS * STRIP).map(|tile| self.levels_of(tile)).collect();
         let mut scratch = Scratch::default();
         let mut level = vec![0.0; height * stride];
         for index in 1..self.variances.len() {
@@ -86,12 +92,12 @@ impl Blur {
             while let Some(start) = needed[from..].iter().position(tiles(true)).map(|i| from + i) {
                 let end = needed[start..].iter().position(tiles(false));
                 from = end.map_or(needed.len(), |i| start + i);
-                let rows = start * TILE..(from * TILE).min(height);
+                let rows = start * TILE_ROWS..(from * TILE_ROWS).min(height);
                 let level = &mut level[..rows.len() * stride];
                 convolve(image, strip, rows.clone(), &self.kernels[index - 1], &mut scratch, level);
                 for (y, values) in rows.zip(level.chunks_exact(stride)) {
                     let out = &mut out[y * stride..(y + 1) * stride];
-                    self.add::<C>(index, &variances[y * TILE..(y + 1) * TILE], values, out);
+                    self.add::<C>(index, &variances[y * STRIP..(y + 1) * STRIP], values, out);
                 }
             }
         }
@@ -134,9 +140,9 @@ impl Blur {
 
 /// Strips side by side.
 fn assemble<const C: usize>(image: &Image<C>, strips: &[Vec<f32>]) -> Image<C> {
-    let stride = TILE * C;
+    let stride = STRIP * C;
     Image::by_rows(image.width(), image.height(), |y, row| {
-        for (out, strip) in row.chunks_mut(TILE).zip(strips) {
+        for (out, strip) in row.chunks_mut(STRIP).zip(strips) {
             let out = out.as_flattened_mut();
             out.copy_from_slice(&strip[y * stride..][..out.len()]);
         }
