@@ -148,3 +148,45 @@ fn assemble<const C: usize>(image: &Image<C>, strips: &[Vec<f32>]) -> Image<C> {
         }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As it is defined: each pixel by itself.
+    fn literal(image: &Image<1>, sigma_px: f64, x: usize, y: usize) -> f64 {
+        let radius = (4.0 * sigma_px).floor() as isize;
+        let weight = |d: isize| (-((d * d) as f64) / (2.0 * sigma_px * sigma_px)).exp();
+        let clamped =
+            |at: usize, d: isize, n: usize| (at as isize + d).clamp(0, n as isize - 1) as usize;
+        let total: f64 = (-radius..=radius).map(weight).sum();
+        let mut sum = 0.0;
+        for dy in -radius..=radius {
+            let row = image.row(clamped(y, dy, image.height()));
+            for dx in -radius..=radius {
+                let value = f64::from(row[clamped(x, dx, image.width())][0]);
+                sum += weight(dx) * weight(dy) * value;
+            }
+        }
+        sum / (total * total)
+    }
+
+    #[test]
+    fn follows_the_definition() {
+        let image = Image::<1>::by_rows(150, 70, |y, row| {
+            for (x, out) in row.iter_mut().enumerate() {
+                *out = [f32::from(u8::from(x + 2 * y > 140 || (x * 7 + y * 13) % 31 == 0))];
+            }
+        });
+        for (sigma_px, bound) in
+            [(0.5, 1e-6), (2.8, 1e-6), (10.0, 1e-6), (12.0, 1e-3), (32.0, 1e-3)]
+        {
+            let blurred = gaussian(&image, sigma_px);
+            for (x, y) in [(0, 0), (1, 69), (60, 33), (127, 20), (128, 21), (131, 3), (149, 69)] {
+                let (found, exact) = (blurred.row(y)[x][0], literal(&image, sigma_px, x, y));
+                let off = (f64::from(found) - exact).abs();
+                assert!(off < bound, "σ {sigma_px} at {x}, {y}: {found} for {exact}");
+            }
+        }
+    }
+}
