@@ -73,6 +73,33 @@ impl Side<'_> {
     }
 }
 
+impl Side<'_> {
+    /// Reads a whole row, the channels of a pixel side by side.
+    pub(crate) fn fill_interleaved(&self, y: usize, out: &mut [f32]) {
+        let channels = self.frame.channels().count();
+        let start = self.frame.row_start(y) * channels;
+        let row = start..start + out.len();
+        match self.conversion {
+            Conversion::Codes8(s, scale) => each(&s[row], out, |c| f32::from(c) * scale),
+            Conversion::Codes16(s, scale) => each(&s[row], out, |c| f32::from(c) * scale),
+            Conversion::Table8(s, table) => each(&s[row], out, |c| table[usize::from(c)]),
+            Conversion::Table16(s, table) => each(&s[row], out, |c| table[usize::from(c)]),
+            // Planes: each for itself first.
+            _ => {
+                let width = self.frame.width();
+                let mut values = vec![0.0; out.len()];
+                let mut planes: Vec<&mut [f32]> = values.chunks_exact_mut(width).collect();
+                self.fill(y, 0..width, &mut planes);
+                for (c, plane) in values.chunks_exact(width).enumerate() {
+                    for (out, value) in out[c..].iter_mut().step_by(channels).zip(plane) {
+                        *out = *value;
+                    }
+                }
+            }
+        }
+    }
+}
+
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn codes8(codes: &[u8], planes: &mut [&mut [f32]], scale: f32) {
     take_apart(codes, planes, |c| f32::from(c) * scale);
@@ -84,7 +111,7 @@ fn codes16(codes: &[u16], planes: &mut [&mut [f32]], scale: f32) {
 }
 
 #[inline(always)]
-fn each(values: &[f32], out: &mut [f32], of: impl Fn(f32) -> f32) {
+fn each<T: Copy>(values: &[T], out: &mut [f32], of: impl Fn(T) -> f32) {
     for (out, &value) in out.iter_mut().zip(values) {
         *out = of(value);
     }

@@ -2,6 +2,8 @@
 
 use fovqa_params::words;
 
+use crate::codes::within_unit;
+
 words! {
     /// How linear input is brought into the range of a display.
     #[derive(Default)]
@@ -37,9 +39,35 @@ impl ToneMap {
     }
 }
 
+impl ToneMap {
+    /// The linear value that [`ToneMap::map`] maps to a value in `[0, 1]`; `None` for `aces`, whose
+    /// inverse is not given. Values beyond 1 count as 1, and 1 of `reinhard`, which no finite value
+    /// reaches, is 1e9.
+    #[inline]
+    pub fn inverse(self, mapped: f32) -> Option<f32> {
+        let y = within_unit(mapped);
+        match self {
+            ToneMap::Clamp => Some(y),
+            ToneMap::Reinhard => Some((y / (1.0 - y)).min(1e9)),
+            ToneMap::Aces => None,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_inverse_leads_back() {
+        for v in [0.0f32, 1e-4, 0.18, 0.5, 1.0] {
+            assert_eq!(ToneMap::Clamp.inverse(v), Some(v));
+            let back = ToneMap::Reinhard.inverse(ToneMap::Reinhard.map(v)).unwrap();
+            assert!((back - v).abs() < 1e-6, "{v}: {back}");
+        }
+        assert_eq!(ToneMap::Reinhard.inverse(1.0), Some(1e9));
+        assert_eq!(ToneMap::Aces.inverse(0.5), None);
+    }
 
     #[test]
     fn known_values_and_range() {

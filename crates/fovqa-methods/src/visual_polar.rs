@@ -152,9 +152,9 @@ impl VisualPolar {
         r
     }
 
-    /// The number of rows of the column at a distance. Inside the inner circle it falls linearly
+    /// The number of rows of the column at a distance in pixels. Inside the inner circle it falls linearly
     /// towards the gaze.
-    fn rows_at(&self, r: f64) -> f64 {
+    pub fn rows_at(&self, r: f64) -> f64 {
         self.rows * (r / self.inner_px).min(1.0)
     }
 }

@@ -1,0 +1,69 @@
+//! A method's free parameter, solved for a share of samples; and what became of it in whole samples.
+
+use fovqa_methods::{BudgetError, BudgetSamples, Setting};
+
+use crate::counts::Counts;
+use crate::error::EmulateError;
+use crate::method::Emulated;
+use crate::spec::{Budget, EmulationSpec};
+
+/// A budget, and how it was met.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BudgetReport {
+    /// What was asked for.
+    pub budget: Budget,
+    /// The parameter that was solved.
+    pub parameter: &'static str,
+    /// Its value as TOML.
+    pub value: String,
+    /// The share of the ideal buffer, before its size is rounded.
+    pub ideal_share: f64,
+    /// The share of the buffer that is emulated.
+    pub rounded_share: f64,
+}
+
+/// A solved budget, before the buffer is known.
+#[derive(Debug)]
+pub(crate) struct Solution {
+    budget: Budget,
+    parameter: &'static str,
+    value: String,
+    ideal_share: f64,
+}
+
+impl EmulationSpec {
+    /// The spec with its budget's parameter solved for a setting, on ideal sizes.
+    pub(crate) fn solved(
+        &self,
+        setting: &Setting,
+    ) -> Result<(Self, Option<Solution>), EmulateError> {
+        let Some(budget) = self.budget else { return Ok((self.clone(), None)) };
+        let Emulated::Foveation(method) = &self.method else {
+            return Err(BudgetError::NotFree { method: self.key() }.into());
+        };
+        let solved = method.at_budget(setting, budget.share, budget.of)?;
+        let ideal = solved.method.apply(setting)?.counts();
+        let samples = match budget.of {
+            BudgetSamples::Buffer => ideal.whole(),
+            BudgetSamples::OnScreen => ideal.samples_on_screen,
+        };
+        let (parameter, value) = (solved.parameter, solved.value);
+        let ideal_share = samples / setting.pixels();
+        let mut spec = self.clone();
+        spec.method = Emulated::Foveation(solved.method);
+        spec.follow_cps();
+        Ok((spec, Some(Solution { budget, parameter, value, ideal_share })))
+    }
+}
+
+impl Solution {
+    pub(crate) fn report(self, counts: &Counts, setting: &Setting) -> BudgetReport {
+        let Self { budget, parameter, value, ideal_share } = self;
+        let samples = match budget.of {
+            BudgetSamples::Buffer => counts.samples + counts.samples_beyond,
+            BudgetSamples::OnScreen => counts.samples_on_screen,
+        };
+        let rounded_share = samples / setting.pixels();
+        BudgetReport { budget, parameter, value, ideal_share, rounded_share }
+    }
+}

@@ -1,0 +1,143 @@
+//! Coarse pixel shading: one sample for 1, 2x2 or 4x4 pixels (Patney et al. 2016, section 4.3).
+//!
+//! A pixel takes, unfiltered, the sample of the n x n cell that holds it; cells form a grid from the
+//! frame's top-left corner. `continuous` blends grids of all rates instead.
+
+use std::ops::Range;
+
+use fovqa_methods::Setting;
+use fovqa_methods::cps::{Cps as Mapped, Params, Quantise};
+
+use crate::counts::Counts;
+use crate::fetch::mean16;
+use crate::grids::Grids;
+use crate::image::Image;
+use crate::offsets::Offsets;
+use crate::radial::{Detail, Radial};
+use crate::sampling::Sampling;
+use crate::sums::sum_over_pixels;
+
+/// Coarse pixel shading of a frame and a gaze.
+#[derive(Debug)]
+pub(crate) enum Cps {
+    Cells(Cells),
+    Continuous { grids: Grids, samples: f64 },
+}
+
+/// Rates of 1, 1/2 and 1/4.
+#[derive(Debug)]
+pub(crate) struct Cells {
+    /// Up to which distance every pixel is shaded, and up to which one of 2x2.
+    reach_px: [f64; 2],
+    offsets: Offsets,
+    sampling: Sampling,
+}
+
+impl Cps {
+    pub(crate) fn new(params: &Params, setting: &Setting, sampling: Sampling) -> Self {
+        let offsets = Offsets::new(setting);
+        let Params { foveal_deg, transition_deg, quantise } = *params;
+        // The share of the fall after which the request is below 1/2 and 1/4, or 3/4 and 3/8.
+        let shares = match quantise {
+            Quantise::Ceil => [2.0 / 3.0, 1.0],
+            Quantise::Nearest => [1.0 / 3.0, 5.0 / 6.0],
+            Quantise::Continuous => {
+                let mapped = Mapped::new(params, setting);
+                let request = |r: f64| mapped.request(setting.eccentricity_deg(r));
+                let (fine, reach) = (Detail::Fine, setting.corner_px());
+                let density = Radial::new(fine, reach, |r| request(r) * request(r));
+                let samples = sum_over_pixels(&density, &offsets);
+                let level = Radial::new(fine, reach, |r| -libm::log2(request(r)));
+                return Self::Continuous { grids: Grids::new(level, offsets, sampling), samples };
+            }
+        };
+        let reach_px = shares.map(|share| {
+            let bound_deg = foveal_deg + share * transition_deg;
+            if bound_deg < 90.0 { setting.radius_px(bound_deg) } else { f64::INFINITY }
+        });
+        Self::Cells(Cells { reach_px, offsets, sampling })
+    }
+
+    pub(crate) fn counts(&self) -> Counts {
+        match self {
+            Self::Cells(cells) => {
+                let samples = [1, 2, 4].map(|n| cells.used(n, n)).iter().sum::<u64>();
+                let quads = [1, 2, 4].map(|n| cells.used(n, 2 * n)).iter().sum();
+                Counts { quads: Some(quads), ..Counts::on_screen(Vec::new(), samples as f64) }
+            }
+            Self::Continuous { samples, .. } => Counts::on_screen(Vec::new(), *samples),
+        }
+    }
+
+    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+        match self {
+            Self::Cells(cells) => cells.show(frame),
+            Self::Continuous { grids, .. } => grids.show(frame),
+        }
+    }
+}
+
+impl Cells {
+    /// The pixels of row `y` that share a sample with n x n.
+    fn pixels(&self, n: usize, y: usize) -> [Range<usize>; 2] {
+        let [one, two] = self.reach_px.map(|reach| self.offsets.within(y, reach));
+        let around = |outer: Range<usize>, inner: Range<usize>| {
+            if inner.is_empty() {
+                [outer, 0..0]
+            } else {
+                [outer.start..inner.start, inner.end..outer.end]
+            }
+        };
+        match n {
+            1 => [one, 0..0],
+            2 => around(two, one),
+            _ => around(0..self.offsets.width(), two),
+        }
+    }
+
+    /// How many blocks of `side` x `side` pixels hold a pixel that shares its sample with n x n.
+    fn used(&self, n: usize, side: usize) -> u64 {
+        let (width, height) = (self.offsets.width(), self.offsets.height());
+        let mut blocks = vec![false; width.div_ceil(side)];
+        let mut used = 0;
+        for top in (0..height).step_by(side) {
+            blocks.fill(false);
+            for y in top..(top + side).min(height) {
+                for xs in self.pixels(n, y).into_iter().filter(|xs| !xs.is_empty()) {
+                    blocks[xs.start / side..xs.end.div_ceil(side)].fill(true);
+                }
+            }
+            used += blocks.iter().filter(|used| **used).count() as u64;
+        }
+        used
+    }
+
+    fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+        Image::by_rows(frame.width(), frame.height(), |y, row| {
+            let [shaded, _] = self.pixels(1, y);
+            row[shaded.clone()].copy_from_slice(&frame.row(y)[shaded]);
+            for n in [2, 4] {
+                for xs in self.pixels(n, y) {
+                    let mut from = xs.start;
+                    while from < xs.end {
+                        let cell = from / n;
+                        let to = ((cell + 1) * n).min(xs.end);
+                        row[from..to].fill(self.sample(frame, n, cell, y / n));
+                        from = to;
+                    }
+                }
+            }
+        })
+    }
+
+    /// The sample of a cell.
+    fn sample<const C: usize>(&self, frame: &Image<C>, n: usize, i: usize, k: usize) -> [f32; C] {
+        let n = n as f64;
+        let at = |x: f64, y: f64| frame.at((i as f64 + x) * n, (k as f64 + y) * n);
+        let places = self.sampling.places();
+        match self.sampling {
+            Sampling::Point => at(places[0], places[0]),
+            Sampling::Area => mean16(|p, q| at(places[p], places[q])),
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! DEAMP: nested boxes, each an RMFR of its own over its part of the frame (Wang, Gu, Lu 2024, Eq. 3-9).
+//! A pixel reads the innermost layer whose box holds it; borders are hard.
+//!
+//! Filter on screen (ours): beyond the middle layer, the finished picture convolved with a Gaussian.
+
+use std::ops::Range;
+
+use fovqa_methods::deamp::{Deamp as Mapped, Params};
+use fovqa_methods::{Mapping, MethodError, Place, Setting};
+
+use crate::blur::gaussian;
+use crate::counts::Counts;
+use crate::image::Image;
+use crate::layer_axis::layer_axis;
+use crate::sampling::Sampling;
+use crate::separable::Separable;
+
+#[derive(Debug)]
+struct Layer {
+    buffer: Separable,
+    /// Pixels of the frame whose centres are in the box, along x and y.
+    inside: [Range<usize>; 2],
+}
+
+/// DEAMP of a frame and a gaze.
+#[derive(Debug)]
+pub(crate) struct Deamp {
+    /// The innermost first.
+    layers: Vec<Layer>,
+    samples: f64,
+    /// σ of the filter on screen in pixels, where it is on.
+    screen_sigma_px: Option<f64>,
+}
+
+impl Deamp {
+    pub(crate) fn new(
+        params: &Params,
+        setting: &Setting,
+        sampling: Sampling,
+        screen_sigma_px: Option<f64>,
+    ) -> Result<Self, MethodError> {
+        let mapped = Mapped::new(params, setting)?;
+        let gaze = setting.gaze_px();
+        // The innermost layer a place along an axis can belong to.
+        let layer_along = |axis: usize, position: f64| {
+            let mut offset = [0.0; 2];
+            offset[axis] = position - gaze[axis];
+            mapped.layer_at(Place::at(offset))
+        };
+        let mut samples = 0;
+        let layers = (0..mapped.layers()).map(|layer| {
+            let axis = |axis| layer_axis(&mapped, setting, layer, axis, sampling);
+            let buffer = Separable::new(axis(0), axis(1), sampling);
+            let [w, h] = buffer.size();
+            let covered = [(0, &buffer.x), (1, &buffer.y)].map(|(axis, along)| {
+                let finer = |x: &&f64| layer_along(axis, **x) < layer;
+                along.positions_px.iter().filter(finer).count()
+            });
+            samples += w * h - covered[0] * covered[1];
+            let inside = [0, 1].map(|axis| {
+                let side = setting.size_px()[axis] as usize;
+                let held = |i: &usize| layer_along(axis, *i as f64 + 0.5) <= layer;
+                let first = (0..side).find(held).unwrap_or(side);
+                let behind = (first..side).rev().find(held).map_or(first, |last| last + 1);
+                first..behind
+            });
+            Layer { buffer, inside }
+        });
+        let layers = layers.collect();
+        Ok(Self { layers, samples: samples as f64, screen_sigma_px })
+    }
+
+    pub(crate) fn counts(&self) -> Counts {
+        let buffers = self.layers.iter().map(|layer| layer.buffer.size()).collect();
+        Counts::on_screen(buffers, self.samples)
+    }
+
+    pub(crate) fn buffers<const C: usize>(&self, frame: &Image<C>) -> Vec<Image<C>> {
+        self.layers.iter().map(|layer| layer.buffer.sample(frame)).collect()
+    }
+
+    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+        let buffers = self.buffers(frame);
+        let width = frame.width();
+        let shown = Image::by_blocks(width, frame.height(), |rows, pixels| {
+            let mut scratch = Vec::new();
+            for (y, out) in rows.zip(pixels.chunks_exact_mut(width)) {
+                for (layer, buffer) in self.layers.iter().zip(&buffers).rev() {
+                    let [xs, ys] = layer.inside.clone();
+                    if ys.contains(&y) {
+                        let out = &mut out[xs.clone()];
+                        layer.buffer.read_row(buffer, y, xs, &mut scratch, out);
+                    }
+                }
+            }
+        });
+        match self.screen_sigma_px {
+            Some(sigma_px) => self.filter_on_screen(shown, sigma_px),
+            None => shown,
+        }
+    }
+
+    /// Of `n` layers those behind the first ceil(n / 2) are filtered.
+    fn filter_on_screen<const C: usize>(&self, shown: Image<C>, sigma_px: f64) -> Image<C> {
+        let kept = self.layers.len().div_ceil(2);
+        if kept == self.layers.len() {
+            return shown;
+        }
+        let [xs, ys] = &self.layers[kept - 1].inside;
+        let blurred = gaussian(&shown, sigma_px);
+        Image::by_rows(shown.width(), shown.height(), |y, out| {
+            out.copy_from_slice(blurred.row(y));
+            if ys.contains(&y) {
+                out[xs.clone()].copy_from_slice(&shown.row(y)[xs.clone()]);
+            }
+        })
+    }
+}

@@ -1,0 +1,67 @@
+//! What is wrong with an emulation.
+
+use fovqa_methods::{BudgetError, MethodError};
+use fovqa_params::ParamError;
+use thiserror::Error;
+
+/// An emulation that cannot be.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum EmulateError {
+    /// No method of this name.
+    #[error("there is no method {name:?} to emulate; there are {known}")]
+    UnknownMethod {
+        /// What was given.
+        name: String,
+        /// What there is.
+        known: String,
+    },
+    /// No such parameter, or a value it cannot take.
+    #[error(transparent)]
+    Param(#[from] ParamError),
+    /// A filter, or a parameter of a filter, that the method does not have.
+    #[error("{method} has no {wanted}; {known}")]
+    NoFilter {
+        /// The method.
+        method: &'static str,
+        /// What was asked for.
+        wanted: String,
+        /// The filters it has.
+        known: &'static str,
+    },
+    /// A method or an enhancement that depends on angles, without a view.
+    #[error(
+        "{what} depends on visual angles: it needs a view, such as a field of view or a display"
+    )]
+    NoView {
+        /// The method or enhancement.
+        what: &'static str,
+    },
+    /// A share, strength or size that cannot be.
+    #[error("{what} cannot be {found}: it lies between {least} and {most}")]
+    OutOfRange {
+        /// What it is.
+        what: &'static str,
+        /// What was given.
+        found: f64,
+        /// The least it may be.
+        least: f64,
+        /// The most it may be.
+        most: f64,
+    },
+    /// A picture or motion of another size than the emulator's.
+    #[error("{what} of {}x{} in an emulation of {}x{}", found[0], found[1], expected[0], expected[1])]
+    Size {
+        /// What has the wrong size.
+        what: &'static str,
+        /// Its width and height.
+        found: [usize; 2],
+        /// Those of the emulator.
+        expected: [usize; 2],
+    },
+    /// Parameters that do not go together, or not with the frame.
+    #[error(transparent)]
+    Method(#[from] MethodError),
+    /// A budget that cannot be had.
+    #[error(transparent)]
+    Budget(#[from] BudgetError),
+}

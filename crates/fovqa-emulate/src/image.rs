@@ -1,0 +1,75 @@
+//! Pixels of 1 or 3 channels, the channels side by side: what is fetched at a place is one read.
+
+use std::ops::Range;
+
+use fovqa_frame::BLOCK_ROWS;
+use rayon::prelude::*;
+
+/// An image of `f32` values, row by row from the top-left corner, the channels of a pixel side by
+/// side.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image<const C: usize> {
+    width: usize,
+    pixels: Vec<[f32; C]>,
+}
+
+impl<const C: usize> Image<C> {
+    /// Computes an image of `width` x `height` pixels, both at least 1, in parallel: `fill` gets
+    /// blocks of rows of a fixed height, and which rows they are.
+    pub(crate) fn by_blocks(
+        width: usize,
+        height: usize,
+        fill: impl Fn(Range<usize>, &mut [[f32; C]]) + Sync + Send,
+    ) -> Self {
+        let mut pixels = vec![[0.0; C]; width * height];
+        pixels.par_chunks_mut(BLOCK_ROWS * width).enumerate().for_each(|(block, pixels)| {
+            let first = block * BLOCK_ROWS;
+            fill(first..first + pixels.len() / width, pixels);
+        });
+        Self { width, pixels }
+    }
+
+    /// The same, row by row.
+    pub(crate) fn by_rows(
+        width: usize,
+        height: usize,
+        fill: impl Fn(usize, &mut [[f32; C]]) + Sync + Send,
+    ) -> Self {
+        Self::by_blocks(width, height, |rows, pixels| {
+            for (y, row) in rows.zip(pixels.chunks_exact_mut(width)) {
+                fill(y, row);
+            }
+        })
+    }
+
+    /// The same image with every row changed.
+    pub(crate) fn map_rows(
+        &self,
+        change: impl Fn(&[[f32; C]], &mut [[f32; C]]) + Sync + Send,
+    ) -> Self {
+        Self::by_rows(self.width, self.height(), |y, out| change(self.row(y), out))
+    }
+
+    /// Width in pixels.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Height in pixels.
+    pub fn height(&self) -> usize {
+        self.pixels.len() / self.width
+    }
+
+    /// The pixels of row `y`.
+    ///
+    /// # Panics
+    /// When there is no such row.
+    pub fn row(&self, y: usize) -> &[[f32; C]] {
+        &self.pixels[y * self.width..(y + 1) * self.width]
+    }
+
+    /// All pixels, row by row.
+    pub fn pixels(&self) -> &[[f32; C]] {
+        &self.pixels
+    }
+}

@@ -1,0 +1,91 @@
+//! Emulation: what a foveation method would have shown, from a finished frame.
+//!
+//! A method's samples read the frame where they stand, its reduced buffer is filled, filtered and
+//! mapped back onto the screen. From a finished frame emulation understates aliasing and flicker: its
+//! pixels are filtered already.
+//!
+//! | word | meaning |
+//! | --- | --- |
+//! | picture | `f32` values of the encoded signal in `[0, 1]`, not rounded before the output |
+//! | buffer | the samples a method shades; its coordinates run from 0 to the number of samples |
+//! | place | where a sample reads the frame; one (`point`) or 16 (`area`) |
+//! | radial | a function of the distance from the gaze alone |
+//!
+//! [`EmulationSpec`] says what is to be emulated, [`Emulator`] prepares it for a frame size, a view and
+//! a gaze, and turns [`Picture`]s into pictures. One file per method: `rmfr`, `deamp`, `guenter`, `cps`,
+//! `linear`, `log_polar` (KFR, LaFR), `vafr`, `visual_polar`, `sandbox`; behind them `temporal` and
+//! `enhance`.
+//!
+//! Angles are planar, e = atan(r / f), as a renderer computes them.
+//!
+//! ```
+//! use fovqa_emulate::{EmulationSpec, Emulator, Picture};
+//! use fovqa_frame::{Channels, Frame, Samples, SignalParams, SignalTables};
+//!
+//! let frame = Frame::new(64, 48, Channels::Rgb, Samples::U8(vec![128; 64 * 48 * 3]))?;
+//! let tables = SignalTables::new(SignalParams::default());
+//! let picture = Picture::from_frame(&frame, &tables);
+//!
+//! let emulator = Emulator::new(&EmulationSpec::new("rmfr")?, [64, 48], None, [32.0, 24.0])?;
+//! assert_eq!(emulator.counts().buffers, [[25, 18]]);
+//! assert_eq!(emulator.emulate(&picture)?.to_codes8(), frame);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod blur;
+mod budget;
+mod convolve;
+mod counts;
+mod cps;
+mod deamp;
+mod emulator;
+mod enhance;
+mod error;
+mod fetch;
+mod filters;
+mod fxaa;
+mod grids;
+mod guenter;
+mod image;
+mod layer_axis;
+mod linear;
+mod log_polar;
+mod method;
+mod moments;
+mod offsets;
+mod peripheral;
+mod picture;
+mod places;
+mod polar_view;
+mod prepared;
+mod radial;
+mod ragged;
+mod read_frame;
+mod rmfr;
+mod rounded;
+mod sampling;
+mod sandbox;
+mod sandbox_params;
+mod separable;
+mod space;
+mod spec;
+mod sums;
+mod temporal;
+mod texel;
+mod turn;
+mod vafr;
+mod visual_polar;
+mod write_frame;
+
+pub use budget::BudgetReport;
+pub use counts::Counts;
+pub use emulator::Emulator;
+pub use error::EmulateError;
+pub use filters::FilterChoice;
+pub use image::Image;
+pub use picture::Picture;
+pub use sampling::Sampling;
+pub use space::Space;
+pub use spec::{Budget, EmulationSpec};
+pub use temporal::{History, TaaParams};
+pub use write_frame::WriteFrameError;

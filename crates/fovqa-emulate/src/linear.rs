@@ -1,0 +1,43 @@
+//! Linear fall-off: grids of the density p, `j = -½ log2 p` (Weier et al. 2016; RMFR's comparison).
+
+use fovqa_methods::linear::{Linear as Mapped, Params};
+use fovqa_methods::{Foveation, MethodError, Place, Setting};
+
+use crate::counts::Counts;
+use crate::grids::Grids;
+use crate::image::Image;
+use crate::offsets::Offsets;
+use crate::radial::{Detail, Radial};
+use crate::sampling::Sampling;
+use crate::sums::sum_over_pixels;
+
+/// Linear fall-off of a frame and a gaze.
+#[derive(Debug)]
+pub(crate) struct Linear {
+    grids: Grids,
+    samples: f64,
+}
+
+impl Linear {
+    pub(crate) fn new(
+        params: &Params,
+        setting: &Setting,
+        sampling: Sampling,
+    ) -> Result<Self, MethodError> {
+        let mapped = Mapped::new(params, setting)?;
+        let density = |r: f64| mapped.density(Place { radius_px: r, direction: [1.0, 0.0] });
+        let offsets = Offsets::new(setting);
+        let (fine, reach) = (Detail::Fine, setting.corner_px());
+        let samples = sum_over_pixels(&Radial::new(fine, reach, density), &offsets);
+        let level = Radial::new(fine, reach, |r| -0.5 * libm::log2(density(r)));
+        Ok(Self { grids: Grids::new(level, offsets, sampling), samples })
+    }
+
+    pub(crate) fn counts(&self) -> Counts {
+        Counts::on_screen(Vec::new(), self.samples)
+    }
+
+    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+        self.grids.show(frame)
+    }
+}

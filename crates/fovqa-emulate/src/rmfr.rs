@@ -1,0 +1,37 @@
+//! RMFR: each axis squeezed by itself, `b = (Q(t) + gaze) n / W` (Ye et al. 2022, Eq. 4-7).
+
+use fovqa_methods::Setting;
+use fovqa_methods::rmfr::{Params, Rmfr as Mapped};
+
+use crate::counts::Counts;
+use crate::image::Image;
+use crate::layer_axis::layer_axis;
+use crate::sampling::Sampling;
+use crate::separable::Separable;
+
+/// RMFR of a frame and a gaze.
+#[derive(Debug)]
+pub(crate) struct Rmfr {
+    buffer: Separable,
+}
+
+impl Rmfr {
+    pub(crate) fn new(params: &Params, setting: &Setting, sampling: Sampling) -> Self {
+        let mapped = Mapped::new(params, setting);
+        let axis = |axis| layer_axis(&mapped, setting, 0, axis, sampling);
+        Self { buffer: Separable::new(axis(0), axis(1), sampling) }
+    }
+
+    pub(crate) fn counts(&self) -> Counts {
+        let [w, h] = self.buffer.size();
+        Counts::on_screen(vec![[w, h]], (w * h) as f64)
+    }
+
+    pub(crate) fn buffer<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+        self.buffer.sample(frame)
+    }
+
+    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+        self.buffer.read(&self.buffer(frame))
+    }
+}

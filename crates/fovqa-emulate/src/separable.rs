@@ -1,0 +1,115 @@
+//! Buffers whose columns and rows are functions of x and of y alone: RMFR, DEAMP, Guenter's layers and
+//! grids. All positions are tabulated along the two axes.
+
+use std::ops::Range;
+
+use crate::fetch::{Tap, lerp, mean16};
+use crate::image::Image;
+use crate::sampling::Sampling;
+
+/// One axis of a buffer and of the frame.
+#[derive(Debug, Clone)]
+pub(crate) struct Axis {
+    /// Where samples stand on the frame, in pixels.
+    pub(crate) positions_px: Vec<f64>,
+    /// From the places of each sample into the frame.
+    from: Vec<Tap>,
+    /// From each pixel of the frame into the buffer.
+    to: Vec<Tap>,
+}
+
+impl Axis {
+    /// An axis of `n` samples over a frame of `side` pixels. `position` leads from the buffer's
+    /// coordinates, 0 to n, to the frame's in pixels, and `coordinate` back.
+    pub(crate) fn new(
+        n: usize,
+        side: usize,
+        sampling: Sampling,
+        position: impl Fn(f64) -> f64,
+        coordinate: impl Fn(f64) -> f64,
+    ) -> Self {
+        let into_frame = |b: f64| Tap::clamped(position(b), side);
+        Self {
+            positions_px: (0..n).map(|i| position(i as f64 + 0.5)).collect(),
+            from: sampling.coordinates(n).map(into_frame).collect(),
+            to: (0..side).map(|i| Tap::clamped(coordinate(i as f64 + 0.5), n)).collect(),
+        }
+    }
+
+    /// Samples along the axis.
+    pub(crate) fn len(&self) -> usize {
+        self.positions_px.len()
+    }
+}
+
+/// A buffer.
+#[derive(Debug, Clone)]
+pub(crate) struct Separable {
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    sampling: Sampling,
+}
+
+impl Separable {
+    /// A buffer of two axes, both with places of the same sampling.
+    pub(crate) fn new(x: Axis, y: Axis, sampling: Sampling) -> Self {
+        Self { x, y, sampling }
+    }
+
+    /// Columns and rows.
+    pub(crate) fn size(&self) -> [usize; 2] {
+        [self.x.len(), self.y.len()]
+    }
+
+    /// The buffer of a frame.
+    pub(crate) fn sample<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+        let [width, height] = self.size();
+        Image::by_rows(width, height, |j, row| match self.sampling {
+            Sampling::Point => {
+                for (out, x) in row.iter_mut().zip(&self.x.from) {
+                    *out = frame.fetch(*x, self.y.from[j]);
+                }
+            }
+            Sampling::Area => {
+                let ys = &self.y.from[4 * j..4 * j + 4];
+                for (out, xs) in row.iter_mut().zip(self.x.from.chunks_exact(4)) {
+                    *out = mean16(|p, q| frame.fetch(xs[p], ys[q]));
+                }
+            }
+        })
+    }
+
+    /// What the pixels `xs` of row `y` of the frame read in a buffer. `scratch` is kept between calls.
+    pub(crate) fn read_row<const C: usize>(
+        &self,
+        buffer: &Image<C>,
+        y: usize,
+        xs: Range<usize>,
+        scratch: &mut Vec<[f32; C]>,
+        out: &mut [[f32; C]],
+    ) {
+        let taps = &self.x.to[xs];
+        let (Some(first), Some(last)) = (taps.first(), taps.last()) else { return };
+        let (first, last) = (first.at as usize, last.next as usize);
+        let down = self.y.to[y];
+        let upper = &buffer.row(down.at as usize)[first..=last];
+        let lower = &buffer.row(down.next as usize)[first..=last];
+        scratch.clear();
+        scratch.extend(upper.iter().zip(lower).map(|(a, b)| lerp(*a, *b, down.t)));
+        for (out, tap) in out.iter_mut().zip(taps) {
+            let (at, next) = (tap.at as usize - first, tap.next as usize - first);
+            *out = lerp(scratch[at], scratch[next], tap.t);
+        }
+    }
+
+    /// The frame as read from a buffer.
+    pub(crate) fn read<const C: usize>(&self, buffer: &Image<C>) -> Image<C> {
+        let (width, height) = (self.x.to.len(), self.y.to.len());
+        Image::by_blocks(width, height, |rows, pixels| {
+            let mut scratch = Vec::new();
+            for (y, out) in rows.zip(pixels.chunks_exact_mut(width)) {
+                self.read_row(buffer, y, 0..width, &mut scratch, out);
+            }
+        })
+    }
+}

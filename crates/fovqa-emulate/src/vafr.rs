@@ -1,0 +1,90 @@
+//! VaFR: a polar buffer whose columns and rows follow acuity (Zhang, Gai, Li, Eq. 3-12, 19). Buffer filter:
+//! FXAA.
+
+use fovqa_methods::vafr::{Beyond, FIELD_DEG, Params, Vafr as Mapped};
+use fovqa_methods::{Foveation, Mapping, MethodError, Place, Setting};
+
+use crate::counts::Counts;
+use crate::fxaa::Fxaa;
+use crate::image::Image;
+use crate::polar_view::PolarView;
+use crate::ragged::{Ragged, Values};
+use crate::rounded::rounded;
+use crate::sampling::Sampling;
+
+/// VaFR of a frame and a gaze.
+#[derive(Debug)]
+pub(crate) struct Vafr {
+    buffer: Ragged,
+    view: PolarView,
+    counts: Counts,
+    /// Up to where the frame is shown.
+    reach_px: f64,
+    filter: Option<Fxaa>,
+}
+
+impl Vafr {
+    pub(crate) fn new(
+        params: &Params,
+        setting: &Setting,
+        sampling: Sampling,
+        filter: Option<Fxaa>,
+    ) -> Result<Self, MethodError> {
+        let mapped = Mapped::new(params, setting)?;
+        let ideal = mapped.buffer(0)[0];
+        let n = rounded(ideal);
+        let stretch = n as f64 / ideal;
+        let distance = |column: f64| mapped.to_screen(0, [column / stretch, 0.0]).radius_px;
+        let rows = |r: f64| rounded(mapped.rows_at(setting.eccentricity_deg(r)));
+        let buffer = Ragged::new(n, setting, sampling, distance, rows);
+        let view = PolarView::new(setting, |r| {
+            mapped.to_buffer(0, Place { radius_px: r, direction: [1.0, 0.0] })[0] * stretch
+        });
+        let reach_px = match params.beyond {
+            Beyond::Black => setting.radius_px(FIELD_DEG),
+            Beyond::Extend | Beyond::Clamp => f64::INFINITY,
+        };
+        let counts = counts(&buffer, setting, mapped.shaded_share());
+        Ok(Self { buffer, view, counts, reach_px, filter })
+    }
+
+    pub(crate) fn counts(&self) -> Counts {
+        self.counts.clone()
+    }
+
+    fn values<const C: usize>(&self, frame: &Image<C>) -> Values {
+        let values = self.buffer.sample(frame);
+        match &self.filter {
+            Some(filter) => filter.apply(&self.buffer, &values),
+            None => values,
+        }
+    }
+
+    /// The buffer of a frame, with its own filter where that is on.
+    pub(crate) fn buffer<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+        self.buffer.image(&self.values(frame))
+    }
+
+    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+        self.view.show(&self.buffer, &self.values(frame), self.reach_px)
+    }
+}
+
+/// Samples up to 60° and beyond, of which a share is shaded.
+fn counts(buffer: &Ragged, setting: &Setting, shaded: f64) -> Counts {
+    let (mut within, mut beyond) = (0, 0);
+    for column in buffer.columns() {
+        if setting.eccentricity_deg(column.distance_px) <= FIELD_DEG {
+            within += column.rows;
+        } else {
+            beyond += column.rows;
+        }
+    }
+    Counts {
+        buffers: vec![buffer.size()],
+        samples: within as f64 * shaded,
+        samples_on_screen: buffer.on_screen() as f64 * shaded,
+        samples_beyond: beyond as f64 * shaded,
+        quads: None,
+    }
+}

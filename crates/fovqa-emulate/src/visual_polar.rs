@@ -1,0 +1,53 @@
+//! Visual-Polar space, a reconstruction: a polar buffer as dense as acuity, with square samples inside
+//! 5.79° (Koskela et al. 2019).
+
+use fovqa_methods::visual_polar::{Params, VisualPolar as Mapped};
+use fovqa_methods::{Mapping, Place, Setting};
+
+use crate::counts::Counts;
+use crate::image::Image;
+use crate::polar_view::PolarView;
+use crate::ragged::Ragged;
+use crate::rounded::rounded;
+use crate::sampling::Sampling;
+
+/// Visual-Polar of a frame and a gaze.
+#[derive(Debug)]
+pub(crate) struct VisualPolar {
+    buffer: Ragged,
+    view: PolarView,
+    counts: Counts,
+}
+
+impl VisualPolar {
+    pub(crate) fn new(params: Params, setting: &Setting, sampling: Sampling) -> Self {
+        let mapped = Mapped::new(&params, setting);
+        let ideal = mapped.buffer(0)[0];
+        let n = rounded(ideal);
+        let stretch = n as f64 / ideal;
+        let distance = |column: f64| mapped.to_screen(0, [column / stretch, 0.0]).radius_px;
+        let rows = |r: f64| rounded(mapped.rows_at(r));
+        let buffer = Ragged::new(n, setting, sampling, distance, rows);
+        let view = PolarView::new(setting, |r| {
+            mapped.to_buffer(0, Place { radius_px: r, direction: [1.0, 0.0] })[0] * stretch
+        });
+        let samples: usize = buffer.columns().iter().map(|column| column.rows).sum();
+        let counts = Counts {
+            samples_on_screen: buffer.on_screen() as f64,
+            ..Counts::on_screen(vec![buffer.size()], samples as f64)
+        };
+        Self { buffer, view, counts }
+    }
+
+    pub(crate) fn counts(&self) -> Counts {
+        self.counts.clone()
+    }
+
+    pub(crate) fn buffer<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+        self.buffer.image(&self.buffer.sample(frame))
+    }
+
+    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+        self.view.show(&self.buffer, &self.buffer.sample(frame), f64::INFINITY)
+    }
+}

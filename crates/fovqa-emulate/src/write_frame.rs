@@ -1,0 +1,89 @@
+//! From a picture back to a frame: codes of 8 or 16 bits, floats of linear light, or the signal.
+
+use fovqa_frame::transfer::srgb;
+use fovqa_frame::{Channels, Frame, Samples, SignalParams, ToneMap};
+use rayon::prelude::*;
+use thiserror::Error;
+
+use crate::picture::Picture;
+
+/// Values one task works on.
+const TASK: usize = 1 << 16;
+
+/// A picture that cannot be written as asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum WriteFrameError {
+    /// A tone map without inverse.
+    #[error(
+        "the tone map `aces` cannot be undone, so that linear light cannot be written: write codes, or read with `clamp` or `reinhard`"
+    )]
+    NoInverse,
+}
+
+impl Picture {
+    /// Codes of 8 bits: `[255 clamp(V, 0, 1) + 0.5]`.
+    pub fn to_codes8(&self) -> Frame {
+        let mut codes = vec![0u8; self.values().len()];
+        // A cast saturates, and makes 0 of NaN.
+        self.each(&mut codes, |value| (value * 255.0 + 0.5) as u8);
+        self.frame(Samples::U8(codes))
+    }
+
+    /// Codes of 16 bits: `[65535 clamp(V, 0, 1) + 0.5]`.
+    pub fn to_codes16(&self) -> Frame {
+        let mut codes = vec![0u16; self.values().len()];
+        self.each(&mut codes, |value| (value * 65535.0 + 0.5) as u16);
+        self.frame(Samples::U16(codes))
+    }
+
+    /// The signal itself, in floats that are encoded for display: nothing is rounded.
+    pub fn to_signal(&self) -> Frame {
+        self.frame(Samples::F32(self.planes(|value| value))).encoded()
+    }
+
+    /// Linear light in floats: sRGB decoded, the tone map inverted, the exposure undone. What was
+    /// clipped on the way to the picture stays clipped.
+    ///
+    /// # Errors
+    /// When the tone map has no inverse (`aces`).
+    pub fn to_linear(&self, signal: &SignalParams) -> Result<Frame, WriteFrameError> {
+        if signal.tonemap.inverse(0.0).is_none() {
+            return Err(WriteFrameError::NoInverse);
+        }
+        let gain = libm::exp2(-signal.exposure_stops) as f32;
+        let decoder = srgb::Decoder::new();
+        let tonemap: ToneMap = signal.tonemap;
+        let light = |value| tonemap.inverse(decoder.decode(value)).unwrap_or_default() * gain;
+        Ok(self.frame(Samples::F32(self.planes(light))))
+    }
+
+    fn each<T: Send>(&self, out: &mut [T], of: impl Fn(f32) -> T + Sync) {
+        out.par_chunks_mut(TASK).zip(self.values().par_chunks(TASK)).for_each(|(out, values)| {
+            for (out, &value) in out.iter_mut().zip(values) {
+                *out = of(value);
+            }
+        });
+    }
+
+    /// The values, one channel after the other.
+    fn planes(&self, of: impl Fn(f32) -> f32 + Sync) -> Vec<f32> {
+        let channels = self.channels().count();
+        let pixels = self.width() * self.height();
+        let mut planes = vec![0.0; pixels * channels];
+        for (c, plane) in planes.chunks_exact_mut(pixels).enumerate() {
+            let tasks = plane.par_chunks_mut(TASK).zip(self.values().par_chunks(TASK * channels));
+            tasks.for_each(|(out, values)| {
+                for (out, &value) in out.iter_mut().zip(values[c..].iter().step_by(channels)) {
+                    *out = of(value);
+                }
+            });
+        }
+        planes
+    }
+
+    fn frame(&self, samples: Samples) -> Frame {
+        let channels: Channels = self.channels();
+        let frame = Frame::new(self.width(), self.height(), channels, samples);
+        frame.unwrap_or_else(|_| unreachable!("a value for each channel of each pixel"))
+    }
+}

@@ -1,0 +1,156 @@
+//! What holds for every method, whatever the picture.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use fovqa_emulate::{EmulationSpec, Emulator, FilterChoice, History, Picture, Sampling, Space};
+use fovqa_frame::{Channels, Frame, Samples, SignalParams, SignalTables};
+use fovqa_params::{ParamValue, Words};
+use fovqa_vision::{View, ViewSpec};
+
+const SIZE: [usize; 2] = [150, 110];
+const GAZE: [f64; 2] = [61.3, 70.25];
+
+fn view() -> View {
+    let spec = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(110.0) };
+    spec.resolve(SIZE[0], SIZE[1]).unwrap().view
+}
+
+fn emulator(spec: &EmulationSpec) -> Emulator {
+    Emulator::new(spec, SIZE, Some(&view()), GAZE).unwrap()
+}
+
+fn picture(channels: Channels, code: impl Fn(usize) -> u8) -> Picture {
+    let codes = (0..SIZE[0] * SIZE[1] * channels.count()).map(code).collect();
+    let frame = Frame::new(SIZE[0], SIZE[1], channels, Samples::U8(codes)).unwrap();
+    Picture::from_frame(&frame, &SignalTables::new(SignalParams::default()))
+}
+
+/// A pattern without order.
+fn noise(i: usize) -> u8 {
+    ((i as u32).wrapping_mul(2_654_435_761) >> 24) as u8
+}
+
+fn spec(method: &str, set: &[(&str, ParamValue)]) -> EmulationSpec {
+    let mut spec = EmulationSpec::new(method).unwrap();
+    for (name, value) in set {
+        spec.set(name, value).unwrap();
+    }
+    spec
+}
+
+/// Every method with every choice of sampling, filters and space, some of them enhanced.
+fn all() -> Vec<(String, EmulationSpec)> {
+    let mut all = Vec::new();
+    for info in EmulationSpec::methods() {
+        for sampling in Sampling::all() {
+            for filters in FilterChoice::all() {
+                for space in Space::all() {
+                    let mut spec = EmulationSpec::new(info.key).unwrap();
+                    if info.key == "vafr" {
+                        // A million samples show no more than ten thousand.
+                        spec.set("factor", &ParamValue::Number(0.1)).unwrap();
+                    }
+                    spec.set_sampling(sampling);
+                    spec.set_space(space);
+                    if spec.set_filters(filters).is_err() {
+                        continue;
+                    }
+                    if space == Space::Linear {
+                        spec.set_enhance(2.0).unwrap();
+                    }
+                    let words = [sampling.word(), filters.word(), space.word()];
+                    all.push((format!("{} {}", info.key, words.join(" ")), spec));
+                }
+            }
+        }
+    }
+    assert!(all.len() > 70, "{}", all.len());
+    all
+}
+
+#[test]
+fn a_rate_of_one_everywhere_leaves_the_frame_as_it_is() {
+    let number = ParamValue::Number;
+    let ones = ParamValue::List(vec![1.0; 3]);
+    let cases = [
+        spec("full", &[]),
+        spec("guenter", &[("scales", ones)]),
+        spec("cps", &[("foveal_deg", number(89.0))]),
+        spec(
+            "cps",
+            &[("foveal_deg", number(89.0)), ("quantise", ParamValue::Text("continuous".into()))],
+        ),
+        spec("linear", &[("p_min", number(1.0))]),
+        spec("stable", &[("rate_arcmin", number(0.0))]),
+        spec("aliased", &[("rate_arcmin", number(0.0))]),
+        spec("perceptual-target", &[("rate_arcmin", number(0.0))]),
+    ];
+    for channels in [Channels::Gray, Channels::Rgb] {
+        let frame = picture(channels, noise);
+        for sampling in Sampling::all() {
+            for mut spec in cases.clone() {
+                spec.set_sampling(sampling);
+                let shown = emulator(&spec).emulate(&frame).unwrap();
+                assert!(shown == frame, "{} {}", spec.key(), sampling.word());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_constant_frame_stays_constant() {
+    for channels in [Channels::Gray, Channels::Rgb] {
+        let frame = picture(channels, |i| [40, 150, 201][i % channels.count()]);
+        for (name, spec) in all() {
+            let emulator = emulator(&spec);
+            let shown = emulator.emulate(&frame).unwrap();
+            let off = shown.values().iter().zip(frame.values()).map(|(a, b)| (a - b).abs());
+            let worst = off.fold(0.0, f32::max);
+            assert!(worst < 2e-6, "{name}: {worst:e}");
+        }
+    }
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_threads() {
+    let frame = picture(Channels::Rgb, noise);
+    for (name, mut spec) in all() {
+        spec.set_temporal(true);
+        let run = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let (emulator, mut history) = (emulator(&spec), History::default());
+                emulator.emulate_next(&picture(Channels::Rgb, |_| 9), None, &mut history).unwrap();
+                let shown = emulator.emulate_next(&frame, None, &mut history).unwrap();
+                (shown, emulator.counts().clone())
+            })
+        };
+        assert!(run(1) == run(8), "{name}");
+    }
+}
+
+#[test]
+fn gray_is_three_equal_channels() {
+    let gray = picture(Channels::Gray, noise);
+    let colour = picture(Channels::Rgb, |i| noise(i / 3));
+    for (name, spec) in all() {
+        let emulator = emulator(&spec);
+        let (gray, colour) = (emulator.emulate(&gray).unwrap(), emulator.emulate(&colour).unwrap());
+        let pairs = gray.values().iter().zip(colour.values().chunks_exact(3));
+        let worst = pairs.map(|(a, b)| (a - b[1]).abs()).fold(0.0, f32::max);
+        assert!(worst < 1e-6, "{name}: {worst:e}");
+    }
+}
+
+#[test]
+fn buffers_are_as_large_as_their_counts_say() {
+    let frame = picture(Channels::Rgb, noise);
+    for (name, spec) in all() {
+        let emulator = emulator(&spec);
+        let buffers = emulator.buffers(&frame).unwrap();
+        let sizes: Vec<_> = buffers.iter().map(|b| [b.width(), b.height()]).collect();
+        if !sizes.is_empty() {
+            assert_eq!(sizes, emulator.counts().buffers, "{name}");
+        }
+    }
+}
