@@ -1,4 +1,4 @@
-//! Rules that are held against a baseline, and baselines that are refused.
+//! Rules that are compared with a baseline, and baselines that are refused.
 
 use std::fs;
 

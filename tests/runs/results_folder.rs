@@ -161,7 +161,7 @@ fn one_run_at_a_time_and_a_killed_one_leaves_its_journal() {
     let lines: Vec<Value> = whole.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(lines[0]["schema"], "fovqa.journal/2");
     let inputs = lines.iter().filter(|line| line["input"] == "gt/0000.png");
-    assert_eq!(inputs.count(), 1, "an input is taken down once");
+    assert_eq!(inputs.count(), 1, "an input is recorded once");
     let frame = lines.iter().find(|line| line["frame"] == 0).unwrap();
     let row = rows(&folder, "other").into_iter().find(|row| row["metric"] == "psnr").unwrap();
     // As many numbers stand before PSNR as the keys before it have: each its value and its parts.

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use fovqa_plan::{OutputSettings, Resolved};
 
-use crate::table::TableRow;
+use crate::table::row::TableRow;
 
 /// How names are written in CSV files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -9,7 +9,7 @@ use fovqa_report::{baseline_table, difference_table};
 use fovqa_results::Baseline;
 use libfuzzer_sys::fuzz_target;
 
-/// The committed one, which others are held against.
+/// The committed one, which others are compared with.
 static KNOWN: LazyLock<Baseline> = LazyLock::new(|| {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../configs/ci/nightly.baseline.json");
     Baseline::read(file.as_ref()).expect("the committed baseline")

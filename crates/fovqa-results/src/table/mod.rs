@@ -4,7 +4,7 @@ mod csv;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod reading;
-mod row;
+pub(crate) mod row;
 mod rows;
 
 use std::path::{Path, PathBuf};
