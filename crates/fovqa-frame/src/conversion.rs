@@ -11,18 +11,25 @@ use crate::transfer::srgb;
 /// The samples of a frame with their conversion to the signal or to luminance.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Conversion<'a> {
-    /// Integer codes, multiplied by a whole number.
+    /// 8-bit codes, multiplied by a whole number.
     Codes8(&'a [u8], f32),
+    /// 16-bit codes, multiplied by a whole number.
     Codes16(&'a [u16], f32),
+    /// 8-bit codes, looked up in a table of the signal or of luminance.
     Table8(&'a [u8], &'a [f32; CODES_8]),
+    /// 16-bit codes, looked up in a table of the signal or of luminance.
     Table16(&'a [u16], &'a [f32; CODES_16]),
+    /// Half floats, looked up by their bits in a table of the signal or of luminance.
     Half(&'a [f16], &'a [f32; CODES_16]),
+    /// Linear scene values to the signal.
     Linear(&'a [f32], FloatToSignal),
+    /// Encoded values, limited to [0, 1].
     Encoded(&'a [f32]),
-    /// The last three convert to displayed luminance: encoded values, linear scene values, and
-    /// absolute luminance.
+    /// Encoded values to displayed luminance.
     Curve(&'a [f32], Curve<'a>),
+    /// Linear scene values to displayed luminance.
     ToneMapped(&'a [f32], FloatToSignal, Curve<'a>),
+    /// Absolute luminance, limited to the display.
     Absolute(&'a [f32], DisplayRange),
 }
 

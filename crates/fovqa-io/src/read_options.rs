@@ -48,8 +48,8 @@ impl ReadOptions {
         Ok(())
     }
 
-    /// Refuses a block that is larger than any frame within the limit could have: decoders allocate
-    /// blocks as a whole.
+    /// Refuses a block that, decoded, is larger than any block of an allowed frame, because decoders
+    /// allocate a whole block at once.
     pub(crate) fn check_block(&self, bytes: u64) -> Result<(), ReadErrorKind> {
         /// Three floats for each pixel of the largest frame, and some reserve.
         const BYTES_A_PIXEL: u64 = 16;

@@ -2,9 +2,11 @@
 //!
 //! Mapping (Eq. 4-7, and Eq. 3-4 of DEAMP), per axis: with t = screen - gaze, A the distance from
 //! the gaze to the border on that side, and f in pixels, u = (gaze + t (f + A) / (|t| + f)) / σ.
-//! Inverse: q = σu - gaze, t = f q / (f + A - |q|). In Eq. 4 the x of (1 - x/W) and x/W must be the
-//! gaze. Eq. 6, and Eq. 4 of DEAMP, give t, to which the gaze must be added. The density per axis
-//! is f (f + A) / ((|t| + f)² σ), and the number of samples is W H / σ².
+//! Inverse: q = σu - gaze, t = f q / (f + A - |q|). The density per axis is
+//! f (f + A) / ((|t| + f)² σ), and the number of samples is W H / σ².
+//!
+//! Misprints: in Eq. 4, read the gaze for x in (1 - x/W) and x/W. Eq. 6, and Eq. 4 of DEAMP, give t,
+//! the offset from the gaze; add the gaze to get the screen position.
 
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 

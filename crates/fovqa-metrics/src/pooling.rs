@@ -15,7 +15,8 @@ pub struct Statistic {
     pub bands: Pooling,
     /// How the values of both eyes are combined.
     pub eyes: Pooling,
-    /// How the values of several frames are combined, besides their mean, minimum and maximum.
+    /// How the values of several frames are combined. The results always have mean, minimum and
+    /// maximum as well; with [`Pooling::PlainMean`], nothing is added to them.
     pub frames: Pooling,
     /// The weight of a band when only results.csv is available, which has no sums.
     pub weight: Weight,
@@ -38,9 +39,9 @@ pub enum Pooling {
     /// The values cannot be combined.
     None,
     /// The mean of the values, each with the same weight.
-    Average,
+    PlainMean,
     /// The weighted mean: the sum of all sums, divided by the sum of all weights.
-    Mean,
+    WeightedMean,
     /// The weighted mean of the squared errors (peak 1), converted to decibels.
     Decibels,
     /// The standard deviation of all samples together, with the divisor N - 1.
@@ -76,8 +77,8 @@ impl Statistic {
         Self {
             name,
             bands: Pooling::None,
-            eyes: Pooling::Average,
-            frames: Pooling::Average,
+            eyes: Pooling::PlainMean,
+            frames: Pooling::PlainMean,
             weight: Weight::Pixels,
             is_count: false,
             has_ratio: true,
@@ -140,7 +141,7 @@ impl Statistic {
 
     /// Whether a sequence has a pooled value besides the mean of its frames.
     pub fn pools_frames(&self) -> bool {
-        matches!(self.frames, Pooling::Mean | Pooling::Decibels | Pooling::Deviation)
+        matches!(self.frames, Pooling::WeightedMean | Pooling::Decibels | Pooling::Deviation)
     }
 
     /// Whether the largest value of all frames represents the sequence.
@@ -178,7 +179,7 @@ impl Parts {
     /// its samples.
     pub fn of_value(pooling: Pooling, value: Option<f64>, weight: f64, mean: f64) -> Self {
         match (pooling, value) {
-            (Pooling::Mean, Some(value)) => Self::Mean { sum: value * weight, weight },
+            (Pooling::WeightedMean, Some(value)) => Self::Mean { sum: value * weight, weight },
             (Pooling::Decibels, Some(value)) => {
                 Self::Mean { sum: mse_of_db(value) * weight, weight }
             }
@@ -264,11 +265,11 @@ pub fn pool(
     let parts = parts.unwrap_or_default();
     match (pooling, scored) {
         (_, 1) if measured == 1 => (Some(last), parts),
-        (Pooling::Mean | Pooling::Decibels | Pooling::Deviation, _) => {
+        (Pooling::WeightedMean | Pooling::Decibels | Pooling::Deviation, _) => {
             (parts.value(pooling), parts)
         }
         (_, 0) | (Pooling::None, _) => (None, Parts::Value),
-        (Pooling::Average, count) => (Some(sum / count as f64), Parts::Value),
+        (Pooling::PlainMean, count) => (Some(sum / count as f64), Parts::Value),
         (Pooling::Max, _) => (Some(max), Parts::Value),
         (Pooling::Sum, _) => (Some(sum), Parts::Value),
     }
@@ -286,14 +287,14 @@ mod tests {
     #[test]
     fn means_pool_sums_and_scores_pool_values() {
         let values = [mean(1.0, 4.0), mean(6.0, 12.0), (None, Parts::Value)];
-        let (value, parts) = pool(Pooling::Mean, values);
+        let (value, parts) = pool(Pooling::WeightedMean, values);
         assert_eq!((value, parts), (Some(7.0 / 16.0), Parts::Mean { sum: 7.0, weight: 16.0 }));
-        assert_eq!(pool(Pooling::Average, values).0, Some(0.375));
+        assert_eq!(pool(Pooling::PlainMean, values).0, Some(0.375));
         assert_eq!(pool(Pooling::Max, values).0, Some(0.5));
         assert_eq!(pool(Pooling::Sum, values).0, Some(0.75));
         assert_eq!(pool(Pooling::None, values).0, None);
         assert_eq!(pool(Pooling::None, [values[0]]).0, Some(0.25), "one alone stays");
-        assert_eq!(pool(Pooling::Mean, []).0, None);
+        assert_eq!(pool(Pooling::WeightedMean, []).0, None);
     }
 
     #[test]

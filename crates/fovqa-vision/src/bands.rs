@@ -194,15 +194,16 @@ impl BandMap {
     }
 }
 
-/// Relative distance of a key from an edge, well above the rounding error of a key. A pixel nearer
-/// to an edge than this is decided by its exact eccentricity.
+/// Relative distance of an ordering tangent from that of an edge, well above the rounding error. A
+/// pixel nearer to an edge than this is decided by its exact eccentricity.
 const NEAR: f64 = 1e-12;
 
 struct EdgeCounter<'a> {
     eccentricity: &'a Eccentricity,
-    keys: Vec<f64>,
-    /// For each number of edges below a key: the open range of keys that have this number and are
-    /// not near any edge.
+    /// The ordering tangents of the edges.
+    edge_tangents: Vec<f64>,
+    /// For each number of edges below a pixel: the open range of ordering tangents that have this
+    /// number and are not near any edge.
     clear: Vec<(f64, f64)>,
     edges_deg: &'a [f64],
     /// Side of the blocks whose band is decided, in pixels; 1 for single pixels.
@@ -211,12 +212,13 @@ struct EdgeCounter<'a> {
 
 impl<'a> EdgeCounter<'a> {
     fn new(eccentricity: &'a Eccentricity, edges: &'a BandEdges, side: usize) -> Self {
-        let keys: Vec<_> = edges.0.iter().map(|&deg| eccentricity.key_of_deg(deg)).collect();
-        let from = keys.iter().map(|edge| edge * (1.0 + 2.0 * NEAR));
-        let to = keys.iter().map(|edge| edge * (1.0 - 2.0 * NEAR));
+        let tangents = edges.0.iter().map(|&deg| eccentricity.ordering_tangent_of_deg(deg));
+        let edge_tangents: Vec<_> = tangents.collect();
+        let from = edge_tangents.iter().map(|edge| edge * (1.0 + 2.0 * NEAR));
+        let to = edge_tangents.iter().map(|edge| edge * (1.0 - 2.0 * NEAR));
         let clear = [f64::NEG_INFINITY].into_iter().chain(from).zip(to.chain([f64::INFINITY]));
         let clear = clear.collect();
-        Self { eccentricity, keys, clear, edges_deg: &edges.0, side_px: side as f64 }
+        Self { eccentricity, edge_tangents, clear, edges_deg: &edges.0, side_px: side as f64 }
     }
 
     fn centre_px(&self, index: usize) -> f64 {
@@ -224,11 +226,12 @@ impl<'a> EdgeCounter<'a> {
     }
 
     /// The number of edges at or below the eccentricity of a point.
-    fn edges_below(&self, key: f64, [x_px, y_px]: [f64; 2]) -> usize {
-        let below = self.keys.partition_point(|edge| *edge <= key);
-        let is_near = |edge: Option<&f64>| edge.is_some_and(|e| (e - key).abs() <= NEAR * key);
-        let near_one_below = below > 0 && is_near(self.keys.get(below - 1));
-        if near_one_below || is_near(self.keys.get(below)) {
+    fn edges_below(&self, tangent: f64, [x_px, y_px]: [f64; 2]) -> usize {
+        let below = self.edge_tangents.partition_point(|edge| *edge <= tangent);
+        let is_near =
+            |edge: Option<&f64>| edge.is_some_and(|e| (e - tangent).abs() <= NEAR * tangent);
+        let near_one_below = below > 0 && is_near(self.edge_tangents.get(below - 1));
+        if near_one_below || is_near(self.edge_tangents.get(below)) {
             let deg = self.eccentricity.at_deg(x_px, y_px);
             return self.edges_deg.partition_point(|edge| *edge <= deg);
         }
@@ -264,12 +267,12 @@ impl<'a> RowRuns<'a> {
     /// found faster if it is `expected`, by a branch that the processor predicts well.
     fn edges_below(&self, x: usize, expected: usize) -> usize {
         let x_px = self.counter.centre_px(x);
-        let key = self.counter.eccentricity.key(x_px, self.y_px);
+        let tangent = self.counter.eccentricity.ordering_tangent(x_px, self.y_px);
         let (from, to) = self.counter.clear[expected];
-        if from < key && key < to {
+        if from < tangent && tangent < to {
             return expected;
         }
-        self.counter.edges_below(key, [x_px, self.y_px])
+        self.counter.edges_below(tangent, [x_px, self.y_px])
     }
 
     /// Finds all runs of the row. Along a row, eccentricity has at most one turning point and is

@@ -107,9 +107,9 @@ impl Eccentricity {
         (cross, dot, lengths)
     }
 
-    /// A number that grows with eccentricity and needs no arc functions: tan(e/2) for angular and
-    /// tan(e) for planar eccentricity.
-    pub(crate) fn key(&self, x_px: f64, y_px: f64) -> f64 {
+    /// A number that increases with eccentricity and is cheap, because it needs no arctangent:
+    /// tan(e/2) for angular and tan(e) for planar eccentricity.
+    pub(crate) fn ordering_tangent(&self, x_px: f64, y_px: f64) -> f64 {
         match self.kind {
             EccentricityKind::Angular => {
                 let (cross, dot, lengths) = self.rays(x_px, y_px);
@@ -123,8 +123,9 @@ impl Eccentricity {
         }
     }
 
-    /// The [`Eccentricity::key`] of an eccentricity in degrees; infinite if no pixel can reach it.
-    pub(crate) fn key_of_deg(&self, deg: f64) -> f64 {
+    /// The [`Eccentricity::ordering_tangent`] of an eccentricity in degrees; infinite if no pixel can
+    /// reach it.
+    pub(crate) fn ordering_tangent_of_deg(&self, deg: f64) -> f64 {
         let (end_deg, angle_deg) = match self.kind {
             EccentricityKind::Angular => (180.0, deg / 2.0),
             EccentricityKind::Planar => (90.0, deg),
@@ -159,9 +160,9 @@ impl Eccentricity {
         let (mut far, mut at) = (f64::NEG_INFINITY, (0.5, 0.5));
         for (x, y) in border {
             let centre = (x as f64 + 0.5, y as f64 + 0.5);
-            let key = self.key(centre.0, centre.1);
-            if key > far {
-                (far, at) = (key, centre);
+            let tangent = self.ordering_tangent(centre.0, centre.1);
+            if tangent > far {
+                (far, at) = (tangent, centre);
             }
         }
         self.at_deg(at.0, at.1)
@@ -225,8 +226,9 @@ fn angular_row(row: RowStretch, [gx, gy]: [f32; 2], out: &mut [f32]) {
         let cross = (dx * dx + dy * dy + z * z).sqrt();
         let dot = 1.0 + rx * gx + ry * gy;
         let lengths = ((1.0 + rx * rx + ry * ry) * g2).sqrt();
-        // Below the axis of a very wide view, lengths and dot nearly cancel. The sum is never 0
-        // exactly, but it can be in f32.
+        // If the rays to the pixel and to the gaze point in nearly opposite directions (very wide
+        // views), dot is close to -lengths, and their sum is close to 0. The exact sum is never 0,
+        // but it can be in f32.
         *out = 2.0 * atan_deg(cross, (lengths + dot).max(f32::MIN_POSITIVE));
     }
 }
@@ -331,7 +333,7 @@ mod tests {
             let (xc, yc) = (x as f64 + 0.5, y as f64 + 0.5);
             let want = literal_deg(&view, [gx, gy], xc, yc);
             prop_assert!((e.at_deg(xc, yc) - want).abs() < 1e-9 * want.max(1.0));
-            prop_assert!((2.0 * e.key(xc, yc).atan().to_degrees() - want).abs() < 1e-9 * want.max(1.0));
+            prop_assert!((2.0 * e.ordering_tangent(xc, yc).atan().to_degrees() - want).abs() < 1e-9 * want.max(1.0));
             for kind in [EccentricityKind::Angular, EccentricityKind::Planar] {
                 let e = Eccentricity::new(view, [gx, gy], kind);
                 let mut row = [0.0; 97];

@@ -41,7 +41,7 @@ fn frame() -> FrameResult {
             let image = Image::ALL[nth % 3];
             let value = Some(values[(index + nth) % values.len()]);
             let parts = match statistic.frames {
-                Pooling::Mean | Pooling::Decibels => parts[1],
+                Pooling::WeightedMean | Pooling::Decibels => parts[1],
                 Pooling::Deviation => parts[2],
                 _ => parts[nth % parts.len()],
             };

@@ -70,7 +70,7 @@ pub enum PairingError {
     },
     /// No frame has a partner.
     #[error("no file of {reference} has a partner in {test}")]
-    Nothing {
+    NoPairs {
         /// The reference argument.
         reference: String,
         /// The test argument.
@@ -80,7 +80,7 @@ pub enum PairingError {
     #[error(
         "the lengths of {reference} and {test} are both unknown, but one of them must be known"
     )]
-    Endless {
+    UnknownLengths {
         /// The reference argument.
         reference: String,
         /// The test argument.
@@ -95,12 +95,12 @@ impl PairingError {
             Self::Unpaired(_) => {
                 "render the missing frames, or score the others with {allow_missing}".to_owned()
             }
-            Self::Nothing { .. } => {
+            Self::NoPairs { .. } => {
                 "frames are paired by the name without its ending, then by the number that changes from \
                  name to name; a pattern such as 'renders/f_%04d.png' selects this number"
                     .to_owned()
             }
-            Self::Endless { .. } => "give a file for one of them".to_owned(),
+            Self::UnknownLengths { .. } => "give a file for one of them".to_owned(),
             Self::Ambiguous { doubt: Doubt::Several { patterns, .. }, .. } => {
                 let patterns: Vec<String> =
                     patterns.iter().map(|pattern| format!("'{pattern}.*'")).collect();
@@ -118,7 +118,7 @@ fn unpaired(alone: &Unpaired) -> String {
         let names: Vec<&str> = files.iter().take(SHOWN).map(|(_, name)| name.as_str()).collect();
         let more = files.len().saturating_sub(SHOWN);
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-        format!("{of} without a {without}: {}{more}", of_one_source(&names))
+        format!("{of} without a {without}: {}{more}", joined_names(&names))
     };
     let mut parts = Vec::new();
     if !alone.reference.is_empty() {
@@ -132,7 +132,7 @@ fn unpaired(alone: &Unpaired) -> String {
 
 /// Names separated by commas. Text that all names share in front of the frame number is written
 /// once.
-fn of_one_source(names: &[&str]) -> String {
+fn joined_names(names: &[&str]) -> String {
     let parts: Option<Vec<(&str, &str)>> =
         names.iter().map(|name| name.rsplit_once(", frame ")).collect();
     match parts.as_deref() {
@@ -148,22 +148,22 @@ fn of_one_source(names: &[&str]) -> String {
 }
 
 /// Pairs the frames of two sources. Two single frames are paired as they are, others by stem and
-/// then by number. The frames of a source without names, such as a video, are counted from the
-/// first frame of the other source on.
+/// then by number. A source without names, such as a video, has only positions. Its first frame is
+/// paired with the first frame of the other source.
 ///
 /// # Errors
 /// When nothing can be paired, or several numbers in the names could be those of the frames.
 pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> {
     let nothing = || {
         let (reference, test) = (reference.argument.clone(), test.argument.clone());
-        PairingError::Nothing { reference, test }
+        PairingError::NoPairs { reference, test }
     };
     match (&reference.frames, &test.frames) {
         (Frames::Counted(length), Frames::Counted(other)) => {
-            let both = match (*length, *other) {
+            let paired_count = match (*length, *other) {
                 (Length::Open, Length::Open) => {
                     let (reference, test) = (reference.argument.clone(), test.argument.clone());
-                    return Err(PairingError::Endless { reference, test });
+                    return Err(PairingError::UnknownLengths { reference, test });
                 }
                 (Length::Open, length) | (length, Length::Open) => known(length),
                 (length, other) => known(length).min(known(other)),
@@ -171,15 +171,16 @@ pub fn pair(reference: &Listing, test: &Listing) -> Result<Pairs, PairingError> 
             let pair = |at: usize| FramePair { number: at as i64, reference: at, test: at };
             // After a damaged frame there may have been any number of further frames.
             let alone = |of: &Listing, length: Length, other: Length| {
-                let count = if let Length::Damaged(_) = other { both } else { known(length) };
-                (both..count).map(|at| (Some(at as i64), of.label(at))).collect()
+                let count =
+                    if let Length::Damaged(_) = other { paired_count } else { known(length) };
+                (paired_count..count).map(|at| (Some(at as i64), of.label(at))).collect()
             };
             let alone = Unpaired {
                 reference: alone(reference, *length, *other),
                 test: alone(test, *other, *length),
             };
             let numbering = Numbering::ByPosition;
-            let pairs: Vec<_> = (0..both).map(pair).collect();
+            let pairs: Vec<_> = (0..paired_count).map(pair).collect();
             if pairs.is_empty() { Err(nothing()) } else { Ok(Pairs { pairs, numbering, alone }) }
         }
         (Frames::Named(names), Frames::Counted(length)) => {
@@ -233,8 +234,9 @@ fn known(length: Length) -> usize {
 type UnpairedNames = Vec<(Option<i64>, String)>;
 
 impl Counted<'_> {
-    /// The pairs, and the frames without a partner: those of the source with names first. A frame
-    /// that is missing among the names has an index in the other source nevertheless.
+    /// The pairs, and the frames without a partner: those of the source with names first. If a
+    /// number is missing among the names, the frame at its position in the other source has no
+    /// partner.
     fn pairs(
         &self,
         pair: impl Fn(i64, usize, usize) -> FramePair,
@@ -243,21 +245,22 @@ impl Counted<'_> {
         let number = |at: usize| self.names[at].number.unwrap_or(at as i64);
         let numbers: BTreeSet<i64> = (0..self.names.len()).map(number).collect();
         let spacing = Spacing::of(&numbers);
-        let places: Vec<usize> =
+        let positions: Vec<usize> =
             (0..self.names.len()).map(|at| spacing.place(number(at))).collect();
         // A stream has all frames that the names ask for, and after a damaged frame there may have
         // been any number.
-        let is_there = |at: &usize| self.length == Length::Open || places[*at] < known(self.length);
+        let is_there =
+            |at: &usize| self.length == Length::Open || positions[*at] < known(self.length);
         let (with, without): (Vec<usize>, Vec<usize>) = (0..self.names.len()).partition(is_there);
         let is_missed = |_: &&usize| !matches!(self.length, Length::Damaged(_));
         let without = without.iter().filter(is_missed);
-        let taken: BTreeSet<usize> = with.iter().map(|at| places[*at]).collect();
+        let taken: BTreeSet<usize> = with.iter().map(|at| positions[*at]).collect();
         let others = (0..known(self.length)).filter(|at| !taken.contains(at));
         let alone = [
             without.map(|at| (Some(number(*at)), self.named.label(*at))).collect(),
             others.map(|at| (spacing.number(at), self.other.label(at))).collect(),
         ];
-        Ok((with.iter().map(|at| pair(number(*at), *at, places[*at])).collect(), alone))
+        Ok((with.iter().map(|at| pair(number(*at), *at, positions[*at])).collect(), alone))
     }
 }
 
@@ -289,7 +292,7 @@ fn by_names(
     }
     if partner.iter().all(Option::is_none) {
         let (reference, test) = (reference.argument.clone(), test.argument.clone());
-        return Err(PairingError::Nothing { reference, test });
+        return Err(PairingError::NoPairs { reference, test });
     }
 
     let numbered = references.iter().all(|entry| entry.number.is_some());
@@ -339,7 +342,7 @@ fn match_by<K: Ord>(
     taken: &mut [bool],
     key: impl Fn(&Entry) -> Option<K>,
 ) {
-    let alone = |files: &[Entry], is_alone: &dyn Fn(usize) -> bool| {
+    let unpaired_by_key = |files: &[Entry], is_alone: &dyn Fn(usize) -> bool| {
         let mut by_key: BTreeMap<K, Vec<usize>> = BTreeMap::new();
         for (index, file) in files.iter().enumerate().filter(|(i, _)| is_alone(*i)) {
             if let Some(key) = key(file) {
@@ -348,8 +351,8 @@ fn match_by<K: Ord>(
         }
         by_key
     };
-    let references = alone(reference, &|i| partner[i].is_none());
-    let tests = alone(test, &|i| !taken[i]);
+    let references = unpaired_by_key(reference, &|i| partner[i].is_none());
+    let tests = unpaired_by_key(test, &|i| !taken[i]);
     for (key, indices) in references {
         if let ([r], Some([t])) = (indices.as_slice(), tests.get(&key).map(Vec::as_slice)) {
             partner[*r] = Some(*t);
@@ -422,7 +425,7 @@ mod tests {
         assert_eq!(counts(&damaged(4), &damaged(5)), (4, 0, 0));
         assert_eq!(counts(&damaged(4), &stream), (4, 0, 0));
         let both = pair(&stream, &stream).unwrap_err();
-        assert!(matches!(both, PairingError::Endless { .. }));
+        assert!(matches!(both, PairingError::UnknownLengths { .. }));
         let long = pair(&video(2), &video(9)).unwrap().alone;
         let said = PairingError::Unpaired(long).to_string();
         assert_eq!(said, "test without a reference frame: v.y4m, frames 2, 3, 4, 5, 6 and 2 more");
@@ -440,7 +443,7 @@ mod tests {
         assert_eq!(alone.test, [file(3, "3.png")]);
         assert!(matches!(
             pair(&listing(&["a.png"]), &listing(&["b.png"])),
-            Err(PairingError::Nothing { .. })
+            Err(PairingError::NoPairs { .. })
         ));
     }
 

@@ -102,17 +102,17 @@ fn acuity(spec: &CurveSpec, model: &AcuityModel, range: CurveRange) -> Result<Cu
 fn shading(
     spec: &CurveSpec,
     method: &Method,
-    screen: &CurveSetting,
+    curve_setting: &CurveSetting,
     range: CurveRange,
 ) -> Result<Curve, CurveError> {
-    let setting = screen.setting()?;
-    let ([x, y], [at_x, at_y]) = (screen.gaze_px, setting.gaze_px());
+    let setting = curve_setting.setting()?;
+    let ([x, y], [at_x, at_y]) = (curve_setting.gaze_px, setting.gaze_px());
     let outside = ((x - at_x).abs() + (y - at_y).abs() > 0.0).then(|| {
         format!("the gaze ({x}, {y}) is outside the frame; ({at_x}, {at_y}) on its border is used")
     });
     let foveation = method.apply(&setting)?;
-    let screen = &CurveSetting { gaze_px: setting.gaze_px(), ..*screen };
-    let direction = Place::polar(0.0, screen.direction_deg).direction;
+    let curve_setting = &CurveSetting { gaze_px: setting.gaze_px(), ..*curve_setting };
+    let direction = Place::polar(0.0, curve_setting.direction_deg).direction;
     let end_px = match foveation.reach() {
         Reach::Any => f64::INFINITY,
         Reach::Border => setting.edge_px(direction),
@@ -120,7 +120,7 @@ fn shading(
     };
     let points: Vec<CurvePoint> = eccentricities_deg(range)
         .map_while(|e| {
-            let scale = scale_at(screen, direction, e)?;
+            let scale = scale_at(curve_setting, direction, e)?;
             // The end belongs to the curve, whichever way its radius is rounded.
             (scale.radius_px <= end_px * (1.0 + 1e-9)).then_some((e, scale))
         })
@@ -128,7 +128,7 @@ fn shading(
         .collect();
     let notes = outside
         .into_iter()
-        .chain(stretched(screen))
+        .chain(stretched(curve_setting))
         .chain(foveation.note())
         .chain(without_points(&points, range))
         .collect();
@@ -136,9 +136,9 @@ fn shading(
 }
 
 /// A note about planar eccentricity with pixels that are not square, if it applies.
-fn stretched(screen: &CurveSetting) -> Option<String> {
-    let [fx, fy] = screen.view.focal_px;
-    let CurveSetting { view, eccentricity, .. } = screen;
+fn stretched(curve_setting: &CurveSetting) -> Option<String> {
+    let [fx, fy] = curve_setting.view.focal_px;
+    let CurveSetting { view, eccentricity, .. } = curve_setting;
     ((fx - fy).abs() > 1e-6 * fx).then(|| {
         let what = match eccentricity {
             EccentricityKind::Planar => {
@@ -162,8 +162,8 @@ fn without_points(points: &[CurvePoint], range: CurveRange) -> Option<String> {
     })
 }
 
-fn scale_at(screen: &CurveSetting, direction: [f64; 2], e: f64) -> Option<PixelScale> {
-    let CurveSetting { view, gaze_px, tangential, eccentricity, .. } = screen;
+fn scale_at(curve_setting: &CurveSetting, direction: [f64; 2], e: f64) -> Option<PixelScale> {
+    let CurveSetting { view, gaze_px, tangential, eccentricity, .. } = curve_setting;
     PixelScale::at(view, *gaze_px, *eccentricity, *tangential, direction, e)
 }
 
@@ -301,8 +301,8 @@ mod tests {
             assert!((found.counts.unwrap().samples * 2.6 * 2.6 - 2_304_000.0).abs() < 1e-6);
         }
         // Points without a finite rate are left out: at the corner itself LaFR's rate is infinite.
-        let kfr = curve(find("lafr", &[]), screen(CENTRE, 0.0, Tangential::Paper));
-        assert!(kfr.points.iter().all(|row| row.radial_cpd.is_finite()));
+        let lafr = curve(find("lafr", &[]), screen(CENTRE, 0.0, Tangential::Paper));
+        assert!(lafr.points.iter().all(|row| row.radial_cpd.is_finite()));
     }
 
     #[test]

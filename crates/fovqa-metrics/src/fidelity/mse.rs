@@ -25,7 +25,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     label: "MSE",
     better: Better::Lower,
     per_band: true,
-    statistics: &[Statistic::VALUE.pooled(Pooling::Mean)],
+    statistics: &[Statistic::VALUE.pooled(Pooling::WeightedMean)],
     map: Some(&MAP),
     about: "mean squared error of the encoded signal, peak 1",
     source: "the squared error of all channels, pooled",

@@ -43,7 +43,9 @@ const MAX_ABS: Statistic =
     Statistic::named("max_abs").pooled(Pooling::Max).over_frames(Pooling::Max);
 
 const fn mean(name: &'static str) -> Statistic {
-    Statistic::named(name).pooled(Pooling::Mean).weighted_by(Weight::Statistic(COEFFICIENTS))
+    Statistic::named(name)
+        .pooled(Pooling::WeightedMean)
+        .weighted_by(Weight::Statistic(COEFFICIENTS))
 }
 
 /// The metric's description.

@@ -32,10 +32,10 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     per_band: true,
     needs: Needs { guides: true, lead_in: LeadIn::Frame, ..Needs::NOTHING },
     statistics: &[
-        Statistic::VALUE.over_eyes(Pooling::Mean),
+        Statistic::VALUE.over_eyes(Pooling::WeightedMean),
         Statistic::named("left_out")
-            .pooled(Pooling::Mean)
-            .over_frames(Pooling::Mean)
+            .pooled(Pooling::WeightedMean)
+            .over_frames(Pooling::WeightedMean)
             .without_ratio(),
     ],
     about: "average temporal difference of luma along the motion, of reference and test, and their ratio",

@@ -143,8 +143,8 @@ fn entry_px(lines: &[String]) -> f64 {
     KEY_PX + KEY_GAP_PX + widest_px(lines, TICK_PX)
 }
 
-/// The left sides of the entries of each row. Entries are aligned in columns, unless a long name
-/// would make many more rows than filling each row separately does.
+/// The left sides of the entries of each row. Entries are aligned in columns if that needs no more
+/// rows than filling each row separately; otherwise each row is filled separately.
 fn rows(widths: &[f64], limit_px: f64) -> Vec<Vec<f64>> {
     let filled = filled_rows(widths, limit_px);
     let count = widths.len();

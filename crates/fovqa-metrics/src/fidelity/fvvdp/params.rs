@@ -20,12 +20,12 @@ const STATISTICS: [Statistic; 6] = [
     // A share of the Q of both eyes together, or of all frames together.
     Statistic::named("share")
         .over_bands(Pooling::Sum)
-        .over_eyes(Pooling::Mean)
-        .over_frames(Pooling::Mean)
+        .over_eyes(Pooling::WeightedMean)
+        .over_frames(Pooling::WeightedMean)
         .pointing(Better::Neither),
     Statistic::named("share_outside_bands")
-        .over_eyes(Pooling::Mean)
-        .over_frames(Pooling::Mean)
+        .over_eyes(Pooling::WeightedMean)
+        .over_frames(Pooling::WeightedMean)
         .of_bands()
         .without_row(),
 ];

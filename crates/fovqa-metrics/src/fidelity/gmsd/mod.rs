@@ -45,7 +45,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
             .weighted_by(Weight::Moments { count: MAP_PIXELS, mean: MAP_MEAN }),
         Statistic::count(MAP_PIXELS),
         Statistic::named(MAP_MEAN)
-            .pooled(Pooling::Mean)
+            .pooled(Pooling::WeightedMean)
             .weighted_by(Weight::Statistic(MAP_PIXELS))
             .pointing(Better::Higher),
     ],

@@ -40,7 +40,9 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     label: "SSIM",
     per_band: true,
     statistics: &[
-        Statistic::VALUE.over_bands(Pooling::Mean).weighted_by(Weight::Statistic(MAP_PIXELS)),
+        Statistic::VALUE
+            .over_bands(Pooling::WeightedMean)
+            .weighted_by(Weight::Statistic(MAP_PIXELS)),
         Statistic::count(MAP_PIXELS),
     ],
     map: Some(&MAP),
