@@ -66,7 +66,8 @@ fn journal(bytes: &[u8]) {
     fs::write(shard.join("journal.jsonl"), bytes).expect("a journal");
     let shards: [PathBuf; 1] = [shard];
     if let Ok(finished) = merge(&shards, &merged, Locking::Unlocked, &Silent) {
-        FinishedRun::read(&finished.folder).expect("what was merged can be read");
+        // With the right checksums a forged journal may hold any values, also such as no run gives.
+        let _ = FinishedRun::read(&finished.folder);
     }
 }
 
