@@ -111,7 +111,7 @@ fn budgets_are_met_before_rounding() {
     assert_eq!(error, "stable has no parameter that a budget could set");
     let mut spec = EmulationSpec::new("cps").unwrap();
     spec.set_budget(Budget { share: 0.001, of: BudgetSamples::Buffer }).unwrap();
-    assert!(said(Emulator::new(&spec, SIZE, Some(&view()), GAZE)).contains("it reaches from"));
+    assert!(said(Emulator::new(&spec, SIZE, Some(&view()), GAZE)).contains("allows"));
 }
 
 #[test]
