@@ -16,8 +16,8 @@ pub(crate) fn whole(message: String, help: String) -> Failure {
 }
 
 /// The results of a whole run.
-pub fn results(plan: &Plan, events: &dyn Events, findings: Findings) -> RunResults {
-    let inputs = findings.inputs.all();
+pub fn results(plan: &Plan, events: &dyn Events, mut findings: Findings) -> RunResults {
+    let inputs = std::mem::take(&mut findings.inputs).into_all();
     RunResults { comparisons: in_order(plan, events, reports(plan, findings)), inputs }
 }
 

@@ -37,6 +37,12 @@ impl Inputs {
         self.0.iter().map(|(path, id)| input((path.as_str(), id))).collect()
     }
 
+    /// All files as inputs, ordered by path, without copies: a long sequence has many.
+    pub(crate) fn into_all(self) -> Vec<Input> {
+        let input = |(path, InputId { bytes, sha256 })| Input { path, bytes, sha256 };
+        self.0.into_iter().map(input).collect()
+    }
+
     /// Describes what has changed, by name. `known` contains the files that the names stand for;
     /// names that are not UTF-8 do not identify a file by themselves.
     pub(crate) fn changes(&self, plan: &Plan, known: &BTreeMap<String, Origin>) -> Vec<String> {
@@ -79,6 +85,7 @@ mod tests {
         assert!(inputs.add("b", &id).is_none());
         let paths: Vec<String> = inputs.all().into_iter().map(|input| input.path).collect();
         assert_eq!(paths, ["a", "b"]);
+        assert_eq!(inputs.clone().into_all(), inputs.all());
     }
 
     #[test]
