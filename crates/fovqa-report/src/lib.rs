@@ -6,6 +6,7 @@ mod draw;
 mod figures;
 mod frame_values;
 mod index;
+mod long_lines;
 mod overview;
 mod page;
 mod sheet;

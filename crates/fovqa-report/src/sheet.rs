@@ -14,6 +14,8 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::long_lines::for_picture;
+
 /// Folder of the figures.
 pub(crate) const PLOTS: &str = "plots";
 /// Name and version of the format of [`REPORT_JSON`].
@@ -147,7 +149,7 @@ pub fn clear(folder: &Path) {
 fn write_figure(plots: &Path, figure: &NamedFigure, names: CsvNames) -> Result<(), ReportError> {
     let NamedFigure { name, figure, .. } = figure;
     let failed = |error| ReportError::Plot { name: name.clone(), error };
-    let svg = figure.svg().map_err(failed)?;
+    let svg = for_picture(figure).svg().map_err(failed)?;
     let pixels = png(&svg, PNG_SCALE).map_err(failed)?;
     let data = names.in_csv(figure.csv());
     for (ending, bytes) in [("svg", svg.as_bytes()), ("png", &pixels), ("csv", data.as_bytes())] {
