@@ -155,12 +155,26 @@ impl Findings {
 
     /// Records all findings again, in the order of a run.
     pub(crate) fn record(&self, plan: &Plan, record: &mut Record<'_>) -> Result<(), EngineError> {
+        self.record_inputs(plan, record)?;
+        self.record_views(plan, record)
+    }
+
+    /// Takes down what belongs to no frame.
+    pub(crate) fn record_inputs(
+        &self,
+        plan: &Plan,
+        record: &mut Record<'_>,
+    ) -> Result<(), EngineError> {
         for (place, failure) in &self.problems {
             record(Entry::Problem(Named::of(plan, *place), failure))?;
         }
         for input in self.inputs.all() {
             record(Entry::Input(&input))?;
         }
+        Ok(())
+    }
+
+    fn record_views(&self, plan: &Plan, record: &mut Record<'_>) -> Result<(), EngineError> {
         for (&(scene, eye), view) in &self.views {
             for (method, failure) in &view.before {
                 record(Entry::Before(Named::of(plan, (scene, *method, eye)), failure))?;

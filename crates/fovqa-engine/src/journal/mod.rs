@@ -6,6 +6,7 @@
 
 mod header;
 mod number;
+mod order;
 mod read;
 mod records;
 mod seal;

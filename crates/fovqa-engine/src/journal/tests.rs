@@ -193,6 +193,22 @@ fn what_is_finished_stands_in_one_order() {
         };
         let whole = finish(&Findings::default(), &findings);
         assert_eq!(finish(&findings, &findings), whole);
+        // Line by line, the inputs last; the views in their order, and the other way round.
+        let views = findings.views.clone().into_iter();
+        let mut parts: Vec<Findings> = views
+            .map(|view| Findings { views: [view].into(), ..Findings::default() })
+            .chain([Findings { views: BTreeMap::new(), ..findings.clone() }])
+            .collect();
+        for _ in 0..2 {
+            let mut journal =
+                Journal::begin(folder.path(), &header, &plan, &Findings::default()).unwrap();
+            for part in &parts {
+                part.record(&plan, &mut |entry| journal.write(entry)).unwrap();
+            }
+            journal.finish(&header, &plan, &findings).unwrap();
+            assert!(std::fs::read(folder.path().join(JOURNAL)).unwrap() == whole);
+            parts.reverse();
+        }
         let said = read_text(folder.path()).said(&plan);
         assert_eq!((said.done, said.torn), (shard.is_some(), false));
         assert_eq!(said.findings, findings);

@@ -1,7 +1,8 @@
 //! Writes a journal.
 
 use std::fs::File;
-use std::io::Write;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -13,6 +14,7 @@ use serde_json::json;
 
 use super::JOURNAL;
 use super::header::Header;
+use super::order::Order;
 use super::records::{ErrorRecord, FrameRecord, KeysRecord, SettledRecord};
 use super::seal::sealed;
 use crate::error::EngineError;
@@ -24,6 +26,7 @@ pub struct Journal {
     path: PathBuf,
     file: File,
     lines: Lines,
+    order: Order,
     /// When the bytes were last flushed to the disk.
     synced: Instant,
 }
@@ -47,9 +50,9 @@ impl Journal {
     ) -> Result<Self, EngineError> {
         let path = folder.join(JOURNAL);
         let failed = |error| EngineError::Journal { path: path.clone(), error };
-        let lines = write_in_order(&path, header, plan, known, Stage::Begun)?;
-        let file = File::options().append(true).open(&path).map_err(failed)?;
-        Ok(Self { path, file, lines, synced: Instant::now() })
+        let (lines, order) = write_in_order(&path, header, plan, known, Stage::Begun)?;
+        let file = File::options().read(true).append(true).open(&path).map_err(failed)?;
+        Ok(Self { path, file, lines, order, synced: Instant::now() })
     }
 
     /// Records an entry.
@@ -59,6 +62,7 @@ impl Journal {
     pub fn write(&mut self, entry: Entry<'_>) -> Result<(), EngineError> {
         let line = self.lines.of(entry);
         self.append(&line)?;
+        self.order.add(&entry, line.len());
         if matches!(entry, Entry::Pair(_)) && self.synced.elapsed() >= BETWEEN_SYNCS {
             self.sync();
         }
@@ -84,7 +88,15 @@ impl Journal {
         plan: &Plan,
         findings: &Findings,
     ) -> Result<(), EngineError> {
-        write_in_order(&self.path, header, plan, findings, Stage::Finished).map(|_| ())
+        let Some(ranges) = self.order.ranges_of(own_pairs(header, plan, findings)) else {
+            return write_in_order(&self.path, header, plan, findings, Stage::Finished).map(|_| ());
+        };
+        // The lines are in order already: copying them is faster than making them again.
+        replace(&self.path, header, Stage::Finished, |out| {
+            let mut lines = Lines::default();
+            findings.record_inputs(plan, &mut |entry| to(out, &lines.of(entry)))?;
+            ranges.iter().try_for_each(|range| copy(&self.file, range, out)).map_err(write_error)
+        })
     }
 
     fn append(&mut self, line: &[u8]) -> Result<(), EngineError> {
@@ -113,7 +125,7 @@ fn write_in_order(
     plan: &Plan,
     findings: &Findings,
     stage: Stage,
-) -> Result<Lines, EngineError> {
+) -> Result<(Lines, Order), EngineError> {
     let shares = header.shares();
     let has = |entry: &Entry<'_>| match entry {
         // A source that continues after its last pair is an error that belongs to no pair.
@@ -123,28 +135,73 @@ fn write_in_order(
         }
         _ => true,
     };
-    let failed = |error| EngineError::Journal { path: path.to_owned(), error };
-    let mut lines = Lines::default();
+    let (mut lines, mut order) = (Lines::default(), Order::new(plan, line(header).len()));
+    replace(path, header, stage, |out| {
+        findings.record(plan, &mut |entry| {
+            if !has(&entry) {
+                return Ok(());
+            }
+            let line = lines.of(entry);
+            order.add(&entry, line.len());
+            to(out, &line)
+        })
+    })?;
+    Ok((lines, order))
+}
+
+/// How many pairs were found of those that a header has.
+fn own_pairs(header: &Header, plan: &Plan, findings: &Findings) -> usize {
+    let shares = header.shares();
+    let views = findings.views.iter().filter_map(|(&(scene, eye), view)| {
+        let scene = &plan.scenes[scene];
+        let share = shares.get(&(scene.name.as_str(), scene.eyes[eye].eye))?;
+        Some(view.pairs.range(share.clone()).count())
+    });
+    views.sum()
+}
+
+/// Puts a journal in the place of another: its first line, then what `write` writes.
+fn replace(
+    path: &Path,
+    header: &Header,
+    stage: Stage,
+    write: impl FnOnce(&mut dyn Write) -> Result<(), EngineError>,
+) -> Result<(), EngineError> {
     let written = write_whole_with(path, |out| {
         out.write_all(&line(header))?;
-        let written = findings.record(plan, &mut |entry| {
-            let written = if has(&entry) { out.write_all(&lines.of(entry)) } else { Ok(()) };
-            written.map_err(|error| EngineError::Journal { path: PathBuf::new(), error })
-        });
-        written.map_err(|error| match error {
+        write(out).map_err(|error| match error {
             EngineError::Journal { error, .. } => error,
-            other => std::io::Error::other(other),
+            other => io::Error::other(other),
         })?;
         match (stage, header.shard) {
             (Stage::Finished, Some(_)) => out.write_all(&line(&json!({ "done": true }))),
             _ => Ok(()),
         }
     });
+    let failed = |error| EngineError::Journal { path: path.to_owned(), error };
     written.map_err(|error| match error {
         FileError::Write { error, .. } | FileError::Read { error, .. } => failed(error),
-        FileError::Format { detail, .. } => failed(std::io::Error::other(detail)),
-    })?;
-    Ok(lines)
+        FileError::Format { detail, .. } => failed(io::Error::other(detail)),
+    })
+}
+
+fn to(out: &mut dyn Write, line: &[u8]) -> Result<(), EngineError> {
+    out.write_all(line).map_err(write_error)
+}
+
+/// The error of a journal, without its path, which the caller knows.
+fn write_error(error: io::Error) -> EngineError {
+    EngineError::Journal { path: PathBuf::new(), error }
+}
+
+/// Copies a part of a file.
+fn copy(mut file: &File, range: &Range<u64>, out: &mut dyn Write) -> io::Result<()> {
+    file.seek(SeekFrom::Start(range.start))?;
+    let length = range.end - range.start;
+    match io::copy(&mut file.take(length), out)? {
+        copied if copied == length => Ok(()),
+        _ => Err(io::ErrorKind::UnexpectedEof.into()),
+    }
 }
 
 /// The lines of a journal after the first, as text.
