@@ -36,7 +36,7 @@ pub(super) fn vafr() -> Vec<PageRow> {
     [buffer(), table_1(), savings(), retinal()].concat()
 }
 
-fn over(resolution: [usize; 2], params: &Params) -> Vafr {
+fn applied(resolution: [usize; 2], params: &Params) -> Vafr {
     possible(Vafr::new(params, &centred(resolution, 110.0)))
 }
 
@@ -46,7 +46,7 @@ fn with_knot(last_cpd: f64, cap_cpd: Option<f64>) -> Vafr {
         *last = last_cpd;
     }
     params.piecewise.cap_cpd = cap_cpd;
-    over(RESOLUTIONS[0].1, &params)
+    applied(RESOLUTIONS[0].1, &params)
 }
 
 fn samples(last_cpd: f64, cap_cpd: Option<f64>) -> f64 {
@@ -120,7 +120,7 @@ fn table_1() -> Vec<PageRow> {
     let cells =
         RESOLUTIONS.iter().zip(REPROJECTED).zip(printed).map(|((resolution, s), printed)| {
             let params = Params { reprojected_share: Some(s), ..Params::default() };
-            let thousands = over(resolution.1, &params).counts().samples / 1000.0;
+            let thousands = applied(resolution.1, &params).counts().samples / 1000.0;
             Cell::new(resolution.0, Printed::truncated(printed), thousands, 1)
         });
     let what = "thousands, VaFR_Rep";

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::fovqa::{Folder, root};
+use crate::runs::experiment_folder::{json, two_scenes};
 
 fn crafted() -> Folder {
     let folder = Folder::new();
@@ -99,4 +100,17 @@ fn names_of_experiments_are_no_commands() {
         folder.write("e.toml", text(scene, method, rule));
         folder.run(&["check", "e.toml"]).fails(2, &["cannot begin with ::, which is a command"]);
     }
+}
+
+/// The page links to the tables that run.json records.
+#[test]
+fn names_of_recorded_files_do_not_reach_the_page() {
+    let folder = two_scenes();
+    folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    let mut record = json(&folder, "out/run.json");
+    record["files"]["results.\"><script>alert(1)</script>"] = "0".into();
+    folder.write("out/run.json", record.to_string());
+    folder.run(&["report", "out"]).ok();
+    let page = fs::read_to_string(folder.path("out/index.html")).unwrap();
+    assert!(page.contains("href=\"results.csv\"") && !page.contains("<script>alert"), "{page}");
 }

@@ -115,6 +115,19 @@ fn is_refused_when_it_was_changed_or_is_damaged() {
     folder.run(&["gate", "out"]).fails(3, &["results.parquet"]);
 }
 
+/// A table beside the recorded one would be read in its place.
+#[test]
+fn a_table_that_the_run_did_not_write_is_refused() {
+    let folder = with_tables("[\"parquet\"]");
+    folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    let other = with_tables("[\"csv\"]");
+    other.run(&["run", "e.toml", "--output", "out"]).ok();
+    folder.write("out/results.csv", fs::read(other.path("out/results.csv")).unwrap());
+    for command in [["report", "out"], ["gate", "out"]] {
+        folder.run(&command).fails(3, &["results.csv", "run.json has no checksum of it"]);
+    }
+}
+
 #[test]
 fn a_run_without_it_takes_an_old_one_away() {
     let folder = with_tables("[\"csv\", \"parquet\"]");

@@ -6,7 +6,7 @@ use crate::rounded::rounded;
 use crate::sampling::Sampling;
 use crate::separable::Axis;
 
-/// One axis of a layer of a method that maps its axes separately: its ideal size rounded, and its
+/// One axis of a layer, for methods that map the two axes separately: its rounded size, and its
 /// coordinates stretched so that the ends are met.
 pub(crate) fn layer_axis(
     mapped: &impl Mapping,

@@ -9,7 +9,7 @@ pub(crate) fn place(setting: &Setting, distance_px: f64, direction: [f64; 2]) ->
     [0, 1].map(|i| gaze_px[i] + distance_px * direction[i])
 }
 
-/// Whether a place stands in [0, W) x [0, H).
+/// Whether a position is inside the frame, [0, W) x [0, H).
 #[inline]
 pub(crate) fn in_frame(setting: &Setting, at_px: [f64; 2]) -> bool {
     let size_px = setting.size_px();

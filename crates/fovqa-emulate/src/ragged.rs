@@ -82,7 +82,7 @@ impl Ragged {
         [self.columns.len(), longest.unwrap_or_default()]
     }
 
-    /// Samples that stand in the frame.
+    /// Number of samples inside the frame.
     pub(crate) fn on_screen(&self) -> usize {
         let of_column = |column: &Column| {
             let places = directions(column.rows).take(column.rows);

@@ -1,6 +1,6 @@
 //! Ideal sizes of buffers and whole ones.
 
-/// Samples along an axis of an ideal size: `[ideal + 0.5]`, at least 1.
+/// Number of samples along an axis: the ideal size, rounded (`[ideal + 0.5]`), and at least 1.
 pub(crate) fn rounded(ideal: f64) -> usize {
     ((ideal + 0.5).floor() as usize).max(1)
 }

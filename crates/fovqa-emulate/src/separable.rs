@@ -7,7 +7,7 @@ use crate::fetch::{Tap, lerp, mean16};
 use crate::image::Image;
 use crate::sampling::Sampling;
 
-/// One axis of a buffer and of the frame.
+/// The mapping along one axis, between the buffer and the frame.
 #[derive(Debug, Clone)]
 pub(crate) struct Axis {
     /// Where samples stand on the frame, in pixels.

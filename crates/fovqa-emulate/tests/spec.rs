@@ -1,4 +1,4 @@
-//! What can be asked for, and what is said where it cannot be had.
+//! Specifications of emulations, and the errors of impossible ones.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use fovqa_results::{RESULTS_CSV, RunRecord};
+use fovqa_results::{RESULTS_CSV, RESULTS_PARQUET, RunRecord};
 
 use crate::comparison::ComparisonTable;
 use crate::overview::Overview;
@@ -200,8 +200,9 @@ pub(crate) fn escaped(text: &str) -> String {
 
 /// Links to the files with all values.
 fn table_links(run: &RunRecord) -> String {
-    let tables = run.files.keys().map(String::as_str).filter(|name| name.starts_with("results."));
-    let mut tables: Vec<&str> = tables.collect();
+    // A record that somebody edited may have any names: only those of fovqa become links.
+    let mut tables = vec![RESULTS_CSV, RESULTS_PARQUET];
+    tables.retain(|name| run.files.contains_key(*name));
     if tables.is_empty() {
         // Earlier versions wrote this file without recording the formats.
         tables.push(RESULTS_CSV);

@@ -9,6 +9,7 @@ use fovqa_io::{id_of, open_regular_file};
 
 use crate::files::{FileError, RESULTS_CSV, RESULTS_PARQUET, SUMMARY_JSON};
 use crate::json::RunRecord;
+use crate::table::table_file;
 
 /// SHA-256 of each file of a run, in hexadecimal digits, by its name.
 pub type Checksums = BTreeMap<String, String>;
@@ -53,6 +54,16 @@ pub fn check_files(folder: &Path, record: &RunRecord) -> Result<Option<String>, 
             "{folder}: an earlier version of fovqa wrote it without checksums, so later changes to its files \
              cannot be detected"
         )));
+    }
+    // Readers take this table. If the run did not write it, nothing vouches for its values.
+    let table = table_file(folder);
+    let name = table.file_name().unwrap_or_default().to_string_lossy();
+    if !record.files.contains_key(&*name) {
+        return Err(FileError::Format {
+            path: table,
+            expected: "a file of this run",
+            detail: "run.json has no checksum of it".to_owned(),
+        });
     }
     let found = checksums(folder)?;
     let changed =
