@@ -68,6 +68,24 @@ impl Emulator {
         })
     }
 
+    /// Checks an emulation without preparing it: cheap enough to be done for every method before any
+    /// frame is read.
+    ///
+    /// # Errors
+    /// See [`Self::new`].
+    pub fn check(
+        spec: &EmulationSpec,
+        size: [usize; 2],
+        view: Option<&View>,
+        gaze_px: [f64; 2],
+    ) -> Result<(), EmulateError> {
+        let setting = setting(spec, size, view, gaze_px)?;
+        if let Emulated::Foveation(method) = &spec.solved(&setting)?.0.method {
+            method.apply(&setting)?;
+        }
+        Ok(())
+    }
+
     /// How many samples each frame stands for.
     pub fn counts(&self) -> &Counts {
         &self.counts
@@ -88,7 +106,7 @@ impl Emulator {
     /// # Errors
     /// When the picture has another size.
     pub fn emulate(&self, picture: &Picture) -> Result<Picture, EmulateError> {
-        self.check("a picture", [picture.width(), picture.height()])?;
+        self.fits("a picture", [picture.width(), picture.height()])?;
         Ok(match picture {
             Picture::Gray(image) => Picture::Gray(self.enhanced(self.method(image))),
             Picture::Rgb(image) => Picture::Rgb(self.enhanced(self.method(image))),
@@ -108,9 +126,9 @@ impl Emulator {
         history: &mut History,
     ) -> Result<Picture, EmulateError> {
         let Some(params) = &self.temporal else { return self.emulate(picture) };
-        self.check("a picture", [picture.width(), picture.height()])?;
+        self.fits("a picture", [picture.width(), picture.height()])?;
         if let Some(motion) = motion {
-            self.check("motion", [motion.width(), motion.height()])?;
+            self.fits("motion", [motion.width(), motion.height()])?;
         }
         let last = history.last.take();
         let last_rates = std::mem::replace(&mut history.rates, self.rates.clone());
@@ -147,14 +165,14 @@ impl Emulator {
     /// # Errors
     /// When the picture has another size.
     pub fn buffers(&self, picture: &Picture) -> Result<Vec<Picture>, EmulateError> {
-        self.check("a picture", [picture.width(), picture.height()])?;
+        self.fits("a picture", [picture.width(), picture.height()])?;
         Ok(match picture {
             Picture::Gray(image) => self.buffers_of(image).into_iter().map(Picture::Gray).collect(),
             Picture::Rgb(image) => self.buffers_of(image).into_iter().map(Picture::Rgb).collect(),
         })
     }
 
-    fn check(&self, what: &'static str, found: [usize; 2]) -> Result<(), EmulateError> {
+    fn fits(&self, what: &'static str, found: [usize; 2]) -> Result<(), EmulateError> {
         let expected = self.size;
         if found == expected { Ok(()) } else { Err(EmulateError::Size { what, found, expected }) }
     }

@@ -65,3 +65,19 @@ pub enum EmulateError {
     #[error(transparent)]
     Budget(#[from] BudgetError),
 }
+
+impl EmulateError {
+    /// How to correct it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::UnknownMethod { .. } | Self::Param(_) | Self::Method(_) => {
+                "`fovqa list methods` shows all methods with their parameters"
+            }
+            Self::NoFilter { .. } => "leave the filter out, or choose one that the method has",
+            Self::NoView { .. } => "give {view}",
+            Self::OutOfRange { .. } => "give a number in this range",
+            Self::Size { .. } => "all frames of a sequence must have the same size",
+            Self::Budget(_) => "choose another share, or other parameters",
+        }
+    }
+}

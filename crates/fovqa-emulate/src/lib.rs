@@ -76,6 +76,7 @@ mod turn;
 mod vafr;
 mod visual_polar;
 mod write_frame;
+mod written;
 
 pub use budget::BudgetReport;
 pub use counts::Counts;

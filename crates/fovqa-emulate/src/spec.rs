@@ -61,11 +61,6 @@ impl EmulationSpec {
         Ok(Self::of(found))
     }
 
-    /// A method of `fovqa-methods` with its parameters as they are.
-    pub fn of_method(method: Method) -> Self {
-        Self::of(Emulated::Foveation(method))
-    }
-
     fn of(method: Emulated) -> Self {
         let mut enhancement = SandboxParams::default();
         if let Emulated::Foveation(Method::Cps(params)) = &method {
@@ -184,6 +179,36 @@ impl EmulationSpec {
     /// Turns the temporal filter on; the method `taa` has it on always.
     pub fn set_temporal(&mut self, on: bool) {
         self.temporal = on || self.method == Emulated::Taa;
+    }
+
+    /// How samples read the frame.
+    pub fn sampling(&self) -> Sampling {
+        self.sampling
+    }
+
+    /// The values the method runs on.
+    pub fn space(&self) -> Space {
+        self.space
+    }
+
+    /// Which filters of the method are on.
+    pub fn filters(&self) -> FilterChoice {
+        self.filters
+    }
+
+    /// The strength of enhancement, if it is on.
+    pub fn enhance(&self) -> Option<f64> {
+        self.enhance
+    }
+
+    /// The budget, if there is one.
+    pub fn budget(&self) -> Option<Budget> {
+        self.budget
+    }
+
+    /// What was set by name, in the order of names.
+    pub fn set_by_name(&self) -> &BTreeMap<String, ParamValue> {
+        &self.set
     }
 
     /// Whether the temporal filter is on.

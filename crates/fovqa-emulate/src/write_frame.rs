@@ -57,6 +57,41 @@ impl Picture {
         Ok(self.frame(Samples::F32(self.planes(light))))
     }
 
+    /// The same, but a sample that emulation has left as it was in `before`, the picture of `frame`,
+    /// keeps the value of the frame: highlights beyond the range of the tone map are not cut where a
+    /// method shows the frame itself.
+    ///
+    /// # Errors
+    /// When the tone map has no inverse (`aces`).
+    ///
+    /// # Panics
+    /// When the pictures and the frame differ in size or channels.
+    pub fn to_linear_from(
+        &self,
+        signal: &SignalParams,
+        before: &Picture,
+        frame: &Frame,
+    ) -> Result<Frame, WriteFrameError> {
+        let linear = self.to_linear(signal)?;
+        let Samples::F32(mut samples) = linear.samples().clone() else {
+            unreachable!("linear light is in floats")
+        };
+        let (width, height) = (self.width(), self.height());
+        assert_eq!((before.width(), before.height()), (width, height), "the picture of the frame");
+        let channels = self.channels().count();
+        let [now, then] = [self.values(), before.values()];
+        samples.par_chunks_mut(width).enumerate().for_each(|(line, row)| {
+            let (c, y) = (line / height, line % height);
+            for (x, sample) in row.iter_mut().enumerate() {
+                let at = (y * width + x) * channels + c;
+                if now[at].to_bits() == then[at].to_bits() {
+                    *sample = frame.sample(c, x, y);
+                }
+            }
+        });
+        Ok(self.frame(Samples::F32(samples)))
+    }
+
     fn each<T: Send>(&self, out: &mut [T], of: impl Fn(f32) -> T + Sync) {
         out.par_chunks_mut(TASK).zip(self.values().par_chunks(TASK)).for_each(|(out, values)| {
             for (out, &value) in out.iter_mut().zip(values) {

@@ -137,3 +137,28 @@ fn history_begins_with_the_first_frame() {
     let small = Picture::from_frame(&small, &SignalTables::new(SignalParams::default()));
     assert_eq!(said(emulator.emulate(&small)), "a picture of 2x2 in an emulation of 320x240");
 }
+
+#[test]
+fn a_spec_is_written_and_read_again() {
+    let mut spec = EmulationSpec::new("kfr").unwrap();
+    spec.set("sigma", &ParamValue::Number(0.1 + 2.0)).unwrap();
+    spec.set("filter.factor", &ParamValue::Number(0.7)).unwrap();
+    spec.set("taa.k", &ParamValue::Number(2.0)).unwrap();
+    spec.set_filters(FilterChoice::Buffer).unwrap();
+    spec.set_sampling(fovqa_emulate::Sampling::Area);
+    spec.set_space(fovqa_emulate::Space::Linear);
+    spec.set_temporal(true);
+    spec.set_enhance(0.5).unwrap();
+    spec.set_budget(Budget { share: 0.2, of: BudgetSamples::OnScreen }).unwrap();
+    let json = serde_json::to_string(&spec).unwrap();
+    assert_eq!(serde_json::from_str::<EmulationSpec>(&json).unwrap(), spec, "{json}");
+    for info in EmulationSpec::methods() {
+        let spec = EmulationSpec::new(info.key).unwrap();
+        let json = serde_json::to_string(&spec).unwrap();
+        assert_eq!(serde_json::from_str::<EmulationSpec>(&json).unwrap(), spec, "{json}");
+    }
+    for (from, to) in [("kfr", "foo"), ("sigma", "tau"), ("\"buffer\"", "\"none\",\"x\":1")] {
+        let wrong = json.replacen(from, to, 1);
+        assert!(serde_json::from_str::<EmulationSpec>(&wrong).is_err(), "{wrong}");
+    }
+}

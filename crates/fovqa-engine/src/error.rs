@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use fovqa_emulate::EmulateError;
 use fovqa_frame::source::{Doubt, SourceError};
 use fovqa_io::sequence::{ListingError, PairingError};
 use fovqa_io::{OpenError, ReadError};
@@ -30,6 +31,20 @@ pub enum EngineError {
     NotGiven {
         /// The name of the source in the plan.
         name: String,
+    },
+    /// A reference that is emulated.
+    #[error("only tests can be emulated, not the reference")]
+    EmulatedReference,
+    /// A method that cannot be emulated as the plan says.
+    #[error(transparent)]
+    Emulate(#[from] EmulateError),
+    /// The temporal filter of an emulated method needs the frames in their order.
+    #[error(
+        "with this fvvdp.temp_padding, FovVideoVDP begins with later frames, but the temporal filter of {method} needs the frames in their order"
+    )]
+    LooksAhead {
+        /// The model of the method.
+        method: &'static str,
     },
     /// A selection that contains no frame.
     #[error("the selection contains no frame; the frames are {first} to {last}")]
@@ -173,6 +188,9 @@ impl EngineError {
     pub fn is_usage(&self) -> bool {
         match self {
             Self::View(_)
+            | Self::Emulate(_)
+            | Self::EmulatedReference
+            | Self::LooksAhead { .. }
             | Self::NotGiven { .. }
             | Self::NoView { .. }
             | Self::NoLuminance { .. }
@@ -206,6 +224,11 @@ impl EngineError {
                     .to_owned()
             }
             Self::NotGiven { .. } => "give a source with this name together with the plan".to_owned(),
+            Self::Emulate(error) => error.help().to_owned(),
+            Self::EmulatedReference => "give files as the reference".to_owned(),
+            Self::LooksAhead { .. } => {
+                "leave fvvdp.temp_padding at replicate, or leave the temporal filter out".to_owned()
+            }
             Self::NoFrames { .. } => {
                 "{frames} selects by number, from A up to, but not including, B".to_owned()
             }

@@ -7,14 +7,18 @@ use fovqa_frame::source::{Source, SourceError};
 use fovqa_io::sequence::{FramePair, PairingError, Pairs, Spacing, pair};
 use fovqa_metrics::Metric;
 use fovqa_metrics::fvvdp::Padding;
-use fovqa_plan::{Plan, Scene};
+use fovqa_plan::{Emulation, EyeView, Plan, Scene};
+use fovqa_vision::GazeAt;
 
+use crate::emulated_tests::fixed_gaze;
 use crate::error::EngineError;
 use crate::find_gaze::gaze;
 use crate::found::{FoundInputs, FoundView, Problem, is_wanted};
 use crate::found_frame::{FoundFrame, GuideFrames};
+use crate::foveator;
 use crate::remarks::remarks;
 use crate::sources::{Given, Opener};
+use crate::test_source::TestSource;
 use crate::timing::timings;
 use crate::view_sources::ViewSources;
 
@@ -43,7 +47,7 @@ pub fn find(plan: &Plan, given: &Given) -> FoundInputs {
             for (method, test) in &view.tests {
                 let paired = opener
                     .test(*method, test)
-                    .and_then(|test| Ok((pair(reference.listing(), test.listing())?, test)));
+                    .and_then(|test| Ok((partners(&*reference, &test)?, test)));
                 match paired {
                     Ok((mut pairs, test)) => {
                         tests.insert(*method, test);
@@ -66,6 +70,7 @@ pub fn find(plan: &Plan, given: &Given) -> FoundInputs {
             if pairings.is_empty() {
                 continue;
             }
+            let mut problems = Vec::new();
             let numbering = pairings[0].1.numbering.clone();
             let spacing = Spacing::of(&numbers);
             match select(plan, scene, merge(pairings, &spacing)).and_then(|mut frames| {
@@ -75,7 +80,9 @@ pub fn find(plan: &Plan, given: &Given) -> FoundInputs {
                 let fps = scene.fps.or_else(|| sources.all().find_map(Source::fps));
                 let (trace, of_gaze) = gaze(plan, view, fps, &frames)?;
                 remarks.extend(of_gaze);
-                let view = FoundView {
+                let impossible = emulations(view, &sources, &frames, trace.as_deref());
+                problems.extend(impossible.into_iter().map(|(m, error)| problem(Some(m), error)));
+                let found_view = FoundView {
                     scene: scene_index,
                     eye,
                     sources,
@@ -86,25 +93,63 @@ pub fn find(plan: &Plan, given: &Given) -> FoundInputs {
                     remarks,
                 };
                 if plan.metrics.metrics().contains(&Metric::Fvvdp) {
-                    timings(&view, view.fps, &plan.params.fvvdp)?;
-                    refuse_streams(plan, &view)?;
+                    timings(&found_view, found_view.fps, &plan.params.fvvdp)?;
+                    refuse_streams(plan, &found_view)?;
                 }
-                Ok(view)
+                Ok(found_view)
             }) {
                 Ok(view) => found.views.push(view),
                 Err(error) => found.problems.push(problem(None, error)),
             }
+            found.problems.append(&mut problems);
         }
         number_alike(&mut found.views, scene_index);
     }
     found
 }
 
-/// Refuses streams if FovVideoVDP needs later frames to begin a sequence.
+/// Pairs the tests of a method with their references.
+fn partners(reference: &dyn Source, test: &TestSource) -> Result<Pairs, PairingError> {
+    let reference = reference.listing();
+    pair(reference, test.read().map_or(reference, Source::listing))
+}
+
+/// The emulated methods that are not possible for the frames that were found, as far as that can be
+/// known before a frame is read.
+fn emulations(
+    eye: &EyeView,
+    sources: &ViewSources,
+    frames: &[FoundFrame],
+    trace: Option<&[GazeAt]>,
+) -> Vec<(usize, EngineError)> {
+    // A frame whose size cannot be found out becomes an error when it is read.
+    let size = || {
+        Some(match eye.settings.crop {
+            Some(crop) => [crop.width, crop.height],
+            None => <[usize; 2]>::from(sources.reference.size(frames.first()?.reference).ok()?),
+        })
+    };
+    let mut emulations = sources.emulations().peekable();
+    let Some(size) = emulations.peek().and_then(|_| size()) else { return Vec::new() };
+    let gaze_px = trace.and_then(|trace| Some(trace.first()?.px)).or(fixed_gaze(eye));
+    let view = eye.settings.view.as_ref();
+    let fault = |(method, emulation): (usize, &Emulation)| {
+        let error = foveator::check(&emulation.spec, view, size, gaze_px).err()?;
+        Some((method, error))
+    };
+    emulations.filter_map(fault).collect()
+}
+
+/// Refuses streams and temporal filters if FovVideoVDP needs later frames to begin a sequence.
 fn refuse_streams(plan: &Plan, view: &FoundView) -> Result<(), EngineError> {
     let mut streams = view.sources.all().filter(|source| source.is_read_once());
     let looks_ahead = plan.params.fvvdp.temp_padding != Padding::Replicate;
-    match streams.next().filter(|_| looks_ahead && view.frames.len() > 1) {
+    let looks_ahead = looks_ahead && view.frames.len() > 1;
+    let temporal = |(_, emulation): &(usize, &Emulation)| emulation.spec.is_temporal();
+    if let Some((_, emulation)) = view.sources.emulations().find(temporal).filter(|_| looks_ahead) {
+        return Err(EngineError::LooksAhead { method: emulation.spec.key() });
+    }
+    match streams.next().filter(|_| looks_ahead) {
         None => Ok(()),
         Some(stream) => {
             let message = format!(

@@ -1,5 +1,6 @@
 //! Loads frames from sources, and checks whether pairs of them may be compared.
 
+use fovqa_emulate::Counts;
 use fovqa_frame::source::{InputId, MissingGuides, Source, SourceError};
 use fovqa_frame::{BadPixel, CropError, Frame, Guides, Mask, Motion, Plane, Transfer};
 use fovqa_plan::{Nonfinite, Settings};
@@ -85,7 +86,8 @@ pub(crate) struct Step<'a> {
 /// The frames that a step has loaded.
 pub(crate) struct Loaded {
     pub(crate) reference: Option<Result<Side, LoadError>>,
-    pub(crate) test: Result<Side, LoadError>,
+    /// The test; `None` if it is emulated from the reference.
+    pub(crate) test: Option<Result<Side, LoadError>>,
 }
 
 impl Loaded {
@@ -95,7 +97,7 @@ impl Loaded {
             Ok(side) => side.frame.bytes() + side.guides.bytes(),
             Err(_) => 0,
         };
-        self.reference.as_ref().map_or(0, bytes) + bytes(&self.test)
+        [&self.reference, &self.test].into_iter().flatten().map(bytes).sum()
     }
 }
 
@@ -111,11 +113,37 @@ pub(crate) struct Side {
     pub(crate) notes: Vec<String>,
     /// Width of a pixel divided by its height, as the file declares it.
     pub(crate) pixel_aspect: f32,
+    /// What an emulated frame stands for.
+    pub(crate) counts: Option<Counts>,
     bad: Option<BadPixel>,
     missing: MissingGuides,
 }
 
 impl Side {
+    /// A test that was emulated.
+    pub(crate) fn emulated(file: String, frame: Frame, pixel_aspect: f32, counts: Counts) -> Self {
+        Self {
+            file,
+            frame,
+            guides: Guides::default(),
+            ids: Vec::new(),
+            notes: Vec::new(),
+            pixel_aspect,
+            counts: Some(counts),
+            bad: None,
+            missing: MissingGuides::default(),
+        }
+    }
+
+    /// Checks that a frame from which others are emulated has no bad pixel.
+    pub(crate) fn finite(&self) -> Result<(), Fault> {
+        let Some(bad) = self.bad else { return Ok(()) };
+        let error = LoadError::Nonfinite { file: self.file.clone(), bad };
+        let help =
+            "correct the render: an emulated method would spread such pixels over their neighbours";
+        Err(Fault { message: error.to_string(), help: help.to_owned() })
+    }
+
     pub(crate) fn size(&self) -> (usize, usize) {
         (self.frame.width(), self.frame.height())
     }
@@ -156,7 +184,7 @@ pub(crate) fn comparable(
 pub(crate) struct Loader<'a> {
     pub(crate) settings: &'a Settings,
     pub(crate) sources: &'a ViewSources,
-    /// Whether any metric uses motion and depth.
+    /// Whether any metric or temporal filter uses motion and depth.
     pub(crate) guides: bool,
 }
 
@@ -172,18 +200,33 @@ impl Loader<'_> {
         let first = step.frame == 0;
         let (reference, test) = rayon::join(
             || step.reference.then(|| self.reference(step.found, first)),
-            || self.side(self.sources.test(step.method), step.test, self.guides),
+            || {
+                let source = self.sources.test(step.method).read()?;
+                Some(self.side(source, step.test, self.guides))
+            },
         );
         Loaded { reference, test }
     }
 
-    /// Loads the frames of a pair alone, for code that looks ahead in a sequence.
-    pub(crate) fn pair(&self, frame: &FoundFrame, method: usize) -> Result<[Frame; 2], Fault> {
+    /// Loads the frames of a pair alone, for code that looks ahead in a sequence. A test that is
+    /// not read is `emulated` from the reference.
+    pub(crate) fn pair(
+        &self,
+        frame: &FoundFrame,
+        method: usize,
+        emulated: impl FnOnce(&Frame) -> Result<Frame, Fault>,
+    ) -> Result<[Frame; 2], Fault> {
+        let Some(source) = self.sources.test(method).read() else {
+            let reference = self.side(&*self.sources.reference, frame.reference, false)?;
+            reference.finite()?;
+            let test = emulated(&reference.frame)?;
+            return Ok([reference.frame, test]);
+        };
         let test = frame.tests.iter().find(|(m, _)| *m == method).map(|(_, test)| *test);
         let Some(test) = test else { unreachable!("the frame is of the method's sequence") };
         let (reference, test) = rayon::join(
             || self.side(&*self.sources.reference, frame.reference, false),
-            || self.side(self.sources.test(method), test, false),
+            || self.side(source, test, false),
         );
         let (reference, test) = (reference?, test?);
         comparable(&reference, &test, Nonfinite::Error)?;
@@ -279,6 +322,7 @@ impl Loader<'_> {
         }
         let bad = frame.bad_pixel();
         let (ids, pixel_aspect, missing) = (picture.inputs, picture.pixel_aspect, picture.missing);
-        Ok(Side { file, frame, guides, ids, notes, pixel_aspect, bad, missing })
+        let counts = None;
+        Ok(Side { file, frame, guides, ids, notes, pixel_aspect, counts, bad, missing })
     }
 }

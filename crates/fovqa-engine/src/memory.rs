@@ -11,6 +11,7 @@
 //! | FovVideoVDP of several methods | 16/3 n, and 32/3 n for each channel of the reference |
 //! | FovVideoVDP's pyramids | 5/4 n for each channel of reference and test: two levels at a time |
 //! | ATD | luma, 4 n for each of this frame and the one before, for the reference and for each method |
+//! | emulation | 24 n for the picture of the reference and that of a test, and 12 n for each temporal filter |
 //! | maps | 7 n for the values and the image of each map; GMSD has a quarter of the pixels |
 //! | MS-SSIM | 3 n for the second level of both images |
 //!
@@ -42,6 +43,8 @@ struct Amount<'a> {
     window: u64,
     /// Whether maps are requested.
     maps: bool,
+    /// Number of emulated methods, and of those with a temporal filter.
+    emulated: [u64; 2],
 }
 
 impl Amount<'_> {
@@ -68,8 +71,11 @@ impl Amount<'_> {
         let maps: BTreeMap<&str, u64> =
             maps.map(|map| (map.name, pixels / (map.block * map.block) * 7)).collect();
         let maps = if self.maps { maps.into_values().sum() } else { 0 };
+        let [emulated, filtered] = self.emulated;
+        let emulation = if emulated > 0 { planes(6 + 3 * filtered) } else { 0 };
         Needed(vec![
             ("decoded frames", decoded),
+            ("emulation", emulation),
             ("maps", maps),
             (FVVDP, fvvdp),
             ("ATD", atd),
@@ -119,6 +125,10 @@ pub(crate) fn check(
         metrics,
         window: windows.max().unwrap_or(1) as u64,
         maps: plan.maps,
+        emulated: [
+            view.sources.emulations().count() as u64,
+            view.sources.emulations().filter(|(_, of)| of.spec.is_temporal()).count() as u64,
+        ],
     };
     let needed = amount.needed();
     match available_bytes() {
@@ -149,6 +159,7 @@ mod tests {
             metrics,
             window: 23,
             maps: false,
+            emulated: [0; 2],
         }
     }
 
@@ -189,6 +200,8 @@ mod tests {
         assert_eq!(maps - of(&metrics), 14, "MSE and PSNR have one map");
         let crop = Amount { pixels: [RETINAL, 1000], ..amount(&[Metric::Fvvdp]) }.needed();
         assert!(crop.bytes() < RETINAL * 12 + 1_000_000, "{crop}");
+        let emulated = Amount { emulated: [5, 1], ..amount(&metrics) }.needed().bytes() / RETINAL;
+        assert_eq!(emulated - of(&metrics), 24 + 12, "one test at a time, and one history");
         let several = Amount { methods: 3, ..amount(&[Metric::Fvvdp]) }.needed();
         assert!(several.bytes() > 2 * 13_000_000_000 && several.is_of_fvvdp(), "{several}");
     }

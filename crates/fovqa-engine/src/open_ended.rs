@@ -84,7 +84,8 @@ impl<'a> OpenEnded<'a> {
     fn failure(&self, frame: Option<i64>, message: String) -> Failure {
         let name = |source: &dyn Source| source.listing().argument.clone();
         let sources = &self.view.sources;
-        let test = sources.tests.values().next().map(|test| name(&**test));
+        let listing = sources.reference.listing();
+        let test = sources.tests.values().next().map(|test| test.argument(listing));
         let (reference, test) = (name(&*sources.reference), test.unwrap_or_default());
         Failure { frame, reference, test, message, help: HELP.to_owned() }
     }
@@ -93,7 +94,7 @@ impl<'a> OpenEnded<'a> {
 impl Loaded {
     /// The errors that sources returned in place of a frame.
     fn errors(&self) -> impl Iterator<Item = &SourceError> {
-        let sides = self.reference.iter().chain([&self.test]);
+        let sides = self.reference.iter().chain(&self.test);
         sides.filter_map(|side| match side {
             Err(LoadError::Read(error)) => Some(error),
             _ => None,

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use fovqa_frame::source::Origin;
 use fovqa_metrics::{LeadIn, Metric, Needs};
-use fovqa_plan::{Eye, Gaze, Plan};
+use fovqa_plan::{Emulation, Eye, Gaze, Plan};
 
 use crate::error::EngineError;
 use crate::findings::{Findings, ViewFindings};
@@ -191,7 +191,9 @@ fn of_view(
         return Ok(ViewFindings::default());
     }
     let fvvdp = metrics.contains(&Metric::Fvvdp);
-    if Needs::of(&metrics).lead_in > LeadIn::None {
+    let temporal = |(_, emulation): (usize, &Emulation)| emulation.spec.is_temporal();
+    let filtered = view.sources.emulations().any(temporal);
+    if Needs::of(&metrics).lead_in > LeadIn::None || filtered {
         let timings = timings(view, view.fps, &plan.params.fvvdp);
         let timings = timings.unwrap_or_default();
         let good = |index: &usize| {

@@ -1,7 +1,7 @@
 //! Turns the frames of a plan into findings, in one pass over the files of each view for all
 //! methods and metrics.
 
-use fovqa_plan::Plan;
+use fovqa_plan::{Plan, SourceSpec};
 use fovqa_results::RunResults;
 
 use crate::assemble::{results, whole};
@@ -18,7 +18,17 @@ use crate::unit::{Unit, units};
 /// The first error that is found.
 pub fn check(plan: &Plan) -> Result<(), EngineError> {
     let mut views = plan.scenes.iter().flat_map(|scene| &scene.eyes);
-    views.try_for_each(|view| crate::settle::metrics(plan, &view.settings).map(|_| ()))
+    views.try_for_each(|view| {
+        crate::settle::metrics(plan, &view.settings)?;
+        let angles = |(_, test): &(usize, SourceSpec)| match test {
+            SourceSpec::Emulated(emulation) => emulation.spec.needs_view(),
+            SourceSpec::Files(_) | SourceSpec::Given(_) => None,
+        };
+        match view.tests.iter().find_map(angles).filter(|_| view.settings.view.is_none()) {
+            Some(what) => Err(EngineError::NoView { what: format!("emulating {what}") }),
+            None => Ok(()),
+        }
+    })
 }
 
 /// Scores every frame that was found. Items that cannot be scored become failures of their

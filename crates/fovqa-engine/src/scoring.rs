@@ -6,7 +6,7 @@ use fovqa_frame::Mask;
 use fovqa_frame::source::InputId;
 use fovqa_io::{id_of_file, read_mask};
 use fovqa_metrics::{Metric, Needs};
-use fovqa_plan::{EyeView, Gaze, Plan, Scene};
+use fovqa_plan::{Emulation, EyeView, Gaze, Plan, Scene};
 use fovqa_vision::{BandEdges, GazeAt};
 
 use crate::assemble::whole;
@@ -50,7 +50,7 @@ impl Recorder<'_, '_, '_> {
 
     /// Records the files that were read for a step.
     fn inputs_of(&mut self, loaded: &Loaded) -> Result<(), EngineError> {
-        let sides = loaded.reference.iter().chain([&loaded.test]).flatten();
+        let sides = loaded.reference.iter().chain(&loaded.test).flatten();
         let mut ids = sides.flat_map(|side| &side.ids);
         ids.try_for_each(|(file, id)| self.input(file, id))
     }
@@ -90,7 +90,8 @@ impl<'a> Scoring<'a> {
         if work.todo.is_empty() && known.settled.is_some() {
             return Ok(known);
         }
-        let guides = Needs::of(&metrics).guides;
+        let temporal = |(_, emulation): (usize, &Emulation)| emulation.spec.is_temporal();
+        let guides = Needs::of(&metrics).guides || self.view.sources.emulations().any(temporal);
         let loader = Loader { settings: &eye.settings, sources: &self.view.sources, guides };
         let sequence = (self.bands, self.view.fps);
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
@@ -117,7 +118,7 @@ impl<'a> Scoring<'a> {
         let mut frame = None;
         for index in 0..work.first() {
             let (kept, step) = (kept.contains(&index), work.step(index, frame));
-            if !kept && !run.wants(&step, work) {
+            if !kept && !run.wants(&step, work) && !run.leads(&step, work) {
                 continue;
             }
             frame = Some(step.frame);

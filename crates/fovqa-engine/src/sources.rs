@@ -14,6 +14,7 @@ use fovqa_plan::{EyeView, Plan, SourceSpec};
 
 use crate::error::EngineError;
 use crate::found_frame::{FoundFrame, GuideFrames};
+use crate::test_source::TestSource;
 
 /// Sources that a plan names but does not contain ([`SourceSpec::Given`]), by their names.
 pub type Given = BTreeMap<String, Arc<dyn Source>>;
@@ -32,13 +33,13 @@ impl Opener<'_> {
     }
 
     /// Opens the tests of a method.
-    pub(crate) fn test(
-        &self,
-        method: usize,
-        spec: &SourceSpec,
-    ) -> Result<Arc<dyn Source>, EngineError> {
+    pub(crate) fn test(&self, method: usize, spec: &SourceSpec) -> Result<TestSource, EngineError> {
+        if let SourceSpec::Emulated(emulation) = spec {
+            return Ok(TestSource::Emulated(Arc::new((**emulation).clone())));
+        }
         let own = self.view.test_layers.get(&method).map(String::as_str);
-        self.open(spec, own.or(self.view.settings.read.layer.as_deref()))
+        let source = self.open(spec, own.or(self.view.settings.read.layer.as_deref()))?;
+        Ok(TestSource::Read(source))
     }
 
     fn open(&self, spec: &SourceSpec, layer: Option<&str>) -> Result<Arc<dyn Source>, EngineError> {
@@ -53,6 +54,7 @@ impl Opener<'_> {
                 let source = self.given.get(name);
                 source.cloned().ok_or_else(|| EngineError::NotGiven { name: name.clone() })
             }
+            SourceSpec::Emulated(_) => Err(EngineError::EmulatedReference),
         }
     }
 
@@ -77,7 +79,7 @@ impl Opener<'_> {
         wanted
     }
 
-    /// Opens the files of motion and depth, if there are any and a metric uses them, and finds
+    /// Opens the files of motion and depth, if there are any and a metric or a temporal filter uses them, and finds
     /// those that belong to each reference. A frame may have none: whether that is an error depends
     /// on the whole sequence.
     pub(crate) fn guides(
@@ -85,7 +87,12 @@ impl Opener<'_> {
         reference: &dyn Source,
         frames: &mut [FoundFrame],
     ) -> Result<[Option<Arc<dyn Source>>; 2], EngineError> {
-        if !self.plan.metrics.metrics().contains(&Metric::Atd) {
+        let filters = |(_, test): &(usize, SourceSpec)| match test {
+            SourceSpec::Emulated(emulation) => emulation.spec.is_temporal(),
+            SourceSpec::Files(_) | SourceSpec::Given(_) => false,
+        };
+        let wanted = self.plan.metrics.metrics().contains(&Metric::Atd);
+        if !wanted && !self.view.tests.iter().any(filters) {
             return Ok([None, None]);
         }
         let settings = &self.view.settings;

@@ -3,12 +3,14 @@
 
 use std::collections::BTreeSet;
 
-use fovqa_frame::{Mask, SignalTables};
-use fovqa_metrics::{Key, Layouts, Map, Metric, MetricKind, Rows};
+use fovqa_emulate::Counts;
+use fovqa_frame::{Frame, Mask, SignalTables};
+use fovqa_metrics::{Image, Key, Layouts, Map, Metric, MetricKind, Needs, Rows, Subject};
 use fovqa_plan::{EyeView, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::BandEdges;
 
+use crate::emulated_tests::EmulatedTests;
 use crate::events::Warnings;
 use crate::found::FoundView;
 use crate::load::{Fault, Loaded, Loader, Side, Step, comparable};
@@ -29,6 +31,7 @@ pub(crate) struct ViewRun<'a> {
     /// The reference of the present frame.
     reference: Option<Result<Side, Fault>>,
     meters: Meters,
+    emulated: EmulatedTests,
     layouts: Layouts,
     loader: &'a Loader<'a>,
     /// Position of the reference's frame.
@@ -55,6 +58,7 @@ impl<'a> ViewRun<'a> {
             setup: None,
             reference: None,
             meters: Meters::new(plan, &eye.settings, &metrics, view, fps),
+            emulated: EmulatedTests::new(view, eye, Needs::of(&metrics).luminance),
             layouts: Layouts::default(),
             metrics,
             loader,
@@ -75,6 +79,12 @@ impl<'a> ViewRun<'a> {
         self.setup.is_none() || (is_lacking && !work.todo.is_empty())
     }
 
+    /// Whether the temporal filter of an emulated method, of which pairs are to be scored, needs a
+    /// pair before them.
+    pub(crate) fn leads(&self, step: &Step<'_>, work: &Work<'_>) -> bool {
+        self.view.sources.is_temporal(step.method) && work.is_of(step.method)
+    }
+
     /// Processes a pair without scoring it. If `kept` is true, the data that later pairs need are
     /// kept.
     pub(crate) fn take_in(
@@ -84,7 +94,7 @@ impl<'a> ViewRun<'a> {
         kept: bool,
         warnings: &mut Warnings<'_>,
     ) -> Result<(), Failure> {
-        self.take(step, loaded, |run, reference, test| {
+        self.take(step, loaded, warnings, |run, reference, test, warnings| {
             let finite = run.enter(step, reference, test, warnings)?;
             if !kept {
                 return Ok(());
@@ -128,7 +138,7 @@ impl<'a> ViewRun<'a> {
         loaded: Loaded,
         warnings: &mut Warnings<'_>,
     ) -> Result<(FrameResult, Vec<Map>), Failure> {
-        self.take(step, loaded, |run, reference, test| {
+        self.take(step, loaded, warnings, |run, reference, test, warnings| {
             let finite = run.enter(step, reference, test, warnings)?;
             run.score(step, (reference, test), finite.as_ref(), warnings)
         })
@@ -139,12 +149,14 @@ impl<'a> ViewRun<'a> {
         &mut self,
         step: &Step<'_>,
         loaded: Loaded,
-        with: impl FnOnce(&mut Self, &Side, &Side) -> Result<T, Fault>,
+        warnings: &mut Warnings<'_>,
+        with: impl FnOnce(&mut Self, &Side, &Side, &mut Warnings<'_>) -> Result<T, Fault>,
     ) -> Result<T, Failure> {
         if let Some(reference) = loaded.reference {
             if let Some(Ok(old)) = &self.reference {
                 self.meters.leave(old, self.position);
             }
+            self.emulated.leave();
             self.position = self.view.frames[step.frame].position;
             self.reference = Some(reference.map_err(Fault::from));
         }
@@ -152,7 +164,11 @@ impl<'a> ViewRun<'a> {
         let result = match &reference {
             Some(Err(fault)) => Err(fault.clone()),
             Some(Ok(reference)) => {
-                loaded.test.map_err(Fault::from).and_then(|test| with(self, reference, &test))
+                let test = match loaded.test {
+                    Some(test) => test.map_err(Fault::from),
+                    None => self.emulated.next(step, reference, self.view, &self.tables, warnings),
+                };
+                test.and_then(|test| with(self, reference, &test, warnings))
             }
             None => unreachable!("the first test of a frame brings its reference"),
         };
@@ -162,7 +178,7 @@ impl<'a> ViewRun<'a> {
             Failure {
                 frame: Some(frame.number),
                 reference: self.view.sources.reference.listing().name(frame.reference).to_owned(),
-                test: self.view.sources.test(step.method).listing().name(step.test).to_owned(),
+                test: self.view.sources.test_name(step.method, step.test),
                 message,
                 help,
             }
@@ -243,7 +259,10 @@ impl<'a> ViewRun<'a> {
         }
         let Measured { rows, maps } =
             self.with_pair(step, (reference, test), gaze_px, finite, |meters, pair| {
-                let measured = meters.measure(pair, warnings)?;
+                let mut measured = meters.measure(pair, warnings)?;
+                if let Some(counts) = &test.counts {
+                    add_samples(counts, pair.setup.size, &mut measured.rows);
+                }
                 warn_of_left_out(&pair.setup.metrics, &measured.rows, frame.number, warnings);
                 Ok(measured)
             })?;
@@ -273,6 +292,7 @@ impl<'a> ViewRun<'a> {
         show: impl FnOnce(&mut Meters, &Pair<'_>) -> Result<T, Fault>,
     ) -> Result<T, Fault> {
         let (view, loader) = (self.view, self.loader);
+        let (emulated, tables) = (&self.emulated, &self.tables);
         let Some(setup) = &mut self.setup else { unreachable!("it has just been settled") };
         if let Some(gaze_px) = gaze_px {
             setup.look_at(gaze_px);
@@ -293,15 +313,32 @@ impl<'a> ViewRun<'a> {
             reference,
             test,
             gaze_px: gaze_px.or(setup.view.as_ref().map(|v| v.gaze_px)).unwrap_or_default(),
-            tables: &self.tables,
+            tables,
             setup,
             retina: &retina,
             regions: &regions,
             blocks: &blocks,
             finite,
-            load: &|frame, method| loader.pair(&view.frames[frame], method),
+            load: &|frame, method| {
+                let alone =
+                    |reference: &Frame| emulated.alone(method, frame, reference, view, tables);
+                loader.pair(&view.frames[frame], method, alone)
+            },
         };
         show(&mut self.meters, &pair)
+    }
+}
+
+/// Adds the samples that an emulated test stands for.
+fn add_samples(counts: &Counts, (width, height): (usize, usize), rows: &mut Rows) {
+    let values = [
+        (Subject::Samples, counts.samples),
+        (Subject::SamplesOnScreen, counts.samples_on_screen),
+        (Subject::SamplesBeyond, counts.samples_beyond),
+        (Subject::SamplesShare, counts.share((width * height) as f64)),
+    ];
+    for (subject, value) in values {
+        rows.score(Key::pixels(subject).of_image(Image::Test), value);
     }
 }
 

@@ -6,8 +6,10 @@ use std::sync::Arc;
 use fovqa_frame::source::Source;
 #[cfg(test)]
 use fovqa_frame::source::{Length, Listing, Origin, Picture, PictureGuides, SourceError};
+use fovqa_plan::Emulation;
 
 use crate::found_frame::FoundFrame;
+use crate::test_source::TestSource;
 
 /// The sources that the frames of a view come from.
 #[derive(Debug, Clone)]
@@ -15,7 +17,7 @@ pub struct ViewSources {
     /// The reference.
     pub reference: Arc<dyn Source>,
     /// The tests, by the index of their method.
-    pub tests: BTreeMap<usize, Arc<dyn Source>>,
+    pub tests: BTreeMap<usize, TestSource>,
     /// The motion, if it has files of its own.
     pub motion: Option<Arc<dyn Source>>,
     /// The depth, if it has files of its own.
@@ -24,25 +26,45 @@ pub struct ViewSources {
 
 impl ViewSources {
     /// The source of a method's tests.
-    pub(crate) fn test(&self, method: usize) -> &dyn Source {
+    pub(crate) fn test(&self, method: usize) -> &TestSource {
         let Some(source) = self.tests.get(&method) else {
             unreachable!("a frame with a test has its source")
         };
-        &**source
+        source
     }
 
-    /// All sources of the view.
+    /// The name of a method's test in results.
+    pub(crate) fn test_name(&self, method: usize, test: usize) -> String {
+        self.test(method).name(self.reference.listing(), test)
+    }
+
+    /// The emulated methods, by their indices.
+    pub(crate) fn emulations(&self) -> impl Iterator<Item = (usize, &Emulation)> {
+        self.tests.iter().filter_map(|(method, test)| Some((*method, test.emulation()?)))
+    }
+
+    /// Whether a method's temporal filter needs the frames before each frame.
+    pub(crate) fn is_temporal(&self, method: usize) -> bool {
+        self.tests
+            .get(&method)
+            .and_then(TestSource::emulation)
+            .is_some_and(|emulation| emulation.spec.is_temporal())
+    }
+
+    /// All sources of the view that are read.
     pub fn all(&self) -> impl Iterator<Item = &dyn Source> {
-        let guides = self.motion.iter().chain(&self.depth);
-        [&self.reference].into_iter().chain(self.tests.values()).chain(guides).map(|s| &**s)
+        let guides = self.motion.iter().chain(&self.depth).map(|source| &**source);
+        let tests = self.tests.values().filter_map(TestSource::read);
+        [&*self.reference].into_iter().chain(tests).chain(guides)
     }
 
-    /// The indices of a frame in all sources that it comes from.
+    /// The indices of a frame in all sources that are read for it.
     pub fn of_frame<'a>(
         &'a self,
         frame: &'a FoundFrame,
     ) -> impl Iterator<Item = (&'a dyn Source, usize)> {
-        let tests = frame.tests.iter().map(|(method, test)| (self.test(*method), *test));
+        let read = |(method, test): &(usize, usize)| Some((self.test(*method).read()?, *test));
+        let tests = frame.tests.iter().filter_map(read);
         let motion = self.motion.iter().zip(frame.guides.motion);
         let depth = self.depth.iter().zip(frame.guides.depth);
         let guides = motion.chain(depth).map(|(source, at)| (&**source, at));

@@ -94,6 +94,11 @@ impl Statistic {
         of.pooled(Pooling::Sum).over_frames(Pooling::Sum)
     }
 
+    /// A score of the test alone, which has no ratio.
+    pub(crate) const fn of_test(name: &'static str) -> Self {
+        Self { has_ratio: false, ..Self::named(name) }
+    }
+
     /// Sets the pooling over bands and eyes.
     pub(crate) const fn pooled(self, pooling: Pooling) -> Self {
         Self { bands: pooling, eyes: pooling, ..self }

@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 
 use crate::kinds::MetricKind;
 use crate::metric::Metric;
-use crate::pooling::{Parts, Statistic};
+use crate::pooling::{Parts, Pooling, Statistic};
 
 /// What a value measures, without its eye and frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,6 +33,14 @@ pub enum Subject {
     PixelsOutsideBands,
     /// The number of pixels that a mask leaves out.
     PixelsLeftOut,
+    /// The number of samples that an emulated method shades within its own field.
+    Samples,
+    /// The number of its samples whose position is in the frame.
+    SamplesOnScreen,
+    /// The number of samples that it shades beyond its own field.
+    SamplesBeyond,
+    /// All of its samples over the pixels of the frame.
+    SamplesShare,
     /// A metric.
     Metric(Metric),
 }
@@ -74,9 +82,22 @@ impl Image {
 /// The statistic of pixel counts.
 const PIXELS: Statistic = Statistic::count("");
 
+/// The statistic of sample counts. They are not whole numbers for methods with a continuous rate.
+const SAMPLES: Statistic = Statistic::of_test("").over_eyes(Pooling::Sum);
+
+/// The statistic of the share of samples.
+const SHARE: Statistic = Statistic::of_test("");
+
 impl Subject {
-    const COUNTS: [Subject; 3] =
-        [Subject::Pixels, Subject::PixelsOutsideBands, Subject::PixelsLeftOut];
+    const COUNTS: [Subject; 7] = [
+        Subject::Pixels,
+        Subject::PixelsOutsideBands,
+        Subject::PixelsLeftOut,
+        Subject::Samples,
+        Subject::SamplesOnScreen,
+        Subject::SamplesBeyond,
+        Subject::SamplesShare,
+    ];
 
     /// Its name in results.
     pub fn name(self) -> &'static str {
@@ -84,6 +105,10 @@ impl Subject {
             Subject::Pixels => "pixels",
             Subject::PixelsOutsideBands => "pixels_outside_bands",
             Subject::PixelsLeftOut => "pixels_left_out",
+            Subject::Samples => "samples",
+            Subject::SamplesOnScreen => "samples_on_screen",
+            Subject::SamplesBeyond => "samples_beyond",
+            Subject::SamplesShare => "samples_share",
             Subject::Metric(metric) => metric.key(),
         }
     }
@@ -98,7 +123,9 @@ impl Subject {
     fn statistics(self) -> &'static [Statistic] {
         match self {
             Subject::Metric(metric) => metric.info().statistics,
-            _ => &[PIXELS],
+            Subject::Pixels | Subject::PixelsOutsideBands | Subject::PixelsLeftOut => &[PIXELS],
+            Subject::Samples | Subject::SamplesOnScreen | Subject::SamplesBeyond => &[SAMPLES],
+            Subject::SamplesShare => &[SHARE],
         }
     }
 
@@ -153,7 +180,7 @@ impl Key {
         Self { image, ..self }
     }
 
-    /// The metric; `None` for a number of pixels.
+    /// The metric; `None` for a number of pixels or samples.
     pub fn metric(&self) -> Option<Metric> {
         self.subject.metric()
     }
@@ -177,7 +204,11 @@ impl Key {
             Subject::Pixels => (0, false),
             Subject::PixelsOutsideBands => (1, true),
             Subject::PixelsLeftOut => (2, true),
-            Subject::Metric(metric) => (3 + metric as u64, false),
+            Subject::Samples => (3, true),
+            Subject::SamplesOnScreen => (4, true),
+            Subject::SamplesBeyond => (5, true),
+            Subject::SamplesShare => (6, true),
+            Subject::Metric(metric) => (7 + metric as u64, false),
         };
         let area = match (self.band, self.level) {
             (None, _) if counted => 1,
@@ -189,7 +220,7 @@ impl Key {
         let statistic = self.statistic();
         let kind = match () {
             () if self.subject == Subject::Pixels => 0,
-            () if statistic.is_count => 1,
+            () if statistic.is_count || counted => 1,
             () if of_picture => 4,
             () if statistic.name.is_empty() => 2,
             () => 3,

@@ -7,6 +7,7 @@
 //! itself.
 
 mod curves;
+mod emulation;
 mod experiment;
 mod gates;
 mod output;
@@ -20,6 +21,7 @@ pub use curves::{
     CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, CurvesFile, PanelOf, RateKind,
     RateUnit,
 };
+pub use emulation::{Emulation, emulation_keys};
 pub use experiment::Experiment;
 pub use gates::{Aggregate, Allowance, GateRule, Quantity, better};
 pub use output::{OutputSettings, TableFormat};

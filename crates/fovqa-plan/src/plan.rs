@@ -117,6 +117,7 @@ impl Plan {
         match source {
             SourceSpec::Files(path) => self.shown(path),
             SourceSpec::Given(name) => name.clone(),
+            SourceSpec::Emulated(emulation) => format!("emulated {}", emulation.spec.key()),
         }
     }
 }

@@ -10,11 +10,13 @@ use fovqa_vision::{Eotf, Luminance, ViewSpec};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use crate::emulation::emulation_keys;
 use crate::experiment::Experiment;
 use crate::gates::GateRule;
 use crate::plan::{Eye, EyeView, MetricChoice, Plan};
 use crate::plots::Plot;
 use crate::settings::{Gaze, Settings};
+use crate::source::SourceSpec;
 
 /// A resolved experiment. Paths are relative to the folder of its file if they are inside it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -67,8 +69,11 @@ pub struct ResolvedEye {
     pub eye: Option<Eye>,
     /// The reference.
     pub reference: String,
-    /// The tests, by the name of the method.
+    /// The tests that are read, by the name of the method.
     pub tests: BTreeMap<String, String>,
+    /// The methods that are emulated, by their names, with all their parameters.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub emulations: BTreeMap<String, Value>,
     /// The colour layer of a method's tests, by the name of the method, if it differs from that of
     /// the reference.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -264,13 +269,24 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
     {
         keys.extend(more);
     }
-    let tests = eye.tests.iter();
+    let mut tests = BTreeMap::new();
+    let mut emulations = BTreeMap::new();
+    for (index, test) in &eye.tests {
+        let method = plan.methods[*index].clone();
+        match test {
+            SourceSpec::Emulated(emulation) => {
+                emulations.insert(method, emulation_keys(&emulation.spec));
+            }
+            SourceSpec::Files(_) | SourceSpec::Given(_) => {
+                tests.insert(method, plan.shown_source(test));
+            }
+        }
+    }
     ResolvedEye {
         eye: eye.eye,
         reference: plan.shown_source(&eye.reference),
-        tests: tests
-            .map(|(index, test)| (plan.methods[*index].clone(), plan.shown_source(test)))
-            .collect(),
+        tests,
+        emulations,
         test_layers: eye
             .test_layers
             .iter()

@@ -4,8 +4,10 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::emulation::Emulation;
+
 /// Where the frames of a sequence come from.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SourceSpec {
     /// A file, folder, glob or printf pattern.
@@ -13,6 +15,8 @@ pub enum SourceSpec {
     /// A source that the program provides under this name when it runs the plan, such as images in
     /// memory.
     Given(String),
+    /// Tests that are emulated from the reference. A reference cannot be one.
+    Emulated(Box<Emulation>),
 }
 
 impl Default for SourceSpec {
@@ -24,6 +28,12 @@ impl Default for SourceSpec {
 impl From<PathBuf> for SourceSpec {
     fn from(path: PathBuf) -> Self {
         Self::Files(path)
+    }
+}
+
+impl From<Emulation> for SourceSpec {
+    fn from(emulation: Emulation) -> Self {
+        Self::Emulated(Box::new(emulation))
     }
 }
 

@@ -163,8 +163,9 @@ fn files(view: &FoundView, bands: Option<&BandEdges>) -> String {
         source.as_ref().zip(at).map(|(source, at)| label(&**source, at))
     };
     let frames = view.frames.iter().map(|frame| {
-        let test =
-            |(method, at): &(usize, usize)| json!([method, label(sources.test(*method), *at)]);
+        let test = |(method, at): &(usize, usize)| {
+            json!([method, sources.test(*method).label(sources.reference.listing(), *at)])
+        };
         let tests: Vec<_> = frame.tests.iter().map(test).collect();
         let guides = [
             guide(&sources.motion, frame.guides.motion),

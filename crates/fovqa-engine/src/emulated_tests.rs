@@ -1,0 +1,152 @@
+//! The tests that are emulated from the reference of a frame, for all methods of a view.
+
+use std::collections::BTreeMap;
+
+use fovqa_emulate::Picture;
+use fovqa_frame::{Frame, SignalTables, Transfer};
+use fovqa_plan::{EyeView, Gaze};
+
+use crate::events::Warnings;
+use crate::found::FoundView;
+use crate::foveator::Foveator;
+use crate::load::{Fault, Side, Step};
+
+/// The emulated methods of a view. The picture of the present reference is made once for all of them.
+#[derive(Debug)]
+pub(crate) struct EmulatedTests {
+    foveators: BTreeMap<usize, Foveator>,
+    /// The picture of the present reference.
+    picture: Option<Picture>,
+    /// Whether a metric needs linear light of linear input.
+    needs_light: bool,
+    fixed_gaze: Option<[f64; 2]>,
+    /// Whether the frames of the reference have motion, as far as is known.
+    motion: Option<bool>,
+}
+
+impl EmulatedTests {
+    pub(crate) fn new(view: &FoundView, eye: &EyeView, needs_light: bool) -> Self {
+        let foveator = |(method, emulation): (usize, &fovqa_plan::Emulation)| {
+            (method, Foveator::new(emulation.spec.clone(), eye.settings.view.clone()))
+        };
+        Self {
+            foveators: view.sources.emulations().map(foveator).collect(),
+            picture: None,
+            needs_light,
+            fixed_gaze: fixed_gaze(eye),
+            motion: None,
+        }
+    }
+
+    /// Forgets the picture of a reference that is about to be dropped.
+    pub(crate) fn leave(&mut self) {
+        self.picture = None;
+    }
+
+    /// Emulates the test of a step from its reference.
+    pub(crate) fn next(
+        &mut self,
+        step: &Step<'_>,
+        reference: &Side,
+        view: &FoundView,
+        tables: &SignalTables,
+        warnings: &mut Warnings<'_>,
+    ) -> Result<Side, Fault> {
+        let Some(foveator) = self.foveators.get_mut(&step.method) else {
+            unreachable!("a test that is not read is emulated")
+        };
+        reference.finite()?;
+        let position = view.frames[step.frame].position;
+        let motion = reference.guides.motion.as_ref();
+        if foveator.is_temporal() && !foveator.begins_at(position) {
+            check_motion(&mut self.motion, motion.is_some(), &reference.file, warnings)?;
+        }
+        let before =
+            self.picture.get_or_insert_with(|| Picture::from_frame(&reference.frame, tables));
+        let gaze_px = view.trace.as_ref().map(|trace| trace[step.frame].px).or(self.fixed_gaze);
+        let (shown, emulator) = foveator.next(position, before, motion, gaze_px)?;
+        let frame = frame_of(&shown, before, &reference.frame, tables, self.needs_light)?;
+        let file = view.sources.test_name(step.method, step.test);
+        Ok(Side::emulated(file, frame, reference.pixel_aspect, emulator.counts().clone()))
+    }
+
+    /// Emulates a test of another frame, for code that looks ahead in a sequence.
+    pub(crate) fn alone(
+        &self,
+        method: usize,
+        frame: usize,
+        reference: &Frame,
+        view: &FoundView,
+        tables: &SignalTables,
+    ) -> Result<Frame, Fault> {
+        let Some(foveator) = self.foveators.get(&method) else {
+            unreachable!("a test that is not read is emulated")
+        };
+        let picture = Picture::from_frame(reference, tables);
+        let gaze_px = view.trace.as_ref().map(|trace| trace[frame].px).or(self.fixed_gaze);
+        let shown = foveator.alone(&picture, gaze_px)?;
+        frame_of(&shown, &picture, reference, tables, self.needs_light)
+    }
+}
+
+/// The gaze of all frames, if the user gave one.
+pub(crate) fn fixed_gaze(eye: &EyeView) -> Option<[f64; 2]> {
+    match eye.settings.gaze {
+        Gaze::Point(px) => Some(px),
+        Gaze::Centre | Gaze::Trace { .. } => None,
+    }
+}
+
+/// Warns if a temporal filter has no motion, and refuses frames without motion after frames with it.
+pub(crate) fn check_motion(
+    all: &mut Option<bool>,
+    here: bool,
+    file: &str,
+    warnings: &mut Warnings<'_>,
+) -> Result<(), Fault> {
+    if *all.get_or_insert(here) != here {
+        let message = if here {
+            format!("{file} has motion vectors, but earlier frames have none")
+        } else {
+            format!("{file} has no motion vectors, but earlier frames have some")
+        };
+        let help = "render them for all frames, or leave the temporal filter out".to_owned();
+        return Err(Fault { message, help });
+    }
+    if !here {
+        let message = "the frames have no motion vectors: the temporal filter takes every pixel as standing \
+                       still; if there are some, name them with {guides}";
+        warnings.once_a_view("temporal filter without motion", message);
+    }
+    Ok(())
+}
+
+/// The frame that an emulated picture stands for: codes of as many bits as the reference has, and
+/// otherwise floats that are not rounded.
+fn frame_of(
+    shown: &Picture,
+    before: &Picture,
+    reference: &Frame,
+    tables: &SignalTables,
+    needs_light: bool,
+) -> Result<Frame, Fault> {
+    use fovqa_frame::Samples;
+    match reference.samples() {
+        Samples::U8(_) => return Ok(shown.to_codes8()),
+        Samples::U16(_) => return Ok(shown.to_codes16()),
+        Samples::F16(_) | Samples::F32(_) => {}
+    }
+    let signal = tables.params();
+    if signal.transfer_of(reference) != Transfer::Linear {
+        return Ok(shown.to_signal());
+    }
+    match shown.to_linear_from(signal, before, reference) {
+        Ok(frame) => Ok(frame),
+        // Metrics of the encoded signal need no linear light.
+        Err(_) if !needs_light => Ok(shown.to_signal()),
+        Err(error) => Err(Fault {
+            message: error.to_string(),
+            help: "choose another tone map, or leave out the metrics of luminance".to_owned(),
+        }),
+    }
+}

@@ -1,0 +1,44 @@
+//! A method that is emulated from the reference.
+
+use fovqa_emulate::EmulationSpec;
+use fovqa_params::Words;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+/// A method whose tests are emulated from the reference instead of being read.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Emulation {
+    /// The method, its parameters, and everything around it.
+    pub spec: EmulationSpec,
+    /// Whether the emulated frames are written to the folder of the results.
+    pub keep_frames: bool,
+}
+
+impl From<EmulationSpec> for Emulation {
+    fn from(spec: EmulationSpec) -> Self {
+        Self { spec, keep_frames: false }
+    }
+}
+
+/// The keys of an emulation, with all its parameters, as in the experiment file.
+pub fn emulation_keys(spec: &EmulationSpec) -> Value {
+    let parameters = spec.parameters().into_iter();
+    let parameters: Map<String, Value> =
+        parameters.map(|(name, value)| (name, json!(value))).collect();
+    let mut keys = json!({
+        "model": spec.key(),
+        "parameters": parameters,
+        "sampling": spec.sampling(),
+        "filter": spec.filters(),
+        "space": spec.space(),
+        "temporal": spec.is_temporal(),
+    });
+    if let Some(f_max) = spec.enhance() {
+        keys["enhance"] = json!(f_max);
+    }
+    if let Some(budget) = spec.budget() {
+        keys["budget"] = json!(budget.share);
+        keys["budget_of"] = json!(budget.of.word());
+    }
+    keys
+}
