@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use fovqa_methods::{BudgetSamples, Method, MethodInfo};
-use fovqa_params::{ParamValue, Words, find};
+use fovqa_params::{ParamInfo, ParamValue, Words, find};
 
 use crate::error::EmulateError;
 use crate::filters::{FilterChoice, FilterParams};
@@ -249,6 +249,21 @@ impl EmulationSpec {
         } else {
             self.enhance.map(|_| "enhancement")
         }
+    }
+
+    /// All parameters that can be set by name, whether they apply or not: the method's own, `filter.X`
+    /// of its filters, `taa.X` of the temporal filter, `enhance.X` of enhancement.
+    pub fn settable(&self) -> Vec<(String, &'static ParamInfo)> {
+        let groups = [
+            ("", self.info().params),
+            ("filter.", self.method.filters().params),
+            ("taa.", TaaParams::INFO),
+            ("enhance.", ENHANCE),
+        ];
+        let named = |(group, infos): (&'static str, &'static [ParamInfo])| {
+            infos.iter().map(move |info| (format!("{group}{}", info.name), info))
+        };
+        groups.into_iter().flat_map(named).collect()
     }
 
     /// The parameters that apply, by their names, with the values they have: the method's own, those of

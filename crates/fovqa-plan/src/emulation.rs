@@ -1,6 +1,7 @@
 //! A method that is emulated from the reference.
 
-use fovqa_emulate::EmulationSpec;
+use fovqa_emulate::{EmulationSpec, FilterChoice, Sampling, Space};
+use fovqa_methods::BudgetSamples;
 use fovqa_params::Words;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
@@ -12,6 +13,37 @@ pub struct Emulation {
     pub spec: EmulationSpec,
     /// Whether the emulated frames are written to the folder of the results.
     pub keep_frames: bool,
+}
+
+impl Emulation {
+    /// The method and what was set, in one line: `emulated: rmfr, sigma = 2.6`.
+    pub fn in_words(&self) -> String {
+        let spec = &self.spec;
+        let set = spec.set_by_name().iter();
+        let mut parts: Vec<String> =
+            set.map(|(name, value)| format!("{name} = {}", value.in_words())).collect();
+        if spec.sampling() != Sampling::default() {
+            parts.push(format!("sampling = \"{}\"", spec.sampling().word()));
+        }
+        if spec.filters() != FilterChoice::default() {
+            parts.push(format!("filter = \"{}\"", spec.filters().word()));
+        }
+        if spec.space() != Space::default() {
+            parts.push(format!("space = \"{}\"", spec.space().word()));
+        }
+        if spec.is_temporal() && spec.key() != "taa" {
+            parts.push("temporal = true".to_owned());
+        }
+        parts.extend(spec.enhance().map(|f_max| format!("enhance = {f_max}")));
+        if let Some(budget) = spec.budget() {
+            parts.push(format!("budget = {}", budget.share));
+            if budget.of != BudgetSamples::default() {
+                parts.push(format!("budget_of = \"{}\"", budget.of.word()));
+            }
+        }
+        let parts: String = parts.iter().map(|part| format!(", {part}")).collect();
+        format!("emulated: {}{parts}", spec.key())
+    }
 }
 
 impl From<EmulationSpec> for Emulation {

@@ -117,7 +117,7 @@ impl Plan {
         match source {
             SourceSpec::Files(path) => self.shown(path),
             SourceSpec::Given(name) => name.clone(),
-            SourceSpec::Emulated(emulation) => format!("emulated {}", emulation.spec.key()),
+            SourceSpec::Emulated(emulation) => emulation.in_words(),
         }
     }
 }

@@ -36,6 +36,8 @@ pub(crate) struct Measured {
     pub(crate) atd: Option<AtdSummary>,
     /// JOD of FovVideoVDP.
     pub(crate) jod: Option<f64>,
+    /// Samples of an emulated method in percent of the frame's pixels.
+    pub(crate) samples_percent: Option<f64>,
     /// Share of each eccentricity band in the Q of FovVideoVDP.
     pub(crate) shares: Box<[EccentricityShare]>,
 }
@@ -116,6 +118,7 @@ impl Measured {
             wavelet: comparison.haar.iter().map(WaveletBand::of).collect(),
             atd: comparison.atd.clone(),
             jod: fvvdp.and_then(|fvvdp| fvvdp.jod),
+            samples_percent: comparison.samples.map(|samples| samples.share * 100.0),
             shares: fvvdp.map(|fvvdp| fvvdp.shares.as_slice().into()).unwrap_or_default(),
         }
     }
@@ -258,6 +261,7 @@ mod tests {
             haar: Vec::new(),
             atd: None,
             fvvdp: None,
+            samples: None,
         }
     }
 

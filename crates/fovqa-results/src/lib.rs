@@ -13,6 +13,7 @@ mod json;
 
 mod output;
 mod report;
+mod samples;
 mod spread;
 mod summary;
 mod table;
@@ -47,6 +48,7 @@ pub use report::{
     AtdGuides, Comparison, Failure, FrameResult, FvvdpViewing, GuideSource, Input, RunResults,
     ScoreReport, ViewResult,
 };
+pub use samples::SampleSummary;
 pub use spread::Spread;
 pub use summary::{AtdSummary, BandSummary, SideStatistics, Statistics, Summary};
 #[cfg(feature = "parquet")]

@@ -7,6 +7,7 @@ use fovqa_metrics::{FrameRows, Image, Key, Metric, MetricKind, Subject, pool};
 use crate::compared::Sides;
 use crate::fvvdp::FvvdpSummary;
 use crate::report::{FrameResult, GuideSource, ScoreReport};
+use crate::samples::SampleSummary;
 use crate::spread::{Gathered, Spread};
 
 /// The statistics of one measure over the frames.
@@ -91,6 +92,8 @@ pub struct Summary {
     pub atd: Option<AtdSummary>,
     /// FovVideoVDP, if it is requested.
     pub fvvdp: Option<FvvdpSummary>,
+    /// The samples of an emulated method.
+    pub samples: Option<SampleSummary>,
 }
 
 impl Summary {
@@ -123,6 +126,7 @@ impl Summary {
             counts,
             atd: report.metrics.contains(&Metric::Atd).then(|| AtdSummary::of(report)),
             fvvdp: FvvdpSummary::of(report),
+            samples: SampleSummary::of(frames),
         }
     }
 

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use fovqa_emulate::EmulationSpec;
 use fovqa_io::sequence::FrameRange;
 use fovqa_metrics::Metric;
 use fovqa_params::ParamInfo;
@@ -10,6 +11,7 @@ use fovqa_vision::displays;
 use serde_spanned::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::emulate::{self, OTHER_EYE};
 use super::{Key, Kind, LONGEST_TEXT, parameter, quoted, resolution};
 use crate::fault::{Fault, Faults};
 use crate::nearest::nearest;
@@ -131,6 +133,65 @@ fn check_model(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
     }
 }
 
+/// Checks the table of an emulated method.
+fn check_emulation(value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Faults) {
+    let DeValue::Table(table) = value.get_ref() else {
+        return wrong_type(&Kind::Emulation, value, place, faults);
+    };
+    let models = emulate::models();
+    let names = || models.iter().map(EmulationSpec::key);
+    let Some(model) = table.get("model") else {
+        let fault = Fault::new(value.span(), format!("{place} has no model"));
+        return faults.push(fault.help(format!("add model = …: {}", quoted(names()))));
+    };
+    let DeValue::String(text) = model.get_ref() else {
+        return wrong_type(&Kind::Text, model, &format!("{place}.model"), faults);
+    };
+    let Some(spec) = models.iter().find(|spec| spec.key() == text.replace('-', "_")) else {
+        let fault = Fault::new(model.span(), format!("there is no method \"{text}\" to emulate"));
+        let near = nearest(text, names()).map(|near| format!("did you mean \"{near}\"?"));
+        let help = format!("choose one of {}", quoted(names()));
+        return faults.push(fault.label(near.unwrap_or_default()).help(help));
+    };
+    check_emulation_keys(spec, table, place, false, faults);
+    match table.get(OTHER_EYE).map(|value| (value, value.get_ref())) {
+        Some((_, DeValue::Table(other))) => {
+            check_emulation_keys(spec, other, &inside(place, OTHER_EYE), true, faults);
+        }
+        Some((value, _)) => {
+            wrong_type(&Kind::Table(&[]), value, &inside(place, OTHER_EYE), faults);
+        }
+        None => {}
+    }
+}
+
+fn check_emulation_keys(
+    spec: &EmulationSpec,
+    table: &DeTable<'_>,
+    place: &str,
+    other_eye: bool,
+    faults: &mut Faults,
+) {
+    let settable = spec.settable();
+    for (name, value) in table {
+        let text = name.get_ref().as_ref();
+        let place = || inside(place, text);
+        if !other_eye && (text == "model" || text == OTHER_EYE) {
+            continue;
+        }
+        if let Some(key) = emulate::keys(other_eye).find(|key| key.name == text) {
+            check_value(&key.kind, value, &place(), faults);
+        } else if let Some((_, info)) = settable.iter().find(|(known, _)| known == text) {
+            check_value(&parameter(info.values), value, &place(), faults);
+        } else {
+            let known = settable.iter().map(|(name, _)| name.as_str());
+            let known: Vec<&str> = known.chain(emulate::keys(other_eye).map(|k| k.name)).collect();
+            let known = known.iter().copied();
+            faults.push(unknown("parameter", text, name.span(), spec.key(), known));
+        }
+    }
+}
+
 fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &mut Faults) {
     let span = value.span();
     let mut out_of_range = |found: &str| {
@@ -225,6 +286,7 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
             }
         }
         (Kind::Method | Kind::Acuity, _) => check_model(kind, value, place, faults),
+        (Kind::Emulation, _) => check_emulation(value, place, faults),
         (Kind::Metrics, _) => check_metrics(value, place, faults),
         (Kind::Either(kinds), _) => match kinds.iter().find(|kind| is_of(kind, value)) {
             Some(kind) => check_value(kind, value, place, faults),
@@ -282,7 +344,10 @@ fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
         }
         DeValue::Array(_) => matches!(kind, Kind::List(..) | Kind::Tables(..)),
         DeValue::Table(_) => {
-            matches!(kind, Kind::Table(_) | Kind::Metrics | Kind::Method | Kind::Acuity)
+            matches!(
+                kind,
+                Kind::Table(_) | Kind::Metrics | Kind::Method | Kind::Acuity | Kind::Emulation
+            )
         }
         DeValue::Datetime(_) => false,
     }

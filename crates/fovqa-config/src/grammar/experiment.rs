@@ -298,12 +298,13 @@ const LAYER_SIDES: &[Key] = &[
     key("right", Kind::Text, "layer of the right eye's tests"),
 ];
 
-static METHOD_TABLE: [Key; 4] = [
+static METHOD_TABLE: [Key; 5] = [
     required("name", Kind::Name, "its name in results, and what {method} stands for"),
-    required(
-        "test",
-        FILES,
-        "test frames, with {scene}, {folder}, {method} and {eye} for what differs",
+    key("test", FILES, "test frames, with {scene}, {folder}, {method} and {eye} for what differs"),
+    key(
+        "emulate",
+        Kind::Emulation,
+        "instead of test: the method is emulated from the reference, { model = \"rmfr\", sigma = 2.6 }",
     ),
     key("scenes", NAMES, "only these scenes"),
     key(

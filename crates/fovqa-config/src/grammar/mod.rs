@@ -3,11 +3,13 @@
 
 mod check;
 mod curves;
+mod emulate;
 mod experiment;
 mod schema;
 
 pub(crate) use check::{check, number};
 pub(crate) use curves::{CURVES, MOST_CURVES};
+pub(crate) use emulate::OTHER_EYE;
 pub(crate) use experiment::EXPERIMENT;
 pub use schema::{curves_schema, schema};
 
@@ -60,6 +62,9 @@ pub(crate) enum Kind {
     Method,
     /// A table with the name of an acuity model, `model`, and its parameters.
     Acuity,
+    /// A table with the name of a method that can be emulated, `model`, its parameters, and what
+    /// surrounds them.
+    Emulation,
     /// A list of values of one kind, with the minimum and maximum number of values.
     List(&'static Kind, usize, usize),
     /// A table.
@@ -98,6 +103,7 @@ impl Kind {
             Kind::Resolution => "a size such as \"2560x1440\", each side 1 to 100000".to_owned(),
             Kind::Method => "a table such as { model = \"rmfr\", sigma = 2.6 }".to_owned(),
             Kind::Acuity => "a table such as { model = \"piecewise\", cap_cpd = 9 }".to_owned(),
+            Kind::Emulation => "a table such as { model = \"rmfr\", sigma = 2.6 }".to_owned(),
             Kind::List(kind, min, max) => {
                 let count = match (min, max) {
                     (min, max) if min == max => format!("a list of {min} values, each "),

@@ -1,10 +1,12 @@
 //! Makes the JSON Schema of the grammar, for editors.
 
+use fovqa_emulate::EmulationSpec;
 use fovqa_metrics::Metric;
 use fovqa_params::ParamInfo;
 use fovqa_vision::displays;
 use serde_json::{Map, Value, json};
 
+use super::emulate;
 use super::{CURVES, EXPERIMENT, Key, Kind, LONGEST_TEXT, Model, parameter};
 
 /// The JSON Schema of an experiment file.
@@ -96,6 +98,9 @@ fn kind(kind: &Kind) -> Value {
             let models = kind.models().map(|(_, models)| models).unwrap_or_default();
             json!({ "anyOf": models.iter().map(|model| self::model(*model)).collect::<Vec<_>>() })
         }
+        Kind::Emulation => {
+            json!({ "anyOf": emulate::models().iter().map(emulation).collect::<Vec<_>>() })
+        }
         Kind::List(of, min, max) => {
             json!({ "type": "array", "items": self::kind(of), "minItems": min, "maxItems": max })
         }
@@ -127,12 +132,40 @@ fn params(known: &[ParamInfo]) -> Value {
     params
 }
 
-fn model((name, known): Model) -> Value {
-    let mut schema = params(known);
-    // Users may write `-` or `_`.
+/// The table of an emulated method.
+fn emulation(spec: &EmulationSpec) -> Value {
+    let inner = |other_eye: bool| {
+        let mut schema = table(&[]);
+        for (name, info) in spec.settable() {
+            let mut value = self::kind(&parameter(info.values));
+            value["description"] = info.about.into();
+            schema["properties"][name] = value;
+        }
+        for key in emulate::keys(other_eye) {
+            let mut value = self::kind(&key.kind);
+            value["description"] = key.about.into();
+            schema["properties"][key.name] = value;
+        }
+        schema
+    };
+    let mut schema = inner(false);
+    schema["properties"][emulate::OTHER_EYE] = inner(true);
+    schema["properties"][emulate::OTHER_EYE]["description"] = emulate::OTHER_EYE_ABOUT.into();
+    schema["properties"]["model"] = names(spec.key());
+    schema["required"] = json!(["model"]);
+    schema
+}
+
+/// The spellings of a model's name: users may write `-` or `_`.
+fn names(name: &str) -> Value {
     let mut names = vec![name.to_owned(), name.replace('_', "-")];
     names.dedup();
-    schema["properties"]["model"] = json!({ "enum": names });
+    json!({ "enum": names })
+}
+
+fn model((name, known): Model) -> Value {
+    let mut schema = params(known);
+    schema["properties"]["model"] = names(name);
     schema["required"] = json!(["model"]);
     schema
 }

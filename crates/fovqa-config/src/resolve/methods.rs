@@ -1,15 +1,18 @@
 //! `[[method]]`: the tests of each scene.
 
+use std::ops::Range;
 use std::path::Path;
 
+use super::emulate::Emulated;
 use super::placeholders::Placeholders;
 use super::placeholders::path;
-use super::scenes::{SceneEntry, unique};
+use super::scenes::{SceneEntry, TWO_EYES, unique};
+use super::view::VIEW_HELP;
 use crate::fault::{Fault, Faults};
 use crate::grammar::first_quoted;
 use crate::nearest::nearest;
 use crate::node::Node;
-use fovqa_plan::Eye;
+use fovqa_plan::{Eye, EyeView};
 
 /// Maximum number of comparisons, far more than fit in a table. Memory is needed for the path and
 /// the mistakes of each.
@@ -37,8 +40,13 @@ pub(super) fn methods(
         );
         return Vec::new();
     }
-    for (index, (table, _)) in tables.iter().enumerate() {
+    for (index, (table, span)) in tables.iter().enumerate() {
         let wanted = table.names("scenes");
+        let emulated = Emulated::new(*table, faults);
+        if let Some(fault) = one_of_test_and_emulate(*table, span.clone()) {
+            faults.push(fault);
+            continue;
+        }
         for (name, span) in wanted.iter().flatten() {
             if faults.are_many() {
                 break;
@@ -54,8 +62,19 @@ pub(super) fn methods(
         for scene in scenes.iter_mut() {
             let name = &scene.scene.name;
             if wanted.as_ref().is_none_or(|wanted| wanted.iter().any(|(scene, _)| scene == name)) {
-                tests(*table, index, base, scene, faults);
+                match &emulated {
+                    Some(emulated) => emulations(*table, index, emulated, scene, faults),
+                    None if table.has("emulate") => {}
+                    None => tests(*table, index, base, scene, faults),
+                }
             }
+        }
+        let of_method = |eye: &EyeView| eye.eye.is_some() && eye.tests.iter().any(|t| t.0 == index);
+        if let Some(span) = emulated.and_then(|emulated| emulated.other_span)
+            && !scenes.iter().flat_map(|scene| &scene.scene.eyes).any(of_method)
+        {
+            let message = "no scene of this method has two eyes, so that other_eye says nothing";
+            faults.push(Fault::new(span, message).help(TWO_EYES));
         }
     }
     for scene in scenes.iter().filter(|scene| scene.scene.eyes.iter().all(|e| e.tests.is_empty())) {
@@ -66,6 +85,52 @@ pub(super) fn methods(
         }
     }
     tables.iter().map(|(table, _)| table.text("name").unwrap_or_default().to_owned()).collect()
+}
+
+/// Reports a method that has both tests and an emulation, or neither.
+fn one_of_test_and_emulate(table: Node<'_>, span: Range<usize>) -> Option<Fault> {
+    let method = table.text("name").unwrap_or_default();
+    match (table.has("test"), table.has("emulate")) {
+        (false, false) => {
+            let message = format!("method \"{method}\" has neither test nor emulate");
+            let help = "give it test = \"…\", the frames that were rendered, or emulate = { model = \"…\" }";
+            Some(Fault::new(span, message).help(help))
+        }
+        (true, true) => {
+            let message = format!("method \"{method}\" has both test and emulate");
+            let help = "leave one of them out: two methods can compare a render with its emulation";
+            Some(Fault::new(table.span("emulate"), message).help(help))
+        }
+        _ if table.has("emulate") && table.has("layer") => {
+            let message = format!("method \"{method}\" is emulated, and reads no layer");
+            Some(Fault::new(table.span("layer"), message).help("leave layer out"))
+        }
+        _ => None,
+    }
+}
+
+/// Adds a method's emulations to a scene.
+fn emulations(
+    table: Node<'_>,
+    index: usize,
+    emulated: &Emulated,
+    scene: &mut SceneEntry,
+    faults: &mut Faults,
+) {
+    for view in &mut scene.scene.eyes {
+        let emulation = emulated.of_eye(view.eye);
+        if view.settings.view.is_none()
+            && let Some(what) = emulation.spec.needs_view()
+        {
+            let method = table.text("name").unwrap_or_default();
+            let message = format!(
+                "method \"{method}\": {what} depends on visual angles, but scene \"{}\" has no view",
+                scene.scene.name
+            );
+            faults.push(Fault::new(emulated.span.clone(), message).help(VIEW_HELP));
+        }
+        view.tests.push((index, emulation.clone().into()));
+    }
 }
 
 /// Adds a method's tests to a scene.

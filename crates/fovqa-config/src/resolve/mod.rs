@@ -2,6 +2,7 @@
 //! other.
 
 mod curves;
+mod emulate;
 mod gates;
 mod guides;
 mod methods;

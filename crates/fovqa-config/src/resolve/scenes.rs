@@ -113,7 +113,7 @@ fn eyes_of_nobody(root: Node<'_>, scenes: &[(Node<'_>, Range<usize>)], faults: &
 }
 
 /// How the user gives a scene two eyes.
-const TWO_EYES: &str = "give a scene reference = { left = \"…\", right = \"…\" }";
+pub(super) const TWO_EYES: &str = "give a scene reference = { left = \"…\", right = \"…\" }";
 
 /// Reports metrics that were requested by name and need a view, if there is none.
 fn foveal_without_view(

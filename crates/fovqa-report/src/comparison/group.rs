@@ -45,6 +45,17 @@ impl Group {
         }
     }
 
+    /// The group for the samples of emulated methods.
+    pub(crate) fn samples() -> Self {
+        Self {
+            label: "Samples".to_owned(),
+            unit: "% of pixels",
+            better: Better::Neither,
+            key: "samples_percent".to_owned(),
+            digits: Digits::Percent,
+        }
+    }
+
     /// The group for percentages of the reference's value.
     pub(crate) fn ratio(label: String, key: String, better: Better) -> Self {
         Self { label, unit: "% of reference", better, key, digits: Digits::Percent }

@@ -18,7 +18,7 @@ use group::Group;
 pub(crate) use markdown::escaped_markdown;
 pub(crate) use ratios::{Ratios, statistic, statistic_in_words};
 
-use crate::overview::Overview;
+use crate::overview::{Measured, Overview};
 
 /// A table of values over the frames.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +44,9 @@ const FVVDP_NOTE: &str = "FovVideoVDP: JOD of the sequence; 10 means no visible 
 
 const ATD_NOTE: &str =
     "ATD: average temporal difference of the test in percent of the reference's.";
+
+const SAMPLES_NOTE: &str = "Samples: what an emulated method shades, in percent of the frame's pixels. Emulation from a finished frame \
+     understates aliasing and flicker.";
 
 #[derive(Debug, Clone, PartialEq)]
 struct ComparedRow {
@@ -86,22 +89,30 @@ impl ComparisonTable {
         if metrics.is_empty() || methods.is_empty() || scenes.is_empty() {
             return None;
         }
-        let groups: Vec<Group> = metrics.iter().map(|metric| group(*metric)).collect();
+        let emulated =
+            plot.metric.is_none() && overview.all().iter().any(|of| of.samples_percent.is_some());
+        let columns: Vec<Column> = metrics.iter().map(|metric| Column::Metric(*metric)).collect();
+        let samples = emulated.then_some(Column::Samples);
+        let columns: Vec<Column> = columns.into_iter().chain(samples).collect();
+        let groups: Vec<Group> = columns.iter().map(|column| column.group()).collect();
         let value =
-            |scene: &str, method: &str, metric: Metric| overview.of(scene, method)?.value(metric);
+            |scene: &str, method: &str, column: Column| column.value(overview.of(scene, method)?);
         let mut rows: Vec<ComparedRow> = scenes
             .iter()
             .map(|scene| {
-                let cells = metrics.iter().zip(&groups).map(|(&metric, group)| {
-                    marked(group, methods.iter().map(|method| value(scene, method, metric)))
+                let cells = columns.iter().zip(&groups).map(|(&column, group)| {
+                    marked(group, methods.iter().map(|method| value(scene, method, column)))
                 });
                 ComparedRow { label: (*scene).to_owned(), average: false, cells: cells.collect() }
             })
             .collect();
         let names: Vec<&str> = methods.iter().map(String::as_str).collect();
-        let common: Vec<Vec<&str>> = metrics
+        let common: Vec<Vec<&str>> = columns
             .iter()
-            .map(|metric| common_scenes(overview, &scenes, &names, *metric))
+            .map(|column| {
+                let has = |scene: &str, method: &str| value(scene, method, *column).is_some();
+                scenes_of_all(&scenes, &names, has)
+            })
             .collect();
         rows.extend(average(&groups, &rows, &common));
         let mut notes = vec!["Means over frames; the best of each row is marked.".to_owned()];
@@ -114,6 +125,9 @@ impl ComparisonTable {
         if metrics.contains(&Metric::Atd) {
             notes.push(ATD_NOTE.to_owned());
             notes.extend(without_motion(overview, &scenes, &methods));
+        }
+        if emulated {
+            notes.push(SAMPLES_NOTE.to_owned());
         }
         notes.extend(unequal_frames(overview, &scenes, &methods));
         notes.extend(identical_frames(overview, &scenes, &methods));
@@ -145,11 +159,44 @@ pub(crate) fn common_scenes<'a>(
     methods: &[&str],
     metric: Metric,
 ) -> Vec<&'a str> {
-    let has = |scene: &str, method: &str| {
+    scenes_of_all(scenes, methods, |scene, method| {
         overview.of(scene, method).is_some_and(|measured| measured.value(metric).is_some())
-    };
+    })
+}
+
+/// The scenes in which every method has a value.
+fn scenes_of_all<'a>(
+    scenes: &[&'a str],
+    methods: &[&str],
+    has: impl Fn(&str, &str) -> bool,
+) -> Vec<&'a str> {
     let all = |scene: &&str| methods.iter().all(|method| has(scene, method));
     scenes.iter().copied().filter(all).collect()
+}
+
+/// What a group of columns shows.
+#[derive(Debug, Clone, Copy)]
+enum Column {
+    /// The values of a metric.
+    Metric(Metric),
+    /// The samples of emulated methods.
+    Samples,
+}
+
+impl Column {
+    fn group(self) -> Group {
+        match self {
+            Self::Metric(metric) => group(metric),
+            Self::Samples => Group::samples(),
+        }
+    }
+
+    fn value(self, measured: &Measured) -> Option<f64> {
+        match self {
+            Self::Metric(metric) => measured.value(metric),
+            Self::Samples => measured.samples_percent,
+        }
+    }
 }
 
 /// The label of a mean over `of` of `all` scenes.

@@ -11,6 +11,7 @@ use super::compared::{HaarRecord, SideValues, in_summary_band, summary_haar};
 use super::values::{AnyStats, MetricMap, Number, Stats};
 use crate::fvvdp::FvvdpSummary;
 use crate::report::{Comparison, ViewResult};
+use crate::samples::SampleSummary;
 use crate::spread::Spread;
 use crate::summary::{AtdSummary, BandSummary, Statistics, Summary};
 
@@ -48,6 +49,9 @@ pub struct ComparisonSummary {
     /// FovVideoVDP.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fvvdp: Option<FvvdpSummary>,
+    /// The samples of an emulated method.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub samples: Option<SampleSummary>,
 }
 
 /// A view, as `score` prints it.
@@ -126,6 +130,7 @@ impl ComparisonSummary {
             haar: summary_haar(&summary),
             atd: summary.atd,
             fvvdp: summary.fvvdp,
+            samples: summary.samples,
             metrics: summary.statistics,
         }
     }
