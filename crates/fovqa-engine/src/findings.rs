@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use fovqa_frame::Frame;
 use fovqa_metrics::{Map, Metric};
 use fovqa_plan::{Eye, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, Input, ViewResult};
@@ -95,6 +96,8 @@ pub struct Finished<'a> {
     pub guides: AtdGuides,
     /// Its maps, if they are requested.
     pub maps: &'a [Map],
+    /// The test, if it was emulated and is to be kept.
+    pub kept: Option<&'a Frame>,
 }
 
 /// An entry to be recorded.
@@ -186,6 +189,7 @@ impl Findings {
                     result: outcome.result.as_ref(),
                     guides: outcome.guides,
                     maps: &[],
+                    kept: None,
                 }))?;
             }
             let (scene, eye) = (&plan.scenes[scene].name, plan.scenes[scene].eyes[eye].eye);

@@ -166,11 +166,12 @@ impl<'a> Scoring<'a> {
                 written = (recorder.record)(Entry::Pair(Finished {
                     named: self.named(step.method),
                     step: *index,
-                    result: result.as_ref().map(|(frame, _)| frame),
+                    result: result.as_ref().map(|scored| &scored.result),
                     guides,
-                    maps: result.as_ref().map_or(&[][..], |(_, maps)| maps.as_slice()),
+                    maps: result.as_ref().map_or(&[][..], |scored| scored.maps.as_slice()),
+                    kept: result.as_ref().ok().and_then(|scored| scored.kept.as_ref()),
                 }));
-                let result = result.map(|(frame, _)| frame);
+                let result = result.map(|scored| scored.result);
                 findings.pairs.insert(*index, Outcome { method: step.method, result, guides });
                 recorder.progress.step(1);
                 if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use fovqa_emulate::Counts;
 use fovqa_frame::{Frame, Mask, SignalTables};
 use fovqa_metrics::{Image, Key, Layouts, Map, Metric, MetricKind, Needs, Rows, Subject};
-use fovqa_plan::{EyeView, Plan};
+use fovqa_plan::{Emulation, EyeView, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::BandEdges;
 
@@ -17,6 +17,14 @@ use crate::load::{Fault, Loaded, Loader, Side, Step, comparable};
 use crate::meters::{Measured, Meters, Pair};
 use crate::setup::{Inputs, Setup};
 use crate::work::Work;
+
+/// A test that was scored.
+pub(crate) struct Scored {
+    pub(crate) result: FrameResult,
+    pub(crate) maps: Vec<Map>,
+    /// The emulated frame, if it is to be kept.
+    pub(crate) kept: Option<Frame>,
+}
 
 /// The state of a view while its frames are scored.
 pub(crate) struct ViewRun<'a> {
@@ -137,7 +145,7 @@ impl<'a> ViewRun<'a> {
         step: &Step<'_>,
         loaded: Loaded,
         warnings: &mut Warnings<'_>,
-    ) -> Result<(FrameResult, Vec<Map>), Failure> {
+    ) -> Result<Scored, Failure> {
         self.take(step, loaded, warnings, |run, reference, test, warnings| {
             let finite = run.enter(step, reference, test, warnings)?;
             run.score(step, (reference, test), finite.as_ref(), warnings)
@@ -249,7 +257,7 @@ impl<'a> ViewRun<'a> {
         (reference, test): (&Side, &Side),
         finite: Option<&Mask>,
         warnings: &mut Warnings<'_>,
-    ) -> Result<(FrameResult, Vec<Map>), Fault> {
+    ) -> Result<Scored, Fault> {
         let (view, frame) = (self.view, &self.view.frames[step.frame]);
         let gaze_px = view.trace.as_ref().map(|trace| trace[step.frame].px);
         let setup = self.setup.as_ref();
@@ -279,7 +287,9 @@ impl<'a> ViewRun<'a> {
             gaze_step_deg,
             rows: self.layouts.pack(&rows),
         };
-        Ok((result, maps))
+        let keeps = |emulation: &Emulation| emulation.keep_frames;
+        let kept = view.sources.test(step.method).emulation().is_some_and(keeps);
+        Ok(Scored { result, maps, kept: kept.then(|| test.frame.clone()) })
     }
 
     /// Passes a pair with its gaze to the meters.

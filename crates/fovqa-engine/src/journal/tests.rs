@@ -171,6 +171,7 @@ fn everything_is_read_again_to_the_last_bit() {
         result: mended.result.as_ref(),
         guides: mended.guides,
         maps: &[],
+        kept: None,
     };
     journal.write(Entry::Pair(finished)).unwrap();
     let said = read_text(folder.path()).said(&plan);
@@ -234,6 +235,7 @@ fn what_is_no_number_is_read_again() {
         result: Ok(&result),
         guides: AtdGuides::default(),
         maps: &[],
+        kept: None,
     };
     let folder = tempfile::tempdir().unwrap();
     Journal::begin(folder.path(), &header(&plan(), None), &plan(), &Findings::default()).unwrap();
@@ -308,8 +310,14 @@ fn lines_of_something_else_are_not_understood() {
     let line = |named: crate::findings::Named<'_>, step| {
         let result = bare_frame();
         let guides = AtdGuides::default();
-        let finished =
-            crate::findings::Finished { named, step, result: Ok(&result), guides, maps: &[] };
+        let finished = crate::findings::Finished {
+            named,
+            step,
+            result: Ok(&result),
+            guides,
+            maps: &[],
+            kept: None,
+        };
         String::from_utf8(Lines::default().of(Entry::Pair(finished))).unwrap()
     };
     let named = |scene, method, eye| crate::findings::Named { scene, method, eye };

@@ -322,6 +322,12 @@ mod tests {
                     (Metric::Atd, nothing),
                 ]),
             }],
+            samples: Some(SampleSummary {
+                samples: 1.5,
+                on_screen: 1.0,
+                beyond: 0.0,
+                share: 0.125,
+            }),
             haar: vec![haar],
             atd: Some(AtdSummary {
                 reference: Some(0.25),
