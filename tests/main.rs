@@ -4,6 +4,7 @@
 
 mod command;
 mod curves;
+mod emulate;
 mod formats;
 mod fovqa;
 mod frames;

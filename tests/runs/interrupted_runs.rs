@@ -44,7 +44,7 @@ pub(crate) fn sequence(padding: &str) -> Folder {
     folder
 }
 
-fn write_sequence(folder: &Folder) {
+pub(crate) fn write_sequence(folder: &Folder) {
     for frame in 0..FRAMES {
         let depth = |x: usize, y: usize| ((x * 7 + y * 3 + frame * frame) % 50) as f32 + 10.0;
         let gt = part(1, frame).with(&motion(MOTION)).with(&[("Z", float(depth))]);

@@ -10,7 +10,7 @@ use crate::runs::interrupted_runs::{assert_same, journal, results, sealed, seque
 
 /// Goes on with what is left of journals, a folder each, and ends as `whole` has.
 #[track_caller]
-fn goes_on(folder: &Folder, code: i32, journals: &[(String, String)], threads: &str) {
+pub(crate) fn goes_on(folder: &Folder, code: i32, journals: &[(String, String)], threads: &str) {
     let wanted = &results(&folder.path("whole"));
     std::thread::scope(|scope| {
         for part in journals.chunks(journals.len().div_ceil(4).max(1)) {
@@ -30,7 +30,7 @@ fn goes_on(folder: &Folder, code: i32, journals: &[(String, String)], threads: &
 }
 
 /// A journal up to each of its lines, and up to the middle of the next.
-fn cuts(lines: &[String], of: &str) -> Vec<(String, String)> {
+pub(crate) fn cuts(lines: &[String], of: &str) -> Vec<(String, String)> {
     let mut cuts = Vec::new();
     for end in 0..=lines.len() {
         let whole = lines[..end].concat();

@@ -30,7 +30,7 @@ fn names(name: &str, of: usize) -> Vec<String> {
 
 /// The run as a whole, and from so many shards; the exits of the shards.
 #[track_caller]
-fn divided(folder: &Folder, of: usize, code: i32) -> Vec<i32> {
+pub(crate) fn divided(folder: &Folder, of: usize, code: i32) -> Vec<i32> {
     if !folder.path("whole/run.json").exists() {
         assert_eq!(folder.run(&["run", "e.toml", "--output", "whole"]).code, code);
     }

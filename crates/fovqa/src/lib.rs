@@ -91,6 +91,7 @@ pub use samples::Sample;
 pub use score::score_files;
 
 pub use fovqa_config::{ExperimentError, Fault};
+pub use fovqa_emulate::EmulationSpec;
 pub use fovqa_engine::{
     Events, FoundInputs, FoundView, Given, Locking, Shard, Task, TaskError, TaskFindings, Unit,
     find, foresee, results, units,
@@ -101,8 +102,8 @@ pub use fovqa_io::{ReadOptions, SourceOptions, open_source, video_stream};
 pub use fovqa_metrics::{Metric, ParamSet};
 pub use fovqa_params::ParamValue;
 pub use fovqa_plan::{
-    CurvesFile, Experiment, Eye, EyeView, GateRule, Gaze, MetricChoice, Nonfinite, Plan, Scene,
-    Settings, SourceSpec,
+    CurvesFile, Emulation, Experiment, Eye, EyeView, GateRule, Gaze, MetricChoice, Nonfinite, Plan,
+    Scene, Settings, SourceSpec,
 };
 pub use fovqa_results::{Baseline, RunResults, ScoreReport, Verdict, write_csv, write_json};
 pub use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec};
