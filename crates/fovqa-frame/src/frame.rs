@@ -222,6 +222,11 @@ impl Frame {
         self.crop.height
     }
 
+    /// The visible part, in pixels of the file's own frame.
+    pub fn crop(&self) -> Crop {
+        self.crop
+    }
+
     /// Width and height of the file's own frame, before any crop.
     pub fn file_size(&self) -> (usize, usize) {
         (self.width, self.height)

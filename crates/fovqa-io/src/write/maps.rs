@@ -1,4 +1,4 @@
-//! Encodes pictures as files in memory. The caller writes them to disk as a whole.
+//! Maps of values and of colours as files.
 
 use std::io::{self, Cursor};
 

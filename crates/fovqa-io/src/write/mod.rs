@@ -1,0 +1,15 @@
+//! Encodes pictures as files in memory. The caller writes them to disk as a whole.
+
+mod error;
+mod exr_frame;
+mod format;
+mod frame;
+mod jpeg_frame;
+mod maps;
+mod png_frame;
+mod visible;
+
+pub use error::EncodeError;
+pub use format::FrameFormat;
+pub use frame::encode_frame;
+pub use maps::{exr_gray, exr_gray_half, png_rgb8};
