@@ -147,7 +147,7 @@ fn samples_are_in_the_table_and_the_summary() {
     let scene = "[[scene]]\nname = \"s\"\nreference = \"gt.png\"\n";
     let methods = "[[method]]\nname = \"RMFR\"\nemulate = { model = \"rmfr\", budget = 0.25 }\n\
                    [[method]]\nname = \"File\"\ntest = \"file.png\"\n\
-                   [[method]]\nname = \"VaFR\"\nemulate = { model = \"vafr\", variant = \"black\" }\n";
+                   [[method]]\nname = \"VaFR\"\nemulate = { model = \"vafr\", beyond = \"black\" }\n";
     folder.write(
         "e.toml",
         format!("{HEAD}{scene}{methods}[[gate]]\nmetric = \"psnr\"\nat_least = 5\n"),
@@ -164,7 +164,7 @@ fn samples_are_in_the_table_and_the_summary() {
     assert!(number("on_screen") > 0.0 && (number("share") - share).abs() < 1e-12, "{vafr}");
     let resolved = &json(&folder, "out/run.json")["resolved"]["scenes"][0]["eyes"][0];
     assert_eq!(resolved["emulations"]["RMFR"]["budget"], 0.25);
-    assert_eq!(resolved["emulations"]["VaFR"]["parameters"]["variant"], "black");
+    assert_eq!(resolved["emulations"]["VaFR"]["parameters"]["beyond"], "black");
     assert_eq!(resolved["tests"].as_object().unwrap().len(), 1);
     // What is drawn again from the folder alone is the same, and the gate holds.
     let table = fs::read(folder.path("out/table.md")).unwrap();

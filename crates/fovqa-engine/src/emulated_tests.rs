@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use fovqa_emulate::Picture;
-use fovqa_frame::{Frame, SignalTables, Transfer};
+use fovqa_frame::{Frame, Samples, SignalTables, Transfer};
 use fovqa_plan::{EyeView, Gaze};
 
 use crate::events::Warnings;
 use crate::found::FoundView;
 use crate::foveator::Foveator;
-use crate::load::{Fault, Side, Step};
+use crate::load::{Fault, Made, Side, Step};
 
 /// The emulated methods of a view. The picture of the present reference is made once for all of them.
 #[derive(Debug)]
@@ -66,8 +66,12 @@ impl EmulatedTests {
         let gaze_px = view.trace.as_ref().map(|trace| trace[step.frame].px).or(self.fixed_gaze);
         let (shown, emulator) = foveator.next(position, before, motion, gaze_px)?;
         let frame = frame_of(&shown, before, &reference.frame, tables, self.needs_light)?;
+        let emulation = view.sources.test(step.method).emulation();
+        let keeps = emulation.is_some_and(|emulation| emulation.keep_frames);
+        let made =
+            Made { counts: emulator.counts().clone(), kept: keeps.then(|| kept(&shown, &frame)) };
         let file = view.sources.test_name(step.method, step.test);
-        Ok(Side::emulated(file, frame, reference.pixel_aspect, emulator.counts().clone()))
+        Ok(Side::emulated(file, frame, reference.pixel_aspect, made))
     }
 
     /// Emulates a test of another frame, for code that looks ahead in a sequence.
@@ -122,7 +126,7 @@ pub(crate) fn check_motion(
 }
 
 /// The frame that an emulated picture stands for: codes of as many bits as the reference has, and
-/// otherwise floats that are not rounded.
+/// otherwise floats that are not rounded. Where emulation has changed nothing, it is the reference.
 fn frame_of(
     shown: &Picture,
     before: &Picture,
@@ -130,7 +134,10 @@ fn frame_of(
     tables: &SignalTables,
     needs_light: bool,
 ) -> Result<Frame, Fault> {
-    use fovqa_frame::Samples;
+    let is_same = |(now, then): (&f32, &f32)| now.to_bits() == then.to_bits();
+    if shown.values().iter().zip(before.values()).all(is_same) {
+        return Ok(reference.clone());
+    }
     match reference.samples() {
         Samples::U8(_) => return Ok(shown.to_codes8()),
         Samples::U16(_) => return Ok(shown.to_codes16()),
@@ -149,4 +156,10 @@ fn frame_of(
             help: "choose another tone map, or leave out the metrics of luminance".to_owned(),
         }),
     }
+}
+
+/// The frame as a picture file holds it: floats that are encoded for display become codes of 16 bits.
+fn kept(shown: &Picture, frame: &Frame) -> Frame {
+    let is_float = !frame.samples().is_integer();
+    if is_float && frame.is_encoded() { shown.to_codes16() } else { frame.clone() }
 }

@@ -100,6 +100,14 @@ pub enum EngineError {
         /// The reason.
         error: std::io::Error,
     },
+    /// An emulated frame that is to be kept and cannot be written.
+    #[error("{}: the emulated frame cannot be written: {error}", path.display())]
+    KeptFrame {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: std::io::Error,
+    },
     /// A parameter with a value that is not possible.
     #[error(transparent)]
     Param(#[from] ParamError),
@@ -207,6 +215,7 @@ impl EngineError {
             | Self::Mask(_)
             | Self::Memory { .. }
             | Self::Map { .. }
+            | Self::KeptFrame { .. }
             | Self::Journal { .. }
             | Self::JournalChanged { .. }
             | Self::JournalRead { .. } => false,
@@ -248,6 +257,9 @@ impl EngineError {
                 "check {fps}; skipped frames make it lower".to_owned()
             }
             Self::Map { .. } => "give another folder with {maps}, or free some space".to_owned(),
+            Self::KeptFrame { .. } => {
+                "give another folder with {output}, free some space, or leave out keep_frames".to_owned()
+            }
             Self::Param(_) => {
                 "`fovqa list metrics` shows every parameter with its range".to_owned()
             }

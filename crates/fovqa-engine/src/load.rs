@@ -113,15 +113,23 @@ pub(crate) struct Side {
     pub(crate) notes: Vec<String>,
     /// Width of a pixel divided by its height, as the file declares it.
     pub(crate) pixel_aspect: f32,
-    /// What an emulated frame stands for.
-    pub(crate) counts: Option<Counts>,
+    /// What belongs to an emulated frame.
+    pub(crate) made: Option<Made>,
     bad: Option<BadPixel>,
     missing: MissingGuides,
 }
 
+/// What belongs to an emulated frame.
+pub(crate) struct Made {
+    /// The samples that it stands for.
+    pub(crate) counts: Counts,
+    /// The frame as it is to be kept, if it is.
+    pub(crate) kept: Option<Frame>,
+}
+
 impl Side {
     /// A test that was emulated.
-    pub(crate) fn emulated(file: String, frame: Frame, pixel_aspect: f32, counts: Counts) -> Self {
+    pub(crate) fn emulated(file: String, frame: Frame, pixel_aspect: f32, made: Made) -> Self {
         Self {
             file,
             frame,
@@ -129,7 +137,7 @@ impl Side {
             ids: Vec::new(),
             notes: Vec::new(),
             pixel_aspect,
-            counts: Some(counts),
+            made: Some(made),
             bad: None,
             missing: MissingGuides::default(),
         }
@@ -322,7 +330,7 @@ impl Loader<'_> {
         }
         let bad = frame.bad_pixel();
         let (ids, pixel_aspect, missing) = (picture.inputs, picture.pixel_aspect, picture.missing);
-        let counts = None;
-        Ok(Side { file, frame, guides, ids, notes, pixel_aspect, counts, bad, missing })
+        let made = None;
+        Ok(Side { file, frame, guides, ids, notes, pixel_aspect, made, bad, missing })
     }
 }

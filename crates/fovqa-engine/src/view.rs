@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use fovqa_emulate::Counts;
 use fovqa_frame::{Frame, Mask, SignalTables};
 use fovqa_metrics::{Image, Key, Layouts, Map, Metric, MetricKind, Needs, Rows, Subject};
-use fovqa_plan::{Emulation, EyeView, Plan};
+use fovqa_plan::{EyeView, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::BandEdges;
 
@@ -268,8 +268,8 @@ impl<'a> ViewRun<'a> {
         let Measured { rows, maps } =
             self.with_pair(step, (reference, test), gaze_px, finite, |meters, pair| {
                 let mut measured = meters.measure(pair, warnings)?;
-                if let Some(counts) = &test.counts {
-                    add_samples(counts, pair.setup.size, &mut measured.rows);
+                if let Some(made) = &test.made {
+                    add_samples(&made.counts, pair.setup.size, &mut measured.rows);
                 }
                 warn_of_left_out(&pair.setup.metrics, &measured.rows, frame.number, warnings);
                 Ok(measured)
@@ -287,9 +287,8 @@ impl<'a> ViewRun<'a> {
             gaze_step_deg,
             rows: self.layouts.pack(&rows),
         };
-        let keeps = |emulation: &Emulation| emulation.keep_frames;
-        let kept = view.sources.test(step.method).emulation().is_some_and(keeps);
-        Ok(Scored { result, maps, kept: kept.then(|| test.frame.clone()) })
+        let kept = test.made.as_ref().and_then(|made| made.kept.clone());
+        Ok(Scored { result, maps, kept })
     }
 
     /// Passes a pair with its gaze to the meters.

@@ -65,6 +65,7 @@ mod experiment;
 mod finish;
 mod finished_run;
 mod gate;
+mod kept_frames;
 mod maps;
 mod memory;
 mod merge;

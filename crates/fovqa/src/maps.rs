@@ -103,7 +103,7 @@ fn values_file(map: &str, frame: i64) -> String {
 }
 
 /// The number of a frame with at least four digits, after the minus sign if it is negative.
-fn padded(frame: i64) -> String {
+pub(crate) fn padded(frame: i64) -> String {
     let sign = if frame < 0 { "-" } else { "" };
     format!("{sign}{:04}", frame.unsigned_abs())
 }

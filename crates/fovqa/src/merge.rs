@@ -7,6 +7,7 @@ use fovqa_plan::Experiment;
 
 use crate::error::Error;
 use crate::finish::{clear, finish, in_folder};
+use crate::kept_frames::copy_kept;
 use crate::run::Finished;
 
 /// Merges the shards of a run. The results are the same as those of the whole run. Neither the
@@ -38,6 +39,13 @@ pub fn merge(
     let folder = ResultsFolder::open(output, locking).map_err(|error| in_folder(&error))?;
     clear(&folder)?;
     Journal::begin(folder.path(), header, plan, &findings)?;
+    for shard in shards {
+        copy_kept(shard, folder.path()).map_err(|error| {
+            let message =
+                format!("{}: its emulated frames cannot be copied: {error}", shard.display());
+            Error::input(message, "free some space, or give another folder with {output}")
+        })?;
+    }
     let results = results(plan, events, findings);
     let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
     let scored = own.map(|comparison| comparison.report.frames.len()).sum();

@@ -14,6 +14,7 @@ use fovqa_results::{HAS_PARQUET, table_file};
 
 use crate::error::{Complaint, Error};
 use crate::finish::{clear, finish, in_folder, say_failures_of_shard};
+use crate::kept_frames::KeptFrames;
 use crate::maps::{MapsFolder, maps_lacking};
 
 /// How an experiment is run.
@@ -194,6 +195,10 @@ impl Run {
         let lacks = maps.is_some_and(|maps| {
             resumed.known.scored(plan).any(|(named, frame)| !maps.has(named, frame))
         });
+        let kept = KeptFrames::new(folder.path());
+        if resumed.known.scored(plan).any(|(named, frame)| !kept.has(plan, named, frame)) {
+            changes.push("emulated frames that the experiment keeps are missing".to_owned());
+        }
         if lacks {
             changes.push(NO_MAPS.to_owned());
         }
@@ -228,9 +233,11 @@ impl Run {
     ) -> Result<Findings, Error> {
         clear(folder)?;
         let plan = &self.experiment.plan;
+        let kept = KeptFrames::new(folder.path());
         let scored = Journal::begin(folder.path(), header, plan, &known).and_then(|mut journal| {
             let record = &mut |entry: Entry<'_>| {
                 maps.map_or(Ok(()), |maps| maps.write(&entry))?;
+                kept.write(&entry)?;
                 journal.write(entry)
             };
             let scored =
