@@ -99,7 +99,7 @@ fn kept_frames_are_part_of_what_is_finished() {
     folder.run(&["run", "e.toml", "--output", "whole"]).ok();
     let wanted = bytes(&folder.path("whole"));
     assert_eq!(wanted.keys().filter(|name| name.starts_with("emulated/")).count(), FRAMES);
-    fs::remove_file(folder.path("whole/emulated/moving/K/0003.exr")).unwrap();
+    fs::remove_file(folder.path("whole/emulated/moving/K/0003.png")).unwrap();
     folder.run(&["run", "e.toml", "--output", "whole", "--resume"]).ok();
     assert_eq!(bytes(&folder.path("whole")), wanted);
     assert_eq!(divided(&folder, 3, 0), vec![0; 3]);
