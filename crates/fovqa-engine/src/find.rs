@@ -10,7 +10,7 @@ use fovqa_metrics::fvvdp::Padding;
 use fovqa_plan::{Emulation, EyeView, Plan, Scene};
 use fovqa_vision::GazeAt;
 
-use crate::emulated_tests::fixed_gaze;
+use crate::emulated_methods::fixed_gaze;
 use crate::error::EngineError;
 use crate::find_gaze::gaze;
 use crate::found::{FoundInputs, FoundView, Problem, is_wanted};

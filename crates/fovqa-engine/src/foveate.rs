@@ -7,7 +7,7 @@ use fovqa_frame::{Frame, SignalTables};
 use fovqa_plan::{Plan, SourceSpec};
 use fovqa_results::Failure;
 
-use crate::emulated_tests::{check_motion, fixed_gaze};
+use crate::emulated_methods::{check_motion, fixed_gaze};
 use crate::error::EngineError;
 use crate::events::{Events, Progress, Warnings};
 use crate::found::FoundView;

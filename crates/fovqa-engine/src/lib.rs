@@ -5,7 +5,7 @@
 
 mod assemble;
 mod available_memory;
-mod emulated_tests;
+mod emulated_methods;
 mod error;
 mod events;
 mod find;

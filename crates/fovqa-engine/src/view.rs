@@ -10,7 +10,7 @@ use fovqa_plan::{EyeView, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::BandEdges;
 
-use crate::emulated_tests::EmulatedTests;
+use crate::emulated_methods::EmulatedMethods;
 use crate::events::Warnings;
 use crate::found::FoundView;
 use crate::load::{Fault, Loaded, Loader, Side, Step, comparable};
@@ -39,7 +39,7 @@ pub(crate) struct ViewRun<'a> {
     /// The reference of the present frame.
     reference: Option<Result<Side, Fault>>,
     meters: Meters,
-    emulated: EmulatedTests,
+    emulated: EmulatedMethods,
     layouts: Layouts,
     loader: &'a Loader<'a>,
     /// Position of the reference's frame.
@@ -66,7 +66,7 @@ impl<'a> ViewRun<'a> {
             setup: None,
             reference: None,
             meters: Meters::new(plan, &eye.settings, &metrics, view, fps),
-            emulated: EmulatedTests::new(view, eye, Needs::of(&metrics).luminance),
+            emulated: EmulatedMethods::new(view, eye, Needs::of(&metrics).luminance),
             layouts: Layouts::default(),
             metrics,
             loader,

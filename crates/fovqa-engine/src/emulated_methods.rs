@@ -13,7 +13,7 @@ use crate::load::{Fault, Made, Side, Step};
 
 /// The emulated methods of a view. The picture of the present reference is made once for all of them.
 #[derive(Debug)]
-pub(crate) struct EmulatedTests {
+pub(crate) struct EmulatedMethods {
     foveators: BTreeMap<usize, Foveator>,
     /// The picture of the present reference.
     picture: Option<Picture>,
@@ -24,7 +24,7 @@ pub(crate) struct EmulatedTests {
     motion: Option<bool>,
 }
 
-impl EmulatedTests {
+impl EmulatedMethods {
     pub(crate) fn new(view: &FoundView, eye: &EyeView, needs_light: bool) -> Self {
         let foveator = |(method, emulation): (usize, &fovqa_plan::Emulation)| {
             (method, Foveator::new(emulation.spec.clone(), eye.settings.view.clone()))
