@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::{FrameRows, Image, Key, Metric, MetricKind, Subject, pool};
+use fovqa_metrics::{Image, Key, Metric, MetricKind, Pool, Row, Subject};
 
 use crate::compared::Sides;
 use crate::fvvdp::FvvdpSummary;
@@ -98,16 +98,24 @@ impl Summary {
     pub fn of(report: &ScoreReport) -> Self {
         let frames = &report.frames;
         let scored = || report.metrics.iter().copied().filter(|metric| Key::of(*metric).is_score());
-        let whole = scored().filter_map(|m| Some((m, Statistics::of_key(frames, Key::of(m))?)));
-        let bands = report.edges().iter().enumerate().map(|(index, &(from_deg, to_deg))| {
-            let pixels = Key::pixels(Subject::Pixels).in_band(index);
-            let per_band = scored().filter(|m| m.info().per_band && m.is(MetricKind::Fidelity));
-            let statistics =
-                per_band.map(|m| (m, Statistics::of_key(frames, Key::of(m).in_band(index))));
+        let per_band = |m: &Metric| m.info().per_band && m.is(MetricKind::Fidelity);
+        let pixels = |band| Key::pixels(Subject::Pixels).in_band(band);
+        let edges = report.edges();
+        let of_band = |band: usize| {
+            let metrics = scored().filter(per_band).map(move |m| Key::of(m).in_band(band));
+            metrics.chain([pixels(band)])
+        };
+        let keys: Vec<Key> =
+            scored().map(Key::of).chain((0..edges.len()).flat_map(of_band)).collect();
+        let gathered = GatheredValues::of(frames, &keys);
+        let whole = scored().filter_map(|m| Some((m, gathered.statistics(Key::of(m))?)));
+        let bands = edges.iter().enumerate().map(|(index, &(from_deg, to_deg))| {
+            let per_band = scored().filter(per_band);
+            let statistics = per_band.map(|m| (m, gathered.statistics(Key::of(m).in_band(index))));
             BandSummary {
                 from_deg,
                 to_deg,
-                pixels: frames.iter().map(|frame| frame.rows.number(pixels)).sum(),
+                pixels: gathered.total(pixels(index)),
                 statistics: statistics.collect(),
             }
         });
@@ -168,20 +176,30 @@ impl AtdSummary {
         let [of_reference, of_test] =
             [Image::Reference, Image::Test].map(|image| key.of_image(image));
         let found = || report.frames.iter().map(|f| &f.rows).filter(|rows| rows.has(Metric::Atd));
+        let left_out = Key::named(Subject::Metric(Metric::Atd), "left_out");
+        let left_out =
+            [Image::Reference, Image::Test].map(|image| left_out.map(|key| key.of_image(image)));
+        let keys = [Some(of_reference), Some(of_test), left_out[0], left_out[1]];
+        let keys: Vec<Key> = keys.into_iter().flatten().collect();
         let mut gathered: Sides<Gathered> = Sides::default();
+        let mut pools = [Pool::default(); 2];
         for rows in found() {
-            if let (Some(reference), Some(test)) = (rows.value(of_reference), rows.value(of_test)) {
+            let mut rows = rows.each(&keys);
+            let value = |row: Option<Option<Row>>| row.flatten().and_then(|row| row.value);
+            if let (Some(reference), Some(test)) = (value(rows.next()), value(rows.next())) {
                 gathered.reference.add(Some(reference));
                 gathered.test.add(Some(test));
+            }
+            for (pool, row) in pools.iter_mut().zip(rows) {
+                row.inspect(|row| pool.add(row.value, row.parts));
             }
         }
         let frames = gathered.test.count;
         let sides = gathered.map(|values| values.spread().map(|spread| spread.mean));
-        let left_out = |image: Image| {
-            let key = Key::named(Subject::Metric(Metric::Atd), "left_out")?.of_image(image);
-            let rows = found().filter_map(|rows| rows.get(key));
-            pool(key.statistic().frames, rows.map(|row| (row.value, row.parts))).0
-        };
+        let [left_out, left_out_test] = [0, 1].map(|side: usize| {
+            let key = left_out[side]?;
+            pools[side].value(key.statistic().frames).0
+        });
         let guides = report.atd_guides;
         let own = [guides.motion, guides.depth].contains(&GuideSource::Test);
         let reason = match () {
@@ -194,8 +212,8 @@ impl AtdSummary {
             reference: sides.reference,
             test: sides.test,
             ratio: sides.ratio(),
-            left_out: left_out(Image::Reference),
-            left_out_test: left_out(Image::Test).filter(|_| own),
+            left_out,
+            left_out_test: left_out_test.filter(|_| own),
             frames,
             motion: guides.motion,
             depth: guides.depth,
@@ -204,43 +222,101 @@ impl AtdSummary {
     }
 }
 
-impl Statistics {
-    /// The statistics of the values of a key; `None` if no frame has one.
-    fn of_key(frames: &[FrameResult], key: Key) -> Option<Self> {
-        let rows = || FrameRows::of_frames(frames.iter().map(|frame| &frame.rows), key);
-        let values = rows().filter_map(|row| row.value);
-        let statistics = Self::of(key.metric()?, values)?;
-        let statistic = key.statistic();
-        let pooled = || pool(statistic.frames, rows().map(|row| (row.value, row.parts))).0;
-        Some(Self { pooled: statistic.pools_frames().then(pooled).flatten(), ..statistics })
+/// The values of several keys over the frames. The values of a frame are read once for all keys.
+struct GatheredValues(BTreeMap<Key, KeyValues>);
+
+impl GatheredValues {
+    fn of(frames: &[FrameResult], keys: &[Key]) -> Self {
+        let mut gathered = vec![KeyValues::default(); keys.len()];
+        for frame in frames {
+            for (values, row) in gathered.iter_mut().zip(frame.rows.each(keys)) {
+                row.inspect(|row| values.add(row));
+            }
+        }
+        Self(keys.iter().copied().zip(gathered).collect())
     }
 
-    /// The statistics of some values; `None` if there are none.
-    fn of(metric: Metric, values: impl Iterator<Item = f64>) -> Option<Self> {
-        let values: Vec<f64> = values.collect();
-        let min = values.iter().copied().reduce(f64::min)?;
-        let max = values.iter().copied().reduce(f64::max)?;
-        let finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
-        let mean =
-            if finite.is_empty() { max } else { finite.iter().sum::<f64>() / finite.len() as f64 };
-        let identical_frames = metric.is_decibel().then(|| values.len() - finite.len());
-        Some(Self { mean, min, max, identical_frames, pooled: None })
+    /// The statistics of a key; `None` if no frame has a value.
+    fn statistics(&self, key: Key) -> Option<Statistics> {
+        self.0.get(&key)?.statistics(key)
+    }
+
+    /// The sum of the counts of a key.
+    fn total(&self, key: Key) -> u64 {
+        self.0.get(&key).map_or(0, |values| values.total)
+    }
+}
+
+/// What is kept of the values of one key.
+#[derive(Debug, Clone, Copy)]
+struct KeyValues {
+    count: usize,
+    extremes: Option<(f64, f64)>,
+    finite: usize,
+    finite_sum: f64,
+    /// The sum of the values as counts.
+    total: u64,
+    pool: Pool,
+}
+
+impl Default for KeyValues {
+    fn default() -> Self {
+        // The sum of no numbers, to which -0.0 can be added without a change of its sign.
+        let finite_sum = -0.0;
+        Self { count: 0, extremes: None, finite: 0, finite_sum, total: 0, pool: Pool::default() }
+    }
+}
+
+impl KeyValues {
+    fn add(&mut self, row: &Row) {
+        self.pool.add(row.value, row.parts);
+        let Some(value) = row.value else { return };
+        let (min, max) = self.extremes.unwrap_or((value, value));
+        self.extremes = Some((min.min(value), max.max(value)));
+        self.count += 1;
+        self.total += value as u64;
+        if value.is_finite() {
+            self.finite += 1;
+            self.finite_sum += value;
+        }
+    }
+
+    /// The statistics; `None` if there is no value.
+    fn statistics(&self, key: Key) -> Option<Statistics> {
+        let (min, max) = self.extremes?;
+        let mean = if self.finite == 0 { max } else { self.finite_sum / self.finite as f64 };
+        let identical_frames = key.metric()?.is_decibel().then(|| self.count - self.finite);
+        let statistic = key.statistic();
+        let pooled = statistic.pools_frames().then(|| self.pool.value(statistic.frames).0);
+        Some(Statistics { mean, min, max, identical_frames, pooled: pooled.flatten() })
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use fovqa_metrics::Parts;
+
     use super::*;
 
     #[test]
     fn an_identical_frame_does_not_lift_the_mean() {
-        let s = Statistics::of(Metric::Psnr, [30.0, f64::INFINITY, 20.0].into_iter()).unwrap();
+        let of = |metric, values: &[f64]| {
+            let key = Key::of(metric);
+            let mut gathered = KeyValues::default();
+            for &value in values {
+                gathered.add(&Row { key, value: Some(value), parts: Parts::Value });
+            }
+            gathered.statistics(key)
+        };
+        let s = of(Metric::Psnr, &[30.0, f64::INFINITY, 20.0]).unwrap();
         assert_eq!(
             (s.mean, s.min, s.max, s.identical_frames),
             (25.0, 20.0, f64::INFINITY, Some(1))
         );
-        let all = Statistics::of(Metric::Psnr, [f64::INFINITY; 2].into_iter()).unwrap();
+        let all = of(Metric::Psnr, &[f64::INFINITY; 2]).unwrap();
         assert!(all.mean.is_infinite());
-        assert!(Statistics::of(Metric::Ssim, std::iter::empty()).is_none());
+        assert!(of(Metric::Ssim, &[]).is_none());
+        let zero = of(Metric::Ssim, &[-0.0]).unwrap();
+        assert!(zero.mean.is_sign_negative(), "the sum of one value is the value");
     }
 }
