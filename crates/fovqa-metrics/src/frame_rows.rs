@@ -236,24 +236,16 @@ impl FrameRows {
         self.find(key.order())
     }
 
-    fn place(&self, order: u64) -> Option<&ValuePlace> {
-        let found = self.layout.0.binary_search_by_key(&order, |place| place.order).ok()?;
-        Some(&self.layout.0[found])
-    }
-
     fn find(&self, order: u64) -> Option<Row> {
-        let place = self.place(order)?;
+        let found = self.layout.0.binary_search_by_key(&order, |place| place.order).ok()?;
+        let place = &self.layout.0[found];
         Some(row(place, &self.numbers.some::<MOST_NUMBERS>(place.at as usize)))
     }
 
-    /// The rows of several keys, in the order of these keys; `None` for a key that has no row. The values are
-    /// read once for all keys.
-    pub fn each(&self, keys: &[Key]) -> impl Iterator<Item = Option<Row>> {
-        let numbers = self.numbers.all();
-        keys.iter().map(move |key| {
-            let place = self.place(key.order())?;
-            Some(row(place, &numbers[place.at as usize..]))
-        })
+    /// The same values, held in memory. Looking up many keys in them reads the temporary file once.
+    #[must_use]
+    pub fn held(&self) -> Self {
+        Self { layout: self.layout.clone(), numbers: Numbers::Held(self.numbers.all()) }
     }
 
     /// The value of a key; `None` if there is no such row or the row has no value.
@@ -311,8 +303,7 @@ mod tests {
         assert_eq!(packed.value(Key::of(Metric::Psnr)), Some(f64::INFINITY));
         assert_eq!(packed.get(Key::of(Metric::Mse)).map(|row| row.value), Some(None));
         assert!(packed.get(Key::of(Metric::Fssim)).is_none() && packed.has(Metric::Mse));
-        let keys = [Metric::Psnr, Metric::Fssim, Metric::Mse].map(Key::of);
-        assert_eq!(packed.each(&keys).collect::<Vec<_>>(), keys.map(|key| packed.get(key)));
+        assert_eq!(packed.held(), packed);
         let numbers: Vec<Option<f64>> = packed.iter().flat_map(|row| row.numbers()).collect();
         let read = FrameRows::of(&Layout::new(packed.layout.keys()).unwrap(), &numbers);
         assert_eq!(read.as_ref(), Some(&packed));

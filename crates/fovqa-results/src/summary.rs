@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::{Image, Key, Metric, MetricKind, Pool, Row, Subject};
+use fovqa_metrics::{FrameRows, Image, Key, Metric, MetricKind, Pool, Row, Subject};
 
-use crate::compared::Sides;
+use crate::compared::{Sides, compared_in};
 use crate::fvvdp::FvvdpSummary;
-use crate::report::{FrameResult, GuideSource, ScoreReport};
+use crate::report::{GuideSource, ScoreReport};
 use crate::spread::{Gathered, Spread};
 
 /// The statistics of one measure over the frames.
@@ -107,7 +107,25 @@ impl Summary {
         };
         let keys: Vec<Key> =
             scored().map(Key::of).chain((0..edges.len()).flat_map(of_band)).collect();
-        let gathered = GatheredValues::of(frames, &keys);
+        let is_count = |key: &Key| key.metric().is_some() && key.statistic().is_count;
+        let mut gathered = GatheredValues::of(&keys);
+        let mut counts = BTreeMap::new();
+        let mut compared: BTreeMap<Key, Sides<Gathered>> = BTreeMap::new();
+        let mut atd = AtdValues::default();
+        for frame in frames {
+            // The values of a frame are read once for all statistics.
+            let rows = frame.rows.held();
+            gathered.add(&rows);
+            for row in rows.of_keys(is_count) {
+                *counts.entry(row.key).or_default() += row.value.unwrap_or_default() as u64;
+            }
+            for (key, sides) in compared_in(&rows) {
+                let entry = compared.entry(key).or_default();
+                entry.reference.add(sides.reference);
+                entry.test.add(sides.test);
+            }
+            atd.add(&rows);
+        }
         let whole = scored().filter_map(|m| Some((m, gathered.statistics(Key::of(m))?)));
         let bands = edges.iter().enumerate().map(|(index, &(from_deg, to_deg))| {
             let per_band = scored().filter(per_band);
@@ -119,17 +137,15 @@ impl Summary {
                 statistics: statistics.collect(),
             }
         });
-        let mut counts = BTreeMap::new();
-        let is_count = |key: &Key| key.metric().is_some() && key.statistic().is_count;
-        for row in frames.iter().flat_map(|frame| frame.rows.of_keys(is_count)) {
-            *counts.entry(row.key).or_default() += row.value.unwrap_or_default() as u64;
-        }
+        let compared = compared
+            .into_iter()
+            .map(|(key, values)| (key, SideStatistics::of(&values, key.statistic().is_maximum())));
         Self {
             statistics: whole.collect(),
             bands: bands.collect(),
-            compared: compared(frames),
+            compared: compared.collect(),
             counts,
-            atd: report.metrics.contains(&Metric::Atd).then(|| AtdSummary::of(report)),
+            atd: report.metrics.contains(&Metric::Atd).then(|| AtdSummary::of(report, &atd)),
             fvvdp: FvvdpSummary::of(report),
         }
     }
@@ -140,20 +156,6 @@ impl Summary {
         compared.sort_by_key(|(key, _)| (key.subject, key.level, key.band));
         compared
     }
-}
-
-/// Measures of each image over the frames.
-fn compared(frames: &[FrameResult]) -> BTreeMap<Key, SideStatistics> {
-    let mut values: BTreeMap<Key, Sides<Gathered>> = BTreeMap::new();
-    for (key, sides) in frames.iter().flat_map(FrameResult::compared) {
-        let entry = values.entry(key).or_default();
-        entry.reference.add(sides.reference);
-        entry.test.add(sides.test);
-    }
-    let statistics = values
-        .into_iter()
-        .map(|(key, values)| (key, SideStatistics::of(&values, key.statistic().is_maximum())));
-    statistics.collect()
 }
 
 impl SideStatistics {
@@ -170,50 +172,63 @@ impl SideStatistics {
     }
 }
 
-impl AtdSummary {
-    fn of(report: &ScoreReport) -> Self {
-        let key = Key::of(Metric::Atd);
-        let [of_reference, of_test] =
-            [Image::Reference, Image::Test].map(|image| key.of_image(image));
-        let found = || report.frames.iter().map(|f| &f.rows).filter(|rows| rows.has(Metric::Atd));
-        let left_out = Key::named(Subject::Metric(Metric::Atd), "left_out");
-        let left_out =
-            [Image::Reference, Image::Test].map(|image| left_out.map(|key| key.of_image(image)));
-        let keys = [Some(of_reference), Some(of_test), left_out[0], left_out[1]];
-        let keys: Vec<Key> = keys.into_iter().flatten().collect();
-        let mut gathered: Sides<Gathered> = Sides::default();
-        let mut pools = [Pool::default(); 2];
-        for rows in found() {
-            let mut rows = rows.each(&keys);
-            let value = |row: Option<Option<Row>>| row.flatten().and_then(|row| row.value);
-            if let (Some(reference), Some(test)) = (value(rows.next()), value(rows.next())) {
-                gathered.reference.add(Some(reference));
-                gathered.test.add(Some(test));
-            }
-            for (pool, row) in pools.iter_mut().zip(rows) {
-                row.inspect(|row| pool.add(row.value, row.parts));
+/// The temporal differences of the frames.
+#[derive(Default)]
+struct AtdValues {
+    /// Number of frames that have temporal differences, with or without a value.
+    found: usize,
+    sides: Sides<Gathered>,
+    left_out: Sides<Pool>,
+}
+
+impl AtdValues {
+    fn add(&mut self, rows: &FrameRows) {
+        if !rows.has(Metric::Atd) {
+            return;
+        }
+        self.found += 1;
+        let value = |image| rows.value(Key::of(Metric::Atd).of_image(image));
+        if let (Some(reference), Some(test)) = (value(Image::Reference), value(Image::Test)) {
+            self.sides.reference.add(Some(reference));
+            self.sides.test.add(Some(test));
+        }
+        let Some(key) = Self::left_out() else { return };
+        let Sides { reference, test } = &mut self.left_out;
+        for (pool, image) in [(reference, Image::Reference), (test, Image::Test)] {
+            if let Some(row) = rows.get(key.of_image(image)) {
+                pool.add(row.value, row.parts);
             }
         }
-        let frames = gathered.test.count;
-        let sides = gathered.map(|values| values.spread().map(|spread| spread.mean));
-        let [left_out, left_out_test] = [0, 1].map(|side: usize| {
-            let key = left_out[side]?;
-            pools[side].value(key.statistic().frames).0
+    }
+
+    /// The key of the share of pixels that were left out.
+    fn left_out() -> Option<Key> {
+        Key::named(Subject::Metric(Metric::Atd), "left_out")
+    }
+}
+
+impl AtdSummary {
+    fn of(report: &ScoreReport, values: &AtdValues) -> Self {
+        let frames = values.sides.test.count;
+        let sides = values.sides.map(|values| values.spread().map(|spread| spread.mean));
+        let left_out = values.left_out.map(|pool| {
+            let key = AtdValues::left_out()?;
+            pool.value(key.statistic().frames).0
         });
         let guides = report.atd_guides;
         let own = [guides.motion, guides.depth].contains(&GuideSource::Test);
         let reason = match () {
             () if frames > 0 => sides.reason(),
             () if report.frames.len() < 2 => Some("needs two frames"),
-            () if found().next().is_none() => Some("no two of the frames follow each other"),
+            () if values.found == 0 => Some("no two of the frames follow each other"),
             () => Some("no pixel can be compared"),
         };
         Self {
             reference: sides.reference,
             test: sides.test,
             ratio: sides.ratio(),
-            left_out,
-            left_out_test: left_out_test.filter(|_| own),
+            left_out: left_out.reference,
+            left_out_test: left_out.test.filter(|_| own),
             frames,
             motion: guides.motion,
             depth: guides.depth,
@@ -222,18 +237,21 @@ impl AtdSummary {
     }
 }
 
-/// The values of several keys over the frames. The values of a frame are read once for all keys.
+/// The values of several keys over the frames.
 struct GatheredValues(BTreeMap<Key, KeyValues>);
 
 impl GatheredValues {
-    fn of(frames: &[FrameResult], keys: &[Key]) -> Self {
-        let mut gathered = vec![KeyValues::default(); keys.len()];
-        for frame in frames {
-            for (values, row) in gathered.iter_mut().zip(frame.rows.each(keys)) {
-                row.inspect(|row| values.add(row));
+    fn of(keys: &[Key]) -> Self {
+        Self(keys.iter().map(|key| (*key, KeyValues::default())).collect())
+    }
+
+    /// Adds the values of the next frame.
+    fn add(&mut self, rows: &FrameRows) {
+        for (key, values) in &mut self.0 {
+            if let Some(row) = rows.get(*key) {
+                values.add(&row);
             }
         }
-        Self(keys.iter().copied().zip(gathered).collect())
     }
 
     /// The statistics of a key; `None` if no frame has a value.
