@@ -40,8 +40,8 @@ pub use json::{
     ViewRecord, read_summary, write_json, write_summary,
 };
 pub use output::{
-    make_folder, replaces, sweep, take_away, try_writing, write_json_file, write_json_output,
-    write_output, write_whole, write_whole_with,
+    Batch, make_folder, replaces, sweep, take_away, try_writing, write_json_file,
+    write_json_output, write_output, write_whole, write_whole_with,
 };
 pub use report::{
     AtdGuides, Comparison, Failure, FrameResult, FvvdpViewing, GuideSource, Input, RunResults,
