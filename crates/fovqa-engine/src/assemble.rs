@@ -17,7 +17,7 @@ pub(crate) fn whole(message: String, help: String) -> Failure {
 
 /// The results of a whole run.
 pub fn results(plan: &Plan, events: &dyn Events, mut findings: Findings) -> RunResults {
-    let inputs = std::mem::take(&mut findings.inputs).into_all();
+    let inputs = std::mem::take(&mut findings.inputs);
     RunResults { comparisons: in_order(plan, events, reports(plan, findings)), inputs }
 }
 
@@ -46,7 +46,8 @@ fn report_view(
         }
         return;
     }
-    for Outcome { method, result, guides } in findings.pairs.into_values() {
+    for outcome in findings.pairs.into_values() {
+        let Outcome { method, result, guides } = *outcome;
         let report = reports.entry((scene, method, eye)).or_default();
         match result {
             Ok(frame) => {

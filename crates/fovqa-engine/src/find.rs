@@ -197,7 +197,13 @@ fn merge(pairings: Vec<(usize, Pairs)>, spacing: &Spacing) -> Vec<FoundFrame> {
     }
     // The sort is stable: items with the same number stay in the order in which they were found.
     order.sort_by_key(|(number, _)| *number);
-    order.into_iter().filter_map(|key| frames.remove(&key)).collect()
+    let mut merged = Vec::with_capacity(order.len());
+    merged.extend(order.into_iter().filter_map(|key| {
+        let mut frame = frames.remove(&key)?;
+        frame.tests.shrink_to_fit();
+        Some(frame)
+    }));
+    merged
 }
 
 /// Keeps the frames that both the plan and the scene ask for.

@@ -6,10 +6,9 @@ use std::collections::BTreeMap;
 use fovqa_frame::Frame;
 use fovqa_metrics::{Map, Metric};
 use fovqa_plan::{Eye, Plan};
-use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, Input, ViewResult};
+use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, Input, Inputs, ViewResult};
 
 use crate::error::EngineError;
-use crate::inputs::Inputs;
 
 /// The findings of a whole run, of one of its shards, or of a run that was interrupted.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -30,8 +29,9 @@ pub(crate) type ComparisonIndex = (usize, usize, usize);
 /// The findings about a view.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct ViewFindings {
-    /// Outcomes of the pairs, by their index among all pairs of the view.
-    pub(crate) pairs: BTreeMap<usize, Outcome>,
+    /// Outcomes of the pairs, by their index among all pairs of the view. They are boxed, because a
+    /// map leaves room for as many values again as it has.
+    pub(crate) pairs: BTreeMap<usize, Box<Outcome>>,
     /// What holds for all pairs, once all of them are finished.
     pub(crate) settled: Option<Settled>,
     /// Why no pair of the view could be scored.
@@ -152,7 +152,7 @@ impl Findings {
     fn outcomes<'a>(&'a self, plan: &'a Plan) -> impl Iterator<Item = (Named<'a>, &'a Outcome)> {
         self.views.iter().flat_map(move |(&(scene, eye), view)| {
             let named = move |outcome: &Outcome| Named::of(plan, (scene, outcome.method, eye));
-            view.pairs.values().map(move |outcome| (named(outcome), outcome))
+            view.pairs.values().map(move |outcome| (named(outcome), &**outcome))
         })
     }
 

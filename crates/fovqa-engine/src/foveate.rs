@@ -75,9 +75,9 @@ pub fn foveate(
     let mut progress = Progress::new(events, steps.len());
     let (mut failures, mut taken) = (Vec::new(), Ok(()));
     read_ahead(
-        &steps,
+        steps.len(),
         loader.loaders(),
-        |step| loader.load(step),
+        |nth| loader.load(&steps[nth]),
         Loaded::bytes,
         |nth, loaded| {
             match pass.frame(&steps[nth], loaded, &mut warnings, take) {

@@ -1,5 +1,7 @@
 //! Joins the findings of several units.
 
+use std::sync::Arc;
+
 use fovqa_metrics::{Layouts, Metric};
 
 use crate::findings::{Findings, Outcome, Settled, ViewFindings, ViewIndex};
@@ -9,7 +11,7 @@ impl Findings {
     /// Adds the findings of the next units.
     pub(crate) fn join(&mut self, next: Findings) {
         for (name, id) in next.inputs.iter() {
-            self.inputs.add(name, id);
+            self.inputs.add(Arc::clone(name), id.clone());
         }
         // Every unit finds the frames of the whole plan, so each has all of these problems.
         self.problems = next.problems;
@@ -39,7 +41,7 @@ fn join(all: &mut ViewFindings, mut next: ViewFindings) {
     all.failed = all.failed.take().or(next.failed);
     let Settled { fvvdp, missing, .. } = all.settled.take().unwrap_or_default();
     // A sequence that was interrupted before this unit has no values from here on.
-    let broken = |outcome: &&mut Outcome| missing.contains_key(&outcome.method);
+    let broken = |outcome: &&mut Box<Outcome>| missing.contains_key(&outcome.method);
     let mut layouts = Layouts::default();
     for outcome in next.pairs.values_mut().filter(broken) {
         if let Ok(frame) = &mut outcome.result {

@@ -1,5 +1,7 @@
 //! Loads frames from sources, and checks whether pairs of them may be compared.
 
+use std::sync::Arc;
+
 use fovqa_emulate::Counts;
 use fovqa_frame::source::{InputId, MissingGuides, Source, SourceError};
 use fovqa_frame::{BadPixel, CropError, Frame, Guides, Mask, Motion, Plane, Transfer};
@@ -104,7 +106,7 @@ impl Loaded {
 /// A frame with what its files contain.
 pub(crate) struct Side {
     /// Name of the file, as results show it.
-    pub(crate) file: String,
+    pub(crate) file: Arc<str>,
     pub(crate) frame: Frame,
     /// Motion and depth, if they are wanted and exist.
     pub(crate) guides: Guides,
@@ -131,7 +133,7 @@ impl Side {
     /// A test that was emulated.
     pub(crate) fn emulated(file: String, frame: Frame, pixel_aspect: f32, made: Made) -> Self {
         Self {
-            file,
+            file: file.into(),
             frame,
             guides: Guides::default(),
             ids: Vec::new(),
@@ -146,7 +148,7 @@ impl Side {
     /// Checks that a frame from which others are emulated has no bad pixel.
     pub(crate) fn finite(&self) -> Result<(), Fault> {
         let Some(bad) = self.bad else { return Ok(()) };
-        let error = LoadError::Nonfinite { file: self.file.clone(), bad };
+        let error = LoadError::Nonfinite { file: self.file.to_string(), bad };
         let help =
             "correct the render: an emulated method would spread such pixels over their neighbours";
         Err(Fault { message: error.to_string(), help: help.to_owned() })
@@ -167,16 +169,16 @@ pub(crate) fn comparable(
     if reference.size() != test.size() {
         return Err(LoadError::Size {
             reference_size: reference.size(),
-            reference: reference.file.clone(),
+            reference: reference.file.to_string(),
             test_size: test.size(),
-            test: test.file.clone(),
+            test: test.file.to_string(),
         });
     }
     let mut finite: Option<Mask> = None;
     for side in [reference, test] {
         let Some(bad) = side.bad else { continue };
         if nonfinite == Nonfinite::Error {
-            return Err(LoadError::Nonfinite { file: side.file.clone(), bad });
+            return Err(LoadError::Nonfinite { file: side.file.to_string(), bad });
         }
         let mask = side.frame.finite_mask();
         match &mut finite {
@@ -253,7 +255,7 @@ impl Loader<'_> {
             ("depth", self.sources.depth.is_some() && own.depth.is_none()),
         ] {
             if lacks {
-                return Err(LoadError::NoGuideFile { file: side.file, what });
+                return Err(LoadError::NoGuideFile { file: side.file.to_string(), what });
             }
         }
         if let Some((source, at)) = self.sources.motion.as_ref().zip(own.motion) {
@@ -287,7 +289,7 @@ impl Loader<'_> {
         let size = motion.or(guides.depth.as_ref().map(Plane::file_size));
         if let Some(size) = size.filter(|size| *size != side.frame.file_size()) {
             return Err(LoadError::Size {
-                reference: side.file.clone(),
+                reference: side.file.to_string(),
                 reference_size: side.frame.file_size(),
                 test: file,
                 test_size: size,
@@ -307,7 +309,7 @@ impl Loader<'_> {
 
     fn side(&self, source: &dyn Source, at: usize, guides: bool) -> Result<Side, LoadError> {
         let Settings { signal, crop, .. } = self.settings;
-        let file = source.listing().name(at).to_owned();
+        let file = source.listing().shared_name(at);
         let picture = source.read(at, guides)?;
         let mut notes = picture.notes;
         let guides = self.cropped(picture.guides, &file)?;
@@ -315,7 +317,7 @@ impl Loader<'_> {
             Some(crop) => picture
                 .frame
                 .cropped(crop)
-                .map_err(|error| LoadError::Crop { file: file.clone(), error })?,
+                .map_err(|error| LoadError::Crop { file: file.to_string(), error })?,
             None => picture.frame,
         };
         let encoded_floats =

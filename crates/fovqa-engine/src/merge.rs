@@ -218,7 +218,7 @@ impl Shards {
             }
             for (file, id) in said.findings.inputs.iter() {
                 if all.inputs.get(file).is_some_and(|known| known != id) {
-                    return Err(changed(file.to_owned()));
+                    return Err(changed(file.to_string()));
                 }
             }
             self.agree(plan, &all, path, &said.findings)?;

@@ -8,30 +8,30 @@ use std::thread;
 /// Maximum size in bytes of loaded items that wait, however small each item is.
 const WAITING_BYTES: usize = 256 << 20;
 
-/// Loads items on up to `loaders` threads and passes them to `consume` in order. `size` returns the
-/// bytes of a loaded item. The number of items loaded ahead is limited to 256 MiB, estimated from
+/// Loads `items` items by their index, on up to `loaders` threads, and passes them to `consume` in order.
+/// `size` returns the bytes of a loaded item. The number of items loaded ahead is limited to 256 MiB, estimated from
 /// the largest item so far, but is at least one. The memory use is this limit plus the item in
 /// `consume`, however many items there are. If `consume` stops early, nothing more is loaded.
-pub(crate) fn read_ahead<I: Sync, T: Send>(
-    items: &[I],
+pub(crate) fn read_ahead<T: Send>(
+    items: usize,
     loaders: usize,
-    load: impl Fn(&I) -> T + Sync,
+    load: impl Fn(usize) -> T + Sync,
     size: impl Fn(&T) -> usize + Sync,
     mut consume: impl FnMut(usize, T) -> ControlFlow<()>,
 ) {
     let queue = Queue {
         state: Mutex::new(State { next: 0, handed_over: 0, largest: 0, ready: BTreeMap::new() }),
         changed: Condvar::new(),
-        items: items.len(),
+        items,
         loaders: loaders.max(1),
     };
     thread::scope(|scope| {
-        for _ in 0..queue.loaders.min(items.len()) {
+        for _ in 0..queue.loaders.min(items) {
             scope.spawn(|| {
                 while let Some(index) = queue.start() {
                     // A load that panics must not leave the others waiting for it.
                     let abandon = Abandon(&queue);
-                    let item = load(&items[index]);
+                    let item = load(index);
                     std::mem::forget(abandon);
                     let bytes = size(&item);
                     queue.loaded(index, item, bytes);
@@ -39,7 +39,7 @@ pub(crate) fn read_ahead<I: Sync, T: Send>(
             });
         }
         let abandon = Abandon(&queue);
-        for index in 0..items.len() {
+        for index in 0..items {
             let Some(item) = queue.take(index) else { break };
             if consume(index, item).is_break() {
                 break;
@@ -147,9 +147,9 @@ mod tests {
         let items: Vec<usize> = (0..300).collect();
         let mut seen = Vec::new();
         read_ahead(
-            &items,
+            items.len(),
             loaders,
-            |&item| {
+            |item| {
                 let now = alive.fetch_add(1, Ordering::SeqCst) + 1;
                 most.fetch_max(now, Ordering::SeqCst);
                 // Some items load more slowly than those after them.
@@ -188,11 +188,10 @@ mod tests {
 
     #[test]
     fn a_panic_on_either_side_ends_all() {
-        let items = [0; 50];
         let panics = |load: bool| {
             std::panic::catch_unwind(|| {
                 read_ahead(
-                    &items,
+                    50,
                     4,
                     |_| assert!(!load, "on purpose"),
                     |()| 1,
@@ -210,10 +209,9 @@ mod tests {
     #[test]
     fn breaking_off_stops_the_loading() {
         let loaded = AtomicUsize::new(0);
-        let items = [0; 1000];
         let mut consumed = 0;
         read_ahead(
-            &items,
+            1000,
             3,
             |_| loaded.fetch_add(1, Ordering::SeqCst),
             |_| 1,
@@ -228,6 +226,6 @@ mod tests {
 
     #[test]
     fn nothing_to_do() {
-        read_ahead(&[0; 0], 4, |_| (), |()| 1, |_, ()| panic!("there is no item"));
+        read_ahead(0, 4, |_| (), |()| 1, |_, ()| panic!("there is no item"));
     }
 }

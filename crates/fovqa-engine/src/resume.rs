@@ -11,6 +11,7 @@ use fovqa_plan::{Emulation, Eye, Gaze, Plan};
 use crate::error::EngineError;
 use crate::findings::{Findings, ViewFindings};
 use crate::found::{FoundInputs, FoundView};
+use crate::inputs::changed_inputs;
 use crate::journal::{self, Header, JOURNAL, ViewFiles};
 use crate::share::{Shard, shares};
 use crate::timing::timings;
@@ -63,7 +64,7 @@ pub fn resume(
     if let Some(line) = said.changed {
         return Err(EngineError::JournalChanged { path: folder.join(JOURNAL), line });
     }
-    let changes = said.findings.inputs.changes(plan, &origins(plan, found));
+    let changes = changed_inputs(&said.findings.inputs, plan, &origins(plan, found));
     if !changes.is_empty() {
         return changed(changes);
     }

@@ -1,12 +1,14 @@
 //! Scores the pairs of one view: its files in order, and every test against its reference.
 
 use std::ops::{ControlFlow, Range};
+use std::sync::Arc;
 
 use fovqa_frame::Mask;
 use fovqa_frame::source::InputId;
 use fovqa_io::{id_of_file, read_mask};
 use fovqa_metrics::{Metric, Needs};
 use fovqa_plan::{Emulation, EyeView, Gaze, Plan, Scene};
+use fovqa_results::{Input, Inputs};
 use fovqa_vision::{BandEdges, GazeAt};
 
 use crate::assemble::whole;
@@ -15,8 +17,8 @@ use crate::events::{Progress, Warnings};
 use crate::findings::{Entry, Finished, Named, Outcome, Record, Settled, ViewFindings};
 use crate::found::{FoundInputs, FoundView};
 use crate::found_frame::FoundFrame;
-use crate::inputs::Inputs;
-use crate::load::{Loaded, Loader, Step};
+use crate::inputs::identity;
+use crate::load::{Loaded, Loader};
 use crate::memory;
 use crate::open_ended::{Ended, OpenEnded};
 use crate::read_ahead::read_ahead;
@@ -44,15 +46,23 @@ pub(crate) struct Recorder<'a, 'e, 'r> {
 }
 
 impl Recorder<'_, '_, '_> {
-    fn input(&mut self, path: &str, id: &InputId) -> Result<(), EngineError> {
-        self.inputs.add(path, id).map_or(Ok(()), |input| (self.record)(Entry::Input(&input)))
+    fn input(&mut self, path: Arc<str>, id: &InputId) -> Result<(), EngineError> {
+        if !self.inputs.add(Arc::clone(&path), identity(id)) {
+            return Ok(());
+        }
+        let (path, InputId { bytes, sha256 }) = (path.to_string(), id.clone());
+        (self.record)(Entry::Input(&Input { path, bytes, sha256 }))
     }
 
     /// Records the files that were read for a step.
     fn inputs_of(&mut self, loaded: &Loaded) -> Result<(), EngineError> {
         let sides = loaded.reference.iter().chain(&loaded.test).flatten();
-        let mut ids = sides.flat_map(|side| &side.ids);
-        ids.try_for_each(|(file, id)| self.input(file, id))
+        let mut ids = sides.flat_map(|side| side.ids.iter().map(move |id| (&side.file, id)));
+        ids.try_for_each(|(frame, (file, id))| {
+            // Usually, the frame has the name of its file, and both share it.
+            let name = if **frame == **file { Arc::clone(frame) } else { file.as_str().into() };
+            self.input(name, id)
+        })
     }
 }
 
@@ -97,7 +107,7 @@ impl<'a> Scoring<'a> {
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
         let mut findings = known;
         let frame = self.take_up(&work, &mut run, &loader, &mut findings, recorder)?;
-        self.score(&work.steps(frame), &mut run, &loader, &mut findings, recorder)?;
+        self.score((&work, frame), &mut run, &loader, &mut findings, recorder)?;
         let settled = self.settled(&run, metrics, &work);
         let (scene, methods) = (&self.scene.name, &plan.methods);
         (recorder.record)(Entry::Settled(scene, eye.eye, &settled, methods))?;
@@ -134,7 +144,7 @@ impl<'a> Scoring<'a> {
 
     fn score(
         &self,
-        steps: &[(usize, Step<'_>)],
+        (work, frame): (&Work<'_>, Option<usize>),
         run: &mut ViewRun<'_>,
         loader: &Loader<'_>,
         findings: &mut ViewFindings,
@@ -143,12 +153,12 @@ impl<'a> Scoring<'a> {
         let mut written = Ok(());
         let mut ends = OpenEnded::new(self.plan, self.scene, self.view);
         read_ahead(
-            steps,
+            work.todo.len(),
             loader.loaders(),
-            |(_, step)| loader.load(step),
+            |nth| loader.load(&work.nth_step(nth, frame)),
             Loaded::bytes,
             |nth, loaded| {
-                let (index, step) = &steps[nth];
+                let (index, step) = (&work.todo[nth], &work.nth_step(nth, frame));
                 written = recorder.inputs_of(&loaded);
                 // If results can no longer be recorded, further scoring is useless.
                 if written.is_err() {
@@ -172,18 +182,19 @@ impl<'a> Scoring<'a> {
                     kept: result.as_ref().ok().and_then(|scored| scored.kept.as_ref()),
                 }));
                 let result = result.map(|scored| scored.result);
-                findings.pairs.insert(*index, Outcome { method: step.method, result, guides });
+                let outcome = Outcome { method: step.method, result, guides };
+                findings.pairs.insert(*index, Box::new(outcome));
                 recorder.progress.step(1);
                 if written.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
         );
         written?;
-        let (Some((last, step)), Some(left)) = (steps.last(), ends.left(recorder.warnings)) else {
+        let (Some(&last), Some(left)) = (work.todo.last(), ends.left(recorder.warnings)) else {
             return Ok(());
         };
-        let outcome =
-            Outcome { method: step.method, result: Err(left), guides: run.atd_guides(step.method) };
-        findings.pairs.insert(last + 1, outcome);
+        let method = work.method(last);
+        let outcome = Outcome { method, result: Err(left), guides: run.atd_guides(method) };
+        findings.pairs.insert(last + 1, Box::new(outcome));
         Ok(())
     }
 
@@ -245,7 +256,7 @@ impl<'a> Scoring<'a> {
             // These files have been read already. If one has disappeared since, another run cannot
             // use it either.
             if let Ok(id) = id_of_file(path) {
-                recorder.input(&self.plan.shown(path), &id)?;
+                recorder.input(self.plan.shown(path).into(), &id)?;
             }
         }
         Ok(())

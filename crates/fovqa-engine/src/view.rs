@@ -2,6 +2,7 @@
 //! frame, and the data for temporal metrics are kept for the frames after it.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use fovqa_emulate::Counts;
 use fovqa_frame::{Frame, Mask, SignalTables};
@@ -209,7 +210,7 @@ impl<'a> ViewRun<'a> {
                     pairs: &view.frames.iter().map(|f| f.tests.len()).collect::<Vec<_>>(),
                     file_size: reference.frame.file_size(),
                 };
-                let setup = Setup::new(&inputs, size, reference.file.clone(), warnings)?;
+                let setup = Setup::new(&inputs, size, reference.file.to_string(), warnings)?;
                 self.meters.settle(self.plan, &setup.metrics);
                 none.insert(setup)
             }
@@ -281,8 +282,8 @@ impl<'a> ViewRun<'a> {
         });
         let result = FrameResult {
             frame: frame.number,
-            reference: reference.file.clone(),
-            test: test.file.clone(),
+            reference: Arc::clone(&reference.file),
+            test: Arc::clone(&test.file),
             gaze_px,
             gaze_step_deg,
             rows: self.layouts.pack(&rows),

@@ -10,8 +10,8 @@ use crate::load::Step;
 /// A view's pairs, and the indices of those to be scored.
 pub(crate) struct Work<'a> {
     view: &'a FoundView,
-    /// For each pair, the index of its frame and the index among the tests of that frame.
-    pairs: Vec<(usize, usize)>,
+    /// For each frame, the index of its first pair.
+    first_pairs: Vec<usize>,
     range: Range<usize>,
     /// Indices of the pairs to be scored, in order.
     pub(crate) todo: Vec<usize>,
@@ -24,13 +24,16 @@ impl<'a> Work<'a> {
     pub(crate) fn new(
         view: &'a FoundView,
         range: Range<usize>,
-        known: &BTreeMap<usize, Outcome>,
+        known: &BTreeMap<usize, Box<Outcome>>,
     ) -> Self {
-        let frames = view.frames.iter().enumerate();
-        let pairs =
-            frames.flat_map(|(frame, found)| (0..found.tests.len()).map(move |n| (frame, n)));
+        let mut next = 0;
+        let first_pairs = view.frames.iter().map(|frame| {
+            next += frame.tests.len();
+            next - frame.tests.len()
+        });
+        let first_pairs = first_pairs.collect();
         let todo: Vec<usize> = range.clone().filter(|index| !known.contains_key(index)).collect();
-        let mut work = Self { view, pairs: pairs.collect(), range, todo, of: BTreeSet::new() };
+        let mut work = Self { view, first_pairs, range, todo, of: BTreeSet::new() };
         work.of = work.todo.iter().map(|index| work.method(*index)).collect();
         work
     }
@@ -40,9 +43,15 @@ impl<'a> Work<'a> {
         self.todo.first().copied().unwrap_or(self.range.end)
     }
 
+    /// The index of a pair's frame, and its index among the tests of that frame.
+    fn place(&self, index: usize) -> (usize, usize) {
+        let frame = self.first_pairs.partition_point(|first| *first <= index) - 1;
+        (frame, index - self.first_pairs[frame])
+    }
+
     /// The index of a pair's method.
-    fn method(&self, index: usize) -> usize {
-        let (frame, nth) = self.pairs[index];
+    pub(crate) fn method(&self, index: usize) -> usize {
+        let (frame, nth) = self.place(index);
         self.view.frames[frame].tests[nth].0
     }
 
@@ -69,21 +78,17 @@ impl<'a> Work<'a> {
     /// The step for a pair. It loads the reference unless the reference was already loaded with
     /// `frame`.
     pub(crate) fn step(&self, index: usize, frame: Option<usize>) -> Step<'a> {
-        let (of, nth) = self.pairs[index];
+        let (of, nth) = self.place(index);
         let found = &self.view.frames[of];
         let (method, test) = found.tests[nth];
         Step { frame: of, found, reference: frame != Some(of), method, test }
     }
 
-    /// The steps for all pairs to be scored, continuing after `frame`, with the indices of the
-    /// pairs.
-    pub(crate) fn steps(&self, mut frame: Option<usize>) -> Vec<(usize, Step<'a>)> {
-        let step = |&index: &usize| {
-            let step = self.step(index, frame);
-            frame = Some(step.frame);
-            (index, step)
-        };
-        self.todo.iter().map(step).collect()
+    /// The step for the pair at a position in `todo`. The first pair continues after `frame`. Steps are
+    /// made when they are needed, because a long sequence has very many.
+    pub(crate) fn nth_step(&self, nth: usize, frame: Option<usize>) -> Step<'a> {
+        let frame = if nth == 0 { frame } else { Some(self.place(self.todo[nth - 1]).0) };
+        self.step(self.todo[nth], frame)
     }
 }
 
@@ -119,14 +124,17 @@ mod tests {
     fn each_frame_brings_its_reference_once() {
         let view = view();
         let work = Work::new(&view, 0..5, &BTreeMap::new());
-        let brings = |steps: Vec<(usize, Step<'_>)>| -> Vec<bool> {
-            steps.iter().map(|(_, step)| step.reference).collect()
+        let brings = |work: &Work<'_>, frame| -> Vec<bool> {
+            (0..work.todo.len()).map(|nth| work.nth_step(nth, frame).reference).collect()
         };
-        assert_eq!(brings(work.steps(None)), [true, false, true, true, false]);
+        assert_eq!(brings(&work, None), [true, false, true, true, false]);
+        let methods: Vec<_> = (0..5).map(|index| (work.place(index), work.method(index))).collect();
+        let wanted = [((0, 0), 0), ((0, 1), 1), ((1, 0), 1), ((2, 0), 0), ((2, 1), 1)];
+        assert_eq!(methods, wanted);
         // The steps begin inside a frame that is loaded already, and inside one that is not.
         let work = Work::new(&view, 4..5, &BTreeMap::new());
-        assert_eq!(brings(work.steps(Some(2))), [false]);
-        assert_eq!(brings(work.steps(Some(1))), [true]);
+        assert_eq!(brings(&work, Some(2)), [false]);
+        assert_eq!(brings(&work, Some(1)), [true]);
         assert_eq!((work.first(), work.before(4, 1), work.is_of(0)), (4, vec![1, 2], false));
         assert_eq!(Work::new(&view, 2..2, &BTreeMap::new()).first(), 2);
     }

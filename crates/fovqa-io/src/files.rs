@@ -1,5 +1,6 @@
 //! Files on disk as a source of frames, with one file per frame.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use fovqa_frame::source::{
@@ -29,19 +30,31 @@ pub struct SourceOptions {
 #[derive(Debug)]
 pub(crate) struct Files {
     listing: Listing,
-    paths: Vec<PathBuf>,
+    /// The paths of the files that cannot be found by their names in the listing. Keeping every path would
+    /// double the memory of a long sequence.
+    paths: BTreeMap<usize, PathBuf>,
     options: SourceOptions,
 }
 
 impl Files {
     pub(crate) fn new(files: &FileListing, options: SourceOptions) -> Self {
         let listing = files.listing(&options.base);
-        let paths = files.files.iter().map(|file| file.path.clone()).collect();
-        Self { listing, paths, options }
+        let paths = files.files.iter().enumerate().filter_map(|(frame, file)| {
+            let is_named = options.base.join(listing.name(frame)) == file.path;
+            (!is_named).then(|| (frame, file.path.clone()))
+        });
+        Self { paths: paths.collect(), listing, options }
     }
 
-    fn path(&self, frame: usize) -> Result<&Path, SourceError> {
-        self.paths.get(frame).map(PathBuf::as_path).ok_or_else(|| SourceError {
+    /// The file of a frame; `None` if there is no such frame.
+    fn known_path(&self, frame: usize) -> Option<PathBuf> {
+        let entry = self.listing.entries().get(frame)?;
+        let path = self.paths.get(&frame).cloned();
+        Some(path.unwrap_or_else(|| self.options.base.join(&*entry.name)))
+    }
+
+    fn path(&self, frame: usize) -> Result<PathBuf, SourceError> {
+        self.known_path(frame).ok_or_else(|| SourceError {
             has_ended: true,
             ..SourceError::new(
                 format!("{}: it has no frame {frame}", self.listing.argument),
@@ -73,18 +86,18 @@ impl Source for Files {
     }
 
     fn size(&self, frame: usize) -> Result<(usize, usize), SourceError> {
-        frame_size(self.path(frame)?).map_err(|error| self.error(error))
+        frame_size(&self.path(frame)?).map_err(|error| self.error(error))
     }
 
     fn bytes_per_pixel(&self) -> u64 {
-        let is_exr = |path: &PathBuf| {
+        let is_exr = |path: PathBuf| {
             path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("exr"))
         };
-        if self.paths.first().is_some_and(is_exr) { 6 } else { 3 }
+        if self.known_path(0).is_some_and(is_exr) { 6 } else { 3 }
     }
 
     fn read(&self, frame: usize, guides: bool) -> Result<Picture, SourceError> {
-        let path = self.path(frame)?;
+        let path = &*self.path(frame)?;
         let none = GuideOptions::default();
         let wanted = if guides { &self.options.read.guides } else { &none };
         let read = ReadOptions { guides: wanted.clone(), ..self.options.read.clone() };
@@ -106,7 +119,7 @@ impl Source for Files {
     }
 
     fn read_guides(&self, frame: usize) -> Result<PictureGuides, SourceError> {
-        let path = self.path(frame)?;
+        let path = &*self.path(frame)?;
         let (decoded, id) = if self.options.hash {
             let (decoded, id) = read_guides_and_hash(path, &self.options.read)
                 .map_err(|error| self.error(error))?;
@@ -122,8 +135,8 @@ impl Source for Files {
     }
 
     fn origins(&self, frame: usize) -> Vec<(String, Origin)> {
-        let path = self.paths.get(frame);
-        path.map(|path| (shown(&self.options.base, path), Origin::File(path.clone())))
+        let path = self.known_path(frame);
+        path.map(|path| (shown(&self.options.base, &path), Origin::File(path)))
             .into_iter()
             .collect()
     }
@@ -140,5 +153,42 @@ impl Files {
             motion: search.missing_motion().filter(|_| named_motion).map(error),
             depth: search.missing_depth().filter(|_| named_depth).map(error),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn paths(base: &str, argument: &str, files: &[&str]) -> (Vec<Option<PathBuf>>, usize) {
+        let files = files.iter().map(PathBuf::from).collect();
+        let listing = FileListing::of_names(Path::new(argument), files).unwrap();
+        let options = SourceOptions { base: base.into(), ..SourceOptions::default() };
+        let files = Files::new(&listing, options);
+        ((0..3).map(|frame| files.known_path(frame)).collect(), files.paths.len())
+    }
+
+    #[test]
+    fn every_frame_has_its_path_but_few_are_kept() {
+        let of = |path: &str| Some(PathBuf::from(path));
+        for (base, one, two) in [
+            ("", "gt/1.png", "gt/2.png"),
+            ("/x", "/x/gt/1.png", "/x/gt/2.png"),
+            ("x", "/y/1.png", "/y/2.png"),
+        ] {
+            assert_eq!(paths(base, "gt", &[one, two]), (vec![of(one), of(two), None], 0));
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn names_that_are_not_utf8_keep_their_paths() {
+        use std::os::unix::ffi::OsStrExt;
+        let path = Path::new(std::ffi::OsStr::from_bytes(b"gt/\xff1.png"));
+        let listing = FileListing::of_names(Path::new("gt"), vec![path.to_owned()]).unwrap();
+        let files = Files::new(&listing, SourceOptions::default());
+        assert_eq!((files.known_path(0).as_deref(), files.paths.len()), (Some(path), 1));
+        // So does a name that looks like one of these.
+        assert_eq!(paths("", "gt", &[r"gt/\xff1.png"]).1, 1);
     }
 }

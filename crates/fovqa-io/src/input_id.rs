@@ -1,7 +1,7 @@
 //! The identity of an input: its size and its SHA-256.
 
-use std::fmt::Write;
-use std::io::{self, Read};
+use std::fmt::Write as _;
+use std::io::{self, Read, Write as _};
 use std::path::Path;
 
 use fovqa_frame::source::InputId;
@@ -25,24 +25,47 @@ pub fn id_of(mut reader: impl Read) -> io::Result<InputId> {
     /// A buffer size that fits into the second-level cache and needs few system calls.
     const CHUNK: usize = 128 << 10;
     let mut chunk = vec![0; CHUNK];
-    let (mut hash, mut bytes) = (Sha256::new(), 0);
+    let mut id = IdWriter::default();
     loop {
         match reader.read(&mut chunk) {
             Ok(0) => break,
-            Ok(read) => {
-                hash.update(&chunk[..read]);
-                bytes += read as u64;
-            }
+            Ok(read) => id.write_all(&chunk[..read])?,
             Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
             Err(error) => return Err(error),
         }
     }
-    let mut sha256 = String::new();
-    for byte in hash.finalize() {
-        // Writing to a string does not fail.
-        let _ = write!(sha256, "{byte:02x}");
+    Ok(id.id())
+}
+
+/// Computes the identity of the bytes that are written to it. Writing never fails.
+#[derive(Clone, Default)]
+pub struct IdWriter {
+    hash: Sha256,
+    bytes: u64,
+}
+
+impl IdWriter {
+    /// Size and hash of the bytes so far.
+    pub fn id(self) -> InputId {
+        let mut sha256 = String::with_capacity(64);
+        for byte in self.hash.finalize() {
+            // Writing to a string does not fail.
+            let _ = write!(sha256, "{byte:02x}");
+        }
+        InputId { bytes: self.bytes, sha256 }
     }
-    Ok(InputId { bytes, sha256 })
+}
+
+impl io::Write for IdWriter {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.hash.update(bytes);
+        self.bytes += bytes.len() as u64;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ pub use guides::{
     ChannelSearch, DepthChannels, GuideOptions, GuidePreset, GuideSearch, MotionChannels,
     MotionUnit, NamedMotion,
 };
-pub use input_id::{id_of, id_of_file};
+pub use input_id::{IdWriter, id_of, id_of_file};
 pub use jpeg::kind::JpegKind;
 pub use note::Note;
 pub use read_guides::{read_guides, read_guides_and_hash};

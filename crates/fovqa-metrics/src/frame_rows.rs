@@ -224,9 +224,11 @@ impl FrameRows {
 
     /// The rows of the wanted keys.
     pub fn of_keys(&self, wanted: impl Fn(&Key) -> bool) -> impl Iterator<Item = Row> {
-        let numbers = self.numbers.all();
-        let wanted = self.layout.0.iter().filter(move |place| wanted(&place.key));
-        wanted.map(move |place| row(place, &numbers[place.at as usize..]))
+        let is_wanted = move |place: &&ValuePlace| wanted(&place.key);
+        let mut places = self.layout.0.iter().filter(is_wanted).peekable();
+        // Reading values that nobody wants would cost a system call.
+        let numbers = places.peek().map(|_| self.numbers.all()).unwrap_or_default();
+        places.map(move |place| row(place, &numbers[place.at as usize..]))
     }
 
     /// The row of a key.
@@ -240,13 +242,10 @@ impl FrameRows {
         Some(row(place, &self.numbers.some::<MOST_NUMBERS>(place.at as usize)))
     }
 
-    /// The rows of a key in several frames.
-    pub fn of_frames<'a>(
-        frames: impl Iterator<Item = &'a Self>,
-        key: Key,
-    ) -> impl Iterator<Item = Row> {
-        let order = key.order();
-        frames.filter_map(move |rows| rows.find(order))
+    /// The same values, held in memory. Looking up many keys in them reads the temporary file once.
+    #[must_use]
+    pub fn held(&self) -> Self {
+        Self { layout: self.layout.clone(), numbers: Numbers::Held(self.numbers.all()) }
     }
 
     /// The value of a key; `None` if there is no such row or the row has no value.
@@ -304,6 +303,7 @@ mod tests {
         assert_eq!(packed.value(Key::of(Metric::Psnr)), Some(f64::INFINITY));
         assert_eq!(packed.get(Key::of(Metric::Mse)).map(|row| row.value), Some(None));
         assert!(packed.get(Key::of(Metric::Fssim)).is_none() && packed.has(Metric::Mse));
+        assert_eq!(packed.held(), packed);
         let numbers: Vec<Option<f64>> = packed.iter().flat_map(|row| row.numbers()).collect();
         let read = FrameRows::of(&Layout::new(packed.layout.keys()).unwrap(), &numbers);
         assert_eq!(read.as_ref(), Some(&packed));

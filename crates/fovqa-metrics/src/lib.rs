@@ -40,7 +40,7 @@ pub use metric::Metric;
 pub use metric_params::NoParams;
 pub use pair_input::PairInput;
 pub use param_set::ParamSet;
-pub use pooling::{Parts, Pooling, Statistic, Weight, pool};
+pub use pooling::{Parts, Pool, Pooling, Statistic, Weight, pool};
 pub use profile::Profiler;
 pub use regions::{BlockRegions, Regions};
 pub use registry::Params;

@@ -249,34 +249,64 @@ pub fn pool(
     pooling: Pooling,
     values: impl IntoIterator<Item = (Option<f64>, Parts)>,
 ) -> (Option<f64>, Parts) {
-    let (mut scored, mut sum, mut max) = (0usize, 0.0, f64::NEG_INFINITY);
-    let mut parts: Option<Parts> = None;
-    let (mut measured, mut last) = (0usize, 0.0);
-    for (value, more) in values {
+    let mut pool = Pool::default();
+    values.into_iter().for_each(|(value, parts)| pool.add(value, parts));
+    pool.value(pooling)
+}
+
+/// Combines values like [`pool`], but takes them one at a time. Several pools can be filled in one pass over
+/// the frames.
+#[derive(Debug, Clone, Copy)]
+pub struct Pool {
+    /// Number of values, their sum and the largest one.
+    scored: usize,
+    sum: f64,
+    max: f64,
+    /// The last value.
+    last: f64,
+    /// Number of items that have a value or samples, and their parts together.
+    measured: usize,
+    parts: Option<Parts>,
+}
+
+impl Default for Pool {
+    fn default() -> Self {
+        let max = f64::NEG_INFINITY;
+        Self { scored: 0, sum: 0.0, max, last: 0.0, measured: 0, parts: None }
+    }
+}
+
+impl Pool {
+    /// Adds the next value with its parts.
+    pub fn add(&mut self, value: Option<f64>, parts: Parts) {
         if let Some(value) = value {
-            sum += value;
-            max = f64::max(max, value);
-            (scored, last) = (scored + 1, value);
+            self.sum += value;
+            self.max = f64::max(self.max, value);
+            (self.scored, self.last) = (self.scored + 1, value);
         }
         // A value may be missing although it has samples.
-        if value.is_some() || !more.is_empty() {
-            measured += 1;
-            parts = match parts {
-                None => Some(more),
-                Some(parts) => Some(parts.and(more).unwrap_or_default()),
+        if value.is_some() || !parts.is_empty() {
+            self.measured += 1;
+            self.parts = match self.parts {
+                None => Some(parts),
+                Some(before) => Some(before.and(parts).unwrap_or_default()),
             };
         }
     }
-    let parts = parts.unwrap_or_default();
-    match (pooling, scored) {
-        (_, 1) if measured == 1 => (Some(last), parts),
-        (Pooling::WeightedMean | Pooling::Decibels | Pooling::Deviation, _) => {
-            (parts.value(pooling), parts)
+
+    /// The combined value with its parts.
+    pub fn value(&self, pooling: Pooling) -> (Option<f64>, Parts) {
+        let parts = self.parts.unwrap_or_default();
+        match (pooling, self.scored) {
+            (_, 1) if self.measured == 1 => (Some(self.last), parts),
+            (Pooling::WeightedMean | Pooling::Decibels | Pooling::Deviation, _) => {
+                (parts.value(pooling), parts)
+            }
+            (_, 0) | (Pooling::None, _) => (None, Parts::Value),
+            (Pooling::PlainMean, count) => (Some(self.sum / count as f64), Parts::Value),
+            (Pooling::Max, _) => (Some(self.max), Parts::Value),
+            (Pooling::Sum, _) => (Some(self.sum), Parts::Value),
         }
-        (_, 0) | (Pooling::None, _) => (None, Parts::Value),
-        (Pooling::PlainMean, count) => (Some(sum / count as f64), Parts::Value),
-        (Pooling::Max, _) => (Some(max), Parts::Value),
-        (Pooling::Sum, _) => (Some(sum), Parts::Value),
     }
 }
 

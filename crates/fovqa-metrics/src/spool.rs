@@ -5,8 +5,9 @@ use std::fs::File;
 use std::io;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// Bytes that are held in memory before anything is written to the file.
-const HELD_BYTES: usize = 1 << 17;
+/// Bytes that are held in memory before anything is written to the file: the values of a small run need no
+/// file, and those of a long one are a small part of its memory.
+const HELD_BYTES: usize = 1 << 20;
 
 /// Takes numbers in, and keeps the first in memory and the others in the file.
 #[derive(Debug, Clone, Default)]

@@ -29,7 +29,10 @@ pub struct Drawn {
 /// # Errors
 /// If a file of the run is missing or damaged, or the folder cannot be written to.
 pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
-    let run: RunRecord = read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
+    let mut run: RunRecord =
+        read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
+    // The page only counts them, and a long sequence has very many.
+    let inputs = std::mem::take(&mut run.inputs).len();
     let overview = Overview::read(folder)?;
     let csv_names = CsvNames::from(&run.resolved);
     let values = FrameValues::read(folder, csv_names)?;
@@ -60,7 +63,7 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
             let on_page = paths.iter().zip(&captions);
             let on_page: Vec<PageFigure<'_>> =
                 on_page.map(|(path, caption)| PageFigure { path, caption }).collect();
-            page(&run, &overview, &tables, &on_page)
+            page((&run, inputs), &overview, &tables, &on_page)
         }),
         names: csv_names,
     }

@@ -42,9 +42,9 @@ const LONG_STYLE: &str = "\
 .long tbody th{position:sticky;left:0;background:#fff}
 ";
 
-/// Makes the page of a run.
+/// Makes the page of a run with this number of inputs.
 pub(crate) fn page(
-    run: &RunRecord,
+    (run, inputs): (&RunRecord, usize),
     overview: &Overview,
     tables: &[(String, ComparisonTable)],
     figures: &[PageFigure<'_>],
@@ -102,7 +102,7 @@ pub(crate) fn page(
         escaped(&run.version),
         escaped(&run.experiment.file),
         escaped(&run.experiment.sha256),
-        count(run.inputs.len(), "input file"),
+        count(inputs, "input file"),
     );
     end(&mut text, &made);
     text

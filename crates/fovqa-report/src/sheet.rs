@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use fovqa_methods::curves::CurveError;
 use fovqa_plot::{Figure, PlotError, png};
 use fovqa_results::{
-    CsvNames, FileError, REPORT_JSON, make_folder, read_json_file, take_away, write_json_file,
-    write_whole,
+    Batch, CsvNames, FileError, REPORT_JSON, make_folder, read_json_file, take_away,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -104,15 +103,18 @@ impl Sheet<'_> {
         // which files exist.
         let old = drawn_before(folder);
         let either = old.iter().filter(|old| !files.contains(old)).chain(&files).cloned();
-        write_manifest(folder, either.collect())?;
+        let batch = Batch::default();
+        write_manifest(folder, either.collect(), &batch)?;
+        // The list must not be lost if files on it are not.
+        batch.flush();
 
         for NamedTable { name, files } in &self.tables {
             for (ending, text) in files {
                 let path = folder.join(format!("{name}.{ending}"));
                 let text = text();
                 match *ending {
-                    "csv" => write_whole(&path, self.names.in_csv(text).as_bytes())?,
-                    _ => write_whole(&path, text.as_bytes())?,
+                    "csv" => batch.write(&path, self.names.in_csv(text).as_bytes())?,
+                    _ => batch.write(&path, text.as_bytes())?,
                 }
             }
         }
@@ -121,19 +123,22 @@ impl Sheet<'_> {
             make_folder(&plots).map_err(|error| FileError::Write { path: plots.clone(), error })?;
         }
         let names = self.names;
-        let written: Result<Vec<()>, ReportError> =
-            self.figures.par_iter().map(|figure| write_figure(&plots, figure, names)).collect();
+        let written: Result<Vec<()>, ReportError> = self
+            .figures
+            .par_iter()
+            .map(|figure| write_figure(&plots, figure, names, &batch))
+            .collect();
         written?;
-        write_whole(&folder.join("index.html"), (self.page)().as_bytes())?;
+        batch.write(&folder.join("index.html"), (self.page)().as_bytes())?;
         remove(folder, old.iter().filter(|old| !files.contains(old)));
-        write_manifest(folder, files)?;
+        write_manifest(folder, files, &batch)?;
         Ok(())
     }
 }
 
-fn write_manifest(folder: &Path, files: Vec<String>) -> Result<(), FileError> {
+fn write_manifest(folder: &Path, files: Vec<String>, batch: &Batch) -> Result<(), FileError> {
     let manifest = Manifest { schema: SCHEMA.to_owned(), files };
-    write_json_file(&folder.join(REPORT_JSON), &manifest)
+    batch.write_json(&folder.join(REPORT_JSON), &manifest)
 }
 
 /// Removes the tables and figures of an earlier run.
@@ -146,14 +151,19 @@ pub fn clear(folder: &Path) {
     }
 }
 
-fn write_figure(plots: &Path, figure: &NamedFigure, names: CsvNames) -> Result<(), ReportError> {
+fn write_figure(
+    plots: &Path,
+    figure: &NamedFigure,
+    names: CsvNames,
+    batch: &Batch,
+) -> Result<(), ReportError> {
     let NamedFigure { name, figure, .. } = figure;
     let failed = |error| ReportError::Plot { name: name.clone(), error };
     let svg = for_picture(figure).svg().map_err(failed)?;
     let pixels = png(&svg, PNG_SCALE).map_err(failed)?;
     let data = names.in_csv(figure.csv());
     for (ending, bytes) in [("svg", svg.as_bytes()), ("png", &pixels), ("csv", data.as_bytes())] {
-        write_whole(&plots.join(format!("{name}.{ending}")), bytes)?;
+        batch.write(&plots.join(format!("{name}.{ending}")), bytes)?;
     }
     Ok(())
 }

@@ -11,8 +11,8 @@ use serde_json::Value;
 
 use crate::files::{FileError, read_json_file};
 use crate::gate::{ComparisonName, RunValues};
+use crate::inputs::{Input, Inputs};
 use crate::json::{Number, RunRecord};
-use crate::report::Input;
 
 /// Name and version of the format.
 pub const BASELINE_SCHEMA: &str = "fovqa.baseline/1";
@@ -313,13 +313,13 @@ fn usual(metric: Metric) -> Vec<Quantity> {
 }
 
 /// The inputs, grouped by folder.
-fn grouped(inputs: &[Input], hash: &dyn Fn(&str) -> String) -> BTreeMap<String, InputGroup> {
-    let mut folders: BTreeMap<String, Vec<&Input>> = BTreeMap::new();
-    for input in inputs {
+fn grouped(inputs: &Inputs, hash: &dyn Fn(&str) -> String) -> BTreeMap<String, InputGroup> {
+    let mut folders: BTreeMap<String, Vec<Input>> = BTreeMap::new();
+    for input in inputs.all() {
         let folder = input.path.rsplit_once('/').map_or("", |(folder, _)| folder);
         folders.entry(folder.to_owned()).or_default().push(input);
     }
-    let group = |inputs: Vec<&Input>| {
+    let group = |inputs: Vec<Input>| {
         let mut lines: Vec<String> =
             inputs.iter().map(|input| format!("{} {}\n", input.sha256, input.path)).collect();
         lines.sort_unstable();

@@ -2,6 +2,7 @@
 //! metric requires.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use fovqa_metrics::{FrameRows, Layouts, Metric, Row, Rows, Subject};
 
@@ -31,8 +32,8 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
         let both = both.iter().copied().filter(in_common).collect::<Rows>();
         Some(FrameResult {
             frame: l.frame,
-            reference: l.reference.clone(),
-            test: l.test.clone(),
+            reference: Arc::clone(&l.reference),
+            test: Arc::clone(&l.test),
             gaze_px: None,
             gaze_step_deg: None,
             rows: layouts.pack(&both),
@@ -94,8 +95,8 @@ mod tests {
         rows.count(Key::pixels(Subject::PixelsOutsideBands), 3);
         FrameResult {
             frame,
-            reference: String::new(),
-            test: String::new(),
+            reference: "".into(),
+            test: "".into(),
             gaze_px: None,
             gaze_step_deg: None,
             rows: rows.into(),

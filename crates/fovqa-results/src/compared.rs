@@ -1,7 +1,7 @@
 //! Measures that are computed for the reference and for the test in the same way, such as profiles
 //! and temporal differences: the value of each image and their ratio.
 
-use fovqa_metrics::{Image, Key, Row};
+use fovqa_metrics::{FrameRows, Image, Key, Row};
 
 use crate::report::FrameResult;
 
@@ -43,17 +43,24 @@ impl FrameResult {
     /// The measures of each image that are compared, in the order of results. The key is that of
     /// the ratio.
     pub fn compared(&self) -> impl Iterator<Item = (Key, Sides<Option<f64>>)> {
-        let of_picture = |key: &Key| key.image != Image::Pair && key.statistic().has_ratio;
-        let mut rows = self.rows.of_keys(of_picture).peekable();
-        std::iter::from_fn(move || {
-            let of_reference = |row: &Row| row.key.image == Image::Reference;
-            let Row { key, value: reference, .. } = rows.by_ref().find(of_reference)?;
-            // The row of the test follows that of the reference.
-            let test = rows.peek().filter(|row| row.key == key.of_image(Image::Test));
-            let test = test.and_then(|row| row.value);
-            Some((key.of_image(Image::Ratio), Sides { reference, test }))
-        })
+        compared_in(&self.rows)
     }
+}
+
+/// The measures of each image among the values of a frame, as [`FrameResult::compared`] returns them.
+pub(crate) fn compared_in(
+    rows: &FrameRows,
+) -> impl Iterator<Item = (Key, Sides<Option<f64>>)> + use<'_> {
+    let of_picture = |key: &Key| key.image != Image::Pair && key.statistic().has_ratio;
+    let mut rows = rows.of_keys(of_picture).peekable();
+    std::iter::from_fn(move || {
+        let of_reference = |row: &Row| row.key.image == Image::Reference;
+        let Row { key, value: reference, .. } = rows.by_ref().find(of_reference)?;
+        // The row of the test follows that of the reference.
+        let test = rows.peek().filter(|row| row.key == key.of_image(Image::Test));
+        let test = test.and_then(|row| row.value);
+        Some((key.of_image(Image::Ratio), Sides { reference, test }))
+    })
 }
 
 #[cfg(test)]

@@ -160,8 +160,8 @@ mod tests {
         FvvdpFrame { q, frame_jod: jod(q), bands: vec![band], shares }.rows(2, &mut rows);
         FrameResult {
             frame: number,
-            reference: String::new(),
-            test: String::new(),
+            reference: "".into(),
+            test: "".into(),
             gaze_px: None,
             gaze_step_deg: None,
             rows: rows.into(),

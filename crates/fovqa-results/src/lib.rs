@@ -9,6 +9,7 @@ mod curves;
 mod files;
 mod fvvdp;
 mod gate;
+mod inputs;
 mod json;
 
 mod output;
@@ -35,17 +36,18 @@ pub use gate::{
     Calibration, Check, ComparisonName, FoundValue, GATE_SCHEMA, Lacking, Limit, Outcome, Proposal,
     RuleVerdict, RunValues, State, Verdict, calibrate, write_verdict_json,
 };
+pub use inputs::{Identity, Input, Inputs};
 pub use json::{
     BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,
     HaarValues, Number, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues,
     ViewRecord, read_summary, write_json, write_summary,
 };
 pub use output::{
-    make_folder, replaces, sweep, take_away, try_writing, write_json_file, write_json_output,
-    write_output, write_whole, write_whole_with,
+    Batch, make_folder, replaces, sweep, take_away, try_writing, write_json_file,
+    write_json_output, write_output, write_whole, write_whole_with,
 };
 pub use report::{
-    AtdGuides, Comparison, Failure, FrameResult, FvvdpViewing, GuideSource, Input, RunResults,
+    AtdGuides, Comparison, Failure, FrameResult, FvvdpViewing, GuideSource, RunResults,
     ScoreReport, ViewResult,
 };
 pub use samples::SampleSummary;

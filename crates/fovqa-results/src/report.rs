@@ -1,8 +1,12 @@
 //! The results of `score` and of a run.
 
+use std::sync::Arc;
+
 use fovqa_metrics::{FrameRows, Metric};
 use fovqa_vision::EccentricityKind;
 use serde::{Deserialize, Serialize};
+
+use crate::inputs::Inputs;
 
 /// The view under which the frames were scored.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,9 +29,9 @@ pub struct FrameResult {
     /// Frame number.
     pub frame: i64,
     /// Reference file, with `/` between folders.
-    pub reference: String,
+    pub reference: Arc<str>,
     /// Test file.
-    pub test: String,
+    pub test: Arc<str>,
     /// Gaze in pixels, if it comes from a trace.
     pub gaze_px: Option<[f64; 2]>,
     /// How far the gaze has moved since the previous frame, in degrees, if it comes from a trace.
@@ -134,22 +138,11 @@ pub struct Comparison {
     pub report: ScoreReport,
 }
 
-/// An input of a run.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Input {
-    /// Path of the file, relative to the experiment's folder.
-    pub path: String,
-    /// Size of the file in bytes.
-    pub bytes: u64,
-    /// SHA-256 of the file, in hexadecimal digits.
-    pub sha256: String,
-}
-
 /// All results of a run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RunResults {
     /// The comparisons, ordered by scene, then by method, then by eye.
     pub comparisons: Vec<Comparison>,
-    /// The files that were read, ordered by path, if they were hashed.
-    pub inputs: Vec<Input>,
+    /// The files that were read, if they were hashed.
+    pub inputs: Inputs,
 }

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::{FrameRows, Image, Key, Metric, MetricKind, Subject, pool};
+use fovqa_metrics::{FrameRows, Image, Key, Metric, MetricKind, Pool, Row, Subject};
 
-use crate::compared::Sides;
+use crate::compared::{Sides, compared_in};
 use crate::fvvdp::FvvdpSummary;
-use crate::report::{FrameResult, GuideSource, ScoreReport};
+use crate::report::{GuideSource, ScoreReport};
 use crate::samples::SampleSummary;
 use crate::spread::{Gathered, Spread};
 
@@ -101,30 +101,54 @@ impl Summary {
     pub fn of(report: &ScoreReport) -> Self {
         let frames = &report.frames;
         let scored = || report.metrics.iter().copied().filter(|metric| Key::of(*metric).is_score());
-        let whole = scored().filter_map(|m| Some((m, Statistics::of_key(frames, Key::of(m))?)));
-        let bands = report.edges().iter().enumerate().map(|(index, &(from_deg, to_deg))| {
-            let pixels = Key::pixels(Subject::Pixels).in_band(index);
-            let per_band = scored().filter(|m| m.info().per_band && m.is(MetricKind::Fidelity));
-            let statistics =
-                per_band.map(|m| (m, Statistics::of_key(frames, Key::of(m).in_band(index))));
+        let per_band = |m: &Metric| m.info().per_band && m.is(MetricKind::Fidelity);
+        let pixels = |band| Key::pixels(Subject::Pixels).in_band(band);
+        let edges = report.edges();
+        let of_band = |band: usize| {
+            let metrics = scored().filter(per_band).map(move |m| Key::of(m).in_band(band));
+            metrics.chain([pixels(band)])
+        };
+        let keys: Vec<Key> =
+            scored().map(Key::of).chain((0..edges.len()).flat_map(of_band)).collect();
+        let is_count = |key: &Key| key.metric().is_some() && key.statistic().is_count;
+        let mut gathered = GatheredValues::of(&keys);
+        let mut counts = BTreeMap::new();
+        let mut compared: BTreeMap<Key, Sides<Gathered>> = BTreeMap::new();
+        let mut atd = AtdValues::default();
+        for frame in frames {
+            // The values of a frame are read once for all statistics.
+            let rows = frame.rows.held();
+            gathered.add(&rows);
+            for row in rows.of_keys(is_count) {
+                *counts.entry(row.key).or_default() += row.value.unwrap_or_default() as u64;
+            }
+            for (key, sides) in compared_in(&rows) {
+                let entry = compared.entry(key).or_default();
+                entry.reference.add(sides.reference);
+                entry.test.add(sides.test);
+            }
+            atd.add(&rows);
+        }
+        let whole = scored().filter_map(|m| Some((m, gathered.statistics(Key::of(m))?)));
+        let bands = edges.iter().enumerate().map(|(index, &(from_deg, to_deg))| {
+            let per_band = scored().filter(per_band);
+            let statistics = per_band.map(|m| (m, gathered.statistics(Key::of(m).in_band(index))));
             BandSummary {
                 from_deg,
                 to_deg,
-                pixels: frames.iter().map(|frame| frame.rows.number(pixels)).sum(),
+                pixels: gathered.total(pixels(index)),
                 statistics: statistics.collect(),
             }
         });
-        let mut counts = BTreeMap::new();
-        let is_count = |key: &Key| key.metric().is_some() && key.statistic().is_count;
-        for row in frames.iter().flat_map(|frame| frame.rows.of_keys(is_count)) {
-            *counts.entry(row.key).or_default() += row.value.unwrap_or_default() as u64;
-        }
+        let compared = compared
+            .into_iter()
+            .map(|(key, values)| (key, SideStatistics::of(&values, key.statistic().is_maximum())));
         Self {
             statistics: whole.collect(),
             bands: bands.collect(),
-            compared: compared(frames),
+            compared: compared.collect(),
             counts,
-            atd: report.metrics.contains(&Metric::Atd).then(|| AtdSummary::of(report)),
+            atd: report.metrics.contains(&Metric::Atd).then(|| AtdSummary::of(report, &atd)),
             fvvdp: FvvdpSummary::of(report),
             samples: SampleSummary::of(frames),
         }
@@ -136,20 +160,6 @@ impl Summary {
         compared.sort_by_key(|(key, _)| (key.subject, key.level, key.band));
         compared
     }
-}
-
-/// Measures of each image over the frames.
-fn compared(frames: &[FrameResult]) -> BTreeMap<Key, SideStatistics> {
-    let mut values: BTreeMap<Key, Sides<Gathered>> = BTreeMap::new();
-    for (key, sides) in frames.iter().flat_map(FrameResult::compared) {
-        let entry = values.entry(key).or_default();
-        entry.reference.add(sides.reference);
-        entry.test.add(sides.test);
-    }
-    let statistics = values
-        .into_iter()
-        .map(|(key, values)| (key, SideStatistics::of(&values, key.statistic().is_maximum())));
-    statistics.collect()
 }
 
 impl SideStatistics {
@@ -166,40 +176,63 @@ impl SideStatistics {
     }
 }
 
-impl AtdSummary {
-    fn of(report: &ScoreReport) -> Self {
-        let key = Key::of(Metric::Atd);
-        let [of_reference, of_test] =
-            [Image::Reference, Image::Test].map(|image| key.of_image(image));
-        let found = || report.frames.iter().map(|f| &f.rows).filter(|rows| rows.has(Metric::Atd));
-        let mut gathered: Sides<Gathered> = Sides::default();
-        for rows in found() {
-            if let (Some(reference), Some(test)) = (rows.value(of_reference), rows.value(of_test)) {
-                gathered.reference.add(Some(reference));
-                gathered.test.add(Some(test));
+/// The temporal differences of the frames.
+#[derive(Default)]
+struct AtdValues {
+    /// Number of frames that have temporal differences, with or without a value.
+    found: usize,
+    sides: Sides<Gathered>,
+    left_out: Sides<Pool>,
+}
+
+impl AtdValues {
+    fn add(&mut self, rows: &FrameRows) {
+        if !rows.has(Metric::Atd) {
+            return;
+        }
+        self.found += 1;
+        let value = |image| rows.value(Key::of(Metric::Atd).of_image(image));
+        if let (Some(reference), Some(test)) = (value(Image::Reference), value(Image::Test)) {
+            self.sides.reference.add(Some(reference));
+            self.sides.test.add(Some(test));
+        }
+        let Some(key) = Self::left_out() else { return };
+        let Sides { reference, test } = &mut self.left_out;
+        for (pool, image) in [(reference, Image::Reference), (test, Image::Test)] {
+            if let Some(row) = rows.get(key.of_image(image)) {
+                pool.add(row.value, row.parts);
             }
         }
-        let frames = gathered.test.count;
-        let sides = gathered.map(|values| values.spread().map(|spread| spread.mean));
-        let left_out = |image: Image| {
-            let key = Key::named(Subject::Metric(Metric::Atd), "left_out")?.of_image(image);
-            let rows = found().filter_map(|rows| rows.get(key));
-            pool(key.statistic().frames, rows.map(|row| (row.value, row.parts))).0
-        };
+    }
+
+    /// The key of the share of pixels that were left out.
+    fn left_out() -> Option<Key> {
+        Key::named(Subject::Metric(Metric::Atd), "left_out")
+    }
+}
+
+impl AtdSummary {
+    fn of(report: &ScoreReport, values: &AtdValues) -> Self {
+        let frames = values.sides.test.count;
+        let sides = values.sides.map(|values| values.spread().map(|spread| spread.mean));
+        let left_out = values.left_out.map(|pool| {
+            let key = AtdValues::left_out()?;
+            pool.value(key.statistic().frames).0
+        });
         let guides = report.atd_guides;
         let own = [guides.motion, guides.depth].contains(&GuideSource::Test);
         let reason = match () {
             () if frames > 0 => sides.reason(),
             () if report.frames.len() < 2 => Some("needs two frames"),
-            () if found().next().is_none() => Some("no two of the frames follow each other"),
+            () if values.found == 0 => Some("no two of the frames follow each other"),
             () => Some("no pixel can be compared"),
         };
         Self {
             reference: sides.reference,
             test: sides.test,
             ratio: sides.ratio(),
-            left_out: left_out(Image::Reference),
-            left_out_test: left_out(Image::Test).filter(|_| own),
+            left_out: left_out.reference,
+            left_out_test: left_out.test.filter(|_| own),
             frames,
             motion: guides.motion,
             depth: guides.depth,
@@ -208,43 +241,104 @@ impl AtdSummary {
     }
 }
 
-impl Statistics {
-    /// The statistics of the values of a key; `None` if no frame has one.
-    fn of_key(frames: &[FrameResult], key: Key) -> Option<Self> {
-        let rows = || FrameRows::of_frames(frames.iter().map(|frame| &frame.rows), key);
-        let values = rows().filter_map(|row| row.value);
-        let statistics = Self::of(key.metric()?, values)?;
-        let statistic = key.statistic();
-        let pooled = || pool(statistic.frames, rows().map(|row| (row.value, row.parts))).0;
-        Some(Self { pooled: statistic.pools_frames().then(pooled).flatten(), ..statistics })
+/// The values of several keys over the frames.
+struct GatheredValues(BTreeMap<Key, KeyValues>);
+
+impl GatheredValues {
+    fn of(keys: &[Key]) -> Self {
+        Self(keys.iter().map(|key| (*key, KeyValues::default())).collect())
     }
 
-    /// The statistics of some values; `None` if there are none.
-    fn of(metric: Metric, values: impl Iterator<Item = f64>) -> Option<Self> {
-        let values: Vec<f64> = values.collect();
-        let min = values.iter().copied().reduce(f64::min)?;
-        let max = values.iter().copied().reduce(f64::max)?;
-        let finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
-        let mean =
-            if finite.is_empty() { max } else { finite.iter().sum::<f64>() / finite.len() as f64 };
-        let identical_frames = metric.is_decibel().then(|| values.len() - finite.len());
-        Some(Self { mean, min, max, identical_frames, pooled: None })
+    /// Adds the values of the next frame.
+    fn add(&mut self, rows: &FrameRows) {
+        for (key, values) in &mut self.0 {
+            if let Some(row) = rows.get(*key) {
+                values.add(&row);
+            }
+        }
+    }
+
+    /// The statistics of a key; `None` if no frame has a value.
+    fn statistics(&self, key: Key) -> Option<Statistics> {
+        self.0.get(&key)?.statistics(key)
+    }
+
+    /// The sum of the counts of a key.
+    fn total(&self, key: Key) -> u64 {
+        self.0.get(&key).map_or(0, |values| values.total)
+    }
+}
+
+/// What is kept of the values of one key.
+#[derive(Debug, Clone, Copy)]
+struct KeyValues {
+    count: usize,
+    extremes: Option<(f64, f64)>,
+    finite: usize,
+    finite_sum: f64,
+    /// The sum of the values as counts.
+    total: u64,
+    pool: Pool,
+}
+
+impl Default for KeyValues {
+    fn default() -> Self {
+        // The sum of no numbers, to which -0.0 can be added without a change of its sign.
+        let finite_sum = -0.0;
+        Self { count: 0, extremes: None, finite: 0, finite_sum, total: 0, pool: Pool::default() }
+    }
+}
+
+impl KeyValues {
+    fn add(&mut self, row: &Row) {
+        self.pool.add(row.value, row.parts);
+        let Some(value) = row.value else { return };
+        let (min, max) = self.extremes.unwrap_or((value, value));
+        self.extremes = Some((min.min(value), max.max(value)));
+        self.count += 1;
+        self.total += value as u64;
+        if value.is_finite() {
+            self.finite += 1;
+            self.finite_sum += value;
+        }
+    }
+
+    /// The statistics; `None` if there is no value.
+    fn statistics(&self, key: Key) -> Option<Statistics> {
+        let (min, max) = self.extremes?;
+        let mean = if self.finite == 0 { max } else { self.finite_sum / self.finite as f64 };
+        let identical_frames = key.metric()?.is_decibel().then(|| self.count - self.finite);
+        let statistic = key.statistic();
+        let pooled = statistic.pools_frames().then(|| self.pool.value(statistic.frames).0);
+        Some(Statistics { mean, min, max, identical_frames, pooled: pooled.flatten() })
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use fovqa_metrics::Parts;
+
     use super::*;
 
     #[test]
     fn an_identical_frame_does_not_lift_the_mean() {
-        let s = Statistics::of(Metric::Psnr, [30.0, f64::INFINITY, 20.0].into_iter()).unwrap();
+        let of = |metric, values: &[f64]| {
+            let key = Key::of(metric);
+            let mut gathered = KeyValues::default();
+            for &value in values {
+                gathered.add(&Row { key, value: Some(value), parts: Parts::Value });
+            }
+            gathered.statistics(key)
+        };
+        let s = of(Metric::Psnr, &[30.0, f64::INFINITY, 20.0]).unwrap();
         assert_eq!(
             (s.mean, s.min, s.max, s.identical_frames),
             (25.0, 20.0, f64::INFINITY, Some(1))
         );
-        let all = Statistics::of(Metric::Psnr, [f64::INFINITY; 2].into_iter()).unwrap();
+        let all = of(Metric::Psnr, &[f64::INFINITY; 2]).unwrap();
         assert!(all.mean.is_infinite());
-        assert!(Statistics::of(Metric::Ssim, std::iter::empty()).is_none());
+        assert!(of(Metric::Ssim, &[]).is_none());
+        let zero = of(Metric::Ssim, &[-0.0]).unwrap();
+        assert!(zero.mean.is_sign_negative(), "the sum of one value is the value");
     }
 }

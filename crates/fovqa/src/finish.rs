@@ -7,8 +7,8 @@ use fovqa_io::id_of;
 use fovqa_plan::{Experiment, Eye};
 use fovqa_report::Drawn;
 use fovqa_results::{
-    ExperimentRecord, Failure, FileError, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
-    SUMMARY_JSON, checksums, write_json_file, write_summary, write_tables, write_whole_with,
+    Batch, ExperimentRecord, Failure, FileError, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
+    SUMMARY_JSON, checksums, write_summary, write_tables,
 };
 
 use crate::error::Error;
@@ -95,8 +95,9 @@ fn say_failures<'a, T: AsRef<str>>(
 }
 
 fn write(experiment: &Experiment, results: RunResults, folder: &Path) -> Result<(), FileError> {
-    write_tables(folder, &results, &experiment.output)?;
-    write_whole_with(&folder.join(SUMMARY_JSON), |out| {
+    let batch = Batch::default();
+    write_tables(folder, &results, &experiment.output, &batch)?;
+    batch.write_with(&folder.join(SUMMARY_JSON), |out| {
         write_summary(&experiment.name, &results, out)
     })?;
     let file = experiment.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -112,5 +113,7 @@ fn write(experiment: &Experiment, results: RunResults, folder: &Path) -> Result<
         inputs: results.inputs,
         files: checksums(folder)?,
     };
-    write_json_file(&folder.join(RUN_JSON), &record)
+    // The record vouches for the other files, so their names come first.
+    batch.flush();
+    batch.write_json(&folder.join(RUN_JSON), &record)
 }

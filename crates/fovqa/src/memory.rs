@@ -14,7 +14,7 @@ pub(crate) struct InMemory {
 
 impl InMemory {
     pub(crate) fn new(name: &str, frame: Frame) -> Self {
-        let entry = Entry { name: name.to_owned(), stem: name.into(), number: None };
+        let entry = Entry { name: name.into(), stem: name.into(), number: None };
         let listing = Listing {
             argument: name.to_owned(),
             is_single: true,

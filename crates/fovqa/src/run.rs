@@ -137,7 +137,7 @@ impl Run {
     /// # Errors
     /// If the results or the figures cannot be written. Items that could not be scored are reported
     /// and counted.
-    pub fn start(&self, events: &dyn Events) -> Result<Finished, Error> {
+    pub fn start(self, events: &dyn Events) -> Result<Finished, Error> {
         let folder = self.options.output.clone().unwrap_or_else(|| self.default_folder());
         // The folder is opened before anything is scored, so that a folder that cannot be written
         // to is noticed at once.
@@ -165,6 +165,8 @@ impl Run {
             let scored = findings.scored(plan).count();
             return Ok(Finished { folder: path, scored, errors: failures.len(), drawn: None });
         }
+        // The results name all files that they need, and a long sequence has very many.
+        drop(self.found);
         let results = results(plan, events, findings);
         let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
         let scored = own.map(|comparison| comparison.report.frames.len()).sum();

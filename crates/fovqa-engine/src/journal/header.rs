@@ -2,17 +2,16 @@
 //! same results in the same files.
 
 use std::collections::BTreeMap;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader, BufWriter, Read};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
 use fovqa_frame::source::Source;
-use fovqa_io::{id_of, open_regular_file};
+use fovqa_io::{IdWriter, id_of, open_regular_file};
 use fovqa_plan::{Experiment, Eye, Plan};
 use fovqa_vision::BandEdges;
-use serde::{Deserialize, Serialize};
-use serde_json::json;
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::JOURNAL;
 use crate::found::{FoundInputs, FoundView};
@@ -157,26 +156,40 @@ pub fn shard_in(folder: &Path) -> Option<Shard> {
 }
 
 fn files(view: &FoundView, bands: Option<&BandEdges>) -> String {
-    let sources = &view.sources;
-    let label = |source: &dyn Source, at: usize| source.listing().label(at);
-    let guide = |source: &Option<Arc<dyn Source>>, at: Option<usize>| {
-        source.as_ref().zip(at).map(|(source, at)| label(&**source, at))
-    };
-    let frames = view.frames.iter().map(|frame| {
-        let test = |(method, at): &(usize, usize)| {
-            json!([method, sources.test(*method).label(sources.reference.listing(), *at)])
-        };
-        let tests: Vec<_> = frame.tests.iter().map(test).collect();
-        let guides = [
-            guide(&sources.motion, frame.guides.motion),
-            guide(&sources.depth, frame.guides.depth),
-        ];
-        let reference = label(&*sources.reference, frame.reference);
-        json!([frame.number, frame.position, reference, guides, tests])
-    });
-    let frames: serde_json::Value = frames.collect();
     let bands: Option<Vec<(f64, f64)>> = bands.map(|bands| bands.iter().collect());
-    sha256(json!([frames, bands]).to_string().as_bytes())
+    // Written to the hash frame by frame: as one text, a long sequence would need much memory.
+    let mut id = BufWriter::new(IdWriter::default());
+    let written = serde_json::to_writer(&mut id, &(PairedFrames(view), bands));
+    match written.map_err(io::Error::from).and_then(|()| Ok(id.into_inner()?)) {
+        Ok(id) => id.id().sha256,
+        Err(error) => unreachable!("names are JSON, and a hash takes all bytes: {error}"),
+    }
+}
+
+/// The frames of a view with the names of their files, as a list in JSON.
+struct PairedFrames<'a>(&'a FoundView);
+
+impl Serialize for PairedFrames<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (sources, frames) = (&self.0.sources, &self.0.frames);
+        let label = |source: &dyn Source, at: usize| source.listing().label(at);
+        let guide = |source: &Option<Arc<dyn Source>>, at: Option<usize>| {
+            source.as_ref().zip(at).map(|(source, at)| label(&**source, at))
+        };
+        serializer.collect_seq(frames.iter().map(|frame| {
+            let listing = sources.reference.listing();
+            let test = |(method, at): &(usize, usize)| {
+                (*method, sources.test(*method).label(listing, *at))
+            };
+            let tests: Vec<_> = frame.tests.iter().map(test).collect();
+            let guides = [
+                guide(&sources.motion, frame.guides.motion),
+                guide(&sources.depth, frame.guides.depth),
+            ];
+            let reference = label(&*sources.reference, frame.reference);
+            (frame.number, frame.position, reference, guides, tests)
+        }))
+    }
 }
 
 fn sha256(bytes: &[u8]) -> String {

@@ -5,11 +5,10 @@ use std::io;
 use std::ops::Range;
 use std::path::Path;
 
-use fovqa_frame::source::InputId;
 use fovqa_io::read_small_file;
 use fovqa_metrics::Layout;
 use fovqa_plan::{Eye, Plan};
-use fovqa_results::Input;
+use fovqa_results::{Identity, Input};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -155,18 +154,18 @@ impl Lines<'_> {
         let findings = &mut said.findings;
         if has("input") {
             let Input { path, bytes, sha256 } = input(&value)?;
-            let id = InputId { bytes, sha256 };
+            let id = Identity::new(bytes, &sha256);
             if findings.inputs.get(&path).is_some_and(|known| *known != id) {
                 said.twice.get_or_insert_with(|| path.clone());
             }
-            findings.inputs.add(&path, &id);
+            findings.inputs.add(path.into(), id);
         } else if has("values") {
             let record: FrameRecord = from(value)?;
             let method = method(plan, &record.method)?;
             let step = record.step;
             let view = self.view(findings, &record.scene, record.eye, Some(step))?;
             let (frame, guides) = record.read(layouts)?;
-            view.pairs.insert(step, Outcome { method, result: Ok(frame), guides });
+            view.pairs.insert(step, Box::new(Outcome { method, result: Ok(frame), guides }));
         } else if let Some(keys) = value.get("keys") {
             let record: KeysRecord = from(keys.clone())?;
             layouts.insert(record.number, record.read()?);
@@ -193,7 +192,7 @@ impl Lines<'_> {
         if let Some(step) = record.step {
             let view = self.view(findings, &record.scene, record.eye, Some(step))?;
             let (result, guides) = (Err(record.read()), fovqa_results::AtdGuides::default());
-            view.pairs.insert(step, Outcome { method, result, guides });
+            view.pairs.insert(step, Box::new(Outcome { method, result, guides }));
         } else if record.before {
             let view = self.view(findings, &record.scene, record.eye, None)?;
             view.before.push((method, record.read()));

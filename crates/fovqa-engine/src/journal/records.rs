@@ -109,8 +109,8 @@ impl FrameRecord {
             eye: finished.named.eye,
             step: finished.step,
             frame: result.frame,
-            reference: result.reference.clone(),
-            test: result.test.clone(),
+            reference: result.reference.to_string(),
+            test: result.test.to_string(),
             gaze_px: result.gaze_px,
             gaze_step_deg: maybe(result.gaze_step_deg),
             keys,
@@ -127,8 +127,8 @@ impl FrameRecord {
     ) -> Option<(FrameResult, AtdGuides)> {
         let result = FrameResult {
             frame: self.frame,
-            reference: self.reference,
-            test: self.test,
+            reference: self.reference.into(),
+            test: self.test.into(),
             gaze_px: self.gaze_px,
             gaze_step_deg: read(self.gaze_step_deg),
             rows: FrameRows::of(layouts.get(&self.keys)?, &numbers(&self.values)?)?,

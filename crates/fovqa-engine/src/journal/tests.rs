@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use fovqa_frame::source::InputId;
 use fovqa_metrics::{Image, Key, Metric, Parts, Pooling, Rows, Subject};
 use fovqa_plan::{Experiment, Eye, EyeView, Plan, Scene};
-use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, GuideSource, ViewResult};
+use fovqa_results::{
+    AtdGuides, Failure, FrameResult, FvvdpViewing, GuideSource, Identity, ViewResult,
+};
 
 use super::read::Said;
 use super::seal::sealed;
@@ -55,8 +56,8 @@ fn frame() -> FrameResult {
     rows.count(Key::pixels(Subject::PixelsLeftOut), 1 << 40);
     FrameResult {
         frame: i64::MIN,
-        reference: "gt/ä \u{1}.png".to_owned(),
-        test: "a".to_owned(),
+        reference: "gt/ä \u{1}.png".into(),
+        test: "a".into(),
         gaze_px: Some([0.1, -7.25]),
         gaze_step_deg: Some(1e-300),
         rows: rows.into(),
@@ -80,16 +81,16 @@ fn failure(frame: Option<i64>) -> Failure {
 
 fn findings() -> Findings {
     let mut findings = Findings::default();
-    let id = |sha256: &str| InputId { bytes: 1 << 60, sha256: sha256.to_owned() };
-    findings.inputs.add("gt/ä.png", &id("00"));
-    findings.inputs.add("b", &id("11"));
+    let id = |sha256: &str| Identity::new(1 << 60, sha256);
+    findings.inputs.add("gt/ä.png".into(), id("00"));
+    findings.inputs.add("b".into(), id("11"));
     findings.problems.push(((0, 1, 0), failure(None)));
     let outcome = |method, result| {
         let guides = AtdGuides { motion: GuideSource::Test, depth: GuideSource::Reference };
-        Outcome { method, result, guides }
+        Box::new(Outcome { method, result, guides })
     };
-    let bare = Outcome { guides: AtdGuides::default(), ..outcome(1, Ok(bare_frame())) };
-    let failed = Outcome { guides: AtdGuides::default(), ..outcome(0, Err(failure(Some(3)))) };
+    let bare = Outcome { guides: AtdGuides::default(), ..*outcome(1, Ok(bare_frame())) };
+    let failed = Outcome { guides: AtdGuides::default(), ..*outcome(0, Err(failure(Some(3)))) };
     let sight = FvvdpViewing {
         pixels_per_degree: 13.1,
         peak_cd_m2: 100.1,
@@ -115,7 +116,8 @@ fn findings() -> Findings {
         missing: BTreeMap::from([(1, "frame 3 could not be scored".to_owned())]),
     };
     let of = |pairs, settled| ViewFindings { pairs, settled, ..ViewFindings::default() };
-    let pairs = BTreeMap::from([(0, outcome(0, Ok(frame()))), (1, bare), (2, failed)]);
+    let pairs =
+        BTreeMap::from([(0, outcome(0, Ok(frame()))), (1, Box::new(bare)), (2, Box::new(failed))]);
     findings.views.insert((0, 0), of(pairs, Some(settled)));
     let none = Settled { metrics: vec![Metric::Mse], ..Settled::default() };
     findings.views.insert((1, 0), of(BTreeMap::new(), Some(none)));
@@ -175,7 +177,7 @@ fn everything_is_read_again_to_the_last_bit() {
     };
     journal.write(Entry::Pair(finished)).unwrap();
     let said = read_text(folder.path()).said(&plan);
-    assert_eq!(said.findings.views[&(0, 0)].pairs[&2], mended);
+    assert_eq!(*said.findings.views[&(0, 0)].pairs[&2], mended);
     assert!(!said.done);
 }
 

@@ -1,7 +1,7 @@
 //! Writes a journal.
 
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -95,7 +95,7 @@ impl Journal {
         replace(&self.path, header, Stage::Finished, |out| {
             let mut lines = Lines::default();
             findings.record_inputs(plan, &mut |entry| to(out, &lines.of(entry)))?;
-            ranges.iter().try_for_each(|range| copy(&self.file, range, out)).map_err(write_error)
+            copy(&self.file, ranges, out).map_err(write_error)
         })
     }
 
@@ -194,14 +194,27 @@ fn write_error(error: io::Error) -> EngineError {
     EngineError::Journal { path: PathBuf::new(), error }
 }
 
-/// Copies a part of a file.
-fn copy(mut file: &File, range: &Range<u64>, out: &mut dyn Write) -> io::Result<()> {
-    file.seek(SeekFrom::Start(range.start))?;
-    let length = range.end - range.start;
-    match io::copy(&mut file.take(length), out)? {
-        copied if copied == length => Ok(()),
-        _ => Err(io::ErrorKind::UnexpectedEof.into()),
+/// Copies parts of a file, which come in order. Only few bytes lie between them, so the file is read in large
+/// pieces.
+fn copy(file: &File, ranges: &[Range<u64>], out: &mut dyn Write) -> io::Result<()> {
+    const PIECE: usize = 64 << 10;
+    let mut file = BufReader::with_capacity(PIECE, file);
+    let mut at = file.seek(SeekFrom::Start(0))?;
+    for range in ranges {
+        file.seek_relative(range.start as i64 - at as i64)?;
+        at = range.start;
+        while at < range.end {
+            let piece = file.fill_buf()?;
+            let length = piece.len().min((range.end - at) as usize);
+            if length == 0 {
+                return Err(io::ErrorKind::UnexpectedEof.into());
+            }
+            out.write_all(&piece[..length])?;
+            file.consume(length);
+            at += length as u64;
+        }
     }
+    Ok(())
 }
 
 /// The lines of a journal after the first, as text.

@@ -1,6 +1,7 @@
 //! The names and numbers of a source's frames, known before any frame is read.
 
 use std::ffi::OsString;
+use std::sync::Arc;
 
 /// The frames of a source, in order.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,8 +41,9 @@ pub enum Length {
 /// A frame that has a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Entry {
-    /// The name, as results show it.
-    pub name: String,
+    /// The name, as results show it. It is shared, because the results of a long sequence contain the name of
+    /// every frame.
+    pub name: Arc<str>,
     /// The name by which another source may have the same frame: a file's name without its
     /// extension.
     pub stem: OsString,
@@ -75,6 +77,12 @@ impl Listing {
     /// The name of a frame in results: its own name, or that of the whole source.
     pub fn name(&self, frame: usize) -> &str {
         self.entries().get(frame).map_or(&self.argument, |entry| &entry.name)
+    }
+
+    /// The name of a frame in results, to be kept.
+    pub fn shared_name(&self, frame: usize) -> Arc<str> {
+        let entry = self.entries().get(frame);
+        entry.map_or_else(|| self.argument.as_str().into(), |entry| Arc::clone(&entry.name))
     }
 
     /// The name of a frame in messages, which is unique.
@@ -145,7 +153,7 @@ mod tests {
     fn frames_without_names_have_unique_labels() {
         let video = Listing::counted("a.y4m".to_owned(), Length::Whole(3));
         assert_eq!((video.name(2), video.label(2)), ("a.y4m", "a.y4m, frame 2".to_owned()));
-        let entry = Entry { name: "a/1.png".to_owned(), stem: "1".into(), number: Some(1) };
+        let entry = Entry { name: "a/1.png".into(), stem: "1".into(), number: Some(1) };
         let frames = Frames::Named(vec![entry]);
         let named = Listing { frames, ..video };
         assert_eq!((named.name(0), named.label(0)), ("a/1.png", "a/1.png".to_owned()));

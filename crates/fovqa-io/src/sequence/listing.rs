@@ -45,7 +45,7 @@ impl FileListing {
     /// The frames of the files, with names relative to a folder as in results.
     pub fn listing(&self, base: &Path) -> Listing {
         let entry = |file: &FrameFile| Entry {
-            name: shown(base, &file.path),
+            name: shown(base, &file.path).into(),
             stem: file.stem.clone(),
             number: file.number,
         };

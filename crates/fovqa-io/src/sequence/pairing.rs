@@ -297,7 +297,7 @@ fn by_names(
 
     let numbered = references.iter().all(|entry| entry.number.is_some());
     let untaken = tests.iter().zip(&taken).filter(|(_, taken)| !**taken);
-    let untaken = untaken.map(|(f, _)| (f.number.filter(|_| numbered), f.name.clone()));
+    let untaken = untaken.map(|(f, _)| (f.number.filter(|_| numbered), f.name.to_string()));
     let mut alone = Unpaired { reference: Vec::new(), test: untaken.collect() };
     let mut pairs = Vec::new();
     let mut numbering = reference.numbering.clone();
@@ -317,7 +317,7 @@ fn by_names(
                 };
                 pairs.push(FramePair { number, reference: position, test: index });
             }
-            None => alone.reference.push((Some(number), entry.name.clone())),
+            None => alone.reference.push((Some(number), entry.name.to_string())),
         }
     }
     Ok(Pairs { pairs, numbering, alone })

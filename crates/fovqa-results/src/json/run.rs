@@ -7,7 +7,7 @@ use fovqa_plan::Resolved;
 use serde::{Deserialize, Serialize};
 
 use crate::checksums::Checksums;
-use crate::report::Input;
+use crate::inputs::Inputs;
 
 /// Name and version of the format.
 pub const RUN_SCHEMA: &str = "fovqa.run/1";
@@ -25,7 +25,7 @@ pub struct RunRecord {
     /// The experiment with all its defaults.
     pub resolved: Resolved,
     /// Every file that was read, by path.
-    pub inputs: Vec<Input>,
+    pub inputs: Inputs,
     /// The checksums of the files beside this one; empty in files of earlier versions.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub files: Checksums,

@@ -202,6 +202,7 @@ impl<'de> Visitor<'de> for Comparisons<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::inputs::Inputs;
     use crate::report::{Comparison, Failure, ScoreReport};
 
     fn results() -> RunResults {
@@ -218,7 +219,7 @@ mod tests {
             eye: "",
             report: ScoreReport { failures: vec![failure.clone()], ..ScoreReport::default() },
         };
-        RunResults { comparisons: ["a", "b"].map(comparison).into(), inputs: Vec::new() }
+        RunResults { comparisons: ["a", "b"].map(comparison).into(), inputs: Inputs::default() }
     }
 
     fn read(text: &str) -> Result<(Vec<String>, usize), String> {

@@ -4,50 +4,106 @@
 mod target;
 mod temporary;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use serde::Serialize;
 
 use crate::files::FileError;
 use target::{Target, open_again, open_special};
 pub use temporary::sweep;
-use temporary::{Temporary, sweep_once};
+use temporary::{Temporary, sweep_once, sync_folder};
 
-/// Writes a file of a run completely: under a temporary name in the same folder, which is then
-/// renamed.
-///
-/// A symbolic link stays, and the file that it points to is replaced or created. Anything else at
-/// this path is replaced.
+/// Files that are written together. Each file has its bytes on the disk before it gets its name. The names
+/// are flushed to the disk once for all files, by [`flush`](Self::flush) or when this value is dropped.
+#[derive(Debug, Default)]
+pub struct Batch {
+    /// The folders with names that were not flushed yet.
+    folders: Mutex<BTreeSet<PathBuf>>,
+}
+
+impl Batch {
+    /// Writes a file of a run completely: under a temporary name in the same folder, which is then
+    /// renamed.
+    ///
+    /// A symbolic link stays, and the file that it points to is replaced or created. Anything else
+    /// at this path is replaced.
+    ///
+    /// # Errors
+    /// If the operating system refuses. In that case nothing is left behind, and the old file
+    /// stays.
+    pub fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+        self.write_with(path, |out| out.write_all(bytes))
+    }
+
+    /// Like [`write`](Self::write), for a file that is too large for memory.
+    ///
+    /// # Errors
+    /// See [`write`](Self::write).
+    pub fn write_with(
+        &self,
+        path: &Path,
+        write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+    ) -> Result<(), FileError> {
+        let written = Target::file_at(path).and_then(|file| replace(&file, write));
+        let folder = written.map_err(|error| FileError::Write { path: path.to_owned(), error })?;
+        self.folders.lock().unwrap_or_else(PoisonError::into_inner).insert(folder);
+        Ok(())
+    }
+
+    /// Writes a value as indented JSON with a newline at its end.
+    ///
+    /// # Errors
+    /// See [`write`](Self::write).
+    pub fn write_json(&self, path: &Path, value: &impl Serialize) -> Result<(), FileError> {
+        self.write_with(path, |mut out| {
+            serde_json::to_writer_pretty(&mut out, value)?;
+            out.write_all(b"\n")
+        })
+    }
+
+    /// Flushes the names of the files so far. A file that is written afterwards never survives a
+    /// power failure without them.
+    pub fn flush(&self) {
+        let mut folders = self.folders.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut *folders).iter().for_each(|folder| sync_folder(folder));
+    }
+}
+
+impl Drop for Batch {
+    fn drop(&mut self) {
+        self.flush();
+    }
+}
+
+/// Writes a file of a run alone: see [`Batch::write`].
 ///
 /// # Errors
-/// If the operating system refuses. In that case nothing is left behind, and the old file stays.
+/// See [`Batch::write`].
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    write_whole_with(path, |out| out.write_all(bytes))
+    Batch::default().write(path, bytes)
 }
 
 /// Like [`write_whole`], for a file that is too large for memory.
 ///
 /// # Errors
-/// See [`write_whole`].
+/// See [`Batch::write`].
 pub fn write_whole_with(
     path: &Path,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), FileError> {
-    let written = Target::file_at(path).and_then(|file| replace(&file, write));
-    written.map_err(|error| FileError::Write { path: path.to_owned(), error })
+    Batch::default().write_with(path, write)
 }
 
 /// Writes a value as indented JSON with a newline at its end.
 ///
 /// # Errors
-/// See [`write_whole`].
+/// See [`Batch::write`].
 pub fn write_json_file(path: &Path, value: &impl Serialize) -> Result<(), FileError> {
-    write_whole_with(path, |mut out| {
-        serde_json::to_writer_pretty(&mut out, value)?;
-        out.write_all(b"\n")
-    })
+    Batch::default().write_json(path, value)
 }
 
 /// Writes an output file that the user has named. A file is replaced as by [`write_whole`]; a
@@ -58,7 +114,10 @@ pub fn write_json_file(path: &Path, value: &impl Serialize) -> Result<(), FileEr
 pub fn write_output(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let written = Target::of(path).and_then(|target| {
         let mut out = match target {
-            Target::File(file) => return replace(&file, |out| out.write_all(bytes)),
+            Target::File(file) => {
+                sync_folder(&replace(&file, |out| out.write_all(bytes))?);
+                return Ok(());
+            }
             Target::Special(path) => open_special(&path)?,
             Target::Open(path, stream) => open_again(&path, stream)?,
         };
@@ -122,18 +181,22 @@ pub fn try_writing(folder: &Path) -> io::Result<()> {
     temporary.take_away()
 }
 
+/// Replaces a file. Returns its folder, whose names are not flushed to the disk yet.
 fn replace(
     path: &Path,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
-) -> io::Result<()> {
+) -> io::Result<PathBuf> {
     let folder = folder_of(path);
     sweep_once(&folder);
     let temporary = Temporary::new(&folder)?;
-    let mut out = BufWriter::new(&temporary.file);
+    /// Large enough for few system calls.
+    const BUFFER: usize = 64 << 10;
+    let mut out = BufWriter::with_capacity(BUFFER, &temporary.file);
     write(&mut out)?;
     out.flush()?;
     drop(out);
-    temporary.become_file(path)
+    temporary.become_file(path)?;
+    Ok(folder)
 }
 
 /// The folder that contains a file.

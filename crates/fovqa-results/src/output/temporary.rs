@@ -62,15 +62,14 @@ impl Temporary {
         Err(io::Error::other("temporary files are taken away as soon as they are made"))
     }
 
-    /// Renames the file to its final name, replacing an existing file. When this returns, first the
-    /// bytes and then the name have been flushed to the disk.
+    /// Flushes the bytes to the disk, and then renames the file to its final name, replacing an
+    /// existing file. The name itself is flushed with its folder.
     pub(super) fn become_file(mut self, path: &Path) -> io::Result<()> {
         sync(&self.file)?;
         if let Some(temporary) = &self.path {
             fs::rename(temporary, path)?;
         }
         self.path = None;
-        sync_folder(&super::folder_of(path));
         Ok(())
     }
 
@@ -99,12 +98,12 @@ fn sync(file: &File) -> io::Result<()> {
 
 /// Flushes a folder to the disk. The file exists even if this fails.
 #[cfg(unix)]
-fn sync_folder(folder: &Path) {
+pub(super) fn sync_folder(folder: &Path) {
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
 }
 
 #[cfg(not(unix))]
-fn sync_folder(_: &Path) {}
+pub(super) fn sync_folder(_: &Path) {}
 
 /// Which other processes may be writing to a folder.
 #[derive(Clone, Copy, PartialEq, Eq)]

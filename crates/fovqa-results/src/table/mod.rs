@@ -20,7 +20,7 @@ pub use row::{ERROR, GAZE_STEP, TableRow, Value};
 
 use crate::csv_names::CsvNames;
 use crate::files::{FileError, RESULTS_CSV, RESULTS_PARQUET};
-use crate::output::write_whole_with;
+use crate::output::Batch;
 use crate::report::RunResults;
 
 /// Whether this build can write and read results.parquet.
@@ -42,17 +42,18 @@ pub fn write_tables(
     folder: &Path,
     results: &RunResults,
     output: &OutputSettings,
+    batch: &Batch,
 ) -> Result<(), FileError> {
     let names = CsvNames::from(output);
     output.tables.iter().try_for_each(|format| {
         let path = folder.join(file(*format));
         match format {
             TableFormat::Csv => {
-                write_whole_with(&path, |out| write_results_csv(results, names, out))
+                batch.write_with(&path, |out| write_results_csv(results, names, out))
             }
             #[cfg(feature = "parquet")]
             TableFormat::Parquet => {
-                write_whole_with(&path, |out| write_results_parquet(results, out))
+                batch.write_with(&path, |out| write_results_parquet(results, out))
             }
             #[cfg(not(feature = "parquet"))]
             TableFormat::Parquet => Err(no_parquet(path)),
