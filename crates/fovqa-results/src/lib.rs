@@ -36,9 +36,10 @@ pub use gate::{
     RuleVerdict, RunValues, State, Verdict, calibrate, write_verdict_json,
 };
 pub use json::{
-    BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,
-    HaarValues, Number, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues,
-    ViewRecord, read_summary, write_json, write_summary,
+    BandStatistics, BudgetRecord, ComparisonSummary, ErrorRecord, ExperimentRecord, FOVEATE_SCHEMA,
+    FoveateErrorRecord, FoveateRecord, FoveatedRecord, HaarRecord, HaarSides, HaarValues, Number,
+    RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, ViewRecord, read_summary,
+    write_json, write_summary,
 };
 pub use output::{
     make_folder, replaces, sweep, take_away, try_writing, write_json_file, write_json_output,
