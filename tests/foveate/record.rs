@@ -22,7 +22,10 @@ fn the_record_names_everything() {
     assert_eq!(view["gaze_px"], json!([20.0, 10.5]));
     assert_eq!(view["eccentricity"], "planar");
     let frame = &record["frames"][0];
-    assert_eq!((&frame["frame"], &frame["input"], &frame["output"]), (&json!(0), &json!("a.png"), &json!("o.png")));
+    assert_eq!(
+        (&frame["frame"], &frame["input"], &frame["output"]),
+        (&json!(0), &json!("a.png"), &json!("o.png"))
+    );
     assert_eq!(frame["gaze_px"], json!([20.0, 10.5]));
     assert_eq!(frame["buffers"].as_array().unwrap().len(), 3);
     assert!(frame["samples"].is_u64(), "a whole number: {}", frame["samples"]);
@@ -61,9 +64,8 @@ fn without_a_view_there_is_none_in_the_record() {
 #[test]
 fn filters_and_enhancement_have_parameters_where_they_are_on() {
     let folder = with_frame();
-    let parameters = |arguments: &str| {
-        folder.record(&format!("a.png o.png {arguments}"))["parameters"].clone()
-    };
+    let parameters =
+        |arguments: &str| folder.record(&format!("a.png o.png {arguments}"))["parameters"].clone();
     let plain = parameters("--method kfr");
     assert!(plain.get("filter.factor").is_none() && plain.get("taa.k").is_none());
     let all = parameters(
