@@ -6,6 +6,7 @@ mod command;
 mod curves;
 mod emulate;
 mod formats;
+mod foveate;
 mod fovqa;
 mod frames;
 mod gate;

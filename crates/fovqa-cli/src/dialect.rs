@@ -14,11 +14,12 @@ pub(crate) enum Dialect {
 }
 
 /// Setting, option, and key.
-const SETTINGS: [(&str, &str, &str); 21] = [
+const SETTINGS: [(&str, &str, &str); 22] = [
     ("allow_missing", "--allow-missing", "allow_missing = true"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),
     ("alpha=over-black", "--alpha over-black", "alpha = \"over-black\""),
     ("baseline", "--baseline", "--baseline"),
+    ("buffer", "--buffer", "--buffer"),
     ("crop", "--crop X,Y,W,H", "crop = [X, Y, W, H]"),
     ("fps", "--fps", "fps"),
     ("frames", "--frames A..B", "frames = \"A..B\" (or --frames A..B)"),

@@ -8,6 +8,8 @@ mod diagnostic;
 mod dialect;
 mod exit;
 mod experiment;
+mod failures;
+mod foveate;
 mod gate;
 mod list;
 mod merge;
@@ -50,6 +52,7 @@ fn dispatch(cli: Cli) -> Exit {
         Command::Report(args) => report::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Curves(args) => curves::run(&args),
+        Command::Foveate(args) => foveate::run(*args),
         Command::Schema { what } => schema::run(what),
         Command::List { what } => list::run(what),
         Command::Completions { shell } => output::write(|out| {

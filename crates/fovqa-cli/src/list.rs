@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use fovqa_emulate::{EmulationSpec, FilterChoice};
 use fovqa_methods::Method;
 use fovqa_metrics::{Better, Metric, MetricKind};
-use fovqa_params::ParamInfo;
+use fovqa_params::{ParamInfo, Words};
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::displays;
 
@@ -58,11 +59,18 @@ fn metrics() -> String {
 
 fn methods() -> String {
     let mut text = String::from("Foveation methods, `--method NAME`\n\n");
+    let of_curves = Method::all().map(|method| method.key());
     for method in Method::all() {
         let info = method.info();
         entry(&mut text, info.key, info.label, info.about, info.source);
         parameters(&mut text, "", info.params);
     }
+    text.push_str("Further methods of `fovqa foveate`, `--method NAME`\n\n");
+    for info in EmulationSpec::methods().into_iter().filter(|info| !of_curves.contains(&info.key)) {
+        entry(&mut text, info.key, info.label, info.about, info.source);
+        parameters(&mut text, "", info.params);
+    }
+    text.push_str(&around_methods());
     text.push_str("Acuity models, `--acuity NAME`\n\n");
     for model in AcuityModel::all() {
         let info = model.info();
@@ -72,19 +80,54 @@ fn methods() -> String {
     ended(text)
 }
 
+/// What `fovqa foveate` can do beside the methods: filters and enhancement, with their parameters.
+fn around_methods() -> String {
+    let mut text = String::from("Filters and enhancement of `fovqa foveate`\n\n");
+    let specs = EmulationSpec::methods().into_iter().map(|info| EmulationSpec::new(info.key));
+    let specs: Vec<EmulationSpec> = specs.filter_map(Result::ok).collect();
+    let group = |spec: &EmulationSpec, group: &str| -> Vec<(String, &'static ParamInfo)> {
+        let settable = spec.settable().into_iter();
+        settable.filter(|(name, _)| name.starts_with(group)).collect()
+    };
+    for spec in &specs {
+        let filter = group(spec, "filter.");
+        if !filter.is_empty() {
+            let method = spec.key().replace('_', "-");
+            let has = |choice: &FilterChoice| spec.clone().set_filters(*choice).is_ok();
+            let choices = FilterChoice::all().into_iter().filter(has);
+            let words: Vec<&str> = choices.map(FilterChoice::word).collect();
+            let _ = writeln!(text, "{method} --filter {}", words.join("|"));
+            named_parameters(&mut text, &filter);
+        }
+    }
+    for (option, prefix, about) in [
+        ("--temporal", "taa.", "the temporal filter, after any method"),
+        ("--enhance F_MAX", "enhance.", "contrast enhancement of the periphery, after any method"),
+    ] {
+        let _ = writeln!(text, "{option}\n    {about}");
+        named_parameters(
+            &mut text,
+            &specs.first().map(|spec| group(spec, prefix)).unwrap_or_default(),
+        );
+    }
+    text
+}
+
 fn entry(text: &mut String, key: &str, label: &str, about: &str, source: &str) {
     let _ = writeln!(text, "{} ({label})", key.replace('_', "-"));
     let _ = writeln!(text, "    {about}");
     let _ = writeln!(text, "    source: {source}");
 }
 
-fn parameters(text: &mut String, owner: &str, params: &[ParamInfo]) {
-    for param in params {
-        let _ = writeln!(
-            text,
-            "      --set {owner}{}={}  {}; {}",
-            param.name, param.default, param.about, param.values
-        );
+fn parameters(text: &mut String, owner: &str, params: &'static [ParamInfo]) {
+    let named = |param: &'static ParamInfo| (format!("{owner}{}", param.name), param);
+    named_parameters(text, &params.iter().map(named).collect::<Vec<_>>());
+}
+
+fn named_parameters(text: &mut String, params: &[(String, &'static ParamInfo)]) {
+    for (name, param) in params {
+        let ParamInfo { default, about, values, .. } = param;
+        let _ = writeln!(text, "      --set {name}={default}  {about}; {values}");
     }
     text.push('\n');
 }

@@ -7,10 +7,7 @@ use crate::diagnostic;
 use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
-use crate::{experiment, output, threads};
-
-/// Maximum number of failures that are shown, so that they fit on a terminal.
-const FAILURES_SHOWN: usize = 20;
+use crate::{experiment, failures, output, threads};
 
 pub(crate) fn run(args: ScoreArgs) -> Exit {
     let (format, maps) = (args.format, args.maps.clone());
@@ -29,22 +26,7 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
         Ok(report) => report,
         Err(error) => return experiment::said(&error, Dialect::Options),
     };
-    for failure in report.failures.iter().take(FAILURES_SHOWN) {
-        let frame = match failure.frame {
-            Some(frame) if report.failures.len() + report.frames.len() > 1 => {
-                format!("frame {frame}: ")
-            }
-            _ => String::new(),
-        };
-        let help = Dialect::Options.spell(&failure.help);
-        diagnostic::error(&format!("{frame}{}", failure.message), &help);
-    }
-    let more = report.failures.len().saturating_sub(FAILURES_SHOWN);
-    if more > 0 {
-        diagnostic::note(&format!(
-            "{more} more frames could not be scored; --format json lists them"
-        ));
-    }
+    failures::show(&report.failures, report.frames.len(), "scored");
     // If nothing was scored, print nothing that looks like a result.
     let written = if report.frames.is_empty() {
         Exit::Done

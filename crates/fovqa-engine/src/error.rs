@@ -13,6 +13,7 @@ use fovqa_vision::{GazeTraceError, ViewError};
 use thiserror::Error;
 
 use crate::needed_memory::{Needed, gigabytes};
+use crate::output_error::OutputError;
 
 /// Why a run could not start.
 #[derive(Debug, Error)]
@@ -38,6 +39,9 @@ pub enum EngineError {
     /// A method that cannot be emulated as the plan says.
     #[error(transparent)]
     Emulate(#[from] EmulateError),
+    /// An emulated frame that cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
     /// The temporal filter of an emulated method needs the frames in their order.
     #[error(
         "with this fvvdp.temp_padding, FovVideoVDP begins with later frames, but the temporal filter of {method} needs the frames in their order"
@@ -205,6 +209,7 @@ impl EngineError {
             | Self::ShownWrongly { .. }
             | Self::Time(_)
             | Self::Param(_) => true,
+            Self::Output(error) => error.is_usage(),
             Self::GazeTrace { error, .. } => matches!(error, GazeTraceError::NoFps),
             Self::Listing(error) => matches!(error, ListingError::Pattern { .. }),
             Self::Pairing(_)
@@ -234,6 +239,7 @@ impl EngineError {
             }
             Self::NotGiven { .. } => "give a source with this name together with the plan".to_owned(),
             Self::Emulate(error) => error.help().to_owned(),
+            Self::Output(error) => error.help(),
             Self::EmulatedReference => "give files as the reference".to_owned(),
             Self::LooksAhead { .. } => {
                 "leave fvvdp.temp_padding at replicate, or leave the temporal filter out".to_owned()

@@ -19,7 +19,10 @@ pub(crate) fn metrics(
     plan.params.check()?;
     if let Some(view) = &settings.view {
         view.check()?;
-    } else if let Some(what) = settings.lacks_view() {
+    } else if let Some(what) = settings.lacks_view()
+        // Without metrics, only emulated methods use the gaze, and some of them need no view.
+        && !plan.metrics.metrics().is_empty()
+    {
         return Err(EngineError::NoView { what: what.to_owned() });
     }
     let lacking = |metric: &Metric| settings.view.is_none() && metric.info().needs.view;

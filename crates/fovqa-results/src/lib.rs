@@ -38,9 +38,10 @@ pub use gate::{
 };
 pub use inputs::{Identity, Input, Inputs};
 pub use json::{
-    BandStatistics, ComparisonSummary, ErrorRecord, ExperimentRecord, HaarRecord, HaarSides,
-    HaarValues, Number, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues,
-    ViewRecord, read_summary, write_json, write_summary,
+    BandStatistics, BudgetRecord, ComparisonSummary, ErrorRecord, ExperimentRecord, FOVEATE_SCHEMA,
+    FoveateErrorRecord, FoveateRecord, FoveatedRecord, HaarRecord, HaarSides, HaarValues, Number,
+    RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, ViewRecord, read_summary,
+    write_json, write_summary,
 };
 pub use output::{
     Batch, make_folder, replaces, sweep, take_away, try_writing, write_json_file,

@@ -64,6 +64,7 @@ mod events;
 mod experiment;
 mod finish;
 mod finished_run;
+mod foveate;
 mod gate;
 mod kept_frames;
 mod maps;
@@ -82,6 +83,7 @@ pub use events::Silent;
 pub use experiment::{read_curves, read_experiment};
 pub use finish::text_hash;
 pub use finished_run::FinishedRun;
+pub use foveate::{FoveateOutputs, Foveated, foveate_files};
 pub use gate::{calibrate, gate, gate_folder};
 pub use maps::maps_lacking;
 pub use merge::merge;
@@ -92,7 +94,7 @@ pub use samples::Sample;
 pub use score::score_files;
 
 pub use fovqa_config::{ExperimentError, Fault};
-pub use fovqa_emulate::EmulationSpec;
+pub use fovqa_emulate::{Budget, EmulationSpec, FilterChoice, Sampling, Space};
 pub use fovqa_engine::{
     Events, FoundInputs, FoundView, Given, Locking, Shard, Task, TaskError, TaskFindings, Unit,
     find, foresee, results, units,
@@ -106,5 +108,7 @@ pub use fovqa_plan::{
     CurvesFile, Emulation, Experiment, Eye, EyeView, GateRule, Gaze, MetricChoice, Nonfinite, Plan,
     Scene, Settings, SourceSpec,
 };
-pub use fovqa_results::{Baseline, RunResults, ScoreReport, Verdict, write_csv, write_json};
+pub use fovqa_results::{
+    Baseline, Failure, FoveateRecord, RunResults, ScoreReport, Verdict, write_csv, write_json,
+};
 pub use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec};

@@ -1,4 +1,4 @@
-//! `--motion` and `--depth`: the motion and depth that temporal differences use.
+//! `--motion` and `--depth`: the motion and depth that temporal differences and the temporal filter use.
 
 use std::path::PathBuf;
 
@@ -8,15 +8,32 @@ use fovqa_params::Words;
 
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Sequence")]
-pub(crate) struct GuideArgs {
+pub(crate) struct MotionArgs {
     /// Backward motion vectors: auto, none, blender, falcor, unreal, mitsuba, or two OpenEXR channels:
     /// X,Y in pixels to the right and down (X,-Y: y up), or blender:X,Y as a renderer encodes them
     /// (experiment files can also give units and scales)
     #[arg(long, verbatim_doc_comment, value_name = "WHICH", default_value = "auto", allow_hyphen_values = true, value_parser = motion)]
     motion: MotionChannels,
-    /// Separate OpenEXR files with the motion; they pair with the reference frames
+    /// Separate OpenEXR files with the motion; they pair with the reference (or input) frames
     #[arg(long, value_name = "PATH")]
     motion_files: Option<PathBuf>,
+}
+
+impl MotionArgs {
+    pub(crate) fn channels(&self) -> MotionChannels {
+        self.motion.clone()
+    }
+
+    pub(crate) fn files(&self) -> Option<PathBuf> {
+        self.motion_files.clone()
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Sequence")]
+pub(crate) struct GuideArgs {
+    #[command(flatten)]
+    motion: MotionArgs,
     /// Depth: auto, none, blender, falcor, unreal, mitsuba, or the name of an OpenEXR channel
     #[arg(long, value_name = "WHICH", default_value = "auto", value_parser = depth)]
     depth: DepthChannels,
@@ -107,10 +124,10 @@ fn depth(text: &str) -> Result<DepthChannels, String> {
 
 impl GuideArgs {
     pub(crate) fn options(&self) -> GuideOptions {
-        GuideOptions { motion: self.motion.clone(), depth: self.depth.clone() }
+        GuideOptions { motion: self.motion.channels(), depth: self.depth.clone() }
     }
 
     pub(crate) fn files(&self) -> (Option<PathBuf>, Option<PathBuf>) {
-        (self.motion_files.clone(), self.depth_files.clone())
+        (self.motion.files(), self.depth_files.clone())
     }
 }

@@ -3,6 +3,7 @@
 mod baseline;
 mod curves;
 mod display;
+mod foveate;
 mod gate;
 mod guides;
 mod lock;
@@ -17,6 +18,7 @@ mod view;
 
 pub(crate) use baseline::BaselineCommand;
 pub(crate) use curves::CurvesArgs;
+pub(crate) use foveate::{FoveateArgs, FoveateFormat};
 pub(crate) use gate::{Annotations, GateArgs, GateFormat};
 pub(crate) use run::{CheckArgs, MergeArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
@@ -73,6 +75,9 @@ pub(crate) enum Command {
     /// Compare the shading rate of foveation methods with acuity: one curve as CSV, or figures and tables.
     #[command(after_help = curves::EXAMPLES)]
     Curves(Box<CurvesArgs>),
+    /// Show what a foveation method would have shown of finished frames, and write it to files.
+    #[command(after_help = foveate::EXAMPLES)]
+    Foveate(Box<FoveateArgs>),
     /// List metrics, foveation methods and acuity models, or display presets.
     List {
         /// What to list.
@@ -99,7 +104,7 @@ pub(crate) enum SchemaOf {
 pub(crate) enum Listed {
     /// Metrics, their parameters, defaults, units and sources.
     Metrics,
-    /// Foveation methods and acuity models, their parameters, defaults, units and sources.
+    /// Foveation methods, their filters, and acuity models: parameters, defaults, units and sources.
     Methods,
     /// Display presets.
     Displays,

@@ -16,12 +16,10 @@ type TransferOrAuto = Option<Transfer>;
 type RangeOrAuto = Option<CodeRange>;
 type MatrixOrAuto = Option<ColourMatrix>;
 
+/// How the values in files become the signal.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Signal")]
-pub(crate) struct SignalArgs {
-    /// Channels to compare
-    #[arg(long, value_name = "WHAT", default_value = SignalChannels::default().word(), value_parser = words::<SignalChannels>())]
-    channels: SignalChannels,
+pub(crate) struct EncodingArgs {
     /// Exposure of linear input, stops
     #[arg(long, value_name = "STOPS", default_value = "0", allow_negative_numbers = true, value_parser = finite)]
     exposure: f64,
@@ -31,6 +29,45 @@ pub(crate) struct SignalArgs {
     /// How values in the files are encoded
     #[arg(long, value_name = "NAME", default_value = TransferOrAuto::default().word(), value_parser = words::<TransferOrAuto>())]
     transfer: TransferOrAuto,
+}
+
+impl EncodingArgs {
+    pub(crate) fn signal(&self, channels: SignalChannels) -> SignalParams {
+        SignalParams {
+            transfer: self.transfer,
+            exposure_stops: self.exposure,
+            tonemap: self.tonemap,
+            channels,
+        }
+    }
+}
+
+/// How y4m video is read.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Signal")]
+pub(crate) struct VideoArgs {
+    /// Code range of y4m video
+    #[arg(long, value_name = "NAME", default_value = RangeOrAuto::default().word(), value_parser = words::<RangeOrAuto>())]
+    range: RangeOrAuto,
+    /// Matrix from Y', Cb and Cr of y4m video to R'G'B'
+    #[arg(long, value_name = "NAME", default_value = MatrixOrAuto::default().word(), value_parser = words::<MatrixOrAuto>())]
+    matrix: MatrixOrAuto,
+}
+
+impl VideoArgs {
+    pub(crate) fn formats(&self) -> FormatOptions {
+        FormatOptions { y4m: Y4mOptions { range: self.range, matrix: self.matrix } }
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Signal")]
+pub(crate) struct SignalArgs {
+    /// Channels to compare
+    #[arg(long, value_name = "WHAT", default_value = SignalChannels::default().word(), value_parser = words::<SignalChannels>())]
+    channels: SignalChannels,
+    #[command(flatten)]
+    encoding: EncodingArgs,
     /// Colour layer of OpenEXR files that have several, in reference and test; "root" for R, G, B without
     /// a prefix
     #[arg(long, value_name = "NAME")]
@@ -44,12 +81,8 @@ pub(crate) struct SignalArgs {
     /// Treatment of alpha that is not 1 everywhere
     #[arg(long, value_name = "POLICY", default_value = AlphaPolicy::default().word(), value_parser = words::<AlphaPolicy>())]
     alpha: AlphaPolicy,
-    /// Code range of y4m video
-    #[arg(long, value_name = "NAME", default_value = RangeOrAuto::default().word(), value_parser = words::<RangeOrAuto>())]
-    range: RangeOrAuto,
-    /// Matrix from Y', Cb and Cr of y4m video to R'G'B'
-    #[arg(long, value_name = "NAME", default_value = MatrixOrAuto::default().word(), value_parser = words::<MatrixOrAuto>())]
-    matrix: MatrixOrAuto,
+    #[command(flatten)]
+    video: VideoArgs,
     /// Mask image: white pixels are scored, for example the visible area of a lens
     #[arg(long, value_name = "FILE")]
     mask: Option<PathBuf>,
@@ -64,12 +97,7 @@ pub(crate) struct SignalArgs {
 
 impl SignalArgs {
     pub(crate) fn signal(&self) -> SignalParams {
-        SignalParams {
-            transfer: self.transfer,
-            exposure_stops: self.exposure,
-            tonemap: self.tonemap,
-            channels: self.channels,
-        }
+        self.encoding.signal(self.channels)
     }
 
     pub(crate) fn read(&self) -> ReadOptions {
@@ -77,7 +105,7 @@ impl SignalArgs {
             layer: self.layer.clone(),
             alpha: self.alpha,
             max_megapixels: self.max_megapixels,
-            formats: FormatOptions { y4m: Y4mOptions { range: self.range, matrix: self.matrix } },
+            formats: self.video.formats(),
             ..ReadOptions::default()
         }
     }

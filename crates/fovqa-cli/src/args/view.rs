@@ -48,13 +48,8 @@ pub(crate) struct ViewArgs {
     /// reflectivity, eotf and gamma [default: that of --display]
     #[arg(long, verbatim_doc_comment, value_name = "NAME|KEY=N,…", value_parser = luminance)]
     luminance: Option<Luminance>,
-    /// Gaze in pixels from the top-left corner, or a CSV trace with columns frame,x_px,y_px (or
-    /// time_s with --fps) [default: the principal point]
-    #[arg(long, verbatim_doc_comment, value_name = "X,Y|FILE.csv", allow_hyphen_values = true, value_parser = gaze)]
-    gaze: Option<GazeArg>,
-    /// Keep the last gaze in frames that the gaze trace does not cover
-    #[arg(long, requires = "gaze")]
-    gaze_hold: bool,
+    #[command(flatten)]
+    gaze: GazeArgs,
     /// How eccentricity is measured
     #[arg(long, value_name = "KIND", default_value = EccentricityKind::default().word(), value_parser = words::<EccentricityKind>())]
     eccentricity: EccentricityKind,
@@ -62,6 +57,29 @@ pub(crate) struct ViewArgs {
     /// eccentricity of the frames]
     #[arg(long, value_name = "DEG,DEG,…", value_parser = bands)]
     bands: Option<BandEdges>,
+}
+
+/// The gaze.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "View")]
+pub(crate) struct GazeArgs {
+    /// Gaze in pixels from the top-left corner, or a CSV trace with columns frame,x_px,y_px (or
+    /// time_s with --fps) [default: the principal point]
+    #[arg(long, verbatim_doc_comment, value_name = "X,Y|FILE.csv", allow_hyphen_values = true, value_parser = gaze)]
+    gaze: Option<GazeArg>,
+    /// Keep the last gaze in frames that the gaze trace does not cover
+    #[arg(long, requires = "gaze")]
+    gaze_hold: bool,
+}
+
+impl GazeArgs {
+    pub(crate) fn gaze(&self) -> Gaze {
+        match &self.gaze {
+            None => Gaze::Centre,
+            Some(GazeArg::Point(px)) => Gaze::Point(*px),
+            Some(GazeArg::File(path)) => Gaze::Trace { path: path.clone(), hold: self.gaze_hold },
+        }
+    }
 }
 
 /// A gaze as the user wrote it.
@@ -128,11 +146,7 @@ impl ViewArgs {
     }
 
     pub(crate) fn gaze(&self) -> Gaze {
-        match &self.gaze {
-            None => Gaze::Centre,
-            Some(GazeArg::Point(px)) => Gaze::Point(*px),
-            Some(GazeArg::File(path)) => Gaze::Trace { path: path.clone(), hold: self.gaze_hold },
-        }
+        self.gaze.gaze()
     }
 
     pub(crate) fn luminance(&self) -> Option<Luminance> {

@@ -49,6 +49,12 @@ pub trait Source: Debug + Send + Sync {
         None
     }
 
+    /// Bits of the codes that its samples were computed from, if they are encoded floats instead of
+    /// codes, as those of a video are.
+    fn code_bits(&self) -> Option<u32> {
+        None
+    }
+
     /// Whether each frame can be read only once, in order. A frame that is skipped cannot be read
     /// later.
     fn is_read_once(&self) -> bool {

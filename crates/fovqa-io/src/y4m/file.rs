@@ -170,4 +170,8 @@ impl Source for VideoFile {
     fn fps(&self) -> Option<f64> {
         self.video.header.fps
     }
+
+    fn code_bits(&self) -> Option<u32> {
+        Some(self.video.header.colour.bits)
+    }
 }

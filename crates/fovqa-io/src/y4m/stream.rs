@@ -169,6 +169,10 @@ impl Source for VideoStream {
         self.video.header.fps
     }
 
+    fn code_bits(&self) -> Option<u32> {
+        Some(self.video.header.colour.bits)
+    }
+
     fn is_read_once(&self) -> bool {
         true
     }

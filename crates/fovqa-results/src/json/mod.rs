@@ -2,6 +2,7 @@
 //! renamed.
 
 mod compared;
+mod foveate;
 mod run;
 mod score;
 mod summary;
@@ -10,6 +11,9 @@ mod unique_keys;
 mod values;
 
 pub use compared::{HaarRecord, HaarSides, HaarValues, SideValues};
+pub use foveate::{
+    BudgetRecord, FOVEATE_SCHEMA, FoveateErrorRecord, FoveateRecord, FoveatedRecord,
+};
 pub use run::{ExperimentRecord, RUN_SCHEMA, RunRecord};
 pub use score::{SCORE_SCHEMA, write_json};
 pub use summary::{BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, ViewRecord};

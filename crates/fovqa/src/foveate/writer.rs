@@ -1,0 +1,134 @@
+//! Writes each emulated frame as soon as it is there, and records it.
+
+use std::path::Path;
+
+use fovqa_emulate::{EmulationSpec, Emulator, Picture};
+use fovqa_engine::{Events, FoundView, FoveatedFrame, OutputError};
+use fovqa_io::encode_frame;
+use fovqa_plan::{EyeView, Plan};
+use fovqa_results::{
+    Failure, FileError, FoveateRecord, FoveatedRecord, make_folder, write_output, write_whole,
+};
+
+use super::destination::{Destination, Destinations};
+use super::record::{First, budget_record, foveated_record, record};
+use super::warnings::Warned;
+use super::written_frame::Written;
+
+/// Writes the frames of a view.
+pub(super) struct Writer<'a> {
+    plan: &'a Plan,
+    eye: &'a EyeView,
+    spec: &'a EmulationSpec,
+    destinations: Destinations,
+    code_bits: Option<u32>,
+    warned: Warned<'a>,
+    /// What the first frame determines.
+    first: Option<First>,
+    frames: Vec<FoveatedRecord>,
+}
+
+impl<'a> Writer<'a> {
+    pub(super) fn new(
+        plan: &'a Plan,
+        view: &FoundView,
+        eye: &'a EyeView,
+        spec: &'a EmulationSpec,
+        destinations: Destinations,
+        events: &'a dyn Events,
+    ) -> Self {
+        Self {
+            plan,
+            eye,
+            spec,
+            destinations,
+            code_bits: view.sources.reference.code_bits(),
+            warned: Warned::new(events, view.frames.len()),
+            first: None,
+            frames: Vec::new(),
+        }
+    }
+
+    /// Writes a frame and, if they are wanted, its buffers.
+    pub(super) fn take(&mut self, frame: &FoveatedFrame<'_>) -> Result<(), OutputError> {
+        let size = [frame.before.width(), frame.before.height()];
+        self.warned.of_gaze(frame.gaze_px, size);
+        let first = self.first.get_or_insert_with(|| {
+            let view = self.eye.settings.view.as_ref();
+            self.warned.of_view(view, size);
+            First::new(self.spec, view, frame)
+        });
+        let budget = frame.emulator.budget().map(budget_record);
+        let budget = budget.filter(|budget| Some(budget) != first.budget());
+        let written = Written {
+            signal: &self.eye.settings.signal,
+            input: frame.reference,
+            code_bits: self.code_bits,
+        };
+        let mut buffer_files = Vec::new();
+        if let Some(destination) = self.destinations.buffer(frame.index) {
+            for (path, picture) in buffers(self.spec, frame.emulator, frame.before, destination)? {
+                let destination = Destination { path, ..destination.clone() };
+                write(&written, &picture, None, &destination)?;
+                buffer_files.push(self.plan.shown(&destination.path));
+            }
+        }
+        let destination = self.destinations.frame(frame.index);
+        write(&written, frame.shown, Some(frame.before), destination)?;
+        let output = self.plan.shown(&destination.path);
+        self.frames.push(foveated_record(frame, output, buffer_files, budget));
+        Ok(())
+    }
+
+    /// The record of what was written.
+    pub(super) fn into_record(self, failures: &[Failure]) -> FoveateRecord {
+        record(self.spec, self.first, self.frames, failures)
+    }
+}
+
+/// The buffers of a picture, with their files.
+fn buffers(
+    spec: &EmulationSpec,
+    emulator: &Emulator,
+    before: &Picture,
+    destination: &Destination,
+) -> Result<Vec<(std::path::PathBuf, Picture)>, OutputError> {
+    let none = || OutputError::NoBuffer { method: spec.key().replace('_', "-") };
+    let pictures = emulator
+        .buffers(before)
+        .unwrap_or_else(|_| unreachable!("the emulator was made for this picture"));
+    if pictures.is_empty() {
+        return Err(none());
+    }
+    let layers = pictures.len();
+    let file = |(index, picture)| (destination.layer(index + 1, layers), picture);
+    Ok(pictures.into_iter().enumerate().map(file).collect())
+}
+
+fn write(
+    written: &Written<'_>,
+    picture: &Picture,
+    before: Option<&Picture>,
+    destination: &Destination,
+) -> Result<(), OutputError> {
+    let path = &destination.path;
+    let frame = written.frame(picture, before, destination)?;
+    let bytes = encode_frame(&frame, destination.format)
+        .map_err(|error| OutputError::Encode { path: path.clone(), error })?;
+    let refused = |path: &Path, error| OutputError::Write { path: path.to_owned(), error };
+    let done = if destination.is_in_folder {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        make_folder(folder).map_err(|error| refused(folder, error))?;
+        write_whole(path, &bytes)
+    } else {
+        write_output(path, &bytes)
+    };
+    done.map_err(|error| match error {
+        FileError::Write { path, error } | FileError::Read { path, error } => {
+            OutputError::Write { path, error }
+        }
+        FileError::Format { path, detail, .. } => {
+            OutputError::Write { path, error: std::io::Error::other(detail) }
+        }
+    })
+}

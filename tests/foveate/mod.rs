@@ -1,0 +1,8 @@
+//! `fovqa foveate`.
+
+mod frames;
+mod golden;
+mod mistakes;
+mod outputs;
+mod record;
+mod sequences;
