@@ -13,7 +13,7 @@ fn a_wrong_command_line_is_exit_2() {
     let cases: [(&str, &[&str]); 25] = [
         ("--method rmfl", &["did you mean rmfr?", "perceptual-target"]),
         ("", &["--method"]),
-        ("--method rmfr --set sigma=0.1", &["rmfr.sigma cannot be 0.1", "list methods"]),
+        ("--method rmfr --set sigma=0.05", &["rmfr.sigma cannot be 0.05", "list methods"]),
         ("--method rmfr --set sigma=nan", &["rmfr.sigma"]),
         ("--method rmfr --set sigmas=2", &["no parameter \"sigmas\"", "sigma"]),
         ("--method rmfr --set sigma", &["PARAM=VALUE"]),

@@ -79,13 +79,13 @@ fn what_a_method_does_not_change_keeps_its_value() {
     for input in ["a.png", "gray.png", "deep.png", "deep-gray.png", "half.exr", "float.exr"] {
         let output = format!("out-{input}");
         folder.foveate(&format!("{input} {output} {options}")).ok();
-        assert_eq!(folder.frame(&output), folder.frame(input), "{input}");
+        assert!(folder.frame(&output) == folder.frame(input), "{input}");
     }
     folder.foveate("float.exr clamped.exr --method full").ok();
-    assert_eq!(folder.frame("clamped.exr"), folder.frame("float.exr"));
+    assert!(folder.frame("clamped.exr") == folder.frame("float.exr"));
     // Rate 1 everywhere.
     folder.foveate("a.png cps.png --method cps --fov-vertical 10").ok();
-    assert_eq!(folder.frame("cps.png"), folder.frame("a.png"));
+    assert!(folder.frame("cps.png") == folder.frame("a.png"));
 }
 
 /// Linear light of an OpenEXR output means the same as the codes of a PNG output.

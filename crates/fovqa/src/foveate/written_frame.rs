@@ -28,13 +28,12 @@ impl Written<'_> {
         destination: &Destination,
     ) -> Result<Frame, OutputError> {
         match destination.format {
-            FrameFormat::Png => Ok(self.codes(picture)),
             FrameFormat::Jpeg if self.is_linear_file() => {
                 let format = destination.format;
                 let error = EncodeError::Samples { format, samples: "linear light in floats" };
                 Err(OutputError::Encode { path: destination.path.clone(), error })
             }
-            FrameFormat::Jpeg => Ok(self.codes(picture)),
+            FrameFormat::Png | FrameFormat::Jpeg => Ok(self.codes(picture)),
             FrameFormat::Exr => {
                 let floats = self.floats(picture, before, destination)?;
                 let whole =
