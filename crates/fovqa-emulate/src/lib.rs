@@ -32,8 +32,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod arcs;
 mod blur;
 mod budget;
+mod circle;
+mod codes;
 mod convolve;
 mod counts;
 mod cps;
@@ -55,7 +58,7 @@ mod moments;
 mod offsets;
 mod peripheral;
 mod picture;
-mod places;
+mod pixels;
 mod polar_view;
 mod prepared;
 mod radial;
@@ -69,11 +72,14 @@ mod sandbox_params;
 mod separable;
 mod space;
 mod spec;
+mod split;
 mod sums;
+mod taps;
 mod temporal;
 mod texel;
 mod turn;
 mod vafr;
+mod value;
 mod visual_polar;
 mod write_frame;
 mod written;

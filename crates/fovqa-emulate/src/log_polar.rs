@@ -9,17 +9,21 @@ use std::f64::consts::TAU;
 use fovqa_methods::{Mapping, Place, Setting};
 use multiversion::multiversion;
 
+use crate::arcs::Surroundings;
 use crate::blur::Blur;
 use crate::counts::Counts;
 use crate::fetch::{lerp, mean16};
 use crate::image::Image;
 use crate::offsets::Offsets;
-use crate::places::{in_frame, place};
+use crate::pixels::Pixels;
 use crate::radial::{Detail, Radial};
 use crate::rounded::rounded;
 use crate::sampling::Sampling;
-use crate::texel::{Texel, narrowed, widened};
+use crate::split::split;
+use crate::taps::{PLACES, Taps};
+use crate::texel::{Texel, narrowed};
 use crate::turn::turn;
+use crate::value::Value;
 
 /// Which filters are on.
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +37,7 @@ pub(crate) struct Filters {
 #[derive(Debug)]
 pub(crate) struct LogPolar {
     size: [usize; 2],
-    setting: Setting,
+    gaze_px: [f64; 2],
     sampling: Sampling,
     /// Samples whose own place is in the frame.
     on_screen: usize,
@@ -41,6 +45,8 @@ pub(crate) struct LogPolar {
     distances_px: Vec<f64>,
     /// Unit vectors of the places of each row.
     directions: Vec<[f64; 2]>,
+    /// How many columns of each row pixels read.
+    seen: Vec<usize>,
     /// A pixel's column coordinate.
     column: Radial,
     offsets: Offsets,
@@ -77,16 +83,20 @@ impl LogPolar {
             Blur::new(Radial::new(Detail::Coarse, reach, width_px))
         });
         let columns: Vec<f64> = Sampling::Point.coordinates(size[0]).map(distance).collect();
-        let rows = Sampling::Point.coordinates(size[1]).map(direction);
-        let in_row = |direction| {
-            let at = |distance: &&f64| in_frame(setting, place(setting, **distance, direction));
-            columns.iter().filter(at).count()
+        let frame = Surroundings::frame(setting);
+        // A pixel is less than a row away across the line to the gaze.
+        let around = frame.widened(1.01 * reach * TAU / h + 1.0);
+        let seen_in = |direction: [f64; 2]| {
+            let within = around.border_px(direction);
+            let behind = columns.partition_point(|distance| *distance <= within) + 2;
+            behind.min(size[0])
         };
         Self {
             size,
-            setting: *setting,
+            gaze_px: setting.gaze_px(),
             sampling,
-            on_screen: rows.map(in_row).sum(),
+            on_screen: columns.iter().map(|distance| frame.count(*distance, size[1])).sum(),
+            seen: Sampling::Point.coordinates(size[1]).map(direction).map(seen_in).collect(),
             distances_px: sampling.coordinates(size[0]).map(distance).collect(),
             directions: sampling.coordinates(size[1]).map(direction).collect(),
             column: Radial::new(Detail::Coarse, reach, u),
@@ -103,80 +113,117 @@ impl LogPolar {
     }
 
     /// The buffer of a frame, with its own filter where that is on.
-    pub(crate) fn buffer<const C: usize, const L: usize>(&self, frame: &Image<C>) -> Image<L> {
+    pub(crate) fn buffer<const C: usize, const L: usize>(
+        &self,
+        frame: &impl Pixels<C>,
+    ) -> Image<L> {
         let [w, h] = self.size;
-        let read = |distance_px: f64, direction: [f64; 2]| {
-            let [x, y] = place(&self.setting, distance_px, direction);
-            widened(frame.at(x, y))
-        };
-        let buffer = Image::by_rows(w, h, |j, row| match self.sampling {
+        let buffer = Image::by_rows(w, h, |j, row| self.sample_row(frame, j, row));
+        if self.buffer_filter { smoothed(&buffer) } else { buffer }
+    }
+
+    /// The samples of row `j`, from the gaze on.
+    fn sample_row<const C: usize, const L: usize>(
+        &self,
+        frame: &impl Pixels<C>,
+        j: usize,
+        row: &mut [[f32; L]],
+    ) {
+        let [gx, gy] = self.gaze_px;
+        match self.sampling {
             Sampling::Point => {
-                for (out, distance) in row.iter_mut().zip(&self.distances_px) {
-                    *out = read(*distance, self.directions[j]);
+                let [x, y] = self.directions[j];
+                let (mut xs, mut ys) = (Taps::new(), Taps::new());
+                for (out, distances) in row.chunks_mut(PLACES).zip(self.distances_px.chunks(PLACES))
+                {
+                    xs.set(gx, x, distances, frame.width());
+                    ys.set(gy, y, distances, frame.height());
+                    for (i, out) in out.iter_mut().enumerate() {
+                        *out = narrowed(frame.fetch(xs.get(i), ys.get(i)));
+                    }
                 }
             }
             Sampling::Area => {
                 let directions = &self.directions[4 * j..4 * j + 4];
                 for (out, distances) in row.iter_mut().zip(self.distances_px.chunks_exact(4)) {
-                    *out = mean16(|p, q| read(distances[p], directions[q]));
+                    *out = narrowed(mean16(|p, q| {
+                        let ([x, y], distance) = (directions[q], distances[p]);
+                        frame.at_place(gx + distance * x, gy + distance * y)
+                    }));
                 }
             }
-        });
-        if self.buffer_filter { smoothed(&buffer) } else { buffer }
-    }
-
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        let buffer: Image<4> = self.buffer(frame);
-        let width = frame.width();
-        let shown = Image::by_blocks(width, frame.height(), |rows, pixels| {
-            let (mut us, mut vs) = (vec![0.0; width], vec![0.0; width]);
-            for (y, out) in rows.zip(pixels.chunks_exact_mut(width)) {
-                let dy = self.offsets.y[y];
-                coordinates(&self.column, &self.offsets.x, dy, self.size, &mut us, &mut vs);
-                for ((out, u), v) in out.iter_mut().zip(&us).zip(&vs) {
-                    *out = narrowed(self.read(&buffer, *u, *v));
-                }
-            }
-        });
-        match &self.screen_filter {
-            Some(blur) => blur.apply(&shown, &self.offsets),
-            None => shown,
         }
     }
 
-    /// The buffer at columns and rows less 0.5, both from 0 to below their number.
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+        let [w, h] = self.size;
+        let buffer: Image<4> = if self.buffer_filter {
+            self.buffer(frame)
+        } else {
+            Image::by_rows(w, h, |j, row| self.sample_row(frame, j, &mut row[..self.seen[j]]))
+        };
+        match &self.screen_filter {
+            Some(blur) => V::keep(blur.apply(&self.read_all(&buffer), &self.offsets)),
+            None => self.read_all(&buffer),
+        }
+    }
+
+    /// What all pixels read in a buffer.
+    fn read_all<const C: usize, V: Value>(&self, buffer: &Image<4>) -> Image<C, V> {
+        let (width, height) = (self.offsets.width(), self.offsets.height());
+        let room = || vec![At::default(); width];
+        Image::by_rows_with(width, height, room, |places, y, out| {
+            let dy = self.offsets.y[y];
+            coordinates(&self.column, &self.offsets.x, dy, self.size, places);
+            for (out, place) in out.iter_mut().zip(places) {
+                *out = narrowed(self.read(buffer, *place));
+            }
+        })
+    }
+
+    /// The buffer at a place.
     #[inline(always)]
-    fn read(&self, buffer: &Image<4>, u: f32, v: f32) -> Texel {
-        let [w, h] = self.size.map(|n| n as u32);
-        let (i, j) = (u as u32, v as u32);
-        let next = u32::from(i + 1 < w);
-        let upper = (j * w + i) as usize;
-        let lower = (if j + 1 == h { i } else { (j + 1) * w + i }) as usize;
-        let (t, pixels) = (u - i as f32, buffer.pixels());
-        let along = |at: usize| lerp(pixels[at], pixels[at + next as usize], t);
-        lerp(along(upper), along(lower), v - j as f32)
+    fn read(&self, buffer: &Image<4>, place: At) -> Texel {
+        let [w, h] = self.size;
+        let (i, j) = (place.column as usize, place.row as usize);
+        let next = usize::from(w > 1);
+        let upper = j * w + i;
+        let lower = if j + 1 == h { i } else { upper + w };
+        let pixels = buffer.pixels();
+        let along = |at: usize| {
+            let pair = &pixels[at..=at + next];
+            lerp(pair[0], pair[next], place.t)
+        };
+        lerp(along(upper), along(lower), place.s)
     }
 }
 
-/// Coordinates of a row of pixels in the buffer, less 0.5: columns clamped, rows wrapped.
+/// Where a pixel reads the buffer.
+#[derive(Debug, Clone, Copy, Default)]
+struct At {
+    /// A column with a next one, where there are two, and how far behind it.
+    column: u32,
+    t: f32,
+    /// A row, and how far behind it.
+    row: u32,
+    s: f32,
+}
+
+/// Where a row of pixels reads the buffer: columns clamped, rows wrapped.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn coordinates(
-    column: &Radial,
-    xs: &[f32],
-    dy: f32,
-    size: [usize; 2],
-    us: &mut [f32],
-    vs: &mut [f32],
-) {
+fn coordinates(column: &Radial, xs: &[f32], dy: f32, size: [usize; 2], places: &mut [At]) {
     let (last, rows) = ((size[0] - 1) as f32, size[1] as f32);
+    let most = size[0].saturating_sub(2) as f32;
     // Two loops: the one without a table works on many pixels at once.
-    for (dx, v) in xs.iter().zip(vs) {
+    for (dx, place) in xs.iter().zip(&mut *places) {
         let row = turn(*dx, dy) * rows - 0.5;
         let row = if row < 0.0 { row + rows } else { row };
-        *v = if row >= rows { 0.0 } else { row };
+        (place.row, place.s) = split(if row >= rows { 0.0 } else { row });
     }
-    for (dx, u) in xs.iter().zip(us) {
-        *u = (column.at(dx * dx + dy * dy) - 0.5).max(0.0).min(last);
+    for (dx, place) in xs.iter().zip(places) {
+        let at = (column.at(dx * dx + dy * dy) - 0.5).max(0.0).min(last);
+        let (whole, t) = split(at.min(most));
+        (place.column, place.t) = (whole, t + (at - at.min(most)));
     }
 }
 

@@ -7,8 +7,10 @@ use crate::image::Image;
 use crate::offsets::Offsets;
 use crate::radial::{Detail, Radial};
 use crate::ragged::{Ragged, Values};
+use crate::split::split;
 use crate::texel::narrowed;
 use crate::turn::turn;
+use crate::value::Value;
 
 /// From pixels to a buffer of ragged columns.
 #[derive(Debug)]
@@ -26,34 +28,67 @@ impl PolarView {
     }
 
     /// The frame as read from a buffer; 0 beyond a distance from the gaze.
-    pub(crate) fn show<const C: usize>(
+    pub(crate) fn show<const C: usize, V: Value>(
         &self,
         buffer: &Ragged,
         values: &Values,
         reach_px: f64,
-    ) -> Image<C> {
-        let width = self.offsets.width();
-        Image::by_blocks(width, self.offsets.height(), |rows, pixels| {
-            let (mut columns, mut turns) = (vec![0.0; width], vec![0.0; width]);
-            for (y, out) in rows.zip(pixels.chunks_exact_mut(width)) {
-                let (xs, dy) = (&self.offsets.x, self.offsets.y[y]);
-                coordinates(&self.column, xs, dy, &mut columns, &mut turns);
-                for x in self.offsets.within(y, reach_px) {
-                    out[x] = narrowed(buffer.read(values, columns[x], turns[x]));
-                }
+    ) -> Image<C, V> {
+        let (width, height) = (self.offsets.width(), self.offsets.height());
+        let last = buffer.columns().len() - 1;
+        Image::by_rows_with(width, height, || Places::new(width), |places, y, out| {
+            places.set(&self.column, &self.offsets.x, self.offsets.y[y], last as f32);
+            let xs = self.offsets.within(y, reach_px);
+            let Places { columns, rest, turns } = places;
+            let places = columns[xs.clone()].iter().zip(&rest[xs.clone()]).zip(&turns[xs.clone()]);
+            out[..xs.start].fill([0.0; C]);
+            out[xs.end..].fill([0.0; C]);
+            for (out, ((column, rest), turn)) in out[xs].iter_mut().zip(places) {
+                *out = narrowed(buffer.between(values, *column as usize, *rest, *turn));
             }
         })
     }
 }
 
-/// Column coordinates, less 0.5, and directions of a row of pixels.
+/// Where the pixels of a row read.
+#[derive(Debug)]
+struct Places {
+    /// Columns, and how far behind them.
+    columns: Vec<u32>,
+    rest: Vec<f32>,
+    /// Directions.
+    turns: Vec<f32>,
+}
+
+impl Places {
+    fn new(width: usize) -> Self {
+        Self { columns: vec![0; width], rest: vec![0.0; width], turns: vec![0.0; width] }
+    }
+
+    fn set(&mut self, column: &Radial, xs: &[f32], dy: f32, last: f32) {
+        directions(xs, dy, &mut self.turns);
+        columns(column, xs, dy, last, (&mut self.columns, &mut self.rest));
+    }
+}
+
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn coordinates(column: &Radial, xs: &[f32], dy: f32, columns: &mut [f32], turns: &mut [f32]) {
-    // Two loops: the one without a table works on many pixels at once.
+fn directions(xs: &[f32], dy: f32, turns: &mut [f32]) {
     for (dx, direction) in xs.iter().zip(turns) {
         *direction = turn(*dx, dy);
     }
-    for (dx, at) in xs.iter().zip(columns) {
-        *at = column.at(dx * dx + dy * dy) - 0.5;
+}
+
+/// Column coordinates less 0.5, clamped to the columns.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn columns(
+    column: &Radial,
+    xs: &[f32],
+    dy: f32,
+    last: f32,
+    (wholes, rests): (&mut [u32], &mut [f32]),
+) {
+    for ((dx, whole), rest) in xs.iter().zip(wholes).zip(rests) {
+        let at = column.at(dx * dx + dy * dy) - 0.5;
+        (*whole, *rest) = split(at.max(0.0).min(last));
     }
 }

@@ -5,15 +5,20 @@
 //! columns are read at the same direction, not at the same row.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use fovqa_methods::Setting;
 use rayon::prelude::*;
 
+use crate::arcs::Surroundings;
+use crate::circle::Circle;
 use crate::fetch::{lerp, mean16};
 use crate::image::Image;
-use crate::places::{in_frame, place};
+use crate::pixels::Pixels;
 use crate::sampling::Sampling;
-use crate::texel::{Texel, narrowed, widened};
+use crate::split::split;
+use crate::taps::{PLACES, Taps};
+use crate::texel::{Texel, narrowed};
 
 /// A column of a buffer.
 #[derive(Debug, Clone)]
@@ -26,16 +31,19 @@ pub(crate) struct Column {
     pub(crate) rows: usize,
     /// Where its values begin in a [`Values`].
     start: usize,
+    /// The samples that pixels read.
+    seen: Vec<Range<usize>>,
 }
 
 /// The shape of a buffer.
 #[derive(Debug)]
 pub(crate) struct Ragged {
     columns: Vec<Column>,
-    /// Where the values of each column begin, and its rows: what reading needs, close together.
+    /// Where the values of each column begin, and its rows: what reading needs, close together. The
+    /// last column is there twice, so that each one has a next.
     reads: Vec<(u32, f32)>,
     sampling: Sampling,
-    setting: Setting,
+    gaze_px: [f64; 2],
 }
 
 /// The samples of a buffer, column after column. Each column has its last sample before its first one
@@ -61,14 +69,18 @@ impl Ragged {
             let distance_px = distance(c as f64 + 0.5);
             let places = sampling.places().iter().map(|place| distance(c as f64 + place));
             let rows = rows(distance_px);
-            let column = Column { distance_px, places_px: places.collect(), rows, start };
+            let places_px = places.collect();
+            let column = Column { distance_px, places_px, rows, start, seen: Vec::new() };
             start += rows + WRAPPED;
             column
         });
-        let columns: Vec<Column> = columns.collect();
-        let reads =
-            columns.iter().map(|column| (column.start as u32, column.rows as f32)).collect();
-        Self { columns, reads, sampling, setting: *setting }
+        let mut columns: Vec<Column> = columns.collect();
+        for (column, seen) in seen(&columns, setting).into_iter().enumerate() {
+            columns[column].seen = seen;
+        }
+        let read = |column: &Column| (column.start as u32, column.rows as f32);
+        let reads = columns.iter().chain(columns.last()).map(read).collect();
+        Self { columns, reads, sampling, gaze_px: setting.gaze_px() }
     }
 
     /// The columns from the gaze outwards.
@@ -83,40 +95,61 @@ impl Ragged {
     }
 
     /// Number of samples inside the frame.
-    pub(crate) fn on_screen(&self) -> usize {
-        let of_column = |column: &Column| {
-            let places = directions(column.rows).take(column.rows);
-            let seen = |at: &[f64; 2]| {
-                in_frame(&self.setting, place(&self.setting, column.distance_px, *at))
-            };
-            places.filter(seen).count()
-        };
-        self.columns.par_iter().map(of_column).sum()
+    pub(crate) fn on_screen(&self, setting: &Setting) -> usize {
+        let frame = Surroundings::frame(setting);
+        self.columns.iter().map(|column| frame.count(column.distance_px, column.rows)).sum()
     }
 
-    /// The samples of a frame.
-    pub(crate) fn sample<const C: usize>(&self, frame: &Image<C>) -> Values {
+    /// All samples of a frame.
+    pub(crate) fn sample<const C: usize>(&self, frame: &impl Pixels<C>) -> Values {
+        self.fill(|_, column, out| self.sample_arc(frame, column, 0, out))
+    }
+
+    /// Those samples of a frame that its pixels read.
+    pub(crate) fn sample_seen<const C: usize>(&self, frame: &impl Pixels<C>) -> Values {
         self.fill(|_, column, out| {
-            let read = |distance_px: f64, direction: [f64; 2]| {
-                let [x, y] = place(&self.setting, distance_px, direction);
-                widened(frame.at(x, y))
-            };
-            match self.sampling {
-                Sampling::Point => {
-                    for (out, direction) in out.iter_mut().zip(directions(column.rows)) {
-                        *out = read(column.places_px[0], direction);
-                    }
-                }
-                Sampling::Area => {
-                    let mut directions = directions(4 * column.rows);
-                    for out in out {
-                        let around: [_; 4] =
-                            std::array::from_fn(|_| directions.next().unwrap_or_default());
-                        *out = mean16(|p, q| read(column.places_px[p], around[q]));
-                    }
-                }
+            for arc in &column.seen {
+                self.sample_arc(frame, column, arc.start, &mut out[arc.clone()]);
             }
         })
+    }
+
+    /// Samples of a column, from its row `first` on.
+    fn sample_arc<const C: usize>(
+        &self,
+        frame: &impl Pixels<C>,
+        column: &Column,
+        first: usize,
+        out: &mut [Texel],
+    ) {
+        let [gx, gy] = self.gaze_px;
+        let distances = &column.places_px;
+        match self.sampling {
+            Sampling::Point => {
+                let mut circle = Circle::new(first, column.rows);
+                let (mut xs, mut ys) = (Taps::new(), Taps::new());
+                for out in out.chunks_mut(PLACES) {
+                    xs.set(gx, distances[0], &circle.x[..out.len()], frame.width());
+                    ys.set(gy, distances[0], &circle.y[..out.len()], frame.height());
+                    for (i, out) in out.iter_mut().enumerate() {
+                        *out = frame.fetch(xs.get(i), ys.get(i));
+                    }
+                    circle.advance();
+                }
+            }
+            Sampling::Area => {
+                let mut circle = Circle::new(4 * first, 4 * column.rows);
+                for out in out.chunks_mut(PLACES / 4) {
+                    for (i, out) in out.iter_mut().enumerate() {
+                        *out = mean16(|p, q| {
+                            let (x, y) = (circle.x[4 * i + q], circle.y[4 * i + q]);
+                            frame.at_place(gx + distances[p] * x, gy + distances[p] * y)
+                        });
+                    }
+                    circle.advance();
+                }
+            }
+        }
     }
 
     /// A buffer of this shape, computed column by column, in parallel.
@@ -141,22 +174,22 @@ impl Ragged {
     /// A column read in a direction, in turns from 0 to 1.
     #[inline(always)]
     pub(crate) fn along(&self, values: &Values, c: usize, turn: f32) -> Texel {
-        let (start, rows) = self.reads[c];
-        let row = turn * rows + 0.5;
-        let at = row as u32;
-        let from = (start + at) as usize;
-        let pair = &values.0[from..from + 2];
-        lerp(pair[0], pair[1], row - at as f32)
+        along(values, self.reads[c], turn)
+    }
+
+    /// The buffer between a column and the next one, and in a direction in turns.
+    #[inline(always)]
+    pub(crate) fn between(&self, values: &Values, c: usize, t: f32, turn: f32) -> Texel {
+        let pair = &self.reads[c..c + 2];
+        lerp(along(values, pair[0], turn), along(values, pair[1], turn), t)
     }
 
     /// The buffer at a column less 0.5, clamped to the columns, and a direction in turns.
     #[inline(always)]
     pub(crate) fn read(&self, values: &Values, column: f32, turn: f32) -> Texel {
-        let last = self.reads.len() - 1;
-        let column = column.max(0.0).min(last as f32);
-        let c = column as usize;
-        let near = self.along(values, c, turn);
-        lerp(near, self.along(values, (c + 1).min(last), turn), column - c as f32)
+        let last = self.columns.len() - 1;
+        let (c, t) = split(column.max(0.0).min(last as f32));
+        self.between(values, c as usize, t, turn)
     }
 
     /// The samples of a column.
@@ -177,25 +210,30 @@ impl Ragged {
     }
 }
 
-/// Unit vectors in the directions (k + 0.5) / n of a turn: each is the one before it, turned. After a
-/// thousand of them rounding has added up to 1e-13.
-fn directions(n: usize) -> impl Iterator<Item = [f64; 2]> {
-    let (sin, cos) = libm::sincos(TAU / n as f64);
-    let (y, x) = libm::sincos(TAU / (2.0 * n as f64));
-    std::iter::successors(Some([x, y]), move |[x, y]| Some([x * cos - y * sin, x * sin + y * cos]))
+/// A column that begins somewhere and has so many rows, read in a direction.
+#[inline(always)]
+fn along(values: &Values, (start, rows): (u32, f32), turn: f32) -> Texel {
+    let (at, t) = split(turn * rows + 0.5);
+    let from = (start + at) as usize;
+    let pair = &values.0[from..from + 2];
+    lerp(pair[0], pair[1], t)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn directions_stay_on_the_circle() {
-        for n in [1, 2, 7, 2000] {
-            for (k, [x, y]) in directions(n).take(n).enumerate() {
-                let angle = TAU * (k as f64 + 0.5) / n as f64;
-                assert!((x - angle.cos()).abs() < 1e-12 && (y - angle.sin()).abs() < 1e-12);
-            }
+/// The samples of each column that pixels read: a pixel is less than a column away along the line to the
+/// gaze, and less than a row across it. Of the last column that is all, for pixels beyond it.
+fn seen(columns: &[Column], setting: &Setting) -> Vec<Vec<Range<usize>>> {
+    let frame = Surroundings::frame(setting);
+    let distance_px = |c: usize| columns[c].distance_px;
+    let of_column = |(c, column): (usize, &Column)| {
+        if c + 1 == columns.len() {
+            return vec![0..column.rows];
         }
-    }
+        let (inner, outer) = (c.checked_sub(1).map_or(0.0, distance_px), distance_px(c + 1));
+        let along_px = (column.distance_px - inner).max(outer - column.distance_px);
+        let across_px = outer * TAU / column.rows as f64;
+        // Pixels know their column to a thousandth.
+        let margin_px = 1.01 * (along_px + across_px) + 1.0;
+        frame.widened(margin_px).arcs(column.distance_px, column.rows)
+    };
+    columns.iter().enumerate().map(of_column).collect()
 }

@@ -7,10 +7,12 @@ use fovqa_methods::{Foveation, Mapping, MethodError, Place, Setting};
 use crate::counts::Counts;
 use crate::fxaa::Fxaa;
 use crate::image::Image;
+use crate::pixels::Pixels;
 use crate::polar_view::PolarView;
-use crate::ragged::{Ragged, Values};
+use crate::ragged::Ragged;
 use crate::rounded::rounded;
 use crate::sampling::Sampling;
+use crate::value::Value;
 
 /// VaFR of a frame and a gaze.
 #[derive(Debug)]
@@ -52,21 +54,22 @@ impl Vafr {
         self.counts.clone()
     }
 
-    fn values<const C: usize>(&self, frame: &Image<C>) -> Values {
-        let values = self.buffer.sample(frame);
-        match &self.filter {
-            Some(filter) => filter.apply(&self.buffer, &values),
-            None => values,
-        }
-    }
-
     /// The buffer of a frame, with its own filter where that is on.
     pub(crate) fn buffer<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        self.buffer.image(&self.values(frame))
+        let values = self.buffer.sample(frame);
+        self.buffer.image(&match &self.filter {
+            Some(filter) => filter.apply(&self.buffer, &values),
+            None => values,
+        })
     }
 
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        self.view.show(&self.buffer, &self.values(frame), self.reach_px)
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+        let values = match &self.filter {
+            // Samples in the frame may be smoothed with others.
+            Some(filter) => filter.apply(&self.buffer, &self.buffer.sample(frame)),
+            None => self.buffer.sample_seen(frame),
+        };
+        self.view.show(&self.buffer, &values, self.reach_px)
     }
 }
 
@@ -83,7 +86,7 @@ fn counts(buffer: &Ragged, setting: &Setting, shaded: f64) -> Counts {
     Counts {
         buffers: vec![buffer.size()],
         samples: within as f64 * shaded,
-        samples_on_screen: buffer.on_screen() as f64 * shaded,
+        samples_on_screen: buffer.on_screen(setting) as f64 * shaded,
         samples_beyond: beyond as f64 * shaded,
         quads: None,
     }
