@@ -21,18 +21,13 @@ impl Surroundings {
         Self { sides_px: [width - gx, height - gy, gx, gy] }
     }
 
-    /// The rectangle with a margin around it.
-    pub(crate) fn widened(self, margin_px: f64) -> Self {
-        Self { sides_px: self.sides_px.map(|side| side + margin_px) }
-    }
-
     /// Of `n` samples on a circle, in the directions (j + 0.5) / n of a turn, those inside: up to four
     /// ranges that do not touch. Rounding decides on samples on a side itself.
     pub(crate) fn arcs(&self, radius_px: f64, n: usize) -> Vec<Range<usize>> {
         // Beyond a side there is an arc around the side's own direction.
-        let beyond = self.sides_px.map(|side| {
-            if radius_px > side { libm::acos(side / radius_px) / TAU } else { 0.0 }
-        });
+        let beyond = self
+            .sides_px
+            .map(|side| if radius_px > side { libm::acos(side / radius_px) / TAU } else { 0.0 });
         let count = n as f64;
         let up_to = |turn: f64| (turn * count - 0.5).ceil().clamp(0.0, count) as usize;
         let mut arcs: Vec<Range<usize>> = Vec::with_capacity(4);
@@ -52,21 +47,6 @@ impl Surroundings {
     /// How many of the samples of a circle are inside.
     pub(crate) fn count(&self, radius_px: f64, n: usize) -> usize {
         self.arcs(radius_px, n).iter().map(ExactSizeIterator::len).sum()
-    }
-
-    /// The distance of the border in a direction, a unit vector.
-    pub(crate) fn border_px(&self, [x, y]: [f64; 2]) -> f64 {
-        let [right, lower, left, upper] = self.sides_px;
-        let along = |to: f64, before: f64, behind: f64| {
-            if to > 0.0 {
-                behind / to
-            } else if to < 0.0 {
-                -before / to
-            } else {
-                f64::INFINITY
-            }
-        };
-        along(x, left, right).min(along(y, upper, lower))
     }
 }
 
@@ -89,26 +69,12 @@ mod tests {
                             && (-upper..lower).contains(&(radius_px * sin))
                     };
                     let expected: Vec<usize> = (0..n).filter(inside).collect();
-                    let found: Vec<usize> = around.arcs(radius_px, n).into_iter().flatten().collect();
+                    let found: Vec<usize> =
+                        around.arcs(radius_px, n).into_iter().flatten().collect();
                     assert_eq!(found, expected, "{sides_px:?} {radius_px} {n}");
                     assert_eq!(around.count(radius_px, n), expected.len());
                 }
             }
-        }
-    }
-
-    #[test]
-    fn the_border_is_the_nearest_side() {
-        let around = Surroundings { sides_px: [4.0, 3.0, 2.0, 1.0] };
-        for (direction, border_px) in [
-            ([1.0, 0.0], 4.0),
-            ([0.0, 1.0], 3.0),
-            ([-1.0, 0.0], 2.0),
-            ([0.0, -1.0], 1.0),
-            ([0.8, 0.6], 5.0),
-            ([-0.6, -0.8], 1.25),
-        ] {
-            assert!((around.border_px(direction) - border_px).abs() < 1e-12, "{direction:?}");
         }
     }
 }

@@ -16,7 +16,7 @@ pub(crate) struct Circle {
 
 impl Circle {
     /// From direction `first` of `n` on.
-    pub(crate) fn new(first: usize, n: usize) -> Self {
+    pub(crate) fn new(first: i64, n: usize) -> Self {
         let step = TAU / n as f64;
         let (sin, cos) = libm::sincos((first as f64 + 0.5) * step);
         let (mut x, mut y) = ([cos; PLACES], [sin; PLACES]);
@@ -57,7 +57,7 @@ mod tests {
     fn directions_stay_on_the_circle() {
         for n in [1, 2, 7, 2000, 20_000] {
             for first in [0, n / 3] {
-                let mut circle = Circle::new(first, n);
+                let mut circle = Circle::new(first as i64, n);
                 for from in (first..n).step_by(PLACES) {
                     for j in from..(from + PLACES).min(n) {
                         let angle = TAU * (j as f64 + 0.5) / n as f64;

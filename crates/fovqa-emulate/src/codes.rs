@@ -7,9 +7,11 @@ use std::ops::Range;
 use fovqa_frame::{Frame, Samples, SignalTables, Transfer};
 use multiversion::multiversion;
 
+use crate::fetch::lerp;
 use crate::image::Image;
 use crate::pixels::Pixels;
-use crate::texel::Texel;
+use crate::taps::{PLACES, Taps};
+use crate::texel::{Texel, narrowed};
 
 /// 1/255 in two parts: the product of a code with the first is exact, so that the sum of both is rounded
 /// once, as a division would be.
@@ -21,6 +23,9 @@ fn unit(code: u8) -> f32 {
     let code = f32::from(code);
     code * UNIT[0] + code * UNIT[1]
 }
+
+/// What is read at once. A frame of fewer codes is not worth reading as such.
+const BYTES: usize = 8;
 
 /// The codes of a frame, the channels of a pixel side by side.
 #[derive(Debug, Clone, Copy)]
@@ -37,7 +42,8 @@ impl<'a, const C: usize> Codes<'a, C> {
         let width = frame.width();
         let whole = frame.file_size() == (width, frame.height());
         let are_signal = tables.params().transfer_of(frame) != Transfer::Linear;
-        (whole && are_signal && frame.channels().count() == C).then_some(Self { width, codes })
+        let fits = frame.channels().count() == C && codes.len() >= BYTES;
+        (whole && are_signal && fits).then_some(Self { width, codes })
     }
 }
 
@@ -51,22 +57,25 @@ impl<const C: usize> Pixels<C> for Codes<'_, C> {
     }
 
     #[inline(always)]
-    fn texel(&self, index: usize) -> Texel {
-        let at = index * C;
-        if C == 1 {
-            return [unit(self.codes[at]); 4];
+    fn pair(&self, index: usize, apart: usize) -> [Texel; 2] {
+        let bytes = pair::<C>(self.codes, index, apart);
+        [0, 4].map(|from| std::array::from_fn(|c| unit(bytes[from + c])))
+    }
+
+    fn fetch_all<const L: usize>(&self, xs: &Taps, ys: &Taps, out: &mut [[f32; L]]) {
+        let (mut bytes, mut read) = ([[0; 16]; PLACES], [[[0.0; 4]; 4]; PLACES]);
+        let (bytes, read) = (&mut bytes[..out.len()], &mut read[..out.len()]);
+        read_pairs::<C>(self.codes, self.width, xs, ys, bytes);
+        units(bytes.as_flattened(), read.as_flattened_mut().as_flattened_mut());
+        for (i, (out, [a, b, c, d])) in out.iter_mut().zip(read).enumerate() {
+            let (x, y) = (xs.get(i).t, ys.get(i).t);
+            *out = narrowed(lerp(lerp(*a, *b, x), lerp(*c, *d, x), y));
         }
-        // Four bytes are one read; the fourth is of the next pixel, and the last pixel has none.
-        let four = match self.codes.get(at..at + 4) {
-            Some(&[r, g, b, next]) => [r, g, b, next],
-            _ => std::array::from_fn(|c| self.codes[at + c.min(C - 1)]),
-        };
-        four.map(unit)
     }
 
     fn read_row(&self, y: usize, xs: Range<usize>, out: &mut [[f32; C]]) {
         let row = y * self.width;
-        read(&self.codes[(row + xs.start) * C..(row + xs.end) * C], out.as_flattened_mut());
+        units(&self.codes[(row + xs.start) * C..(row + xs.end) * C], out.as_flattened_mut());
     }
 
     fn signal(&self) -> Cow<'_, Image<C>> {
@@ -76,8 +85,45 @@ impl<const C: usize> Pixels<C> for Codes<'_, C> {
     }
 }
 
+/// The codes of a pixel, and of the one so many behind it: 1 or 0. The fourth code of each is any.
+#[inline(always)]
+fn pair<const C: usize>(codes: &[u8], index: usize, apart: usize) -> [u8; 8] {
+    let at = index * C;
+    if C == 1 {
+        let [a, b] = [codes[at], codes[at + apart]];
+        return [a, a, a, a, b, b, b, b];
+    }
+    // Eight bytes are one read; near the end of the frame they are the last eight, less those before the
+    // pixel.
+    let from = at.min(codes.len() - BYTES);
+    let bytes = codes[from..].first_chunk().map_or(0, |bytes| u64::from_le_bytes(*bytes));
+    let pixel = bytes >> (8 * (at - from));
+    let next = pixel >> (8 * C * apart);
+    (pixel & u64::from(u32::MAX) | next << 32).to_le_bytes()
+}
+
+/// The codes at many taps: the two pixels of the upper row, then those of the lower one. Nothing else is
+/// done in between, so that many reads from memory are under way at once.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn read(codes: &[u8], out: &mut [f32]) {
+fn read_pairs<const C: usize>(
+    codes: &[u8],
+    width: usize,
+    xs: &Taps,
+    ys: &Taps,
+    out: &mut [[u8; 16]],
+) {
+    for (i, out) in out.iter_mut().enumerate() {
+        let (x, y) = (xs.get(i), ys.get(i));
+        let (halves, _) = out.as_chunks_mut::<8>();
+        for (half, row) in halves.iter_mut().zip([y.at, y.next]) {
+            let index = row as usize * width + x.at as usize;
+            *half = pair::<C>(codes, index, (x.next - x.at) as usize);
+        }
+    }
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
+fn units(codes: &[u8], out: &mut [f32]) {
     for (out, code) in out.iter_mut().zip(codes) {
         *out = unit(*code);
     }
@@ -101,9 +147,13 @@ mod tests {
         let frame = Codes::<3> { width: 3, codes: &codes };
         assert_eq!(frame.height(), 2);
         for index in 0..6 {
-            let texel = frame.texel(index).map(f32::to_bits);
-            for c in 0..3 {
-                assert_eq!(texel[c], unit(codes[3 * index + c]).to_bits());
+            for apart in [0, 1].into_iter().filter(|apart| index + apart < 6) {
+                let pair = frame.pair(index, apart);
+                for (texel, index) in pair.into_iter().zip([index, index + apart]) {
+                    for c in 0..3 {
+                        assert_eq!(texel[c].to_bits(), unit(codes[3 * index + c]).to_bits());
+                    }
+                }
             }
         }
     }

@@ -48,11 +48,11 @@ impl Grids {
         let (width, height) = (frame.width(), frame.height());
         let room = || (Vec::new(), [[0.0; C]; SEGMENT], [0.0f32; SEGMENT]);
         Image::by_rows_with(width, height, room, |(scratch, coarser, levels), y, row| {
-            let mut read =
-                |l: usize, xs: Range<usize>, out: &mut [[f32; C]]| match l.checked_sub(1) {
-                    None => frame.read_row(y, xs, out),
-                    Some(l) => self.levels[l].read_row(&grids[l], y, xs, scratch, out),
-                };
+            let mut read = |l: usize, xs: Range<usize>, out: &mut [[f32; C]]| match l.checked_sub(1)
+            {
+                None => frame.read_row(y, xs, out),
+                Some(l) => self.levels[l].read_row(&grids[l], y, xs, scratch, out),
+            };
             for (segment, out) in row.chunks_mut(SEGMENT).enumerate() {
                 let xs = segment * SEGMENT..segment * SEGMENT + out.len();
                 let levels = &mut levels[..out.len()];

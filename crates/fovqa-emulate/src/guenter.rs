@@ -93,11 +93,12 @@ impl Guenter {
         let width = frame.width();
         let room = || (Vec::new(), vec![[0.0; C]; width]);
         Image::by_rows_with(width, frame.height(), room, |(scratch, finer), y, out| {
-            let mut read = |k: usize, xs: Range<usize>, out: &mut [[f32; C]]| {
-                match (&self.layers[k].buffer, &buffers[k]) {
-                    (Some(layer), Some(buffer)) => layer.read_row(buffer, y, xs, scratch, out),
-                    _ => frame.read_row(y, xs, out),
-                }
+            let mut read = |k: usize, xs: Range<usize>, out: &mut [[f32; C]]| match (
+                &self.layers[k].buffer,
+                &buffers[k],
+            ) {
+                (Some(layer), Some(buffer)) => layer.read_row(buffer, y, xs, scratch, out),
+                _ => frame.read_row(y, xs, out),
             };
             read(2, 0..width, out);
             for k in [1, 0] {

@@ -63,6 +63,25 @@ impl<const C: usize, V> Image<C, V> {
         Self { width, pixels }
     }
 
+    /// Computes an image of `width` x `height` pixels in parallel: `fill` gets strips of so many rows, and
+    /// which rows they are.
+    pub(crate) fn by_strips(
+        width: usize,
+        height: usize,
+        rows: usize,
+        fill: impl Fn(Range<usize>, &mut [[V; C]]) + Sync + Send,
+    ) -> Self
+    where
+        V: Value,
+    {
+        let mut pixels = vec![[V::default(); C]; width * height];
+        pixels.par_chunks_mut(rows * width).enumerate().for_each(|(strip, pixels)| {
+            let first = strip * rows;
+            fill(first..first + pixels.len() / width, pixels);
+        });
+        Self { width, pixels }
+    }
+
     /// The same without room.
     pub(crate) fn by_rows(
         width: usize,

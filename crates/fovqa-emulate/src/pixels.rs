@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use crate::fetch::{Tap, lerp};
 use crate::image::Image;
-use crate::texel::{Texel, widened};
+use crate::taps::Taps;
+use crate::texel::{Texel, narrowed, widened};
 
 /// A picture of `C` channels whose pixels can be read one by one, as the signal in `[0, 1]`.
 pub(crate) trait Pixels<const C: usize>: Sync {
@@ -15,8 +16,8 @@ pub(crate) trait Pixels<const C: usize>: Sync {
     /// Height in pixels.
     fn height(&self) -> usize;
 
-    /// A pixel, by its number in reading order.
-    fn texel(&self, index: usize) -> Texel;
+    /// A pixel, by its number in reading order, and the one so many behind it: 1 or 0.
+    fn pair(&self, index: usize, apart: usize) -> [Texel; 2];
 
     /// The pixels `xs` of row `y`.
     fn read_row(&self, y: usize, xs: Range<usize>, out: &mut [[f32; C]]);
@@ -27,11 +28,22 @@ pub(crate) trait Pixels<const C: usize>: Sync {
     /// The picture at two taps.
     #[inline(always)]
     fn fetch(&self, x: Tap, y: Tap) -> Texel {
-        let (upper, lower) = (y.at as usize * self.width(), y.next as usize * self.width());
-        let along = |row: usize| {
-            lerp(self.texel(row + x.at as usize), self.texel(row + x.next as usize), x.t)
-        };
-        lerp(along(upper), along(lower), y.t)
+        lerp(self.fetch_in_row(y.at, x), self.fetch_in_row(y.next, x), y.t)
+    }
+
+    /// A row of the picture at a tap.
+    #[inline(always)]
+    fn fetch_in_row(&self, row: u32, x: Tap) -> Texel {
+        let index = row as usize * self.width() + x.at as usize;
+        let [pixel, next] = self.pair(index, (x.next - x.at) as usize);
+        lerp(pixel, next, x.t)
+    }
+
+    /// The picture at many taps.
+    fn fetch_all<const L: usize>(&self, xs: &Taps, ys: &Taps, out: &mut [[f32; L]]) {
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = narrowed(self.fetch(xs.get(i), ys.get(i)));
+        }
     }
 
     /// The picture at a place in pixels, clamped to its edges.
@@ -51,8 +63,9 @@ impl<const C: usize> Pixels<C> for Image<C> {
     }
 
     #[inline(always)]
-    fn texel(&self, index: usize) -> Texel {
-        widened(self.pixels()[index])
+    fn pair(&self, index: usize, apart: usize) -> [Texel; 2] {
+        let pixels = &self.pixels()[index..=index + apart];
+        [widened(pixels[0]), widened(pixels[apart])]
     }
 
     fn read_row(&self, y: usize, xs: Range<usize>, out: &mut [[f32; C]]) {

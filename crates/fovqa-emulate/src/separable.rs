@@ -7,7 +7,7 @@ use crate::fetch::{Tap, lerp, mean16};
 use crate::image::Image;
 use crate::pixels::Pixels;
 use crate::sampling::Sampling;
-use crate::texel::{Texel, narrowed};
+use crate::texel::{Texel, narrowed, write_all};
 use crate::value::Value;
 
 /// The mapping along one axis, between the buffer and the frame.
@@ -102,10 +102,11 @@ impl Separable {
         let lower = &buffer.row(down.next as usize)[first..=last];
         scratch.clear();
         scratch.extend(upper.iter().zip(lower).map(|(a, b)| lerp(*a, *b, down.t)));
-        for (out, tap) in out.iter_mut().zip(taps) {
+        write_all(out, |i| {
+            let tap = taps[i];
             let (at, next) = (tap.at as usize - first, tap.next as usize - first);
-            *out = narrowed(lerp(scratch[at], scratch[next], tap.t));
-        }
+            lerp(scratch[at], scratch[next], tap.t)
+        });
     }
 
     /// The frame as read from a buffer.

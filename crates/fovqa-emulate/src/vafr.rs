@@ -20,8 +20,6 @@ pub(crate) struct Vafr {
     buffer: Ragged,
     view: PolarView,
     counts: Counts,
-    /// Up to where the frame is shown.
-    reach_px: f64,
     filter: Option<Fxaa>,
 }
 
@@ -39,15 +37,15 @@ impl Vafr {
         let distance = |column: f64| mapped.to_screen(0, [column / stretch, 0.0]).radius_px;
         let rows = |r: f64| rounded(mapped.rows_at(setting.eccentricity_deg(r)));
         let buffer = Ragged::new(n, setting, sampling, distance, rows);
-        let view = PolarView::new(setting, |r| {
-            mapped.to_buffer(0, Place { radius_px: r, direction: [1.0, 0.0] })[0] * stretch
-        });
         let reach_px = match params.beyond {
             Beyond::Black => setting.radius_px(FIELD_DEG),
             Beyond::Extend | Beyond::Clamp => f64::INFINITY,
         };
+        let view = PolarView::new(setting, n, reach_px, |r| {
+            mapped.to_buffer(0, Place { radius_px: r, direction: [1.0, 0.0] })[0] * stretch
+        });
         let counts = counts(&buffer, setting, mapped.shaded_share());
-        Ok(Self { buffer, view, counts, reach_px, filter })
+        Ok(Self { buffer, view, counts, filter })
     }
 
     pub(crate) fn counts(&self) -> Counts {
@@ -64,12 +62,13 @@ impl Vafr {
     }
 
     pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
-        let values = match &self.filter {
-            // Samples in the frame may be smoothed with others.
-            Some(filter) => filter.apply(&self.buffer, &self.buffer.sample(frame)),
-            None => self.buffer.sample_seen(frame),
-        };
-        self.view.show(&self.buffer, &values, self.reach_px)
+        match &self.filter {
+            Some(filter) => {
+                let values = filter.apply(&self.buffer, &self.buffer.sample(frame));
+                self.view.show_values(&self.buffer, &values)
+            }
+            None => self.view.show(&self.buffer, frame),
+        }
     }
 }
 

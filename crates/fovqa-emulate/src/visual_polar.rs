@@ -30,7 +30,7 @@ impl VisualPolar {
         let distance = |column: f64| mapped.to_screen(0, [column / stretch, 0.0]).radius_px;
         let rows = |r: f64| rounded(mapped.rows_at(r));
         let buffer = Ragged::new(n, setting, sampling, distance, rows);
-        let view = PolarView::new(setting, |r| {
+        let view = PolarView::new(setting, n, f64::INFINITY, |r| {
             mapped.to_buffer(0, Place { radius_px: r, direction: [1.0, 0.0] })[0] * stretch
         });
         let samples: usize = buffer.columns().iter().map(|column| column.rows).sum();
@@ -50,6 +50,6 @@ impl VisualPolar {
     }
 
     pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
-        self.view.show(&self.buffer, &self.buffer.sample_seen(frame), f64::INFINITY)
+        self.view.show(&self.buffer, frame)
     }
 }
