@@ -13,9 +13,12 @@ use crate::fetch::mean16;
 use crate::grids::Grids;
 use crate::image::Image;
 use crate::offsets::Offsets;
+use crate::pixels::Pixels;
 use crate::radial::{Detail, Radial};
 use crate::sampling::Sampling;
 use crate::sums::sum_over_pixels;
+use crate::texel::narrowed;
+use crate::value::Value;
 
 /// Coarse pixel shading of a frame and a gaze.
 #[derive(Debug)]
@@ -69,7 +72,7 @@ impl Cps {
         }
     }
 
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
         match self {
             Self::Cells(cells) => cells.show(frame),
             Self::Continuous { grids, .. } => grids.show(frame),
@@ -112,10 +115,10 @@ impl Cells {
         used
     }
 
-    fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+    fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
         Image::by_rows(frame.width(), frame.height(), |y, row| {
             let [shaded, _] = self.pixels(1, y);
-            row[shaded.clone()].copy_from_slice(&frame.row(y)[shaded]);
+            frame.read_row(y, shaded.clone(), &mut row[shaded]);
             for n in [2, 4] {
                 for xs in self.pixels(n, y) {
                     let mut from = xs.start;
@@ -131,13 +134,19 @@ impl Cells {
     }
 
     /// The sample of a cell.
-    fn sample<const C: usize>(&self, frame: &Image<C>, n: usize, i: usize, k: usize) -> [f32; C] {
+    fn sample<const C: usize>(
+        &self,
+        frame: &impl Pixels<C>,
+        n: usize,
+        i: usize,
+        k: usize,
+    ) -> [f32; C] {
         let n = n as f64;
-        let at = |x: f64, y: f64| frame.at((i as f64 + x) * n, (k as f64 + y) * n);
+        let at = |x: f64, y: f64| frame.at_place((i as f64 + x) * n, (k as f64 + y) * n);
         let places = self.sampling.places();
-        match self.sampling {
+        narrowed(match self.sampling {
             Sampling::Point => at(places[0], places[0]),
             Sampling::Area => mean16(|p, q| at(places[p], places[q])),
-        }
+        })
     }
 }

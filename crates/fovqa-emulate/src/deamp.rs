@@ -12,8 +12,10 @@ use crate::blur::gaussian;
 use crate::counts::Counts;
 use crate::image::Image;
 use crate::layer_axis::layer_axis;
+use crate::pixels::Pixels;
 use crate::sampling::Sampling;
 use crate::separable::Separable;
+use crate::value::Value;
 
 #[derive(Debug)]
 struct Layer {
@@ -79,25 +81,25 @@ impl Deamp {
         self.layers.iter().map(|layer| layer.buffer.sample(frame)).collect()
     }
 
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        let buffers = self.buffers(frame);
-        let width = frame.width();
-        let shown = Image::by_blocks(width, frame.height(), |rows, pixels| {
-            let mut scratch = Vec::new();
-            for (y, out) in rows.zip(pixels.chunks_exact_mut(width)) {
-                for (layer, buffer) in self.layers.iter().zip(&buffers).rev() {
-                    let [xs, ys] = layer.inside.clone();
-                    if ys.contains(&y) {
-                        let out = &mut out[xs.clone()];
-                        layer.buffer.read_row(buffer, y, xs, &mut scratch, out);
-                    }
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+        match self.screen_sigma_px {
+            Some(sigma_px) => V::keep(self.filter_on_screen(self.unfiltered(frame), sigma_px)),
+            None => self.unfiltered(frame),
+        }
+    }
+
+    fn unfiltered<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+        let sample = |layer: &Layer| layer.buffer.sample(frame);
+        let buffers: Vec<Image<4>> = self.layers.iter().map(sample).collect();
+        Image::by_rows_with(frame.width(), frame.height(), Vec::new, |scratch, y, out| {
+            for (layer, buffer) in self.layers.iter().zip(&buffers).rev() {
+                let [xs, ys] = layer.inside.clone();
+                if ys.contains(&y) {
+                    let out = &mut out[xs.clone()];
+                    layer.buffer.read_row(buffer, y, xs, scratch, out);
                 }
             }
-        });
-        match self.screen_sigma_px {
-            Some(sigma_px) => self.filter_on_screen(shown, sigma_px),
-            None => shown,
-        }
+        })
     }
 
     /// Of `n` layers those behind the first ceil(n / 2) are filtered.

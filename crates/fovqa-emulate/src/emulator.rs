@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use fovqa_frame::Motion;
+use fovqa_frame::{Frame, Motion, SignalTables};
 use fovqa_methods::cps::Cps;
 use fovqa_methods::{Method, Setting};
 use fovqa_vision::View;
 
 use crate::budget::BudgetReport;
+use crate::codes::Codes;
 use crate::counts::Counts;
 use crate::enhance::Enhancer;
 use crate::error::EmulateError;
@@ -113,7 +114,30 @@ impl Emulator {
         })
     }
 
-    /// The same for the next frame of a sequence: with the temporal filter, where it is on. `motion`
+    /// The same for a frame, in codes of 8 bits. The result is that of [`Picture::from_frame`],
+    /// [`Emulator::emulate`] and [`Picture::to_codes8`] to the last bit, and takes much less time where the
+    /// frame's own samples are codes of 8 bits.
+    ///
+    /// # Errors
+    /// When the frame has another size.
+    pub fn emulate_codes8(
+        &self,
+        frame: &Frame,
+        tables: &SignalTables,
+    ) -> Result<Frame, EmulateError> {
+        self.fits("a frame", [frame.width(), frame.height()])?;
+        if self.space == Space::Encoded && self.enhancers.is_empty() {
+            if let Some(codes) = Codes::<3>::of(frame, tables) {
+                return Ok(self.prepared.show::<3, u8>(&codes).into_frame());
+            }
+            if let Some(codes) = Codes::<1>::of(frame, tables) {
+                return Ok(self.prepared.show::<1, u8>(&codes).into_frame());
+            }
+        }
+        Ok(self.emulate(&Picture::from_frame(frame, tables))?.to_codes8())
+    }
+
+    /// The same for the next picture of a sequence: with the temporal filter, where it is on. `motion`
     /// leads to the frame before; without it, pixels stay where they are. The emulators of a sequence,
     /// one for each gaze, pass the same history on; the first frame passes through.
     ///

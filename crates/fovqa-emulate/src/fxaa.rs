@@ -2,8 +2,9 @@
 //! in the next columns are taken in the same direction, one row of the sample's own column off.
 
 use crate::fetch::lerp;
-use crate::ragged::{Ragged, Values};
+use crate::ragged::Ragged;
 use crate::texel::Texel;
+use crate::values::Values;
 
 /// Parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,11 +21,10 @@ impl Fxaa {
     /// The buffer, smoothed.
     pub(crate) fn apply(&self, buffer: &Ragged, values: &Values) -> Values {
         let last = buffer.columns().len() - 1;
-        buffer.fill(|c, column, out| {
-            let step = 1.0 / column.rows as f32;
+        buffer.fill(|column, out| {
+            let (c, step) = (column.index, 1.0 / column.rows as f32);
             let beside = [c.saturating_sub(1), (c + 1).min(last)];
-            let samples = buffer.rows(values, c);
-            for (j, (out, sample)) in out.iter_mut().zip(samples).enumerate() {
+            for (j, out) in out.iter_mut().enumerate() {
                 let turn = (j as f32 + 0.5) * step;
                 let corner = |c: usize, turn: f32| luma(buffer.along(values, c, wrapped(turn)));
                 let [nw, ne] = beside.map(|c| corner(c, turn - step));
@@ -34,7 +34,7 @@ impl Fxaa {
                     |q: f32| buffer.read(values, c as f32 + q * x, wrapped(turn + q * z * step));
                 let inner = mean(tap(-1.0 / 6.0), tap(1.0 / 6.0));
                 let outer = mean(inner, mean(tap(-0.5), tap(0.5)));
-                let lumas = [nw, ne, sw, se, luma(*sample)];
+                let lumas = [nw, ne, sw, se, luma(values.sample(column, j))];
                 let least = lumas.iter().copied().fold(f32::INFINITY, f32::min);
                 let largest = lumas.iter().copied().fold(f32::NEG_INFINITY, f32::max);
                 let inside = (least..=largest).contains(&luma(outer));

@@ -9,9 +9,11 @@ use std::ops::Range;
 use crate::fetch::lerp;
 use crate::image::Image;
 use crate::offsets::Offsets;
+use crate::pixels::Pixels;
 use crate::radial::Radial;
 use crate::sampling::Sampling;
 use crate::separable::{Axis, Separable};
+use crate::value::Value;
 
 /// Pixels of a row that are looked at together: they read few levels.
 const SEGMENT: usize = 64;
@@ -40,35 +42,32 @@ impl Grids {
         Self { levels: levels.collect(), level, offsets }
     }
 
-    /// The image as seen through the grids.
-    pub(crate) fn show<const C: usize>(&self, image: &Image<C>) -> Image<C> {
-        let grids: Vec<Image<C>> = self.levels.iter().map(|level| level.sample(image)).collect();
-        let width = image.width();
-        Image::by_blocks(width, image.height(), |rows, pixels| {
-            let (mut scratch, mut coarser) = (Vec::new(), [[0.0; C]; SEGMENT]);
-            let mut levels = [0.0f32; SEGMENT];
-            for (y, row) in rows.zip(pixels.chunks_exact_mut(width)) {
-                let mut read =
-                    |l: usize, xs: Range<usize>, out: &mut [[f32; C]]| match l.checked_sub(1) {
-                        None => out.copy_from_slice(&image.row(y)[xs]),
-                        Some(l) => self.levels[l].read_row(&grids[l], y, xs, &mut scratch, out),
-                    };
-                for (segment, out) in row.chunks_mut(SEGMENT).enumerate() {
-                    let xs = segment * SEGMENT..segment * SEGMENT + out.len();
-                    let levels = &mut levels[..out.len()];
-                    for (j, square) in levels.iter_mut().zip(self.offsets.squares(y, xs.clone())) {
-                        *j = self.level.at(square).max(0.0);
-                    }
-                    let least = levels.iter().copied().fold(f32::INFINITY, f32::min);
-                    let largest = levels.iter().copied().fold(0.0, f32::max);
-                    let finest = (least as usize).min(grids.len());
-                    read(finest, xs.clone(), out);
-                    for l in finest + 1..=(largest.ceil() as usize).min(grids.len()) {
-                        let coarser = &mut coarser[..out.len()];
-                        read(l, xs.clone(), coarser);
-                        for ((out, coarser), j) in out.iter_mut().zip(coarser).zip(&*levels) {
-                            *out = lerp(*out, *coarser, (j - (l - 1) as f32).clamp(0.0, 1.0));
-                        }
+    /// The frame as seen through the grids.
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+        let grids: Vec<Image<4>> = self.levels.iter().map(|level| level.sample(frame)).collect();
+        let (width, height) = (frame.width(), frame.height());
+        let room = || (Vec::new(), [[0.0; C]; SEGMENT], [0.0f32; SEGMENT]);
+        Image::by_rows_with(width, height, room, |(scratch, coarser, levels), y, row| {
+            let mut read = |l: usize, xs: Range<usize>, out: &mut [[f32; C]]| match l.checked_sub(1)
+            {
+                None => frame.read_row(y, xs, out),
+                Some(l) => self.levels[l].read_row(&grids[l], y, xs, scratch, out),
+            };
+            for (segment, out) in row.chunks_mut(SEGMENT).enumerate() {
+                let xs = segment * SEGMENT..segment * SEGMENT + out.len();
+                let levels = &mut levels[..out.len()];
+                for (j, square) in levels.iter_mut().zip(self.offsets.squares(y, xs.clone())) {
+                    *j = self.level.at(square).max(0.0);
+                }
+                let least = levels.iter().copied().fold(f32::INFINITY, f32::min);
+                let largest = levels.iter().copied().fold(0.0, f32::max);
+                let finest = (least as usize).min(grids.len());
+                read(finest, xs.clone(), out);
+                for l in finest + 1..=(largest.ceil() as usize).min(grids.len()) {
+                    let coarser = &mut coarser[..out.len()];
+                    read(l, xs.clone(), coarser);
+                    for ((out, coarser), j) in out.iter_mut().zip(coarser).zip(&*levels) {
+                        *out = lerp(*out, *coarser, (j - (l - 1) as f32).clamp(0.0, 1.0));
                     }
                 }
             }

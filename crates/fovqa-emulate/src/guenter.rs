@@ -10,10 +10,12 @@ use crate::counts::Counts;
 use crate::fetch::lerp;
 use crate::image::Image;
 use crate::offsets::Offsets;
+use crate::pixels::Pixels;
 use crate::radial::{Detail, Radial};
 use crate::rounded::rounded;
 use crate::sampling::Sampling;
 use crate::separable::{Axis, Separable};
+use crate::value::Value;
 
 #[derive(Debug)]
 struct Layer {
@@ -85,32 +87,28 @@ impl Guenter {
         self.layers.iter().map(|layer| layer.sample(frame)).collect()
     }
 
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
         let sample = |layer: &Layer| layer.buffer.as_ref().map(|buffer| buffer.sample(frame));
-        let buffers: Vec<Option<Image<C>>> = self.layers.iter().map(sample).collect();
+        let buffers: Vec<Option<Image<4>>> = self.layers.iter().map(sample).collect();
         let width = frame.width();
-        Image::by_blocks(width, frame.height(), |rows, pixels| {
-            let (mut scratch, mut finer) = (Vec::new(), vec![[0.0; C]; width]);
-            for (y, out) in rows.zip(pixels.chunks_exact_mut(width)) {
-                let mut read = |k: usize, xs: Range<usize>, out: &mut [[f32; C]]| match (
-                    &self.layers[k].buffer,
-                    &buffers[k],
-                ) {
-                    (Some(layer), Some(buffer)) => {
-                        layer.read_row(buffer, y, xs, &mut scratch, out);
-                    }
-                    _ => out.copy_from_slice(&frame.row(y)[xs]),
-                };
-                read(2, 0..width, out);
-                for k in [1, 0] {
-                    let xs = self.offsets.within(y, self.bounds[k].radius_px);
-                    if xs.is_empty() {
-                        continue;
-                    }
-                    let (out, finer) = (&mut out[xs.clone()], &mut finer[..xs.len()]);
-                    read(k, xs.clone(), finer);
-                    self.blend(k, y, xs, finer, out);
+        let room = || (Vec::new(), vec![[0.0; C]; width]);
+        Image::by_rows_with(width, frame.height(), room, |(scratch, finer), y, out| {
+            let mut read = |k: usize, xs: Range<usize>, out: &mut [[f32; C]]| match (
+                &self.layers[k].buffer,
+                &buffers[k],
+            ) {
+                (Some(layer), Some(buffer)) => layer.read_row(buffer, y, xs, scratch, out),
+                _ => frame.read_row(y, xs, out),
+            };
+            read(2, 0..width, out);
+            for k in [1, 0] {
+                let xs = self.offsets.within(y, self.bounds[k].radius_px);
+                if xs.is_empty() {
+                    continue;
                 }
+                let (out, finer) = (&mut out[xs.clone()], &mut finer[..xs.len()]);
+                read(k, xs.clone(), finer);
+                self.blend(k, y, xs, finer, out);
             }
         })
     }

@@ -32,8 +32,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod arcs;
 mod blur;
 mod budget;
+mod circle;
+mod codes;
 mod convolve;
 mod counts;
 mod cps;
@@ -55,11 +58,15 @@ mod moments;
 mod offsets;
 mod peripheral;
 mod picture;
+mod piece;
+mod piece_samples;
+mod pixels;
 mod places;
 mod polar_view;
 mod prepared;
 mod radial;
 mod ragged;
+mod ragged_samples;
 mod read_frame;
 mod rmfr;
 mod rounded;
@@ -69,11 +76,15 @@ mod sandbox_params;
 mod separable;
 mod space;
 mod spec;
+mod split;
 mod sums;
+mod taps;
 mod temporal;
 mod texel;
 mod turn;
 mod vafr;
+mod value;
+mod values;
 mod visual_polar;
 mod write_frame;
 mod written;

@@ -7,9 +7,11 @@ use crate::counts::Counts;
 use crate::grids::Grids;
 use crate::image::Image;
 use crate::offsets::Offsets;
+use crate::pixels::Pixels;
 use crate::radial::{Detail, Radial};
 use crate::sampling::Sampling;
 use crate::sums::sum_over_pixels;
+use crate::value::Value;
 
 /// Linear fall-off of a frame and a gaze.
 #[derive(Debug)]
@@ -37,7 +39,7 @@ impl Linear {
         Counts::on_screen(Vec::new(), self.samples)
     }
 
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
         self.grids.show(frame)
     }
 }

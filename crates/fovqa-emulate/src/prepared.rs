@@ -12,10 +12,12 @@ use crate::image::Image;
 use crate::linear::Linear;
 use crate::log_polar::{Filters, LogPolar};
 use crate::method::Emulated;
+use crate::pixels::Pixels;
 use crate::rmfr::Rmfr;
 use crate::sandbox::{Aliased, Stable};
 use crate::spec::EmulationSpec;
 use crate::vafr::Vafr;
+use crate::value::Value;
 use crate::visual_polar::VisualPolar;
 
 /// A method, ready for frames.
@@ -102,9 +104,9 @@ impl Prepared {
     }
 
     /// What the method shows of a frame.
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
         match self {
-            Self::Full(_) => frame.clone(),
+            Self::Full([w, h]) => Image::by_rows(*w, *h, |y, row| frame.read_row(y, 0..*w, row)),
             Self::Rmfr(method) => method.show(frame),
             Self::Deamp(method) => method.show(frame),
             Self::Guenter(method) => method.show(frame),

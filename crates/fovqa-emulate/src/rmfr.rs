@@ -6,8 +6,10 @@ use fovqa_methods::rmfr::{Params, Rmfr as Mapped};
 use crate::counts::Counts;
 use crate::image::Image;
 use crate::layer_axis::layer_axis;
+use crate::pixels::Pixels;
 use crate::sampling::Sampling;
 use crate::separable::Separable;
+use crate::value::Value;
 
 /// RMFR of a frame and a gaze.
 #[derive(Debug)]
@@ -31,7 +33,7 @@ impl Rmfr {
         self.buffer.sample(frame)
     }
 
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        self.buffer.read(&self.buffer(frame))
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+        self.buffer.read(&self.buffer.sample(frame))
     }
 }

@@ -9,8 +9,10 @@ use crate::grids::Grids;
 use crate::image::Image;
 use crate::offsets::Offsets;
 use crate::peripheral::Growth;
+use crate::pixels::Pixels;
 use crate::radial::{Detail, Radial};
 use crate::sampling::Sampling;
+use crate::value::Value;
 
 /// A frame that is blurred with eccentricity.
 #[derive(Debug)]
@@ -26,8 +28,8 @@ impl Stable {
         Self { blur: Blur::new(width), offsets: Offsets::new(setting) }
     }
 
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        self.blur.apply(frame, &self.offsets)
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+        V::keep(self.blur.apply(&frame.signal(), &self.offsets))
     }
 }
 
@@ -44,7 +46,7 @@ impl Aliased {
         Self { grids: Grids::new(level, Offsets::new(setting), sampling) }
     }
 
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
         self.grids.show(frame)
     }
 }

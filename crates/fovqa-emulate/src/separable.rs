@@ -5,7 +5,10 @@ use std::ops::Range;
 
 use crate::fetch::{Tap, lerp, mean16};
 use crate::image::Image;
+use crate::pixels::Pixels;
 use crate::sampling::Sampling;
+use crate::texel::{Texel, narrowed, write_all};
+use crate::value::Value;
 
 /// The mapping along one axis, between the buffer and the frame.
 #[derive(Debug, Clone)]
@@ -62,18 +65,21 @@ impl Separable {
     }
 
     /// The buffer of a frame.
-    pub(crate) fn sample<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
+    pub(crate) fn sample<const C: usize, const L: usize>(
+        &self,
+        frame: &impl Pixels<C>,
+    ) -> Image<L> {
         let [width, height] = self.size();
         Image::by_rows(width, height, |j, row| match self.sampling {
             Sampling::Point => {
                 for (out, x) in row.iter_mut().zip(&self.x.from) {
-                    *out = frame.fetch(*x, self.y.from[j]);
+                    *out = narrowed(frame.fetch(*x, self.y.from[j]));
                 }
             }
             Sampling::Area => {
                 let ys = &self.y.from[4 * j..4 * j + 4];
                 for (out, xs) in row.iter_mut().zip(self.x.from.chunks_exact(4)) {
-                    *out = mean16(|p, q| frame.fetch(xs[p], ys[q]));
+                    *out = narrowed(mean16(|p, q| frame.fetch(xs[p], ys[q])));
                 }
             }
         })
@@ -82,10 +88,10 @@ impl Separable {
     /// What the pixels `xs` of row `y` of the frame read in a buffer. `scratch` is kept between calls.
     pub(crate) fn read_row<const C: usize>(
         &self,
-        buffer: &Image<C>,
+        buffer: &Image<4>,
         y: usize,
         xs: Range<usize>,
-        scratch: &mut Vec<[f32; C]>,
+        scratch: &mut Vec<Texel>,
         out: &mut [[f32; C]],
     ) {
         let taps = &self.x.to[xs];
@@ -96,20 +102,18 @@ impl Separable {
         let lower = &buffer.row(down.next as usize)[first..=last];
         scratch.clear();
         scratch.extend(upper.iter().zip(lower).map(|(a, b)| lerp(*a, *b, down.t)));
-        for (out, tap) in out.iter_mut().zip(taps) {
+        write_all(out, |i| {
+            let tap = taps[i];
             let (at, next) = (tap.at as usize - first, tap.next as usize - first);
-            *out = lerp(scratch[at], scratch[next], tap.t);
-        }
+            lerp(scratch[at], scratch[next], tap.t)
+        });
     }
 
     /// The frame as read from a buffer.
-    pub(crate) fn read<const C: usize>(&self, buffer: &Image<C>) -> Image<C> {
+    pub(crate) fn read<const C: usize, V: Value>(&self, buffer: &Image<4>) -> Image<C, V> {
         let (width, height) = (self.x.to.len(), self.y.to.len());
-        Image::by_blocks(width, height, |rows, pixels| {
-            let mut scratch = Vec::new();
-            for (y, out) in rows.zip(pixels.chunks_exact_mut(width)) {
-                self.read_row(buffer, y, 0..width, &mut scratch, out);
-            }
+        Image::by_rows_with(width, height, Vec::new, |scratch, y, out| {
+            self.read_row(buffer, y, 0..width, scratch, out);
         })
     }
 }

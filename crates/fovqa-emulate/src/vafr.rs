@@ -7,10 +7,12 @@ use fovqa_methods::{Foveation, Mapping, MethodError, Place, Setting};
 use crate::counts::Counts;
 use crate::fxaa::Fxaa;
 use crate::image::Image;
+use crate::pixels::Pixels;
 use crate::polar_view::PolarView;
-use crate::ragged::{Ragged, Values};
+use crate::ragged::Ragged;
 use crate::rounded::rounded;
 use crate::sampling::Sampling;
+use crate::value::Value;
 
 /// VaFR of a frame and a gaze.
 #[derive(Debug)]
@@ -18,8 +20,6 @@ pub(crate) struct Vafr {
     buffer: Ragged,
     view: PolarView,
     counts: Counts,
-    /// Up to where the frame is shown.
-    reach_px: f64,
     filter: Option<Fxaa>,
 }
 
@@ -37,36 +37,38 @@ impl Vafr {
         let distance = |column: f64| mapped.to_screen(0, [column / stretch, 0.0]).radius_px;
         let rows = |r: f64| rounded(mapped.rows_at(setting.eccentricity_deg(r)));
         let buffer = Ragged::new(n, setting, sampling, distance, rows);
-        let view = PolarView::new(setting, |r| {
-            mapped.to_buffer(0, Place { radius_px: r, direction: [1.0, 0.0] })[0] * stretch
-        });
         let reach_px = match params.beyond {
             Beyond::Black => setting.radius_px(FIELD_DEG),
             Beyond::Extend | Beyond::Clamp => f64::INFINITY,
         };
+        let view = PolarView::new(setting, n, reach_px, |r| {
+            mapped.to_buffer(0, Place { radius_px: r, direction: [1.0, 0.0] })[0] * stretch
+        });
         let counts = counts(&buffer, setting, mapped.shaded_share());
-        Ok(Self { buffer, view, counts, reach_px, filter })
+        Ok(Self { buffer, view, counts, filter })
     }
 
     pub(crate) fn counts(&self) -> Counts {
         self.counts.clone()
     }
 
-    fn values<const C: usize>(&self, frame: &Image<C>) -> Values {
-        let values = self.buffer.sample(frame);
-        match &self.filter {
-            Some(filter) => filter.apply(&self.buffer, &values),
-            None => values,
-        }
-    }
-
     /// The buffer of a frame, with its own filter where that is on.
     pub(crate) fn buffer<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        self.buffer.image(&self.values(frame))
+        let values = self.buffer.sample(frame);
+        self.buffer.image(&match &self.filter {
+            Some(filter) => filter.apply(&self.buffer, &values),
+            None => values,
+        })
     }
 
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        self.view.show(&self.buffer, &self.values(frame), self.reach_px)
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+        match &self.filter {
+            Some(filter) => {
+                let values = filter.apply(&self.buffer, &self.buffer.sample(frame));
+                self.view.show_values(&self.buffer, &values)
+            }
+            None => self.view.show(&self.buffer, frame),
+        }
     }
 }
 
@@ -83,7 +85,7 @@ fn counts(buffer: &Ragged, setting: &Setting, shaded: f64) -> Counts {
     Counts {
         buffers: vec![buffer.size()],
         samples: within as f64 * shaded,
-        samples_on_screen: buffer.on_screen() as f64 * shaded,
+        samples_on_screen: buffer.on_screen(setting) as f64 * shaded,
         samples_beyond: beyond as f64 * shaded,
         quads: None,
     }

@@ -6,10 +6,12 @@ use fovqa_methods::{Mapping, Place, Setting};
 
 use crate::counts::Counts;
 use crate::image::Image;
+use crate::pixels::Pixels;
 use crate::polar_view::PolarView;
 use crate::ragged::Ragged;
 use crate::rounded::rounded;
 use crate::sampling::Sampling;
+use crate::value::Value;
 
 /// Visual-Polar of a frame and a gaze.
 #[derive(Debug)]
@@ -28,12 +30,12 @@ impl VisualPolar {
         let distance = |column: f64| mapped.to_screen(0, [column / stretch, 0.0]).radius_px;
         let rows = |r: f64| rounded(mapped.rows_at(r));
         let buffer = Ragged::new(n, setting, sampling, distance, rows);
-        let view = PolarView::new(setting, |r| {
+        let view = PolarView::new(setting, n, f64::INFINITY, |r| {
             mapped.to_buffer(0, Place { radius_px: r, direction: [1.0, 0.0] })[0] * stretch
         });
         let samples: usize = buffer.columns().iter().map(|column| column.rows).sum();
         let counts = Counts {
-            samples_on_screen: buffer.on_screen() as f64,
+            samples_on_screen: buffer.on_screen(setting) as f64,
             ..Counts::on_screen(vec![buffer.size()], samples as f64)
         };
         Self { buffer, view, counts }
@@ -47,7 +49,7 @@ impl VisualPolar {
         self.buffer.image(&self.buffer.sample(frame))
     }
 
-    pub(crate) fn show<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        self.view.show(&self.buffer, &self.buffer.sample(frame), f64::INFINITY)
+    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+        self.view.show(&self.buffer, frame)
     }
 }

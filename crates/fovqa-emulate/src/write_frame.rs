@@ -5,7 +5,9 @@ use fovqa_frame::{Channels, Frame, Samples, SignalParams, ToneMap};
 use rayon::prelude::*;
 use thiserror::Error;
 
+use crate::image::Image;
 use crate::picture::Picture;
+use crate::value::codes8;
 
 /// Values one task works on.
 const TASK: usize = 1 << 16;
@@ -24,14 +26,15 @@ impl Picture {
     /// Codes of 8 bits: `[255 clamp(V, 0, 1) + 0.5]`.
     pub fn to_codes8(&self) -> Frame {
         let mut codes = vec![0u8; self.values().len()];
-        // A cast saturates, and makes 0 of NaN.
-        self.each(&mut codes, |value| (value * 255.0 + 0.5) as u8);
+        let tasks = codes.par_chunks_mut(TASK).zip(self.values().par_chunks(TASK));
+        tasks.for_each(|(codes, values)| codes8(values, codes));
         self.frame(Samples::U8(codes))
     }
 
     /// Codes of 16 bits: `[65535 clamp(V, 0, 1) + 0.5]`.
     pub fn to_codes16(&self) -> Frame {
         let mut codes = vec![0u16; self.values().len()];
+        // A cast saturates, and makes 0 of NaN.
         self.each(&mut codes, |value| (value * 65535.0 + 0.5) as u16);
         self.frame(Samples::U16(codes))
     }
@@ -117,8 +120,20 @@ impl Picture {
     }
 
     fn frame(&self, samples: Samples) -> Frame {
-        let channels: Channels = self.channels();
-        let frame = Frame::new(self.width(), self.height(), channels, samples);
-        frame.unwrap_or_else(|_| unreachable!("a value for each channel of each pixel"))
+        frame([self.width(), self.height()], self.channels(), samples)
     }
+}
+
+impl<const C: usize> Image<C, u8> {
+    /// The codes as a frame.
+    pub(crate) fn into_frame(self) -> Frame {
+        let size = [self.width(), self.height()];
+        let channels = if C == 1 { Channels::Gray } else { Channels::Rgb };
+        frame(size, channels, Samples::U8(self.into_pixels().into_flattened()))
+    }
+}
+
+fn frame([width, height]: [usize; 2], channels: Channels, samples: Samples) -> Frame {
+    let frame = Frame::new(width, height, channels, samples);
+    frame.unwrap_or_else(|_| unreachable!("a value for each channel of each pixel"))
 }

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use fovqa_emulate::{EmulationSpec, Emulator, FilterChoice, History, Picture, Sampling, Space};
-use fovqa_frame::{Channels, Frame, Samples, SignalParams, SignalTables};
+use fovqa_frame::{Channels, Crop, Frame, Samples, SignalParams, SignalTables, Transfer};
 use fovqa_params::{ParamValue, Words};
 use fovqa_vision::{View, ViewSpec};
 
@@ -107,6 +107,81 @@ fn a_constant_frame_stays_constant() {
             let off = shown.values().iter().zip(frame.values()).map(|(a, b)| (a - b).abs());
             let worst = off.fold(0.0, f32::max);
             assert!(worst < 2e-6, "{name}: {worst:e}");
+        }
+    }
+}
+
+#[test]
+fn codes_are_those_of_the_picture() {
+    let tables = SignalTables::new(SignalParams::default());
+    for channels in [Channels::Gray, Channels::Rgb] {
+        let codes = (0..SIZE[0] * SIZE[1] * channels.count()).map(noise).collect();
+        let frame = Frame::new(SIZE[0], SIZE[1], channels, Samples::U8(codes)).unwrap();
+        let picture = Picture::from_frame(&frame, &tables);
+        for (name, spec) in all() {
+            let emulator = emulator(&spec);
+            let expected = emulator.emulate(&picture).unwrap().to_codes8();
+            assert!(emulator.emulate_codes8(&frame, &tables).unwrap() == expected, "{name}");
+        }
+    }
+}
+
+#[test]
+fn codes_are_read_as_the_frame_says() {
+    let codes = |n: usize| Samples::U8((0..n).map(noise).collect());
+    let wide = Frame::new(SIZE[0] + 7, SIZE[1] + 5, Channels::Rgb, codes(157 * 115 * 3)).unwrap();
+    let crop = Crop { x: 3, y: 4, width: SIZE[0], height: SIZE[1] };
+    let cropped = wide.cropped(crop).unwrap();
+    let linear = SignalParams { transfer: Some(Transfer::Linear), ..SignalParams::default() };
+    for params in [SignalParams::default(), linear] {
+        let tables = SignalTables::new(params);
+        let emulator = emulator(&spec("kfr", &[]));
+        let picture = Picture::from_frame(&cropped, &tables);
+        let expected = emulator.emulate(&picture).unwrap().to_codes8();
+        assert!(emulator.emulate_codes8(&cropped, &tables).unwrap() == expected, "{params:?}");
+    }
+    let tables = SignalTables::new(SignalParams::default());
+    for side in 1..=3 {
+        let frame = Frame::new(side, 1, Channels::Rgb, codes(side * 3)).unwrap();
+        let full = EmulationSpec::new("rmfr").unwrap();
+        let emulator = Emulator::new(&full, [side, 1], None, [0.5, 0.5]).unwrap();
+        let expected = emulator.emulate(&Picture::from_frame(&frame, &tables)).unwrap();
+        assert!(emulator.emulate_codes8(&frame, &tables).unwrap() == expected.to_codes8());
+    }
+}
+
+/// Every sample that a pixel reads is there, wherever the gaze is and however dense samples are.
+#[test]
+fn polar_buffers_are_sampled_where_pixels_read_them() {
+    let frame = picture(Channels::Rgb, |i| [40, 150, 201][i % 3]);
+    let cases = [
+        spec("kfr", &[]),
+        spec("kfr", &[("sigma", ParamValue::Number(40.0))]),
+        spec("kfr", &[("alpha", ParamValue::Number(0.5))]),
+        spec("lafr", &[]),
+        spec("vafr", &[("factor", ParamValue::Number(0.02))]),
+        spec("vafr", &[("factor", ParamValue::Number(0.3))]),
+        spec("visual-polar", &[]),
+        spec("visual-polar", &[("samples_per_pixel", ParamValue::Number(0.002))]),
+        spec("visual-polar", &[("samples_per_pixel", ParamValue::Number(8.0))]),
+    ];
+    let gazes = [
+        [0.0, 0.0],
+        [75.0, 55.0],
+        [75.5, 55.5],
+        [150.0, 110.0],
+        [0.0, 61.0],
+        [33.3, 109.9],
+        [149.5, 0.5],
+        [64.0, 110.0],
+    ];
+    for spec in &cases {
+        for gaze in gazes {
+            let emulator = Emulator::new(spec, SIZE, Some(&view()), gaze).unwrap();
+            let shown = emulator.emulate(&frame).unwrap();
+            let off = shown.values().iter().zip(frame.values()).map(|(a, b)| (a - b).abs());
+            let worst = off.fold(0.0, f32::max);
+            assert!(worst < 2e-6, "{} {:?} {gaze:?}: {worst:e}", spec.key(), spec.parameters());
         }
     }
 }
