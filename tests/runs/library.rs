@@ -4,8 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use fovqa::{
-    Given, Metric, MetricChoice, ParamSet, ParamValue, Run, RunOptions, ScoreOptions, Settings,
-    Silent, Task, TaskFindings, ViewSpec, read_experiment, results, score, units, write_json,
+    Finished, Given, Locking, Metric, MetricChoice, ParamSet, ParamValue, ReadOptions, Run,
+    RunOptions, ScoreOptions, Settings, Silent, SourceSpec, Task, TaskFindings, ViewSpec, merge,
+    read_experiment, results, score, units, video_stream, write_json,
 };
 use ndarray::Array3;
 use serde_json::Value;
@@ -185,4 +186,82 @@ fn a_task_of_other_frames_or_text_is_refused() {
     fs::remove_file(folder.path().join("a/0003.png")).unwrap();
     let error = task.run(&Given::default(), &Silent).unwrap_err().to_string();
     assert!(error.contains("differ from those in the unit of work"), "{error}");
+}
+
+/// Frames of a y4m video of grey pixels.
+fn video(frames: usize) -> Vec<u8> {
+    let mut bytes = b"YUV4MPEG2 W16 H16 F25:1 Cmono\n".to_vec();
+    for frame in 0..frames {
+        bytes.extend(b"FRAME\n");
+        bytes.extend((0..256).map(|at| (20 + (at * 5 + frame * 3) % 200) as u8));
+    }
+    bytes
+}
+
+/// Runs an experiment whose reference has `frames` frames and whose test is a stream, whose length is unknown
+/// until it ends.
+fn streamed(
+    folder: &Path,
+    frames: usize,
+    allow: bool,
+    stream: usize,
+    options: RunOptions,
+) -> Finished {
+    fs::write(folder.join("gt.y4m"), video(frames)).unwrap();
+    let text = format!(
+        "name = \"e\"\n[metrics]\npsnr = {{}}\n[[scene]]\nname = \"s\"\nreference = \"gt.y4m\"\n\
+         allow_missing = {allow}\n[[method]]\nname = \"a\"\ntest = \"a.y4m\"\n"
+    );
+    fs::write(folder.join("e.toml"), text).unwrap();
+    let mut experiment = read_experiment(&folder.join("e.toml")).unwrap();
+    experiment.plan.scenes[0].eyes[0].tests[0].1 = SourceSpec::Given("a".to_owned());
+    let reader = std::io::Cursor::new(video(stream));
+    let source = video_stream("a".to_owned(), reader, &ReadOptions::default()).unwrap();
+    let given = Given::from([("a".to_owned(), source)]);
+    Run::new(experiment, options, &given).unwrap().start(&Silent).unwrap()
+}
+
+#[test]
+fn a_stream_that_continues_is_an_error_in_every_resumed_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = Some(folder.path().join("out"));
+    let run = |stream, resume| {
+        let options = RunOptions { output: output.clone(), resume, ..RunOptions::default() };
+        let finished = streamed(folder.path(), 4, false, stream, options);
+        (finished.scored, finished.errors)
+    };
+    assert_eq!(run(6, false), (4, 1));
+    let journal = || fs::read_to_string(folder.path().join("out/journal.jsonl")).unwrap();
+    assert!(journal().contains("it continues after its first 4 frames"), "{}", journal());
+    assert_eq!(run(6, true), (4, 1), "it is not forgotten");
+    assert_eq!(run(4, true), (4, 0), "it has been corrected");
+    assert!(!journal().contains("it continues after"), "{}", journal());
+}
+
+#[test]
+fn shards_of_streams_are_finished_wherever_the_stream_ends() {
+    for (allow, stream, errors) in
+        [(true, 6, 0), (true, 4, 0), (true, 2, 0), (false, 4, 1), (false, 8, 1)]
+    {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let run = |name: &str, shard: Option<&str>| {
+            let shard = shard.map(|shard| shard.parse().unwrap());
+            let options = RunOptions { output: Some(at(name)), shard, ..RunOptions::default() };
+            streamed(folder.path(), 6, allow, stream, options)
+        };
+        let whole = run("whole", None);
+        assert_eq!((whole.scored, whole.errors), (stream.min(6), errors), "{allow} {stream}");
+        let found =
+            [("one", "1/2"), ("two", "2/2")].map(|(name, shard)| run(name, Some(shard)).errors);
+        assert_eq!(found, [0, errors], "{allow} {stream}: the first shard has all of its frames");
+        let shards = ["one", "two"].map(at);
+        let merged = merge(&shards, &at("merged"), Locking::Locked, &Silent);
+        let merged = merged.unwrap_or_else(|error| panic!("{allow} {stream}: {error}"));
+        assert_eq!((merged.scored, merged.errors), (whole.scored, whole.errors));
+        for file in ["results.csv", "summary.json", "journal.jsonl"] {
+            let of = |name: &str| fs::read_to_string(at(name).join(file)).unwrap();
+            assert_eq!(of("merged"), of("whole"), "{allow} {stream}: {file}");
+        }
+    }
 }

@@ -1,7 +1,10 @@
 //! Exit codes, and the handling of panics and interrupts.
 
+use std::any::Any;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+use fovqa_metrics::ReadBackError;
 
 use crate::diagnostic;
 
@@ -56,9 +59,17 @@ impl From<Exit> for ExitCode {
 /// Whether a bug was reported.
 static SAID: AtomicBool = AtomicBool::new(false);
 
+/// The exit after a panic: of an error that has no other way to be reported, or of a bug.
+pub(crate) fn of_panic(payload: &(dyn Any + Send)) -> Exit {
+    let Some(error) = payload.downcast_ref::<ReadBackError>() else { return bug() };
+    let help = "check the disk of the folder for temporary files, or choose another one with the variable TMPDIR";
+    diagnostic::error(&error.to_string(), help);
+    Exit::Input
+}
+
 /// The exit for a bug. The bug is reported here if the panic hook could not distinguish it from the
 /// error of a decoder.
-pub(crate) fn bug() -> Exit {
+fn bug() -> Exit {
     if !SAID.load(Ordering::Relaxed) {
         diagnostic::error(
             "fovqa has a bug",
@@ -68,11 +79,11 @@ pub(crate) fn bug() -> Exit {
     Exit::Bug
 }
 
-/// Reports a panic in fovqa's own words if it is a bug. A panic that becomes the error of a file is
-/// not reported here.
+/// Reports a panic in fovqa's own words if it is a bug. A panic that becomes an error is not reported
+/// here.
 pub(crate) fn watch_panics() {
     std::panic::set_hook(Box::new(|info| {
-        if fovqa_io::is_contained() {
+        if fovqa_io::is_contained() || info.payload().is::<ReadBackError>() {
             return;
         }
         SAID.store(true, Ordering::Relaxed);

@@ -39,7 +39,7 @@ pub fn main() -> ExitCode {
         };
         dispatch(cli)
     });
-    outcome.unwrap_or_else(|_| exit::bug()).into()
+    outcome.unwrap_or_else(|payload| exit::of_panic(&*payload)).into()
 }
 
 fn dispatch(cli: Cli) -> Exit {

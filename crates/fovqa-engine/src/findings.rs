@@ -63,6 +63,8 @@ pub struct Settled {
     /// Why FovVideoVDP has no value for the sequence of a method, as far as the sequence was read
     /// here.
     pub(crate) missing: BTreeMap<usize, String>,
+    /// Number of pairs without an outcome, because a source ended before them.
+    pub(crate) passed_over: usize,
 }
 
 /// The names that identify what a line of the journal is about.

@@ -27,10 +27,13 @@ impl Findings {
         join(self.views.entry(place).or_default(), next);
     }
 
-    /// Whether every pair of a unit was scored or has failed.
+    /// Whether every pair of a unit was scored, has failed, or was passed over because a source ended before it.
     pub(crate) fn has_all_of(&self, unit: &Unit) -> bool {
         self.views.get(&(unit.scene, unit.eye)).is_some_and(|view| {
-            let through = view.settled.is_some() && view.pairs.len() == unit.pairs.len();
+            // A source that continues after its last pair has one outcome more than there are pairs.
+            let pairs = view.pairs.range(unit.pairs.clone()).count();
+            let through = view.settled.as_ref();
+            let through = through.is_some_and(|s| pairs + s.passed_over == unit.pairs.len());
             view.failed.is_some() || through
         })
     }
@@ -39,7 +42,7 @@ impl Findings {
 /// Joins the findings of the next unit of a view to those of the units before it.
 fn join(all: &mut ViewFindings, mut next: ViewFindings) {
     all.failed = all.failed.take().or(next.failed);
-    let Settled { fvvdp, missing, .. } = all.settled.take().unwrap_or_default();
+    let Settled { fvvdp, missing, passed_over, .. } = all.settled.take().unwrap_or_default();
     // A sequence that was interrupted before this unit has no values from here on.
     let broken = |outcome: &&mut Box<Outcome>| missing.contains_key(&outcome.method);
     let mut layouts = Layouts::default();
@@ -55,6 +58,7 @@ fn join(all: &mut ViewFindings, mut next: ViewFindings) {
     all.settled = next.settled.map(|mut settled| {
         settled.fvvdp.extend(fvvdp);
         settled.missing.extend(missing);
+        settled.passed_over += passed_over;
         settled
     });
 }

@@ -107,8 +107,8 @@ impl<'a> Scoring<'a> {
         let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
         let mut findings = known;
         let frame = self.take_up(&work, &mut run, &loader, &mut findings, recorder)?;
-        self.score((&work, frame), &mut run, &loader, &mut findings, recorder)?;
-        let settled = self.settled(&run, metrics, &work);
+        let passed_over = self.score((&work, frame), &mut run, &loader, &mut findings, recorder)?;
+        let settled = Settled { passed_over, ..self.settled(&run, metrics, &work) };
         let (scene, methods) = (&self.scene.name, &plan.methods);
         (recorder.record)(Entry::Settled(scene, eye.eye, &settled, methods))?;
         Ok(ViewFindings { settled: Some(settled), ..findings })
@@ -142,6 +142,7 @@ impl<'a> Scoring<'a> {
         Ok(frame)
     }
 
+    /// Scores the pairs, and returns how many were passed over because a source ended before them.
     fn score(
         &self,
         (work, frame): (&Work<'_>, Option<usize>),
@@ -149,8 +150,9 @@ impl<'a> Scoring<'a> {
         loader: &Loader<'_>,
         findings: &mut ViewFindings,
         recorder: &mut Recorder<'_, '_, '_>,
-    ) -> Result<(), EngineError> {
+    ) -> Result<usize, EngineError> {
         let mut written = Ok(());
+        let mut passed_over = 0;
         let mut ends = OpenEnded::new(self.plan, self.scene, self.view);
         read_ahead(
             work.todo.len(),
@@ -168,6 +170,7 @@ impl<'a> Scoring<'a> {
                     None => run.step(step, loaded, recorder.warnings),
                     Some(Ended::Failed(failure)) => Err(failure),
                     Some(Ended::PassedOver) => {
+                        passed_over += 1;
                         recorder.progress.step(1);
                         return ControlFlow::Continue(());
                     }
@@ -189,13 +192,24 @@ impl<'a> Scoring<'a> {
             },
         );
         written?;
-        let (Some(&last), Some(left)) = (work.todo.last(), ends.left(recorder.warnings)) else {
-            return Ok(());
-        };
-        let method = work.method(last);
-        let outcome = Outcome { method, result: Err(left), guides: run.atd_guides(method) };
-        findings.pairs.insert(last + 1, Box::new(outcome));
-        Ok(())
+        // Only the last pairs of a view are followed by the end of its sources.
+        let pairs = self.view.pairs();
+        if let Some(&last) = work.todo.last()
+            && work.end() == pairs
+            && let Some(left) = ends.left(recorder.warnings)
+        {
+            let (method, result) = (work.method(last), Err(left));
+            let outcome = Outcome { method, result, guides: run.atd_guides(method) };
+            (recorder.record)(Entry::Pair(Finished {
+                named: self.named(method),
+                step: pairs,
+                result: outcome.result.as_ref(),
+                guides: outcome.guides,
+                maps: &[],
+            }))?;
+            findings.pairs.insert(pairs, Box::new(outcome));
+        }
+        Ok(passed_over)
     }
 
     fn settled(&self, run: &ViewRun<'_>, metrics: Vec<Metric>, work: &Work<'_>) -> Settled {
@@ -205,7 +219,14 @@ impl<'a> Scoring<'a> {
         let methods = work.methods();
         let fvvdp = methods.iter().filter_map(|method| Some((*method, run.fvvdp(*method)?)));
         let missing = methods.iter().filter_map(|method| Some((*method, run.missing(*method)?)));
-        Settled { view, metrics, gaze_held, fvvdp: fvvdp.collect(), missing: missing.collect() }
+        Settled {
+            view,
+            metrics,
+            gaze_held,
+            fvvdp: fvvdp.collect(),
+            missing: missing.collect(),
+            passed_over: 0,
+        }
     }
 
     /// Selects the metrics, and reports the warnings that belong before the first frame.

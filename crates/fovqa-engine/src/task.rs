@@ -9,7 +9,7 @@ use crate::error::EngineError;
 use crate::events::Events;
 use crate::find::find;
 use crate::findings::Findings;
-use crate::journal::{ViewFiles, view_files};
+use crate::journal::{LineStep, ViewFiles, view_files};
 use crate::run::score;
 use crate::sources::Given;
 use crate::unit::Unit;
@@ -119,8 +119,8 @@ impl TaskFindings {
     /// If they are not the complete findings of the task.
     pub fn from_lines(task: &Task, lines: &str) -> Result<Self, TaskError> {
         let Unit { scene, eye, pairs } = &task.unit;
-        let own = |place, step: Option<usize>| {
-            place == (*scene, *eye) && step.is_none_or(|step| pairs.contains(&step))
+        let own = |place, step: Option<LineStep>| {
+            place == (*scene, *eye) && step.is_none_or(|step| step.is_in(pairs, task.files.pairs))
         };
         let findings = crate::journal::findings_of(&task.plan, lines, &own);
         let findings = findings.filter(|findings| findings.has_all_of(&task.unit));

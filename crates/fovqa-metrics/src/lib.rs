@@ -45,3 +45,4 @@ pub use profile::Profiler;
 pub use regions::{BlockRegions, Regions};
 pub use registry::Params;
 pub use row::{Image, Key, Row, Rows, Subject};
+pub use spool::ReadBackError;

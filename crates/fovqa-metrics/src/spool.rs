@@ -3,6 +3,7 @@
 
 use std::fs::File;
 use std::io;
+use std::panic::panic_any;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// Bytes that are held in memory before anything is written to the file: the values of a small run need no
@@ -24,6 +25,13 @@ pub(crate) struct Shared {
     file: File,
     length: Mutex<u64>,
 }
+
+/// The values in the temporary file cannot be read again. All functions that return values of a frame panic with
+/// this payload, because a disk that loses data is too rare for a result of each. A program that wants to
+/// report it finds it with `catch_unwind`.
+#[derive(Debug, thiserror::Error)]
+#[error("the values in the temporary file cannot be read again: {0}")]
+pub struct ReadBackError(io::Error);
 
 /// The present file, as long as somebody needs it.
 static PRESENT: Mutex<Weak<Shared>> = Mutex::new(Weak::new());
@@ -64,11 +72,11 @@ impl Shared {
     /// Reads what was written.
     ///
     /// # Panics
-    /// When the system does not give back what it has taken.
+    /// With a [`ReadBackError`] if the system does not return what was written.
     fn read(&self, at: u64, count: usize) -> impl Iterator<Item = u64> + use<> {
         let mut bytes = vec![0; 8 * count];
         if let Err(error) = read_at(&self.file, &mut bytes, at) {
-            panic!("failed to read values again from the temporary file: {error}");
+            panic_any(ReadBackError(error));
         }
         (0..count).map(move |index| {
             let mut number = [0; 8];
@@ -205,5 +213,18 @@ mod tests {
         let kept: Vec<Numbers> = (0..3).map(|seed| spool.keep(vec![seed; 100_000])).collect();
         assert!(kept.iter().all(|kept| matches!(kept, Numbers::Held(_))));
         assert_eq!(kept[2].some::<1>(99_999), [2]);
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_read_again_is_an_error_of_its_own() {
+        let shared =
+            Arc::new(Shared { file: tempfile::tempfile().unwrap(), length: Mutex::new(0) });
+        let at = shared.append(&[1; 16]).unwrap();
+        let numbers = Numbers::InFile { shared: Arc::clone(&shared), at, count: 2 };
+        assert_eq!(numbers.all().len(), 2);
+        shared.file.set_len(8).unwrap();
+        let read = std::panic::catch_unwind(|| numbers.all());
+        let error = read.unwrap_err().downcast::<ReadBackError>().unwrap();
+        assert!(error.to_string().starts_with("the values in the temporary file"), "{error}");
     }
 }

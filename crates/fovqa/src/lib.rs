@@ -102,7 +102,7 @@ pub use fovqa_engine::{
 pub use fovqa_frame::source::{Listing, Picture, Source, SourceError};
 pub use fovqa_frame::{Crop, Frame, SignalChannels, SignalParams, ToneMap, Transfer};
 pub use fovqa_io::{ReadOptions, SourceOptions, open_source, video_stream};
-pub use fovqa_metrics::{Metric, ParamSet};
+pub use fovqa_metrics::{Metric, ParamSet, ReadBackError};
 pub use fovqa_params::ParamValue;
 pub use fovqa_plan::{
     CurvesFile, Emulation, Experiment, Eye, EyeView, GateRule, Gaze, MetricChoice, Nonfinite, Plan,

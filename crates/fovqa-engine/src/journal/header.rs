@@ -64,6 +64,13 @@ impl ViewFiles {
     }
 }
 
+/// The steps that belong to a range of the pairs of a view: the pairs and, after the last pair of the view, one
+/// step for a source that continues.
+pub(super) fn with_end(share: Range<usize>, pairs: usize) -> Range<usize> {
+    let has_end = !share.is_empty() && share.end == pairs;
+    share.start..share.end + usize::from(has_end)
+}
+
 /// The files of one eye's view of a scene; `None` if none were found.
 pub(crate) fn view_files(
     plan: &Plan,
@@ -100,8 +107,18 @@ impl Header {
         Self { maps: maps.map(|folder| folder.to_string_lossy().into_owned()), ..self }
     }
 
+    /// The steps of each view that may have a line: the pairs that the run or its shard scores and, if
+    /// these are the last ones, the step after them, where a source continues although all pairs are over.
+    pub(super) fn steps(&self) -> BTreeMap<(&str, Option<Eye>), Range<usize>> {
+        let pairs = self.views.iter().map(|view| view.pairs);
+        let shares = self.shares().into_iter();
+        let views: BTreeMap<_, usize> =
+            self.views.iter().map(|view| (view.scene.as_str(), view.eye)).zip(pairs).collect();
+        shares.map(|(view, share)| (view, with_end(share, views[&view]))).collect()
+    }
+
     /// The range of pairs of each view that the run or its shard scores.
-    pub(super) fn shares(&self) -> BTreeMap<(&str, Option<Eye>), Range<usize>> {
+    fn shares(&self) -> BTreeMap<(&str, Option<Eye>), Range<usize>> {
         let pairs: Vec<usize> = self.views.iter().map(|view| view.pairs).collect();
         let views = self.views.iter().map(|view| (view.scene.as_str(), view.eye));
         views.zip(shares(self.shard, &pairs)).collect()

@@ -13,7 +13,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::JOURNAL;
-use super::header::Header;
+use super::header::{Header, with_end};
 use super::records::{ErrorRecord, FrameRecord, KeysRecord, SettledRecord};
 use super::seal::{Seal, seal_of};
 use crate::findings::{Findings, Outcome, ViewFindings, ViewIndex};
@@ -90,11 +90,14 @@ impl Text {
     pub(crate) fn said(&self, plan: &Plan) -> Said {
         // A line about a view that is not in this journal, or about a pair outside its range, is
         // not accepted.
-        let own = |(scene, eye): ViewIndex, step: Option<usize>| {
+        let own = |(scene, eye): ViewIndex, step: Option<LineStep>| {
             let (scene, eye) = (&plan.scenes[scene].name, plan.scenes[scene].eyes[eye].eye);
             let mut views = self.header.views.iter();
             let index = views.position(|view| view.scene == *scene && view.eye == eye);
-            index.is_some_and(|index| step.is_none_or(|step| self.shares[index].contains(&step)))
+            index.is_some_and(|index| {
+                let (share, pairs) = (&self.shares[index], self.header.views[index].pairs);
+                step.is_none_or(|step| step.is_in(share, pairs))
+            })
         };
         let mut said = Lines { plan, own: &own }.said(&self.rest);
         // The header is line 1, so the other numbers move by one.
@@ -112,7 +115,26 @@ pub(crate) fn findings_of(plan: &Plan, lines: &str, own: &Own<'_>) -> Option<Fin
 }
 
 /// Whether a view, and optionally a pair in it, is allowed in the journal.
-pub(crate) type Own<'a> = dyn Fn(ViewIndex, Option<usize>) -> bool + 'a;
+pub(crate) type Own<'a> = dyn Fn(ViewIndex, Option<LineStep>) -> bool + 'a;
+
+/// The step of a line.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum LineStep {
+    /// A pair that was scored.
+    Scored(usize),
+    /// A pair that could not be scored, or the end of the pairs.
+    Failed(usize),
+}
+
+impl LineStep {
+    /// Whether the step belongs to a range of the pairs of a view, which has so many pairs.
+    pub(crate) fn is_in(self, share: &Range<usize>, pairs: usize) -> bool {
+        match self {
+            Self::Scored(step) => share.contains(&step),
+            Self::Failed(step) => with_end(share.clone(), pairs).contains(&step),
+        }
+    }
+}
 
 /// What is needed to interpret lines.
 struct Lines<'a> {
@@ -163,7 +185,8 @@ impl Lines<'_> {
             let record: FrameRecord = from(value)?;
             let method = method(plan, &record.method)?;
             let step = record.step;
-            let view = self.view(findings, &record.scene, record.eye, Some(step))?;
+            let step_of = Some(LineStep::Scored(step));
+            let view = self.view(findings, &record.scene, record.eye, step_of)?;
             let (frame, guides) = record.read(layouts)?;
             view.pairs.insert(step, Box::new(Outcome { method, result: Ok(frame), guides }));
         } else if let Some(keys) = value.get("keys") {
@@ -190,7 +213,8 @@ impl Lines<'_> {
         };
         let method = method(plan, name)?;
         if let Some(step) = record.step {
-            let view = self.view(findings, &record.scene, record.eye, Some(step))?;
+            let step_of = Some(LineStep::Failed(step));
+            let view = self.view(findings, &record.scene, record.eye, step_of)?;
             let (result, guides) = (Err(record.read()), fovqa_results::AtdGuides::default());
             view.pairs.insert(step, Box::new(Outcome { method, result, guides }));
         } else if record.before {
@@ -209,7 +233,7 @@ impl Lines<'_> {
         findings: &'a mut Findings,
         scene: &str,
         eye: Option<Eye>,
-        step: Option<usize>,
+        step: Option<LineStep>,
     ) -> Option<&'a mut ViewFindings> {
         let place = place(self.plan, scene, eye).filter(|place| (self.own)(*place, step))?;
         Some(findings.views.entry(place).or_default())

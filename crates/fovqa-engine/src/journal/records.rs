@@ -190,6 +190,14 @@ pub(super) struct SettledRecord {
     /// The viewing conditions of FovVideoVDP, by the name of the method.
     fvvdp: BTreeMap<String, FvvdpViewing>,
     missing: BTreeMap<String, String>,
+    /// Number of pairs without a line, because a source ended before them.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    passed_over: usize,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 #[derive(Serialize, Deserialize)]
@@ -220,6 +228,7 @@ impl SettledRecord {
             gaze_held: settled.gaze_held,
             fvvdp: fvvdp.map(|(method, sight)| (name(method), sight.clone())).collect(),
             missing: missing.map(|(method, why)| (name(method), why.clone())).collect(),
+            passed_over: settled.passed_over,
         }
     }
 
@@ -240,6 +249,7 @@ impl SettledRecord {
             gaze_held: self.gaze_held,
             fvvdp: fvvdp.collect::<Option<_>>()?,
             missing: missing.collect::<Option<_>>()?,
+            passed_over: self.passed_over,
         })
     }
 }

@@ -114,12 +114,13 @@ fn findings() -> Findings {
         gaze_held: Some(2),
         fvvdp: BTreeMap::from([(0, sight), (1, still)]),
         missing: BTreeMap::from([(1, "frame 3 could not be scored".to_owned())]),
+        passed_over: 0,
     };
     let of = |pairs, settled| ViewFindings { pairs, settled, ..ViewFindings::default() };
     let pairs =
         BTreeMap::from([(0, outcome(0, Ok(frame()))), (1, Box::new(bare)), (2, Box::new(failed))]);
     findings.views.insert((0, 0), of(pairs, Some(settled)));
-    let none = Settled { metrics: vec![Metric::Mse], ..Settled::default() };
+    let none = Settled { metrics: vec![Metric::Mse], passed_over: 2, ..Settled::default() };
     findings.views.insert((1, 0), of(BTreeMap::new(), Some(none)));
     let failed = Some(failure(None));
     findings.views.insert((1, 1), ViewFindings { failed, ..ViewFindings::default() });

@@ -126,12 +126,11 @@ fn write_in_order(
     findings: &Findings,
     stage: Stage,
 ) -> Result<(Lines, Order), EngineError> {
-    let shares = header.shares();
+    let steps = header.steps();
     let has = |entry: &Entry<'_>| match entry {
-        // A source that continues after its last pair is an error that belongs to no pair.
         Entry::Pair(pair) => {
-            let share = shares.get(&(pair.named.scene, pair.named.eye));
-            share.is_some_and(|share| share.contains(&pair.step))
+            let steps = steps.get(&(pair.named.scene, pair.named.eye));
+            steps.is_some_and(|steps| steps.contains(&pair.step))
         }
         _ => true,
     };
@@ -151,11 +150,11 @@ fn write_in_order(
 
 /// How many pairs were found of those that a header has.
 fn own_pairs(header: &Header, plan: &Plan, findings: &Findings) -> usize {
-    let shares = header.shares();
+    let steps = header.steps();
     let views = findings.views.iter().filter_map(|(&(scene, eye), view)| {
         let scene = &plan.scenes[scene];
-        let share = shares.get(&(scene.name.as_str(), scene.eyes[eye].eye))?;
-        Some(view.pairs.range(share.clone()).count())
+        let steps = steps.get(&(scene.name.as_str(), scene.eyes[eye].eye))?;
+        Some(view.pairs.range(steps.clone()).count())
     });
     views.sum()
 }
