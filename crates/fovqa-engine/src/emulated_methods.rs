@@ -61,16 +61,22 @@ impl EmulatedMethods {
         if foveator.is_temporal() && !foveator.begins_at(position) {
             check_motion(&mut self.motion, motion.is_some(), &reference.file, warnings)?;
         }
-        let before =
-            self.picture.get_or_insert_with(|| Picture::from_frame(&reference.frame, tables));
         let gaze_px = view.trace.as_ref().map(|trace| trace[step.frame].px).or(self.fixed_gaze);
-        let (shown, emulator) = foveator.next(position, before, motion, gaze_px)?;
-        let frame = frame_of(&shown, before, &reference.frame, tables, self.needs_light)?;
         let emulation = view.sources.test(step.method).emulation();
         let keeps = emulation.is_some_and(|emulation| emulation.keep_frames);
+        let file = view.sources.test_name(step.method, step.test);
+        if matches!(reference.frame.samples(), Samples::U8(_)) && !foveator.is_temporal() {
+            let (frame, emulator) = foveator.next_codes8(&reference.frame, tables, gaze_px)?;
+            let kept = keeps.then(|| frame.clone());
+            let made = Made { counts: emulator.counts().clone(), kept };
+            return Ok(Side::emulated(file, frame, reference.pixel_aspect, made));
+        }
+        let before =
+            self.picture.get_or_insert_with(|| Picture::from_frame(&reference.frame, tables));
+        let (shown, emulator) = foveator.next(position, before, motion, gaze_px)?;
+        let frame = frame_of(&shown, before, &reference.frame, tables, self.needs_light)?;
         let made =
             Made { counts: emulator.counts().clone(), kept: keeps.then(|| kept(&shown, &frame)) };
-        let file = view.sources.test_name(step.method, step.test);
         Ok(Side::emulated(file, frame, reference.pixel_aspect, made))
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use fovqa_emulate::{EmulateError, EmulationSpec, Emulator, History, Picture};
-use fovqa_frame::Motion;
+use fovqa_frame::{Frame, Motion, SignalTables};
 use fovqa_vision::{View, ViewSpec};
 
 use crate::error::EngineError;
@@ -58,6 +58,18 @@ impl Foveator {
     ) -> Result<Picture, Fault> {
         let size = [picture.width(), picture.height()];
         Ok(prepare(&self.spec, self.view.as_ref(), size, gaze_px)?.emulate(picture)?)
+    }
+
+    /// Emulates a frame of 8-bit codes without a temporal filter: the same codes as by way of
+    /// pictures, in much less time.
+    pub(crate) fn next_codes8(
+        &mut self,
+        frame: &Frame,
+        tables: &SignalTables,
+        gaze_px: Option<[f64; 2]>,
+    ) -> Result<(Frame, Arc<Emulator>), Fault> {
+        let emulator = self.emulator([frame.width(), frame.height()], gaze_px)?;
+        Ok((emulator.emulate_codes8(frame, tables)?, emulator))
     }
 
     /// Emulates the next frame. After a gap in the positions, the temporal filter begins again.

@@ -206,6 +206,7 @@ impl<'a> Scoring<'a> {
                 result: outcome.result.as_ref(),
                 guides: outcome.guides,
                 maps: &[],
+                kept: None,
             }))?;
             findings.pairs.insert(pairs, Box::new(outcome));
         }
