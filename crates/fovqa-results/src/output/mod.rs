@@ -183,6 +183,9 @@ pub fn try_writing(folder: &Path) -> io::Result<()> {
     temporary.take_away()
 }
 
+/// Size of the buffer in front of a file: large enough for few system calls.
+const BUFFER: usize = 64 << 10;
+
 /// Replaces a file. Returns its folder, whose names are not flushed to the disk yet.
 fn replace(
     path: &Path,
