@@ -103,7 +103,7 @@ impl EmulatedMethods {
 pub(crate) fn fixed_gaze(eye: &EyeView) -> Option<[f64; 2]> {
     match eye.settings.gaze {
         Gaze::Point(px) => Some(px),
-        Gaze::Centre | Gaze::Trace { .. } => None,
+        Gaze::Centre | Gaze::Builtin | Gaze::Trace { .. } => None,
     }
 }
 

@@ -1,6 +1,10 @@
 //! Writes a frame of a built-in scene as a PPM picture: `look SCENE FRAME SAMPLES WIDTH HEIGHT FILE`.
 
-#![allow(clippy::unwrap_used, clippy::indexing_slicing, reason = "a tool for those who work on the scene")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    reason = "a tool for those who work on the scene"
+)]
 
 use fovqa_frame::Samples;
 use fovqa_frame::transfer::srgb;

@@ -21,6 +21,7 @@ mod place;
 mod ray;
 mod scene;
 mod shape;
+mod source;
 mod spec;
 mod surface;
 mod text;
@@ -30,4 +31,5 @@ mod walk;
 
 pub use builtin::{Builtin, CameraPose};
 pub use scene::{FrameScene, SceneName, Surface};
+pub use source::BuiltinSource;
 pub use spec::{BuiltinSpec, GalleryError, IPD_M};
