@@ -26,7 +26,7 @@ fn values(rows: &[BTreeMap<String, String>], method: &str) -> BTreeMap<String, S
     let of = of.filter(|row| !row["metric"].starts_with("samples"));
     let key = |row: &BTreeMap<String, String>| {
         let columns = row.iter().filter(|(name, _)| !["method", "value"].contains(&name.as_str()));
-        columns.map(|(_, cell)| format!("{cell},")).collect()
+        columns.map(|(_, cell)| cell.as_str()).collect::<Vec<_>>().join(",")
     };
     of.map(|row| (key(row), row["value"].clone())).collect()
 }

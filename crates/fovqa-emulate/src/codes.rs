@@ -1,5 +1,5 @@
-//! A frame of 8-bit codes, read where samples stand: nobody writes 100 MB of floats to read a part of
-//! them.
+//! A frame of 8-bit codes, read where samples stand. The same frame as floats would be four times as
+//! large, 100 MB at 4K, and writing it would take longer than most methods.
 
 use std::borrow::Cow;
 use std::ops::Range;

@@ -10,11 +10,12 @@
 //! | buffer | the samples a method shades; its coordinates run from 0 to the number of samples |
 //! | place | where a sample reads the frame; one (`point`) or 16 (`area`) |
 //! | radial | a function of the distance from the gaze alone |
+//! | piece | a rectangle of pixels, for which alone a polar buffer is sampled |
 //!
 //! [`EmulationSpec`] says what is to be emulated, [`Emulator`] prepares it for a frame size, a view and
-//! a gaze, and turns [`Picture`]s into pictures. One file per method: `rmfr`, `deamp`, `guenter`, `cps`,
-//! `linear`, `log_polar` (KFR, LaFR), `vafr`, `visual_polar`, `sandbox`; behind them `temporal` and
-//! `enhance`.
+//! a gaze, and turns [`Picture`]s into pictures, or in less time 8-bit codes into codes
+//! ([`Emulator::emulate_codes8`]). One file per method: `rmfr`, `deamp`, `guenter`, `cps`, `linear`,
+//! `log_polar` (KFR, LaFR), `vafr`, `visual_polar`, `sandbox`; behind them `temporal` and `enhance`.
 //!
 //! Angles are planar, e = atan(r / f), as a renderer computes them.
 //!
@@ -29,6 +30,7 @@
 //! let emulator = Emulator::new(&EmulationSpec::new("rmfr")?, [64, 48], None, [32.0, 24.0])?;
 //! assert_eq!(emulator.counts().buffers, [[25, 18]]);
 //! assert_eq!(emulator.emulate(&picture)?.to_codes8(), frame);
+//! assert_eq!(emulator.emulate_codes8(&frame, &tables)?, frame);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -6,7 +6,7 @@
 
 use fovqa_methods::Setting;
 
-use crate::arcs::Surroundings;
+use crate::arcs::Sides;
 use crate::image::Image;
 use crate::sampling::Sampling;
 use crate::texel::narrowed;
@@ -31,8 +31,8 @@ pub(crate) struct Column {
 #[derive(Debug)]
 pub(crate) struct Ragged {
     columns: Vec<Column>,
-    /// What reading needs of each column, close together. The last column is there twice, so that each
-    /// one has a next.
+    /// Where the values of each column begin, and its rows: what reading needs, close together. The last
+    /// column is there twice, so that each one has a next.
     pub(crate) reads: Vec<(u32, f32)>,
     /// Values of all columns.
     pub(crate) length: usize,
@@ -77,8 +77,8 @@ impl Ragged {
 
     /// Number of samples inside the frame.
     pub(crate) fn on_screen(&self, setting: &Setting) -> usize {
-        let frame = Surroundings::frame(setting);
-        self.columns.iter().map(|column| frame.count(column.distance_px, column.rows)).sum()
+        let frame = Sides::of_frame(setting);
+        self.columns.iter().map(|column| frame.count_inside(column.distance_px, column.rows)).sum()
     }
 
     /// The samples as an image: column by column from the top, 0 where a column has no more rows.

@@ -1,7 +1,8 @@
 //! Pixels of four values: a buffer that is read for every pixel of the screen is read four values at a
 //! time, which is one instruction where three would be several.
 
-/// A pixel of 1 or 3 channels in four values; the values that are left over repeat the last channel.
+/// A pixel of 1 or 3 channels in four values. Of gray all four are the same; the fourth value of a colour
+/// has no meaning.
 pub(crate) type Texel = [f32; 4];
 
 /// Puts a pixel into as many values or more.

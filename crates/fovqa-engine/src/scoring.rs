@@ -46,8 +46,8 @@ pub(crate) struct Recorder<'a, 'e, 'r> {
 }
 
 impl Recorder<'_, '_, '_> {
-    fn input(&mut self, path: Arc<str>, id: &InputId) -> Result<(), EngineError> {
-        if !self.inputs.add(Arc::clone(&path), identity(id)) {
+    fn input(&mut self, path: &Arc<str>, id: &InputId) -> Result<(), EngineError> {
+        if !self.inputs.add(Arc::clone(path), identity(id)) {
             return Ok(());
         }
         let (path, InputId { bytes, sha256 }) = (path.to_string(), id.clone());
@@ -61,7 +61,7 @@ impl Recorder<'_, '_, '_> {
         ids.try_for_each(|(frame, (file, id))| {
             // Usually, the frame has the name of its file, and both share it.
             let name = if **frame == **file { Arc::clone(frame) } else { file.as_str().into() };
-            self.input(name, id)
+            self.input(&name, id)
         })
     }
 }
@@ -278,7 +278,7 @@ impl<'a> Scoring<'a> {
             // These files have been read already. If one has disappeared since, another run cannot
             // use it either.
             if let Ok(id) = id_of_file(path) {
-                recorder.input(self.plan.shown(path).into(), &id)?;
+                recorder.input(&self.plan.shown(path).into(), &id)?;
             }
         }
         Ok(())

@@ -6,9 +6,8 @@ use std::io;
 use std::panic::panic_any;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// Bytes that are held in memory before anything is written to the file: the values of a small run need no
-/// file, and those of a long one are a small part of its memory.
-const HELD_BYTES: usize = 1 << 20;
+/// Bytes that are held in memory before anything is written to the file.
+const HELD_BYTES: usize = 1 << 17;
 
 /// Takes numbers in, and keeps the first in memory and the others in the file.
 #[derive(Debug, Clone, Default)]

@@ -20,8 +20,8 @@ impl Emulation {
     pub fn in_words(&self) -> String {
         let spec = &self.spec;
         let set = spec.set_by_name().iter();
-        let mut parts: Vec<String> =
-            set.map(|(name, value)| format!("{name} = {}", value.in_words())).collect();
+        let mut parts = vec![format!("emulated: {}", spec.key())];
+        parts.extend(set.map(|(name, value)| format!("{name} = {}", value.in_words())));
         if spec.sampling() != Sampling::default() {
             parts.push(format!("sampling = \"{}\"", spec.sampling().word()));
         }
@@ -41,8 +41,7 @@ impl Emulation {
                 parts.push(format!("budget_of = \"{}\"", budget.of.word()));
             }
         }
-        let parts: String = parts.iter().map(|part| format!(", {part}")).collect();
-        format!("emulated: {}{parts}", spec.key())
+        parts.join(", ")
     }
 }
 

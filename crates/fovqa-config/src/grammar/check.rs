@@ -243,13 +243,7 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
                 faults.push(Fault::new(span, format!("{place}: {error}")));
             }
         }
-        (Kind::Display, DeValue::String(text)) => {
-            let known = displays().iter().map(|display| display.name.as_str());
-            let spelled = |name: &str| name == text || name.replace('_', "-") == *text;
-            if !known.clone().any(spelled) {
-                faults.push(no_such(place, text, span, known));
-            }
-        }
+        (Kind::Display, DeValue::String(text)) => check_display(text, place, span, faults),
         (Kind::Metric, DeValue::String(text)) => {
             let known = Metric::ALL.into_iter().map(Metric::key);
             if !known.clone().any(|key| key == text) {
@@ -293,6 +287,15 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
             None => wrong_type(kind, value, place, faults),
         },
         _ => wrong_type(kind, value, place, faults),
+    }
+}
+
+/// Checks the name of a display; `-` and `_` are alike.
+fn check_display(text: &str, place: &str, span: Range<usize>, faults: &mut Faults) {
+    let known = displays().iter().map(|display| display.name.as_str());
+    let spelled = |name: &str| name == text || name.replace('_', "-") == *text;
+    if !known.clone().any(spelled) {
+        faults.push(no_such(place, text, span, known));
     }
 }
 

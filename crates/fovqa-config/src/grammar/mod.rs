@@ -101,9 +101,10 @@ impl Kind {
             Kind::Display => "the name of a display (`fovqa list displays`)".to_owned(),
             Kind::Metric => "the name of a metric".to_owned(),
             Kind::Resolution => "a size such as \"2560x1440\", each side 1 to 100000".to_owned(),
-            Kind::Method => "a table such as { model = \"rmfr\", sigma = 2.6 }".to_owned(),
+            Kind::Method | Kind::Emulation => {
+                "a table such as { model = \"rmfr\", sigma = 2.6 }".to_owned()
+            }
             Kind::Acuity => "a table such as { model = \"piecewise\", cap_cpd = 9 }".to_owned(),
-            Kind::Emulation => "a table such as { model = \"rmfr\", sigma = 2.6 }".to_owned(),
             Kind::List(kind, min, max) => {
                 let count = match (min, max) {
                     (min, max) if min == max => format!("a list of {min} values, each "),

@@ -216,12 +216,22 @@ fn what_is_finished_stands_in_one_order() {
         let said = read_text(folder.path()).said(&plan);
         assert_eq!((said.done, said.torn), (shard.is_some(), false));
         assert_eq!(said.findings, findings);
-        // A pair that does not belong to the run is refused on reading.
-        let mut more = findings.clone();
-        let pairs = &mut more.views.get_mut(&(0, 0)).unwrap().pairs;
-        let (_, last) = pairs.last_key_value().unwrap();
-        pairs.insert(4, last.clone());
-        assert_eq!(finish(&findings, &more), whole);
+        // A pair that does not belong to the run is not written. The step after the last of the four pairs
+        // belongs to it only as an error: a source continues there.
+        let with = |step, of: usize| {
+            let mut more = findings.clone();
+            let pairs = &mut more.views.get_mut(&(0, 0)).unwrap().pairs;
+            pairs.insert(step, pairs[&of].clone());
+            more
+        };
+        let (scored, failed) = (0, 2);
+        for more in [with(4, scored), with(5, scored), with(5, failed)] {
+            assert_eq!(finish(&findings, &more), whole);
+        }
+        let continues = with(4, failed);
+        assert_ne!(finish(&findings, &continues), whole);
+        let said = read_text(folder.path()).said(&plan);
+        assert_eq!((said.torn, said.findings), (false, continues));
     }
 }
 

@@ -127,10 +127,15 @@ fn write_in_order(
     stage: Stage,
 ) -> Result<(Lines, Order), EngineError> {
     let steps = header.steps();
+    // The step after the last pair of a view is that of a source that continues, which is an error.
+    let is_end = |scene: &str, eye, step| {
+        header.views.iter().any(|v| v.scene == scene && v.eye == eye && v.pairs == step)
+    };
     let has = |entry: &Entry<'_>| match entry {
         Entry::Pair(pair) => {
-            let steps = steps.get(&(pair.named.scene, pair.named.eye));
-            steps.is_some_and(|steps| steps.contains(&pair.step))
+            let (scene, eye) = (pair.named.scene, pair.named.eye);
+            let is_own = steps.get(&(scene, eye)).is_some_and(|steps| steps.contains(&pair.step));
+            is_own && (pair.result.is_err() || !is_end(scene, eye, pair.step))
         }
         _ => true,
     };

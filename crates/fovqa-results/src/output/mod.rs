@@ -69,7 +69,9 @@ impl Batch {
     /// power failure without them.
     pub fn flush(&self) {
         let mut folders = self.folders.lock().unwrap_or_else(PoisonError::into_inner);
-        std::mem::take(&mut *folders).iter().for_each(|folder| sync_folder(folder));
+        for folder in std::mem::take(&mut *folders) {
+            sync_folder(&folder);
+        }
     }
 }
 
@@ -181,16 +183,19 @@ pub fn try_writing(folder: &Path) -> io::Result<()> {
     temporary.take_away()
 }
 
+/// Size of the buffer in front of a file: large enough for few system calls.
+const BUFFER: usize = 64 << 10;
+
 /// Replaces a file. Returns its folder, whose names are not flushed to the disk yet.
 fn replace(
     path: &Path,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> io::Result<PathBuf> {
+    /// Large enough for few system calls.
+    const BUFFER: usize = 64 << 10;
     let folder = folder_of(path);
     sweep_once(&folder);
     let temporary = Temporary::new(&folder)?;
-    /// Large enough for few system calls.
-    const BUFFER: usize = 64 << 10;
     let mut out = BufWriter::with_capacity(BUFFER, &temporary.file);
     write(&mut out)?;
     out.flush()?;

@@ -32,6 +32,21 @@ fn a_file_is_replaced_whole_or_not_at_all() {
     assert!(replaces(&path) && !replaces(&folder.path().join("c")));
 }
 
+#[test]
+fn the_folder_of_several_files_is_flushed_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let batch = Batch::default();
+    let waiting = || batch.folders.lock().unwrap().len();
+    for name in ["a", "b"] {
+        batch.write(&folder.path().join(name), b"x").unwrap();
+    }
+    assert_eq!(waiting(), 1);
+    batch.write_json(&folder.path().join("c"), &1).unwrap();
+    assert!(batch.write(&folder.path().join("no/d"), b"").is_err());
+    batch.flush();
+    assert_eq!((waiting(), names(folder.path())), (0, vec!["a".into(), "b".into(), "c".into()]));
+}
+
 /// The name has the maximum length, so the temporary file beside it cannot have a longer one.
 #[test]
 fn a_name_may_be_as_long_as_any() {
