@@ -191,8 +191,6 @@ fn replace(
     path: &Path,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> io::Result<PathBuf> {
-    /// Large enough for few system calls.
-    const BUFFER: usize = 64 << 10;
     let folder = folder_of(path);
     sweep_once(&folder);
     let temporary = Temporary::new(&folder)?;
