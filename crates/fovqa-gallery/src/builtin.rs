@@ -21,7 +21,7 @@ pub struct Builtin {
 
 /// The pose of a camera: its position in metres and its axes, in a world with x to the right, y up and
 /// z forward.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct CameraPose {
     /// The position in metres.
     pub position_m: [f64; 3],
