@@ -1,10 +1,11 @@
 //! `make bench`: CPU seconds, megapixels a second and peak memory of whole runs of the command,
 //! beside decoding alone and beside the peers it finds installed. `cargo bench … -- fvvdp`: of FovVideoVDP
-//! alone; `-- memory`: the peak memory of large runs alone.
+//! alone; `-- emulate`: of emulation alone; `-- memory`: the peak memory of large runs alone.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot go on has nothing to say")]
 #![allow(clippy::print_stdout, reason = "its results")]
 
+mod bench_emulate;
 mod bench_memory;
 
 use std::path::{Path, PathBuf};
@@ -25,6 +26,9 @@ const RUNS: usize = 7;
 const DECODE: &str = "--decode-only";
 const DECODE_ALL: &str = "--decode-all";
 const DECODE_COLOUR: &str = "--decode-colour";
+
+/// This program decoding a frame and emulating a method on it.
+const EMULATE: &str = "--emulate";
 
 /// This program writing the inputs into a folder.
 const MAKE: &str = "--make-inputs";
@@ -395,9 +399,44 @@ fn main() {
             make_sequence(Path::new(folder), FOUR_K.0, FOUR_K.1);
             make_video(Path::new(folder), VGA);
         }
+        [EMULATE, method, applied, file] => {
+            bench_emulate::emulate(method, applied, Path::new(file));
+        }
         [MAKE_LARGE, folder] => bench_memory::make(Path::new(folder)),
         words if words.contains(&"memory") => large_runs(),
+        words if words.contains(&"emulate") => emulation_alone(),
         words => report(words.contains(&"fvvdp")),
+    }
+}
+
+/// Measures emulation alone.
+fn emulation_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let this = std::env::current_exe().unwrap().display().to_string();
+    run(&this, &[MAKE, folder.path().to_str().unwrap()]).expect("inputs");
+    emulation(&Pair::new(folder.path(), "png", FOUR_K.0, FOUR_K.1));
+}
+
+/// Measures emulation of a 4K frame, beside decoding it.
+fn emulation(pair: &Pair) {
+    let this = std::env::current_exe().unwrap().display().to_string();
+    let megapixels = Some((FOUR_K.0 * FOUR_K.1) as f64 / 1e6);
+    let [file, _] = pair.names();
+    println!("\nemulation of a 4K PNG, with decoding, without writing\n");
+    heading("aim");
+    let decoding = measure(&this, &[DECODE, file]);
+    row("decode alone", megapixels, decoding, None);
+    let aim = decoding.map(|cost| format!("{:.3} s (3 x decoding)", 3.0 * cost.cpu_s));
+    for method in bench_emulate::PLAIN {
+        let cost = measure(&this, &[EMULATE, method, "", file]);
+        row(method, megapixels, cost, aim.as_deref());
+    }
+    let aim = decoding.map(|cost| format!("{:.3} s (2 s and decoding)", 2.0 + cost.cpu_s));
+    for [method, applied] in bench_emulate::FILTERED {
+        let cost = measure(&this, &[EMULATE, method, applied, file]);
+        let name =
+            if applied.is_empty() { method.to_owned() } else { format!("{method}, {applied}") };
+        row(&name, megapixels, cost, aim.as_deref());
     }
 }
 
@@ -438,6 +477,7 @@ fn report(only_visible: bool) {
     let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
     row("fovqa --version", None, measure(fovqa, &["--version"]), Some("0.010 wall s"));
     experiments(folder.path());
+    emulation(&four_k);
     peers(&four_k);
     reference_program(&pair("png", FULL_HD));
     large_runs();
