@@ -129,7 +129,8 @@ impl Room {
             low: vec3(3.95, y - half[1], z - half[0]),
             high: vec3(4.0, y + half[1], z + half[0]),
         };
-        let material = Material::Picture { which: index, centre: [z, y], half };
+        // The texts hang where the walk begins.
+        let material = Material::Picture { which: index + 5, centre: [z, y], half };
         self.things.push((Shape::Block(bounds), material));
     }
 
