@@ -58,6 +58,7 @@ mod log_polar;
 mod method;
 mod moments;
 mod offsets;
+mod parameters;
 mod peripheral;
 mod picture;
 mod piece;
