@@ -9,6 +9,7 @@
 //! | picture | `f32` values of the encoded signal in `[0, 1]`, not rounded before the output |
 //! | buffer | the samples a method shades; its coordinates run from 0 to the number of samples |
 //! | place | where a sample reads the frame; one (`point`) or 16 (`area`) |
+//! | cell | the part of a buffer that a sample stands for; jitter moves the sample within it |
 //! | radial | a function of the distance from the gaze alone |
 //! | piece | a rectangle of pixels, for which alone a polar buffer is sampled |
 //!
@@ -52,6 +53,7 @@ mod fxaa;
 mod grids;
 mod guenter;
 mod image;
+mod jitter;
 mod layer_axis;
 mod linear;
 mod log_polar;
@@ -73,10 +75,13 @@ mod ragged_samples;
 mod read_frame;
 mod rmfr;
 mod rounded;
+mod sample_places;
 mod sampling;
 mod sandbox;
 mod sandbox_params;
 mod separable;
+mod sequence;
+mod source;
 mod space;
 mod spec;
 mod split;
@@ -98,6 +103,7 @@ pub use emulator::Emulator;
 pub use error::EmulateError;
 pub use filters::FilterChoice;
 pub use image::Image;
+pub use jitter::Jitter;
 pub use picture::Picture;
 pub use sampling::Sampling;
 pub use space::Space;

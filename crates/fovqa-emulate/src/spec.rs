@@ -7,6 +7,7 @@ use fovqa_params::{ParamValue, Words, find};
 
 use crate::error::EmulateError;
 use crate::filters::{FilterChoice, FilterParams};
+use crate::jitter::Jitter;
 use crate::method::Emulated;
 use crate::sampling::Sampling;
 use crate::sandbox_params::{ENHANCE, MOST_F_MAX, SandboxParams};
@@ -29,6 +30,7 @@ pub struct EmulationSpec {
     pub(crate) filter: FilterParams,
     pub(crate) filters: FilterChoice,
     pub(crate) sampling: Sampling,
+    pub(crate) jitter: Jitter,
     pub(crate) space: Space,
     pub(crate) temporal: bool,
     pub(crate) taa: TaaParams,
@@ -73,6 +75,7 @@ impl EmulationSpec {
             filter: FilterParams::default(),
             filters: FilterChoice::None,
             sampling: Sampling::Point,
+            jitter: Jitter::None,
             space: Space::Encoded,
             taa: TaaParams::default(),
             enhance: None,
