@@ -82,6 +82,11 @@ impl Ragged {
         [self.columns.len(), longest.unwrap_or_default()]
     }
 
+    /// Place (p, q) of sample `j` of a column, on the frame in pixels.
+    pub(crate) fn place_px(&self, column: &Column, j: usize, p: usize, q: usize) -> [f64; 2] {
+        self.at(column, column.places_px[p], j as f64 + self.places.axis(1).at(q))
+    }
+
     /// Where samples stand on the frame, in pixels, column by column.
     pub(crate) fn positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         let within = self.places.axis(1).within_cell;

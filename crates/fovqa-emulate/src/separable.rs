@@ -18,6 +18,8 @@ pub(crate) struct Axis {
     pub(crate) centres_px: Vec<f64>,
     /// Where samples stand on the frame, in pixels.
     positions_px: Vec<f64>,
+    /// The places of each sample, in pixels.
+    pub(crate) places_px: Vec<f64>,
     /// From the places of each sample into the frame.
     from: Vec<Tap>,
     /// From each pixel of the frame into the buffer.
@@ -34,11 +36,12 @@ impl Axis {
         position: impl Fn(f64) -> f64,
         coordinate: impl Fn(f64) -> f64,
     ) -> Self {
-        let into_frame = |b: f64| Tap::clamped(position(b), side);
+        let places_px: Vec<f64> = places.coordinates(n).map(&position).collect();
         Self {
             positions_px: (0..n).map(|i| position(i as f64 + places.within_cell)).collect(),
             centres_px: (0..n).map(|i| position(i as f64 + 0.5)).collect(),
-            from: places.coordinates(n).map(into_frame).collect(),
+            from: places_px.iter().map(|place| Tap::clamped(*place, side)).collect(),
+            places_px,
             to: (0..side).map(|i| Tap::clamped(coordinate(i as f64 + 0.5), n)).collect(),
         }
     }

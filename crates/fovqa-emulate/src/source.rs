@@ -1,4 +1,4 @@
-//! What samples are taken from.
+//! What samples are taken from: a finished frame, or a scene.
 
 use std::borrow::Cow;
 use std::ops::Range;

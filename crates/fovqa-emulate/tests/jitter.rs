@@ -4,7 +4,10 @@
 
 use std::f64::consts::TAU;
 
-use fovqa_emulate::{EmulationSpec, Emulator, History, Jitter, Picture};
+use fovqa_emulate::{
+    EmulationSpec, Emulator, History, Jitter, Picture, Sampling, SceneLight, Space,
+};
+use fovqa_frame::transfer::srgb;
 use fovqa_frame::{Channels, Frame, Samples, SignalParams, SignalTables};
 use fovqa_params::ParamValue;
 use fovqa_vision::ViewSpec;
@@ -114,6 +117,55 @@ fn codes_are_read_where_samples_stand() {
         let picture = Picture::from_frame(&frame, &tables);
         let expected = emulator.emulate(&picture).unwrap().to_codes8();
         assert!(emulator.emulate_codes8(&frame, &tables).unwrap() == expected, "{}", info.key);
+    }
+}
+
+/// Fine stripes and dots.
+struct Pattern;
+
+impl SceneLight for Pattern {
+    fn light(&self, x: f64, y: f64) -> [f32; 3] {
+        let dots = 0.5 + 0.25 * ((1.5 * x).sin() + (1.3 * y + 0.4 * x).sin());
+        [dots as f32; 3]
+    }
+}
+
+/// The mean light of pictures.
+fn mean(pictures: &[Picture]) -> Vec<f64> {
+    let light = |value: &f32| srgb::decode(f64::from(*value));
+    (0..pictures[0].values().len())
+        .map(|i| pictures.iter().map(|picture| light(&picture.values()[i])).sum::<f64>())
+        .map(|sum| sum / pictures.len() as f64)
+        .collect()
+}
+
+/// Over many frames jittered point samples cover their cells.
+#[test]
+fn the_mean_of_many_frames_is_that_of_the_area() {
+    let signal = SignalParams::default();
+    for method in ["full", "rmfr", "cps", "guenter", "kfr"] {
+        let show = |spec: &EmulationSpec, frame: usize| {
+            emulator(spec)
+                .emulate_scene(&Pattern, frame, &signal, None, &mut History::default())
+                .unwrap()
+        };
+        // Linear, so that means and the reading of buffers can change places.
+        let linear = |mut spec: EmulationSpec| {
+            spec.set_space(Space::Linear);
+            spec
+        };
+        let point = linear(jittered(method));
+        let mut area = linear(EmulationSpec::new(method).unwrap());
+        let centred = mean(&[show(&area, 0)]);
+        area.set_sampling(Sampling::Area);
+        let area = mean(&[show(&area, 0)]);
+        let many: Vec<Picture> = (0..128).map(|frame| show(&point, frame)).collect();
+        let off = |values: &[f64]| {
+            let squares = values.iter().zip(&area).map(|(a, b)| (a - b) * (a - b));
+            (squares.sum::<f64>() / values.len() as f64).sqrt()
+        };
+        let (of_mean, of_one) = (off(&mean(&many)), off(&centred));
+        assert!(of_mean < 0.15 * of_one, "{method}: {of_mean}, {of_one}");
     }
 }
 
