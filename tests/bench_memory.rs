@@ -8,7 +8,7 @@ use std::path::Path;
 use fovqa_testkit::png_files::write8;
 use fovqa_testkit::synthetic::{codes, disturbed};
 
-use crate::{Cost, Pair, enlarged, row, run};
+use crate::{Cost, Pair, enlarged, measure, row, run};
 
 const METHODS: usize = 1000;
 const SCENES: usize = 10;
