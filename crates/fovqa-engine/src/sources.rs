@@ -34,6 +34,12 @@ impl Opener<'_> {
         self.open(&self.view.reference, self.view.settings.read.layer.as_deref())
     }
 
+    /// The built-in scene of the reference, if it is one.
+    pub(crate) fn builtin(&self) -> Result<Option<Arc<Builtin>>, EngineError> {
+        let SourceSpec::Builtin(frames) = &self.view.reference else { return Ok(None) };
+        Ok(Some(Arc::new(builtin(frames, self.view)?)))
+    }
+
     /// Opens the tests of a method.
     pub(crate) fn test(&self, method: usize, spec: &SourceSpec) -> Result<TestSource, EngineError> {
         if let SourceSpec::Emulated(emulation) = spec {
