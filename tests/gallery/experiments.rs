@@ -25,7 +25,7 @@ fn a_built_in_scene_is_a_reference_like_any_other() {
     folder.write("e.toml", experiment(SCENE, METHODS) + gate);
     let maps = ["run", "e.toml", "--output", "maps-run", "--maps", "maps", "--threads", "1"];
     folder.run(&maps).ok();
-    assert!(folder.path("maps/s/R/squared-error-0003.exr").exists());
+    assert!(folder.path("maps/s/R/mse-0003.exr").exists());
     assert_eq!(divided(&folder, 3, 0), vec![0; 3]);
     let run = folder.run(&["run", "e.toml", "--output", "whole", "--resume"]).ok();
     run.says(&["8 frames are finished"]);

@@ -79,3 +79,42 @@ fn mistakes_say_what_may_be_given() {
     folder.write("file", "no folder");
     gallery(&folder, &["--output", "file/hall"]).fails(3, &["file/hall"]);
 }
+
+/// `fovqa foveate` samples the scene itself: between the pixels of its ground truth, and beyond them.
+#[test]
+fn a_method_samples_the_scene_itself() {
+    let folder = Folder::new();
+    let foveate = |scene: &str, output: &str, more: &[&str]| {
+        let method = ["--method", "rmfr", "--set", "sigma=2"];
+        folder.run(&[&["foveate", scene, output][..], &method, &VIEW, more].concat())
+    };
+    let json = foveate("builtin:gallery", "scene.png", &["--format", "json"]).ok().json();
+    assert_eq!(json["frames"][0]["samples"], 1920);
+    assert_eq!(json["frames"][0]["input"], "builtin:gallery");
+    // The gaze is that of the viewer.
+    gallery(&folder, &["--output", "hall", "--samples", "1"]).ok();
+    let gaze = fs::read_to_string(folder.path("hall/gaze.csv")).unwrap();
+    let [x, y] = [0, 1].map(|i| json["frames"][0]["gaze_px"][i].as_f64().unwrap());
+    assert!(gaze.contains(&format!("0,{x},{y}")), "{gaze}");
+    // From a picture of the scene, with the same gaze, the result is another one.
+    let gaze = format!("{x},{y}");
+    foveate("hall/png/0000.png", "picture.png", &["--gaze", &gaze]).ok();
+    let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
+    assert_ne!(bytes("scene.png"), bytes("picture.png"));
+    foveate("builtin:gallery", "moved.png", &["--jitter", "halton"]).ok();
+    assert_ne!(bytes("scene.png"), bytes("moved.png"));
+    foveate("builtin:gallery", "again.png", &["--threads", "1", "--buffer", "buffer.png"]).ok();
+    assert_eq!(bytes("scene.png"), bytes("again.png"));
+    assert!(folder.path("buffer.png").exists());
+    let more = ["--builtin-frames", "3", "--temporal", "--frames", "0..2"];
+    foveate("builtin:pattern-b", "frames", &more).ok();
+    assert!(folder.path("frames/builtin-pattern_b.000001.png").exists());
+    assert!(!folder.path("frames/builtin-pattern_b.000002.png").exists());
+    foveate("builtin:galery", "x.png", &[]).fails(2, &["galery", "gallery"]);
+    let run = |more: &[&str]| {
+        let base = ["foveate", "builtin:gallery", "x.png", "--method", "rmfr"];
+        folder.run(&[&base[..], more].concat())
+    };
+    run(&["--fov-vertical", "90"]).fails(2, &["--resolution"]);
+    run(&["--resolution", "96x80"]).fails(2, &["--fov-vertical"]);
+}

@@ -124,7 +124,7 @@ impl EmulatedMethods {
 }
 
 /// A frame of a built-in scene, as emulation asks for it.
-struct BuiltinLight<'a>(&'a dyn FrameScene);
+pub(crate) struct BuiltinLight<'a>(pub(crate) &'a dyn FrameScene);
 
 impl SceneLight for BuiltinLight<'_> {
     fn light(&self, x: f64, y: f64) -> [f32; 3] {

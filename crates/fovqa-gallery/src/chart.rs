@@ -68,7 +68,7 @@ mod tests {
         };
         assert!(crossings(0) < 3 && crossings(900) > 70, "{} {}", crossings(0), crossings(900));
         let contrast = |y: f64| {
-            let values = (0..1000).map(|i| f64::from(frame.light(f64::from(i) / 10.0, y)[0]));
+            let values = (0..10_000).map(|i| f64::from(frame.light(f64::from(i) / 10.0, y)[0]));
             values.fold(0.0, |most: f64, value| most.max((value - mean).abs())) / mean
         };
         assert!(
