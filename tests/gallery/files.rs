@@ -110,7 +110,8 @@ fn a_method_samples_the_scene_itself() {
     foveate("builtin:pattern-b", "frames", &more).ok();
     assert!(folder.path("frames/builtin-pattern_b.000001.png").exists());
     assert!(!folder.path("frames/builtin-pattern_b.000002.png").exists());
-    foveate("builtin:galery", "x.png", &[]).fails(2, &["galery", "gallery"]);
+    foveate("builtin:galery", "x.png", &[])
+        .fails(2, &["no such built-in scene", "did you mean gallery?"]);
     let run = |more: &[&str]| {
         let base = ["foveate", "builtin:gallery", "x.png", "--method", "rmfr"];
         folder.run(&[&base[..], more].concat())

@@ -151,17 +151,12 @@ type OwnFiles = (Arc<dyn Source>, BTreeMap<usize, usize>);
 /// anywhere.
 pub(crate) fn builtin(frames: &BuiltinFrames, view: &EyeView) -> Result<Builtin, EngineError> {
     let [width, height] = frames.size;
-    let view = match &view.settings.view {
-        Some(spec) => spec.resolve(width, height)?.view,
-        None => {
-            let (w, h) = (width as f64, height as f64);
-            View {
-                width,
-                height,
-                focal_px: [h.max(1.0) / 2.0; 2],
-                principal_px: [w / 2.0, h / 2.0],
-            }
-        }
+    let view = if let Some(spec) = &view.settings.view {
+        spec.resolve(width, height)?.view
+    } else {
+        let (w, h) = (width as f64, height as f64);
+        let focal_px = [h.max(1.0) / 2.0; 2];
+        View { width, height, focal_px, principal_px: [w / 2.0, h / 2.0] }
     };
     Ok(Builtin::new(&frames.spec, view, frames.eye_m)?)
 }

@@ -34,7 +34,7 @@ impl Pose {
     }
 
     /// A point in the world, from the eye: right, down and forward, in metres.
-    pub(crate) fn from_eye(&self, point: Vec3) -> Vec3 {
+    pub(crate) fn seen_by_eye(&self, point: Vec3) -> Vec3 {
         self.turned(point - self.position)
     }
 
@@ -84,7 +84,7 @@ mod tests {
         let camera = Camera { pose, view };
         for (x, y) in [(0.0, 0.0), (99.0, 52.0), (13.25, 80.5), (200.0, 100.0)] {
             let point = camera.ray(x, y).at(3.7);
-            let [u, v] = camera.project(pose.from_eye(point)).unwrap();
+            let [u, v] = camera.project(pose.seen_by_eye(point)).unwrap();
             assert!((u - x).abs() < 1e-9 && (v - y).abs() < 1e-9, "{u} {v}");
         }
         assert!(camera.project(vec3(0.0, 0.0, -1.0)).is_none());

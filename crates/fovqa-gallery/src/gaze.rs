@@ -40,7 +40,7 @@ impl GazeCourse {
     }
 
     /// The gaze at a time in seconds, from 0 on.
-    pub(crate) fn at(&self, time_s: f64) -> Angles {
+    pub(crate) fn at(self, time_s: f64) -> Angles {
         let mut begin = 0.0;
         let mut index = 0;
         let mut phase = self.phase(0);
@@ -71,7 +71,7 @@ impl GazeCourse {
         }
     }
 
-    fn phase(&self, index: i64) -> Phase {
+    fn phase(self, index: i64) -> Phase {
         let number = |of: i64| random(index, of, 1, self.seed);
         // The first fixation is near the axis; every third phase is a pursuit.
         let reach = if index == 0 { 0.2 } else { 1.0 };

@@ -83,20 +83,20 @@ pub(crate) fn sun_through_windows(at: Vec3) -> f64 {
 /// Light from the sky through the windows on a point with a normal.
 pub(crate) fn sky_through_windows(at: Vec3, normal: Vec3) -> Vec3 {
     let mut sum = gray(0.0);
-    let (cx, cy) = ((END.along[0] + END.along[1]) / 2.0, (END.up[0] + END.up[1]) / 2.0);
+    let (cx, cy) = (middle(END.along), middle(END.up));
     let area = (END.along[1] - END.along[0]) * (END.up[1] - END.up[0]);
     let end = vec3(cx, cy, HALL.high.z);
     sum += vec3(3.9, 4.2, 4.6) * from_patch(at, normal, end, vec3(0.0, 0.0, -1.0), area);
     for window in SIDE {
-        let centre = vec3(
-            HALL.low.x,
-            (window.up[0] + window.up[1]) / 2.0,
-            (window.along[0] + window.along[1]) / 2.0,
-        );
+        let centre = vec3(HALL.low.x, middle(window.up), middle(window.along));
         let area = (window.along[1] - window.along[0]) * (window.up[1] - window.up[0]);
         sum += vec3(3.0, 3.3, 3.8) * from_patch(at, normal, centre, vec3(1.0, 0.0, 0.0), area);
     }
     sum
+}
+
+fn middle([low, high]: [f64; 2]) -> f64 {
+    low.midpoint(high)
 }
 
 /// The share of the light of a flat patch that reaches a point, as if the patch were a disc.
@@ -146,9 +146,9 @@ mod tests {
     #[test]
     fn bars_and_frames_hold_light_back() {
         let window = SIDE[0];
-        assert_eq!(window.passes(3.2 + 0.25, 2.3, 0.001), 0.0, "the bar between two panes");
+        assert!(window.passes(3.2 + 0.25, 2.3, 0.001) < 1e-12, "the bar between two panes");
         assert!((window.passes(3.2, 2.0, 0.001) - 1.0).abs() < 1e-9);
-        assert_eq!(window.passes(5.0, 2.0, 0.001), 0.0);
+        assert!(window.passes(5.0, 2.0, 0.001) < 1e-12);
         assert!(window.frames(3.98, 2.0) && !window.frames(4.1, 2.0));
     }
 }

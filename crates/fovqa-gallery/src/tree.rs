@@ -66,7 +66,7 @@ impl Tree {
                 continue;
             }
             if node.shapes == 0 {
-                stack[height] = stack[height] + 1;
+                stack[height] += 1;
                 stack[height + 1] = node.at;
                 height += 2;
                 continue;

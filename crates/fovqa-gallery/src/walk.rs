@@ -53,7 +53,7 @@ impl FrameScene for WalkFrame<'_> {
             // So far away that only the direction counts.
             self.before.pose.turned(ray.direction)
         } else {
-            self.before.pose.from_eye(ray.at(hit.t))
+            self.before.pose.seen_by_eye(ray.at(hit.t))
         };
         let motion_px = self.before.project(was).map(|[u, v]| [u - x, v - y]);
         let depth_m = hit.t * ray.direction.dot(self.camera.pose.forward);
@@ -103,7 +103,7 @@ mod tests {
         let frame = walk.frame(0);
         let ray = frame.camera.ray(10.0, 200.0);
         let hit = frame.place.meet(&ray);
-        let eye = frame.camera.pose.from_eye(ray.at(hit.t));
+        let eye = frame.camera.pose.seen_by_eye(ray.at(hit.t));
         assert!((frame.surface(10.0, 200.0).depth_m - eye.z).abs() < 1e-9);
     }
 

@@ -1,5 +1,6 @@
 //! Writes a built-in scene as files, as `fovqa gallery` does.
 
+use std::fmt::Write;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -93,7 +94,8 @@ fn write_eye(builtin: &Builtin, folder: &Path, done: &dyn Fn(usize)) -> Result<(
         let bytes = encode_frame(&codes, FrameFormat::Png).map_err(|error| error.to_string());
         write(&path, bytes)?;
         let [x, y] = builtin.gaze_px(frame);
-        gaze.push_str(&format!("{frame},{x},{y}\n"));
+        // Writing to a text does not fail.
+        let _ = writeln!(gaze, "{frame},{x},{y}");
         poses.extend(builtin.pose(frame));
         done(frame);
     }
