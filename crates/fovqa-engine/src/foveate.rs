@@ -78,7 +78,10 @@ pub fn foveate(
     read_ahead(
         steps.len(),
         loader.loaders(),
-        |nth| loader.load(&steps[nth]),
+        |nth| match &view.sources.builtin {
+            Some(builtin) => loader.unlit(builtin, &steps[nth]),
+            None => loader.load(&steps[nth]),
+        },
         Loaded::bytes,
         |nth, loaded| {
             match pass.frame(&steps[nth], loaded, &mut warnings, take) {
