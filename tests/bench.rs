@@ -1,6 +1,6 @@
 //! `make bench`: CPU seconds, megapixels a second and peak memory of whole runs of the command,
 //! beside decoding alone and beside the peers it finds installed. `cargo bench … -- fvvdp`: of FovVideoVDP
-//! alone; `-- emulate`: of emulation alone; `-- memory`: the peak memory of large runs alone.
+//! alone; `-- emulate`: of emulation alone; `-- gallery`: of the built-in scene; `-- memory`: the peak memory of large runs alone.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot go on has nothing to say")]
 #![allow(clippy::print_stdout, reason = "its results")]
@@ -405,8 +405,30 @@ fn main() {
         [MAKE_LARGE, folder] => bench_memory::make(Path::new(folder)),
         words if words.contains(&"memory") => large_runs(),
         words if words.contains(&"emulate") => emulation_alone(),
+        words if words.contains(&"gallery") => built_in_scene(),
         words => report(words.contains(&"fvvdp")),
     }
+}
+
+/// Measures the built-in scene, each case once.
+fn built_in_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
+    let view = ["--resolution", "1440x1600", "--fov-vertical", "100"];
+    println!("\nthe built-in scene, 1440x1600, each case once\n");
+    heading("aim");
+    let megapixels = Some(1.44 * 1.6);
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    for (frames, aim) in [("1", Some("20 CPU s")), ("3", Some("the MiB of 1 frame"))] {
+        let output = path(frames);
+        let what = ["gallery", "--output", &output, "--samples", "16", "--frames", frames];
+        let cost = run(fovqa, &[&what[..], &view].concat());
+        row(&format!("frames with 16 samples a pixel: {frames}"), megapixels, cost, aim);
+    }
+    let output = path("rmfr.png");
+    let foveate = ["foveate", "builtin:gallery", &output, "--method", "rmfr"];
+    let cost = run(fovqa, &[&foveate[..], &view].concat());
+    row("RMFR, 340,710 samples, PNG written", megapixels, cost, Some("0.5 CPU s"));
 }
 
 /// Measures emulation alone.
@@ -478,6 +500,7 @@ fn report(only_visible: bool) {
     row("fovqa --version", None, measure(fovqa, &["--version"]), Some("0.010 wall s"));
     experiments(folder.path());
     emulation(&four_k);
+    built_in_scene();
     peers(&four_k);
     reference_program(&pair("png", FULL_HD));
     large_runs();

@@ -9,6 +9,7 @@ mod formats;
 mod foveate;
 mod fovqa;
 mod frames;
+mod gallery;
 mod gate;
 mod metrics;
 mod published;

@@ -69,7 +69,7 @@ const MISTAKES: &[Mistake] = &[
         &["the scene has one reference"],
         false,
     ),
-    ("reference = \"gt\"", "", &["scene \"room\" has no reference"], true),
+    ("reference = \"gt\"", "", &["scene \"room\" has neither reference nor builtin"], false),
     ("reference = \"gt\"", "reference = \"gt\"\nfps = 0", &["cannot be 0"], true),
     ("reference = \"gt\"", "reference = \"gt\"\nframes = \"5\"", &["not a range of frames"], true),
     (

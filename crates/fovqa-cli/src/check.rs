@@ -222,6 +222,7 @@ fn seen(eye: &EyeView, size: Option<(usize, usize)>) -> Option<String> {
 fn gaze(experiment: &Experiment, eye: &EyeView, view: &FoundView) -> String {
     match &eye.settings.gaze {
         Gaze::Centre => "at the principal point".to_owned(),
+        Gaze::Builtin => "that of the viewer in the built-in scene".to_owned(),
         Gaze::Point([x, y]) => format!("({x}, {y}) px"),
         Gaze::Trace { path, .. } => {
             let held = view.trace.iter().flatten().filter(|gaze| gaze.held).count();

@@ -10,6 +10,7 @@ mod exit;
 mod experiment;
 mod failures;
 mod foveate;
+mod gallery;
 mod gate;
 mod list;
 mod merge;
@@ -45,6 +46,7 @@ pub fn main() -> ExitCode {
 fn dispatch(cli: Cli) -> Exit {
     match cli.command {
         Command::Score(args) => score::run(*args),
+        Command::Gallery(args) => gallery::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Gate(args) => gate::run(&args),
         Command::Baseline(command) => baseline::run(&command),

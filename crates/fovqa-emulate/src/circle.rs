@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::taps::PLACES;
 
-/// Unit vectors in the directions (j + 0.5) / n of a turn, [`PLACES`] at a time. Each lot is the one
+/// Unit vectors in the directions (j + η) / n of a turn, [`PLACES`] at a time. Each lot is the one
 /// before it, turned; of ten thousand directions rounding has added up to 1e-13.
 #[derive(Debug, Clone)]
 pub(crate) struct Circle {
@@ -15,10 +15,10 @@ pub(crate) struct Circle {
 }
 
 impl Circle {
-    /// From direction `first` of `n` on.
-    pub(crate) fn new(first: i64, n: usize) -> Self {
+    /// From direction `first` of `n` on; `within` is η, 0.5 without jitter.
+    pub(crate) fn new(first: i64, n: usize, within: f64) -> Self {
         let step = TAU / n as f64;
-        let (sin, cos) = libm::sincos((first as f64 + 0.5) * step);
+        let (sin, cos) = libm::sincos((first as f64 + within) * step);
         let (mut x, mut y) = ([cos; PLACES], [sin; PLACES]);
         let (sin, cos) = libm::sincos(step);
         let mut turn = [cos, sin];
@@ -56,11 +56,11 @@ mod tests {
     #[test]
     fn directions_stay_on_the_circle() {
         for n in [1, 2, 7, 2000, 20_000] {
-            for first in [0, n / 3] {
-                let mut circle = Circle::new(first as i64, n);
+            for (first, within) in [(0, 0.5), (n / 3, 0.5), (n / 3, 0.125)] {
+                let mut circle = Circle::new(first as i64, n, within);
                 for from in (first..n).step_by(PLACES) {
                     for j in from..(from + PLACES).min(n) {
-                        let angle = TAU * (j as f64 + 0.5) / n as f64;
+                        let angle = TAU * (j as f64 + within) / n as f64;
                         let [x, y] = [circle.x[j - from], circle.y[j - from]];
                         assert!((x - angle.cos()).abs() < 1e-12, "{j} of {n}");
                         assert!((y - angle.sin()).abs() < 1e-12, "{j} of {n}");

@@ -5,17 +5,17 @@
 
 use std::ops::Range;
 
+use fovqa_frame::BLOCK_ROWS;
 use fovqa_methods::Setting;
 use fovqa_methods::cps::{Cps as Mapped, Params, Quantise};
 
 use crate::counts::Counts;
-use crate::fetch::mean16;
 use crate::grids::Grids;
 use crate::image::Image;
 use crate::offsets::Offsets;
-use crate::pixels::Pixels;
 use crate::radial::{Detail, Radial};
-use crate::sampling::Sampling;
+use crate::sample_places::SamplePlaces;
+use crate::source::Source;
 use crate::sums::sum_over_pixels;
 use crate::texel::narrowed;
 use crate::value::Value;
@@ -27,17 +27,21 @@ pub(crate) enum Cps {
     Continuous { grids: Grids, samples: f64 },
 }
 
+/// Sides of the cells of more than one pixel. A block of rows holds a whole number of each.
+const COARSE: [usize; 2] = [2, 4];
+const _: () = assert!(BLOCK_ROWS.is_multiple_of(COARSE[1]));
+
 /// Rates of 1, 1/2 and 1/4.
 #[derive(Debug)]
 pub(crate) struct Cells {
     /// Up to which distance every pixel is shaded, and up to which one of 2x2.
     reach_px: [f64; 2],
     offsets: Offsets,
-    sampling: Sampling,
+    places: SamplePlaces,
 }
 
 impl Cps {
-    pub(crate) fn new(params: &Params, setting: &Setting, sampling: Sampling) -> Self {
+    pub(crate) fn new(params: &Params, setting: &Setting, places: SamplePlaces) -> Self {
         let offsets = Offsets::new(setting);
         let Params { foveal_deg, transition_deg, quantise } = *params;
         // The share of the fall after which the request is below 1/2 and 1/4, or 3/4 and 3/8.
@@ -51,14 +55,14 @@ impl Cps {
                 let density = Radial::new(fine, reach, |r| request(r) * request(r));
                 let samples = sum_over_pixels(&density, &offsets);
                 let level = Radial::new(fine, reach, |r| -libm::log2(request(r)));
-                return Self::Continuous { grids: Grids::new(level, offsets, sampling), samples };
+                return Self::Continuous { grids: Grids::new(level, offsets, places), samples };
             }
         };
         let reach_px = shares.map(|share| {
             let bound_deg = foveal_deg + share * transition_deg;
             if bound_deg < 90.0 { setting.radius_px(bound_deg) } else { f64::INFINITY }
         });
-        Self::Cells(Cells { reach_px, offsets, sampling })
+        Self::Cells(Cells { reach_px, offsets, places })
     }
 
     pub(crate) fn counts(&self) -> Counts {
@@ -72,10 +76,18 @@ impl Cps {
         }
     }
 
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+    /// Where samples stand, in pixels.
+    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
         match self {
-            Self::Cells(cells) => cells.show(frame),
-            Self::Continuous { grids, .. } => grids.show(frame),
+            Self::Cells(cells) => cells.positions(),
+            Self::Continuous { grids, .. } => grids.positions(),
+        }
+    }
+
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
+        match self {
+            Self::Cells(cells) => cells.show(source),
+            Self::Continuous { grids, .. } => grids.show(source),
         }
     }
 }
@@ -100,9 +112,17 @@ impl Cells {
 
     /// How many blocks of `side` x `side` pixels hold a pixel that shares its sample with n x n.
     fn used(&self, n: usize, side: usize) -> u64 {
+        let mut used = 0;
+        self.each_row_of_blocks(n, side, |_, blocks| {
+            used += blocks.iter().filter(|used| **used).count() as u64;
+        });
+        used
+    }
+
+    /// Visits the rows of these blocks: their numbers, and which blocks hold such a pixel.
+    fn each_row_of_blocks(&self, n: usize, side: usize, mut visit: impl FnMut(usize, &[bool])) {
         let (width, height) = (self.offsets.width(), self.offsets.height());
         let mut blocks = vec![false; width.div_ceil(side)];
-        let mut used = 0;
         for top in (0..height).step_by(side) {
             blocks.fill(false);
             for y in top..(top + side).min(height) {
@@ -110,22 +130,45 @@ impl Cells {
                     blocks[xs.start / side..xs.end.div_ceil(side)].fill(true);
                 }
             }
-            used += blocks.iter().filter(|used| **used).count() as u64;
+            visit(top / side, &blocks);
         }
-        used
     }
 
-    fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
-        Image::by_rows(frame.width(), frame.height(), |y, row| {
+    /// Where the samples in use stand, in pixels.
+    fn positions(&self) -> Vec<[f64; 2]> {
+        let within = [0, 1].map(|axis| self.places.axis(axis).within_cell);
+        let mut positions = Vec::new();
+        for n in [1, 2, 4] {
+            self.each_row_of_blocks(n, n, |k, cells| {
+                let used = cells.iter().enumerate().filter(|(_, used)| **used);
+                positions.extend(used.map(|(i, _)| {
+                    [(i as f64 + within[0]) * n as f64, (k as f64 + within[1]) * n as f64]
+                }));
+            });
+        }
+        positions
+    }
+
+    fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
+        let (width, height) = (self.offsets.width(), self.offsets.height());
+        // The samples of the cells that hold a row: blocks of rows begin with a row of cells, so that
+        // each sample is taken once.
+        let room = || COARSE.map(|n| vec![None; width.div_ceil(n)]);
+        Image::by_rows_with(width, height, room, |taken, y, row| {
             let [shaded, _] = self.pixels(1, y);
-            frame.read_row(y, shaded.clone(), &mut row[shaded]);
-            for n in [2, 4] {
+            source.sample_pixels(self.places, y, shaded.clone(), &mut row[shaded]);
+            for (n, taken) in COARSE.into_iter().zip(taken) {
+                if y.is_multiple_of(n) {
+                    taken.fill(None);
+                }
                 for xs in self.pixels(n, y) {
                     let mut from = xs.start;
                     while from < xs.end {
                         let cell = from / n;
                         let to = ((cell + 1) * n).min(xs.end);
-                        row[from..to].fill(self.sample(frame, n, cell, y / n));
+                        let sample =
+                            *taken[cell].get_or_insert_with(|| self.sample(source, n, cell, y / n));
+                        row[from..to].fill(sample);
                         from = to;
                     }
                 }
@@ -136,17 +179,13 @@ impl Cells {
     /// The sample of a cell.
     fn sample<const C: usize>(
         &self,
-        frame: &impl Pixels<C>,
+        source: &impl Source<C>,
         n: usize,
         i: usize,
         k: usize,
     ) -> [f32; C] {
         let n = n as f64;
-        let at = |x: f64, y: f64| frame.at_place((i as f64 + x) * n, (k as f64 + y) * n);
-        let places = self.sampling.places();
-        narrowed(match self.sampling {
-            Sampling::Point => at(places[0], places[0]),
-            Sampling::Area => mean16(|p, q| at(places[p], places[q])),
-        })
+        let position = |x: f64, y: f64| [(i as f64 + x) * n, (k as f64 + y) * n];
+        narrowed(source.sample(self.places, position))
     }
 }

@@ -12,9 +12,9 @@ use crate::blur::gaussian;
 use crate::counts::Counts;
 use crate::image::Image;
 use crate::layer_axis::layer_axis;
-use crate::pixels::Pixels;
-use crate::sampling::Sampling;
+use crate::sample_places::SamplePlaces;
 use crate::separable::Separable;
+use crate::source::Source;
 use crate::value::Value;
 
 #[derive(Debug)]
@@ -30,6 +30,8 @@ pub(crate) struct Deamp {
     /// The innermost first.
     layers: Vec<Layer>,
     samples: f64,
+    /// The frame's width and height in pixels.
+    size: [usize; 2],
     /// σ of the filter on screen in pixels, where it is on.
     screen_sigma_px: Option<f64>,
 }
@@ -38,7 +40,7 @@ impl Deamp {
     pub(crate) fn new(
         params: &Params,
         setting: &Setting,
-        sampling: Sampling,
+        places: SamplePlaces,
         screen_sigma_px: Option<f64>,
     ) -> Result<Self, MethodError> {
         let mapped = Mapped::new(params, setting)?;
@@ -51,12 +53,12 @@ impl Deamp {
         };
         let mut samples = 0;
         let layers = (0..mapped.layers()).map(|layer| {
-            let axis = |axis| layer_axis(&mapped, setting, layer, axis, sampling);
-            let buffer = Separable::new(axis(0), axis(1), sampling);
+            let axis = |axis| layer_axis(&mapped, setting, layer, axis, places);
+            let buffer = Separable::new(axis(0), axis(1), places);
             let [w, h] = buffer.size();
             let covered = [(0, &buffer.x), (1, &buffer.y)].map(|(axis, along)| {
                 let finer = |x: &&f64| layer_along(axis, **x) < layer;
-                along.positions_px.iter().filter(finer).count()
+                along.centres_px.iter().filter(finer).count()
             });
             samples += w * h - covered[0] * covered[1];
             let inside = [0, 1].map(|axis| {
@@ -69,7 +71,13 @@ impl Deamp {
             Layer { buffer, inside }
         });
         let layers = layers.collect();
-        Ok(Self { layers, samples: samples as f64, screen_sigma_px })
+        let size = setting.size_px().map(|side| side as usize);
+        Ok(Self { layers, samples: samples as f64, size, screen_sigma_px })
+    }
+
+    /// Where samples of all layers stand, the innermost first, in pixels.
+    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
+        self.layers.iter().flat_map(|layer| layer.buffer.positions()).collect()
     }
 
     pub(crate) fn counts(&self) -> Counts {
@@ -77,21 +85,22 @@ impl Deamp {
         Counts::on_screen(buffers, self.samples)
     }
 
-    pub(crate) fn buffers<const C: usize>(&self, frame: &Image<C>) -> Vec<Image<C>> {
-        self.layers.iter().map(|layer| layer.buffer.sample(frame)).collect()
+    pub(crate) fn buffers<const C: usize>(&self, source: &impl Source<C>) -> Vec<Image<C>> {
+        self.layers.iter().map(|layer| source.sample_grid(&layer.buffer)).collect()
     }
 
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
         match self.screen_sigma_px {
-            Some(sigma_px) => V::keep(self.filter_on_screen(self.unfiltered(frame), sigma_px)),
-            None => self.unfiltered(frame),
+            Some(sigma_px) => V::keep(self.filter_on_screen(self.unfiltered(source), sigma_px)),
+            None => self.unfiltered(source),
         }
     }
 
-    fn unfiltered<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
-        let sample = |layer: &Layer| layer.buffer.sample(frame);
+    fn unfiltered<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
+        let sample = |layer: &Layer| source.sample_grid(&layer.buffer);
         let buffers: Vec<Image<4>> = self.layers.iter().map(sample).collect();
-        Image::by_rows_with(frame.width(), frame.height(), Vec::new, |scratch, y, out| {
+        let [width, height] = self.size;
+        Image::by_rows_with(width, height, Vec::new, |scratch, y, out| {
             for (layer, buffer) in self.layers.iter().zip(&buffers).rev() {
                 let [xs, ys] = layer.inside.clone();
                 if ys.contains(&y) {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fovqa_frame::{Frame, Motion, SignalTables};
+use fovqa_frame::{Frame, SignalTables};
 use fovqa_methods::cps::Cps;
 use fovqa_methods::{Method, Setting};
 use fovqa_vision::View;
@@ -20,27 +20,29 @@ use crate::prepared::Prepared;
 use crate::radial::{Detail, Radial};
 use crate::space::{Space, decoded, encoded};
 use crate::spec::EmulationSpec;
-use crate::temporal::{History, Step, TaaParams};
+use crate::temporal::TaaParams;
 
 /// An emulation of frames of one size at one gaze. Everything that depends on these alone is computed
 /// here, once.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Emulator {
     size: [usize; 2],
-    prepared: Prepared,
+    pub(crate) setting: Setting,
+    pub(crate) prepared: Arc<Prepared>,
     counts: Counts,
-    space: Space,
-    temporal: Option<TaaParams>,
+    pub(crate) space: Space,
+    pub(crate) temporal: Option<TaaParams>,
     /// S of each pixel; `None`: 0.
-    rates: Option<Arc<Image<1>>>,
-    enhancers: Vec<Enhancer>,
+    pub(crate) rates: Option<Arc<Image<1>>>,
+    pub(crate) enhancers: Arc<[Enhancer]>,
     budget: Option<BudgetReport>,
-    solved: EmulationSpec,
+    pub(crate) solved: EmulationSpec,
 }
 
 impl Emulator {
     /// Prepares an emulation of frames of `size`, width and height in pixels, with the gaze in pixels
-    /// from the top-left corner; a gaze outside of the frame is taken to its edge.
+    /// from the top-left corner; a gaze outside of the frame is taken to its edge. With jitter samples
+    /// stand as in frame 0; see [`Self::at_frame`].
     ///
     /// # Errors
     /// When the view is missing or of another size, the method cannot be applied, or a budget cannot be
@@ -53,7 +55,7 @@ impl Emulator {
     ) -> Result<Self, EmulateError> {
         let setting = setting(spec, size, view, gaze_px)?;
         let (solved, solution) = spec.solved(&setting)?;
-        let prepared = Prepared::new(&solved, &setting)?;
+        let prepared = Prepared::new(&solved, &setting, solved.jitter.within_cell(0))?;
         let counts = prepared.counts();
         let budget = solution.map(|solution| solution.report(&counts, &setting));
         Ok(Self {
@@ -62,7 +64,8 @@ impl Emulator {
             temporal: solved.temporal.then_some(solved.taa),
             rates: solved.temporal.then(|| rates(&solved, &setting)).flatten(),
             enhancers: enhancers(&solved, &setting),
-            prepared,
+            prepared: Arc::new(prepared),
+            setting,
             counts,
             budget,
             solved,
@@ -108,10 +111,8 @@ impl Emulator {
     /// When the picture has another size.
     pub fn emulate(&self, picture: &Picture) -> Result<Picture, EmulateError> {
         self.fits("a picture", [picture.width(), picture.height()])?;
-        Ok(match picture {
-            Picture::Gray(image) => Picture::Gray(self.enhanced(self.method(image))),
-            Picture::Rgb(image) => Picture::Rgb(self.enhanced(self.method(image))),
-        })
+        let shown = self.method_picture(picture);
+        Ok(self.enhanced(&shown).unwrap_or(shown))
     }
 
     /// The same for a frame, in codes of 8 bits. The result is that of [`Picture::from_frame`],
@@ -137,51 +138,6 @@ impl Emulator {
         Ok(self.emulate(&Picture::from_frame(frame, tables))?.to_codes8())
     }
 
-    /// The same for the next picture of a sequence: with the temporal filter, where it is on. `motion`
-    /// leads to the frame before; without it, pixels stay where they are. The emulators of a sequence,
-    /// one for each gaze, pass the same history on; the first frame passes through.
-    ///
-    /// # Errors
-    /// When the picture or the motion has another size.
-    pub fn emulate_next(
-        &self,
-        picture: &Picture,
-        motion: Option<&Motion>,
-        history: &mut History,
-    ) -> Result<Picture, EmulateError> {
-        let Some(params) = &self.temporal else { return self.emulate(picture) };
-        self.fits("a picture", [picture.width(), picture.height()])?;
-        if let Some(motion) = motion {
-            self.fits("motion", [motion.width(), motion.height()])?;
-        }
-        let last = history.last.take();
-        let last_rates = std::mem::replace(&mut history.rates, self.rates.clone());
-        let rates = [self.rates.as_deref(), last_rates.as_deref()];
-        let (filtered, shown) = match (picture, last) {
-            (Picture::Gray(image), last) => {
-                let last = last.and_then(|last| match last {
-                    Picture::Gray(last) => Some(last),
-                    Picture::Rgb(_) => None,
-                });
-                let filtered = filter(params, self.method(image), last, motion, rates);
-                let shown = self.enhanced_of(&filtered).map(Picture::Gray);
-                (Picture::Gray(filtered), shown)
-            }
-            (Picture::Rgb(image), last) => {
-                let last = last.and_then(|last| match last {
-                    Picture::Rgb(last) => Some(last),
-                    Picture::Gray(_) => None,
-                });
-                let filtered = filter(params, self.method(image), last, motion, rates);
-                let shown = self.enhanced_of(&filtered).map(Picture::Rgb);
-                (Picture::Rgb(filtered), shown)
-            }
-        };
-        let shown = shown.unwrap_or_else(|| filtered.clone());
-        history.last = Some(filtered);
-        Ok(shown)
-    }
-
     /// The reduced buffers of a frame as pictures, the innermost first, with the buffer's own filter where
     /// that is on; none for methods without. Of a buffer whose columns differ in length each begins at
     /// the top, and black follows.
@@ -196,9 +152,17 @@ impl Emulator {
         })
     }
 
-    fn fits(&self, what: &'static str, found: [usize; 2]) -> Result<(), EmulateError> {
+    pub(crate) fn fits(&self, what: &'static str, found: [usize; 2]) -> Result<(), EmulateError> {
         let expected = self.size;
         if found == expected { Ok(()) } else { Err(EmulateError::Size { what, found, expected }) }
+    }
+
+    /// What the method alone shows of a picture.
+    pub(crate) fn method_picture(&self, picture: &Picture) -> Picture {
+        match picture {
+            Picture::Gray(image) => Picture::Gray(self.method(image)),
+            Picture::Rgb(image) => Picture::Rgb(self.method(image)),
+        }
     }
 
     fn method<const C: usize>(&self, image: &Image<C>) -> Image<C> {
@@ -215,30 +179,14 @@ impl Emulator {
         }
     }
 
-    fn enhanced<const C: usize>(&self, image: Image<C>) -> Image<C> {
-        self.enhancers.iter().fold(image, |image, enhancer| enhancer.apply(&image))
-    }
-
-    /// `None` where there is nothing to do.
-    fn enhanced_of<const C: usize>(&self, image: &Image<C>) -> Option<Image<C>> {
+    /// A picture after all enhancers; `None` where there are none.
+    pub(crate) fn enhanced(&self, picture: &Picture) -> Option<Picture> {
+        let apply = |picture: &Picture, enhancer: &Enhancer| match picture {
+            Picture::Gray(image) => Picture::Gray(enhancer.apply(image)),
+            Picture::Rgb(image) => Picture::Rgb(enhancer.apply(image)),
+        };
         let (first, others) = self.enhancers.split_first()?;
-        Some(others.iter().fold(first.apply(image), |image, enhancer| enhancer.apply(&image)))
-    }
-}
-
-/// A step of the temporal filter; the first frame passes through.
-fn filter<const C: usize>(
-    params: &TaaParams,
-    current: Image<C>,
-    last: Option<Image<C>>,
-    motion: Option<&Motion>,
-    [rates, last_rates]: [Option<&Image<1>>; 2],
-) -> Image<C> {
-    match last.filter(|last| [last.width(), last.height()] == [current.width(), current.height()]) {
-        None => current,
-        Some(last) => {
-            Step { current: &current, last: &last, motion, rates, last_rates }.filter(params)
-        }
+        Some(others.iter().fold(apply(picture, first), |picture, next| apply(&picture, next)))
     }
 }
 
@@ -280,7 +228,7 @@ fn rates(spec: &EmulationSpec, setting: &Setting) -> Option<Arc<Image<1>>> {
 }
 
 /// The enhancement of the perceptual target, and the one that was asked for.
-fn enhancers(spec: &EmulationSpec, setting: &Setting) -> Vec<Enhancer> {
+fn enhancers(spec: &EmulationSpec, setting: &Setting) -> Arc<[Enhancer]> {
     let own = match &spec.method {
         Emulated::PerceptualTarget(params) => Some((params.f_max, params)),
         _ => None,

@@ -9,10 +9,10 @@ use std::ops::Range;
 use crate::fetch::lerp;
 use crate::image::Image;
 use crate::offsets::Offsets;
-use crate::pixels::Pixels;
 use crate::radial::Radial;
-use crate::sampling::Sampling;
+use crate::sample_places::{SamplePlaces, pixel_positions};
 use crate::separable::{Axis, Separable};
+use crate::source::Source;
 use crate::value::Value;
 
 /// Pixels of a row that are looked at together: they read few levels.
@@ -26,31 +26,40 @@ pub(crate) struct Grids {
     /// j, by the distance from the gaze.
     level: Radial,
     offsets: Offsets,
+    /// Of all levels, level 0 too.
+    places: SamplePlaces,
 }
 
 impl Grids {
     /// `level` is j, at least 0.
-    pub(crate) fn new(level: Radial, offsets: Offsets, sampling: Sampling) -> Self {
+    pub(crate) fn new(level: Radial, offsets: Offsets, places: SamplePlaces) -> Self {
         let levels = (1..=level.largest().ceil() as i32).map(|l| {
             let step = libm::exp2(f64::from(l));
-            let axis = |side: usize| {
+            let axis = |axis: usize, side: usize| {
                 let n = (side as f64 / step).ceil() as usize;
-                Axis::new(n, side, sampling, |b| b * step, |x| x / step)
+                Axis::new(n, side, places.axis(axis), |b| b * step, |x| x / step)
             };
-            Separable::new(axis(offsets.width()), axis(offsets.height()), sampling)
+            Separable::new(axis(0, offsets.width()), axis(1, offsets.height()), places)
         });
-        Self { levels: levels.collect(), level, offsets }
+        Self { levels: levels.collect(), level, offsets, places }
+    }
+
+    /// Where samples of all levels stand, the finest first, in pixels.
+    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
+        let pixels = pixel_positions(self.places, [self.offsets.width(), self.offsets.height()]);
+        pixels.chain(self.levels.iter().flat_map(Separable::positions)).collect()
     }
 
     /// The frame as seen through the grids.
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
-        let grids: Vec<Image<4>> = self.levels.iter().map(|level| level.sample(frame)).collect();
-        let (width, height) = (frame.width(), frame.height());
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
+        let grids: Vec<Image<4>> =
+            self.levels.iter().map(|level| source.sample_grid(level)).collect();
+        let (width, height) = (self.offsets.width(), self.offsets.height());
         let room = || (Vec::new(), [[0.0; C]; SEGMENT], [0.0f32; SEGMENT]);
         Image::by_rows_with(width, height, room, |(scratch, coarser, levels), y, row| {
             let mut read = |l: usize, xs: Range<usize>, out: &mut [[f32; C]]| match l.checked_sub(1)
             {
-                None => frame.read_row(y, xs, out),
+                None => source.sample_pixels(self.places, y, xs, out),
                 Some(l) => self.levels[l].read_row(&grids[l], y, xs, scratch, out),
             };
             for (segment, out) in row.chunks_mut(SEGMENT).enumerate() {

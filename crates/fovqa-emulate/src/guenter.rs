@@ -10,11 +10,11 @@ use crate::counts::Counts;
 use crate::fetch::lerp;
 use crate::image::Image;
 use crate::offsets::Offsets;
-use crate::pixels::Pixels;
 use crate::radial::{Detail, Radial};
 use crate::rounded::rounded;
-use crate::sampling::Sampling;
+use crate::sample_places::SamplePlaces;
 use crate::separable::{Axis, Separable};
+use crate::source::Source;
 use crate::value::Value;
 
 #[derive(Debug)]
@@ -22,8 +22,9 @@ struct Layer {
     /// The rectangle of whole pixels it covers.
     columns: Range<usize>,
     rows: Range<usize>,
-    /// Its samples; `None` where they are the frame's pixels.
-    buffer: Option<Separable>,
+    buffer: Separable,
+    /// Whether it has as many samples as pixels.
+    is_one_to_one: bool,
 }
 
 /// Where a layer gives way to the next one.
@@ -46,7 +47,7 @@ impl Guenter {
     pub(crate) fn new(
         params: &Params,
         setting: &Setting,
-        sampling: Sampling,
+        places: SamplePlaces,
     ) -> Result<Self, MethodError> {
         let mapped = Mapped::new(params, setting)?;
         let (size, gaze) = (setting.size_px(), setting.gaze_px());
@@ -60,7 +61,7 @@ impl Guenter {
                 }
                 None => 0..size[axis] as usize,
             };
-            Layer::new([extent(0), extent(1)], size, mapped.scales()[k], sampling)
+            Layer::new([extent(0), extent(1)], size, mapped.scales()[k], places)
         });
         let transition_deg = params.transition_deg;
         let bounds = [0, 1].map(|k: usize| {
@@ -77,28 +78,37 @@ impl Guenter {
         Ok(Self { layers, bounds, offsets: Offsets::new(setting) })
     }
 
+    /// Where samples of all layers stand, the innermost first, in pixels.
+    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
+        self.layers.iter().flat_map(|layer| layer.buffer.positions()).collect()
+    }
+
     pub(crate) fn counts(&self) -> Counts {
         let buffers: Vec<[usize; 2]> = self.layers.iter().map(Layer::size).collect();
         let samples = buffers.iter().map(|[w, h]| w * h).sum::<usize>();
         Counts::on_screen(buffers, samples as f64)
     }
 
-    pub(crate) fn buffers<const C: usize>(&self, frame: &Image<C>) -> Vec<Image<C>> {
-        self.layers.iter().map(|layer| layer.sample(frame)).collect()
+    pub(crate) fn buffers<const C: usize>(&self, source: &impl Source<C>) -> Vec<Image<C>> {
+        self.layers.iter().map(|layer| layer.sample(source)).collect()
     }
 
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
-        let sample = |layer: &Layer| layer.buffer.as_ref().map(|buffer| buffer.sample(frame));
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
+        // `None` where the frame's own pixels are the samples.
+        let sample = |layer: &Layer| {
+            let are_pixels = layer.is_one_to_one && source.has_pixels(layer.buffer.places);
+            (!are_pixels).then(|| source.sample_grid(&layer.buffer))
+        };
         let buffers: Vec<Option<Image<4>>> = self.layers.iter().map(sample).collect();
-        let width = frame.width();
+        let (width, height) = (self.offsets.width(), self.offsets.height());
         let room = || (Vec::new(), vec![[0.0; C]; width]);
-        Image::by_rows_with(width, frame.height(), room, |(scratch, finer), y, out| {
-            let mut read = |k: usize, xs: Range<usize>, out: &mut [[f32; C]]| match (
-                &self.layers[k].buffer,
-                &buffers[k],
-            ) {
-                (Some(layer), Some(buffer)) => layer.read_row(buffer, y, xs, scratch, out),
-                _ => frame.read_row(y, xs, out),
+        Image::by_rows_with(width, height, room, |(scratch, finer), y, out| {
+            let mut read = |k: usize, xs: Range<usize>, out: &mut [[f32; C]]| {
+                let layer = &self.layers[k].buffer;
+                match &buffers[k] {
+                    Some(buffer) => layer.read_row(buffer, y, xs, scratch, out),
+                    None => source.sample_pixels(layer.places, y, xs, out),
+                }
             };
             read(2, 0..width, out);
             for k in [1, 0] {
@@ -135,30 +145,31 @@ impl Guenter {
 }
 
 impl Layer {
-    fn new(extent: [Range<usize>; 2], size: [f64; 2], scale: f64, sampling: Sampling) -> Self {
+    fn new(extent: [Range<usize>; 2], size: [f64; 2], scale: f64, places: SamplePlaces) -> Self {
         let [columns, rows] = extent;
         let counts = [&columns, &rows].map(|range| rounded(range.len() as f64 / scale));
         let axis = |axis: usize, range: &Range<usize>| {
             let (n, start) = (counts[axis], range.start as f64);
             let pixels = range.len() as f64 / n as f64;
             let position = |b: f64| start + b * pixels;
-            Axis::new(n, size[axis] as usize, sampling, position, |x| (x - start) / pixels)
+            Axis::new(n, size[axis] as usize, places.axis(axis), position, |x| (x - start) / pixels)
         };
-        let buffer = (counts != [columns.len(), rows.len()])
-            .then(|| Separable::new(axis(0, &columns), axis(1, &rows), sampling));
-        Self { columns, rows, buffer }
+        let buffer = Separable::new(axis(0, &columns), axis(1, &rows), places);
+        let is_one_to_one = counts == [columns.len(), rows.len()];
+        Self { columns, rows, buffer, is_one_to_one }
     }
 
     fn size(&self) -> [usize; 2] {
-        self.buffer.as_ref().map_or([self.columns.len(), self.rows.len()], Separable::size)
+        self.buffer.size()
     }
 
-    fn sample<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        match &self.buffer {
-            Some(buffer) => buffer.sample(frame),
-            None => Image::by_rows(self.columns.len(), self.rows.len(), |j, row| {
-                row.copy_from_slice(&frame.row(self.rows.start + j)[self.columns.clone()]);
-            }),
+    fn sample<const C: usize>(&self, source: &impl Source<C>) -> Image<C> {
+        let places = self.buffer.places;
+        if !(self.is_one_to_one && source.has_pixels(places)) {
+            return source.sample_grid(&self.buffer);
         }
+        Image::by_rows(self.columns.len(), self.rows.len(), |j, row| {
+            source.sample_pixels(places, self.rows.start + j, self.columns.clone(), row);
+        })
     }
 }

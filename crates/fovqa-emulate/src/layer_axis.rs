@@ -3,7 +3,7 @@
 use fovqa_methods::{Mapping, Place, Setting};
 
 use crate::rounded::rounded;
-use crate::sampling::Sampling;
+use crate::sample_places::SamplePlaces;
 use crate::separable::Axis;
 
 /// One axis of a layer, for methods that map the two axes separately: its rounded size, and its
@@ -13,7 +13,7 @@ pub(crate) fn layer_axis(
     setting: &Setting,
     layer: usize,
     axis: usize,
-    sampling: Sampling,
+    places: SamplePlaces,
 ) -> Axis {
     let (side, gaze) = (setting.size_px()[axis], setting.gaze_px()[axis]);
     let ideal = mapped.buffer(layer)[axis];
@@ -27,5 +27,5 @@ pub(crate) fn layer_axis(
         mapped.to_screen(layer, buffer).offset_px()[axis] + gaze
     };
     let coordinate = |x: f64| mapped.to_buffer(layer, Place::at(along(x - gaze)))[axis] * stretch;
-    Axis::new(n, side as usize, sampling, position, coordinate)
+    Axis::new(n, side as usize, places.axis(axis), position, coordinate)
 }

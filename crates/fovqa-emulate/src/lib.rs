@@ -1,14 +1,16 @@
-//! Emulation: what a foveation method would have shown, from a finished frame.
+//! Emulation: what a foveation method would have shown, from a finished frame or from a scene.
 //!
 //! A method's samples read the frame where they stand, its reduced buffer is filled, filtered and
 //! mapped back onto the screen. From a finished frame emulation understates aliasing and flicker: its
-//! pixels are filtered already.
+//! pixels are filtered already. A continuous scene ([`SceneLight`]) is asked for the light at each
+//! sample itself ([`Emulator::emulate_scene`]), as a renderer would be.
 //!
 //! | word | meaning |
 //! | --- | --- |
 //! | picture | `f32` values of the encoded signal in `[0, 1]`, not rounded before the output |
 //! | buffer | the samples a method shades; its coordinates run from 0 to the number of samples |
-//! | place | where a sample reads the frame; one (`point`) or 16 (`area`) |
+//! | place | where a sample reads the frame or the scene; one (`point`) or 16 (`area`) |
+//! | cell | the part of a buffer that a sample stands for; jitter moves the sample within it |
 //! | radial | a function of the distance from the gaze alone |
 //! | piece | a rectangle of pixels, for which alone a polar buffer is sampled |
 //!
@@ -52,12 +54,14 @@ mod fxaa;
 mod grids;
 mod guenter;
 mod image;
+mod jitter;
 mod layer_axis;
 mod linear;
 mod log_polar;
 mod method;
 mod moments;
 mod offsets;
+mod parameters;
 mod peripheral;
 mod picture;
 mod piece;
@@ -72,10 +76,15 @@ mod ragged_samples;
 mod read_frame;
 mod rmfr;
 mod rounded;
+mod sample_places;
 mod sampling;
 mod sandbox;
 mod sandbox_params;
+mod scene;
+mod scene_emulation;
 mod separable;
+mod sequence;
+mod source;
 mod space;
 mod spec;
 mod split;
@@ -97,8 +106,10 @@ pub use emulator::Emulator;
 pub use error::EmulateError;
 pub use filters::FilterChoice;
 pub use image::Image;
+pub use jitter::Jitter;
 pub use picture::Picture;
 pub use sampling::Sampling;
+pub use scene::SceneLight;
 pub use space::Space;
 pub use spec::{Budget, EmulationSpec};
 pub use temporal::{History, TaaParams};

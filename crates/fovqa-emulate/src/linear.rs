@@ -7,9 +7,9 @@ use crate::counts::Counts;
 use crate::grids::Grids;
 use crate::image::Image;
 use crate::offsets::Offsets;
-use crate::pixels::Pixels;
 use crate::radial::{Detail, Radial};
-use crate::sampling::Sampling;
+use crate::sample_places::SamplePlaces;
+use crate::source::Source;
 use crate::sums::sum_over_pixels;
 use crate::value::Value;
 
@@ -24,7 +24,7 @@ impl Linear {
     pub(crate) fn new(
         params: &Params,
         setting: &Setting,
-        sampling: Sampling,
+        places: SamplePlaces,
     ) -> Result<Self, MethodError> {
         let mapped = Mapped::new(params, setting)?;
         let density = |r: f64| mapped.density(Place { radius_px: r, direction: [1.0, 0.0] });
@@ -32,14 +32,19 @@ impl Linear {
         let (fine, reach) = (Detail::Fine, setting.corner_px());
         let samples = sum_over_pixels(&Radial::new(fine, reach, density), &offsets);
         let level = Radial::new(fine, reach, |r| -0.5 * libm::log2(density(r)));
-        Ok(Self { grids: Grids::new(level, offsets, sampling), samples })
+        Ok(Self { grids: Grids::new(level, offsets, places), samples })
+    }
+
+    /// Where samples stand, in pixels.
+    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
+        self.grids.positions()
     }
 
     pub(crate) fn counts(&self) -> Counts {
         Counts::on_screen(Vec::new(), self.samples)
     }
 
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
-        self.grids.show(frame)
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
+        self.grids.show(source)
     }
 }

@@ -12,12 +12,12 @@ use crate::blur::Blur;
 use crate::counts::Counts;
 use crate::fetch::lerp;
 use crate::image::Image;
-use crate::pixels::Pixels;
 use crate::polar_view::PolarView;
 use crate::radial::{Detail, Radial};
 use crate::ragged::Ragged;
 use crate::rounded::rounded;
-use crate::sampling::Sampling;
+use crate::sample_places::SamplePlaces;
+use crate::source::Source;
 use crate::value::Value;
 
 /// Which filters are on.
@@ -43,7 +43,7 @@ impl LogPolar {
     pub(crate) fn new(
         mapped: &(impl Mapping + Sync),
         setting: &Setting,
-        sampling: Sampling,
+        places: SamplePlaces,
         filters: Filters,
     ) -> Self {
         let ideal = mapped.buffer(0);
@@ -63,7 +63,7 @@ impl LogPolar {
             };
             Blur::new(Radial::new(Detail::Coarse, setting.corner_px(), width_px))
         });
-        let buffer = Ragged::new(size[0], setting, sampling, distance, |_| size[1]);
+        let buffer = Ragged::new(size[0], setting, places, distance, |_| size[1]);
         Self {
             on_screen: buffer.on_screen(setting),
             buffer,
@@ -71,6 +71,11 @@ impl LogPolar {
             buffer_filter: filters.buffer,
             screen_filter,
         }
+    }
+
+    /// Where samples stand, in pixels.
+    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
+        self.buffer.positions().collect()
     }
 
     pub(crate) fn counts(&self) -> Counts {
@@ -82,24 +87,24 @@ impl LogPolar {
     /// The buffer of a frame, with its own filter where that is on.
     pub(crate) fn buffer<const C: usize, const L: usize>(
         &self,
-        frame: &impl Pixels<C>,
+        source: &impl Source<C>,
     ) -> Image<L> {
-        let buffer = self.buffer.image(&self.buffer.sample(frame));
+        let buffer = self.buffer.image(&source.sample_polar(&self.buffer));
         if self.buffer_filter { smoothed(&buffer) } else { buffer }
     }
 
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
         match &self.screen_filter {
-            Some(blur) => V::keep(blur.apply(&self.unblurred(frame), &self.view.offsets)),
-            None => self.unblurred(frame),
+            Some(blur) => V::keep(blur.apply(&self.unblurred(source), &self.view.offsets)),
+            None => self.unblurred(source),
         }
     }
 
-    fn unblurred<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+    fn unblurred<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
         if !self.buffer_filter {
-            return self.view.show(&self.buffer, frame);
+            return source.show_polar(&self.view, &self.buffer);
         }
-        let smoothed: Image<4> = self.buffer(frame);
+        let smoothed: Image<4> = self.buffer(source);
         let values = self.buffer.fill(|column, out| {
             for (j, out) in out.iter_mut().enumerate() {
                 *out = smoothed.row(j)[column.index];

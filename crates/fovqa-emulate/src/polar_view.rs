@@ -138,6 +138,8 @@ mod tests {
     use fovqa_vision::ViewSpec;
 
     use super::*;
+    use crate::jitter::CENTRE;
+    use crate::sample_places::SamplePlaces;
     use crate::sampling::Sampling;
 
     /// Sampled piece by piece, whatever lies in the room from the piece before, the picture is that of
@@ -152,6 +154,7 @@ mod tests {
         });
         let spec = ViewSpec::Fov { horizontal_deg: None, vertical_deg: Some(60.0) };
         let view = spec.resolve(230, 300).unwrap().view;
+        let places = SamplePlaces::new(Sampling::Point, CENTRE);
         let gazes = [[115.0, 150.0], [0.0, 128.0], [230.0, 300.0], [99.5, 127.5], [12.3, 255.0]];
         for gaze in gazes {
             let setting = Setting::new(&view, gaze).unwrap();
@@ -162,7 +165,7 @@ mod tests {
                 let distance = |u: f64| reach * (u / n).powf(1.0 / power);
                 for rows in [1.0, 30.0, 2000.0] {
                     let rows = |r: f64| 1 + (rows * (r / 40.0).min(1.0)) as usize;
-                    let buffer = Ragged::new(columns, &setting, Sampling::Point, distance, rows);
+                    let buffer = Ragged::new(columns, &setting, places, distance, rows);
                     let view = PolarView::new(&setting, columns, f64::INFINITY, column);
                     let whole: Image<3> = view.show_values(&buffer, &buffer.sample(&frame));
                     let pieces: Image<3> = view.show(&buffer, &frame);

@@ -12,9 +12,10 @@ use crate::image::Image;
 use crate::linear::Linear;
 use crate::log_polar::{Filters, LogPolar};
 use crate::method::Emulated;
-use crate::pixels::Pixels;
 use crate::rmfr::Rmfr;
+use crate::sample_places::{SamplePlaces, pixel_positions};
 use crate::sandbox::{Aliased, Stable};
+use crate::source::Source;
 use crate::spec::EmulationSpec;
 use crate::vafr::Vafr;
 use crate::value::Value;
@@ -24,7 +25,7 @@ use crate::visual_polar::VisualPolar;
 #[derive(Debug)]
 pub(crate) enum Prepared {
     /// Every pixel: the frame itself.
-    Full([usize; 2]),
+    Full(SamplePlaces, [usize; 2]),
     Rmfr(Rmfr),
     Deamp(Deamp),
     Guenter(Box<Guenter>),
@@ -38,58 +39,63 @@ pub(crate) enum Prepared {
 }
 
 impl Prepared {
-    pub(crate) fn new(spec: &EmulationSpec, setting: &Setting) -> Result<Self, EmulateError> {
-        let sampling = spec.sampling;
+    /// Samples stand at `within_cell` of their cells, from 0 to 1.
+    pub(crate) fn new(
+        spec: &EmulationSpec,
+        setting: &Setting,
+        within_cell: [f64; 2],
+    ) -> Result<Self, EmulateError> {
+        let places = SamplePlaces::new(spec.sampling, within_cell);
         let size = setting.size_px().map(|side| side as usize);
         let [buffer, screen] = spec.method.filters().chosen(spec.filters).unwrap_or_default();
         let filter = spec.filter;
         let log_polar = Filters { buffer, screen: screen.then_some(filter.factor) };
         Ok(match &spec.method {
-            Emulated::Taa | Emulated::Foveation(Method::Full) => Self::Full(size),
+            Emulated::Taa | Emulated::Foveation(Method::Full) => Self::Full(places, size),
             Emulated::Stable(params) | Emulated::PerceptualTarget(params) => {
-                Self::Stable(Stable::new(params.growth, setting), size)
+                Self::Stable(Stable::new(params.growth, setting, places), size)
             }
             Emulated::Aliased(params) => {
-                Self::Aliased(Aliased::new(params.growth, setting, sampling), size)
+                Self::Aliased(Aliased::new(params.growth, setting, places), size)
             }
             Emulated::Foveation(Method::Rmfr(params)) => {
-                Self::Rmfr(Rmfr::new(params, setting, sampling))
+                Self::Rmfr(Rmfr::new(params, setting, places))
             }
             Emulated::Foveation(Method::Deamp(params)) => {
                 let sigma_px = screen.then_some(filter.sigma_px);
-                Self::Deamp(Deamp::new(params, setting, sampling, sigma_px)?)
+                Self::Deamp(Deamp::new(params, setting, places, sigma_px)?)
             }
             Emulated::Foveation(Method::Guenter(params)) => {
-                Self::Guenter(Box::new(Guenter::new(params, setting, sampling)?))
+                Self::Guenter(Box::new(Guenter::new(params, setting, places)?))
             }
             Emulated::Foveation(Method::Cps(params)) => {
-                Self::Cps(Cps::new(params, setting, sampling))
+                Self::Cps(Cps::new(params, setting, places))
             }
             Emulated::Foveation(Method::Linear(params)) => {
-                Self::Linear(Linear::new(params, setting, sampling)?)
+                Self::Linear(Linear::new(params, setting, places)?)
             }
             Emulated::Foveation(Method::Kfr(params)) => {
                 let mapped = kfr::Kfr::new(params, setting)?;
-                Self::LogPolar(LogPolar::new(&mapped, setting, sampling, log_polar))
+                Self::LogPolar(LogPolar::new(&mapped, setting, places, log_polar))
             }
             Emulated::Foveation(Method::Lafr(params)) => {
                 let mapped = lafr::Lafr::new(params, setting)?;
-                Self::LogPolar(LogPolar::new(&mapped, setting, sampling, log_polar))
+                Self::LogPolar(LogPolar::new(&mapped, setting, places, log_polar))
             }
             Emulated::Foveation(Method::Vafr(params)) => {
                 let fxaa =
                     Fxaa { span: filter.span, reduce: filter.reduce, minimum: filter.minimum };
-                Self::Vafr(Vafr::new(params, setting, sampling, buffer.then_some(fxaa))?)
+                Self::Vafr(Vafr::new(params, setting, places, buffer.then_some(fxaa))?)
             }
             Emulated::Foveation(Method::VisualPolar(params)) => {
-                Self::VisualPolar(VisualPolar::new(*params, setting, sampling))
+                Self::VisualPolar(VisualPolar::new(*params, setting, places))
             }
         })
     }
 
     pub(crate) fn counts(&self) -> Counts {
         match self {
-            Self::Full([w, h]) | Self::Stable(_, [w, h]) | Self::Aliased(_, [w, h]) => {
+            Self::Full(_, [w, h]) | Self::Stable(_, [w, h]) | Self::Aliased(_, [w, h]) => {
                 Counts::on_screen(vec![[*w, *h]], (w * h) as f64)
             }
             Self::Rmfr(method) => method.counts(),
@@ -103,33 +109,50 @@ impl Prepared {
         }
     }
 
-    /// What the method shows of a frame.
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+    /// Where samples stand, in pixels.
+    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
         match self {
-            Self::Full([w, h]) => Image::by_rows(*w, *h, |y, row| frame.read_row(y, 0..*w, row)),
-            Self::Rmfr(method) => method.show(frame),
-            Self::Deamp(method) => method.show(frame),
-            Self::Guenter(method) => method.show(frame),
-            Self::Cps(method) => method.show(frame),
-            Self::Linear(method) => method.show(frame),
-            Self::LogPolar(method) => method.show(frame),
-            Self::Vafr(method) => method.show(frame),
-            Self::VisualPolar(method) => method.show(frame),
-            Self::Stable(method, _) => method.show(frame),
-            Self::Aliased(method, _) => method.show(frame),
+            Self::Full(places, size) => pixel_positions(*places, *size).collect(),
+            Self::Stable(method, size) => pixel_positions(method.places, *size).collect(),
+            Self::Rmfr(method) => method.positions(),
+            Self::Deamp(method) => method.positions(),
+            Self::Guenter(method) => method.positions(),
+            Self::Cps(method) => method.positions(),
+            Self::Linear(method) => method.positions(),
+            Self::LogPolar(method) => method.positions(),
+            Self::Vafr(method) => method.positions(),
+            Self::VisualPolar(method) => method.positions(),
+            Self::Aliased(method, _) => method.positions(),
         }
     }
 
-    /// The buffers of a frame, the innermost first; none for methods without.
-    pub(crate) fn buffers<const C: usize>(&self, frame: &Image<C>) -> Vec<Image<C>> {
+    /// What the method shows of a frame or a scene.
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
         match self {
-            Self::Rmfr(method) => vec![method.buffer(frame)],
-            Self::Deamp(method) => method.buffers(frame),
-            Self::Guenter(method) => method.buffers(frame),
-            Self::LogPolar(method) => vec![method.buffer(frame)],
-            Self::Vafr(method) => vec![method.buffer(frame)],
-            Self::VisualPolar(method) => vec![method.buffer(frame)],
-            Self::Full(_)
+            Self::Full(places, size) => source.sample_frame(*places, *size),
+            Self::Rmfr(method) => method.show(source),
+            Self::Deamp(method) => method.show(source),
+            Self::Guenter(method) => method.show(source),
+            Self::Cps(method) => method.show(source),
+            Self::Linear(method) => method.show(source),
+            Self::LogPolar(method) => method.show(source),
+            Self::Vafr(method) => method.show(source),
+            Self::VisualPolar(method) => method.show(source),
+            Self::Stable(method, _) => method.show(source),
+            Self::Aliased(method, _) => method.show(source),
+        }
+    }
+
+    /// The buffers of a frame or a scene, the innermost first; none for methods without.
+    pub(crate) fn buffers<const C: usize>(&self, source: &impl Source<C>) -> Vec<Image<C>> {
+        match self {
+            Self::Rmfr(method) => vec![method.buffer(source)],
+            Self::Deamp(method) => method.buffers(source),
+            Self::Guenter(method) => method.buffers(source),
+            Self::LogPolar(method) => vec![method.buffer(source)],
+            Self::Vafr(method) => vec![method.buffer(source)],
+            Self::VisualPolar(method) => vec![method.buffer(source)],
+            Self::Full(..)
             | Self::Cps(_)
             | Self::Linear(_)
             | Self::Stable(..)

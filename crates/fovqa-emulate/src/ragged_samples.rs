@@ -25,11 +25,13 @@ impl Ragged {
         out: &mut [Texel],
     ) {
         let [gx, gy] = self.gaze_px;
-        let (distances_px, places) = (&column.places_px, self.sampling.places().len());
-        let mut circle = Circle::new(first * places as i64, column.rows * places);
+        let along = self.places.axis(1);
+        let (distances_px, places) = (&column.places_px, along.count);
+        let mut circle =
+            Circle::new(first * places as i64, column.rows * places, along.within_cell);
         let (mut xs, mut ys) = (Taps::new(), Taps::new());
         for out in out.chunks_mut(PLACES / places) {
-            match self.sampling {
+            match self.places.sampling {
                 Sampling::Point => {
                     xs.set(gx, distances_px[0], &circle.x[..out.len()], frame.width());
                     ys.set(gy, distances_px[0], &circle.y[..out.len()], frame.height());

@@ -6,9 +6,9 @@ use fovqa_methods::rmfr::{Params, Rmfr as Mapped};
 use crate::counts::Counts;
 use crate::image::Image;
 use crate::layer_axis::layer_axis;
-use crate::pixels::Pixels;
-use crate::sampling::Sampling;
+use crate::sample_places::SamplePlaces;
 use crate::separable::Separable;
+use crate::source::Source;
 use crate::value::Value;
 
 /// RMFR of a frame and a gaze.
@@ -18,10 +18,15 @@ pub(crate) struct Rmfr {
 }
 
 impl Rmfr {
-    pub(crate) fn new(params: &Params, setting: &Setting, sampling: Sampling) -> Self {
+    pub(crate) fn new(params: &Params, setting: &Setting, places: SamplePlaces) -> Self {
         let mapped = Mapped::new(params, setting);
-        let axis = |axis| layer_axis(&mapped, setting, 0, axis, sampling);
-        Self { buffer: Separable::new(axis(0), axis(1), sampling) }
+        let axis = |axis| layer_axis(&mapped, setting, 0, axis, places);
+        Self { buffer: Separable::new(axis(0), axis(1), places) }
+    }
+
+    /// Where samples stand, in pixels.
+    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
+        self.buffer.positions().collect()
     }
 
     pub(crate) fn counts(&self) -> Counts {
@@ -29,11 +34,11 @@ impl Rmfr {
         Counts::on_screen(vec![[w, h]], (w * h) as f64)
     }
 
-    pub(crate) fn buffer<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        self.buffer.sample(frame)
+    pub(crate) fn buffer<const C: usize>(&self, source: &impl Source<C>) -> Image<C> {
+        source.sample_grid(&self.buffer)
     }
 
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
-        self.buffer.read(&self.buffer.sample(frame))
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
+        self.buffer.read(&source.sample_grid(&self.buffer))
     }
 }

@@ -9,9 +9,9 @@ use crate::grids::Grids;
 use crate::image::Image;
 use crate::offsets::Offsets;
 use crate::peripheral::Growth;
-use crate::pixels::Pixels;
 use crate::radial::{Detail, Radial};
-use crate::sampling::Sampling;
+use crate::sample_places::SamplePlaces;
+use crate::source::Source;
 use crate::value::Value;
 
 /// A frame that is blurred with eccentricity.
@@ -19,17 +19,19 @@ use crate::value::Value;
 pub(crate) struct Stable {
     blur: Blur,
     offsets: Offsets,
+    pub(crate) places: SamplePlaces,
 }
 
 impl Stable {
-    pub(crate) fn new(growth: Growth, setting: &Setting) -> Self {
+    pub(crate) fn new(growth: Growth, setting: &Setting, places: SamplePlaces) -> Self {
         let width = |r: f64| growth.width_px(setting, r);
         let width = Radial::new(Detail::Fine, setting.corner_px(), width);
-        Self { blur: Blur::new(width), offsets: Offsets::new(setting) }
+        Self { blur: Blur::new(width), offsets: Offsets::new(setting), places }
     }
 
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
-        V::keep(self.blur.apply(&frame.signal(), &self.offsets))
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
+        let size = [self.offsets.width(), self.offsets.height()];
+        V::keep(self.blur.apply(&source.signal(self.places, size), &self.offsets))
     }
 }
 
@@ -40,13 +42,18 @@ pub(crate) struct Aliased {
 }
 
 impl Aliased {
-    pub(crate) fn new(growth: Growth, setting: &Setting, sampling: Sampling) -> Self {
+    pub(crate) fn new(growth: Growth, setting: &Setting, places: SamplePlaces) -> Self {
         let level = |r: f64| libm::log2(growth.width_px(setting, r).max(1.0));
         let level = Radial::new(Detail::Fine, setting.corner_px(), level);
-        Self { grids: Grids::new(level, Offsets::new(setting), sampling) }
+        Self { grids: Grids::new(level, Offsets::new(setting), places) }
     }
 
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
-        self.grids.show(frame)
+    /// Where samples stand, in pixels.
+    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
+        self.grids.positions()
+    }
+
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
+        self.grids.show(source)
     }
 }

@@ -6,6 +6,7 @@ use std::ops::Range;
 use crate::fetch::{Tap, lerp, mean16};
 use crate::image::Image;
 use crate::pixels::Pixels;
+use crate::sample_places::{AxisPlaces, SamplePlaces};
 use crate::sampling::Sampling;
 use crate::texel::{Texel, narrowed, write_all};
 use crate::value::Value;
@@ -13,8 +14,12 @@ use crate::value::Value;
 /// The mapping along one axis, between the buffer and the frame.
 #[derive(Debug, Clone)]
 pub(crate) struct Axis {
+    /// Where the centres of the samples' cells are on the frame, in pixels.
+    pub(crate) centres_px: Vec<f64>,
     /// Where samples stand on the frame, in pixels.
-    pub(crate) positions_px: Vec<f64>,
+    positions_px: Vec<f64>,
+    /// The places of each sample, in pixels.
+    pub(crate) places_px: Vec<f64>,
     /// From the places of each sample into the frame.
     from: Vec<Tap>,
     /// From each pixel of the frame into the buffer.
@@ -27,21 +32,23 @@ impl Axis {
     pub(crate) fn new(
         n: usize,
         side: usize,
-        sampling: Sampling,
+        places: AxisPlaces,
         position: impl Fn(f64) -> f64,
         coordinate: impl Fn(f64) -> f64,
     ) -> Self {
-        let into_frame = |b: f64| Tap::clamped(position(b), side);
+        let places_px: Vec<f64> = places.coordinates(n).map(&position).collect();
         Self {
-            positions_px: (0..n).map(|i| position(i as f64 + 0.5)).collect(),
-            from: sampling.coordinates(n).map(into_frame).collect(),
+            positions_px: (0..n).map(|i| position(i as f64 + places.within_cell)).collect(),
+            centres_px: (0..n).map(|i| position(i as f64 + 0.5)).collect(),
+            from: places_px.iter().map(|place| Tap::clamped(*place, side)).collect(),
+            places_px,
             to: (0..side).map(|i| Tap::clamped(coordinate(i as f64 + 0.5), n)).collect(),
         }
     }
 
     /// Samples along the axis.
     pub(crate) fn len(&self) -> usize {
-        self.positions_px.len()
+        self.centres_px.len()
     }
 }
 
@@ -50,18 +57,24 @@ impl Axis {
 pub(crate) struct Separable {
     pub(crate) x: Axis,
     pub(crate) y: Axis,
-    sampling: Sampling,
+    pub(crate) places: SamplePlaces,
 }
 
 impl Separable {
-    /// A buffer of two axes, both with places of the same sampling.
-    pub(crate) fn new(x: Axis, y: Axis, sampling: Sampling) -> Self {
-        Self { x, y, sampling }
+    /// A buffer of two axes, both with the same places.
+    pub(crate) fn new(x: Axis, y: Axis, places: SamplePlaces) -> Self {
+        Self { x, y, places }
     }
 
     /// Columns and rows.
     pub(crate) fn size(&self) -> [usize; 2] {
         [self.x.len(), self.y.len()]
+    }
+
+    /// Where samples stand on the frame, in pixels, row by row.
+    pub(crate) fn positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let (xs, ys) = (&self.x.positions_px, &self.y.positions_px);
+        ys.iter().flat_map(|y| xs.iter().map(|x| [*x, *y]))
     }
 
     /// The buffer of a frame.
@@ -70,7 +83,7 @@ impl Separable {
         frame: &impl Pixels<C>,
     ) -> Image<L> {
         let [width, height] = self.size();
-        Image::by_rows(width, height, |j, row| match self.sampling {
+        Image::by_rows(width, height, |j, row| match self.places.sampling {
             Sampling::Point => {
                 for (out, x) in row.iter_mut().zip(&self.x.from) {
                     *out = narrowed(frame.fetch(*x, self.y.from[j]));

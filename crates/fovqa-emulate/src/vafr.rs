@@ -7,11 +7,11 @@ use fovqa_methods::{Foveation, Mapping, MethodError, Place, Setting};
 use crate::counts::Counts;
 use crate::fxaa::Fxaa;
 use crate::image::Image;
-use crate::pixels::Pixels;
 use crate::polar_view::PolarView;
 use crate::ragged::Ragged;
 use crate::rounded::rounded;
-use crate::sampling::Sampling;
+use crate::sample_places::SamplePlaces;
+use crate::source::Source;
 use crate::value::Value;
 
 /// VaFR of a frame and a gaze.
@@ -27,7 +27,7 @@ impl Vafr {
     pub(crate) fn new(
         params: &Params,
         setting: &Setting,
-        sampling: Sampling,
+        places: SamplePlaces,
         filter: Option<Fxaa>,
     ) -> Result<Self, MethodError> {
         let mapped = Mapped::new(params, setting)?;
@@ -36,7 +36,7 @@ impl Vafr {
         let stretch = n as f64 / ideal;
         let distance = |column: f64| mapped.to_screen(0, [column / stretch, 0.0]).radius_px;
         let rows = |r: f64| rounded(mapped.rows_at(setting.eccentricity_deg(r)));
-        let buffer = Ragged::new(n, setting, sampling, distance, rows);
+        let buffer = Ragged::new(n, setting, places, distance, rows);
         let reach_px = match params.beyond {
             Beyond::Black => setting.radius_px(FIELD_DEG),
             Beyond::Extend | Beyond::Clamp => f64::INFINITY,
@@ -48,26 +48,31 @@ impl Vafr {
         Ok(Self { buffer, view, counts, filter })
     }
 
+    /// Where samples stand, in pixels.
+    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
+        self.buffer.positions().collect()
+    }
+
     pub(crate) fn counts(&self) -> Counts {
         self.counts.clone()
     }
 
     /// The buffer of a frame, with its own filter where that is on.
-    pub(crate) fn buffer<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        let values = self.buffer.sample(frame);
+    pub(crate) fn buffer<const C: usize>(&self, source: &impl Source<C>) -> Image<C> {
+        let values = source.sample_polar(&self.buffer);
         self.buffer.image(&match &self.filter {
             Some(filter) => filter.apply(&self.buffer, &values),
             None => values,
         })
     }
 
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
         match &self.filter {
             Some(filter) => {
-                let values = filter.apply(&self.buffer, &self.buffer.sample(frame));
+                let values = filter.apply(&self.buffer, &source.sample_polar(&self.buffer));
                 self.view.show_values(&self.buffer, &values)
             }
-            None => self.view.show(&self.buffer, frame),
+            None => source.show_polar(&self.view, &self.buffer),
         }
     }
 }

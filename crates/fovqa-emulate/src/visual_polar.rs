@@ -6,11 +6,11 @@ use fovqa_methods::{Mapping, Place, Setting};
 
 use crate::counts::Counts;
 use crate::image::Image;
-use crate::pixels::Pixels;
 use crate::polar_view::PolarView;
 use crate::ragged::Ragged;
 use crate::rounded::rounded;
-use crate::sampling::Sampling;
+use crate::sample_places::SamplePlaces;
+use crate::source::Source;
 use crate::value::Value;
 
 /// Visual-Polar of a frame and a gaze.
@@ -22,14 +22,14 @@ pub(crate) struct VisualPolar {
 }
 
 impl VisualPolar {
-    pub(crate) fn new(params: Params, setting: &Setting, sampling: Sampling) -> Self {
+    pub(crate) fn new(params: Params, setting: &Setting, places: SamplePlaces) -> Self {
         let mapped = Mapped::new(&params, setting);
         let ideal = mapped.buffer(0)[0];
         let n = rounded(ideal);
         let stretch = n as f64 / ideal;
         let distance = |column: f64| mapped.to_screen(0, [column / stretch, 0.0]).radius_px;
         let rows = |r: f64| rounded(mapped.rows_at(r));
-        let buffer = Ragged::new(n, setting, sampling, distance, rows);
+        let buffer = Ragged::new(n, setting, places, distance, rows);
         let view = PolarView::new(setting, n, f64::INFINITY, |r| {
             mapped.to_buffer(0, Place { radius_px: r, direction: [1.0, 0.0] })[0] * stretch
         });
@@ -41,15 +41,20 @@ impl VisualPolar {
         Self { buffer, view, counts }
     }
 
+    /// Where samples stand, in pixels.
+    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
+        self.buffer.positions().collect()
+    }
+
     pub(crate) fn counts(&self) -> Counts {
         self.counts.clone()
     }
 
-    pub(crate) fn buffer<const C: usize>(&self, frame: &Image<C>) -> Image<C> {
-        self.buffer.image(&self.buffer.sample(frame))
+    pub(crate) fn buffer<const C: usize>(&self, source: &impl Source<C>) -> Image<C> {
+        self.buffer.image(&source.sample_polar(&self.buffer))
     }
 
-    pub(crate) fn show<const C: usize, V: Value>(&self, frame: &impl Pixels<C>) -> Image<C, V> {
-        self.view.show(&self.buffer, frame)
+    pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
+        source.show_polar(&self.view, &self.buffer)
     }
 }

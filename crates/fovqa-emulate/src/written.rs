@@ -9,6 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::error::EmulateError;
 use crate::filters::FilterChoice;
+use crate::jitter::Jitter;
 use crate::sampling::Sampling;
 use crate::space::Space;
 use crate::spec::{Budget, EmulationSpec};
@@ -23,6 +24,9 @@ struct Written {
     sampling: Sampling,
     filter: FilterChoice,
     space: Space,
+    /// Left out where there is none: specs are written as they were before there was jitter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    jitter: Option<Jitter>,
     temporal: bool,
     enhance: Option<f64>,
     budget: Option<f64>,
@@ -37,6 +41,7 @@ impl Written {
             sampling: spec.sampling(),
             filter: spec.filters(),
             space: spec.space(),
+            jitter: (spec.jitter() != Jitter::None).then_some(spec.jitter()),
             temporal: spec.is_temporal(),
             enhance: spec.enhance(),
             budget: spec.budget().map(|budget| budget.share),
@@ -52,6 +57,7 @@ impl Written {
         spec.set_sampling(self.sampling);
         spec.set_filters(self.filter)?;
         spec.set_space(self.space);
+        spec.set_jitter(self.jitter.unwrap_or_default());
         spec.set_temporal(self.temporal);
         if let Some(f_max) = self.enhance {
             spec.set_enhance(f_max)?;

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_emulate::Picture;
+use fovqa_emulate::{Picture, SceneLight, WriteFrameError};
 use fovqa_frame::{Frame, Samples, SignalTables, Transfer};
+use fovqa_gallery::FrameScene;
 use fovqa_plan::{EyeView, Gaze};
 
 use crate::events::Warnings;
@@ -65,8 +66,23 @@ impl EmulatedMethods {
         let emulation = view.sources.test(step.method).emulation();
         let keeps = emulation.is_some_and(|emulation| emulation.keep_frames);
         let file = view.sources.test_name(step.method, step.test);
+        if let Some(builtin) = &view.sources.builtin {
+            let scene = builtin.frame(step.test);
+            let lit = BuiltinLight(&*scene);
+            let (width, height) = reference.size();
+            let (at, seen) = ((position, step.test), (&lit as &dyn SceneLight, [width, height]));
+            let signal = tables.params();
+            let (shown, emulator) = foveator.next_of_scene(at, seen, signal, motion, gaze_px)?;
+            let frame = linear(shown.to_linear(signal), &shown, self.needs_light)?;
+            let made = Made {
+                counts: emulator.counts().clone(),
+                kept: keeps.then(|| kept(&shown, &frame)),
+            };
+            return Ok(Side::emulated(file, frame, reference.pixel_aspect, made));
+        }
         if matches!(reference.frame.samples(), Samples::U8(_)) && !foveator.is_temporal() {
-            let (frame, emulator) = foveator.next_codes8(&reference.frame, tables, gaze_px)?;
+            let (frame, emulator) =
+                foveator.next_codes8(position, &reference.frame, tables, gaze_px)?;
             let kept = keeps.then(|| frame.clone());
             let made = Made { counts: emulator.counts().clone(), kept };
             return Ok(Side::emulated(file, frame, reference.pixel_aspect, made));
@@ -94,8 +110,25 @@ impl EmulatedMethods {
         };
         let picture = Picture::from_frame(reference, tables);
         let gaze_px = view.trace.as_ref().map(|trace| trace[frame].px).or(self.fixed_gaze);
-        let shown = foveator.alone(&picture, gaze_px)?;
+        if let Some(builtin) = &view.sources.builtin {
+            let index = view.frames[frame].reference;
+            let scene = builtin.frame(index);
+            let size = [reference.width(), reference.height()];
+            let seen = (&BuiltinLight(&*scene) as &dyn SceneLight, size);
+            let shown = foveator.alone_of_scene(index, seen, tables.params(), gaze_px)?;
+            return linear(shown.to_linear(tables.params()), &shown, self.needs_light);
+        }
+        let shown = foveator.alone(view.frames[frame].position, &picture, gaze_px)?;
         frame_of(&shown, &picture, reference, tables, self.needs_light)
+    }
+}
+
+/// A frame of a built-in scene, as emulation asks for it.
+pub(crate) struct BuiltinLight<'a>(pub(crate) &'a dyn FrameScene);
+
+impl SceneLight for BuiltinLight<'_> {
+    fn light(&self, x: f64, y: f64) -> [f32; 3] {
+        self.0.light(x, y)
     }
 }
 
@@ -103,7 +136,7 @@ impl EmulatedMethods {
 pub(crate) fn fixed_gaze(eye: &EyeView) -> Option<[f64; 2]> {
     match eye.settings.gaze {
         Gaze::Point(px) => Some(px),
-        Gaze::Centre | Gaze::Trace { .. } => None,
+        Gaze::Centre | Gaze::Builtin | Gaze::Trace { .. } => None,
     }
 }
 
@@ -153,7 +186,16 @@ fn frame_of(
     if signal.transfer_of(reference) != Transfer::Linear {
         return Ok(shown.to_signal());
     }
-    match shown.to_linear_from(signal, before, reference) {
+    linear(shown.to_linear_from(signal, before, reference), shown, needs_light)
+}
+
+/// Linear light, or the encoded signal where a tone map cannot be undone and no metric needs light.
+fn linear(
+    light: Result<Frame, WriteFrameError>,
+    shown: &Picture,
+    needs_light: bool,
+) -> Result<Frame, Fault> {
+    match light {
         Ok(frame) => Ok(frame),
         // Metrics of the encoded signal need no linear light.
         Err(_) if !needs_light => Ok(shown.to_signal()),

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use fovqa_emulate::EmulateError;
 use fovqa_frame::source::{Doubt, SourceError};
+use fovqa_gallery::GalleryError;
 use fovqa_io::sequence::{ListingError, PairingError};
 use fovqa_io::{OpenError, ReadError};
 use fovqa_metrics::Metric;
@@ -42,6 +43,9 @@ pub enum EngineError {
     /// An emulated frame that cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// A built-in scene that cannot be.
+    #[error(transparent)]
+    Gallery(#[from] GalleryError),
     /// The temporal filter of an emulated method needs the frames in their order.
     #[error(
         "with this fvvdp.temp_padding, FovVideoVDP begins with later frames, but the temporal filter of {method} needs the frames in their order"
@@ -202,6 +206,7 @@ impl EngineError {
             Self::View(_)
             | Self::Emulate(_)
             | Self::EmulatedReference
+            | Self::Gallery(_)
             | Self::LooksAhead { .. }
             | Self::NotGiven { .. }
             | Self::NoView { .. }
@@ -240,6 +245,7 @@ impl EngineError {
             Self::NotGiven { .. } => "give a source with this name together with the plan".to_owned(),
             Self::Emulate(error) => error.help().to_owned(),
             Self::Output(error) => error.help(),
+            Self::Gallery(_) => "give a number in this range".to_owned(),
             Self::EmulatedReference => "give files as the reference".to_owned(),
             Self::LooksAhead { .. } => {
                 "leave fvvdp.temp_padding at replicate, or leave the temporal filter out".to_owned()

@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use fovqa_io::read_small_file;
-use fovqa_plan::{EyeView, Gaze, Plan};
+use fovqa_plan::{EyeView, Gaze, Plan, SourceSpec};
 use fovqa_vision::{FrameAt, GazeAt, GazeTrace};
 
 use crate::error::EngineError;
 use crate::found_frame::FoundFrame;
+use crate::sources::builtin;
 
 /// Largest size of a gaze file in bytes: enough for hours of gaze at the rate of any eye tracker.
 const MAX_GAZE_BYTES: u64 = 64 << 20;
@@ -24,6 +25,7 @@ pub(crate) fn gaze(
 ) -> Result<(Option<Vec<GazeAt>>, Vec<String>), EngineError> {
     let (path, hold) = match &view.settings.gaze {
         Gaze::Centre => return Ok((None, Vec::new())),
+        Gaze::Builtin => return Ok((of_builtin(view, frames)?, Vec::new())),
         Gaze::Point(point) => return Ok((None, of_point(*point).into_iter().collect())),
         Gaze::Trace { path, hold } => (path, *hold),
     };
@@ -35,6 +37,14 @@ pub(crate) fn gaze(
     let gaze = trace.at_frames(&frames, fps, hold).map_err(failed)?;
     let remarks = of_trace(plan, path, &trace);
     Ok((Some(gaze), remarks))
+}
+
+/// The gaze of the viewer of a built-in scene.
+fn of_builtin(view: &EyeView, frames: &[FoundFrame]) -> Result<Option<Vec<GazeAt>>, EngineError> {
+    let SourceSpec::Builtin(reference) = &view.reference else { return Ok(None) };
+    let builtin = builtin(reference, view)?;
+    let gaze = |frame: &FoundFrame| GazeAt { px: builtin.gaze_px(frame.reference), held: false };
+    Ok(Some(frames.iter().map(gaze).collect()))
 }
 
 /// A remark about a gaze point that looks like fractions of the frame size instead of pixels. The

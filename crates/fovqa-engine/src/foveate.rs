@@ -2,12 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use fovqa_emulate::{Emulator, Picture};
+use fovqa_emulate::{Emulator, Picture, SceneLight};
 use fovqa_frame::{Frame, SignalTables};
 use fovqa_plan::{Plan, SourceSpec};
 use fovqa_results::Failure;
 
-use crate::emulated_methods::{check_motion, fixed_gaze};
+use crate::emulated_methods::{BuiltinLight, check_motion, fixed_gaze};
 use crate::error::EngineError;
 use crate::events::{Events, Progress, Warnings};
 use crate::found::FoundView;
@@ -16,7 +16,6 @@ use crate::load::{Fault, Loaded, Loader, Side, Step};
 use crate::read_ahead::read_ahead;
 
 /// An emulated frame.
-#[derive(Debug)]
 pub struct FoveatedFrame<'a> {
     /// Frame number.
     pub frame: i64,
@@ -32,6 +31,8 @@ pub struct FoveatedFrame<'a> {
     pub before: &'a Picture,
     /// What the method would have shown.
     pub shown: &'a Picture,
+    /// The scene that was sampled in place of the input, if it is built in.
+    pub scene: Option<&'a dyn SceneLight>,
     /// The emulation of this gaze: sample counts, budget, and the buffers of the picture.
     pub emulator: &'a Emulator,
 }
@@ -77,7 +78,10 @@ pub fn foveate(
     read_ahead(
         steps.len(),
         loader.loaders(),
-        |nth| loader.load(&steps[nth]),
+        |nth| match &view.sources.builtin {
+            Some(builtin) => loader.unlit(builtin, &steps[nth]),
+            None => loader.load(&steps[nth]),
+        },
         Loaded::bytes,
         |nth, loaded| {
             match pass.frame(&steps[nth], loaded, &mut warnings, take) {
@@ -129,8 +133,11 @@ impl Pass<'_> {
         let gaze_px = self.view.trace.as_ref().map(|trace| trace[step.frame].px);
         let gaze_px = gaze_px.or(self.fixed_gaze);
         let before = Picture::from_frame(&reference.frame, &self.tables);
+        let scene = self.view.sources.builtin.as_ref().map(|of| of.frame(step.found.reference));
+        let lit = scene.as_deref().map(BuiltinLight);
+        let lit = lit.as_ref().map(|lit| lit as &dyn SceneLight);
         let (shown, emulator) =
-            self.emulate(step, &reference, &before, gaze_px, warnings).map_err(failed)?;
+            self.emulate(step, &reference, (&before, lit), gaze_px, warnings).map_err(failed)?;
         Ok(take(FoveatedFrame {
             frame: step.found.number,
             input,
@@ -139,6 +146,7 @@ impl Pass<'_> {
             reference: &reference.frame,
             before: &before,
             shown: &shown,
+            scene: lit,
             emulator: &emulator,
         }))
     }
@@ -147,7 +155,7 @@ impl Pass<'_> {
         &mut self,
         step: &Step<'_>,
         reference: &Side,
-        before: &Picture,
+        (before, scene): (&Picture, Option<&dyn SceneLight>),
         gaze_px: Option<[f64; 2]>,
         warnings: &mut Warnings<'_>,
     ) -> Result<(Picture, std::sync::Arc<Emulator>), Fault> {
@@ -157,6 +165,13 @@ impl Pass<'_> {
         if self.foveator.is_temporal() && !self.foveator.begins_at(position) {
             check_motion(&mut self.motion, motion.is_some(), &reference.file, warnings)?;
         }
-        self.foveator.next(position, before, motion, gaze_px)
+        match scene {
+            None => self.foveator.next(position, before, motion, gaze_px),
+            Some(scene) => {
+                let seen = (scene, [before.width(), before.height()]);
+                let at = (position, step.found.reference);
+                self.foveator.next_of_scene(at, seen, self.tables.params(), motion, gaze_px)
+            }
+        }
     }
 }

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use fovqa_emulate::{EmulateError, EmulationSpec, Emulator, History, Picture};
-use fovqa_frame::{Frame, Motion, SignalTables};
+use fovqa_emulate::{EmulateError, EmulationSpec, Emulator, History, Picture, SceneLight};
+use fovqa_frame::{Frame, Motion, SignalParams, SignalTables};
 use fovqa_vision::{View, ViewSpec};
 
 use crate::error::EngineError;
@@ -53,23 +53,39 @@ impl Foveator {
     /// Emulates a frame that stands alone.
     pub(crate) fn alone(
         &self,
+        position: usize,
         picture: &Picture,
         gaze_px: Option<[f64; 2]>,
     ) -> Result<Picture, Fault> {
         let size = [picture.width(), picture.height()];
-        Ok(prepare(&self.spec, self.view.as_ref(), size, gaze_px)?.emulate(picture)?)
+        let emulator = prepare(&self.spec, self.view.as_ref(), size, gaze_px)?;
+        Ok(emulator.at_frame(position)?.emulate(picture)?)
+    }
+
+    /// Emulates a frame of a scene that stands alone.
+    pub(crate) fn alone_of_scene(
+        &self,
+        frame: usize,
+        (scene, size): (&dyn SceneLight, [usize; 2]),
+        signal: &SignalParams,
+        gaze_px: Option<[f64; 2]>,
+    ) -> Result<Picture, Fault> {
+        let emulator = prepare(&self.spec, self.view.as_ref(), size, gaze_px)?;
+        Ok(emulator.emulate_scene(scene, frame, signal, None, &mut History::default())?)
     }
 
     /// Emulates a frame of 8-bit codes without a temporal filter: the same codes as by way of
     /// pictures, in much less time.
     pub(crate) fn next_codes8(
         &mut self,
+        position: usize,
         frame: &Frame,
         tables: &SignalTables,
         gaze_px: Option<[f64; 2]>,
     ) -> Result<(Frame, Arc<Emulator>), Fault> {
         let emulator = self.emulator([frame.width(), frame.height()], gaze_px)?;
-        Ok((emulator.emulate_codes8(frame, tables)?, emulator))
+        let shown = emulator.at_frame(position)?.emulate_codes8(frame, tables)?;
+        Ok((shown, emulator))
     }
 
     /// Emulates the next frame. After a gap in the positions, the temporal filter begins again.
@@ -81,13 +97,36 @@ impl Foveator {
         gaze_px: Option<[f64; 2]>,
     ) -> Result<(Picture, Arc<Emulator>), Fault> {
         let emulator = self.emulator([picture.width(), picture.height()], gaze_px)?;
+        self.begin(position);
+        let frame = emulator.at_frame(position)?;
+        let shown = frame.emulate_next(picture, motion, &mut self.history)?;
+        self.last = Some(position);
+        Ok((shown, emulator))
+    }
+
+    /// Emulates the next frame of a scene that can be sampled anywhere; `frame` is its index, from 0.
+    pub(crate) fn next_of_scene(
+        &mut self,
+        (position, frame): (usize, usize),
+        (scene, size): (&dyn SceneLight, [usize; 2]),
+        signal: &SignalParams,
+        motion: Option<&Motion>,
+        gaze_px: Option<[f64; 2]>,
+    ) -> Result<(Picture, Arc<Emulator>), Fault> {
+        let emulator = self.emulator(size, gaze_px)?;
+        self.begin(position);
+        let shown = emulator.emulate_scene(scene, frame, signal, motion, &mut self.history)?;
+        self.last = Some(position);
+        Ok((shown, emulator))
+    }
+
+    /// Forgets the history if the frame before is not the last one. Until the frame is emulated, there
+    /// is no last one.
+    fn begin(&mut self, position: usize) {
         if self.begins_at(position) {
             self.history = History::default();
         }
         self.last = None;
-        let shown = emulator.emulate_next(picture, motion, &mut self.history)?;
-        self.last = Some(position);
-        Ok((shown, emulator))
     }
 
     fn emulator(

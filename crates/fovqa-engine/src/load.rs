@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use fovqa_emulate::Counts;
 use fovqa_frame::source::{InputId, MissingGuides, Source, SourceError};
-use fovqa_frame::{BadPixel, CropError, Frame, Guides, Mask, Motion, Plane, Transfer};
+use fovqa_frame::{
+    BadPixel, Channels, CropError, Frame, Guides, Mask, Motion, Plane, Samples, Transfer,
+};
+use fovqa_gallery::Builtin;
 use fovqa_plan::{Nonfinite, Settings};
 use thiserror::Error;
 
@@ -216,6 +219,28 @@ impl Loader<'_> {
             },
         );
         Loaded { reference, test }
+    }
+
+    /// The frame of a step whose built-in scene is sampled itself: its ground truth is not needed and
+    /// black, and only its motion and depth are computed, if they are wanted.
+    pub(crate) fn unlit(&self, builtin: &Builtin, step: &Step<'_>) -> Loaded {
+        let at = step.found.reference;
+        let (width, height) = (builtin.view().width, builtin.view().height);
+        let black = Samples::F32(vec![0.0; 3 * width * height]);
+        let frame = Frame::new(width, height, Channels::Rgb, black);
+        let frame = frame.unwrap_or_else(|_| unreachable!("three values for each pixel"));
+        let side = Side {
+            file: self.sources.reference.listing().name(at).into(),
+            frame,
+            guides: if self.guides { builtin.guides(at) } else { Guides::default() },
+            ids: Vec::new(),
+            notes: Vec::new(),
+            pixel_aspect: 1.0,
+            made: None,
+            bad: None,
+            missing: MissingGuides::default(),
+        };
+        Loaded { reference: Some(Ok(side)), test: None }
     }
 
     /// Loads the frames of a pair alone, for code that looks ahead in a sequence. A test that is

@@ -22,7 +22,7 @@ pub fn check(plan: &Plan) -> Result<(), EngineError> {
         crate::settle::metrics(plan, &view.settings)?;
         let angles = |(_, test): &(usize, SourceSpec)| match test {
             SourceSpec::Emulated(emulation) => emulation.spec.needs_view(),
-            SourceSpec::Files(_) | SourceSpec::Given(_) => None,
+            SourceSpec::Files(_) | SourceSpec::Given(_) | SourceSpec::Builtin(_) => None,
         };
         match view.tests.iter().find_map(angles).filter(|_| view.settings.view.is_none()) {
             Some(what) => Err(EngineError::NoView { what: format!("emulating {what}") }),

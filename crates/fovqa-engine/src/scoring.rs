@@ -271,7 +271,7 @@ impl<'a> Scoring<'a> {
         let settings = &self.eye().settings;
         let trace = match &settings.gaze {
             Gaze::Trace { path, .. } => Some(path),
-            Gaze::Centre | Gaze::Point(_) => None,
+            Gaze::Centre | Gaze::Point(_) | Gaze::Builtin => None,
         };
         let files = [settings.mask.as_ref(), trace].into_iter().flatten();
         for path in files.filter(|_| self.plan.hash_inputs) {

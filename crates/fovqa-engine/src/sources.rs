@@ -4,13 +4,15 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use fovqa_frame::source::Source;
+use fovqa_frame::source::{InputId, Source};
+use fovqa_gallery::{Builtin, BuiltinSource};
 use fovqa_io::sequence::pair;
 use fovqa_io::{
-    DepthChannels, GuideOptions, MotionChannels, ReadOptions, SourceOptions, open_source,
+    DepthChannels, GuideOptions, MotionChannels, ReadOptions, SourceOptions, id_of, open_source,
 };
 use fovqa_metrics::Metric;
-use fovqa_plan::{EyeView, Plan, SourceSpec};
+use fovqa_plan::{BuiltinFrames, EyeView, Plan, SourceSpec};
+use fovqa_vision::View;
 
 use crate::error::EngineError;
 use crate::found_frame::{FoundFrame, GuideFrames};
@@ -30,6 +32,12 @@ impl Opener<'_> {
     /// Opens the reference.
     pub(crate) fn reference(&self) -> Result<Arc<dyn Source>, EngineError> {
         self.open(&self.view.reference, self.view.settings.read.layer.as_deref())
+    }
+
+    /// The built-in scene of the reference, if it is one.
+    pub(crate) fn builtin(&self) -> Result<Option<Arc<Builtin>>, EngineError> {
+        let SourceSpec::Builtin(frames) = &self.view.reference else { return Ok(None) };
+        Ok(Some(Arc::new(builtin(frames, self.view)?)))
     }
 
     /// Opens the tests of a method.
@@ -53,6 +61,18 @@ impl Opener<'_> {
             SourceSpec::Given(name) => {
                 let source = self.given.get(name);
                 source.cloned().ok_or_else(|| EngineError::NotGiven { name: name.clone() })
+            }
+            SourceSpec::Builtin(frames) => {
+                let builtin = builtin(frames, self.view)?;
+                let made = serde_json::to_vec(&(
+                    frames,
+                    builtin.view().focal_px,
+                    builtin.view().principal_px,
+                ));
+                // Writing to memory and reading from it do not fail.
+                let id = id_of(made.unwrap_or_default().as_slice())
+                    .unwrap_or(InputId { bytes: 0, sha256: String::new() });
+                Ok(Arc::new(BuiltinSource::new(builtin, id)))
             }
             SourceSpec::Emulated(_) => Err(EngineError::EmulatedReference),
         }
@@ -89,7 +109,7 @@ impl Opener<'_> {
     ) -> Result<[Option<Arc<dyn Source>>; 2], EngineError> {
         let filters = |(_, test): &(usize, SourceSpec)| match test {
             SourceSpec::Emulated(emulation) => emulation.spec.is_temporal(),
-            SourceSpec::Files(_) | SourceSpec::Given(_) => false,
+            SourceSpec::Files(_) | SourceSpec::Given(_) | SourceSpec::Builtin(_) => false,
         };
         let wanted = self.plan.metrics.metrics().contains(&Metric::Atd);
         if !wanted && !self.view.tests.iter().any(filters) {
@@ -126,3 +146,17 @@ impl Opener<'_> {
 
 /// Files of motion or depth, and the index of the file for each reference.
 type OwnFiles = (Arc<dyn Source>, BTreeMap<usize, usize>);
+
+/// A built-in sequence as an eye sees it. A scene without a view, such as a flat pattern, is seen from
+/// anywhere.
+pub(crate) fn builtin(frames: &BuiltinFrames, view: &EyeView) -> Result<Builtin, EngineError> {
+    let [width, height] = frames.size;
+    let view = if let Some(spec) = &view.settings.view {
+        spec.resolve(width, height)?.view
+    } else {
+        let (w, h) = (width as f64, height as f64);
+        let focal_px = [h.max(1.0) / 2.0; 2];
+        View { width, height, focal_px, principal_px: [w / 2.0, h / 2.0] }
+    };
+    Ok(Builtin::new(&frames.spec, view, frames.eye_m)?)
+}

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use fovqa_frame::source::Source;
 #[cfg(test)]
 use fovqa_frame::source::{Length, Listing, Origin, Picture, PictureGuides, SourceError};
+use fovqa_gallery::Builtin;
 use fovqa_plan::Emulation;
 
 use crate::found_frame::FoundFrame;
@@ -16,6 +17,8 @@ use crate::test_source::TestSource;
 pub struct ViewSources {
     /// The reference.
     pub reference: Arc<dyn Source>,
+    /// The built-in scene that the reference is drawn from, if it is: methods sample the scene itself.
+    pub builtin: Option<Arc<Builtin>>,
     /// The tests, by the index of their method.
     pub tests: BTreeMap<usize, TestSource>,
     /// The motion, if it has files of its own.
@@ -78,7 +81,7 @@ impl ViewSources {
     pub(crate) fn empty() -> Self {
         let listing = Listing::counted(String::new(), Length::Whole(0));
         let (tests, reference) = (BTreeMap::new(), Arc::new(Never(listing)));
-        Self { reference, tests, motion: None, depth: None }
+        Self { reference, builtin: None, tests, motion: None, depth: None }
     }
 }
 

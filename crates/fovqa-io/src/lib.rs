@@ -43,6 +43,9 @@ pub use read_guides::{read_guides, read_guides_and_hash};
 pub use read_options::{FormatOptions, ReadOptions};
 pub use small_file::{open_regular_file, read_head, read_small_file};
 pub use sources::{OpenError, open_source};
-pub use write::{EncodeError, FrameFormat, encode_frame, exr_gray, exr_gray_half, png_rgb8};
+pub use write::{
+    EncodeError, FrameFormat, encode_exr_with_guides, encode_frame, exr_gray, exr_gray_half,
+    png_rgb8,
+};
 pub use y4m::options::{CodeRange, ColourMatrix, Y4mOptions};
 pub use y4m::video_stream;

@@ -1,6 +1,6 @@
 //! A method that is emulated from the reference.
 
-use fovqa_emulate::{EmulationSpec, FilterChoice, Sampling, Space};
+use fovqa_emulate::{EmulationSpec, FilterChoice, Jitter, Sampling, Space};
 use fovqa_methods::BudgetSamples;
 use fovqa_params::Words;
 use serde::{Deserialize, Serialize};
@@ -24,6 +24,9 @@ impl Emulation {
         parts.extend(set.map(|(name, value)| format!("{name} = {}", value.in_words())));
         if spec.sampling() != Sampling::default() {
             parts.push(format!("sampling = \"{}\"", spec.sampling().word()));
+        }
+        if spec.jitter() != Jitter::default() {
+            parts.push(format!("jitter = \"{}\"", spec.jitter().word()));
         }
         if spec.filters() != FilterChoice::default() {
             parts.push(format!("filter = \"{}\"", spec.filters().word()));
@@ -64,6 +67,9 @@ pub fn emulation_keys(spec: &EmulationSpec) -> Value {
         "space": spec.space(),
         "temporal": spec.is_temporal(),
     });
+    if spec.jitter() != Jitter::default() {
+        keys["jitter"] = json!(spec.jitter());
+    }
     if let Some(f_max) = spec.enhance() {
         keys["enhance"] = json!(f_max);
     }

@@ -6,6 +6,7 @@
 //! experiment file, the command line makes one from its arguments, and a program can build one
 //! itself.
 
+mod builtin;
 mod curves;
 mod emulation;
 mod experiment;
@@ -17,6 +18,7 @@ mod resolved;
 mod settings;
 mod source;
 
+pub use builtin::BuiltinFrames;
 pub use curves::{
     CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, CurvesFile, PanelOf, RateKind,
     RateUnit,

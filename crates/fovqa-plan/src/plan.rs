@@ -117,6 +117,7 @@ impl Plan {
         match source {
             SourceSpec::Files(path) => self.shown(path),
             SourceSpec::Given(name) => name.clone(),
+            SourceSpec::Builtin(frames) => format!("builtin:{}", frames.spec.scene.word()),
             SourceSpec::Emulated(emulation) => emulation.in_words(),
         }
     }

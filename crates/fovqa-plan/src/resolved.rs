@@ -69,6 +69,9 @@ pub struct ResolvedEye {
     pub eye: Option<Eye>,
     /// The reference.
     pub reference: String,
+    /// What a built-in reference is made of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub builtin: Option<Value>,
     /// The tests that are read, by the name of the method.
     pub tests: BTreeMap<String, String>,
     /// The methods that are emulated, by their names, with all their parameters.
@@ -126,10 +129,12 @@ impl Resolved {
             let eyes = scene.eyes.iter().zip(&now.eyes);
             let keys = eyes.flat_map(|(was, is)| {
                 let layers = [was, is].map(|eye| json!(eye.test_layers));
+                let builtin = [was, is].map(|eye| json!({ "builtin": eye.builtin }));
                 [
                     table_keys("view", &was.view, &is.view),
                     table_keys("signal", &was.signal, &is.signal),
                     table_keys("layer of method", &layers[0], &layers[1]),
+                    table_keys("scene", &builtin[0], &builtin[1]),
                 ]
             });
             let keys = keys.flatten();
@@ -237,6 +242,7 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
     }
     view["gaze"] = match &settings.gaze {
         Gaze::Centre => json!("center"),
+        Gaze::Builtin => json!("builtin"),
         Gaze::Point(point) => json!(point),
         Gaze::Trace { path, hold } => json!({ "trace": plan.shown(path), "hold": hold }),
     };
@@ -277,7 +283,7 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
             SourceSpec::Emulated(emulation) => {
                 emulations.insert(method, emulation_keys(&emulation.spec));
             }
-            SourceSpec::Files(_) | SourceSpec::Given(_) => {
+            SourceSpec::Files(_) | SourceSpec::Given(_) | SourceSpec::Builtin(_) => {
                 tests.insert(method, plan.shown_source(test));
             }
         }
@@ -285,6 +291,10 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
     ResolvedEye {
         eye: eye.eye,
         reference: plan.shown_source(&eye.reference),
+        builtin: match &eye.reference {
+            SourceSpec::Builtin(frames) => Some(json!(frames)),
+            SourceSpec::Files(_) | SourceSpec::Given(_) | SourceSpec::Emulated(_) => None,
+        },
         tests,
         emulations,
         test_layers: eye

@@ -17,6 +17,8 @@ pub enum Gaze {
     Centre,
     /// The gaze is at a point in pixels.
     Point([f64; 2]),
+    /// The gaze is that of the viewer of a built-in scene.
+    Builtin,
     /// The gaze follows a trace.
     Trace {
         /// The CSV file.
@@ -77,7 +79,7 @@ impl Settings {
             _ if self.view.is_some() => None,
             _ if self.bands.is_some() => Some("eccentricity bands"),
             Gaze::Point(_) | Gaze::Trace { .. } => Some("a gaze"),
-            Gaze::Centre => None,
+            Gaze::Centre | Gaze::Builtin => None,
         }
     }
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::builtin::BuiltinFrames;
 use crate::emulation::Emulation;
 
 /// Where the frames of a sequence come from.
@@ -15,6 +16,8 @@ pub enum SourceSpec {
     /// A source that the program provides under this name when it runs the plan, such as images in
     /// memory.
     Given(String),
+    /// A built-in sequence, which needs no files.
+    Builtin(BuiltinFrames),
     /// Tests that are emulated from the reference. A reference cannot be one.
     Emulated(Box<Emulation>),
 }

@@ -138,7 +138,7 @@ fn assignment(text: &str) -> Result<(String, ParamValue), String> {
     Ok((name.trim().to_owned(), literal(value.trim())?))
 }
 
-fn resolution(text: &str) -> Result<[usize; 2], String> {
+pub(super) fn resolution(text: &str) -> Result<[usize; 2], String> {
     parse_resolution(text).ok_or_else(|| {
         "write WIDTHxHEIGHT in pixels, each from 1 to 100000, such as 2560x1440".to_owned()
     })

@@ -3,14 +3,19 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use fovqa_emulate::{Budget, EmulateError, EmulationSpec, FilterChoice, Sampling, Space};
+use fovqa::{BuiltinSpec, SceneName};
+use fovqa_emulate::{Budget, EmulateError, EmulationSpec, FilterChoice, Jitter, Sampling, Space};
 use fovqa_frame::{Crop, SignalChannels};
 use fovqa_io::sequence::FrameRange;
 use fovqa_io::{AlphaPolicy, DepthChannels, GuideOptions, ReadOptions};
 use fovqa_methods::BudgetSamples;
 use fovqa_params::{ParamValue, Words};
-use fovqa_plan::{Emulation, EyeView, MetricChoice, Plan, Scene, Settings};
+use fovqa_plan::{
+    BuiltinFrames, Emulation, EyeView, Gaze, MetricChoice, Plan, Scene, Settings, SourceSpec,
+};
+use fovqa_vision::ViewSpec;
 
+use super::curves::resolution;
 use super::guides::MotionArgs;
 use super::no_such::no_such;
 use super::signal::{EncodingArgs, VideoArgs};
@@ -31,6 +36,7 @@ Examples:
   fovqa foveate gt.png kfr.png --method kfr --budget 0.15 --filter own --buffer kfr-buffer.png
   fovqa foveate gt/ deamp/ --method deamp --set 'sigmas=[2.51,3.6,4.8]' --gaze gaze.csv --fps 72
   fovqa foveate gt.%04d.exr vafr/ --method vafr --fov-vertical 100 --temporal --set taa.alpha=0.2
+  fovqa foveate builtin:gallery rmfr.png --method rmfr --display vive-pro-eye
 
 Exit codes: 0 done; 2 the command line is wrong; 3 an input is missing, unreadable or does not fit,
 or an output cannot be written (the other frames are still written); 70 a bug in fovqa; 130
@@ -47,7 +53,8 @@ pub(crate) enum FoveateFormat {
 
 #[derive(Debug, Args)]
 pub(crate) struct FoveateArgs {
-    /// Finished frames: a file, a folder, a glob, a pattern or a y4m video
+    /// Finished frames: a file, a folder, a glob, a pattern or a y4m video; or builtin:NAME, a scene that
+    /// is sampled itself (`fovqa gallery --help` shows the names)
     input: PathBuf,
     /// File for a single frame, otherwise folder
     pub(crate) output: PathBuf,
@@ -71,6 +78,12 @@ pub(crate) struct FoveateArgs {
     /// Emulate only these frame numbers, from A up to, but not including, B
     #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP", help_heading = "Sequence")]
     frames: Option<FrameRange>,
+    /// Number of frames of a built-in scene
+    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Sequence")]
+    builtin_frames: usize,
+    /// Size of the frames of a built-in scene [default: that of --display]
+    #[arg(long, value_name = "WxH", value_parser = resolution, help_heading = "View")]
+    resolution: Option<[usize; 2]>,
     /// Frames per second, needed for gaze traces in seconds [default: the frame rate of a y4m video]
     #[arg(long, value_name = "N", value_parser = positive, help_heading = "Sequence")]
     fps: Option<f64>,
@@ -93,6 +106,9 @@ struct EmulationArgs {
     /// How a sample reads the frame
     #[arg(long, value_name = "HOW", default_value = Sampling::default().word(), value_parser = words::<Sampling>())]
     sampling: Sampling,
+    /// How samples move within their cells from frame to frame
+    #[arg(long, value_name = "HOW", default_value = Jitter::default().word(), value_parser = words::<Jitter>())]
+    jitter: Jitter,
     /// Which of the method's own filters are applied
     #[arg(long, value_name = "WHICH", default_value = FilterChoice::default().word(), value_parser = words::<FilterChoice>())]
     filter: FilterChoice,
@@ -174,6 +190,7 @@ impl EmulationArgs {
             spec.set(name, value)?;
         }
         spec.set_sampling(self.sampling);
+        spec.set_jitter(self.jitter);
         spec.set_filters(self.filter)?;
         spec.set_space(self.space);
         spec.set_temporal(self.temporal);
@@ -205,14 +222,41 @@ impl FoveateArgs {
         Ok((spec, unused))
     }
 
+    /// The built-in scene that the input names, if it does. Each pixel of its ground truth, which is not
+    /// written, gets a single sample.
+    fn builtin(&self) -> Result<Option<BuiltinFrames>, Refused> {
+        let name = self.input.to_str().and_then(|input| input.strip_prefix("builtin:"));
+        let Some(name) = name else { return Ok(None) };
+        let known = || SceneName::all().into_iter().map(|scene| scene.word().replace('_', "-"));
+        let scene = SceneName::find(&name.replace('-', "_"))
+            .ok_or_else(|| no_such("built-in scene", name, &known().collect::<Vec<_>>()))?;
+        let view = self.view.spec()?;
+        if view.is_none() && scene == SceneName::Gallery {
+            return Err("the gallery needs {view}".to_owned().into());
+        }
+        let of_display = match view {
+            Some(ViewSpec::Display(display)) => Some(display.resolution),
+            _ => None,
+        };
+        let size = self.resolution.or(of_display);
+        let size =
+            size.ok_or_else(|| "give the size of the frames with --resolution".to_owned())?;
+        let default = BuiltinSpec::new(scene);
+        let fps = self.fps.unwrap_or(default.fps);
+        let spec = BuiltinSpec { frames: self.builtin_frames, samples: 1, fps, ..default };
+        Ok(Some(BuiltinFrames { spec, size, eye_m: 0.0 }))
+    }
+
     /// The plan that emulates `spec`.
     pub(crate) fn plan(self, spec: EmulationSpec) -> Result<Plan, Refused> {
+        let builtin = self.builtin()?;
         let Self { view, gaze, input_signal, motion, .. } = self;
+        let walks = builtin.as_ref().is_some_and(|of| of.spec.scene == SceneName::Gallery);
         let settings = Settings {
             guides: GuideOptions { motion: motion.channels(), depth: DepthChannels::None },
             motion_files: motion.files(),
             view: view.spec()?,
-            gaze: gaze.gaze(),
+            gaze: if walks && !gaze.is_given() { Gaze::Builtin } else { gaze.gaze() },
             read: ReadOptions {
                 layer: input_signal.layer,
                 alpha: input_signal.alpha,
@@ -224,14 +268,14 @@ impl FoveateArgs {
             crop: input_signal.crop,
             ..Settings::default()
         };
+        let fps = self.fps.or(builtin.as_ref().map(|of| of.spec.fps));
         let eye = EyeView {
-            reference: self.input.into(),
+            reference: builtin.map_or_else(|| self.input.into(), SourceSpec::Builtin),
             tests: vec![(0, Emulation::from(spec).into())],
             settings,
             ..EyeView::default()
         };
-        let scene =
-            Scene { frames: self.frames, fps: self.fps, eyes: vec![eye], ..Scene::default() };
+        let scene = Scene { frames: self.frames, fps, eyes: vec![eye], ..Scene::default() };
         Ok(Plan {
             // Absolute paths inside the working directory are shown relative to it.
             base: std::env::current_dir().unwrap_or_default(),

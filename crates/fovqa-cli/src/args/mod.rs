@@ -4,6 +4,7 @@ mod baseline;
 mod curves;
 mod display;
 mod foveate;
+mod gallery;
 mod gate;
 mod guides;
 mod lock;
@@ -19,6 +20,7 @@ mod view;
 pub(crate) use baseline::BaselineCommand;
 pub(crate) use curves::CurvesArgs;
 pub(crate) use foveate::{FoveateArgs, FoveateFormat};
+pub(crate) use gallery::GalleryArgs;
 pub(crate) use gate::{Annotations, GateArgs, GateFormat};
 pub(crate) use run::{CheckArgs, MergeArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
@@ -50,6 +52,9 @@ pub(crate) enum Command {
     /// Score test frames against reference frames.
     #[command(after_help = score::EXAMPLES)]
     Score(Box<ScoreArgs>),
+    /// Write a built-in scene as files: frames with motion and depth, gaze and camera.
+    #[command(after_help = gallery::EXAMPLES)]
+    Gallery(Box<GalleryArgs>),
     /// Run an experiment: scenes, methods and metrics of a TOML file, with tables and figures.
     #[command(after_help = run::EXAMPLES)]
     Run(RunArgs),

@@ -73,6 +73,11 @@ pub(crate) struct GazeArgs {
 }
 
 impl GazeArgs {
+    /// Whether the user has said where the eye looks.
+    pub(crate) fn is_given(&self) -> bool {
+        self.gaze.is_some()
+    }
+
     pub(crate) fn gaze(&self) -> Gaze {
         match &self.gaze {
             None => Gaze::Centre,

@@ -1,6 +1,6 @@
 //! The keys of `emulate = { … }`: a method that is emulated from the reference.
 
-use fovqa_emulate::{EmulationSpec, FilterChoice, Sampling, Space};
+use fovqa_emulate::{EmulationSpec, FilterChoice, Jitter, Sampling, Space};
 use fovqa_methods::BudgetSamples;
 use fovqa_params::words_of;
 use fovqa_plan::Eye;
@@ -9,11 +9,16 @@ use super::experiment::key;
 use super::{Key, Kind};
 
 /// The keys that both eyes may have, beside the parameters of the model.
-static AROUND: [Key; 7] = [
+static AROUND: [Key; 8] = [
     key(
         "sampling",
         Kind::Words(words_of::<Sampling>),
         "how a sample reads the reference: point, or the mean of its area",
+    ),
+    key(
+        "jitter",
+        Kind::Words(words_of::<Jitter>),
+        "how samples move within their cells from frame to frame: none or halton",
     ),
     key("filter", Kind::Words(words_of::<FilterChoice>), "which of the method's filters are on"),
     key("space", Kind::Words(words_of::<Space>), "the values that the method runs on"),

@@ -49,7 +49,8 @@ const ONE_TRACE: &[Key] = &[
     key("hold", Kind::Bool, "frames beyond the trace keep its last gaze"),
 ];
 
-const ONE_GAZE: [Kind; 3] = [Kind::Word(&["center"]), POSITION_PAIR, Kind::Table(ONE_TRACE)];
+const ONE_GAZE: [Kind; 3] =
+    [Kind::Word(&["center", "builtin"]), POSITION_PAIR, Kind::Table(ONE_TRACE)];
 
 const SIDES: &[Key] = &[
     required("left", Kind::Text, "frames of the left eye"),
@@ -58,12 +59,26 @@ const SIDES: &[Key] = &[
 
 const FILES: Kind = Kind::Either(&[Kind::Text, Kind::Table(SIDES)]);
 
-const GAZE: &str = "where the eye looks: \"center\" (the principal point), [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }";
+/// The built-in scenes, in both spellings.
+const BUILTIN: &[&str] = &[
+    "gallery",
+    "pattern_a",
+    "pattern-a",
+    "pattern_b",
+    "pattern-b",
+    "pattern_c",
+    "pattern-c",
+    "stripes",
+    "csf_chart",
+    "csf-chart",
+];
+
+const GAZE: &str = "where the eye looks: \"center\" (the principal point), \"builtin\" (as the viewer of a built-in scene), [x, y] in pixels, { trace = \"gaze.csv\" }, or { left = …, right = … }";
 
 /// The gaze of one eye or, with a table for each, of both eyes.
 const VIEW_GAZE: &[Key] = &[key(
     "gaze",
-    Kind::Either(&[Kind::Word(&["center"]), POSITION_PAIR, Kind::Table(TRACE)]),
+    Kind::Either(&[Kind::Word(&["center", "builtin"]), POSITION_PAIR, Kind::Table(TRACE)]),
     GAZE,
 )];
 
@@ -269,17 +284,38 @@ static SIGNAL_TABLE: [Key; SIGNAL.len() + 2] = joined(&[
     ],
 ]);
 
-static SCENE_TABLE: [Key; 6 + VIEW.len() + 1 + SHARED.len() + SIGNAL.len() + 2] = joined(&[
+static SCENE_TABLE: [Key; 11 + VIEW.len() + 1 + SHARED.len() + SIGNAL.len() + 2] = joined(&[
     &[
         required("name", Kind::Name, "its name in results, and what {scene} stands for"),
-        required(
+        key(
             "reference",
             FILES,
             "reference frames: file, folder, glob or pattern (%04d, ####), or { left, right }",
         ),
+        key("builtin", Kind::Word(BUILTIN), "instead of reference: a scene that needs no files"),
+        key(
+            "resolution",
+            Kind::Resolution,
+            "size of the frames of a built-in scene; default: that of the display",
+        ),
+        key(
+            "samples",
+            Kind::Whole(1, 4096),
+            "samples for each pixel of a built-in scene; default: 16",
+        ),
+        key("seed", Kind::Whole(0, u32::MAX as u64), "seed of a built-in scene; default: 1"),
+        key(
+            "ipd_mm",
+            Kind::Number(0.0, 200.0),
+            "distance between the pupils: gives a built-in scene two eyes",
+        ),
         key("folder", Kind::Text, "what {folder} stands for in paths; default: the scene's name"),
         key("fps", Kind::Above(0.0, 1e6), "frames per second"),
-        key("frames", Kind::Frames, "only these frames"),
+        key(
+            "frames",
+            Kind::Either(&[Kind::Frames, Kind::Whole(1, 1_000_000)]),
+            "only these frames; for a built-in scene, their number",
+        ),
         key("allow_missing", Kind::Bool, "skip frames without a partner"),
     ],
     VIEW,

@@ -134,30 +134,31 @@ fn params(known: &[ParamInfo]) -> Value {
 
 /// The table of an emulated method.
 fn emulation(spec: &EmulationSpec) -> Value {
-    let inner = |other_eye: bool| {
-        let mut schema = table(&[]);
-        for (name, info) in spec.settable() {
-            let mut value = self::kind(&parameter(info.values));
-            value["description"] = info.about.into();
-            schema["properties"][name] = value;
-        }
-        for key in emulate::keys(other_eye) {
-            let mut value = self::kind(&key.kind);
-            value["description"] = key.about.into();
-            schema["properties"][key.name] = value;
-        }
-        schema
-    };
-    let mut schema = inner(false);
-    schema["properties"][emulate::OTHER_EYE] = inner(true);
+    let mut schema = table(&[]);
+    for (name, info) in spec.settable() {
+        let mut value = self::kind(&parameter(info.values));
+        value["description"] = info.about.into();
+        schema["properties"][name] = value;
+    }
+    for key in emulate::keys(false) {
+        let mut value = self::kind(&key.kind);
+        value["description"] = key.about.into();
+        schema["properties"][key.name] = value;
+    }
+    // The same names again: the whole tables would double the schema.
+    let names = spec.settable().into_iter().map(|(name, _)| name);
+    let names = names.chain(emulate::keys(true).map(|key| key.name.to_owned()));
+    let names = names.collect::<Vec<String>>();
+    schema["properties"][emulate::OTHER_EYE] =
+        json!({ "type": "object", "propertyNames": { "enum": names } });
     schema["properties"][emulate::OTHER_EYE]["description"] = emulate::OTHER_EYE_ABOUT.into();
-    schema["properties"]["model"] = names(spec.key());
+    schema["properties"]["model"] = spellings(spec.key());
     schema["required"] = json!(["model"]);
     schema
 }
 
 /// The spellings of a model's name: users may write `-` or `_`.
-fn names(name: &str) -> Value {
+fn spellings(name: &str) -> Value {
     let mut names = vec![name.to_owned(), name.replace('_', "-")];
     names.dedup();
     json!({ "enum": names })
@@ -165,7 +166,7 @@ fn names(name: &str) -> Value {
 
 fn model((name, known): Model) -> Value {
     let mut schema = params(known);
-    schema["properties"]["model"] = names(name);
+    schema["properties"]["model"] = spellings(name);
     schema["required"] = json!(["model"]);
     schema
 }

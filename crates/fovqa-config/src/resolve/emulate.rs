@@ -86,6 +86,9 @@ fn spec(tables: &[Node<'_>], faults: &mut Faults) -> Option<EmulationSpec> {
     if let Some(sampling) = of("sampling").and_then(|table| table.word("sampling")) {
         spec.set_sampling(sampling);
     }
+    if let Some(jitter) = of("jitter").and_then(|table| table.word("jitter")) {
+        spec.set_jitter(jitter);
+    }
     if let Some(table) = of("filter")
         && let Some(filter) = table.word("filter")
     {

@@ -1,6 +1,7 @@
 //! Turns checked tables into a plan: resolves overrides, placeholders, and names that refer to each
 //! other.
 
+mod builtin;
 mod curves;
 mod emulate;
 mod gates;

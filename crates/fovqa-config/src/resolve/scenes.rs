@@ -6,12 +6,13 @@ use std::path::Path;
 
 use fovqa_metrics::MetricInfo;
 
+use super::builtin::Builtin;
 use super::placeholders::{Placeholders, path};
 use super::settings::Layers;
 use super::view::{LUMINANCE_HELP, VIEW_HELP};
 use crate::fault::{Fault, Faults};
 use crate::node::Node;
-use fovqa_plan::{Eye, EyeView, MetricChoice, Scene};
+use fovqa_plan::{Eye, EyeView, Gaze, MetricChoice, Scene, SourceSpec};
 
 /// A scene, and the data that its methods need.
 pub(super) struct SceneEntry {
@@ -38,8 +39,13 @@ pub(super) fn scenes(
         .map(|(table, span)| {
             let name = table.text("name").unwrap_or_default();
             let folder = table.text("folder").unwrap_or(name);
+            let builtin = Builtin::new(table, faults);
             let references: Vec<(Option<Eye>, &str, Range<usize>)> = match table.table("reference")
             {
+                _ if builtin.is_some() => {
+                    let eyes = builtin.iter().flat_map(Builtin::eyes);
+                    eyes.map(|eye| (eye, "", table.span("builtin"))).collect()
+                }
                 None => vec![(
                     None,
                     table.text("reference").unwrap_or_default(),
@@ -56,14 +62,23 @@ pub(super) fn scenes(
                 let placeholders =
                     Placeholders { scene: name, folder, method: None, eye: eye.map(Eye::name) };
                 let layers = Layers::new(root, table, eye);
+                let mut settings = layers.settings(base, placeholders, faults);
+                let reference = match &builtin {
+                    Some(builtin) => {
+                        if builtin.has_gaze() && !layers.has_gaze() {
+                            settings.gaze = Gaze::Builtin;
+                        }
+                        SourceSpec::Builtin(builtin.frames(eye, &settings, faults))
+                    }
+                    None if text.is_empty() => SourceSpec::default(),
+                    None => path(placeholders, base, text, span, faults).unwrap_or_default().into(),
+                };
                 EyeView {
                     eye,
-                    reference: path(placeholders, base, text, span, faults)
-                        .unwrap_or_default()
-                        .into(),
+                    reference,
                     tests: Vec::new(),
                     test_layers: BTreeMap::new(),
-                    settings: layers.settings(base, placeholders, faults),
+                    settings,
                 }
             });
             let eyes: Vec<EyeView> = eyes.collect();
@@ -90,7 +105,7 @@ pub(super) fn scenes(
                 name: name.to_owned(),
                 frames: table.text("frames").and_then(|text| text.parse().ok()),
                 allow_missing: table.flag("allow_missing").unwrap_or(false),
-                fps: table.number("fps"),
+                fps: table.number("fps").or(builtin.as_ref().map(Builtin::fps)),
                 eyes,
             };
             SceneEntry { scene, folder: folder.to_owned(), span }

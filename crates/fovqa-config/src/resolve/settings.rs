@@ -15,7 +15,7 @@ use super::placeholders::Placeholders;
 use super::placeholders::path;
 use super::view::{VIEW_HELP, gives_view, luminance, view};
 use crate::fault::{Fault, Faults};
-use crate::node::{Node, numbers, table};
+use crate::node::{Node, numbers, table, text};
 use fovqa_plan::{Eye, Gaze, Settings};
 
 /// The tables that describe how one eye sees a scene, from the most general to the most specific.
@@ -163,6 +163,11 @@ impl<'a> Layers<'a> {
         gaze_of(value, base, placeholders, faults)
     }
 
+    /// Whether the user has said where the eye looks.
+    pub(super) fn has_gaze(&self) -> bool {
+        self.having("gaze").is_some()
+    }
+
     fn bands(&self, faults: &mut Faults) -> Option<BandEdges> {
         let edges = self.having("bands_deg")?.numbers("bands_deg")?;
         match BandEdges::new(edges) {
@@ -184,6 +189,9 @@ fn gaze_of(
 ) -> Gaze {
     if let Some(Ok(point)) = numbers(value).map(<[f64; 2]>::try_from) {
         return Gaze::Point(point);
+    }
+    if text(value) == Some("builtin") {
+        return Gaze::Builtin;
     }
     let Some(trace) = table(value) else { return Gaze::Centre };
     let Some(text) = trace.text("trace") else {

@@ -10,6 +10,7 @@ mod png_frame;
 mod visible;
 
 pub use error::EncodeError;
+pub use exr_frame::encode_exr_with_guides;
 pub use format::FrameFormat;
 pub use frame::encode_frame;
 pub use maps::{exr_gray, exr_gray_half, png_rgb8};

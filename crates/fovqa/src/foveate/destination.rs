@@ -157,7 +157,8 @@ fn name(source: &dyn Source, index: usize) -> OsString {
     match listing.entries().get(index) {
         None => {
             let stem = Path::new(&listing.argument).file_stem().unwrap_or(OsStr::new("frame"));
-            let mut name = stem.to_owned();
+            // A built-in scene has a colon in its name, which some systems do not allow in files.
+            let mut name: OsString = stem.to_string_lossy().replace(':', "-").into();
             name.push(format!(".{index:06}.png"));
             name
         }

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use fovqa_emulate::{EmulationSpec, Emulator, Picture};
+use fovqa_emulate::{EmulationSpec, Picture};
 use fovqa_engine::{Events, FoundView, FoveatedFrame, OutputError};
+use fovqa_frame::SignalParams;
 use fovqa_io::encode_frame;
 use fovqa_plan::{EyeView, Plan};
 use fovqa_results::{
@@ -67,7 +68,9 @@ impl<'a> Writer<'a> {
         };
         let mut buffer_files = Vec::new();
         if let Some(destination) = self.destinations.buffer(frame.index) {
-            for (path, picture) in buffers(self.spec, frame.emulator, frame.before, destination)? {
+            for (path, picture) in
+                buffers(self.spec, frame, &self.eye.settings.signal, destination)?
+            {
                 let destination = Destination { path, ..destination.clone() };
                 write(&written, &picture, None, &destination)?;
                 buffer_files.push(self.plan.shown(&destination.path));
@@ -89,14 +92,17 @@ impl<'a> Writer<'a> {
 /// The buffers of a picture, with their files.
 fn buffers(
     spec: &EmulationSpec,
-    emulator: &Emulator,
-    before: &Picture,
+    frame: &FoveatedFrame<'_>,
+    signal: &SignalParams,
     destination: &Destination,
 ) -> Result<Vec<(std::path::PathBuf, Picture)>, OutputError> {
     let none = || OutputError::NoBuffer { method: spec.key().replace('_', "-") };
-    let pictures = emulator
-        .buffers(before)
-        .unwrap_or_else(|_| unreachable!("the emulator was made for this picture"));
+    let pictures = match frame.scene {
+        None => frame.emulator.buffers(frame.before),
+        Some(scene) => frame.emulator.scene_buffers(scene, frame.index, signal),
+    };
+    let pictures =
+        pictures.unwrap_or_else(|_| unreachable!("the emulator was made for this picture"));
     if pictures.is_empty() {
         return Err(none());
     }

@@ -1,0 +1,4 @@
+//! The built-in scenes: in experiments, and as files.
+
+mod experiments;
+mod files;
