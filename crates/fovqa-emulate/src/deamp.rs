@@ -91,7 +91,7 @@ impl Deamp {
 
     pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
         match self.screen_sigma_px {
-            Some(sigma_px) => V::keep(self.filter_on_screen(self.unfiltered(source), sigma_px)),
+            Some(sigma_px) => self.filter_on_screen(self.unfiltered(source), sigma_px).kept(),
             None => self.unfiltered(source),
         }
     }

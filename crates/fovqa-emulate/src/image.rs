@@ -31,6 +31,11 @@ impl<const C: usize> Image<C> {
         Self { width, pixels }
     }
 
+    /// The same image, kept as values of another kind.
+    pub(crate) fn kept<V: Value>(self) -> Image<C, V> {
+        Image { width: self.width, pixels: V::keep(self.pixels) }
+    }
+
     /// The same image with every row changed.
     pub(crate) fn map_rows(
         &self,

@@ -6,8 +6,6 @@
 
 use fovqa_params::words;
 
-use crate::spec::EmulationSpec;
-
 words! {
     /// Where within their cells samples stand, from frame to frame.
     #[derive(Default)]
@@ -32,19 +30,6 @@ impl Jitter {
             Self::None => CENTRE,
             Self::Halton => [2, 3].map(|base| radical_inverse(base, frame.saturating_add(1))),
         }
-    }
-}
-
-impl EmulationSpec {
-    /// Where within their cells samples stand. Jitter applies to finished frames as to scenes; see
-    /// [`Emulator::at_frame`](crate::Emulator::at_frame). Reading the buffer does not undo it.
-    pub fn set_jitter(&mut self, jitter: Jitter) {
-        self.jitter = jitter;
-    }
-
-    /// Where within their cells samples stand.
-    pub fn jitter(&self) -> Jitter {
-        self.jitter
     }
 }
 

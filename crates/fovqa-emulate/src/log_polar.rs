@@ -95,7 +95,7 @@ impl LogPolar {
 
     pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
         match &self.screen_filter {
-            Some(blur) => V::keep(blur.apply(&self.unblurred(source), &self.view.offsets)),
+            Some(blur) => blur.apply(&self.unblurred(source), &self.view.offsets).kept(),
             None => self.unblurred(source),
         }
     }

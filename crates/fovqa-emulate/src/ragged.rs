@@ -10,10 +10,10 @@ use std::f64::consts::TAU;
 use fovqa_methods::Setting;
 
 use crate::arcs::Sides;
-use crate::image::Image;
 use crate::sample_places::SamplePlaces;
-use crate::texel::narrowed;
-use crate::values::{Values, WRAPPED};
+
+/// Values of a column beside its samples: the last one again before them, the first one behind.
+pub(crate) const WRAPPED: usize = 2;
 
 /// A column of a buffer.
 #[derive(Debug, Clone)]
@@ -106,16 +106,5 @@ impl Ragged {
     pub(crate) fn on_screen(&self, setting: &Setting) -> usize {
         let frame = Sides::of_frame(setting);
         self.columns.iter().map(|column| frame.count_inside(column.distance_px, column.rows)).sum()
-    }
-
-    /// The samples as an image: column by column from the top, 0 where a column has no more rows.
-    pub(crate) fn image<const C: usize>(&self, values: &Values) -> Image<C> {
-        let [width, height] = self.size();
-        Image::by_rows(width, height, |j, row| {
-            for (out, column) in row.iter_mut().zip(&self.columns) {
-                let inside = j < column.rows;
-                *out = narrowed(if inside { values.sample(column, j) } else { [0.0; 4] });
-            }
-        })
     }
 }

@@ -31,7 +31,7 @@ impl Stable {
 
     pub(crate) fn show<const C: usize, V: Value>(&self, source: &impl Source<C>) -> Image<C, V> {
         let size = [self.offsets.width(), self.offsets.height()];
-        V::keep(self.blur.apply(&source.signal(self.places, size), &self.offsets))
+        self.blur.apply(&source.signal(self.places, size), &self.offsets).kept()
     }
 }
 

@@ -91,7 +91,7 @@ impl Source<3> for SceneSource<'_> {
     }
 
     fn sample_frame<V: Value>(&self, places: SamplePlaces, size: [usize; 2]) -> Image<3, V> {
-        V::keep(self.signal(places, size).into_owned())
+        self.signal(places, size).into_owned().kept()
     }
 
     fn signal(&self, places: SamplePlaces, [width, height]: [usize; 2]) -> Cow<'_, Image<3>> {

@@ -157,6 +157,17 @@ impl EmulationSpec {
         self.sampling = sampling;
     }
 
+    /// Where within their cells samples stand. Jitter applies to finished frames as to scenes; see
+    /// [`Emulator::at_frame`](crate::Emulator::at_frame). Reading the buffer does not undo it.
+    pub fn set_jitter(&mut self, jitter: Jitter) {
+        self.jitter = jitter;
+    }
+
+    /// Where within their cells samples stand.
+    pub fn jitter(&self) -> Jitter {
+        self.jitter
+    }
+
     /// The values the method runs on.
     pub fn set_space(&mut self, space: Space) {
         self.space = space;

@@ -3,7 +3,7 @@
 
 use multiversion::multiversion;
 
-use crate::image::Image;
+use rayon::prelude::*;
 
 /// A value of a finished picture.
 pub(crate) trait Value: Copy + Default + Send + Sync {
@@ -15,8 +15,8 @@ pub(crate) trait Value: Copy + Default + Send + Sync {
         fill: impl FnOnce(&mut [[f32; C]]),
     );
 
-    /// Keeps a whole picture.
-    fn keep<const C: usize>(image: Image<C>) -> Image<C, Self>;
+    /// Keeps all pixels of a picture.
+    fn keep<const C: usize>(pixels: Vec<[f32; C]>) -> Vec<[Self; C]>;
 }
 
 impl Value for f32 {
@@ -28,8 +28,8 @@ impl Value for f32 {
         fill(out);
     }
 
-    fn keep<const C: usize>(image: Image<C>) -> Image<C> {
-        image
+    fn keep<const C: usize>(pixels: Vec<[f32; C]>) -> Vec<[Self; C]> {
+        pixels
     }
 }
 
@@ -44,8 +44,14 @@ impl Value for u8 {
         codes8(room.as_flattened(), out.as_flattened_mut());
     }
 
-    fn keep<const C: usize>(image: Image<C>) -> Image<C, Self> {
-        Image::by_rows(image.width(), image.height(), |y, row| row.copy_from_slice(image.row(y)))
+    fn keep<const C: usize>(pixels: Vec<[f32; C]>) -> Vec<[Self; C]> {
+        /// Pixels that one task converts.
+        const TASK: usize = 1 << 16;
+        let mut kept = vec![[0; C]; pixels.len()];
+        kept.par_chunks_mut(TASK).zip(pixels.par_chunks(TASK)).for_each(|(codes, signal)| {
+            codes8(signal.as_flattened(), codes.as_flattened_mut());
+        });
+        kept
     }
 }
 

@@ -7,13 +7,11 @@ use multiversion::multiversion;
 use rayon::prelude::*;
 
 use crate::fetch::lerp;
+use crate::image::Image;
 use crate::places::{Places, TILE};
-use crate::ragged::{Column, Ragged};
+use crate::ragged::{Column, Ragged, WRAPPED};
 use crate::split::split;
-use crate::texel::{Texel, write_all};
-
-/// Values of a column beside its samples.
-pub(crate) const WRAPPED: usize = 2;
+use crate::texel::{Texel, narrowed, write_all};
 
 /// The samples of a whole buffer.
 #[derive(Debug, Clone)]
@@ -46,6 +44,17 @@ struct Pair {
 }
 
 impl Ragged {
+    /// The samples as an image: column by column from the top, 0 where a column has no more rows.
+    pub(crate) fn image<const C: usize>(&self, values: &Values) -> Image<C> {
+        let [width, height] = self.size();
+        Image::by_rows(width, height, |j, row| {
+            for (out, column) in row.iter_mut().zip(self.columns()) {
+                let inside = j < column.rows;
+                *out = narrowed(if inside { values.sample(column, j) } else { [0.0; 4] });
+            }
+        })
+    }
+
     /// Values of this buffer, computed column by column, in parallel.
     pub(crate) fn fill(&self, column: impl Fn(&Column, &mut [Texel]) + Sync) -> Values {
         let mut values = vec![Texel::default(); self.length];

@@ -5,9 +5,10 @@ use fovqa_vision::View;
 use rayon::prelude::*;
 
 use crate::camera::Pose;
+use crate::frame_scene::FrameScene;
 use crate::gaze::GazeCourse;
 use crate::path::head;
-use crate::scene::{FrameScene, Prepared, SceneName};
+use crate::scene::{Prepared, SceneName};
 use crate::spec::{BuiltinSpec, GalleryError, check_size};
 
 /// A built-in sequence for one eye.

@@ -5,7 +5,7 @@
 use fovqa_frame::transfer::srgb;
 use fovqa_vision::View;
 
-use crate::scene::{FrameScene, Surface};
+use crate::frame_scene::{FrameScene, Surface};
 
 /// The chart.
 #[derive(Debug)]

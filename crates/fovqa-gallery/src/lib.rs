@@ -11,6 +11,7 @@
 mod builtin;
 mod camera;
 mod chart;
+mod frame_scene;
 mod furniture;
 mod gaze;
 mod hall;
@@ -30,6 +31,7 @@ mod vec3;
 mod walk;
 
 pub use builtin::{Builtin, CameraPose};
-pub use scene::{FrameScene, SceneName, Surface};
+pub use frame_scene::{FrameScene, Surface};
+pub use scene::SceneName;
 pub use source::BuiltinSource;
 pub use spec::{BuiltinSpec, GalleryError, IPD_M};

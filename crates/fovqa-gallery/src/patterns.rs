@@ -4,7 +4,7 @@
 
 use fovqa_vision::View;
 
-use crate::scene::{FrameScene, Surface};
+use crate::frame_scene::{FrameScene, Surface};
 
 /// A pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,9 +1,10 @@
-//! The built-in scenes, and what every one of them can tell of a position in a frame.
+//! The built-in scenes by their names.
 
 use fovqa_params::words;
 use fovqa_vision::View;
 
 use crate::chart::CsfChart;
+use crate::frame_scene::FrameScene;
 use crate::patterns::{Pattern, Turning};
 use crate::walk::Walk;
 
@@ -23,26 +24,6 @@ words! {
         /// A contrast-sensitivity chart.
         CsfChart "csf_chart" "Gratings: frequency rises to the right, contrast falls downwards";
     }
-}
-
-/// What is at a position of a frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Surface {
-    /// Distance along the viewing axis in metres.
-    pub depth_m: f64,
-    /// From this position to that of the same point in the frame before, in pixels; `None` where the
-    /// point was behind the eye.
-    pub motion_px: Option<[f64; 2]>,
-}
-
-/// A frame of a built-in scene, as a function of position. Positions are in pixels from the top-left
-/// corner; those off the frame have values as well.
-pub trait FrameScene: Send + Sync {
-    /// Linear light, Rec. 709; 1 is white paper.
-    fn light(&self, x: f64, y: f64) -> [f32; 3];
-
-    /// Depth and motion.
-    fn surface(&self, x: f64, y: f64) -> Surface;
 }
 
 /// A built-in scene, prepared once for all frames.

@@ -3,9 +3,9 @@
 use fovqa_vision::View;
 
 use crate::camera::Camera;
+use crate::frame_scene::{FrameScene, Surface};
 use crate::path::head;
 use crate::place::Place;
-use crate::scene::{FrameScene, Surface};
 
 /// The hall as one eye of the viewer sees it.
 #[derive(Debug)]

@@ -3,6 +3,7 @@
 mod error;
 mod exr_frame;
 mod format;
+mod format_of_path;
 mod frame;
 mod jpeg_frame;
 mod maps;
