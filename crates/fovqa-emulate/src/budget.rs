@@ -1,6 +1,7 @@
 //! A method's free parameter, solved for a share of samples; and what became of it in whole samples.
 
 use fovqa_methods::{BudgetError, BudgetSamples, Setting};
+use fovqa_params::ParamValue;
 
 use crate::counts::Counts;
 use crate::error::EmulateError;
@@ -42,6 +43,11 @@ impl EmulationSpec {
             return Err(BudgetError::NotFree { method: self.key() }.into());
         };
         let solved = method.at_budget(setting, budget.share, budget.of)?;
+        // Of a list, such as the densities of layers, a budget changes the scale alone.
+        if let Some(ParamValue::Number(_)) = self.set_by_name().get(solved.parameter) {
+            let (method, parameter) = (self.key(), solved.parameter);
+            return Err(EmulateError::BudgetAndParameter { method, parameter });
+        }
         let ideal = solved.method.apply(setting)?.counts();
         let samples = match budget.of {
             BudgetSamples::Buffer => ideal.whole(),

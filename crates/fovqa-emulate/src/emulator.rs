@@ -55,6 +55,7 @@ impl Emulator {
     ) -> Result<Self, EmulateError> {
         let setting = setting(spec, size, view, gaze_px)?;
         let (solved, solution) = spec.solved(&setting)?;
+        few_enough(&solved, &setting)?;
         let prepared = Prepared::new(&solved, &setting, solved.jitter.within_cell(0))?;
         let counts = prepared.counts();
         let budget = solution.map(|solution| solution.report(&counts, &setting));
@@ -84,10 +85,7 @@ impl Emulator {
         gaze_px: [f64; 2],
     ) -> Result<(), EmulateError> {
         let setting = setting(spec, size, view, gaze_px)?;
-        if let Emulated::Foveation(method) = &spec.solved(&setting)?.0.method {
-            method.apply(&setting)?;
-        }
-        Ok(())
+        few_enough(&spec.solved(&setting)?.0, &setting)
     }
 
     /// How many samples each frame stands for.
@@ -188,6 +186,21 @@ impl Emulator {
         let (first, others) = self.enhancers.split_first()?;
         Some(others.iter().fold(apply(picture, first), |picture, next| apply(&picture, next)))
     }
+}
+
+/// The most samples of a frame: they take 2 GB.
+const MOST_SAMPLES: u64 = 1 << 27;
+
+/// Checks that a method can be applied, before memory is asked for.
+fn few_enough(spec: &EmulationSpec, setting: &Setting) -> Result<(), EmulateError> {
+    let Emulated::Foveation(method) = &spec.method else { return Ok(()) };
+    let samples = method.apply(setting)?.counts().whole();
+    // Every pixel of a large frame may be shaded.
+    let most = MOST_SAMPLES.max(setting.pixels() as u64);
+    if samples <= most as f64 {
+        return Ok(());
+    }
+    Err(EmulateError::TooManySamples { method: spec.key(), samples, most })
 }
 
 /// The geometry. A method that does not use the focal length gets any.

@@ -48,6 +48,26 @@ pub enum EmulateError {
         /// The most it may be.
         most: f64,
     },
+    /// A method that would shade more samples than memory is used for.
+    #[error(
+        "{method} would shade {samples:.0} samples with these parameters; at most {most} are emulated"
+    )]
+    TooManySamples {
+        /// The method.
+        method: &'static str,
+        /// The samples of one frame.
+        samples: f64,
+        /// How many there may be.
+        most: u64,
+    },
+    /// A budget beside the parameter that it solves.
+    #[error("{method}: a budget solves {parameter}, which is set as well")]
+    BudgetAndParameter {
+        /// The method.
+        method: &'static str,
+        /// The parameter.
+        parameter: &'static str,
+    },
     /// A picture or motion of another size than the emulator's.
     #[error("{what} of {}x{} in an emulation of {}x{}", found[0], found[1], expected[0], expected[1])]
     Size {
@@ -77,6 +97,10 @@ impl EmulateError {
             Self::NoView { .. } => "give {view}",
             Self::OutOfRange { .. } => "give a number in this range",
             Self::Size { .. } => "all frames of a sequence must have the same size",
+            Self::TooManySamples { .. } => {
+                "choose parameters with fewer samples, or a smaller budget"
+            }
+            Self::BudgetAndParameter { .. } => "leave one of them out",
             Self::Budget(_) => "choose another share, or other parameters",
         }
     }

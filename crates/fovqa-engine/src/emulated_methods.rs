@@ -62,6 +62,9 @@ impl EmulatedMethods {
         if foveator.is_temporal() && !foveator.begins_at(position) {
             check_motion(&mut self.motion, motion.is_some(), &reference.file, warnings)?;
         }
+        if foveator.is_temporal() && step.frame > 0 && foveator.begins_at(position) {
+            warn_of_gap(view.frames[step.frame].number, warnings);
+        }
         let gaze_px = view.trace.as_ref().map(|trace| trace[step.frame].px).or(self.fixed_gaze);
         let emulation = view.sources.test(step.method).emulation();
         let keeps = emulation.is_some_and(|emulation| emulation.keep_frames);
@@ -138,6 +141,15 @@ pub(crate) fn fixed_gaze(eye: &EyeView) -> Option<[f64; 2]> {
         Gaze::Point(px) => Some(px),
         Gaze::Centre | Gaze::Builtin | Gaze::Trace { .. } => None,
     }
+}
+
+/// Warns of a frame at which a temporal filter begins again.
+pub(crate) fn warn_of_gap(frame: i64, warnings: &mut Warnings<'_>) {
+    let message = format!(
+        "no frame comes directly before frame {frame}: the temporal filter begins again there, and wherever frames \
+         are missing, left out, or could not be read"
+    );
+    warnings.once_a_view("temporal filter begins again", &message);
 }
 
 /// Warns if a temporal filter has no motion, and refuses frames without motion after frames with it.

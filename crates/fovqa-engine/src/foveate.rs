@@ -7,7 +7,7 @@ use fovqa_frame::{Frame, SignalTables};
 use fovqa_plan::{Plan, SourceSpec};
 use fovqa_results::Failure;
 
-use crate::emulated_methods::{BuiltinLight, check_motion, fixed_gaze};
+use crate::emulated_methods::{BuiltinLight, check_motion, fixed_gaze, warn_of_gap};
 use crate::error::EngineError;
 use crate::events::{Events, Progress, Warnings};
 use crate::found::FoundView;
@@ -164,6 +164,9 @@ impl Pass<'_> {
         let position = step.found.position;
         if self.foveator.is_temporal() && !self.foveator.begins_at(position) {
             check_motion(&mut self.motion, motion.is_some(), &reference.file, warnings)?;
+        }
+        if self.foveator.is_temporal() && step.frame > 0 && self.foveator.begins_at(position) {
+            warn_of_gap(step.found.number, warnings);
         }
         match scene {
             None => self.foveator.next(position, before, motion, gaze_px),

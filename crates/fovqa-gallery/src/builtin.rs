@@ -18,6 +18,7 @@ pub struct Builtin {
     view: View,
     eye_m: f64,
     scene: Prepared,
+    gaze: GazeCourse,
 }
 
 /// The pose of a camera: its position in metres and its axes, in a world with x to the right, y up and
@@ -47,7 +48,8 @@ impl Builtin {
         spec.check()?;
         check_size(&view)?;
         let scene = Prepared::new(spec.scene, view, spec.fps, eye_m, spec.seed);
-        Ok(Self { spec: spec.clone(), view, eye_m, scene })
+        let gaze = GazeCourse::new(spec.seed, spec.frames as f64 / spec.fps);
+        Ok(Self { spec: spec.clone(), view, eye_m, scene, gaze })
     }
 
     /// What the sequence is made of.
@@ -71,7 +73,7 @@ impl Builtin {
         if self.spec.scene != SceneName::Gallery {
             return principal_px;
         }
-        let [right, down] = GazeCourse::new(self.spec.seed).at(frame as f64 / self.spec.fps);
+        let [right, down] = self.gaze.at(frame as f64 / self.spec.fps);
         let tan = |degrees: f64| libm::tan(degrees.to_radians());
         // The eyes converge: each sees the target on its own side.
         let x = tan(right) - self.eye_m / VERGENCE_M;

@@ -16,16 +16,18 @@ pub(crate) fn peak_velocity_deg_s(amplitude_deg: f64) -> f64 {
 /// The gaze relative to the head, in degrees to the right and down.
 pub(crate) type Angles = [f64; 2];
 
-/// The course of the gaze.
-#[derive(Debug, Clone, Copy)]
+/// The course of the gaze up to some time.
+#[derive(Debug, Clone)]
 pub(crate) struct GazeCourse {
-    seed: u64,
+    /// The phases, each with the time in seconds at which it begins; there is one behind the last.
+    phases: Vec<(f64, Phase)>,
 }
 
 /// The farthest that the gaze turns from the axis, in degrees.
 const FARTHEST: Angles = [17.0, 11.0];
 
 /// What the gaze does for a while: it stays or follows something, then jumps to the next target.
+#[derive(Debug, Clone, Copy)]
 struct Phase {
     from: Angles,
     /// Degrees per second while it follows something; 0 for a fixation.
@@ -35,55 +37,54 @@ struct Phase {
 }
 
 impl GazeCourse {
-    pub(crate) fn new(seed: u64) -> Self {
-        Self { seed }
-    }
-
-    /// The gaze at a time in seconds, from 0 on.
-    pub(crate) fn at(self, time_s: f64) -> Angles {
-        let mut begin = 0.0;
-        let mut index = 0;
-        let mut phase = self.phase(0);
-        loop {
-            let next = self.phase(index + 1);
-            let end = phase.at(phase.hold_s);
-            let amplitude = (0..2)
-                .map(|i| (next.from[i] - end[i]) * (next.from[i] - end[i]))
-                .sum::<f64>()
-                .sqrt();
-            let saccade_s = if amplitude > 0.0 {
-                1.875 * amplitude / peak_velocity_deg_s(amplitude)
-            } else {
-                0.0
-            };
-            let since = time_s - begin;
-            if since < phase.hold_s {
-                return phase.at(since);
-            }
-            if since < phase.hold_s + saccade_s {
-                let s = (since - phase.hold_s) / saccade_s;
-                let share = s * s * s * (10.0 + s * (6.0 * s - 15.0));
-                return [0, 1].map(|i| end[i] + (next.from[i] - end[i]) * share);
-            }
-            begin += phase.hold_s + saccade_s;
+    /// The course from 0 to a time in seconds.
+    pub(crate) fn new(seed: u64, until_s: f64) -> Self {
+        let (mut begin, mut phase) = (0.0, phase(seed, 0));
+        let mut phases = vec![(begin, phase)];
+        while begin <= until_s {
+            let next = self::phase(seed, phases.len() as i64);
+            begin += phase.hold_s + saccade_s(phase.at(phase.hold_s), next.from);
             phase = next;
-            index += 1;
+            phases.push((begin, phase));
         }
+        Self { phases }
     }
 
-    fn phase(self, index: i64) -> Phase {
-        let number = |of: i64| random(index, of, 1, self.seed);
-        // The first fixation is near the axis; every third phase is a pursuit.
-        let reach = if index == 0 { 0.2 } else { 1.0 };
-        let from = [0, 1].map(|i| FARTHEST[i as usize] * reach * (2.0 * number(i) - 1.0));
-        let follows = index % 3 == 2;
-        let hold_s = if follows { 0.5 + 0.5 * number(2) } else { 0.22 + 0.33 * number(2) };
-        // Towards the axis, so that the gaze stays in the field.
-        let speed = 4.0 + 8.0 * number(3);
-        let length = (from[0] * from[0] + from[1] * from[1]).sqrt().max(1e-9);
-        let velocity = from.map(|part| if follows { -part / length * speed } else { 0.0 });
-        Phase { from, velocity, hold_s }
+    /// The gaze at a time in seconds within the course.
+    pub(crate) fn at(&self, time_s: f64) -> Angles {
+        let behind = self.phases.partition_point(|(begin, _)| *begin <= time_s);
+        let index = behind.clamp(1, self.phases.len() - 1);
+        let ((begin, phase), (_, next)) = (self.phases[index - 1], self.phases[index]);
+        let since = time_s - begin;
+        if since < phase.hold_s {
+            return phase.at(since);
+        }
+        let end = phase.at(phase.hold_s);
+        let s = ((since - phase.hold_s) / saccade_s(end, next.from)).min(1.0);
+        let share = s * s * s * (10.0 + s * (6.0 * s - 15.0));
+        [0, 1].map(|i| end[i] + (next.from[i] - end[i]) * share)
     }
+}
+
+/// How long a saccade takes, in seconds.
+fn saccade_s(from: Angles, to: Angles) -> f64 {
+    let [x, y] = [0, 1].map(|i| to[i] - from[i]);
+    let amplitude = (x * x + y * y).sqrt();
+    if amplitude > 0.0 { 1.875 * amplitude / peak_velocity_deg_s(amplitude) } else { 0.0 }
+}
+
+fn phase(seed: u64, index: i64) -> Phase {
+    let number = |of: i64| random(index, of, 1, seed);
+    // The first fixation is near the axis; every third phase is a pursuit.
+    let reach = if index == 0 { 0.2 } else { 1.0 };
+    let from = [0, 1].map(|i| FARTHEST[i as usize] * reach * (2.0 * number(i) - 1.0));
+    let follows = index % 3 == 2;
+    let hold_s = if follows { 0.5 + 0.5 * number(2) } else { 0.22 + 0.33 * number(2) };
+    // Towards the axis, so that the gaze stays in the field.
+    let speed = 4.0 + 8.0 * number(3);
+    let length = (from[0] * from[0] + from[1] * from[1]).sqrt().max(1e-9);
+    let velocity = from.map(|part| if follows { -part / length * speed } else { 0.0 });
+    Phase { from, velocity, hold_s }
 }
 
 impl Phase {
@@ -98,7 +99,7 @@ mod tests {
 
     /// Speeds in degrees per second, a thousand a second.
     fn speeds(seconds: usize) -> Vec<f64> {
-        let course = GazeCourse::new(1);
+        let course = GazeCourse::new(1, 13.0);
         let at = |i: usize| course.at(i as f64 / 1000.0);
         let speed = |i: usize| {
             let (a, b) = (at(i), at(i + 1));
@@ -122,7 +123,7 @@ mod tests {
     /// Peak velocity and amplitude of each saccade are those of the main sequence.
     #[test]
     fn saccades_follow_the_main_sequence() {
-        let (course, speeds) = (GazeCourse::new(1), speeds(12));
+        let (course, speeds) = (GazeCourse::new(1, 13.0), speeds(12));
         let mut begun: Option<(usize, f64)> = None;
         let mut saccades = 0;
         for (i, speed) in speeds.iter().enumerate() {

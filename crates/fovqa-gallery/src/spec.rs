@@ -27,7 +27,7 @@ pub const IPD_M: f64 = 0.063;
 
 impl BuiltinSpec {
     /// The most frames.
-    pub const MOST_FRAMES: usize = 1_000_000;
+    pub const MOST_FRAMES: usize = 100_000;
     /// The most samples for each pixel.
     pub const MOST_SAMPLES: usize = 4096;
 
@@ -53,10 +53,10 @@ impl BuiltinSpec {
         };
         whole("frames", self.frames, Self::MOST_FRAMES)?;
         whole("samples", self.samples, Self::MOST_SAMPLES)?;
-        if self.fps > 0.0 && self.fps <= 1e4 {
+        if (1.0..=1e4).contains(&self.fps) {
             return Ok(());
         }
-        let range = "above 0, up to 10000".to_owned();
+        let range = "1 to 10000".to_owned();
         Err(GalleryError::OutOfRange { what: "fps", found: self.fps.to_string(), range })
     }
 }

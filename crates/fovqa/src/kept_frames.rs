@@ -3,12 +3,14 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use fovqa_engine::{EngineError, Entry, Finished, Named};
+use fovqa_engine::{EngineError, Entry, Finished, FoundInputs, Named};
 use fovqa_frame::Frame;
+use fovqa_frame::source::Origin;
 use fovqa_io::{FrameFormat, encode_frame};
 use fovqa_plan::{Plan, SourceSpec};
 use fovqa_results::{FileError, FrameResult, make_folder, write_whole};
 
+use crate::error::Error;
 use crate::maps::padded;
 
 /// The folder below the results that emulated frames are written to.
@@ -60,6 +62,35 @@ impl KeptFrames {
             FileError::Format { path, detail, .. } => failed(&path, io::Error::other(detail)),
         })
     }
+}
+
+/// Refuses to keep frames in the folder that inputs are read from: they could replace them.
+///
+/// # Errors
+/// If an input is in the folder.
+pub(crate) fn check_inputs(plan: &Plan, found: &FoundInputs, results: &Path) -> Result<(), Error> {
+    let keeps = |test: &(usize, SourceSpec)| matches!(&test.1, SourceSpec::Emulated(emulation) if emulation.keep_frames);
+    let tests = plan.scenes.iter().flat_map(|scene| &scene.eyes).flat_map(|eye| &eye.tests);
+    let Ok(folder) = results.join(FOLDER).canonicalize() else { return Ok(()) };
+    if !tests.clone().any(keeps) {
+        return Ok(());
+    }
+    let frames = found
+        .views
+        .iter()
+        .flat_map(|view| view.frames.iter().flat_map(|frame| view.sources.of_frame(frame)));
+    for (source, at) in frames {
+        for (name, origin) in source.origins(at) {
+            let Origin::File(path) = origin else { continue };
+            if path.canonicalize().is_ok_and(|path| path.starts_with(&folder)) {
+                let message = format!(
+                    "{name}: this input is in the folder that emulated frames are written to"
+                );
+                return Err(Error::usage(message, "give another folder with {output}"));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Whether a plan keeps the emulated frames of a comparison.

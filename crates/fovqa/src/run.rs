@@ -14,7 +14,7 @@ use fovqa_results::{HAS_PARQUET, table_file};
 
 use crate::error::{Complaint, Error};
 use crate::finish::{clear, finish, in_folder, say_failures_of_shard};
-use crate::kept_frames::KeptFrames;
+use crate::kept_frames::{KeptFrames, check_inputs};
 use crate::maps::{MapsFolder, maps_lacking};
 
 /// How an experiment is run.
@@ -139,6 +139,7 @@ impl Run {
     /// and counted.
     pub fn start(self, events: &dyn Events) -> Result<Finished, Error> {
         let folder = self.options.output.clone().unwrap_or_else(|| self.default_folder());
+        check_inputs(&self.experiment.plan, &self.found, &folder)?;
         // The folder is opened before anything is scored, so that a folder that cannot be written
         // to is noticed at once.
         let folder = ResultsFolder::open(&folder, self.options.locking)

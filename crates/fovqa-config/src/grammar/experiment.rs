@@ -148,7 +148,7 @@ const SIGNAL: &[Key] = &[
     ),
     key(
         "max_megapixels",
-        Kind::Whole(1, 1_000_000),
+        Kind::Whole(1, 100_000),
         "largest number of pixels that a file may declare, in millions",
     ),
     key(

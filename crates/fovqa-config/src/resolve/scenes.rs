@@ -63,6 +63,13 @@ pub(super) fn scenes(
                     Placeholders { scene: name, folder, method: None, eye: eye.map(Eye::name) };
                 let layers = Layers::new(root, table, eye);
                 let mut settings = layers.settings(base, placeholders, faults);
+                if builtin.is_none() && settings.gaze == Gaze::Builtin {
+                    let message = format!(
+                        "scene \"{name}\" is not built in, so that no viewer has a gaze in it"
+                    );
+                    let help = "write \"center\", [x, y] in pixels, or { trace = \"gaze.csv\" }";
+                    faults.push(Fault::new(layers.gaze_span(), message).help(help));
+                }
                 let reference = match &builtin {
                     Some(builtin) => {
                         if builtin.has_gaze() && !layers.has_gaze() {

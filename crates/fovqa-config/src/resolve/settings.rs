@@ -168,6 +168,11 @@ impl<'a> Layers<'a> {
         self.having("gaze").is_some()
     }
 
+    /// The position of the gaze.
+    pub(super) fn gaze_span(&self) -> Range<usize> {
+        self.span("gaze")
+    }
+
     fn bands(&self, faults: &mut Faults) -> Option<BandEdges> {
         let edges = self.having("bands_deg")?.numbers("bands_deg")?;
         match BandEdges::new(edges) {
