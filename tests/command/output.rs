@@ -2,7 +2,7 @@
 
 use std::process::Stdio;
 
-use crate::fovqa::{Folder, Run, command, root};
+use crate::fovqa::{Folder, Run, command};
 
 #[test]
 fn json_has_the_documented_keys() {
@@ -289,18 +289,4 @@ fn the_same_bytes_for_any_number_of_threads() {
     assert_eq!(one, run("3"));
     let option = folder.run(&[&arguments[..], &["--threads", "5"]].concat()).ok().stdout;
     assert_eq!(one, option);
-}
-
-/// The README shows what the demo prints, and the demo is the Makefile's.
-#[test]
-fn the_readme_shows_the_demo() {
-    let makefile = std::fs::read_to_string(root().join("Makefile")).unwrap();
-    let demo = makefile.split("demo:").nth(1).unwrap().split("\n\n").next().unwrap();
-    let arguments: Vec<&str> = demo.split(" -- ").nth(1).unwrap().split_whitespace().collect();
-    let folder = Folder::new();
-    let output = folder.path("demo");
-    let arguments = [&arguments[..], &["--output", output.to_str().unwrap()]].concat();
-    let table = Run::from(command(&arguments).current_dir(root()).output().unwrap()).ok().stdout;
-    let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
-    assert!(readme.contains(&table), "{table}");
 }

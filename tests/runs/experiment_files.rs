@@ -310,7 +310,8 @@ fn the_committed_experiments_are_right() {
         let run = Run::from(command(&["check", path.to_str().unwrap()]).output().unwrap());
         let there = data.is_some() || !text.contains("../shared");
         assert_eq!(run.code, if there { 0 } else { 3 }, "{name}: {}", run.stderr);
-        if there {
+        // The demo takes longer and has a test of its own (results_folder.rs).
+        if there && name != "demo.toml" {
             results.run(&["run", path.to_str().unwrap()]).ok();
             let folder = results.path(&format!("reports/{}", name.trim_end_matches(".toml")));
             let files = || fs::read_dir(&folder).unwrap().map(|file| file.unwrap().path());
@@ -320,7 +321,7 @@ fn the_committed_experiments_are_right() {
             assert!(fs::read_dir(folder.join("plots")).unwrap().count() >= 3, "{name}");
         }
     }
-    assert!(seen >= 9);
+    assert!(seen >= 10);
 }
 
 /// The names of all properties in a schema.

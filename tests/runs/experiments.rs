@@ -382,11 +382,11 @@ fn brackets_in_names_are_no_wildcards() {
 }
 
 #[test]
-fn the_demo_runs() {
+fn committed_renders_are_scored() {
     let folder = Folder::new();
-    let demo = root().join("configs/demo.toml");
-    folder.run(&["run", demo.to_str().unwrap()]).ok();
-    let summary = json(&folder, "reports/demo/summary.json");
+    let renders = root().join("configs/renders.toml");
+    folder.run(&["run", renders.to_str().unwrap()]).ok();
+    let summary = json(&folder, "reports/renders/summary.json");
     // Of the committed golden values (scikit-image), of the same pictures.
     let psnr = summary["comparisons"][0]["metrics"]["psnr"]["mean"].as_f64().unwrap();
     assert!((psnr - 28.651_635).abs() < 1e-4, "{psnr}");

@@ -31,7 +31,7 @@ type Pair = (&'static str, &'static str, &'static str, &'static str);
 const SCORES: &[Scores] = &[
     // Stills, PNG.
     Scores {
-        experiment: "demo",
+        experiment: "renders",
         options: "--fov-vertical 100 --bands 0,5,10,20,30,45,60 \
                   --metrics psnr,ssim,ms-ssim,fpsnr,rms-contrast,haar",
         pairs: &[
@@ -272,7 +272,7 @@ impl Experiment {
     }
 }
 
-/// Those with scenes, by name.
+/// Those with scenes in files, by name. (The results of the demo are in `reports/demo`.)
 fn experiments() -> Vec<Experiment> {
     let configs = root().join("configs");
     let folders = [configs.join("papers"), configs.join("ci"), configs];
@@ -283,7 +283,7 @@ fn experiments() -> Vec<Experiment> {
             continue;
         }
         let text = fs::read_to_string(&path).unwrap();
-        if text.contains("[[scene]]") {
+        if text.contains("[[scene]]") && !text.contains("builtin = ") {
             let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
             found.push(Experiment { name, path, text });
         }

@@ -32,7 +32,7 @@ pub(crate) fn run(experiment: &Path, output: PathBuf) -> Result<Finished, fovqa:
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
 fn main() -> Result<(), fovqa::Error> {
     let mut arguments = std::env::args_os().skip(1).map(PathBuf::from);
-    let file = arguments.next().unwrap_or_else(|| "configs/demo.toml".into());
+    let file = arguments.next().unwrap_or_else(|| "configs/renders.toml".into());
     let output = arguments.next().unwrap_or_else(|| "reports/example".into());
     let finished = run(&file, output)?;
     if let Some(table) = finished.drawn.as_ref().and_then(|drawn| drawn.table.as_ref()) {

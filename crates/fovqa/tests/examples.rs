@@ -30,7 +30,7 @@ fn a_pair_in_memory_is_scored() {
 
 #[test]
 fn an_experiment_is_run() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs/demo.toml");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs/renders.toml");
     let folder = tempfile::tempdir().unwrap();
     let finished = experiment::run(&file, folder.path().join("out")).unwrap();
     assert!(finished.scored > 0 && finished.errors == 0 && finished.drawn.is_some());
