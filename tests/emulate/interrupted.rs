@@ -65,7 +65,8 @@ fn the_filter_begins_again_behind_a_gap() {
     let filter = "[[method]]\nname = \"T\"\nemulate = { model = \"taa\" }\n";
     let folder = sequence(filter, "[metrics]\nmse = {}\n");
     fs::remove_file(folder.path("moving/gt/0004.exr")).unwrap();
-    folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    let run = folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    run.says(&["no frame comes directly before frame 5: the temporal filter begins again there"]);
     let rows = rows(&folder, "out");
     let mse = rows.iter().filter(|row| row["metric"] == "mse" && row["from_deg"].is_empty());
     let passed = mse.filter(|row| row["value"].parse::<f64>().unwrap() == 0.0);

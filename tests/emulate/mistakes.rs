@@ -50,6 +50,8 @@ fn mistakes_are_shown_in_their_place() {
         ("emulate = { model = \"deamp\", sigmas = [1, 2], bounds_deg = [30] }", "deamp"),
         ("emulate = { model = \"guenter\", budget = 0.0001 }", "guenter"),
         ("emulate = { model = \"stable\", budget = 0.5 }", "stable"),
+        ("emulate = { model = \"vafr\", factor = 1000 }", "vafr would shade"),
+        ("emulate = { model = \"rmfr\", sigma = 2, budget = 0.2 }", "a budget solves sigma"),
     ] {
         folder.write("e.toml", experiment(VIEW, "gt.png", method));
         let run = folder.run(&["run", "e.toml", "--output", "out"]);
@@ -107,4 +109,29 @@ fn bad_pixels_are_not_spread() {
     run.says(&["gt.exr: channel R is NaN at pixel (3, 4)", "would spread"]);
     let csv = std::fs::read_to_string(folder.path("out/results.csv")).unwrap();
     assert!(csv.contains("s,F,,,0,pair,mse,") && csv.contains("s,M,,,0,pair,error,"), "{csv}");
+}
+
+/// Nobody looks around in a scene that is read from files.
+#[test]
+fn the_gaze_of_a_viewer_needs_a_built_in_scene() {
+    let folder = Folder::new();
+    folder.png("gt.png", 96, 80, &codes(96, 80, 3, 1));
+    let view = format!("{VIEW}\ngaze = \"builtin\"");
+    folder.write("e.toml", experiment(&view, "gt.png", "emulate = { model = \"rmfr\" }"));
+    folder.run(&["run", "e.toml", "--output", "out"]).fails(2, &["is not built in", "\"center\""]);
+}
+
+/// Frames that are kept may not replace the frames that they are emulated from.
+#[test]
+fn inputs_are_not_replaced_by_kept_frames() {
+    let folder = Folder::new();
+    folder.png("out/emulated/s/M/0000.png", 96, 80, &codes(96, 80, 3, 1));
+    let reference = "out/emulated/s/M/0000.png";
+    let before = std::fs::read(folder.path(reference)).unwrap();
+    let emulate = "emulate = { model = \"rmfr\", keep_frames = true }";
+    folder.write("e.toml", experiment(VIEW, reference, emulate));
+    let said = ["this input is in the folder that emulated frames are written to"];
+    folder.run(&["run", "e.toml", "--output", "out"]).fails(2, &said);
+    assert_eq!(std::fs::read(folder.path(reference)).unwrap(), before);
+    folder.run(&["run", "e.toml", "--output", "other"]).ok();
 }

@@ -67,6 +67,7 @@ fn mistakes_say_what_may_be_given() {
         (&["--output", "x", "--samples", "1000000"], "it must be 1 to 4096"),
         (&["--output", "x", "--scene", "galery"], "gallery"),
         (&["--output", "x", "--fps", "0"], "above 0"),
+        (&["--output", "x", "--fps", "0.001"], "it must be 1 to 10000"),
         (&["--output", "x", "--ipd-mm", "900"], "--ipd-mm must be 0 to 200"),
         (&[], "--output"),
     ] {
