@@ -14,7 +14,7 @@ pub(crate) enum Dialect {
 }
 
 /// Setting, option, and key.
-const SETTINGS: [(&str, &str, &str); 22] = [
+const SETTINGS: [(&str, &str, &str); 23] = [
     ("allow_missing", "--allow-missing", "allow_missing = true"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),
     ("alpha=over-black", "--alpha over-black", "alpha = \"over-black\""),
@@ -46,6 +46,7 @@ const SETTINGS: [(&str, &str, &str); 22] = [
     ("maps", "--maps", "--maps"),
     ("max_megapixels", "--max-megapixels", "max_megapixels"),
     ("metrics", "--metrics", "[metrics]"),
+    ("motion", "--motion or --motion-files", "motion"),
     ("nonfinite=mask", "--nonfinite mask", "nonfinite = \"mask\""),
     ("output", "--output", "--output"),
     ("resume", "--resume", "--resume"),

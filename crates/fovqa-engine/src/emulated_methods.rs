@@ -170,7 +170,7 @@ pub(crate) fn check_motion(
     }
     if !here {
         let message = "the frames have no motion vectors: the temporal filter takes every pixel as standing \
-                       still; if there are some, name them with {guides}";
+                       still; if there are some, name them with {motion}";
         warnings.once_a_view("temporal filter without motion", message);
     }
     Ok(())

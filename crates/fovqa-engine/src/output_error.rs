@@ -1,5 +1,6 @@
 //! Why an emulated frame cannot be written.
 
+use std::io::ErrorKind;
 use std::path::PathBuf;
 
 use fovqa_emulate::WriteFrameError;
@@ -67,7 +68,16 @@ impl OutputError {
             Self::NoBuffer { .. } => {
                 "leave {buffer} out, or choose a method that fills a smaller buffer".to_owned()
             }
-            Self::Write { .. } => "give another path, or free some space".to_owned(),
+            Self::Write { path, error } => match error.kind() {
+                ErrorKind::NotFound => {
+                    let folder = path.parent().unwrap_or(path);
+                    format!("make the folder {} first", folder.display())
+                }
+                ErrorKind::PermissionDenied => "give a folder that can be written to".to_owned(),
+                ErrorKind::IsADirectory => "give the name of a file".to_owned(),
+                ErrorKind::InvalidFilename => "give a shorter name".to_owned(),
+                _ => "give another path, or free some space".to_owned(),
+            },
         }
     }
 }

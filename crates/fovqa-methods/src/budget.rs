@@ -43,7 +43,7 @@ pub enum BudgetError {
     /// The budget cannot be reached.
     #[error(
         "{method} cannot reach a budget of {wanted} of the frame's pixels: {parameter} allows {} to \
-         {}", written(*least), written(*most)
+         {}", written(*least, true), written(*most, false)
     )]
     OutOfReach {
         /// The method's label.
@@ -62,9 +62,17 @@ pub enum BudgetError {
     Method(#[from] MethodError),
 }
 
-/// A share with four decimal digits.
-fn written(share: f64) -> String {
-    if (1e-3..1e4).contains(&share) { format!("{share:.4}") } else { format!("{share:.3e}") }
+/// A share with four decimal digits, rounded so that the written one can be reached.
+fn written(share: f64, up: bool) -> String {
+    /// Four decimals, and what is left to rounding errors.
+    const UNIT: f64 = 1e4;
+    const CLOSE: f64 = 1e-6;
+    if !(1e-3..1e4).contains(&share) {
+        return format!("{share:.3e}");
+    }
+    let units = share * UNIT;
+    let rounded = if up { (units - CLOSE).ceil() } else { (units + CLOSE).floor() };
+    format!("{:.4}", rounded / UNIT)
 }
 
 /// A free parameter with its range, from the sparsest sampling to the densest.
