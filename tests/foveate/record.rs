@@ -162,3 +162,23 @@ fn list_methods_shows_what_only_emulation_has() {
         assert!(text.contains(words), "{words}");
     }
 }
+
+/// What a method finds by itself is named, and gives the same picture when it is given.
+#[test]
+fn layers_that_were_found_are_named() {
+    let folder = with_frame();
+    for budget in ["", " --budget 0.3"] {
+        let found = format!(
+            "a.png found.png --method guenter --set fit=optimised --fov-vertical 90{budget}"
+        );
+        let record = folder.record(&found);
+        let given = |name: &str| record["parameters"][name].to_string().replace(' ', "");
+        let [bounds, scales] = ["bounds_deg", "scales"].map(given);
+        assert_ne!(scales, "[1.0,2.0,12.35]");
+        let given = format!(
+            "a.png given.png --method guenter --set bounds_deg={bounds} --set scales={scales} --fov-vertical 90"
+        );
+        assert_eq!(folder.record(&given)["frames"][0]["samples"], record["frames"][0]["samples"]);
+        assert_eq!(folder.frame("found.png"), folder.frame("given.png"));
+    }
+}

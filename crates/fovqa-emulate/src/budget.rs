@@ -1,6 +1,7 @@
 //! A method's free parameter, solved for a share of samples; and what became of it in whole samples.
 
-use fovqa_methods::{BudgetError, BudgetSamples, Setting};
+use fovqa_methods::guenter::{Fit, Guenter};
+use fovqa_methods::{BudgetError, BudgetSamples, Method, Setting};
 use fovqa_params::ParamValue;
 
 use crate::counts::Counts;
@@ -38,8 +39,9 @@ impl EmulationSpec {
         &self,
         setting: &Setting,
     ) -> Result<(Self, Option<Solution>), EmulateError> {
-        let Some(budget) = self.budget else { return Ok((self.clone(), None)) };
-        let Emulated::Foveation(method) = &self.method else {
+        let found = self.written_out(setting)?;
+        let Some(budget) = self.budget else { return Ok((found, None)) };
+        let Emulated::Foveation(method) = &found.method else {
             return Err(BudgetError::NotFree { method: self.key() }.into());
         };
         let solved = method.at_budget(setting, budget.share, budget.of)?;
@@ -55,10 +57,28 @@ impl EmulationSpec {
         };
         let (parameter, value) = (solved.parameter, solved.value);
         let ideal_share = samples / setting.pixels();
-        let mut spec = self.clone();
+        let mut spec = found.clone();
         spec.method = Emulated::Foveation(solved.method);
         spec.follow_cps();
         Ok((spec, Some(Solution { budget, parameter, value, ideal_share })))
+    }
+
+    /// The spec with what its method finds for a setting by itself: the layers of Guenter et al. with the
+    /// fewest samples.
+    fn written_out(&self, setting: &Setting) -> Result<Self, EmulateError> {
+        let mut spec = self.clone();
+        if let Emulated::Foveation(Method::Guenter(params)) = &self.method
+            && params.fit == Fit::Optimised
+        {
+            let found = Guenter::new(params, setting)?;
+            spec.method = Emulated::Foveation(Method::Guenter(found.fixed(params)));
+            let mut say = |name: &str, values: &[f64]| {
+                spec.set.insert(name.to_owned(), ParamValue::List(values.to_vec()));
+            };
+            say("bounds_deg", &found.bounds_deg());
+            say("scales", &found.scales());
+        }
+        Ok(spec)
     }
 }
 

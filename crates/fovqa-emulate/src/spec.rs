@@ -38,7 +38,7 @@ pub struct EmulationSpec {
     pub(crate) enhancement: SandboxParams,
     pub(crate) budget: Option<Budget>,
     /// What was set by name.
-    set: BTreeMap<String, ParamValue>,
+    pub(crate) set: BTreeMap<String, ParamValue>,
 }
 
 /// The largest share of a budget.

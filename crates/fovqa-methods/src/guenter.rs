@@ -199,7 +199,7 @@ impl Guenter {
     }
 
     /// Parameters that describe these layers with `fixed`.
-    pub(crate) fn fixed(&self, params: &Params) -> Params {
+    pub fn fixed(&self, params: &Params) -> Params {
         Params {
             bounds_deg: self.bounds_deg.to_vec(),
             scales: self.scales.to_vec(),

@@ -18,11 +18,7 @@ pub(super) struct First {
 }
 
 impl First {
-    pub(super) fn new(
-        spec: &EmulationSpec,
-        view: Option<&ViewSpec>,
-        frame: &FoveatedFrame<'_>,
-    ) -> Self {
+    pub(super) fn new(view: Option<&ViewSpec>, frame: &FoveatedFrame<'_>) -> Self {
         let (width, height) = (frame.before.width(), frame.before.height());
         let view = view.and_then(|view| view.resolve(width, height).ok());
         let view = view.map(|resolved| ViewRecord {
@@ -35,8 +31,7 @@ impl First {
         });
         let budget = frame.emulator.budget().map(budget_record);
         // Enhancement may follow a parameter that was solved.
-        let mut parameters =
-            if budget.is_some() { frame.emulator.spec().parameters() } else { spec.parameters() };
+        let mut parameters = frame.emulator.spec().parameters();
         if let Some(budget) = &budget {
             for (name, value) in &mut parameters {
                 if *name == budget.parameter {

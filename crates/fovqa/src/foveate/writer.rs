@@ -57,7 +57,7 @@ impl<'a> Writer<'a> {
         let first = self.first.get_or_insert_with(|| {
             let view = self.eye.settings.view.as_ref();
             self.warned.of_view(view, size);
-            First::new(self.spec, view, frame)
+            First::new(view, frame)
         });
         let budget = frame.emulator.budget().map(budget_record);
         let budget = budget.filter(|budget| Some(budget) != first.budget());
