@@ -17,7 +17,7 @@ use crate::found::{FoundInputs, FoundView, Problem, is_wanted};
 use crate::found_frame::{FoundFrame, GuideFrames};
 use crate::foveator;
 use crate::remarks::remarks;
-use crate::sources::{Given, Opener};
+use crate::sources::{Given, Opener, builtin};
 use crate::test_source::TestSource;
 use crate::timing::timings;
 use crate::view_sources::ViewSources;
@@ -32,7 +32,14 @@ pub fn find(plan: &Plan, given: &Given) -> FoundInputs {
                 let error = error.with_paths(&|path| plan.shown(path).into());
                 Problem { scene: scene_index, eye, method, error }
             };
-            let opener = Opener { plan, view, given };
+            let builtin = match builtin(view) {
+                Ok(builtin) => builtin,
+                Err(error) => {
+                    found.problems.push(problem(None, error));
+                    continue;
+                }
+            };
+            let opener = Opener { plan, view, given, builtin: builtin.clone() };
             let reference = match opener.reference() {
                 Ok(reference) => reference,
                 Err(error) => {
@@ -75,11 +82,10 @@ pub fn find(plan: &Plan, given: &Given) -> FoundInputs {
             let spacing = Spacing::of(&numbers);
             match select(plan, scene, merge(pairings, &spacing)).and_then(|mut frames| {
                 let [motion, depth] = opener.guides(&*reference, &mut frames)?;
-                let builtin = opener.builtin()?;
                 let sources = ViewSources { reference, builtin, tests, motion, depth };
                 let mut remarks = remarks(plan, scene, view, &sources, (&numbering, &spacing))?;
                 let fps = scene.fps.or_else(|| sources.all().find_map(Source::fps));
-                let (trace, of_gaze) = gaze(plan, view, fps, &frames)?;
+                let (trace, of_gaze) = gaze(plan, view, &sources, fps, &frames)?;
                 remarks.extend(of_gaze);
                 let impossible = emulations(view, &sources, &frames, trace.as_deref());
                 problems.extend(impossible.into_iter().map(|(m, error)| problem(Some(m), error)));

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use fovqa_io::read_small_file;
-use fovqa_plan::{EyeView, Gaze, Plan, SourceSpec};
+use fovqa_plan::{EyeView, Gaze, Plan};
 use fovqa_vision::{FrameAt, GazeAt, GazeTrace};
 
 use crate::error::EngineError;
 use crate::found_frame::FoundFrame;
-use crate::sources::builtin;
+use crate::view_sources::ViewSources;
 
 /// Largest size of a gaze file in bytes: enough for hours of gaze at the rate of any eye tracker.
 const MAX_GAZE_BYTES: u64 = 64 << 20;
@@ -20,12 +20,13 @@ const MAX_GAZE_BYTES: u64 = 64 << 20;
 pub(crate) fn gaze(
     plan: &Plan,
     view: &EyeView,
+    sources: &ViewSources,
     fps: Option<f64>,
     frames: &[FoundFrame],
 ) -> Result<(Option<Vec<GazeAt>>, Vec<String>), EngineError> {
     let (path, hold) = match &view.settings.gaze {
         Gaze::Centre => return Ok((None, Vec::new())),
-        Gaze::Builtin => return Ok((of_builtin(view, frames)?, Vec::new())),
+        Gaze::Builtin => return Ok((of_builtin(sources, frames), Vec::new())),
         Gaze::Point(point) => return Ok((None, of_point(*point).into_iter().collect())),
         Gaze::Trace { path, hold } => (path, *hold),
     };
@@ -39,12 +40,11 @@ pub(crate) fn gaze(
     Ok((Some(gaze), remarks))
 }
 
-/// The gaze of the viewer of a built-in scene.
-fn of_builtin(view: &EyeView, frames: &[FoundFrame]) -> Result<Option<Vec<GazeAt>>, EngineError> {
-    let SourceSpec::Builtin(reference) = &view.reference else { return Ok(None) };
-    let builtin = builtin(reference, view)?;
+/// The gaze of the viewer of a built-in scene; `None` if the scene is not built in.
+fn of_builtin(sources: &ViewSources, frames: &[FoundFrame]) -> Option<Vec<GazeAt>> {
+    let builtin = sources.builtin.as_ref()?;
     let gaze = |frame: &FoundFrame| GazeAt { px: builtin.gaze_px(frame.reference), held: false };
-    Ok(Some(frames.iter().map(gaze).collect()))
+    Some(frames.iter().map(gaze).collect())
 }
 
 /// A remark about a gaze point that looks like fractions of the frame size instead of pixels. The

@@ -11,7 +11,7 @@ use fovqa_io::{
     DepthChannels, GuideOptions, MotionChannels, ReadOptions, SourceOptions, id_of, open_source,
 };
 use fovqa_metrics::Metric;
-use fovqa_plan::{BuiltinFrames, EyeView, Plan, SourceSpec};
+use fovqa_plan::{EyeView, Plan, SourceSpec};
 use fovqa_vision::View;
 
 use crate::error::EngineError;
@@ -26,18 +26,14 @@ pub(crate) struct Opener<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) view: &'a EyeView,
     pub(crate) given: &'a Given,
+    /// The built-in scene of the reference, if it is one ([`builtin`]).
+    pub(crate) builtin: Option<Arc<Builtin>>,
 }
 
 impl Opener<'_> {
     /// Opens the reference.
     pub(crate) fn reference(&self) -> Result<Arc<dyn Source>, EngineError> {
         self.open(&self.view.reference, self.view.settings.read.layer.as_deref())
-    }
-
-    /// The built-in scene of the reference, if it is one.
-    pub(crate) fn builtin(&self) -> Result<Option<Arc<Builtin>>, EngineError> {
-        let SourceSpec::Builtin(frames) = &self.view.reference else { return Ok(None) };
-        Ok(Some(Arc::new(builtin(frames, self.view)?)))
     }
 
     /// Opens the tests of a method.
@@ -63,7 +59,9 @@ impl Opener<'_> {
                 source.cloned().ok_or_else(|| EngineError::NotGiven { name: name.clone() })
             }
             SourceSpec::Builtin(frames) => {
-                let builtin = builtin(frames, self.view)?;
+                let Some(builtin) = self.builtin.clone() else {
+                    unreachable!("the scene was prepared before it is opened")
+                };
                 let made = serde_json::to_vec(&(
                     frames,
                     builtin.view().focal_px,
@@ -147,16 +145,17 @@ impl Opener<'_> {
 /// Files of motion or depth, and the index of the file for each reference.
 type OwnFiles = (Arc<dyn Source>, BTreeMap<usize, usize>);
 
-/// A built-in sequence as an eye sees it. A scene without a view, such as a flat pattern, is seen from
-/// anywhere.
-pub(crate) fn builtin(frames: &BuiltinFrames, view: &EyeView) -> Result<Builtin, EngineError> {
+/// The built-in sequence of a reference as an eye sees it; `None` if the reference is another. A scene
+/// without a view, such as a flat pattern, is seen from anywhere.
+pub(crate) fn builtin(eye: &EyeView) -> Result<Option<Arc<Builtin>>, EngineError> {
+    let SourceSpec::Builtin(frames) = &eye.reference else { return Ok(None) };
     let [width, height] = frames.size;
-    let view = if let Some(spec) = &view.settings.view {
+    let view = if let Some(spec) = &eye.settings.view {
         spec.resolve(width, height)?.view
     } else {
         let (w, h) = (width as f64, height as f64);
         let focal_px = [h.max(1.0) / 2.0; 2];
         View { width, height, focal_px, principal_px: [w / 2.0, h / 2.0] }
     };
-    Ok(Builtin::new(&frames.spec, view, frames.eye_m)?)
+    Ok(Some(Arc::new(Builtin::new(&frames.spec, view, frames.eye_m)?)))
 }

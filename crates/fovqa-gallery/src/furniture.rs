@@ -1,4 +1,4 @@
-//! What stands in the hall: railings, pedestals with spheres, plants, pictures, benches.
+//! The furniture of the hall: railings, pedestals with spheres, plants, pictures, benches.
 
 use crate::noise::random;
 use crate::ray::Bounds;
@@ -16,7 +16,7 @@ pub(crate) struct Occluder {
     pub(crate) share: f64,
 }
 
-/// Everything that stands in the hall, and what throws shadows.
+/// All furniture of the hall, and the shapes that throw shadows.
 pub(crate) fn furniture(seed: u64) -> (Vec<Thing>, Vec<Occluder>) {
     let mut room = Room { things: Vec::new(), occluders: Vec::new(), seed };
     for side in [-1.0, 1.0] {

@@ -69,8 +69,7 @@ impl Window {
     }
 }
 
-/// How much sunlight reaches a point through the windows of the left wall, without what stands in the
-/// hall.
+/// How much sunlight reaches a point through the windows of the left wall. The furniture is ignored.
 pub(crate) fn sun_through_windows(at: Vec3) -> f64 {
     let sun = to_sun();
     let t = (HALL.low.x - at.x) / sun.x;

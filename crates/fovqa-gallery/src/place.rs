@@ -200,27 +200,28 @@ fn held_back(shape: &Shape, ray: &Ray) -> f64 {
             hidden((to.dot(to) - t * t).max(0.0).sqrt(), radius, t)
         }
         Shape::Post { base, radius, height } => {
-            let (dx, dz) = (ray.direction.x, ray.direction.z);
-            let speed = dx * dx + dz * dz;
-            let (x, z) = (base.x - ray.origin.x, base.z - ray.origin.z);
-            let t = (x * dx + z * dz) / speed;
-            let gap = (x * dz - z * dx).abs() / speed.sqrt();
-            let y = ray.origin.y + ray.direction.y * t;
-            let blur = blur_at(t.max(0.0));
-            let tall = rise(-blur, blur, base.y + height - y) * rise(-blur, blur, y - base.y);
-            hidden(gap, radius, t) * tall
+            let (to, d) = (base - ray.origin, ray.direction);
+            let (t, gap) = nearest([to.x, to.z], [d.x, d.z]);
+            let at = ray.origin.y + d.y * t - base.y;
+            hidden(gap, radius, t) * between(at, height, blur_at(t.max(0.0)))
         }
         Shape::Rail { from, radius, length } => {
-            let (dx, dy) = (ray.direction.x, ray.direction.y);
-            let speed = dx * dx + dy * dy;
-            let (x, y) = (from.x - ray.origin.x, from.y - ray.origin.y);
-            let t = (x * dx + y * dy) / speed;
-            let gap = (x * dy - y * dx).abs() / speed.sqrt();
-            let z = ray.origin.z + ray.direction.z * t;
-            let blur = blur_at(t.max(0.0));
-            let long = rise(-blur, blur, from.z + length - z) * rise(-blur, blur, z - from.z);
-            hidden(gap, radius, t) * long
+            let (to, d) = (from - ray.origin, ray.direction);
+            let (t, gap) = nearest([to.x, to.y], [d.x, d.y]);
+            let at = ray.origin.z + d.z * t - from.z;
+            hidden(gap, radius, t) * between(at, length, blur_at(t.max(0.0)))
         }
         shape => f64::from(u8::from(shape.meet(ray, 1e9).is_some())),
     }
+}
+
+/// Where a ray is nearest to an axis that is a point across it, and how far from it.
+fn nearest([x, y]: [f64; 2], [dx, dy]: [f64; 2]) -> (f64, f64) {
+    let speed = dx * dx + dy * dy;
+    ((x * dx + y * dy) / speed, (x * dy - y * dx).abs() / speed.sqrt())
+}
+
+/// Whether a place is from 0 to `length`, with edges as soft as `blur`.
+fn between(at: f64, length: f64, blur: f64) -> f64 {
+    rise(-blur, blur, length - at) * rise(-blur, blur, at)
 }

@@ -1,5 +1,7 @@
 //! A built-in sequence as a source of frames like any other.
 
+use std::sync::Arc;
+
 use fovqa_frame::source::{
     InputId, Length, Listing, Origin, Picture, PictureGuides, Source, SourceError,
 };
@@ -10,22 +12,17 @@ use crate::builtin::Builtin;
 /// A built-in sequence as a source of frames: linear light in floats, with motion and depth.
 #[derive(Debug)]
 pub struct BuiltinSource {
-    builtin: Builtin,
+    builtin: Arc<Builtin>,
     listing: Listing,
     id: InputId,
 }
 
 impl BuiltinSource {
     /// The source of a sequence. `id` stands for everything that it is made of.
-    pub fn new(builtin: Builtin, id: InputId) -> Self {
+    pub fn new(builtin: Arc<Builtin>, id: InputId) -> Self {
         let name = format!("builtin:{}", builtin.spec().scene.word());
         let listing = Listing::counted(name, Length::Whole(builtin.spec().frames));
         Self { builtin, listing, id }
-    }
-
-    /// The sequence.
-    pub fn builtin(&self) -> &Builtin {
-        &self.builtin
     }
 
     fn check(&self, frame: usize) -> Result<(), SourceError> {

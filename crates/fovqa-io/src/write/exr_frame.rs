@@ -46,25 +46,19 @@ pub fn encode_exr_with_guides(frame: &Frame, guides: &Guides) -> Result<Vec<u8>,
     if let Some(depth) = &guides.depth {
         channels.push(plane("Z", &|x, y| depth.at(x, y)));
     }
-    let list = AnyChannels::sort(channels.into_iter().collect());
-    let encoding = Encoding::SMALL_FAST_LOSSLESS;
-    let layer = Layer::new((width, height), LayerAttributes::default(), encoding, list);
-    let mut file = Cursor::new(Vec::new());
-    Image::from_layer(layer)
-        .write()
-        .non_parallel()
-        .to_buffered(&mut file)
-        .map_err(|error| error.to_string())?;
-    Ok(file.into_inner())
+    file([width, height], AnyChannels::sort(channels.into_iter().collect()))
 }
 
 fn encode(frame: &Frame, samples: impl Fn(usize) -> FlatSamples) -> Result<Vec<u8>, String> {
     let channels = frame.channels();
     let channel = |c: usize| AnyChannel::new(channels.name(c), samples(c));
     let list = AnyChannels::sort((0..channels.count()).map(channel).collect());
+    file([frame.width(), frame.height()], list)
+}
+
+fn file([width, height]: [usize; 2], list: AnyChannels<FlatSamples>) -> Result<Vec<u8>, String> {
     let encoding = Encoding::SMALL_FAST_LOSSLESS;
-    let size = (frame.width(), frame.height());
-    let layer = Layer::new(size, LayerAttributes::default(), encoding, list);
+    let layer = Layer::new((width, height), LayerAttributes::default(), encoding, list);
     let mut file = Cursor::new(Vec::new());
     Image::from_layer(layer)
         .write()
