@@ -41,18 +41,47 @@ pub enum PlotError {
     /// The text for a PNG is not SVG.
     #[error("the SVG could not be read")]
     Svg(#[source] Box<dyn Error + Send + Sync>),
-    /// The scale does not make a picture.
+    /// The resolution does not make a picture.
     #[error(
-        "the scale {scale} makes a PNG of {width} x {height} pixels; each side must have 1 to {}",
+        "{dpi} pixels per inch make a PNG of {width} x {height} pixels; each side must have 1 to {}",
         crate::limits::MAX_SIDE_PX
     )]
     Size {
-        /// PNG pixels per SVG pixel.
-        scale: f32,
+        /// Pixels per inch.
+        dpi: f32,
         /// Width in pixels, rounded up.
         width: f32,
         /// Height in pixels, rounded up.
         height: f32,
+    },
+    /// The figure does not fit into the width that was asked for.
+    #[error(
+        "a width of {width_in} in is too narrow: the smallest text would be under {} pt; it needs {least_in} in",
+        crate::limits::LEAST_PT
+    )]
+    Narrow {
+        /// The width asked for, in inches.
+        width_in: f64,
+        /// The smallest possible width, in inches.
+        least_in: f64,
+    },
+    /// The figure does not fit into the height that was asked for.
+    #[error(
+        "a height of {height_in} in is too low: title, legend and axes leave no room; it needs {least_in} in"
+    )]
+    Low {
+        /// The height asked for, in inches.
+        height_in: f64,
+        /// The smallest possible height, in inches.
+        least_in: f64,
+    },
+    /// A picture keeps its sides' ratio, so that a height cannot be asked for.
+    #[error(
+        "a height of {height_in:.2} in is not possible: the height of pictures follows from their width; set only the width"
+    )]
+    FollowsFromWidth {
+        /// The height asked for, in inches.
+        height_in: f64,
     },
     /// The PNG could not be encoded.
     #[error("the PNG could not be encoded")]

@@ -1,13 +1,17 @@
 //! A figure of any kind.
 
 use crate::canvas::drawing::Drawing;
-use crate::canvas::svg;
+use crate::canvas::look::Look;
+use crate::canvas::printed::Printed;
 use crate::charts::bar::BarChart;
 use crate::charts::line::LineChart;
 use crate::charts::panels::PanelChart;
 use crate::charts::raster::RasterChart;
 use crate::charts::spread::SpreadChart;
 use crate::error::PlotError;
+use crate::page::fitting;
+use crate::page::paper::Paper;
+use crate::page::style::Style;
 use crate::tidy;
 
 /// A figure of any kind.
@@ -26,25 +30,59 @@ pub enum Figure {
 }
 
 impl Figure {
-    /// The figure as an SVG document, which is the same on any machine.
+    /// The figure as it is printed in a style.
     ///
     /// If a name is too long for three lines, the picture shows its beginning. The [CSV](Self::csv)
     /// has the full name.
     ///
     /// # Errors
-    /// When a series does not have one value per group, or a picture does not have one value per
-    /// cell or does not cover a part of the plane.
-    pub fn svg(&self) -> Result<String, PlotError> {
-        svg::write(&self.draw()?)
+    /// When a series does not have one value per group, a picture does not have one value per cell
+    /// or does not cover a part of the plane, or the figure does not fit into the width or height
+    /// that the style asks for.
+    pub fn print(&self, style: &Style) -> Result<Printed, PlotError> {
+        let styled = self.styled(style);
+        fitting::fit(style, |paper| styled.draw(paper))
     }
 
-    fn draw(&self) -> Result<Drawing, PlotError> {
+    /// The same figure with the looks and the title of a style.
+    fn styled(&self, style: &Style) -> Self {
+        let mut figure = self.clone();
+        let look = |look: &mut Look| {
+            *look = look.styled(style.palette, style.line_styles, style.markers);
+        };
+        let title = match &mut figure {
+            Self::Line(chart) => {
+                chart.series.iter_mut().for_each(|series| look(&mut series.look));
+                &mut chart.title
+            }
+            Self::Bar(chart) => {
+                chart.series.iter_mut().for_each(|series| look(&mut series.look));
+                &mut chart.title
+            }
+            Self::Spread(chart) => {
+                chart.series.iter_mut().for_each(|series| look(&mut series.look));
+                &mut chart.title
+            }
+            Self::Panels(chart) => {
+                let series = chart.panels.iter_mut().flat_map(|panel| &mut panel.series);
+                series.for_each(|series| look(&mut series.look));
+                &mut chart.title
+            }
+            Self::Raster(chart) => &mut chart.title,
+        };
+        if !style.title {
+            *title = None;
+        }
+        figure
+    }
+
+    fn draw(&self, paper: &Paper) -> Result<Drawing, PlotError> {
         match self {
-            Self::Line(chart) => Ok(chart.draw()),
-            Self::Bar(chart) => chart.draw(),
-            Self::Spread(chart) => chart.draw(),
-            Self::Panels(chart) => Ok(chart.draw()),
-            Self::Raster(chart) => chart.draw(),
+            Self::Line(chart) => Ok(chart.draw(paper)),
+            Self::Bar(chart) => chart.draw(paper),
+            Self::Spread(chart) => chart.draw(paper),
+            Self::Panels(chart) => Ok(chart.draw(paper)),
+            Self::Raster(chart) => chart.draw(paper),
         }
     }
 

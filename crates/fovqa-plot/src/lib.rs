@@ -1,6 +1,6 @@
-//! Draws series as figures in SVG, and converts the SVG to PNG. Curves, bars and distributions have
-//! half the width of a paper's page, panels of curves have the full width, and pictures have
-//! either.
+//! Draws series as figures in SVG, PDF and PNG. Unless the [`Style`] says otherwise, curves, bars and
+//! distributions have the width of a column (3.3 in), panels of curves have that of a page (7 in),
+//! and pictures have either.
 //!
 //! A figure is plain data ([`LineChart`], [`BarChart`], [`SpreadChart`], [`PanelChart`],
 //! [`RasterChart`]); nothing here knows what was measured. The same figure gives the same bytes on
@@ -8,7 +8,7 @@
 //! a function that differs between platforms.
 //!
 //! ```
-//! use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look, png};
+//! use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look, Style};
 //!
 //! let figure = Figure::Line(LineChart {
 //!     x: Axis::new("Eccentricity (°)"),
@@ -21,10 +21,12 @@
 //!     }],
 //!     ..LineChart::default()
 //! });
-//! let svg = figure.svg()?;
-//! assert!(svg.contains("Eccentricity (°)"));
+//! let printed = figure.print(&Style::default())?;
+//! assert_eq!(printed.size_in().0.round(), 3.0);
+//! assert!(printed.svg()?.contains("Eccentricity (°)"));
+//! assert!(printed.pdf("PSNR of RMFR")?.starts_with(b"%PDF"));
+//! assert!(printed.png(300.0)?.starts_with(b"\x89PNG"));
 //! assert!(figure.csv().ends_with("RMFR,12.5,\n"));
-//! assert!(png(&svg, 2.0)?.starts_with(b"\x89PNG"));
 //! # Ok::<(), fovqa_plot::PlotError>(())
 //! ```
 
@@ -41,7 +43,8 @@ mod tidy;
 
 pub use axes::axis::Axis;
 pub use canvas::look::Look;
-pub use canvas::png::png;
+pub use canvas::palette::Palette;
+pub use canvas::printed::Printed;
 pub use charts::bar::{BarChart, BarSeries};
 pub use charts::line::{LineChart, LineSeries};
 pub use charts::panels::PanelChart;
@@ -51,6 +54,8 @@ pub use charts::spread::SpreadChart;
 pub use charts::spread_series::SpreadSeries;
 pub use error::PlotError;
 pub use figure::Figure;
+pub use limits::LEAST_PT;
 pub use marks::fill::Fill;
 pub use marks::fill_kind::FillKind;
 pub use marks::span::Span;
+pub use page::style::{Height, Style};

@@ -10,8 +10,8 @@ use crate::comparison::ComparisonTable;
 use crate::figures::{Source, default_plots, figures, ratio_tables};
 use crate::frame_values::FrameValues;
 use crate::overview::Overview;
-use crate::page::{PageFigure, page};
-use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, PLOTS, ReportError, Sheet};
+use crate::page::page;
+use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
 
 /// The tables and figures that were made.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,18 +53,11 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
         }
     }
 
-    let paths: Vec<String> = drawn.iter().map(|f| format!("{PLOTS}/{}", f.name)).collect();
-    let captions: Vec<String> = drawn.iter().map(|figure| figure.caption.clone()).collect();
     let figures = drawn.len();
     Sheet {
         tables: tables.iter().map(|(name, table)| files_of(name, table)).collect(),
         figures: drawn,
-        page: Box::new(|| {
-            let on_page = paths.iter().zip(&captions);
-            let on_page: Vec<PageFigure<'_>> =
-                on_page.map(|(path, caption)| PageFigure { path, caption }).collect();
-            page((&run, inputs), &overview, &tables, &on_page)
-        }),
+        page: Box::new(|figures| page((&run, inputs), &overview, &tables, figures)),
         names: csv_names,
     }
     .write(folder)?;

@@ -15,8 +15,10 @@ const MOST_ERRORS: usize = 100;
 /// A figure on the page.
 pub(crate) struct PageFigure<'a> {
     /// Its path relative to the page, without the file extension.
-    pub(crate) path: &'a str,
+    pub(crate) path: String,
     pub(crate) caption: &'a str,
+    /// Its width in pixels.
+    pub(crate) width_px: f64,
 }
 
 const STYLE: &str = "\
@@ -152,12 +154,12 @@ pub(crate) fn figures(text: &mut String, figures: &[PageFigure<'_>]) {
         return;
     }
     text.push_str("<div class=\"figures\">\n");
-    for PageFigure { path, caption } in figures {
+    for PageFigure { path, caption, width_px } in figures {
         let (path, caption) = (escaped(path), escaped(caption));
         let _ = writeln!(
             text,
-            "<figure><img src=\"{path}.svg\" alt=\"{caption}\">\n<figcaption>{caption} \
-             (<a href=\"{path}.svg\">SVG</a>, <a href=\"{path}.png\">PNG</a>, <a href=\"{path}.csv\">CSV</a>)</figcaption></figure>"
+            "<figure><img src=\"{path}.svg\" width=\"{width_px:.0}\" alt=\"{caption}\">\n<figcaption>{caption} \
+             (<a href=\"{path}.svg\">SVG</a>, <a href=\"{path}.pdf\">PDF</a>, <a href=\"{path}.png\">PNG</a>, <a href=\"{path}.csv\">CSV</a>)</figcaption></figure>"
         );
     }
     text.push_str("</div>\n");

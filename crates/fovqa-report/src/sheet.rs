@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use fovqa_methods::curves::CurveError;
-use fovqa_plot::{Figure, PlotError, png};
+use fovqa_plot::{Figure, PlotError, Style};
 use fovqa_results::{
     Batch, CsvNames, FileError, REPORT_JSON, make_folder, read_json_file, take_away,
 };
@@ -14,14 +14,14 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::long_lines::for_picture;
+use crate::page::PageFigure;
 
 /// Folder of the figures.
 pub(crate) const PLOTS: &str = "plots";
 /// Name and version of the format of [`REPORT_JSON`].
 const SCHEMA: &str = "fovqa.report/1";
-/// Pixels of the PNG per pixel of the SVG. This gives 288 dots per inch at half the width of a
-/// page.
-const PNG_SCALE: f32 = 2.0;
+/// Pixels of a PNG per inch.
+const PNG_DPI: f32 = 300.0;
 
 /// A figure with its name and caption.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,12 +42,15 @@ pub(crate) struct NamedTable<'a> {
 /// Makes the text of a file.
 pub(crate) type MakeText<'a> = Box<dyn Fn() -> String + 'a>;
 
+/// Makes the text of a page with figures.
+pub(crate) type MakePage<'a> = Box<dyn Fn(&[PageFigure<'_>]) -> String + 'a>;
+
 /// Everything that is written into a results folder.
 pub(crate) struct Sheet<'a> {
     pub(crate) tables: Vec<NamedTable<'a>>,
     pub(crate) figures: Vec<NamedFigure>,
-    /// The page, `index.html`.
-    pub(crate) page: MakeText<'a>,
+    /// Makes the page, `index.html`, from its figures as they were drawn.
+    pub(crate) page: MakePage<'a>,
     /// How names are written in CSV files.
     pub(crate) names: CsvNames,
 }
@@ -95,7 +98,7 @@ impl Sheet<'_> {
             table.files.iter().map(|(ending, _)| format!("{}.{ending}", table.name))
         });
         let figure_files = self.figures.iter().flat_map(|figure| {
-            ["svg", "png", "csv"].map(|ending| format!("{PLOTS}/{}.{ending}", figure.name))
+            ["svg", "pdf", "png", "csv"].map(|ending| format!("{PLOTS}/{}.{ending}", figure.name))
         });
         let mut files: Vec<String> = table_files.chain(figure_files).collect();
         files.push("index.html".to_owned());
@@ -123,13 +126,20 @@ impl Sheet<'_> {
             make_folder(&plots).map_err(|error| FileError::Write { path: plots.clone(), error })?;
         }
         let names = self.names;
-        let written: Result<Vec<()>, ReportError> = self
+        let written: Result<Vec<f64>, ReportError> = self
             .figures
             .par_iter()
             .map(|figure| write_figure(&plots, figure, names, &batch))
             .collect();
-        written?;
-        batch.write(&folder.join("index.html"), (self.page)().as_bytes())?;
+        let on_page = self.figures.iter().zip(written?);
+        let on_page: Vec<PageFigure<'_>> = on_page
+            .map(|(figure, width_px)| PageFigure {
+                path: format!("{PLOTS}/{}", figure.name),
+                caption: &figure.caption,
+                width_px,
+            })
+            .collect();
+        batch.write(&folder.join("index.html"), (self.page)(&on_page).as_bytes())?;
         remove(folder, old.iter().filter(|old| !files.contains(old)));
         write_manifest(folder, files, &batch)?;
         Ok(())
@@ -151,21 +161,26 @@ pub fn clear(folder: &Path) {
     }
 }
 
+/// Writes the files of a figure. Returns the width in pixels that it has on a page.
 fn write_figure(
     plots: &Path,
     figure: &NamedFigure,
     names: CsvNames,
     batch: &Batch,
-) -> Result<(), ReportError> {
-    let NamedFigure { name, figure, .. } = figure;
+) -> Result<f64, ReportError> {
+    let NamedFigure { name, caption, figure } = figure;
     let failed = |error| ReportError::Plot { name: name.clone(), error };
-    let svg = for_picture(figure).svg().map_err(failed)?;
-    let pixels = png(&svg, PNG_SCALE).map_err(failed)?;
+    let printed = for_picture(figure).print(&Style::default()).map_err(failed)?;
+    let svg = printed.svg().map_err(failed)?;
+    let pixels = printed.png(PNG_DPI).map_err(failed)?;
+    let pdf = printed.pdf(caption).map_err(failed)?;
     let data = names.in_csv(figure.csv());
-    for (ending, bytes) in [("svg", svg.as_bytes()), ("png", &pixels), ("csv", data.as_bytes())] {
+    for (ending, bytes) in
+        [("svg", svg.as_bytes()), ("pdf", &pdf), ("png", &pixels), ("csv", data.as_bytes())]
+    {
         batch.write(&plots.join(format!("{name}.{ending}")), bytes)?;
     }
-    Ok(())
+    Ok(printed.screen_width_px())
 }
 
 /// The files in the last list. Only names that a report could have written are accepted, because
@@ -183,7 +198,7 @@ fn is_drawn(file: &str) -> bool {
         name.rsplit_once('.').is_some_and(|(_, ending)| endings.contains(&ending))
     };
     match file.split_once('/') {
-        Some((PLOTS, name)) => plain(name) && ends(name, &["svg", "png", "csv"]),
+        Some((PLOTS, name)) => plain(name) && ends(name, &["svg", "pdf", "png", "csv"]),
         Some(_) => false,
         None => {
             file == "index.html"

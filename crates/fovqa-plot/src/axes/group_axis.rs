@@ -5,10 +5,9 @@ use crate::axes::axis::{GRID_STROKE, LABEL_GAP_PX, TICK_LENGTH_PX};
 use crate::canvas::drawing::{Anchor, Drawing, Rect, Text};
 use crate::canvas::text::{CAPITAL, DESCENT, LINE_PITCH, TICK_PX};
 use crate::canvas::wrap::{keeps_words, widest_px, wrap};
-use crate::page::layout::{LEAST_PLOT_PX, MARGIN_PX, WIDTH_PX};
+use crate::page::layout::MARGIN_PX;
+use crate::page::paper::Paper;
 
-/// The largest width of the plot area, beyond which bars become thinner.
-const MOST_PLOT_PX: f64 = 1200.0;
 /// The preferred width of a bar or box, including gaps.
 const WANTED_PITCH_PX: f64 = 18.0;
 /// The largest width of a bar or box, including gaps.
@@ -36,11 +35,12 @@ pub(crate) struct GroupAxis {
 impl GroupAxis {
     /// The axis of named groups for this number of series, with this much space beside the plot
     /// area.
-    pub(crate) fn new(groups: &[String], series: usize, beside_px: f64) -> Self {
+    pub(crate) fn new(groups: &[String], series: usize, beside_px: f64, paper: &Paper) -> Self {
         let slots = groups.len().max(1) as f64;
         let wanted = slots * (series as f64 * WANTED_PITCH_PX / FILLED).max(LINE_PX);
-        let usual = (WIDTH_PX - beside_px).max(LEAST_PLOT_PX);
-        let plot_width_px = wanted.clamp(usual, MOST_PLOT_PX.max(usual)).floor();
+        let usual = (paper.column_px - beside_px).max(paper.least_plot_px());
+        let most = (paper.most_px() - beside_px).max(usual);
+        let plot_width_px = wanted.clamp(usual, most).floor();
         let slot_px = plot_width_px / slots;
         let level_px = slot_px - NAME_GAP_PX;
         let level: Vec<_> =
@@ -132,7 +132,8 @@ mod tests {
     use super::*;
 
     fn axis(names: &[&str], series: usize) -> GroupAxis {
-        GroupAxis::new(&names.iter().map(ToString::to_string).collect::<Vec<_>>(), series, 60.0)
+        let names: Vec<String> = names.iter().map(ToString::to_string).collect();
+        GroupAxis::new(&names, series, 60.0, &Paper::wide())
     }
 
     #[test]
@@ -145,10 +146,11 @@ mod tests {
 
     #[test]
     fn many_bars_widen_the_plot_area_up_to_a_limit() {
-        assert_eq!(axis(&["a"; 3], 4).plot_width_px(), 420.0);
+        let Paper { column_px, page_px, .. } = Paper::wide();
+        assert_eq!(axis(&["a"; 3], 4).plot_width_px(), (column_px - 60.0).floor());
         let wide = axis(&["a"; 12], 4).plot_width_px();
-        assert!(wide > 600.0 && wide < MOST_PLOT_PX);
-        assert_eq!(axis(&["a"; 400], 12).plot_width_px(), MOST_PLOT_PX);
+        assert!(wide > column_px && wide <= page_px - 60.0);
+        assert_eq!(axis(&["a"; 400], 12).plot_width_px(), (page_px - 60.0).floor());
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! A picture of equal cells, for embedding into an SVG.
+//! A picture of equal cells, for embedding into an SVG or a PDF.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -28,7 +28,8 @@ impl Bitmap {
         Ok(format!("data:image/png;base64,{}", STANDARD.encode(png)))
     }
 
-    fn png(&self, width_px: f64, height_px: f64) -> Result<Vec<u8>, png::EncodingError> {
+    /// Width, height and levels of the picture for an area of this width and height.
+    pub(crate) fn enlarged(&self, (width_px, height_px): (f64, f64)) -> (usize, usize, Vec<u8>) {
         let columns = self.columns.max(1);
         let rows = self.levels.len() / columns;
         let times =
@@ -40,8 +41,13 @@ impl Bitmap {
                 row.iter().flat_map(|level| std::iter::repeat_n(*level, across)).collect();
             (0..down).for_each(|_| pixels.extend_from_slice(&line));
         }
+        (columns * across, rows * down, pixels)
+    }
+
+    fn png(&self, width_px: f64, height_px: f64) -> Result<Vec<u8>, png::EncodingError> {
+        let (columns, rows, pixels) = self.enlarged((width_px, height_px));
         let mut png = Vec::new();
-        let mut encoder = Encoder::new(&mut png, (columns * across) as u32, (rows * down) as u32);
+        let mut encoder = Encoder::new(&mut png, columns as u32, rows as u32);
         encoder.set_color(ColorType::Indexed);
         encoder.set_depth(BitDepth::Eight);
         let palette = colour_map::palette().into_iter();

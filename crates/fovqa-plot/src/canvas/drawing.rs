@@ -179,6 +179,25 @@ impl Drawing {
         self.line(&[&corners[..], &corners[..2]].concat(), edge);
     }
 
+    /// Moves all marks to the right.
+    pub(crate) fn shift(&mut self, right_px: f64) {
+        for mark in &mut self.marks {
+            match mark {
+                Mark::Line(points, _) | Mark::Area(points, _) => {
+                    for point in points {
+                        point.0 += right_px;
+                    }
+                }
+                Mark::Disc(centre, ..) => centre.0 += right_px,
+                Mark::Picture(rect, _) => {
+                    rect.left += right_px;
+                    rect.right += right_px;
+                }
+                Mark::Text(text) => text.at.0 += right_px,
+            }
+        }
+    }
+
     #[cfg(test)]
     pub(crate) fn texts(&self) -> Vec<&Text> {
         self.marks

@@ -1,12 +1,10 @@
-//! The look of a series: colour, marker and dash, which are the same in every figure for the same
-//! index.
-//!
-//! The colours are those of Okabe and Ito ("Color Universal Design", 2008), which people with any
-//! common colour blindness can distinguish. The order is our own: the first four are far apart in
-//! hue and in lightness. Yellow is left out, because it is too light for a line on white paper.
+//! The look of a series: colour, marker, dash and hatch, which are the same in every figure for the
+//! same index.
+
+use crate::canvas::palette::Palette;
 
 /// A colour in sRGB.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Colour(pub(crate) u8, pub(crate) u8, pub(crate) u8);
 
 /// The colour of the paper.
@@ -34,24 +32,32 @@ pub(crate) const DEFICIT_HATCH: Colour = Colour(205, 120, 60);
 /// The colour of reference curves.
 pub(crate) const REFERENCE: Colour = Colour(85, 85, 85);
 
-const PALETTE: [Colour; 7] = [
-    Colour(0x00, 0x72, 0xb2), // blue
-    Colour(0xd5, 0x5e, 0x00), // vermillion
-    Colour(0x00, 0x9e, 0x73), // bluish green
-    Colour(0xcc, 0x79, 0xa7), // reddish purple
-    Colour(0xe6, 0x9f, 0x00), // orange
-    Colour(0x56, 0xb4, 0xe9), // sky blue
-    Colour(0x00, 0x00, 0x00), // black
+/// Alternating lengths of strokes and gaps in pixels. The first one is solid; neighbours differ most.
+const DASHES_PX: [&[f64]; 8] = [
+    &[],
+    &[6.0, 3.0],
+    &[1.6, 2.6],
+    &[6.0, 3.0, 1.6, 3.0],
+    &[11.0, 3.5],
+    &[6.0, 3.0, 1.6, 3.0, 1.6, 3.0],
+    &[3.4, 2.2],
+    &[11.0, 3.0, 1.6, 3.0],
 ];
 
-/// The number of dashes for reference curves. More would be hard to distinguish without colour.
-const REFERENCE_DASHES: usize = 4;
+/// How far dashes and hatches go on with each turn of the palette. Without a common divisor with
+/// their number, no two series have the same colour and dash for as long as possible.
+const TURN: usize = 3;
 
 impl Colour {
     /// The colour mixed with white; `share` is the share of the colour, from 0 to 1.
     pub(crate) fn tint(self, share: f64) -> Self {
         let mix = |c: u8| (255.0 - (255.0 - f64::from(c)) * share).round() as u8;
         Self(mix(self.0), mix(self.1), mix(self.2))
+    }
+
+    /// The colour in the notation of SVG, such as `#0072b2`.
+    pub(crate) fn hex(self) -> String {
+        format!("#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
     }
 
     /// The same hue, but darker, for edges.
@@ -80,7 +86,7 @@ pub(crate) enum Marker {
     Hexagon,
 }
 
-const MARKERS: [Marker; PALETTE.len()] = [
+const MARKERS: [Marker; 7] = [
     Marker::Circle,
     Marker::Square,
     Marker::Triangle,
@@ -90,58 +96,101 @@ const MARKERS: [Marker; PALETTE.len()] = [
     Marker::Hexagon,
 ];
 
+/// The lines over the fill of bars and boxes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Hatch {
+    Plain,
+    /// Lines that rise to the right.
+    Rising,
+    /// Lines that fall to the right.
+    Falling,
+    Level,
+    Upright,
+    /// Lines that rise and lines that fall.
+    Crossed,
+    /// Level and upright lines.
+    Grid,
+}
+
+const HATCHES: [Hatch; 7] = [
+    Hatch::Plain,
+    Hatch::Rising,
+    Hatch::Level,
+    Hatch::Falling,
+    Hatch::Upright,
+    Hatch::Crossed,
+    Hatch::Grid,
+];
+
 /// The look of a series. Give a method the same look in every figure.
 ///
-/// There are seven colours, each with its own marker. From the eighth series on they repeat with
-/// hollow markers and with a dash (in bars and boxes: with stripes), which has one more dot
-/// (stripe) in each further turn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+/// There are seven colours, each with its own marker, and eight dashes (for bars and boxes: seven
+/// hatches). From the eighth series on, colours repeat with other dashes and with hollow markers.
+/// The figure's [`Style`](crate::Style) may set other colours, or leave out dashes and markers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Look {
     /// The index of the series: 0 for the first one, and so on.
     pub index: usize,
+    palette: Palette,
+    line_styles: bool,
+    markers: bool,
 }
 
 impl Look {
     /// The look with an index.
     pub fn new(index: usize) -> Self {
-        Self { index }
+        Self { index, palette: Palette::default(), line_styles: true, markers: true }
+    }
+
+    /// The look with the colours of a palette, with or without dashes and markers.
+    pub(crate) fn styled(self, palette: Palette, line_styles: bool, markers: bool) -> Self {
+        Self { palette, line_styles, markers, ..self }
     }
 
     pub(crate) fn colour(self) -> Colour {
-        PALETTE[self.index % PALETTE.len()]
+        self.palette.colour(self.index).0
     }
 
     pub(crate) fn marker(self) -> Marker {
-        MARKERS[self.index % MARKERS.len()]
+        MARKERS[self.palette.position(self.index) % MARKERS.len()]
     }
 
-    /// How often the colours have been used before: 0 means a solid line or fill.
+    /// Whether its curves have markers.
+    pub(crate) fn has_markers(self) -> bool {
+        self.markers
+    }
+
+    /// How often the colours have been used before.
     pub(crate) fn turn(self) -> usize {
-        self.index / PALETTE.len()
+        self.palette.colour(self.index).1
     }
 
     /// Alternating lengths of strokes and gaps in pixels; empty for a solid line.
-    pub(crate) fn dash_px(self) -> Vec<f64> {
-        dash_px(self.turn())
+    pub(crate) fn dash_px(self) -> &'static [f64] {
+        DASHES_PX[self.kind(DASHES_PX.len())]
+    }
+
+    /// The lines over the fill of its bars and boxes.
+    pub(crate) fn hatch(self) -> Hatch {
+        HATCHES[self.kind(HATCHES.len())]
     }
 
     /// The dash of a reference curve, which is never solid.
-    pub(crate) fn reference_dash_px(self) -> Vec<f64> {
-        dash_px(1 + self.index % REFERENCE_DASHES)
+    pub(crate) fn reference_dash_px(self) -> &'static [f64] {
+        DASHES_PX[1 + self.index % (DASHES_PX.len() - 1)]
+    }
+
+    /// One of this many kinds of dashes or hatches. Without line styles they change only when the
+    /// colours repeat.
+    fn kind(self, kinds: usize) -> usize {
+        let first = if self.line_styles { self.palette.position(self.index) } else { 0 };
+        (first + TURN * self.turn()) % kinds
     }
 }
 
-/// The lengths of a stroke followed by `turn - 1` dots.
-fn dash_px(turn: usize) -> Vec<f64> {
-    const STROKE_PX: f64 = 6.0;
-    const DOT_PX: f64 = 1.6;
-    const GAP_PX: f64 = 3.0;
-    match turn {
-        0 => Vec::new(),
-        _ => [STROKE_PX, GAP_PX]
-            .into_iter()
-            .chain((1..turn).flat_map(|_| [DOT_PX, GAP_PX]))
-            .collect(),
+impl Default for Look {
+    fn default() -> Self {
+        Self::new(0)
     }
 }
 
@@ -149,28 +198,40 @@ fn dash_px(turn: usize) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    #[test]
-    fn no_two_series_look_alike() {
-        let looks: Vec<_> = (0..60).map(Look::new).collect();
+    /// Checks that no two of the first looks have the same colour and dash, or colour and hatch.
+    fn differ(looks: &[Look]) {
         for (i, a) in looks.iter().enumerate() {
             for b in &looks[..i] {
                 let same_colour = a.colour() == b.colour();
-                assert_eq!(same_colour, a.marker() == b.marker());
                 assert!(!same_colour || a.dash_px() != b.dash_px(), "{a:?} {b:?}");
+                assert!(!same_colour || a.hatch() != b.hatch(), "{a:?} {b:?}");
             }
+        }
+    }
+
+    #[test]
+    fn no_two_series_look_alike() {
+        let looks: Vec<_> = (0..49).map(Look::new).collect();
+        differ(&looks);
+        for palette in [Palette::TOL_BRIGHT, Palette::GRAY, Palette::new(&[[9; 3]; 1]).unwrap()] {
+            let count = if palette == Palette::TOL_BRIGHT { 42 } else { 7 };
+            differ(
+                &looks[..count].iter().map(|l| l.styled(palette, true, true)).collect::<Vec<_>>(),
+            );
+        }
+        let plain: Vec<_> =
+            looks.iter().map(|look| look.styled(Palette::OKABE_ITO, false, false)).collect();
+        differ(&plain);
+        assert!(plain[..7].iter().all(|look| look.dash_px().is_empty()));
+        // In print without colour, neighbours have different dashes and hatches.
+        for pair in looks.windows(2) {
+            assert!(pair[0].dash_px() != pair[1].dash_px() && pair[0].hatch() != pair[1].hatch());
         }
         assert!(looks.iter().all(|look| !look.reference_dash_px().is_empty()));
     }
 
     #[test]
-    fn every_colour_is_seen_on_white() {
-        for colour in PALETTE {
-            let linear = |c: u8| (f64::from(c) / 255.0).powf(2.2);
-            let y =
-                0.2126 * linear(colour.0) + 0.7152 * linear(colour.1) + 0.0722 * linear(colour.2);
-            // The contrast is defined as in WCAG; yellow would have 1.3.
-            assert!(1.05 / (y + 0.05) > 2.0, "{colour:?}");
-        }
+    fn a_tint_is_between_white_and_the_colour() {
         assert_eq!(Colour(0, 100, 200).tint(0.0), WHITE);
         assert_eq!(Colour(0, 100, 200).tint(1.0), Colour(0, 100, 200));
     }

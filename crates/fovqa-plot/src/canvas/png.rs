@@ -1,45 +1,59 @@
 //! Converts an SVG to PNG with resvg and only the bundled font, so that the bytes are the same on
 //! every machine.
 
-use std::sync::{Arc, OnceLock};
-
+use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, PixelDimensions, Unit};
 use resvg::tiny_skia::{Color, Pixmap, Transform};
-use resvg::usvg::{ImageHrefResolver, ImageKind, Options, Tree, fontdb::Database};
+use resvg::usvg::{ImageHrefResolver, ImageKind, Options, Tree};
 
-use crate::canvas::text::{FAMILY, FONT};
+use crate::canvas::setting::fonts;
+use crate::canvas::text::FAMILY;
 use crate::error::PlotError;
 use crate::limits::MAX_SIDE_PX;
 
-/// Renders an SVG as PNG on white, with `scale` pixels per SVG pixel.
-///
-/// # Errors
-/// When the text is not SVG, or the picture would have no pixels or a side above 16384.
-pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
+/// Pixels per inch of an SVG.
+const SVG_DPI: f32 = 96.0;
+const INCH_M: f64 = 0.0254;
+
+/// Renders an SVG as PNG on white with this many pixels per inch, which the PNG records.
+pub(crate) fn render(svg: &str, dpi: f32) -> Result<Vec<u8>, PlotError> {
     let tree = Tree::from_str(svg, &options()).map_err(|error| PlotError::Svg(Box::new(error)))?;
-    let (width, height) = (tree.size().width() * scale, tree.size().height() * scale);
-    let (width, height) = (width.ceil(), height.ceil());
+    let scale = dpi / SVG_DPI;
+    // Half a hundredth of a pixel is not a pixel more: sizes in inches are rounded.
+    let side = |of: f32| (of * scale - 0.005).ceil();
+    let (width, height) = (side(tree.size().width()), side(tree.size().height()));
     let sides = 1.0..=MAX_SIDE_PX;
     let pixmap = (sides.contains(&width) && sides.contains(&height))
         .then(|| Pixmap::new(width as u32, height as u32))
         .flatten();
-    let mut pixmap = pixmap.ok_or(PlotError::Size { scale, width, height })?;
+    let mut pixmap = pixmap.ok_or(PlotError::Size { dpi, width, height })?;
     pixmap.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
-    pixmap.encode_png().map_err(|error| PlotError::Encode(Box::new(error)))
+    encode(&pixmap, dpi).map_err(|error| PlotError::Encode(Box::new(error)))
+}
+
+/// Encodes an opaque picture without its alpha.
+fn encode(pixmap: &Pixmap, dpi: f32) -> Result<Vec<u8>, EncodingError> {
+    let mut png = Vec::new();
+    let mut encoder = Encoder::new(&mut png, pixmap.width(), pixmap.height());
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(Compression::Balanced);
+    let per_metre = (f64::from(dpi) / INCH_M).round() as u32;
+    let resolution = PixelDimensions { xppu: per_metre, yppu: per_metre, unit: Unit::Meter };
+    encoder.set_pixel_dims(Some(resolution));
+    let mut writer = encoder.write_header()?;
+    let colours = pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]);
+    writer.write_image_data(&colours.collect::<Vec<u8>>())?;
+    writer.finish()?;
+    Ok(png)
 }
 
 /// Options with the bundled font and with embedded pictures only: neither system fonts nor files
 /// that an SVG may name.
 fn options() -> Options<'static> {
-    static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
-    let fonts = FONTS.get_or_init(|| {
-        let mut fonts = Database::new();
-        fonts.load_font_data(FONT.to_vec());
-        Arc::new(fonts)
-    });
     Options {
         font_family: FAMILY.to_owned(),
-        fontdb: Arc::clone(fonts),
+        fontdb: fonts(),
         image_href_resolver: ImageHrefResolver {
             resolve_data: Box::new(|mime, data, _| {
                 (mime == "image/png").then_some(ImageKind::PNG(data))
@@ -57,28 +71,42 @@ mod tests {
     const SVG: &str = "<svg width=\"40\" height=\"30\" xmlns=\"http://www.w3.org/2000/svg\">\
         <text x=\"2\" y=\"20\" font-family=\"DejaVu Sans, Verdana\" font-size=\"12\">Hm∞</text></svg>";
 
-    fn pixels(svg: &str, scale: f32) -> Pixmap {
-        Pixmap::decode_png(&png(svg, scale).unwrap()).unwrap()
+    fn pixels(svg: &str, dpi: f32) -> Pixmap {
+        Pixmap::decode_png(&render(svg, dpi).unwrap()).unwrap()
     }
 
     #[test]
     fn has_its_size_and_is_white_with_text_in_ink() {
-        let picture = pixels(SVG, 2.0);
+        let picture = pixels(SVG, 192.0);
         assert_eq!((picture.width(), picture.height()), (80, 60));
         assert!(picture.pixels().iter().all(|p| p.alpha() == 255));
         assert_eq!(picture.pixel(0, 0).unwrap().red(), 255);
-        let dark = |svg| pixels(svg, 2.0).pixels().iter().filter(|p| p.red() < 100).count();
+        let dark = |svg| pixels(svg, 192.0).pixels().iter().filter(|p| p.red() < 100).count();
         assert!(dark(SVG) > 100, "the bundled font");
         let shorter: &str = &SVG.replace("Hm∞", "Hm");
         assert!(dark(shorter) + 20 < dark(SVG), "∞ has ink");
     }
 
     #[test]
-    fn refuses_scales_that_make_no_picture() {
-        assert!(matches!(png("<svg", 1.0), Err(PlotError::Svg(_))));
-        for scale in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e9] {
-            assert!(matches!(png(SVG, scale), Err(PlotError::Size { .. })), "{scale}");
+    fn records_its_resolution() {
+        let svg = SVG.replace("\"40\"", "\"0.5in\"").replace("\"30\"", "\"0.3333in\"");
+        let bytes = render(&svg, 300.0).unwrap();
+        let reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+        let info = reader.info();
+        assert_eq!((info.width, info.height), (150, 100));
+        let dimensions = info.pixel_dims.unwrap();
+        assert_eq!(
+            (dimensions.xppu, dimensions.yppu, dimensions.unit),
+            (11811, 11811, Unit::Meter)
+        );
+    }
+
+    #[test]
+    fn refuses_resolutions_that_make_no_picture() {
+        assert!(matches!(render("<svg", 96.0), Err(PlotError::Svg(_))));
+        for dpi in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e9] {
+            assert!(matches!(render(SVG, dpi), Err(PlotError::Size { .. })), "{dpi}");
         }
-        assert!(png(SVG, 0.01).is_ok_and(|png| !png.is_empty()));
+        assert!(render(SVG, 3.0).is_ok_and(|png| !png.is_empty()));
     }
 }

@@ -3,45 +3,61 @@
 use std::error::Error;
 
 use plotters::backend::{DrawingBackend, SVGBackend};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{FontTransform, IntoFont, RGBColor, ShapeStyle, TextStyle};
+use plotters::style::{RGBColor, ShapeStyle};
 
-use crate::canvas::drawing::{Anchor, Drawing, Mark, Point, Stroke, Text};
+use crate::canvas::drawing::{Drawing, Mark, Point, Stroke};
 use crate::canvas::look::{Colour, WHITE};
-use crate::canvas::text::FAMILIES;
+use crate::canvas::setting::SetLine;
+use crate::canvas::svg_text::Outlines;
 use crate::error::PlotError;
 
 /// plotters writes whole numbers. This many units per pixel make positions exact to a tenth of a
 /// pixel.
 const UNITS: f64 = 10.0;
 
-/// plotters divides font sizes by this number when it writes them.
-const FONT_FACTOR: f64 = 1.24;
-
 /// The end of a document.
 const END: &str = "</svg>";
 
-/// plotters places the baseline of a text this far below the given point, in units of the font
-/// size.
-const TOP_TO_BASELINE: f64 = 0.76;
-
-/// Writes the drawing as a complete SVG document.
-pub(crate) fn write(drawing: &Drawing) -> Result<String, PlotError> {
+/// Writes the drawing, with its lines of text as they are set, as a complete SVG document that is
+/// printed with this many points per pixel.
+pub(crate) fn write(
+    drawing: &Drawing,
+    lines: &[SetLine],
+    pt_per_px: f64,
+) -> Result<String, PlotError> {
+    let mut lines = lines.iter();
     let size = (units(drawing.width_px) as u32, units(drawing.height_px) as u32);
     let paper = (size.0 as i32, size.1 as i32);
     let mut body = elements(size, |backend| {
         backend.draw_rect((0, 0), paper, &filled(WHITE), true).map_err(refused)
     })?;
-    let is_picture = |mark: &Mark| matches!(mark, Mark::Picture(..));
-    for marks in drawing.marks.chunk_by(|a, b| is_picture(a) == is_picture(b)) {
-        if is_picture(&marks[0]) {
-            marks.iter().try_for_each(|mark| write_picture(&mut body, mark))?;
-        } else {
+    let mut outlines = Outlines::default();
+    for marks in drawing.marks.chunk_by(|a, b| by_plotters(a) == by_plotters(b)) {
+        if by_plotters(&marks[0]) {
             body +=
                 &elements(size, |backend| marks.iter().try_for_each(|mark| draw(backend, mark)))?;
+            continue;
+        }
+        for mark in marks {
+            match mark {
+                Mark::Picture(..) => write_picture(&mut body, mark)?,
+                Mark::Text(text) => {
+                    let Some(line) = lines.next() else { unreachable!("each text was set") };
+                    outlines.write(&mut body, (text, line), UNITS);
+                }
+                Mark::Line(..) | Mark::Area(..) | Mark::Disc(..) => {}
+            }
         }
     }
-    Ok(with_header(&body, drawing, size))
+    let inches = |px: f64| (px * pt_per_px / 72.0 * 1e4).round() / 1e4;
+    let printed = (inches(drawing.width_px), inches(drawing.height_px));
+    Ok(with_header(&(outlines.definitions() + &body), printed, size))
+}
+
+/// Whether plotters writes a mark. It cannot write pictures, and would leave text to the fonts of
+/// the viewer.
+fn by_plotters(mark: &Mark) -> bool {
+    matches!(mark, Mark::Line(..) | Mark::Area(..) | Mark::Disc(..))
 }
 
 /// The output of plotters for a drawing, without the surrounding element.
@@ -70,20 +86,21 @@ fn write_picture(body: &mut String, mark: &Mark) -> Result<(), PlotError> {
     let element = format!(
         "<image x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" \
          preserveAspectRatio=\"none\" image-rendering=\"optimizeSpeed\" \
-         style=\"image-rendering:pixelated\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
+         style=\"image-rendering:pixelated\" \
          xlink:href=\"{uri}\"/>\n"
     );
     body.push_str(&element);
     Ok(())
 }
 
-/// The document with its size in pixels and its own units. Corners of lines are rounded, because a
+/// The document with its size in inches and its own units. Corners of lines are rounded, because a
 /// sharp turn of a curve would have a spike.
-fn with_header(body: &str, drawing: &Drawing, (width, height): (u32, u32)) -> String {
+fn with_header(body: &str, printed_in: (f64, f64), (width, height): (u32, u32)) -> String {
     format!(
-        "<svg width=\"{}\" height=\"{}\" viewBox=\"0 0 {width} {height}\" \
-         stroke-linejoin=\"round\" xmlns=\"http://www.w3.org/2000/svg\">\n{body}{END}\n",
-        drawing.width_px, drawing.height_px
+        "<svg width=\"{}in\" height=\"{}in\" viewBox=\"0 0 {width} {height}\" \
+         stroke-linejoin=\"round\" xmlns=\"http://www.w3.org/2000/svg\" \
+         xmlns:xlink=\"http://www.w3.org/1999/xlink\">\n{body}{END}\n",
+        printed_in.0, printed_in.1
     )
 }
 
@@ -98,29 +115,9 @@ fn draw(backend: &mut SVGBackend<'_>, mark: &Mark) -> Result<(), PlotError> {
         Mark::Disc(centre, radius_px, colour) => {
             backend.draw_circle(place(*centre), units(*radius_px) as u32, &filled(*colour), true)
         }
-        Mark::Text(text) => return draw_text(backend, text),
-        Mark::Picture(..) => return Ok(()),
+        Mark::Text(..) | Mark::Picture(..) => return Ok(()),
     };
     drawn.map_err(refused)
-}
-
-fn draw_text(backend: &mut SVGBackend<'_>, text: &Text) -> Result<(), PlotError> {
-    let down = TOP_TO_BASELINE * text.size_px;
-    let (x, y) = text.at;
-    let (at, turn) = if text.upwards {
-        ((x - down, y), FontTransform::Rotate270)
-    } else {
-        ((x, y - down), FontTransform::None)
-    };
-    let h_pos = match text.anchor {
-        Anchor::Start => HPos::Left,
-        Anchor::Middle => HPos::Center,
-        Anchor::End => HPos::Right,
-    };
-    let font = (FAMILIES, text.size_px * UNITS * FONT_FACTOR).into_font().transform(turn);
-    let colour = rgb(text.colour);
-    let style = TextStyle::from(font).pos(Pos::new(h_pos, VPos::Top)).color(&colour);
-    backend.draw_text(&text.line, &style, place(at)).map_err(refused)
 }
 
 fn refused(error: impl Error + Send + Sync + 'static) -> PlotError {
@@ -150,42 +147,54 @@ fn stroked(stroke: Stroke) -> ShapeStyle {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::canvas::drawing::{Anchor, Text};
+    use crate::canvas::printed::Printed;
 
     fn with_text(line: &str) -> String {
         let text = Text::new(line, (10.0, 20.0), 12.0, Anchor::Start);
         let drawing = Drawing { width_px: 48.0, height_px: 32.0, marks: vec![Mark::Text(text)] };
-        write(&drawing).unwrap()
+        Printed::new(drawing, 0.75).svg().unwrap()
     }
 
     #[test]
     fn escapes_text() {
         let svg = with_text("A & B <x> \"q\" 'r'");
         assert!(svg.contains("A &amp; B &lt;x&gt; &quot;q&quot; &apos;r&apos;"), "{svg}");
-        assert!(with_text("注視 עברית").contains("注視 עברית"));
     }
 
     #[test]
-    fn has_its_size_and_font() {
+    fn needs_no_installed_font() {
+        let svg = with_text("xx עברית");
+        assert!(!svg.contains("<text") && svg.contains("aria-label=\"xx עברית\""), "{svg}");
+        // Two letters share one outline, and the second one stands beside the first.
+        assert_eq!(svg.matches("<use xlink:href=\"#g91\"").count(), 2, "{svg}");
+        assert!(
+            svg.contains("<path id=\"g91\" d=\"M") && svg.contains("#g91\" x=\"1212\""),
+            "{svg}"
+        );
+        // The font has no ideographs.
+        let foreign = with_text("注視");
+        assert!(
+            foreign.contains("DejaVu Sans, Verdana, sans-serif")
+                && foreign.contains(">注視</text>")
+        );
+    }
+
+    #[test]
+    fn has_its_size_in_print() {
         let svg = with_text("x");
-        assert!(
-            svg.starts_with("<svg width=\"48\" height=\"32\" viewBox=\"0 0 480 320\""),
-            "{svg}"
-        );
-        assert!(svg.contains("font-family=\"DejaVu Sans, Verdana, sans-serif\""), "{svg}");
-        assert!(
-            svg.contains("font-size=\"120.0000000") && svg.trim_end().ends_with("</svg>"),
-            "{svg}"
-        );
+        let head = "<svg width=\"0.5in\" height=\"0.3333in\" viewBox=\"0 0 480 320\"";
+        assert!(svg.starts_with(head) && svg.trim_end().ends_with("</svg>"), "{svg}");
     }
 
     #[test]
     fn text_stands_on_its_baseline() {
-        // The baseline is 0.76 of 10 px further down or, for rotated text, further to the right.
         let text = Text::new("x", (20.0, 30.0), 10.0, Anchor::Start);
         let marks = vec![Mark::Text(text.clone()), Mark::Text(text.upwards())];
-        let svg = write(&Drawing { width_px: 48.0, height_px: 32.0, marks }).unwrap();
-        assert!(svg.contains("<text x=\"200\" y=\"224\" dy=\"0.76em\""), "{svg}");
-        assert!(svg.contains("<text x=\"124\" y=\"300\" dy=\"0.76em\""), "{svg}");
-        assert!(svg.contains("rotate(270, 124, 300)"), "{svg}");
+        let drawing = Drawing { width_px: 48.0, height_px: 32.0, marks };
+        let svg = Printed::new(drawing, 0.75).svg().unwrap();
+        let scale = format!("scale({0:.5} -{0:.5})", 100.0 / 2048.0);
+        assert!(svg.contains(&format!("translate(200 300) {scale}")), "{svg}");
+        assert!(svg.contains(&format!("translate(200 300) rotate(-90) {scale}")), "{svg}");
     }
 }

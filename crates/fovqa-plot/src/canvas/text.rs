@@ -11,8 +11,10 @@ pub(crate) const FONT: &[u8] = include_bytes!("../../fonts/DejaVuSans.ttf");
 /// The name of [`FONT`].
 pub(crate) const FAMILY: &str = "DejaVu Sans";
 
-/// The font families of the SVG. A viewer without [`FAMILY`] uses Verdana, which has nearly the
-/// same widths.
+/// Units of [`FONT`] per font size.
+pub(crate) const UNITS_PER_EM: f64 = 2048.0;
+
+/// The font families for characters that [`FONT`] lacks. Verdana has nearly the same widths.
 pub(crate) const FAMILIES: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// Size of titles of figures and axes, in pixels.

@@ -54,6 +54,15 @@ pub(crate) fn wrap(text: &str, size_px: f64, limit_px: f64, most_lines: usize) -
         }
     }
     push_line(&mut lines, &mut line);
+    if let Some((before, within)) = text.split_once(" (")
+        && lines.len() == 2
+    {
+        // What is in parentheses stands alone rather than the last word of it.
+        let parts = [before.to_owned(), format!("({within}")];
+        if parts.iter().all(|part| fits(part, size_px, limit_px)) {
+            return parts.to_vec();
+        }
+    }
     if lines.len() > most_lines {
         lines.truncate(most_lines);
         if let Some(last) = lines.last_mut() {
@@ -92,6 +101,14 @@ fn push_line(lines: &mut Vec<String>, line: &mut String) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parentheses_stay_together() {
+        let wrapped = |px: f64| wrap("PSNR in dB (higher is better)", 12.0, px, 3);
+        assert_eq!(wrapped(400.0), ["PSNR in dB (higher is better)"]);
+        assert_eq!(wrapped(130.0), ["PSNR in dB", "(higher is better)"]);
+        assert_eq!(wrapped(90.0), ["PSNR in dB", "(higher is", "better)"]);
+    }
 
     #[test]
     fn cleans() {

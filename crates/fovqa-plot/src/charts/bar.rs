@@ -11,7 +11,8 @@ use crate::marks::legend::Key;
 use crate::marks::marker;
 use crate::marks::swatch;
 use crate::marks::value_label::{Orientation, Side, widest_px};
-use crate::page::layout::{self, MARGIN_PX, PLOT_HEIGHT_PX, Sides};
+use crate::page::layout::{self, MARGIN_PX, Sides};
+use crate::page::paper::Paper;
 use crate::scales::number::Format;
 use crate::scales::scale::{AxisPlace, Scale};
 
@@ -77,21 +78,22 @@ struct Frame<'a> {
 }
 
 impl BarChart {
-    pub(crate) fn draw(&self) -> Result<Drawing, PlotError> {
+    pub(crate) fn draw(&self, paper: &Paper) -> Result<Drawing, PlotError> {
+        let height_px = paper.plot_height_px;
         for series in &self.series {
             PlotError::check_groups(&series.name, series.values.len(), self.groups.len())?;
         }
         let scale = self.scale();
-        let rough = ValueAxis::new(&self.y, scale, PLOT_HEIGHT_PX);
+        let rough = ValueAxis::new(&self.y, scale, height_px);
         let beside_px = rough.left_px() + MARGIN_PX;
-        let groups = GroupAxis::new(&self.groups, self.series.len(), beside_px);
+        let groups = GroupAxis::new(&self.groups, self.series.len(), beside_px, paper);
         let finite = || self.places().filter_map(AxisPlace::finite);
         let format = Format::of_values(finite());
         let labels: Vec<String> = finite().map(|value| format.label(value)).collect();
         let label_px = widest_px(labels.iter().map(String::as_str));
         let values = Orientation::of(label_px, groups.pitch_px());
         let missing = Orientation::of(widest_px([MISSING]), groups.pitch_px());
-        let axis = self.axis_with_room(scale, values.reach_px(label_px));
+        let axis = self.axis_with_room(scale, values.reach_px(label_px), height_px);
 
         let (above, below) = infinity::strips_px(self.places());
         let sides = Sides {
@@ -103,7 +105,7 @@ impl BarChart {
         let keys: Vec<_> =
             self.series.iter().map(|s| (s.name.as_str(), self.key(s.look))).collect();
         let (mut drawing, plot) =
-            layout::begin(self.title.as_deref(), &keys, sides, groups.plot_width_px());
+            layout::begin(self.title.as_deref(), &keys, sides, (groups.plot_width_px(), height_px));
         axis.draw_grid(&mut drawing, plot);
         if !self.from_zero {
             groups.draw_dividers(&mut drawing, plot);
@@ -147,8 +149,8 @@ impl BarChart {
     }
 
     /// The axis, with space beyond the outermost values for their labels.
-    fn axis_with_room(&self, scale: Option<Scale>, reach_px: f64) -> ValueAxis {
-        let axis = |scale| ValueAxis::new(&self.y, scale, PLOT_HEIGHT_PX);
+    fn axis_with_room(&self, scale: Option<Scale>, reach_px: f64, height_px: f64) -> ValueAxis {
+        let axis = |scale| ValueAxis::new(&self.y, scale, height_px);
         let Some(scale) = scale else { return axis(None) };
         let down_px = if self.from_zero && scale.low < 0.0 { reach_px } else { 0.0 };
         // The label of a 0 is above it, even if all other values are negative.
@@ -158,7 +160,7 @@ impl BarChart {
             (true, false) => 0.0,
             (false, _) => reach_px + marker::RADIUS_PX,
         };
-        let data_px = PLOT_HEIGHT_PX - up_px - down_px;
+        let data_px = (height_px - up_px - down_px).max(height_px / 4.0);
         axis(Some(scale.with_air(down_px / data_px, up_px / data_px)))
     }
 

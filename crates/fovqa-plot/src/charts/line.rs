@@ -15,7 +15,8 @@ use crate::marks::legend::{self, CURVE_PX, Key, REFERENCE_PX};
 use crate::marks::marker;
 use crate::marks::span::{self, Span};
 use crate::marks::value_label::Side;
-use crate::page::layout::{self, LEAST_PLOT_PX, MARGIN_PX, PLOT_HEIGHT_PX, Sides, WIDTH_PX};
+use crate::page::layout::{self, MARGIN_PX, Sides};
+use crate::page::paper::Paper;
 use crate::scales::scale::{AxisPlace, Scale};
 
 /// Space above and below the data, as a share of its range.
@@ -109,10 +110,11 @@ pub(crate) struct Frame<'a> {
 }
 
 impl LineChart {
-    pub(crate) fn draw(&self) -> Drawing {
-        let y = ValueAxis::new(&self.y, self.y_scale(), PLOT_HEIGHT_PX);
+    pub(crate) fn draw(&self, paper: &Paper) -> Drawing {
+        let height_px = paper.plot_height_px;
+        let y = ValueAxis::new(&self.y, self.y_scale(), height_px);
         let left = y.left_px();
-        let room = (WIDTH_PX - left, LEAST_PLOT_PX);
+        let room = (paper.column_px - left, paper.least_plot_px());
         let x = PositionAxis::new(&self.x, self.x_scale(), self.x_ticks(), room);
         let (above, below) = self.strips_px();
         let sides = Sides {
@@ -124,7 +126,7 @@ impl LineChart {
         let areas = legend::once(self.fill_keys()).chain(legend::once(self.span_keys()));
         let keys: Vec<_> = self.series_keys().chain(areas).collect();
         let (mut drawing, plot) =
-            layout::begin(self.title.as_deref(), &keys, sides, x.plot_width_px());
+            layout::begin(self.title.as_deref(), &keys, sides, (x.plot_width_px(), height_px));
         self.draw_in(&mut drawing, &Frame { x: &x, y: &y, plot, edge_px: 0.0, below_px: below });
         drawing
     }
@@ -254,11 +256,12 @@ impl LineChart {
             }
             let border = if side == Side::Above { plot.top } else { plot.bottom };
             for (tenths, series) in &groups {
-                let width = BESIDE_PX * (series.len() - 1) as f64;
+                let apart_px = BESIDE_PX.min(plot.width() / series.len() as f64);
+                let width = apart_px * (series.len() - 1) as f64;
                 let most = (plot.right - width).max(plot.left);
                 let left = (*tenths as f64 / 10.0 - width / 2.0).clamp(plot.left, most);
                 for (i, series) in series.iter().enumerate() {
-                    let at = (left + i as f64 * BESIDE_PX, border);
+                    let at = (left + i as f64 * apart_px, border);
                     let colour = series.stroke().colour;
                     marker::draw(drawing, at, series.look, marker::RADIUS_PX, colour);
                 }
@@ -297,9 +300,10 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
     let dash =
         if series.reference { series.look.reference_dash_px() } else { series.look.dash_px() };
     for piece in &pieces {
-        drawing.dashed(piece, stroke, &dash);
+        drawing.dashed(piece, stroke, dash);
     }
-    let on_points = !series.reference && !series.smooth;
+    let marked = !series.reference && series.look.has_markers();
+    let on_points = marked && !series.smooth;
     let mut markers: Vec<Point> = Vec::new();
     for run in &runs {
         for at in run.iter().filter(|(_, share)| (0.0..=1.0).contains(share)).map(px) {
@@ -310,7 +314,7 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
             }
         }
     }
-    if series.smooth && !series.reference {
+    if series.smooth && marked {
         let along = |piece: &Vec<Point>| smooth::markers(piece, plot, series.look);
         markers.extend(pieces.iter().flat_map(along));
     }

@@ -8,13 +8,16 @@ use crate::canvas::text::{LINE_PITCH, TITLE_PX};
 use crate::canvas::wrap::wrap;
 use crate::charts::line::{Frame, LineChart};
 use crate::marks::legend::{self, Key};
-use crate::page::layout::{self, LEAST_PLOT_PX, MARGIN_PX, PAGE_PX, TITLE_LINES, WIDTH_PX};
+use crate::page::layout::{self, MARGIN_PX, TITLE_LINES};
 use crate::page::panel_grid::{Cell, Grid, Needs};
+use crate::page::paper::Paper;
 
-/// Height of a plot area. It is lower than that of a single chart because it is narrower.
-const HEIGHT_PX: f64 = 170.0;
-/// The smallest width of a plot area beside others. Wide labels widen the picture instead.
-const LEAST_PANEL_PX: f64 = 140.0;
+/// The smallest width of a plot area beside others, as a share of its part of the width. Wide labels
+/// widen the picture instead.
+const LEAST_PANEL: f64 = 0.45;
+
+/// The same where the width was asked for.
+const LEAST_FIXED_PANEL: f64 = 0.3;
 
 /// Charts of curves in rows and columns, with one legend for all.
 ///
@@ -42,16 +45,17 @@ struct Panel<'a> {
 }
 
 impl PanelChart {
-    pub(crate) fn draw(&self) -> Drawing {
+    pub(crate) fn draw(&self, paper: &Paper) -> Drawing {
         let none = [LineChart::default()];
         let charts = if self.panels.is_empty() { &none } else { self.panels.as_slice() };
         let columns = self.columns.clamp(1, charts.len());
-        let y_axes = y_axes(charts, columns);
-        let plot_width_px = plot_width_px(charts, &y_axes, columns);
+        let height_px = paper.panel_height_px;
+        let y_axes = y_axes(charts, columns, height_px);
+        let plot_width_px = plot_width_px(charts, &y_axes, columns, paper);
         let panel = |(chart, y)| Panel::new(chart, y, plot_width_px);
         let panels: Vec<Panel<'_>> = charts.iter().zip(y_axes).map(panel).collect();
         let needs: Vec<Needs> = panels.iter().map(Panel::needs).collect();
-        let grid = Grid::new(&needs, columns, (plot_width_px, HEIGHT_PX));
+        let grid = Grid::new(&needs, columns, (plot_width_px, height_px));
 
         let left_px = grid.place(0, 0.0).plot.left;
         let width_px = grid.width_px().ceil();
@@ -66,13 +70,13 @@ impl PanelChart {
 }
 
 /// The vertical axes. An axis has no title if it equals the other axes of its row.
-fn y_axes(charts: &[LineChart], columns: usize) -> Vec<ValueAxis> {
+fn y_axes(charts: &[LineChart], columns: usize, height_px: f64) -> Vec<ValueAxis> {
     let row = |charts: &[LineChart]| -> Vec<ValueAxis> {
         let same = charts.iter().all(|chart| chart.y == charts[0].y);
         let axis = |(i, chart): (usize, &LineChart)| {
             let untitled = Axis::default();
             let axis = if same && i > 0 { &untitled } else { &chart.y };
-            ValueAxis::new(axis, chart.y_scale(), HEIGHT_PX)
+            ValueAxis::new(axis, chart.y_scale(), height_px)
         };
         charts.iter().enumerate().map(axis).collect()
     };
@@ -80,9 +84,13 @@ fn y_axes(charts: &[LineChart], columns: usize) -> Vec<ValueAxis> {
 }
 
 /// The common width of the plot areas: the part of the picture that the axes leave.
-fn plot_width_px(charts: &[LineChart], y_axes: &[ValueAxis], columns: usize) -> f64 {
-    let (picture_px, least_px) =
-        if columns == 1 { (WIDTH_PX, LEAST_PLOT_PX) } else { (PAGE_PX, LEAST_PANEL_PX) };
+fn plot_width_px(charts: &[LineChart], y_axes: &[ValueAxis], columns: usize, paper: &Paper) -> f64 {
+    let (picture_px, least_px) = if columns == 1 {
+        (paper.column_px, paper.least_plot_px())
+    } else {
+        let share = if paper.fixed { LEAST_FIXED_PANEL } else { LEAST_PANEL };
+        (paper.page_px, paper.page_px / columns as f64 * share)
+    };
     let column_px = |c| {
         let axes = y_axes.iter().skip(c).step_by(columns);
         axes.map(ValueAxis::left_px).fold(0.0, f64::max)

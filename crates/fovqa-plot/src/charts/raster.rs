@@ -12,8 +12,9 @@ use crate::canvas::wrap::wrap;
 use crate::charts::overlay;
 use crate::charts::raster_panel::RasterPanel;
 use crate::error::PlotError;
-use crate::page::layout::{self, MARGIN_PX, PAGE_PX, TITLE_LINES, WIDTH_PX};
+use crate::page::layout::{self, MARGIN_PX, TITLE_LINES};
 use crate::page::panel_grid::{Cell, Grid, Needs};
+use crate::page::paper::Paper;
 use crate::scales::scale::{AxisPlace, Scale};
 
 /// The smallest and the largest height of the colour bar. Beside low pictures the bar is higher
@@ -56,7 +57,7 @@ struct Panel<'a> {
 }
 
 impl RasterChart {
-    pub(crate) fn draw(&self) -> Result<Drawing, PlotError> {
+    pub(crate) fn draw(&self, paper: &Paper) -> Result<Drawing, PlotError> {
         self.panels.iter().try_for_each(RasterPanel::check)?;
         let none = [RasterPanel::default()];
         let charts = if self.panels.is_empty() { &none } else { self.panels.as_slice() };
@@ -65,14 +66,15 @@ impl RasterChart {
 
         // The space for axes and bar depends on the height of the pictures, which in turn depends
         // on the space that is left.
-        let picture_px = if columns == 1 { WIDTH_PX } else { PAGE_PX };
+        let picture_px = if columns == 1 { paper.column_px } else { paper.page_px };
+        let least_px = paper.least_picture_px();
         let mut width_px = picture_px / columns as f64 - BESIDE_PX;
         for _ in 0..MEASURED {
-            let (panels, grid) = panels(charts, columns, width_px);
+            let (panels, grid) = panels(charts, columns, (width_px, least_px));
             let bar = ColourBar::new(&self.colour, scale, bar_px(plots_px(&panels, &grid)));
             width_px += (picture_px - grid.width_px() - bar.width_px()) / columns as f64;
         }
-        let (panels, grid) = panels(charts, columns, width_px);
+        let (panels, grid) = panels(charts, columns, (width_px, least_px));
         let plots_px = plots_px(&panels, &grid);
         let bar_px = bar_px(plots_px);
         let bar = ColourBar::new(&self.colour, scale, bar_px);
@@ -111,13 +113,13 @@ fn bar_px(plots_px: f64) -> f64 {
     plots_px.clamp(BAR_PX.0, BAR_PX.1)
 }
 
-/// The pictures in a grid, none of them wider than `width_px`.
-fn panels(charts: &[RasterPanel], columns: usize, width_px: f64) -> (Vec<Panel<'_>>, Grid) {
+/// The pictures in a grid, as wide as the width unless that is less than the smallest one.
+fn panels(charts: &[RasterPanel], columns: usize, widths_px: (f64, f64)) -> (Vec<Panel<'_>>, Grid) {
     let panels: Vec<Panel<'_>> = charts
         .chunks(columns)
         .flat_map(|row| {
             let same = row.iter().all(|chart| chart.y == row[0].y);
-            let panel = move |(i, chart)| Panel::new(chart, !same || i == 0, width_px);
+            let panel = move |(i, chart)| Panel::new(chart, !same || i == 0, widths_px);
             row.iter().enumerate().map(panel)
         })
         .collect();
@@ -128,8 +130,8 @@ fn panels(charts: &[RasterPanel], columns: usize, width_px: f64) -> (Vec<Panel<'
 }
 
 impl<'a> Panel<'a> {
-    fn new(chart: &'a RasterPanel, y_title: bool, width_px: f64) -> Self {
-        let size_px = chart.size_px(width_px);
+    fn new(chart: &'a RasterPanel, y_title: bool, (width_px, least_px): (f64, f64)) -> Self {
+        let size_px = chart.size_px(width_px, least_px);
         let (left, right) = chart.x_range;
         let (top, bottom) = chart.y_range;
         let title = chart.title.as_deref().unwrap_or_default();

@@ -7,8 +7,6 @@ use crate::scales::scale::{AxisPlace, Scale};
 
 /// The largest height of a picture.
 const MOST_HEIGHT_PX: f64 = 400.0;
-/// The smallest width of a picture.
-const LEAST_WIDTH_PX: f64 = 140.0;
 /// The largest ratio of a picture's sides.
 const MOST_RATIO: f64 = 4.0;
 
@@ -85,13 +83,13 @@ impl RasterPanel {
         Ok(())
     }
 
-    /// Width and height of the picture within a given width.
-    pub(crate) fn size_px(&self, width_px: f64) -> (f64, f64) {
+    /// Width and height of the picture within a given width, but not narrower than `least_px`.
+    pub(crate) fn size_px(&self, width_px: f64, least_px: f64) -> (f64, f64) {
         let (x, y) = (self.x_range, self.y_range);
         // The division by 2 avoids an overflow: a range may be as long as the largest number.
         let ratio = (y.1 / 2.0 - y.0 / 2.0).abs() / (x.1 / 2.0 - x.0 / 2.0);
         let ratio = ratio.clamp(1.0 / MOST_RATIO, MOST_RATIO);
-        let width_px = width_px.max(LEAST_WIDTH_PX).min(MOST_HEIGHT_PX / ratio).floor();
+        let width_px = width_px.max(least_px).min(MOST_HEIGHT_PX / ratio).floor();
         (width_px, width_px * ratio)
     }
 

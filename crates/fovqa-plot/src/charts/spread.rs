@@ -11,7 +11,8 @@ use crate::charts::spread_series::{BOX_FROM, SpreadSeries, finite};
 use crate::error::PlotError;
 use crate::marks::marker;
 use crate::marks::swatch;
-use crate::page::layout::{self, MARGIN_PX, PLOT_HEIGHT_PX, Sides};
+use crate::page::layout::{self, MARGIN_PX, Sides};
+use crate::page::paper::Paper;
 use crate::scales::scale::{AxisPlace, Scale};
 
 /// The share of its slot that a box fills.
@@ -45,17 +46,17 @@ pub struct SpreadChart {
 }
 
 impl SpreadChart {
-    pub(crate) fn draw(&self) -> Result<Drawing, PlotError> {
+    pub(crate) fn draw(&self, paper: &Paper) -> Result<Drawing, PlotError> {
+        let height_px = paper.plot_height_px;
         for series in &self.series {
             PlotError::check_groups(&series.name, series.values.len(), self.groups.len())?;
         }
         let values = || self.series.iter().flat_map(|series| series.values.iter().flatten());
         let places = || values().copied().filter_map(AxisPlace::of);
         let scale = Scale::holding(places().filter_map(AxisPlace::finite));
-        let axis =
-            ValueAxis::new(&self.y, scale.map(|scale| scale.with_air(AIR, AIR)), PLOT_HEIGHT_PX);
+        let axis = ValueAxis::new(&self.y, scale.map(|scale| scale.with_air(AIR, AIR)), height_px);
         let beside_px = axis.left_px() + MARGIN_PX;
-        let groups = GroupAxis::new(&self.groups, self.series.len(), beside_px);
+        let groups = GroupAxis::new(&self.groups, self.series.len(), beside_px, paper);
         let left_out = LeftOut::of(&self.series, groups.pitch_px());
         let sides = Sides {
             left: axis.left_px(),
@@ -65,7 +66,7 @@ impl SpreadChart {
         };
         let keys: Vec<_> = self.series.iter().map(|s| (s.name.as_str(), s.key())).collect();
         let (mut drawing, plot) =
-            layout::begin(self.title.as_deref(), &keys, sides, groups.plot_width_px());
+            layout::begin(self.title.as_deref(), &keys, sides, (groups.plot_width_px(), height_px));
         axis.draw_grid(&mut drawing, plot);
         axis.draw(&mut drawing, plot, 0.0);
         groups.draw(&mut drawing, plot, left_out.below_px());

@@ -4,13 +4,15 @@
 use super::*;
 use crate::canvas::drawing::{Mark, Rect, Text};
 use crate::canvas::look::{AXIS, Colour, GRID, INK, REFERENCE, SPAN};
-use crate::{Axis, BarSeries, Fill, FillKind, LineSeries, Look, Span, SpreadSeries, png};
+use crate::canvas::png;
+use crate::{Axis, BarSeries, Fill, FillKind, LineSeries, Look, Span, SpreadSeries};
 
 mod curves;
 mod marks;
 mod panels;
 mod random_values;
 mod rasters;
+mod sizes;
 mod spans;
 
 /// Names that are difficult for a layout.
@@ -107,16 +109,31 @@ fn points(values: &[f64]) -> Vec<(f64, Option<f64>)> {
 }
 
 fn texts(figure: &Figure) -> Vec<String> {
-    figure.draw().unwrap().texts().iter().map(|text| text.line.clone()).collect()
+    figure.draw(&Paper::wide()).unwrap().texts().iter().map(|text| text.line.clone()).collect()
 }
 
 fn count(figure: &Figure, text: &str) -> usize {
     texts(figure).iter().filter(|line| *line == text).count()
 }
 
-/// Checks that no mark is outside the picture and that texts do not overlap.
+/// The SVG of a figure on wide paper, with 96 of its pixels per inch.
+fn svg(figure: &Figure) -> String {
+    let drawing = figure.draw(&Paper::wide()).unwrap();
+    Printed::new(drawing, 0.75).svg().unwrap()
+}
+
+/// Checks that no mark is outside the picture and that texts do not overlap, on wide paper and on
+/// that of a column.
 fn check(figure: &Figure) {
-    let drawing = figure.draw().unwrap();
+    check_drawing(&figure.draw(&Paper::wide()).unwrap());
+    check_drawing(&figure.draw(&Paper::new(&Style::default())).unwrap());
+    let svg = svg(figure);
+    // The characters of an encoded picture are arbitrary.
+    let mut lines = svg.lines().filter(|line| !line.starts_with("<image "));
+    assert!(lines.all(|line| !line.contains("NaN") && !line.contains("inf")), "{svg}");
+}
+
+fn check_drawing(drawing: &Drawing) {
     let (width, height) = (drawing.width_px, drawing.height_px);
     let inside = |r: Rect| r.left >= 0.0 && r.top >= 0.0 && r.right <= width && r.bottom <= height;
     for mark in &drawing.marks {
@@ -143,10 +160,6 @@ fn check(figure: &Figure) {
             assert!(!a.bounds().overlaps(b.bounds()), "{a:?} covers {b:?}");
         }
     }
-    let svg = figure.svg().unwrap();
-    // The characters of an encoded picture are arbitrary.
-    let mut lines = svg.lines().filter(|line| !line.starts_with("<image "));
-    assert!(lines.all(|line| !line.contains("NaN") && !line.contains("inf")), "{svg}");
 }
 
 #[test]
@@ -217,7 +230,7 @@ fn empty_figures_say_so() {
 
 #[test]
 fn names_survive_escaped() {
-    let svg = bars(vec![vec![Some(1.0)]; 8], true).svg().unwrap();
+    let svg = svg(&bars(vec![vec![Some(1.0)]; 8], true));
     for name in ["A &amp; B &lt;x&gt; &quot;quoted&quot; &apos;too&apos;", "עברית"] {
         assert!(svg.contains(name), "{name}");
     }
@@ -228,8 +241,8 @@ fn names_survive_escaped() {
 fn the_same_figure_is_the_same_bytes_on_any_thread() {
     let render = || {
         let figure = spread(vec![vec![vec![1.0, 2.5, 3.0]; 3], vec![vec![0.1; 12]; 3]]);
-        let svg = figure.svg().unwrap();
-        let png = png(&svg, 1.5).unwrap();
+        let svg = svg(&figure);
+        let png = png::render(&svg, 96.0 * 1.5).unwrap();
         (svg, png)
     };
     let first = render();
@@ -239,7 +252,8 @@ fn the_same_figure_is_the_same_bytes_on_any_thread() {
 
 #[test]
 fn a_usual_figure_is_half_a_page_wide() {
-    let drawing = line(vec![vec![(0.0, Some(20.0)), (60.0, Some(40.0))]]).draw().unwrap();
+    let drawing =
+        line(vec![vec![(0.0, Some(20.0)), (60.0, Some(40.0))]]).draw(&Paper::wide()).unwrap();
     assert!((474.0..=486.0).contains(&drawing.width_px), "{}", drawing.width_px);
     assert!((280.0..=340.0).contains(&drawing.height_px), "{}", drawing.height_px);
 }
@@ -248,7 +262,7 @@ fn a_usual_figure_is_half_a_page_wide() {
 fn series_must_fit_their_groups() {
     let Figure::Bar(mut chart) = bars(vec![vec![Some(1.0), None]], true) else { unreachable!() };
     chart.groups.pop();
-    let error = Figure::Bar(chart).svg().unwrap_err();
+    let error = Figure::Bar(chart).print(&Style::default()).unwrap_err();
     assert!(matches!(error, PlotError::Groups { found: 2, expected: 1, .. }), "{error}");
 }
 

@@ -1,7 +1,8 @@
 //! The look of an area between two curves: its meaning and its hatch.
 
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
-use crate::canvas::look::{Colour, DEFICIT, DEFICIT_HATCH, SURPLUS, SURPLUS_EDGE};
+use crate::canvas::look::{Colour, DEFICIT, DEFICIT_HATCH, Hatch, SURPLUS, SURPLUS_EDGE};
+use crate::marks::hatch;
 
 /// Horizontal distance between the lines of the hatch.
 const HATCH_PITCH_PX: f64 = 6.0;
@@ -22,12 +23,11 @@ pub enum FillKind {
 impl FillKind {
     /// Fills an area, with its hatch.
     pub(crate) fn draw(self, drawing: &mut Drawing, corners: &[Point]) {
-        let (fill, hatch) = self.colours();
+        let (fill, line) = self.colours();
         drawing.area(corners.to_vec(), fill);
         if self == Self::Deficit {
-            for line in hatch_lines(corners) {
-                drawing.line(&line, Stroke { colour: hatch, width_px: HATCH_PX });
-            }
+            let stroke = Stroke { colour: line, width_px: HATCH_PX };
+            hatch::draw(drawing, corners, Hatch::Rising, (HATCH_PITCH_PX, stroke));
         }
     }
 
@@ -46,52 +46,9 @@ impl FillKind {
     }
 }
 
-/// Lines within an area that rise to the right. Their positions are the same in the whole picture,
-/// so that two adjacent areas look like one.
-fn hatch_lines(corners: &[Point]) -> Vec<[Point; 2]> {
-    let along = |(x, y): Point| (x + y) / HATCH_PITCH_PX;
-    let (first, last) =
-        corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
-            (low.min(along(*p)), high.max(along(*p)))
-        });
-    if first > last {
-        return Vec::new();
-    }
-    let line = |count: i64| {
-        let off = |p: Point| along(p) - count as f64;
-        let mut crossings: Vec<Point> = Vec::new();
-        for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
-            let (before, after) = (off(*a), off(*b));
-            if (before < 0.0) != (after < 0.0) {
-                let share = before / (before - after);
-                crossings.push((a.0 + (b.0 - a.0) * share, a.1 + (b.1 - a.1) * share));
-            }
-        }
-        crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let pairs = crossings.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
-        pairs.filter(|[from, to]| to.0 - from.0 > HATCH_PX / 2.0).collect::<Vec<_>>()
-    };
-    (first.ceil() as i64..=last.floor() as i64).flat_map(line).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn hatch_stays_within() {
-        let triangle = [(10.0, 10.0), (90.0, 10.0), (10.0, 90.0)];
-        let lines = hatch_lines(&triangle);
-        assert!(lines.len() > 10);
-        for (x, y) in lines.concat() {
-            assert!(x >= 10.0 - 1e-9 && y >= 10.0 - 1e-9 && x + y <= 100.0 + 1e-9);
-            assert!(
-                ((x + y) / HATCH_PITCH_PX).fract().min(1.0 - ((x + y) / HATCH_PITCH_PX).fract())
-                    < 1e-6
-            );
-        }
-        assert!(hatch_lines(&[]).is_empty());
-    }
 
     #[test]
     fn the_kinds_differ_without_colour() {

@@ -111,12 +111,14 @@ impl Key {
         match self {
             Self::Curve(look) => {
                 let stroke = Stroke { colour: look.colour(), width_px: CURVE_PX };
-                drawing.dashed(&line, stroke, &look.dash_px());
-                marker::draw(drawing, middle, look, marker::RADIUS_PX, look.colour());
+                drawing.dashed(&line, stroke, look.dash_px());
+                if look.has_markers() {
+                    marker::draw(drawing, middle, look, marker::RADIUS_PX, look.colour());
+                }
             }
             Self::Reference(look) => {
                 let stroke = Stroke { colour: REFERENCE, width_px: REFERENCE_PX };
-                drawing.dashed(&line, stroke, &look.reference_dash_px());
+                drawing.dashed(&line, stroke, look.reference_dash_px());
             }
             Self::Bar(look) => swatch::draw(drawing, rect, look, look.colour()),
             Self::Box(look) => swatch::draw(drawing, rect, look, look.colour().tint(swatch::TINT)),

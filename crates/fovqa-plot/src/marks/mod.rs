@@ -2,6 +2,7 @@
 
 pub(crate) mod fill;
 pub(crate) mod fill_kind;
+pub(crate) mod hatch;
 pub(crate) mod infinity;
 pub(crate) mod legend;
 pub(crate) mod marker;

@@ -2,15 +2,16 @@
 
 use crate::canvas::drawing::{Drawing, Rect, Stroke};
 use crate::canvas::look::{Colour, Look, WHITE};
+use crate::marks::hatch;
 
 /// Width of the edge in pixels.
 const EDGE_PX: f64 = 0.8;
 
-/// Width of a stripe in pixels.
-const STRIPE_PX: f64 = 1.0;
+/// Width of a line of the hatch in pixels.
+const HATCH_PX: f64 = 1.0;
 
-/// Distance between the stripes of one group, in pixels.
-const STRIPE_PITCH_PX: f64 = 2.0;
+/// Distance between the lines of the hatch along the axes, in pixels.
+const HATCH_PITCH_PX: f64 = 5.0;
 
 /// The share of its colour in the fill of a box. Whiskers and median remain visible on it.
 pub(crate) const TINT: f64 = 0.35;
@@ -20,29 +21,16 @@ pub(crate) fn edge(look: Look) -> Stroke {
     Stroke { colour: look.colour().darker(), width_px: EDGE_PX }
 }
 
-/// Draws a rectangle in a colour of the series, with its edge. After the first turn of the palette
-/// it has horizontal stripes, in groups of one for the second turn, of two for the third, and so
-/// on. They are counted from the bottom.
+/// Draws a rectangle in a colour of the series, with its hatch and its edge.
 pub(crate) fn draw(drawing: &mut Drawing, rect: Rect, look: Look, fill: Colour) {
-    drawing.rect(rect, fill, edge(look));
-    if look.turn() == 0 {
-        return;
-    }
-    let stripe = Stroke {
+    let corners = rect.corners();
+    drawing.area(corners.to_vec(), fill);
+    let line = Stroke {
         colour: if fill == look.colour() { WHITE } else { look.colour() },
-        width_px: STRIPE_PX,
+        width_px: HATCH_PX,
     };
-    let group_px = STRIPE_PITCH_PX * (look.turn() as f64 + 1.0);
-    let mut bottom = rect.bottom - STRIPE_PITCH_PX;
-    while bottom > rect.top + STRIPE_PX {
-        for i in 0..look.turn() {
-            let y = bottom - i as f64 * STRIPE_PITCH_PX;
-            if y > rect.top + STRIPE_PX {
-                drawing.line(&[(rect.left + EDGE_PX, y), (rect.right - EDGE_PX, y)], stripe);
-            }
-        }
-        bottom -= group_px;
-    }
+    hatch::draw(drawing, &corners, look.hatch(), (HATCH_PITCH_PX, line));
+    drawing.frame(rect, edge(look));
 }
 
 #[cfg(test)]
@@ -51,21 +39,21 @@ mod tests {
     use crate::canvas::drawing::Mark;
 
     #[test]
-    fn stripes_stay_within_and_tell_the_turns_apart() {
-        let stripes = |turn: usize, height: f64| {
-            let look = Look::new(7 * turn);
-            let rect = Rect { left: 5.0, top: 10.0, right: 15.0, bottom: 10.0 + height };
-            let mut drawing = Drawing { width_px: 20.0, height_px: 90.0, marks: Vec::new() };
-            draw(&mut drawing, rect, look, look.colour());
-            let stripe = |mark: &Mark| match mark {
-                Mark::Line(points, stroke) if stroke.colour == WHITE => Some(points[0].1),
-                _ => None,
-            };
-            let ys: Vec<f64> = drawing.marks.iter().filter_map(stripe).collect();
-            assert!(ys.iter().all(|y| *y > rect.top && *y < rect.bottom), "{ys:?}");
-            ys.len()
-        };
-        assert_eq!([0, 1, 2].map(|turn| stripes(turn, 12.5)), [0, 3, 4]);
-        assert!((0..13).all(|height| stripes(5, f64::from(height)) < 7));
+    fn series_differ_by_their_hatch() {
+        let rect = Rect { left: 5.0, top: 10.0, right: 15.0, bottom: 40.0 };
+        let hatches: Vec<Vec<Mark>> = (0..7)
+            .map(|i| {
+                let look = Look::new(i);
+                let mut drawing = Drawing { width_px: 20.0, height_px: 90.0, marks: Vec::new() };
+                draw(&mut drawing, rect, look, look.colour());
+                let is_hatch = |mark: &Mark| matches!(mark, Mark::Line(_, s) if s.colour == WHITE);
+                drawing.marks.into_iter().filter(is_hatch).collect()
+            })
+            .collect();
+        assert!(hatches[0].is_empty());
+        for (i, a) in hatches.iter().enumerate().skip(1) {
+            assert!(a.len() >= 2, "{i}");
+            assert!(hatches[..i].iter().all(|b| a != b), "{i}");
+        }
     }
 }

@@ -1,8 +1,9 @@
 //! The layout of a figure: title and legend at the top, the plot area below them, and axes in
 //! margins that are as wide as their labels.
 //!
-//! The plot area has the same height in every figure, and the picture grows with the parts around
-//! it, so that equal steps look equal beside a short legend and a long one.
+//! Unless a height was asked for, the plot area has the same height in every figure of a width, and
+//! the picture grows with the parts around it, so that equal steps look equal beside a short legend
+//! and a long one.
 
 use crate::canvas::drawing::{Anchor, Drawing, Rect, Text};
 use crate::canvas::text::{LINE_PITCH, TITLE_PX};
@@ -11,18 +12,6 @@ use crate::marks::legend::{Key, Legend};
 
 /// Space left free along the border of a picture.
 pub(crate) const MARGIN_PX: f64 = 8.0;
-/// Width of a picture, for printing at 85 mm, half a page: a text of 12 px is then a text of 6
-/// points.
-pub(crate) const WIDTH_PX: f64 = 480.0;
-/// Width of a figure of several columns, for printing at 170 mm, a whole page: a text of 12 px is
-/// then a text of 6 points.
-pub(crate) const PAGE_PX: f64 = 2.0 * WIDTH_PX;
-/// Height of the plot area. With its axes and one row of legend this is about two thirds of the
-/// width.
-pub(crate) const PLOT_HEIGHT_PX: f64 = 226.0;
-/// The smallest width of a plot area. Wide labels widen the picture instead.
-pub(crate) const LEAST_PLOT_PX: f64 = 260.0;
-
 /// The largest number of lines of a title.
 pub(crate) const TITLE_LINES: usize = 3;
 /// Distance between the parts of the head, and from them to the plot area.
@@ -43,13 +32,13 @@ pub(crate) fn begin(
     title: Option<&str>,
     series: &[(&str, Key)],
     sides: Sides,
-    plot_width_px: f64,
+    (plot_width_px, plot_height_px): (f64, f64),
 ) -> (Drawing, Rect) {
     let right = sides.left + plot_width_px;
     let width_px = (right + sides.right).ceil();
     let (mut drawing, top) = head(title, series, sides.left, width_px);
     let top = top + sides.above;
-    let bottom = top + PLOT_HEIGHT_PX;
+    let bottom = top + plot_height_px;
     drawing.height_px = (bottom + sides.below).ceil();
     (drawing, Rect { left: sides.left, top, right, bottom })
 }

@@ -17,7 +17,7 @@ use fovqa_results::{
 };
 
 use crate::figures::slug;
-use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
+use crate::sheet::{MakePage, MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
 use plain_table::PlainTable;
 
 /// The figures and tables that were made from a curves file.
@@ -74,12 +74,11 @@ pub fn draw_curves(
         let (name, table) = tables::table(&source, table);
         made.push((names.free(name), table));
     }
-    let page = page::page(&source, &made, &figures);
     let files = made.iter().map(|(name, table)| {
         let markdown: MakeText<'_> = Box::new(|| table.markdown());
         NamedTable { name, files: vec![("md", markdown), ("csv", Box::new(|| table.csv()))] }
     });
-    let page: MakeText<'_> = Box::new(|| page.clone());
+    let page: MakePage<'_> = Box::new(|figures| page::page(&source, &made, figures));
     let sheet = Sheet { tables: files.collect(), figures, page, names: CsvNames::Plain };
     write_whole(&folder.join(CURVES_CSV), curves_csv(&file.plan, curves).as_bytes())?;
     write_json_file(&folder.join(CURVES_JSON), &CurvesRecord::new(file, curves))?;

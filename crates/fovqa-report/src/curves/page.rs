@@ -6,12 +6,11 @@ use super::Source;
 use super::plain_table::PlainTable;
 use super::tables::sentence;
 use crate::page::{PageFigure, begin, end, escaped, figures as figures_html};
-use crate::sheet::{NamedFigure, PLOTS};
 
 pub(super) fn page(
     source: &Source<'_>,
     tables: &[(String, PlainTable)],
-    figures: &[NamedFigure],
+    figures: &[PageFigure<'_>],
 ) -> String {
     let file = source.file;
     let mut text = begin(&file.name);
@@ -22,13 +21,7 @@ pub(super) fn page(
         "<p class=\"note\">All values: <a href=\"curves.csv\">curves.csv</a>, \
          <a href=\"curves.json\">curves.json</a>.</p>\n",
     );
-    let paths: Vec<String> = figures.iter().map(|f| format!("{PLOTS}/{}", f.name)).collect();
-    let on_page: Vec<PageFigure<'_>> = paths
-        .iter()
-        .zip(figures)
-        .map(|(path, figure)| PageFigure { path, caption: &figure.caption })
-        .collect();
-    figures_html(&mut text, &on_page);
+    figures_html(&mut text, figures);
     for (name, table) in tables {
         let _ = write!(
             text,

@@ -66,7 +66,7 @@ fn discs(drawing: &Drawing, look: usize) -> Vec<(f64, f64)> {
 fn areas_meet_where_the_curves_cross() {
     let chart = crossing();
     check(&Figure::Line(chart.clone()));
-    let drawing = chart.draw();
+    let drawing = chart.draw(&Paper::wide());
     let (more, less) = (filled(&drawing, SURPLUS), filled(&drawing, DEFICIT));
     assert_eq!((more.len(), less.len()), (2, 2), "each with its key");
     let (more, less) = (bounds(&more[1]), bounds(&less[1]));
@@ -77,7 +77,7 @@ fn areas_meet_where_the_curves_cross() {
 
 #[test]
 fn areas_are_over_the_grid_and_behind_the_curves() {
-    let drawing = crossing().draw();
+    let drawing = crossing().draw(&Paper::wide());
     let at = |found: &dyn Fn(&Mark) -> bool| {
         let all: Vec<usize> =
             (0..drawing.marks.len()).filter(|i| found(&drawing.marks[*i])).collect();
@@ -121,7 +121,7 @@ fn areas_widen_no_axis_and_end_at_the_border() {
     let mut chart = crossing();
     let bare = LineChart { fills: Vec::new(), ..chart.clone() };
     chart.fills[0].points = vec![(-90.0, 20.0, f64::INFINITY), (90.0, 20.0, 1e12)];
-    let drawing = chart.draw();
+    let drawing = chart.draw(&Paper::wide());
     check(&Figure::Line(chart.clone()));
     let plot = plots(&drawing)[0];
     assert_eq!((chart.x_scale(), chart.y_scale()), (bare.x_scale(), bare.y_scale()));
@@ -139,7 +139,7 @@ fn curves_are_cut_where_they_cross_the_limits() {
     chart.fills =
         vec![Fill { points: vec![(0.0, -50.0, 0.0), (10.0, 50.0, 100.0)], ..Fill::default() }];
     check(&Figure::Line(chart.clone()));
-    let drawing = chart.draw();
+    let drawing = chart.draw(&Paper::wide());
     let plot = plots(&drawing)[0];
     let lines = curve(&drawing, 0);
     assert_eq!(lines.len(), 1);
@@ -184,7 +184,7 @@ fn a_point_on_a_limit_is_seen_and_one_beyond_is_not() {
         vec![(0.0, Some(1.0)), (1.0, None), (2.0, Some(5.0)), (3.0, None), (4.0, Some(6.0))];
     let series = vec![LineSeries { points, ..LineSeries::default() }];
     let chart = LineChart { series, y_limits: Some((1.0, 5.0)), ..LineChart::default() };
-    let drawing = chart.draw();
+    let drawing = chart.draw(&Paper::wide());
     let plot = plots(&drawing)[0];
     let ys: Vec<f64> = discs(&drawing, 0).iter().map(|p| p.1).collect();
     assert_eq!(ys, [plot.bottom, plot.top]);
@@ -200,17 +200,18 @@ fn a_function_has_few_markers_and_not_those_of_another() {
     };
     let count = |smooth| {
         let series = vec![dense(0, smooth)];
-        let drawing = LineChart { series, ..LineChart::default() }.draw();
+        let drawing = LineChart { series, ..LineChart::default() }.draw(&Paper::wide());
         assert_eq!(curve(&drawing, 0)[0].len(), 1001, "the curve is the same");
         discs(&drawing, 0).len()
     };
     assert!((5..=9).contains(&count(true)) && count(false) > 30);
     let reference = LineSeries { reference: true, ..dense(0, true) };
-    let drawing = LineChart { series: vec![reference], ..LineChart::default() }.draw();
+    let drawing =
+        LineChart { series: vec![reference], ..LineChart::default() }.draw(&Paper::wide());
     assert!(!drawing.marks.iter().any(|mark| matches!(mark, Mark::Disc(..))));
     // Looks 0 and 7 are both circles of one colour.
     let series = vec![dense(0, true), dense(1, true)];
-    let both = discs(&LineChart { series, ..LineChart::default() }.draw(), 0);
+    let both = discs(&LineChart { series, ..LineChart::default() }.draw(&Paper::wide()), 0);
     for (i, a) in both.iter().enumerate() {
         assert!(both[..i].iter().all(|b| (a.0 - b.0).hypot(a.1 - b.1) > 3.0));
     }
@@ -226,7 +227,7 @@ fn log(values: &[f64]) -> LineChart {
 fn equal_ratios_are_equal_heights_on_a_logarithmic_axis() {
     let chart = log(&[0.1, 1.0, 10.0, 100.0]);
     check(&Figure::Line(chart.clone()));
-    let line = &curve(&chart.draw(), 0)[0];
+    let line = &curve(&chart.draw(&Paper::wide()), 0)[0];
     let up: Vec<f64> = line.windows(2).map(|p| p[0].1 - p[1].1).collect();
     assert!(up[0] > 30.0 && up.iter().all(|step| (step - up[0]).abs() < 1e-6), "{up:?}");
     let labels = texts(&Figure::Line(chart.clone()));
@@ -243,7 +244,7 @@ fn values_without_a_logarithm_are_gaps() {
     let chart = log(&[1.0, 2.0, 0.0, 4.0, 5.0, -3.0, 6.0, 7.0, -inf, nan, 8.0, 9.0, inf]);
     let figure = Figure::Line(chart.clone());
     check(&figure);
-    assert_eq!(curve(&chart.draw(), 0).len(), 4);
+    assert_eq!(curve(&chart.draw(&Paper::wide()), 0).len(), 4);
     assert_eq!((count(&figure, "∞"), count(&figure, "−∞")), (1, 0));
     let none = Figure::Line(log(&[0.0, -1.0]));
     check(&none);
@@ -256,7 +257,7 @@ fn limits_and_areas_of_a_logarithmic_axis() {
     chart.y_limits = Some((0.01, 100.0));
     chart.fills = vec![Fill { points: vec![(0.0, 0.0, 1.0), (2.0, -5.0, 1.0)], ..Fill::default() }];
     check(&Figure::Line(chart.clone()));
-    let drawing = chart.draw();
+    let drawing = chart.draw(&Paper::wide());
     let (plot, line) = (plots(&drawing)[0], &curve(&drawing, 0)[0]);
     assert_eq!((line[0].1, line[line.len() - 1].1), (plot.bottom, plot.top));
     // A third of the distance from 0.001 to 1.

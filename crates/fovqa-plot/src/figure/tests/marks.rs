@@ -42,7 +42,7 @@ fn areas(figure: &Figure, look: usize) -> Vec<(f64, f64)> {
         }
         _ => None,
     };
-    figure.draw().unwrap().marks.iter().filter_map(ends).skip(1).collect()
+    figure.draw(&Paper::wide()).unwrap().marks.iter().filter_map(ends).skip(1).collect()
 }
 
 #[test]
@@ -57,7 +57,7 @@ fn bars_are_as_long_as_their_values() {
 
 /// The lines and discs of a colour.
 fn lines_and_discs(figure: &Figure, colour: Colour) -> (Vec<Vec<(f64, f64)>>, usize) {
-    let drawing = figure.draw().unwrap();
+    let drawing = figure.draw(&Paper::wide()).unwrap();
     let line = |mark: &Mark| match mark {
         Mark::Line(points, stroke) if stroke.colour == colour => Some(points.clone()),
         _ => None,
@@ -89,7 +89,7 @@ fn ten_values_make_a_box() {
     let tint = Look::new(0).colour().tint(crate::marks::swatch::TINT);
     let boxes = |count: u32| {
         let figure = spread(vec![vec![(0..count).map(f64::from).collect()], vec![vec![]]]);
-        let drawing = figure.draw().unwrap();
+        let drawing = figure.draw(&Paper::wide()).unwrap();
         let area = |mark: &Mark| match mark {
             Mark::Area(points, colour) if *colour == tint => Some((points[0].1, points[2].1)),
             _ => None,
@@ -102,7 +102,7 @@ fn ten_values_make_a_box() {
     let (found, medians) = boxes(10);
     // The key and the box, which extends from 2.25 to 6.75 on an axis of 9 plus its space.
     let (top, bottom) = found[1];
-    let height = crate::page::layout::PLOT_HEIGHT_PX * 4.5 / (9.0 * 1.12);
+    let height = Paper::wide().plot_height_px * 4.5 / (9.0 * 1.12);
     assert!(found.len() == 2 && (bottom - top - height).abs() < 1e-6, "{found:?}");
     let middle = top.midpoint(bottom);
     assert!((medians[0][0].1 - middle).abs() < 1e-6);
@@ -128,11 +128,11 @@ fn infinite_values_stand_at_their_border() {
         Mark::Disc((_, y), _, c) if *c == colour => Some(*y),
         _ => None,
     };
-    let ys: Vec<f64> = figure.draw().unwrap().marks.iter().filter_map(disc).collect();
+    let ys: Vec<f64> = figure.draw(&Paper::wide()).unwrap().marks.iter().filter_map(disc).collect();
     // The key, the two points on the axis, then the one above and the one below.
     let [_, zero, one, above, below] = ys[..] else { panic!("{ys:?}") };
     assert!(above < one && one < zero && zero < below, "{ys:?}");
-    assert!((below - above - crate::page::layout::PLOT_HEIGHT_PX).abs() < 1e-6);
+    assert!((below - above - Paper::wide().plot_height_px).abs() < 1e-6);
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn plot_areas_of_panels_are_aligned() {
         let Figure::Panels(chart) = &mut figure else { unreachable!() };
         chart.panels[1].series[0].points = points(&[f64::INFINITY, 123_456.7, f64::NEG_INFINITY]);
         chart.panels[2].series.clear();
-        let plots = plots(&figure.draw().unwrap());
+        let plots = plots(&figure.draw(&Paper::wide()).unwrap());
         assert_eq!(plots.len(), 8);
         for (i, a) in plots.iter().enumerate() {
             for (j, b) in plots[..i].iter().enumerate() {
@@ -79,9 +79,10 @@ fn a_row_of_one_measure_has_its_title_once() {
 #[test]
 fn panels_have_the_width_of_a_column_or_a_page() {
     let curves = [points(&[3e-3, 1e-6])];
-    let width = |count, columns| panels(&curves, count, columns).draw().unwrap().width_px;
+    let width =
+        |count, columns| panels(&curves, count, columns).draw(&Paper::wide()).unwrap().width_px;
     let Figure::Panels(chart) = panels(&curves, 1, 1) else { unreachable!() };
-    assert_eq!(width(1, 1), chart.panels[0].draw().width_px);
+    assert_eq!(width(1, 1), chart.panels[0].draw(&Paper::wide()).width_px);
     assert_eq!((width(5, 1), width(5, 0), width(1, 3)), (width(1, 1), width(1, 1), width(1, 1)));
     for columns in 2..5 {
         assert!((940.0..=961.0).contains(&width(8, columns)), "{columns}");

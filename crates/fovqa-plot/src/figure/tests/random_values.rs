@@ -20,7 +20,7 @@ proptest! {
         let points: Vec<_> = values.chunks(2).map(|v| (v[0], v.get(1).copied())).collect();
         let curves = line(vec![points; series]);
         check(&curves);
-        prop_assert!(png(&curves.svg().unwrap(), 0.5).is_ok());
+        prop_assert!(curves.print(&Style::default()).unwrap().png(48.0).is_ok());
         let options: Vec<_> = values.iter().map(|v| Some(*v)).collect();
         check(&bars(vec![options.clone(); series], false));
         check(&bars(vec![options; series], true));

@@ -37,7 +37,7 @@ fn pictures(drawing: &Drawing) -> Vec<(Rect, Vec<u8>)> {
 }
 
 fn levels(chart: &RasterChart) -> Vec<u8> {
-    pictures(&chart.draw().unwrap())[0].1.clone()
+    pictures(&chart.draw(&Paper::wide()).unwrap())[0].1.clone()
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn values_have_the_colours_of_their_range() {
 #[test]
 fn all_panels_have_one_scale_and_one_bar() {
     let figure = chart(vec![panel(2, &[0.0, 1.0]), panel(2, &[1.0, 2.0])], 2);
-    let drawing = figure.draw().unwrap();
+    let drawing = figure.draw(&Paper::wide()).unwrap();
     let pictures = pictures(&drawing);
     assert_eq!(pictures.len(), 3);
     assert_eq!((&pictures[0].1, &pictures[1].1), (&vec![0, 127], &vec![127, 254]));
@@ -82,7 +82,7 @@ fn units_are_equal_on_both_axes() {
     for columns in 1..4 {
         let figure = chart(vec![panel(2, &[0.0, 1.0]), tall.clone(), panel(1, &[1.0])], columns);
         check(&Figure::Raster(figure.clone()));
-        let pictures = pictures(&figure.draw().unwrap());
+        let pictures = pictures(&figure.draw(&Paper::wide()).unwrap());
         for (picture, ratio) in pictures.iter().zip([0.5, 1.5, 0.5]) {
             assert!((picture.0.height() / picture.0.width() - ratio).abs() < 1e-9);
         }
@@ -93,7 +93,7 @@ fn units_are_equal_on_both_axes() {
 fn y_runs_from_the_first_value_at_the_top() {
     let label_at = |y_range, label: &str| {
         let figure = chart(vec![RasterPanel { y_range, ..panel(1, &[1.0]) }], 1);
-        let drawing = figure.draw().unwrap();
+        let drawing = figure.draw(&Paper::wide()).unwrap();
         let left = pictures(&drawing)[0].0.left;
         let texts = drawing.texts();
         let found = texts.iter().find(|t| t.line == label && t.at.0 < left);
@@ -106,9 +106,9 @@ fn y_runs_from_the_first_value_at_the_top() {
 /// The pixels of a figure at the centre of each cell of its first picture.
 fn pixels(figure: &RasterChart) -> Vec<Colour> {
     const SCALE: f64 = 1.5;
-    let svg = Figure::Raster(figure.clone()).svg().unwrap();
-    let pixmap = Pixmap::decode_png(&png(&svg, SCALE as f32).unwrap()).unwrap();
-    let rect = pictures(&figure.draw().unwrap())[0].0;
+    let svg = svg(&Figure::Raster(figure.clone()));
+    let pixmap = Pixmap::decode_png(&png::render(&svg, 96.0 * SCALE as f32).unwrap()).unwrap();
+    let rect = pictures(&figure.draw(&Paper::wide()).unwrap())[0].0;
     let RasterPanel { columns, rows, .. } = figure.panels[0];
     let cell = |i: usize| {
         let x = rect.left + (0.5 + (i % columns) as f64) / columns as f64 * rect.width();
@@ -139,7 +139,7 @@ fn lines_and_cross_are_seen_and_end_at_the_picture() {
     figure.panels[0].lines = vec![RasterLine { name: "10°".to_owned(), points }];
     figure.panels[0].cross = Some((19.99, -5.0));
     check(&Figure::Raster(figure.clone()));
-    let drawing = figure.draw().unwrap();
+    let drawing = figure.draw(&Paper::wide()).unwrap();
     let rect = pictures(&drawing)[0].0;
     let lines = |colour: Colour, width: f64| -> Vec<Vec<(f64, f64)>> {
         let line = |mark: &Mark| match mark {
@@ -161,7 +161,7 @@ fn lines_and_cross_are_seen_and_end_at_the_picture() {
     assert_eq!(count(&Figure::Raster(figure.clone()), "10°"), 1);
     figure.panels[0].lines[0].points = vec![(30.0, 0.0), (40.0, 0.0)];
     figure.panels[0].cross = Some((0.0, 11.0));
-    let drawing = figure.draw().unwrap();
+    let drawing = figure.draw(&Paper::wide()).unwrap();
     let white = |mark: &&Mark| matches!(mark, Mark::Line(_, stroke) if stroke.colour == WHITE);
     assert_eq!(drawing.marks.iter().filter(white).count(), 0);
     assert_eq!(count(&Figure::Raster(figure), "10°"), 0);
@@ -172,9 +172,9 @@ fn a_line_along_the_border_does_not_stand_out() {
     let mut figure = chart(vec![panel(2, &[0.0, 1.0])], 1);
     let points = vec![(-20.0, -10.0), (20.0, -10.0), (20.0, 10.0), (-20.0, 10.0), (-20.0, -10.0)];
     figure.panels[0].lines = vec![RasterLine { name: String::new(), points }];
-    let rect = pictures(&figure.draw().unwrap())[0].0;
-    let svg = Figure::Raster(figure).svg().unwrap();
-    let pixmap = Pixmap::decode_png(&png(&svg, 2.0).unwrap()).unwrap();
+    let rect = pictures(&figure.draw(&Paper::wide()).unwrap())[0].0;
+    let svg = svg(&Figure::Raster(figure));
+    let pixmap = Pixmap::decode_png(&png::render(&svg, 96.0 * 2.0).unwrap()).unwrap();
     // The pixels are between two ticks, starting just outside the frame.
     let (x, y) = (rect.left + 0.27 * rect.width(), rect.top + 0.1 * rect.height());
     for out in [1.2, 1.7, 2.2, 2.7] {
@@ -200,7 +200,7 @@ fn labels_keep_off_each_other_and_the_cross() {
     check(&Figure::Raster(figure.clone()));
     assert_eq!(count(&Figure::Raster(figure.clone()), "1°"), 1, "beside a small ring");
     assert_eq!(count(&Figure::Raster(figure.clone()), "7°"), 1);
-    let drawing = figure.draw().unwrap();
+    let drawing = figure.draw(&Paper::wide()).unwrap();
     let centre = pictures(&drawing)[0].0.centre();
     let cross = Rect {
         left: centre.0 - 8.0,
@@ -216,7 +216,9 @@ fn labels_keep_off_each_other_and_the_cross() {
 
 #[test]
 fn cells_and_ranges_must_fit() {
-    let error = |panel: RasterPanel| Figure::Raster(chart(vec![panel], 1)).svg().unwrap_err();
+    let error = |panel: RasterPanel| {
+        Figure::Raster(chart(vec![panel], 1)).print(&Style::default()).unwrap_err()
+    };
     let missing = RasterPanel { rows: 2, ..panel(2, &[1.0, 2.0]) };
     let found = error(missing);
     assert!(
@@ -232,7 +234,7 @@ fn cells_and_ranges_must_fit() {
         let across = RasterPanel { x_range: ends, ..panel(1, &[1.0]) };
         assert!(matches!(error(across), PlotError::Extent { .. }), "{ends:?}");
         let down = RasterPanel { y_range: ends, ..panel(1, &[1.0]) };
-        let drawn = Figure::Raster(chart(vec![down], 1)).svg();
+        let drawn = Figure::Raster(chart(vec![down], 1)).print(&Style::default());
         assert_eq!(drawn.is_ok(), ends == (1.0, -1.0), "{ends:?}");
     }
 }
@@ -250,7 +252,7 @@ fn pictures_without_values_say_so() {
         assert_eq!(count(&figure, "no data"), said, "{figure:?}");
     }
     let gray = |mark: &Mark| matches!(mark, Mark::Area(_, NO_VALUE));
-    assert!(chart(Vec::new(), 1).draw().unwrap().marks.iter().any(gray));
+    assert!(chart(Vec::new(), 1).draw(&Paper::wide()).unwrap().marks.iter().any(gray));
 }
 
 #[test]
@@ -271,7 +273,7 @@ fn hostile_pictures_stay_inside() {
             figure.title = Some(name(j));
             figure.log = (i + j) % 2 == 0;
             figure.range = (j % 3 == 0).then_some((a, b));
-            if figure.draw().is_ok() {
+            if figure.draw(&Paper::wide()).is_ok() {
                 check(&Figure::Raster(figure));
             }
         }
@@ -282,7 +284,7 @@ fn hostile_pictures_stay_inside() {
 fn pictures_have_the_width_of_a_column_or_a_page() {
     let width = |count, columns| {
         let panels = vec![panel(2, &[0.0, 1.0]); count];
-        chart(panels, columns).draw().unwrap().width_px
+        chart(panels, columns).draw(&Paper::wide()).unwrap().width_px
     };
     assert!((465.0..=495.0).contains(&width(1, 1)), "{}", width(1, 1));
     assert_eq!((width(3, 1), width(3, 0), width(1, 4)), (width(1, 1), width(1, 1), width(1, 1)));
@@ -306,7 +308,7 @@ fn the_same_picture_is_the_same_bytes_on_any_thread() {
     let render = || {
         let values: Vec<f64> = (0..60 * 30).map(|i| f64::from(i * 37 % 101)).collect();
         let figure = RasterChart { log: true, ..chart(vec![panel(60, &values); 2], 2) };
-        Figure::Raster(figure).svg().unwrap()
+        svg(&Figure::Raster(figure))
     };
     let first = render();
     let threads: Vec<_> = (0..4).map(|_| std::thread::spawn(render)).collect();

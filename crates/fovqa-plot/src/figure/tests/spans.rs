@@ -17,7 +17,7 @@ fn shaded(drawing: &Drawing) -> Vec<Rect> {
 
 #[test]
 fn spans_are_behind_all_else_and_as_high_as_the_plot_area() {
-    let drawing = with_spans(vec![span(1.0, 2.0)]).draw();
+    let drawing = with_spans(vec![span(1.0, 2.0)]).draw(&Paper::wide());
     let (plot, area) = (plots(&drawing)[0], shaded(&drawing)[0]);
     assert_eq!((area.top, area.bottom), (plot.top, plot.bottom));
     // The axis runs from 0 to 3 plus its space.
@@ -39,11 +39,12 @@ fn spans_end_at_the_plot_area() {
     let mut chart = with_spans(beyond.to_vec());
     for ticks in [None, Some(vec![0.0, 3.0])] {
         chart.x_ticks = ticks;
-        let drawing = chart.draw();
+        let drawing = chart.draw(&Paper::wide());
         let (plot, areas) = (plots(&drawing)[0], shaded(&drawing));
         let bare = with_spans(Vec::new());
         assert_eq!(
-            plots(&LineChart { x_ticks: chart.x_ticks.clone(), ..bare }.draw())[0].width(),
+            plots(&LineChart { x_ticks: chart.x_ticks.clone(), ..bare }.draw(&Paper::wide()))[0]
+                .width(),
             plot.width()
         );
         assert_eq!(areas.len(), 4);
@@ -62,11 +63,11 @@ fn spans_that_cannot_be_seen_are_not_drawn() {
     for (from, to) in [(1.0, inf), (-inf, 1.0), (nan, 1.0), (1.0, nan), (4.0, 9.0), (-9.0, -1.0)] {
         let figure = Figure::Line(with_spans(vec![span(from, to)]));
         check(&figure);
-        assert!(shaded(&figure.draw().unwrap()).is_empty(), "{from} to {to}");
+        assert!(shaded(&figure.draw(&Paper::wide()).unwrap()).is_empty(), "{from} to {to}");
         assert_eq!(count(&figure, "saccade"), 0, "nor have they a key");
     }
     let empty = LineChart { spans: vec![span(0.0, 1.0)], ..LineChart::default() };
-    assert!(shaded(&empty.draw()).is_empty());
+    assert!(shaded(&empty.draw(&Paper::wide())).is_empty());
 }
 
 #[test]
@@ -75,5 +76,5 @@ fn spans_of_one_name_have_one_key() {
     let figure = Figure::Line(with_spans(vec![span(0.5, 1.0), span(2.0, 2.5), blink]));
     check(&figure);
     assert_eq!((count(&figure, "saccade"), count(&figure, "blink")), (1, 1));
-    assert_eq!(shaded(&figure.draw().unwrap()).len(), 3);
+    assert_eq!(shaded(&figure.draw(&Paper::wide()).unwrap()).len(), 3);
 }
