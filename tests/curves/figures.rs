@@ -88,7 +88,7 @@ fn figures_show_what_they_say() {
     let full = series("pixels", "Full, gaze at centre, direction 0°");
     assert!(full.len() > 200 && full.iter().all(|row| (row.1 - 1.0).abs() < 1e-12));
     near(at(&series("pixels", "Sparse, gaze at centre, direction 0°"), 15.0), 0.5);
-    assert!(plot("pixels.svg").contains("Radial rate over the display"));
+    assert!(plot("pixels.svg").contains("Radial rate over the"));
 
     // Across the line a degree of angle has other pixels, and the display's own rate is 1 again.
     let angle = series("angle", "Angle");

@@ -7,6 +7,44 @@ use super::experiment_files::{GOOD, check, folder, schema_allows};
 type Mistake = (&'static str, &'static str, &'static [&'static str], bool);
 
 const MISTAKES: &[Mistake] = &[
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[figures]\nwidth_in = 0",
+        &["figures.width_in cannot be 0", "a number from 0.5 to 100"],
+        true,
+    ),
+    ("fpsnr = {}", "fpsnr = {}\n[figures]\nfont_pt = 5", &["a number from 6 to 40"], true),
+    ("fpsnr = {}", "fpsnr = {}\n[figures]\npalette = \"okabe\"", &["\"okabe-ito\""], true),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[figures]\npalette = [\"#0072b2\", \"blue\"]",
+        &["\"blue\" is not a colour", "red, green and blue"],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[figures]\nformats = [\"eps\"]",
+        &["\"svg\", \"pdf\", \"png\""],
+        true,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[figures]\nheight_in = 2\naspect = 1.5",
+        &["height_in and aspect both set the height"],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[[plot]]\nkind = \"profile\"\nfigure = { x = { scale = \"log\", min = 0 } }",
+        &["a logarithmic axis has no place for 0", "min must be above 0"],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[figures]\ny = { min = 40 }\n[[plot]]\nkind = \"profile\"\nfigure = { y = { max = 20 } }",
+        &["the y axis would end at 20, before it begins at 40"],
+        false,
+    ),
     ("", "colour = \"rgb\"", &["no key `colour`", "e.toml:1:1"], true),
     ("", "metric = { psnr = {} }", &["no key `metric`", "did you mean metrics?"], true),
     ("name = \"good\"", "nam = \"good\"", &["did you mean name?", "has no name"], true),

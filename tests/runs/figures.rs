@@ -350,3 +350,71 @@ fn differences_are_drawn_frame_by_frame_and_saccades_marked() {
     assert!(!data(&slow, "sequence-atd").iter().any(|row| row[0] == "saccade"));
     assert!(!page(&slow).contains("saccade"));
 }
+
+/// The size in inches that an SVG declares.
+fn size_in(folder: &Folder, figure: &str) -> (f64, f64) {
+    let svg = fs::read_to_string(folder.path(&format!("reports/e/plots/{figure}.svg"))).unwrap();
+    let side = |name: &str| {
+        let text = svg.split(&format!(" {name}=\"")).nth(1).unwrap().split("in\"").next().unwrap();
+        text.parse::<f64>().unwrap()
+    };
+    (side("width"), side("height"))
+}
+
+#[test]
+fn figures_are_printed_as_the_file_says() {
+    let folder = two_scenes();
+    folder.write(
+        "e.toml",
+        experiment(
+            "[metrics]\npsnr = {}\n[figures]\nwidth_in = 5\nformats = [\"pdf\", \"svg\"]\n\
+             [[plot]]\nkind = \"bars\"\n\
+             [[plot]]\nkind = \"frames\"\n\
+             figure = { width_in = 7, height_in = 2.5, y = { label = \"dB of each\", max = 99 } }\n",
+        ),
+    );
+    folder.run(&["run", "e.toml"]).ok();
+    assert!((size_in(&folder, "bars-psnr").0 - 5.0).abs() < 1e-9);
+    let (width, height) = size_in(&folder, "frames-psnr");
+    assert!((width - 7.0).abs() < 1e-9 && (height - 2.5).abs() < 0.03, "{width} x {height}");
+    let plots = folder.path("reports/e/plots");
+    assert!(plots.join("bars-psnr.pdf").exists() && !plots.join("bars-psnr.png").exists());
+    let svg = fs::read_to_string(plots.join("frames-psnr.svg")).unwrap();
+    assert!(svg.contains("dB of each") && !svg.contains("<text"));
+    let page = fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    assert!(page.contains("bars-psnr.pdf\">PDF") && !page.contains("bars-psnr.png"));
+    // A report draws the same again, from the results alone.
+    let before = fs::read(plots.join("frames-psnr.pdf")).unwrap();
+    assert!(before.starts_with(b"%PDF"));
+    fs::remove_file(plots.join("frames-psnr.pdf")).unwrap();
+    folder.run(&["report", "reports/e"]).ok();
+    assert_eq!(fs::read(plots.join("frames-psnr.pdf")).unwrap(), before);
+}
+
+#[test]
+fn a_figure_that_does_not_fit_says_what_it_needs() {
+    let folder = two_scenes();
+    folder.write(
+        "e.toml",
+        experiment(
+            "[metrics]\npsnr = {}\n[[plot]]\nkind = \"bars\"\nfigure = { height_in = 0.6 }\n\
+             [[plot]]\nkind = \"frames\"\n",
+        ),
+    );
+    let run = folder.run(&["run", "e.toml"]);
+    run.fails(2, &["bars-psnr", "a height of 0.6 in is too low", "it needs", "--resume"]);
+    assert!(folder.path("reports/e/results.csv").exists(), "what was scored stays");
+    assert_eq!(figures(&folder), ["frames-psnr"], "and so do the other figures");
+    // Other plots need no other scores.
+    let text = fs::read_to_string(folder.path("e.toml")).unwrap();
+    folder.write("e.toml", text.replace("0.6", "2.6"));
+    let run = folder.run(&["run", "e.toml", "--resume"]).ok();
+    assert!(!run.stderr.contains("changed"), "{}", run.stderr);
+    assert_eq!(figures(&folder), ["bars-psnr", "frames-psnr"]);
+    folder.write(
+        "e.toml",
+        text.replace("0.6", "2.6").replace("fov_vertical_deg = 60", "fov_vertical_deg = 61"),
+    );
+    let run = folder.run(&["run", "e.toml", "--resume"]).ok();
+    assert!(run.stderr.contains("the experiment file has changed"), "{}", run.stderr);
+}

@@ -187,7 +187,10 @@ fn another_run_takes_the_place_of_the_last() {
     folder.write("e.toml", experiment("[metrics]\npsnr = {}\n[[plot]]\nkind = \"bars\"\n"));
     folder.run(&["run", "e.toml", "--output", "out"]).ok();
     let plots: Vec<String> = bytes(&folder.path("out/plots")).into_keys().collect();
-    assert_eq!(plots, ["bars-psnr.csv", "bars-psnr.pdf", "bars-psnr.png", "bars-psnr.svg", "mine.svg"]);
+    assert_eq!(
+        plots,
+        ["bars-psnr.csv", "bars-psnr.pdf", "bars-psnr.png", "bars-psnr.svg", "mine.svg"]
+    );
     assert!(!folder.path("out/table.md").exists(), "it was not asked for");
 }
 
@@ -286,7 +289,10 @@ fn a_new_drawing_takes_away_what_it_does_not_draw() {
     folder.run(&["report", "out"]).ok();
     assert!(folder.path("out/thesis.tex").exists() && folder.path("e.toml").exists());
     let plots: Vec<String> = bytes(&folder.path("out/plots")).into_keys().collect();
-    assert_eq!(plots, ["bars-ssim.csv", "bars-ssim.pdf", "bars-ssim.png", "bars-ssim.svg", "mine.svg"]);
+    assert_eq!(
+        plots,
+        ["bars-ssim.csv", "bars-ssim.pdf", "bars-ssim.png", "bars-ssim.svg", "mine.svg"]
+    );
     assert!(!folder.path("out/table.md").exists());
 }
 

@@ -265,8 +265,10 @@ fn what_has_changed_is_said_and_all_is_scored() {
         resumed(&cut, &[], &[&format!("{file} has changed")]);
         folder.write(file, whole);
     }
-    folder.write("e.toml", text.replace("psnr = {}\n", "psnr = {}\n# a remark\n"));
+    folder.write("e.toml", text.replace("psnr = {}\n", "psnr = {}\nmse = {}\n"));
     resumed(&cut, &[], &["the experiment file has changed"]);
+    folder.write("e.toml", text.replace("psnr = {}\n", "psnr = {}\n# a remark\n"));
+    resumed(&cut, &[], &[]);
     folder.write("e.toml", &text);
     resumed(&cut, &[], &[]);
     // A frame that was not there before, and one that is not there any more.

@@ -7,6 +7,8 @@ use fovqa_methods::curves::{CurveRange, CurveSpec};
 use fovqa_params::words;
 use fovqa_vision::acuity::AcuityModel;
 
+use crate::figures::FigureSettings;
+
 /// A curves file and its plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurvesFile {
@@ -71,6 +73,8 @@ pub struct CurvePlot {
     pub rings_deg: Vec<f64>,
     /// Values of RMFR's parameter f for the figure of the half axis.
     pub f: Vec<f64>,
+    /// How it is printed.
+    pub figure: FigureSettings,
 }
 
 words! {

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::figures::FigureSettings;
 use crate::gates::GateRule;
 use crate::output::OutputSettings;
 use crate::plan::Plan;
@@ -24,6 +25,8 @@ pub struct Experiment {
     pub output: OutputSettings,
     /// Tables and figures; if empty, all that fit are made.
     pub plots: Vec<Plot>,
+    /// How figures are printed if the file requests none.
+    pub figures: FigureSettings,
     /// The rules of its gate.
     pub gates: Vec<GateRule>,
 }

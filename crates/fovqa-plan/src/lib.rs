@@ -10,6 +10,7 @@ mod builtin;
 mod curves;
 mod emulation;
 mod experiment;
+mod figures;
 mod gates;
 mod output;
 mod plan;
@@ -25,6 +26,9 @@ pub use curves::{
 };
 pub use emulation::{Emulation, emulation_keys};
 pub use experiment::Experiment;
+pub use figures::{
+    AxisScale, AxisSettings, Colour, FigureFormat, FigureSettings, PaletteChoice, PaletteName,
+};
 pub use gates::{Aggregate, Allowance, GateRule, Quantity, better};
 pub use output::{OutputSettings, TableFormat};
 pub use plan::{Eye, EyeView, MetricChoice, Plan, Scene};

@@ -3,6 +3,8 @@
 use fovqa_params::words;
 use serde::{Deserialize, Serialize};
 
+use crate::figures::FigureSettings;
+
 words! {
     /// What a table or figure shows.
     pub enum PlotKind {
@@ -22,7 +24,7 @@ words! {
 }
 
 /// One table or figure, or one for each metric.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Plot {
     /// What it shows.
     pub kind: PlotKind,
@@ -38,11 +40,22 @@ pub struct Plot {
     /// Statistic of the wavelet; `None` for the energy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statistic: Option<String>,
+    /// How its figures are printed.
+    #[serde(default, skip_serializing_if = "FigureSettings::is_default")]
+    pub figure: FigureSettings,
 }
 
 impl Plot {
     /// A plot of one kind that shows everything.
     pub fn of(kind: PlotKind) -> Self {
-        Self { kind, metric: None, scenes: None, methods: None, levels: None, statistic: None }
+        Self {
+            kind,
+            metric: None,
+            scenes: None,
+            methods: None,
+            levels: None,
+            statistic: None,
+            figure: FigureSettings::default(),
+        }
     }
 }

@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 
 use crate::emulation::emulation_keys;
 use crate::experiment::Experiment;
+use crate::figures::FigureSettings;
 use crate::gates::GateRule;
 use crate::plan::{Eye, EyeView, MetricChoice, Plan};
 use crate::plots::Plot;
@@ -38,6 +39,9 @@ pub struct Resolved {
     pub frames: Option<String>,
     /// Tables and figures; if empty, all that fit are made.
     pub plots: Vec<Plot>,
+    /// How figures are printed if the file requests none.
+    #[serde(default, skip_serializing_if = "FigureSettings::is_default")]
+    pub figures: FigureSettings,
     /// The rules of the gate.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gates: Vec<GateRule>,
@@ -209,6 +213,7 @@ impl Experiment {
             default_metrics: plan.metrics == MetricChoice::Default,
             frames: plan.frames.map(|range| range.to_string()),
             plots: self.plots.clone(),
+            figures: self.figures.clone(),
             gates: self.gates.clone(),
             spreadsheet_safe: self.output.spreadsheet_safe,
         }

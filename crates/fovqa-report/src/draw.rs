@@ -39,7 +39,11 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let warning = check_files(folder, &run)?;
     let source = Source { run: &run, overview: &overview, values: &values };
     let plots = match run.resolved.plots.as_slice() {
-        [] => default_plots(&source),
+        [] => {
+            let figure = &run.resolved.figures;
+            let plots = default_plots(&source).into_iter();
+            plots.map(|plot| Plot { figure: figure.clone(), ..plot }).collect()
+        }
         plots => plots.to_vec(),
     };
     let mut names = Names::default();
@@ -49,7 +53,8 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
             tables.push((names.free(&name), table));
         }
         for figure in figures(&source, plot) {
-            drawn.push(NamedFigure { name: names.free(&figure.name), ..figure });
+            let (name, settings) = (names.free(&figure.name), plot.figure.clone());
+            drawn.push(NamedFigure { name, settings, ..figure });
         }
     }
 

@@ -22,7 +22,7 @@ struct Entry {
     folder: String,
     name: String,
     about: String,
-    /// Paths of its figures relative to the page, without file extensions.
+    /// Paths of its figures relative to the page.
     figures: Vec<String>,
     /// Paths of its tables in Markdown format.
     tables: Vec<String>,
@@ -94,9 +94,13 @@ impl Entry {
         };
         let folder = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let drawn = drawn_before(path);
-        let figures = drawn.iter().filter(|file| file.starts_with(PLOTS));
-        let figures =
-            figures.filter_map(|file| Some(format!("{folder}/{}", file.strip_suffix(".svg")?)));
+        let plots = || drawn.iter().filter(|file| file.starts_with(PLOTS));
+        // A figure is shown by its SVG, or by its PNG if it has none.
+        let figures = plots().filter(|file| match file.strip_suffix(".png") {
+            Some(name) => !drawn.contains(&format!("{name}.svg")),
+            None => file.ends_with(".svg"),
+        });
+        let figures = figures.map(|file| format!("{folder}/{file}"));
         let tables = drawn.iter().filter(|file| file.strip_suffix(".md").is_some());
         let tables = tables.map(|file| format!("{folder}/{file}"));
         Ok(Self { name, about, figures: figures.collect(), tables: tables.collect(), folder })
@@ -124,7 +128,7 @@ fn html(name: &str, entries: &[Entry]) -> String {
             for figure in &entry.figures {
                 let _ = writeln!(
                     text,
-                    "<a href=\"{folder}/index.html\"><img class=\"small\" src=\"{}.svg\" alt=\"{}\" loading=\"lazy\"></a>",
+                    "<a href=\"{folder}/index.html\"><img class=\"small\" src=\"{}\" alt=\"{}\" loading=\"lazy\"></a>",
                     address(figure),
                     escaped(figure)
                 );

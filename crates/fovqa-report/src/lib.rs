@@ -10,6 +10,7 @@ mod index;
 mod long_lines;
 mod overview;
 mod page;
+mod print;
 mod sheet;
 mod terminal;
 mod text_table;

@@ -31,8 +31,6 @@ pub(crate) fn for_picture(figure: &Figure) -> Cow<'_, Figure> {
         series: series.collect(),
         x_ticks: chart.x_ticks.clone(),
         y_from_zero: chart.y_from_zero,
-        y_limits: chart.y_limits,
-        y_log: chart.y_log,
         spans: chart.spans.clone(),
         fills: chart.fills.clone(),
     }))

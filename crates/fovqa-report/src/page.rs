@@ -17,6 +17,8 @@ pub(crate) struct PageFigure<'a> {
     /// Its path relative to the page, without the file extension.
     pub(crate) path: String,
     pub(crate) caption: &'a str,
+    /// The endings of its files; the first one is a picture.
+    pub(crate) endings: Vec<&'static str>,
     /// Its width in pixels.
     pub(crate) width_px: f64,
 }
@@ -154,13 +156,18 @@ pub(crate) fn figures(text: &mut String, figures: &[PageFigure<'_>]) {
         return;
     }
     text.push_str("<div class=\"figures\">\n");
-    for PageFigure { path, caption, width_px } in figures {
+    for PageFigure { path, caption, endings, width_px } in figures {
         let (path, caption) = (escaped(path), escaped(caption));
-        let _ = writeln!(
-            text,
-            "<figure><img src=\"{path}.svg\" width=\"{width_px:.0}\" alt=\"{caption}\">\n<figcaption>{caption} \
-             (<a href=\"{path}.svg\">SVG</a>, <a href=\"{path}.pdf\">PDF</a>, <a href=\"{path}.png\">PNG</a>, <a href=\"{path}.csv\">CSV</a>)</figcaption></figure>"
-        );
+        let link =
+            |ending: &&str| format!("<a href=\"{path}.{ending}\">{}</a>", ending.to_uppercase());
+        let links = endings.iter().map(link).collect::<Vec<_>>().join(", ");
+        // No browser shows a PDF as an image.
+        let shown = endings.iter().find(|ending| ["svg", "png"].contains(*ending));
+        let image = shown.map_or_else(String::new, |ending| {
+            format!("<img src=\"{path}.{ending}\" width=\"{width_px:.0}\" alt=\"{caption}\">\n")
+        });
+        let _ =
+            writeln!(text, "<figure>{image}<figcaption>{caption} ({links})</figcaption></figure>");
     }
     text.push_str("</div>\n");
 }

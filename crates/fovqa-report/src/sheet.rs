@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use fovqa_methods::curves::CurveError;
-use fovqa_plot::{Figure, PlotError, Style};
+use fovqa_params::Words;
+use fovqa_plan::{FigureFormat, FigureSettings};
+use fovqa_plot::{Figure, PlotError};
 use fovqa_results::{
     Batch, CsvNames, FileError, REPORT_JSON, make_folder, read_json_file, take_away,
 };
@@ -15,6 +17,7 @@ use thiserror::Error;
 
 use crate::long_lines::for_picture;
 use crate::page::PageFigure;
+use crate::print::{formats, set_axes, style};
 
 /// Folder of the figures.
 pub(crate) const PLOTS: &str = "plots";
@@ -30,6 +33,20 @@ pub(crate) struct NamedFigure {
     pub(crate) name: String,
     pub(crate) caption: String,
     pub(crate) figure: Figure,
+    /// How it is printed.
+    pub(crate) settings: FigureSettings,
+}
+
+impl NamedFigure {
+    /// A figure that is printed as usual.
+    pub(crate) fn new(name: String, caption: String, figure: Figure) -> Self {
+        Self { name, caption, figure, settings: FigureSettings::default() }
+    }
+
+    /// The endings of its files.
+    fn endings(&self) -> impl Iterator<Item = &'static str> {
+        formats(&self.settings).into_iter().map(FigureFormat::word).chain(["csv"])
+    }
 }
 
 /// The name of a table and, for each file extension, a function that makes its text. A table of
@@ -85,6 +102,17 @@ pub enum ReportError {
     },
 }
 
+impl ReportError {
+    /// Whether a figure does not fit into the size that was asked for.
+    pub fn is_of_settings(&self) -> bool {
+        let Self::Plot { error, .. } = self else { return false };
+        matches!(
+            error,
+            PlotError::Narrow { .. } | PlotError::Low { .. } | PlotError::FollowsFromWidth { .. }
+        )
+    }
+}
+
 #[derive(Default, Serialize, Deserialize)]
 struct Manifest {
     schema: String,
@@ -98,7 +126,7 @@ impl Sheet<'_> {
             table.files.iter().map(|(ending, _)| format!("{}.{ending}", table.name))
         });
         let figure_files = self.figures.iter().flat_map(|figure| {
-            ["svg", "pdf", "png", "csv"].map(|ending| format!("{PLOTS}/{}.{ending}", figure.name))
+            figure.endings().map(|ending| format!("{PLOTS}/{}.{ending}", figure.name))
         });
         let mut files: Vec<String> = table_files.chain(figure_files).collect();
         files.push("index.html".to_owned());
@@ -126,23 +154,34 @@ impl Sheet<'_> {
             make_folder(&plots).map_err(|error| FileError::Write { path: plots.clone(), error })?;
         }
         let names = self.names;
-        let written: Result<Vec<f64>, ReportError> = self
+        let written: Vec<Result<f64, ReportError>> = self
             .figures
             .par_iter()
             .map(|figure| write_figure(&plots, figure, names, &batch))
             .collect();
-        let on_page = self.figures.iter().zip(written?);
-        let on_page: Vec<PageFigure<'_>> = on_page
-            .map(|(figure, width_px)| PageFigure {
-                path: format!("{PLOTS}/{}", figure.name),
-                caption: &figure.caption,
-                width_px,
-            })
-            .collect();
+        let mut on_page: Vec<PageFigure<'_>> = Vec::new();
+        // A figure that cannot be drawn must not take the others with it.
+        let mut wrong = None;
+        for (figure, width_px) in self.figures.iter().zip(written) {
+            let path = format!("{PLOTS}/{}", figure.name);
+            match width_px {
+                Ok(width_px) => on_page.push(PageFigure {
+                    path,
+                    caption: &figure.caption,
+                    endings: figure.endings().collect(),
+                    width_px,
+                }),
+                Err(error @ ReportError::Plot { .. }) => {
+                    files.retain(|file| !file.starts_with(&format!("{path}.")));
+                    wrong = wrong.or(Some(error));
+                }
+                Err(error) => return Err(error),
+            }
+        }
         batch.write(&folder.join("index.html"), (self.page)(&on_page).as_bytes())?;
         remove(folder, old.iter().filter(|old| !files.contains(old)));
         write_manifest(folder, files, &batch)?;
-        Ok(())
+        wrong.map_or(Ok(()), Err)
     }
 }
 
@@ -168,18 +207,24 @@ fn write_figure(
     names: CsvNames,
     batch: &Batch,
 ) -> Result<f64, ReportError> {
-    let NamedFigure { name, caption, figure } = figure;
+    let NamedFigure { name, caption, figure, settings } = figure;
     let failed = |error| ReportError::Plot { name: name.clone(), error };
-    let printed = for_picture(figure).print(&Style::default()).map_err(failed)?;
-    let svg = printed.svg().map_err(failed)?;
-    let pixels = printed.png(PNG_DPI).map_err(failed)?;
-    let pdf = printed.pdf(caption).map_err(failed)?;
-    let data = names.in_csv(figure.csv());
-    for (ending, bytes) in
-        [("svg", svg.as_bytes()), ("pdf", &pdf), ("png", &pixels), ("csv", data.as_bytes())]
-    {
-        batch.write(&plots.join(format!("{name}.{ending}")), bytes)?;
+    let mut shown = for_picture(figure);
+    if *settings != FigureSettings::default() {
+        set_axes(shown.to_mut(), settings);
     }
+    let printed = shown.print(&style(settings)).map_err(failed)?;
+    for format in formats(settings) {
+        let bytes = match format {
+            FigureFormat::Svg => printed.svg().map(String::into_bytes),
+            FigureFormat::Pdf => printed.pdf(caption),
+            FigureFormat::Png => printed.png(PNG_DPI),
+        };
+        let path = plots.join(format!("{name}.{}", format.word()));
+        batch.write(&path, &bytes.map_err(failed)?)?;
+    }
+    let data = names.in_csv(figure.csv());
+    batch.write(&plots.join(format!("{name}.csv")), data.as_bytes())?;
     Ok(printed.screen_width_px())
 }
 

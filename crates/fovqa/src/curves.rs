@@ -29,7 +29,11 @@ pub fn curves(
         ResultsFolder::open_for_curves(&folder, locking).map_err(|error| in_folder(&error))?;
     folder.clear().map_err(|error| in_folder(&error))?;
     let drawn = fovqa_report::draw_curves(folder.path(), file, &curves).map_err(|error| {
-        Error::input(error.to_string(), "free some space, or give another folder with {output}")
+        if error.is_of_settings() {
+            Error::usage(error.to_string(), "change its `figure`, or [figures]")
+        } else {
+            Error::input(error.to_string(), "free some space, or give another folder with {output}")
+        }
     })?;
     let mut notes: Vec<&String> = Vec::new();
     for note in curves.iter().flat_map(|curve| &curve.notes) {

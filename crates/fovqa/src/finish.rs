@@ -45,8 +45,13 @@ pub(crate) fn finish(
         let help = "free some space, or give another folder with {output}; {resume} continues with the frames that are already scored";
         return Err(Error::input(error.to_string(), help));
     }
-    let drawn = fovqa_report::draw(folder.path())
-        .map_err(|error| Error::input(error.to_string(), DRAW_AGAIN))?;
+    let drawn = fovqa_report::draw(folder.path()).map_err(|error| {
+        if error.is_of_settings() {
+            Error::usage(error.to_string(), FIT)
+        } else {
+            Error::input(error.to_string(), DRAW_AGAIN)
+        }
+    })?;
     Ok((errors, drawn))
 }
 
@@ -55,6 +60,10 @@ pub fn text_hash(text: &str) -> String {
     // Reading from memory does not fail.
     id_of(text.as_bytes()).map(|id| id.sha256).unwrap_or_default()
 }
+
+/// The help text for figures that cannot be as the experiment says.
+const FIT: &str =
+    "all scores and the other figures are written; change the experiment, and run it with {resume}";
 
 /// The help text for the case that only the tables and figures failed.
 const DRAW_AGAIN: &str =

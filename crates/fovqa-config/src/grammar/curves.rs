@@ -5,6 +5,7 @@ use fovqa_params::words_of;
 use fovqa_vision::{EccentricityKind, Tangential};
 
 use super::experiment::{POSITION_PAIR, VIEW, joined, key, required};
+use super::figures::FIGURES;
 use super::{Key, Kind};
 use fovqa_plan::{CurvePlotKind, CurveTableKind, PanelOf, RateKind, RateUnit};
 
@@ -72,7 +73,7 @@ static MARK: [Key; 2] = [
     ),
 ];
 
-static PLOT_TABLE: [Key; 14] = [
+static PLOT_TABLE: [Key; 15] = [
     required(
         "kind",
         Kind::Words(words_of::<CurvePlotKind>),
@@ -119,6 +120,7 @@ static PLOT_TABLE: [Key; 14] = [
         Kind::List(&Kind::Number(1.001, 1e6), 1, 20),
         "for half_axis: values of f, with one curve each",
     ),
+    key("figure", Kind::Table(&FIGURES), "how it is printed; default: as [figures]"),
 ];
 
 static TABLE_TABLE: [Key; 2] = [
@@ -130,7 +132,7 @@ static TABLE_TABLE: [Key; 2] = [
     key("curves", NAMES, "only these curves"),
 ];
 
-static CURVES_TABLE: [Key; 10] = [
+static CURVES_TABLE: [Key; 11] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
     required("name", Kind::Name, "name of the file and of its folder below reports/"),
     key("about", Kind::Text, "description of what it shows, for its page"),
@@ -148,6 +150,7 @@ static CURVES_TABLE: [Key; 10] = [
         Kind::Tables(&PLOT_TABLE, 200),
         "figures; if none and no table is given, all that fit",
     ),
+    key("figures", Kind::Table(&FIGURES), "how figures are printed"),
     key(
         "table",
         Kind::Tables(&TABLE_TABLE, 200),

@@ -5,6 +5,7 @@ use fovqa_io::{AlphaPolicy, CodeRange, ColourMatrix, GuidePreset, MotionUnit};
 use fovqa_params::words_of;
 use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
 
+use super::figures::FIGURES;
 use super::{Key, Kind};
 use fovqa_plan::Nonfinite;
 use fovqa_plan::PlotKind;
@@ -363,7 +364,7 @@ static OUTPUT: [Key; 2] = [
     ),
 ];
 
-static PLOT_TABLE: [Key; 6] = [
+static PLOT_TABLE: [Key; 7] = [
     required(
         "kind",
         Kind::Words(words_of::<PlotKind>),
@@ -382,6 +383,7 @@ static PLOT_TABLE: [Key; 6] = [
         Kind::Word(&["mean_abs", "max_abs", "energy"]),
         "statistic of the wavelet; default: energy",
     ),
+    key("figure", Kind::Table(&FIGURES), "how its figures are printed; default: as [figures]"),
 ];
 
 /// The allowed distance of a value from the baseline.
@@ -433,7 +435,7 @@ static GATE_TABLE: [Key; 14] = [
     ),
 ];
 
-static EXPERIMENT_TABLE: [Key; 11] = [
+static EXPERIMENT_TABLE: [Key; 12] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
     required("name", Kind::Name, "name of the experiment, and of its folder below reports/"),
     key("about", Kind::Text, "description of what it shows, for its page"),
@@ -452,6 +454,7 @@ static EXPERIMENT_TABLE: [Key; 11] = [
         Kind::Tables(&PLOT_TABLE, 1000),
         "tables and figures; if none is given, all that fit",
     ),
+    key("figures", Kind::Table(&FIGURES), "how figures are printed"),
     key("gate", Kind::Tables(&GATE_TABLE, 1000), "the rules of `fovqa gate`"),
 ];
 

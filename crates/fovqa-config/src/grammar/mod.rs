@@ -5,6 +5,7 @@ mod check;
 mod curves;
 mod emulate;
 mod experiment;
+mod figures;
 mod schema;
 
 pub(crate) use check::{check, number};

@@ -4,6 +4,7 @@
 mod builtin;
 mod curves;
 mod emulate;
+mod figures;
 mod gates;
 mod guides;
 mod methods;
@@ -21,7 +22,7 @@ use std::path::Path;
 
 use crate::fault::Faults;
 use crate::node::Node;
-use fovqa_plan::{Experiment, Plan};
+use fovqa_plan::{Experiment, FigureSettings, Plan};
 
 /// The experiment. Mistakes are added to `faults`.
 pub(crate) fn experiment(
@@ -36,7 +37,9 @@ pub(crate) fn experiment(
     let methods = methods::methods(root, &base, &mut scenes, faults);
     let known =
         plots::Known { scenes: &scenes, methods: &methods, metrics: &choice, params: &params };
-    let plots = plots::plots(root, &known, faults);
+    let all = FigureSettings::default();
+    let figures = figures::figure(root.table("figures"), &all, faults);
+    let plots = plots::plots(root, &known, &figures, faults);
     let gates = gates::gates(root, text, &known, faults);
     Experiment {
         name: root.text("name").unwrap_or_default().to_owned(),
@@ -45,6 +48,7 @@ pub(crate) fn experiment(
         text: String::new(),
         output: output::output(root, faults),
         plots,
+        figures,
         gates,
         plan: Plan {
             base,

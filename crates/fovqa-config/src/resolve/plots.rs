@@ -2,14 +2,14 @@
 
 use fovqa_metrics::{Metric, MetricKind, Params};
 
+use super::figures::figure;
 use super::scenes::SceneEntry;
 use super::view::VIEW_HELP;
 use crate::fault::{Fault, Faults};
 use crate::grammar::{first_quoted, quoted};
 use crate::nearest::nearest;
 use crate::node::Node;
-use fovqa_plan::MetricChoice;
-use fovqa_plan::{Plot, PlotKind};
+use fovqa_plan::{FigureSettings, MetricChoice, Plot, PlotKind};
 
 /// The names that plots may refer to.
 pub(super) struct Known<'a> {
@@ -19,7 +19,12 @@ pub(super) struct Known<'a> {
     pub(super) params: &'a Params,
 }
 
-pub(super) fn plots(root: Node<'_>, known: &Known<'_>, faults: &mut Faults) -> Vec<Plot> {
+pub(super) fn plots(
+    root: Node<'_>,
+    known: &Known<'_>,
+    figures: &FigureSettings,
+    faults: &mut Faults,
+) -> Vec<Plot> {
     let tables = root.tables("plot").into_iter();
     let plots = tables.map(|(table, _)| {
         let kind = table.word("kind").unwrap_or(PlotKind::Table);
@@ -37,6 +42,7 @@ pub(super) fn plots(root: Node<'_>, known: &Known<'_>, faults: &mut Faults) -> V
             methods: subset(table, "methods", &methods, faults),
             levels: levels(table),
             statistic: table.text("statistic").map(str::to_owned),
+            figure: figure(table.table("figure"), figures, faults),
         };
         if faults.is_empty() {
             shows_something(table, &plot, known, faults);

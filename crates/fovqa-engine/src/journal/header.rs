@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use fovqa_frame::source::Source;
 use fovqa_io::{IdWriter, id_of, open_regular_file};
-use fovqa_plan::{Experiment, Eye, Plan};
+use fovqa_plan::{Experiment, Eye, FigureSettings, Plan, Resolved};
 use fovqa_vision::BandEdges;
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -31,6 +31,9 @@ pub struct Header {
     /// Name of the experiment file.
     pub(crate) experiment_file: String,
     pub(crate) experiment_text: String,
+    /// SHA-256 of what the experiment scores, which is independent of how results are shown.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) scored_sha256: Option<String>,
     /// The selected frames of each scene; `None` for all frames.
     pub(crate) frames: Option<String>,
     /// The folder of maps, if maps are written.
@@ -64,6 +67,20 @@ impl ViewFiles {
     }
 }
 
+/// The SHA-256 of what an experiment scores: without its plots, figures, rules and description.
+fn scored(experiment: &Experiment) -> String {
+    let scored = Resolved {
+        about: None,
+        plots: Vec::new(),
+        figures: FigureSettings::default(),
+        gates: Vec::new(),
+        spreadsheet_safe: false,
+        ..experiment.resolved()
+    };
+    let text = serde_json::to_string(&scored);
+    sha256(text.unwrap_or_else(|_| experiment.text.clone()).as_bytes())
+}
+
 /// The steps that belong to a range of the pairs of a view: the pairs and, after the last pair of the view, one
 /// step for a source that continues.
 pub(super) fn with_end(share: Range<usize>, pairs: usize) -> Range<usize> {
@@ -94,6 +111,7 @@ impl Header {
             experiment_sha256: sha256(experiment.text.as_bytes()),
             experiment_file: file.to_string_lossy().into_owned(),
             experiment_text: experiment.text.clone(),
+            scored_sha256: Some(scored(experiment)),
             frames: plan.frames.map(|frames| frames.to_string()),
             maps: None,
             shard,

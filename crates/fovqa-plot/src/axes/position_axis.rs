@@ -1,12 +1,13 @@
 //! The horizontal axis for numbers.
 
 use crate::axes::axis::{AXIS_STROKE, Axis, LABEL_GAP_PX, TICK_LENGTH_PX, TITLE_GAP_PX};
+use crate::canvas::clip;
 use crate::canvas::drawing::{Anchor, Drawing, Rect, Text};
 use crate::canvas::text::{DESCENT, LINE_PITCH, TICK_PX, TITLE_PX, width_px};
 use crate::canvas::wrap::wrap;
 use crate::page::layout::{MARGIN_PX, TITLE_LINES};
 use crate::scales::scale::Scale;
-use crate::scales::ticks::{Tick, given_ticks, round_ticks};
+use crate::scales::ticks::{Tick, given_ticks};
 
 /// The smallest space between two labels.
 const APART_PX: f64 = 9.0;
@@ -58,15 +59,15 @@ impl PositionAxis {
         let known = scale.unwrap_or(Scale::even(0.0, 1.0));
         let ticks = match (scale, given) {
             (None, _) => Vec::new(),
-            (Some(_), Some(places)) => {
-                let mut ticks = given_ticks(places);
+            (Some(scale), Some(places)) => {
+                let seen = |place: &f64| (0.0..=1.0).contains(&scale.share(*place));
+                let places: Vec<f64> = places.iter().copied().filter(seen).collect();
+                let mut ticks = given_ticks(&places);
                 let plot_width_px = width(&ticks);
                 leave_room(&mut ticks, known, plot_width_px);
                 ticks
             }
-            (Some(_), None) => {
-                round_ticks(known.low, known.high, |ticks| all_apart(ticks, known, width(ticks)))
-            }
+            (Some(_), None) => known.ticks(|ticks| all_apart(ticks, known, width(ticks))),
         };
         let plot_width_px = width(&ticks).floor();
         let title = wrap(&axis.title, TITLE_PX, plot_width_px, TITLE_LINES);
@@ -104,6 +105,11 @@ impl PositionAxis {
     /// The horizontal position of a value in a plot area.
     pub(crate) fn x(&self, plot: Rect, value: f64) -> f64 {
         plot.left + self.scale.share(value).clamp(0.0, 1.0) * plot.width()
+    }
+
+    /// The position of a value along the axis, from 0 at the left end to 1 at the right end.
+    pub(crate) fn share(&self, value: f64) -> f64 {
+        self.scale.share(value).clamp(-clip::FAR, clip::FAR)
     }
 
     /// Draws the line and the ticks, and the labels and the title lowered by `down_px`.

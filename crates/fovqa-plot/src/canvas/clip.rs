@@ -28,6 +28,12 @@ pub(crate) fn level(line: &[Point]) -> Vec<Vec<Point>> {
     pieces
 }
 
+/// The parts of a line with `x` from 0 to 1.
+pub(crate) fn upright(line: &[Point]) -> Vec<Vec<Point>> {
+    let turned = |line: &[Point]| line.iter().map(|(x, y)| (*y, *x)).collect::<Vec<Point>>();
+    level(&turned(line)).iter().map(|piece| turned(piece)).collect()
+}
+
 /// The part of a straight line with `y` from 0 to 1, if it is more than one of the line's ends.
 fn within(a: Point, b: Point) -> Option<(Point, Point)> {
     let (low, high) = (a.1.min(b.1), a.1.max(b.1));

@@ -39,7 +39,7 @@ pub struct BarChart {
     /// A bar is read by its length, and a truncated bar shows wrong ratios. So if the axis does not
     /// begin at 0, there are no bars: each value is a marker on an axis that fits the data, which
     /// is read by position (a dot plot, Cleveland and McGill 1984) and cannot be mistaken for a
-    /// bar.
+    /// bar. The same holds for a logarithmic axis, and for one that was set to begin above 0.
     pub from_zero: bool,
 }
 
@@ -107,7 +107,7 @@ impl BarChart {
         let (mut drawing, plot) =
             layout::begin(self.title.as_deref(), &keys, sides, (groups.plot_width_px(), height_px));
         axis.draw_grid(&mut drawing, plot);
-        if !self.from_zero {
+        if !self.has_bars() {
             groups.draw_dividers(&mut drawing, plot);
         }
         groups.draw(&mut drawing, plot, below);
@@ -118,27 +118,37 @@ impl BarChart {
             self.draw_series(&mut drawing, &frame);
         }
         axis.draw(&mut drawing, plot, 0.0);
-        let base = if self.from_zero { axis.y(plot, 0.0) } else { plot.bottom };
+        let base = if self.has_bars() { axis.y(plot, 0.0) } else { plot.bottom };
         drawing.line(&[(plot.left, base), (plot.right, base)], AXIS_STROKE);
         Ok(drawing)
     }
 
+    /// Whether values are bars, and not markers.
+    fn has_bars(&self) -> bool {
+        self.from_zero && !self.y.log && self.y.min.is_none_or(|min| min <= 0.0)
+    }
+
     fn key(&self, look: Look) -> Key {
-        if self.from_zero { Key::Bar(look) } else { Key::Marker(look) }
+        if self.has_bars() { Key::Bar(look) } else { Key::Marker(look) }
     }
 
     fn places(&self) -> impl Iterator<Item = AxisPlace> {
-        self.series
-            .iter()
-            .flat_map(|series| &series.values)
-            .filter_map(|v| v.and_then(AxisPlace::of))
+        self.series.iter().flat_map(|series| &series.values).filter_map(|value| self.place(*value))
+    }
+
+    /// The place of a value, if the axis has one for it.
+    fn place(&self, value: Option<f64>) -> Option<AxisPlace> {
+        let place = value.and_then(AxisPlace::of)?;
+        place.finite().is_none_or(|value| self.y.has(value)).then_some(place)
     }
 
     /// The range of the values, including 0 if there are bars; `None` without finite values.
     fn scale(&self) -> Option<Scale> {
         let finite = || self.places().filter_map(AxisPlace::finite);
-        if !self.from_zero {
-            return Some(Scale::holding(finite())?.with_air(AIR, AIR));
+        if !self.has_bars() {
+            let scale =
+                if self.y.log { Scale::holding_log(finite()) } else { Scale::holding(finite()) };
+            return scale.map(|scale| scale.with_air(AIR, AIR));
         }
         let below = self.places().any(|place| place == AxisPlace::Below);
         let (low, high) = finite().fold((0.0, 0.0), |(l, h): (f64, f64), v| (l.min(v), h.max(v)));
@@ -151,17 +161,17 @@ impl BarChart {
     /// The axis, with space beyond the outermost values for their labels.
     fn axis_with_room(&self, scale: Option<Scale>, reach_px: f64, height_px: f64) -> ValueAxis {
         let axis = |scale| ValueAxis::new(&self.y, scale, height_px);
-        let Some(scale) = scale else { return axis(None) };
-        let down_px = if self.from_zero && scale.low < 0.0 { reach_px } else { 0.0 };
+        let Some(scale) = scale else { return axis(self.y.ranged(None)) };
+        let down_px = if self.has_bars() && scale.low < 0.0 { reach_px } else { 0.0 };
         // The label of a 0 is above it, even if all other values are negative.
         let upwards = self.places().filter_map(AxisPlace::finite).any(|value| value >= 0.0);
-        let up_px = match (self.from_zero, upwards) {
+        let up_px = match (self.has_bars(), upwards) {
             (true, true) => reach_px,
             (true, false) => 0.0,
             (false, _) => reach_px + marker::RADIUS_PX,
         };
         let data_px = (height_px - up_px - down_px).max(height_px / 4.0);
-        axis(Some(scale.with_air(down_px / data_px, up_px / data_px)))
+        axis(self.y.ranged(Some(scale.with_air(down_px / data_px, up_px / data_px))))
     }
 
     fn draw_series(&self, drawing: &mut Drawing, frame: &Frame<'_>) {
@@ -170,7 +180,7 @@ impl BarChart {
         for (s, series) in self.series.iter().enumerate() {
             for (g, value) in series.values.iter().enumerate() {
                 let x = frame.groups.x(frame.plot, g, s);
-                let place = value.and_then(AxisPlace::of);
+                let place = self.place(*value);
                 match place {
                     None => self.draw_missing(drawing, frame, x),
                     Some(place) => self.draw_value(drawing, frame, (x, place), series.look),
@@ -200,7 +210,7 @@ impl BarChart {
             AxisPlace::Above => plot.top,
             AxisPlace::Below => plot.bottom,
         };
-        if self.from_zero {
+        if self.has_bars() {
             let base = frame.axis.y(plot, 0.0);
             let half = frame.groups.pitch_px() * FILLED / 2.0;
             let (top, bottom) = (end.min(base), end.max(base));
@@ -211,9 +221,9 @@ impl BarChart {
             marker::draw(drawing, (x, end), look, radius_px, look.colour());
         }
         if let Some(value) = place.finite() {
-            let downwards = self.from_zero && value < 0.0;
+            let downwards = self.has_bars() && value < 0.0;
             let side = if downwards { Side::Below } else { Side::Above };
-            let off = if self.from_zero { 0.0 } else { marker::RADIUS_PX };
+            let off = if self.has_bars() { 0.0 } else { marker::RADIUS_PX };
             frame.values.draw(drawing, &frame.format.label(value), (x, end - off), side);
         }
     }
@@ -221,7 +231,7 @@ impl BarChart {
     /// Writes "n/a" above the base line, or below it if there is no room above.
     fn draw_missing(&self, drawing: &mut Drawing, frame: &Frame<'_>, x: f64) {
         let plot = frame.plot;
-        let base = if self.from_zero { frame.axis.y(plot, 0.0) } else { plot.bottom };
+        let base = if self.has_bars() { frame.axis.y(plot, 0.0) } else { plot.bottom };
         let room_above = base - plot.top >= frame.missing.reach_px(widest_px([MISSING]));
         let side = if room_above { Side::Above } else { Side::Below };
         frame.missing.draw(drawing, MISSING, (x, base), side);

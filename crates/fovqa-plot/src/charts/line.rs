@@ -38,7 +38,8 @@ pub struct LineChart {
     pub x: Axis,
     /// The vertical axis. It begins where the data begins, unless
     /// [`y_from_zero`](Self::y_from_zero) is set: the slope and distance of curves are read, not
-    /// their height.
+    /// their height. At ends that were set, of either axis, curves and areas are cut off, and
+    /// points beyond them have no marker.
     pub y: Axis,
     /// The curves in drawing order; the first one is behind all others.
     pub series: Vec<LineSeries>,
@@ -47,13 +48,6 @@ pub struct LineChart {
     pub x_ticks: Option<Vec<f64>>,
     /// Whether the vertical axis includes 0, and begins there if no value is below.
     pub y_from_zero: bool,
-    /// The ends of the vertical axis, independent of the data, for example to match other figures.
-    /// Curves and areas are cut off at the ends, and points beyond them have no marker. Ends that
-    /// are not finite or not in order are ignored.
-    pub y_limits: Option<(f64, f64)>,
-    /// Whether the vertical axis is logarithmic; it then does not include 0. Values that are not
-    /// above 0 leave a gap, and such [limits](Self::y_limits) are ignored.
-    pub y_log: bool,
     /// Stretches of the horizontal axis to shade.
     pub spans: Vec<Span>,
     /// Areas between two curves, behind the curves. They are not data: neither the axes nor the
@@ -167,9 +161,9 @@ impl LineChart {
         if self.drawn().next().is_none() {
             layout::write_no_data(drawing, plot);
         }
-        let at = |px: f64, place: Option<AxisPlace>| {
+        let at = |position: f64, place: Option<AxisPlace>| {
             let value = place.and_then(AxisPlace::finite)?;
-            Some((x.x(plot, px), y.share(value)))
+            Some((x.share(position), y.share(value)))
         };
         for series in &self.series {
             let points: Vec<_> = self.places(series).map(|(x, place)| at(x, place)).collect();
@@ -194,28 +188,49 @@ impl LineChart {
     }
 
     /// The places of the points of a series. A logarithmic axis cannot show all numbers.
-    fn places(&self, series: &LineSeries) -> impl Iterator<Item = (f64, Option<AxisPlace>)> {
-        let above_0 = |place: &AxisPlace| match place {
-            AxisPlace::At(value) => *value > 0.0,
+    fn places<'a>(
+        &'a self,
+        series: &'a LineSeries,
+    ) -> impl Iterator<Item = (f64, Option<AxisPlace>)> + 'a {
+        let has = |place: &AxisPlace| match place {
+            AxisPlace::At(value) => self.y.has(*value),
             AxisPlace::Above => true,
-            AxisPlace::Below => false,
+            AxisPlace::Below => !self.y.log,
         };
-        let log = self.y_log;
-        series.places().map(move |(x, place)| (x, place.filter(|place| !log || above_0(place))))
+        let places = series.places().filter(|(x, _)| self.x.has(*x));
+        places.map(move |(x, place)| (x, place.filter(has)))
+    }
+
+    /// The finite values of a series between the ends of the horizontal axis, with those at the ends.
+    fn seen(&self, series: &LineSeries) -> Vec<f64> {
+        let finite = |place: Option<AxisPlace>| place.and_then(AxisPlace::finite);
+        let values = || self.places(series).filter_map(|(_, place)| finite(place));
+        let has_ends = self.x.min.is_some() || self.x.max.is_some();
+        let Some(scale) = self.x_scale().filter(|_| has_ends) else { return values().collect() };
+        let share = |x: f64| scale.share(x).clamp(-clip::FAR, clip::FAR);
+        let points: Vec<Option<Point>> =
+            self.places(series).map(|(x, place)| Some((share(x), finite(place)?))).collect();
+        let run = |run: &[Option<Point>]| run.iter().copied().flatten().collect::<Vec<Point>>();
+        let runs: Vec<Vec<Point>> = points.split(Option::is_none).map(run).collect();
+        let alone = runs.iter().filter(|run| run.len() == 1).flatten();
+        let alone = alone.filter(|(x, _)| (0.0..=1.0).contains(x)).copied();
+        let lines = runs.iter().flat_map(|run| clip::upright(run)).flatten();
+        alone.chain(lines).map(|(_, y)| y).collect()
     }
 
     fn span_ends(&self, scale: Scale) -> impl Iterator<Item = (f64, f64)> {
         self.spans.iter().filter_map(move |span| span.ends(scale))
     }
 
-    /// The range of the vertical axis; `None` without limits and finite values. Space that would
-    /// move 0 away from an end is left out.
+    /// The range of the vertical axis; `None` without ends that were set and finite values. Space
+    /// that would move 0 away from an end is left out.
     pub(crate) fn y_scale(&self) -> Option<Scale> {
-        if let Some(limits) = self.y_limits.and_then(|limits| Scale::between(limits, self.y_log)) {
-            return Some(limits);
-        }
-        let values = self.drawn().filter_map(AxisPlace::finite);
-        if self.y_log {
+        self.y.ranged(self.y_of_data())
+    }
+
+    fn y_of_data(&self) -> Option<Scale> {
+        let values = self.series.iter().flat_map(|series| self.seen(series));
+        if self.y.log {
             return Some(Scale::holding_log(values)?.with_air(AIR, AIR));
         }
         if !self.y_from_zero {
@@ -236,9 +251,10 @@ impl LineChart {
     pub(crate) fn x_scale(&self) -> Option<Scale> {
         let data = self.series.iter().flat_map(LineSeries::places).map(|(x, _)| x);
         let ticks = self.x_ticks().unwrap_or_default();
-        let scale = Scale::holding(data.chain(ticks.iter().copied()))?;
-        let air = if ticks.is_empty() { SIDE_AIR } else { 0.0 };
-        Some(scale.with_air(air, air))
+        let values = data.chain(ticks.iter().copied());
+        let scale = if self.x.log { Scale::holding_log(values) } else { Scale::holding(values) };
+        let air = if ticks.is_empty() || self.x.log { SIDE_AIR } else { 0.0 };
+        self.x.ranged(scale.map(|scale| scale.with_air(air, air)))
     }
 
     /// Draws markers of infinite values on the border, side by side if several series have one.
@@ -248,7 +264,7 @@ impl LineChart {
             let mut groups: BTreeMap<i64, Vec<&LineSeries>> = BTreeMap::new();
             for series in &self.series {
                 for (at, place) in self.places(series) {
-                    if place == Some(beyond) {
+                    if place == Some(beyond) && (0.0..=1.0).contains(&x.share(at)) {
                         let tenths = (x.x(plot, at) * 10.0).round() as i64;
                         groups.entry(tenths).or_default().push(series);
                     }
@@ -282,18 +298,20 @@ fn level_px(plot: Rect, share: f64) -> f64 {
 }
 
 /// Draws the lines of a curve between its gaps, then its markers. A point between two gaps always
-/// has a marker, because it would not be visible otherwise. Points are given as horizontal pixels
-/// and as shares of the plot area's height.
+/// has a marker, because it would not be visible otherwise. Points are given as shares of the plot
+/// area's width and height.
 fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point>], plot: Rect) {
     let runs: Vec<Vec<Point>> = points
         .split(Option::is_none)
         .map(|run| run.iter().copied().flatten().collect())
         .filter(|run: &Vec<Point>| !run.is_empty())
         .collect();
-    let px = |&(x, share): &Point| (x, level_px(plot, share));
+    let px = |&(x, y): &Point| (plot.left + x * plot.width(), level_px(plot, y));
+    let inside = |(x, y): &&Point| (0.0..=1.0).contains(x) && (0.0..=1.0).contains(y);
     let pieces: Vec<Vec<Point>> = runs
         .iter()
-        .flat_map(|run| clip::level(run))
+        .flat_map(|run| clip::upright(run))
+        .flat_map(|run| clip::level(&run))
         .map(|piece| piece.iter().map(px).collect())
         .collect();
     let stroke = series.stroke();
@@ -306,7 +324,7 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
     let on_points = marked && !series.smooth;
     let mut markers: Vec<Point> = Vec::new();
     for run in &runs {
-        for at in run.iter().filter(|(_, share)| (0.0..=1.0).contains(share)).map(px) {
+        for at in run.iter().filter(inside).map(px) {
             let near = |(x, y): &Point| (at.0 - x).hypot(at.1 - y) < MARKER_PITCH_PX;
             let alone = run.len() == 1;
             if alone || (on_points && !markers.last().is_some_and(near)) {

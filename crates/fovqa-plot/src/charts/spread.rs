@@ -53,8 +53,14 @@ impl SpreadChart {
         }
         let values = || self.series.iter().flat_map(|series| series.values.iter().flatten());
         let places = || values().copied().filter_map(AxisPlace::of);
-        let scale = Scale::holding(places().filter_map(AxisPlace::finite));
-        let axis = ValueAxis::new(&self.y, scale.map(|scale| scale.with_air(AIR, AIR)), height_px);
+        let values_on_axis = places().filter_map(AxisPlace::finite);
+        let scale = if self.y.log {
+            Scale::holding_log(values_on_axis)
+        } else {
+            Scale::holding(values_on_axis)
+        };
+        let scale = self.y.ranged(scale.map(|scale| scale.with_air(AIR, AIR)));
+        let axis = ValueAxis::new(&self.y, scale, height_px);
         let beside_px = axis.left_px() + MARGIN_PX;
         let groups = GroupAxis::new(&self.groups, self.series.len(), beside_px, paper);
         let left_out = LeftOut::of(&self.series, groups.pitch_px());
@@ -82,8 +88,10 @@ impl SpreadChart {
                     half_px: (groups.pitch_px() * FILLED).min(MOST_BOX_PX) / 2.0,
                     look: series.look,
                     y: &|value| axis.y(plot, value),
+                    seen: &|value| (0.0..=1.0).contains(&axis.share(value)),
                 };
-                slot.draw(&mut drawing, &finite(values));
+                let on_axis = finite(values).into_iter().filter(|value| self.y.has(*value));
+                slot.draw(&mut drawing, &on_axis.collect::<Vec<f64>>());
             }
         }
         left_out.draw(&mut drawing, plot, |group, series| groups.x(plot, group, series));
@@ -97,6 +105,8 @@ struct Slot<'a> {
     half_px: f64,
     look: Look,
     y: &'a dyn Fn(f64) -> f64,
+    /// Whether a value is between the ends of the axis.
+    seen: &'a dyn Fn(f64) -> bool,
 }
 
 impl Slot<'_> {
@@ -119,7 +129,7 @@ impl Slot<'_> {
         let rect = Rect { left: x - half, right: x + half, top, bottom };
         swatch::draw(drawing, rect, self.look, self.look.colour().tint(swatch::TINT));
         self.draw_median(drawing, summary.median);
-        for value in &summary.outliers {
+        for value in summary.outliers.iter().filter(|value| (self.seen)(**value)) {
             drawing.disc((x, (self.y)(*value)), OUTLIER_PX, self.look.colour());
         }
     }
@@ -132,7 +142,7 @@ impl Slot<'_> {
         // The points are evenly spaced, so that equal values do not hide each other.
         let wide = (self.half_px - POINT_PX).max(0.0);
         let step = 2.0 * wide / values.len() as f64;
-        for (i, value) in values.iter().enumerate() {
+        for (i, value) in values.iter().enumerate().filter(|(_, value)| (self.seen)(**value)) {
             let at: Point = (self.x - wide + (i as f64 + 0.5) * step, (self.y)(*value));
             marker::draw(drawing, at, self.look, POINT_PX, self.look.colour());
         }

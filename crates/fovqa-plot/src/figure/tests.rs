@@ -127,10 +127,6 @@ fn svg(figure: &Figure) -> String {
 fn check(figure: &Figure) {
     check_drawing(&figure.draw(&Paper::wide()).unwrap());
     check_drawing(&figure.draw(&Paper::new(&Style::default())).unwrap());
-    let svg = svg(figure);
-    // The characters of an encoded picture are arbitrary.
-    let mut lines = svg.lines().filter(|line| !line.starts_with("<image "));
-    assert!(lines.all(|line| !line.contains("NaN") && !line.contains("inf")), "{svg}");
 }
 
 fn check_drawing(drawing: &Drawing) {

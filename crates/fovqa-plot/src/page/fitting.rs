@@ -13,6 +13,8 @@ use crate::page::style::{Height, Style};
 const TRIES: usize = 8;
 /// A height is met if it differs less than this.
 const CLOSE_PX: f64 = 1.0;
+/// A step of the height of plot areas, to find out how the figure grows with it.
+const PROBE_PX: f64 = 20.0;
 /// The smallest height of a plot area.
 const LEAST_PLOT_HEIGHT_PX: f64 = 48.0;
 
@@ -51,31 +53,32 @@ fn with_height(
     wanted_px: impl Fn(&Drawing) -> f64,
     draw: impl Fn(&Paper) -> Result<Drawing, PlotError>,
 ) -> Result<Drawing, PlotError> {
-    let mut paper = *paper;
-    let mut drawing = draw(&paper)?;
+    let of_height = |height_px: f64| draw(&paper.with_plot_height(height_px));
+    let mut height_px = paper.plot_height_px;
+    let mut drawing = of_height(height_px)?;
     // How much the figure grows with its plot areas: once for each row of them.
-    let step_px = 20.0;
-    let rows = ((draw(&paper.higher(step_px))?.height_px - drawing.height_px) / step_px).round();
+    let rows =
+        ((of_height(height_px + PROBE_PX)?.height_px - drawing.height_px) / PROBE_PX).round();
+    if rows < 1.0 {
+        let height_in = paper.inches(wanted_px(&drawing));
+        return Err(PlotError::FollowsFromWidth { height_in });
+    }
     for _ in 0..TRIES {
         let wanted = wanted_px(&drawing);
         let missing = wanted - drawing.height_px;
         if missing.abs() < CLOSE_PX {
             break;
         }
-        if rows < 1.0 {
-            return Err(PlotError::FollowsFromWidth { height_in: paper.inches(wanted) });
-        }
-        let next = paper.higher(missing / rows);
-        if next.plot_height_px.min(next.panel_height_px) < LEAST_PLOT_HEIGHT_PX {
-            let least_px = drawing.height_px
-                - rows * (paper.plot_height_px.min(paper.panel_height_px) - LEAST_PLOT_HEIGHT_PX);
+        let next_px = height_px + missing / rows;
+        if next_px < LEAST_PLOT_HEIGHT_PX {
+            let least_px = of_height(LEAST_PLOT_HEIGHT_PX)?.height_px;
             return Err(PlotError::Low {
                 height_in: round(paper.inches(wanted)),
                 least_in: up(paper.inches(least_px)),
             });
         }
-        paper = next;
-        drawing = draw(&paper)?;
+        height_px = next_px;
+        drawing = of_height(height_px)?;
     }
     // What is left is less than a pixel, unless ticks do not settle.
     let wanted = wanted_px(&drawing);

@@ -78,13 +78,9 @@ impl Paper {
         px * self.pt_per_px / PT_PER_IN
     }
 
-    /// The same paper with plot areas that are `by_px` higher.
-    pub(crate) fn higher(self, by_px: f64) -> Self {
-        Self {
-            plot_height_px: self.plot_height_px + by_px,
-            panel_height_px: self.panel_height_px + by_px,
-            ..self
-        }
+    /// The same paper with plot areas of this height.
+    pub(crate) fn with_plot_height(self, height_px: f64) -> Self {
+        Self { plot_height_px: height_px, panel_height_px: height_px, ..self }
     }
 }
 

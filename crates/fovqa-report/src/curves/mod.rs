@@ -67,7 +67,8 @@ pub fn draw_curves(
             name if name.is_empty() => "figure".to_owned(),
             name => name,
         };
-        figures.push(NamedFigure { name: names.free(&name), ..drawn });
+        let (name, settings) = (names.free(&name), plot.figure.clone());
+        figures.push(NamedFigure { name, settings, ..drawn });
     }
     let mut made: Vec<(String, PlainTable)> = Vec::new();
     for table in &file.plan.tables {

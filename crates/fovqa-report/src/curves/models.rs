@@ -87,9 +87,6 @@ pub(super) fn half_axis(plot: &CurvePlot) -> NamedFigure {
 }
 
 fn named(plot: &CurvePlot, name: &str, caption: &str, figure: Figure) -> NamedFigure {
-    NamedFigure {
-        name: plot.name.clone().unwrap_or_else(|| name.to_owned()),
-        caption: plot.title.clone().unwrap_or_else(|| caption.to_owned()),
-        figure,
-    }
+    let name = plot.name.clone().unwrap_or_else(|| name.to_owned());
+    NamedFigure::new(name, plot.title.clone().unwrap_or_else(|| caption.to_owned()), figure)
 }

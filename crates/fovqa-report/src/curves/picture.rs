@@ -69,7 +69,7 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
     });
     let caption =
         plot.title.clone().unwrap_or_else(|| "Sampling density over the field".to_owned());
-    Ok(NamedFigure { name, caption: format!("{caption}; rings of equal eccentricity"), figure })
+    Ok(NamedFigure::new(name, format!("{caption}; rings of equal eccentricity"), figure))
 }
 
 /// A value with six digits. Colours cannot show more, and the data of the figure needs only a third

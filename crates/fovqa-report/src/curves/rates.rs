@@ -90,7 +90,7 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
             charts.push(rates.chart(title, group, along));
         }
     }
-    let cut = charts.iter().any(|chart| chart.y_limits.is_some()) && plot.y_limits.is_none();
+    let cut = charts.iter().any(|chart| chart.y.max.is_some()) && plot.y_limits.is_none();
     if charts.len() > 1 {
         // The axis of a panel has no space for more.
         for chart in &mut charts {
@@ -119,7 +119,7 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
     };
     let caption = plot.title.clone().unwrap_or_else(|| format!("{what} against eccentricity"));
     let name = plot.name.clone().unwrap_or_else(|| "rates".to_owned());
-    NamedFigure { name, caption: format!("{caption}{cut}"), figure }
+    NamedFigure::new(name, format!("{caption}{cut}"), figure)
 }
 
 fn capitalised(word: &str) -> String {
@@ -187,13 +187,17 @@ impl<'a> Rates<'a> {
             RateUnit::Cpd => format!("{rate} (cycles per degree)"),
             RateUnit::PerPixel => format!("{rate} over the display's own"),
         };
+        let limits = plot.y_limits.map(|[low, high]| (low, high)).or_else(|| self.limits(&series));
         LineChart {
             title: Some(title).filter(|title| !title.is_empty()),
             x: Axis::new("Eccentricity (°)"),
-            y: Axis::new(y),
+            y: Axis {
+                log: plot.log,
+                min: limits.map(|l| l.0),
+                max: limits.map(|l| l.1),
+                ..Axis::new(y)
+            },
             y_from_zero: !plot.log,
-            y_log: plot.log,
-            y_limits: plot.y_limits.map(|[low, high]| (low, high)).or_else(|| self.limits(&series)),
             fills: self.fills(group, along),
             series,
             ..LineChart::default()

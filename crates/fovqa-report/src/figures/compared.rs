@@ -42,7 +42,7 @@ impl Selection<'_> {
             }
         };
         let caption = format!("{what} against eccentricity, {scene}; the reference is dashed");
-        Some(NamedFigure { name, caption, figure })
+        Some(NamedFigure::new(name, caption, figure))
     }
 
     fn wavelet(&self, scene: &str, plot: &Plot) -> Option<Figure> {

@@ -231,7 +231,7 @@ impl<'a> Selection<'a> {
             x_ticks: Some(edges).filter(|edges| edges.len() <= MOST_EDGE_TICKS),
             ..LineChart::default()
         });
-        Some(NamedFigure { name, caption, figure })
+        Some(NamedFigure::new(name, caption, figure))
     }
 
     fn bands(&self, metric: Metric, scene: &str, method: &str) -> Vec<Band> {
@@ -296,7 +296,7 @@ impl<'a> Selection<'a> {
         let figure = Figure::Bar(BarChart { y, groups, series, ..BarChart::default() });
         let over = if metric == Metric::Fvvdp { "of whole sequences" } else { "mean over frames" };
         let caption = format!("{} per scene and method, {over}", metric.info().label);
-        NamedFigure { name: format!("bars-{}", slug(metric.key())), caption, figure }
+        NamedFigure::new(format!("bars-{}", slug(metric.key())), caption, figure)
     }
 
     /// The values of single frames. If the metric is computed for each image, these are the values
@@ -318,7 +318,7 @@ impl<'a> Selection<'a> {
         let y = Axis::new(frame_axis(metric));
         let figure = Figure::Spread(SpreadChart { title: None, y, groups, series });
         let caption = format!("{} over the frames of each scene", metric.info().label);
-        NamedFigure { name: format!("frames-{}", slug(metric.key())), caption, figure }
+        NamedFigure::new(format!("frames-{}", slug(metric.key())), caption, figure)
     }
 }
 

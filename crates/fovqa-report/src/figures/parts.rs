@@ -112,7 +112,7 @@ impl<'a> Selection<'a> {
     /// Adds to the title and caption of a figure which methods it shows, if it does not show all.
     pub(super) fn labelled(&self, figure: NamedFigure) -> NamedFigure {
         let Some(Part { suffix, shown, of }) = &self.part else { return figure };
-        let NamedFigure { name, caption, mut figure } = figure;
+        let NamedFigure { name, caption, mut figure, settings } = figure;
         let title = match &mut figure {
             Figure::Line(chart) => &mut chart.title,
             Figure::Bar(chart) => &mut chart.title,
@@ -125,6 +125,6 @@ impl<'a> Selection<'a> {
             None => shown.clone(),
         });
         let caption = format!("{caption}; {shown} (all {of} are in summary.json)");
-        NamedFigure { name: format!("{name}{suffix}"), caption, figure }
+        NamedFigure { name: format!("{name}{suffix}"), caption, figure, settings }
     }
 }

@@ -56,7 +56,7 @@ impl Selection<'_> {
             spans,
             ..LineChart::default()
         });
-        Some(NamedFigure { name, caption, figure })
+        Some(NamedFigure::new(name, caption, figure))
     }
 }
 

@@ -10,13 +10,14 @@ use fovqa_methods::Method;
 use fovqa_params::{ParamError, ParamValue};
 use fovqa_vision::acuity::AcuityModel;
 
+use super::figures::figure;
 use super::metrics::param_value;
 use super::scenes::unique;
 use crate::fault::{Fault, Faults};
 use crate::grammar::MOST_CURVES;
 use crate::node::Node;
 use fovqa_methods::curves::{CurveBudget, CurveRange, CurveSource, CurveSpec};
-use fovqa_plan::{CurvePlan, CurvePlot, CurvePlotKind};
+use fovqa_plan::{CurvePlan, CurvePlot, CurvePlotKind, FigureSettings};
 use plots::{all_that_fit, few_panels, plot, table};
 use screens::Screens;
 
@@ -47,11 +48,20 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
     let names: Vec<&str> = tables.iter().filter_map(|(table, _)| table.text("name")).collect();
     let acuity_parameters = root.table("acuity").map(written).unwrap_or_default();
     let mut plan = CurvePlan { curves, acuity, acuity_parameters, range, ..CurvePlan::default() };
-    plan.plots = root.tables("plot").iter().map(|(t, _)| plot(*t, &names, &plan, faults)).collect();
+    let figures = figure(root.table("figures"), &FigureSettings::default(), faults);
+    plan.plots = root
+        .tables("plot")
+        .iter()
+        .map(|(table, _)| CurvePlot {
+            figure: figure(table.table("figure"), &figures, faults),
+            ..plot(*table, &names, &plan, faults)
+        })
+        .collect();
     plan.tables =
         root.tables("table").iter().map(|(t, _)| table(*t, &names, &plan, faults)).collect();
     if plan.plots.is_empty() && plan.tables.is_empty() {
         (plan.plots, plan.tables) = all_that_fit(&plan);
+        plan.plots.iter_mut().for_each(|plot| plot.figure = figures.clone());
     }
     if faults.is_empty() {
         for (i, plot) in plan.plots.iter().enumerate() {

@@ -9,7 +9,8 @@ use crate::node::Node;
 use crate::resolve::plots::subset;
 use fovqa_methods::curves::{CurveSource, CurveSpec};
 use fovqa_plan::{
-    CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, PanelOf, RateKind, RateUnit,
+    CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, FigureSettings, PanelOf,
+    RateKind, RateUnit,
 };
 
 /// The curves that a plot or table shows.
@@ -92,6 +93,7 @@ pub(super) fn plot(
         log: flag("log"),
         rings_deg: table.numbers("rings_deg").unwrap_or_default(),
         f: table.numbers("f").unwrap_or_default(),
+        figure: FigureSettings::default(),
     };
     fits(table, &plot, faults);
     let nothing = |spec: &CurveSpec| match (plot.kind, &spec.source) {

@@ -131,11 +131,57 @@ fn areas_widen_no_axis_and_end_at_the_border() {
     assert_eq!(Figure::Line(chart).csv(), Figure::Line(bare).csv());
 }
 
+/// An axis with these ends.
+fn ends(low: f64, high: f64) -> Axis {
+    Axis { min: Some(low), max: Some(high), ..Axis::default() }
+}
+
+#[test]
+fn curves_are_cut_at_the_ends_of_the_horizontal_axis() {
+    let series = vec![straight(0.0, 100.0)];
+    let chart = LineChart { series, x: ends(2.5, 8.0), ..LineChart::default() };
+    check(&Figure::Line(chart.clone()));
+    let drawing = chart.draw(&Paper::wide());
+    let plot = plots(&drawing)[0];
+    let lines = curve(&drawing, 0);
+    let (first, last) = (lines[0][0], lines[0][lines[0].len() - 1]);
+    let at_borders = (first.0 - plot.left).abs() < 1e-6 && (last.0 - plot.right).abs() < 1e-6;
+    assert!(at_borders, "{lines:?} {plot:?}");
+    assert_eq!(discs(&drawing, 0).len(), 6, "at 3, 4, 5, 6, 7 and 8");
+    let scale = chart.y_scale().unwrap();
+    assert!(scale.low > 20.0 && scale.low < 30.0, "what is not seen widens no axis");
+}
+
+#[test]
+fn equal_ratios_are_equal_widths_on_a_logarithmic_axis() {
+    let points = [0.0, 1.0, 10.0, 100.0].map(|x| (x, Some(x + 1.0))).to_vec();
+    let series = vec![LineSeries { points, ..LineSeries::default() }];
+    let chart =
+        LineChart { series, x: Axis { log: true, ..Axis::default() }, ..LineChart::default() };
+    check(&Figure::Line(chart.clone()));
+    let line = &curve(&chart.draw(&Paper::wide()), 0)[0];
+    assert_eq!(line.len(), 3, "0 has no logarithm");
+    let right: Vec<f64> = line.windows(2).map(|p| p[1].0 - p[0].0).collect();
+    assert!((right[0] - right[1]).abs() < 1e-6 && right[0] > 50.0);
+}
+
+#[test]
+fn one_end_can_be_set_even_beyond_the_data() {
+    let chart = LineChart { series: vec![straight(40.0, 60.0)], ..LineChart::default() };
+    for (min, max) in [(Some(80.0), None), (None, Some(10.0)), (Some(50.0), None)] {
+        let chart = LineChart { y: Axis { min, max, ..Axis::default() }, ..chart.clone() };
+        check(&Figure::Line(chart.clone()));
+        let scale = chart.y_scale().unwrap();
+        assert!(min.is_none_or(|min| scale.low == min) && max.is_none_or(|max| scale.high == max));
+        assert!(scale.low < scale.high);
+    }
+}
+
 #[test]
 fn curves_are_cut_where_they_cross_the_limits() {
     // The curve rises from 0 to 100 along 10; the part from 20 to 70 is visible, between 2 and 7.
     let series = vec![straight(0.0, 100.0)];
-    let mut chart = LineChart { series, y_limits: Some((25.0, 75.0)), ..LineChart::default() };
+    let mut chart = LineChart { series, y: ends(25.0, 75.0), ..LineChart::default() };
     chart.fills =
         vec![Fill { points: vec![(0.0, -50.0, 0.0), (10.0, 50.0, 100.0)], ..Fill::default() }];
     check(&Figure::Line(chart.clone()));
@@ -161,17 +207,17 @@ fn the_limits_are_the_ends_of_the_axis() {
     let mut chart = LineChart { series: vec![straight(40.0, 60.0)], ..LineChart::default() };
     let free = chart.y_scale();
     for (low, high) in [(5.0, 5.0), (9.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
-        chart.y_limits = Some((low, high));
+        chart.y = ends(low, high);
         assert_eq!(chart.y_scale(), free, "{low} to {high}");
         check(&Figure::Line(chart.clone()));
     }
     for y_from_zero in [true, false] {
-        chart = LineChart { y_limits: Some((-20.0, 80.0)), y_from_zero, ..chart };
+        chart = LineChart { y: ends(-20.0, 80.0), y_from_zero, ..chart };
         let scale = chart.y_scale().unwrap();
         assert_eq!((scale.low, scale.high), (-20.0, 80.0));
     }
-    for limits in [(0.0, 1e-270), (-1e300, 1e300), (1e299, 1e300), (-5e-324, 1e-5)] {
-        chart.y_limits = Some(limits);
+    for (low, high) in [(0.0, 1e-270), (-1e300, 1e300), (1e299, 1e300), (-5e-324, 1e-5)] {
+        chart.y = ends(low, high);
         check(&Figure::Line(chart.clone()));
         let panels = vec![chart.clone(); 3];
         check(&Figure::Panels(PanelChart { panels, columns: 2, title: None }));
@@ -183,7 +229,7 @@ fn a_point_on_a_limit_is_seen_and_one_beyond_is_not() {
     let points =
         vec![(0.0, Some(1.0)), (1.0, None), (2.0, Some(5.0)), (3.0, None), (4.0, Some(6.0))];
     let series = vec![LineSeries { points, ..LineSeries::default() }];
-    let chart = LineChart { series, y_limits: Some((1.0, 5.0)), ..LineChart::default() };
+    let chart = LineChart { series, y: ends(1.0, 5.0), ..LineChart::default() };
     let drawing = chart.draw(&Paper::wide());
     let plot = plots(&drawing)[0];
     let ys: Vec<f64> = discs(&drawing, 0).iter().map(|p| p.1).collect();
@@ -220,7 +266,7 @@ fn a_function_has_few_markers_and_not_those_of_another() {
 /// A logarithmic chart of values at 0, 1, 2 and so on.
 fn log(values: &[f64]) -> LineChart {
     let series = vec![LineSeries { points: points(values), ..LineSeries::default() }];
-    LineChart { series, y_log: true, ..LineChart::default() }
+    LineChart { series, y: Axis { log: true, ..Axis::default() }, ..LineChart::default() }
 }
 
 #[test]
@@ -254,7 +300,7 @@ fn values_without_a_logarithm_are_gaps() {
 #[test]
 fn limits_and_areas_of_a_logarithmic_axis() {
     let mut chart = log(&[1e-3, 1.0, 1e3]);
-    chart.y_limits = Some((0.01, 100.0));
+    chart.y = Axis { log: true, ..ends(0.01, 100.0) };
     chart.fills = vec![Fill { points: vec![(0.0, 0.0, 1.0), (2.0, -5.0, 1.0)], ..Fill::default() }];
     check(&Figure::Line(chart.clone()));
     let drawing = chart.draw(&Paper::wide());
@@ -265,9 +311,10 @@ fn limits_and_areas_of_a_logarithmic_axis() {
     assert!((line[0].0 - (plot.left + (0.04 + 1.0 / 3.0) * unit)).abs() < 1e-6);
     let area = bounds(&filled(&drawing, SURPLUS)[0]);
     assert!((area.top - plot.centre().1).abs() < 1e-6 && (area.bottom - plot.bottom).abs() < 1e-6);
-    for limits in [(0.0, 100.0), (-1.0, 100.0)] {
-        let free = LineChart { y_limits: None, ..chart.clone() };
-        assert_eq!(LineChart { y_limits: Some(limits), ..chart.clone() }.y_scale(), free.y_scale());
+    let logarithmic = |axis: Axis| LineChart { y: Axis { log: true, ..axis }, ..chart.clone() };
+    let free = logarithmic(Axis::default()).y_scale();
+    for low in [0.0, -1.0] {
+        assert_eq!(logarithmic(ends(low, 100.0)).y_scale(), free);
     }
     let panels = vec![chart.clone(), log(&[3.0, 4.0]), log(&[1e-280, 1e300])];
     check(&Figure::Panels(PanelChart { panels, columns: 3, title: None }));

@@ -45,9 +45,12 @@ proptest! {
             let kind = if i % 3 == 0 { FillKind::Deficit } else { FillKind::Surplus };
             let points = values.chunks(3).map(fill).collect();
             panel.fills = vec![Fill { name: name(i), kind, points }];
-            panel.y_limits = values.get(i).zip(values.get(i + 1)).map(|(low, high)| (*low, *high));
+            panel.y.min = values.get(i).copied();
+            panel.y.max = values.get(i + 1).copied();
+            panel.x.min = values.get(i + 2).copied().filter(|_| i % 3 == 1);
             panel.series[0].smooth = i % 2 == 1;
-            panel.y_log = i % 4 == 2;
+            panel.y.log = i % 4 == 2;
+            panel.x.log = i % 3 == 2;
             panel.spans = values.chunks(2).map(|v| span(v[0], v[v.len() - 1])).collect();
         }
         check(&figure);

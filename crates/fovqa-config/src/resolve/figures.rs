@@ -1,0 +1,96 @@
+//! `[figures]`, and `figure` of a single plot.
+
+use fovqa_params::Words;
+use fovqa_plan::{
+    AxisScale, AxisSettings, Colour, FigureFormat, FigureSettings, PaletteChoice, PaletteName,
+};
+
+use crate::fault::{Fault, Faults};
+use crate::node::Node;
+
+/// The settings of a table, and those of `all` where it has none.
+pub(super) fn figure(
+    table: Option<Node<'_>>,
+    all: &FigureSettings,
+    faults: &mut Faults,
+) -> FigureSettings {
+    let Some(table) = table else { return all.clone() };
+    if table.has("height_in") && table.has("aspect") {
+        let fault = Fault::new(table.span("aspect"), "height_in and aspect both set the height");
+        faults.push(fault.help("remove one of them"));
+    }
+    let formats = table.names("formats").map(|names| {
+        let mut formats: Vec<FigureFormat> = Vec::new();
+        for format in names.iter().filter_map(|(name, _)| FigureFormat::find(name)) {
+            if !formats.contains(&format) {
+                formats.push(format);
+            }
+        }
+        formats
+    });
+    let own = FigureSettings {
+        width_in: table.number("width_in"),
+        height_in: table.number("height_in"),
+        aspect: table.number("aspect"),
+        font_pt: table.number("font_pt"),
+        title: table.flag("title"),
+        markers: table.flag("markers"),
+        line_styles: table.flag("line_styles"),
+        palette: palette(table, faults),
+        formats,
+        x: axis(table, "x"),
+        y: axis(table, "y"),
+    };
+    let settings = own.over(all);
+    for (name, axis) in [("x", &settings.x), ("y", &settings.y)] {
+        check_axis(table, name, axis, faults);
+    }
+    settings
+}
+
+fn palette(table: Node<'_>, faults: &mut Faults) -> Option<PaletteChoice> {
+    let Some(colours) = table.names("palette") else {
+        return table.word::<PaletteName>("palette").map(PaletteChoice::Named);
+    };
+    let mut found = Vec::new();
+    for (text, span) in colours {
+        match Colour::of(text) {
+            Some(colour) => found.push(colour),
+            None => {
+                let fault = Fault::new(span, format!("\"{text}\" is not a colour"));
+                faults.push(fault.help("write colours as \"#0072b2\": red, green and blue"));
+            }
+        }
+    }
+    Some(PaletteChoice::Colours(found))
+}
+
+fn axis(table: Node<'_>, name: &str) -> AxisSettings {
+    let Some(table) = table.table(name) else { return AxisSettings::default() };
+    AxisSettings {
+        scale: table.word("scale"),
+        min: table.number("min"),
+        max: table.number("max"),
+        label: table.text("label").map(str::to_owned),
+    }
+}
+
+/// Checks that an axis can have its ends.
+fn check_axis(table: Node<'_>, name: &str, axis: &AxisSettings, faults: &mut Faults) {
+    let Some(own) = table.table(name) else { return };
+    let place = |key: &str| if own.has(key) { own.span(key) } else { table.span(name) };
+    if let (Some(min), Some(max)) = (axis.min, axis.max)
+        && min >= max
+    {
+        let message = format!("the {name} axis would end at {max}, before it begins at {min}");
+        faults.push(Fault::new(place("max"), message).help("max must be above min"));
+    }
+    if axis.scale == Some(AxisScale::Log) {
+        for (key, end) in [("min", axis.min), ("max", axis.max)] {
+            if let Some(end) = end.filter(|end| *end <= 0.0) {
+                let message = format!("a logarithmic axis has no place for {end}");
+                faults.push(Fault::new(place(key), message).help(format!("{key} must be above 0")));
+            }
+        }
+    }
+}
