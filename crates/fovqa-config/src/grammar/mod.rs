@@ -9,7 +9,7 @@ mod schema;
 
 pub(crate) use check::{check, number};
 pub(crate) use curves::{CURVES, MOST_CURVES};
-pub(crate) use emulate::OTHER_EYE;
+pub(crate) use emulate::{OTHER_EYE, REPROJECT};
 pub(crate) use experiment::EXPERIMENT;
 pub use schema::{curves_schema, schema};
 
