@@ -125,6 +125,21 @@ fn division_threads_and_resuming_do_not_matter() {
     }
 }
 
+/// The temporal filter of the dominant eye alone: no metric, and no filter of the other eye, needs the frames
+/// before.
+#[test]
+fn the_history_of_the_dominant_eye_goes_on_wherever_a_run_is_divided() {
+    let folder = Folder::new();
+    let methods = [(
+        "D",
+        "model = \"cps\", temporal = true, reproject = {}, other_eye = { temporal = false }",
+    )];
+    folder.write("e.toml", experiment(SCENE, &methods).replace("atd = {}\n", ""));
+    for of in [8, 3] {
+        assert_eq!(divided(&folder, of, 0), vec![0; of]);
+    }
+}
+
 const VIEW: [&str; 4] = ["--resolution", "96x80", "--fov-vertical", "90"];
 
 /// Files of the two eyes, and the scene of an experiment that reads them.
