@@ -14,12 +14,10 @@ const SCENE: &str =
 
 /// Methods of a scene in an experiment.
 fn experiment(scene: &str, methods: &[(&str, &str)]) -> String {
-    let methods: String = methods
-        .iter()
-        .map(|(name, emulate)| {
-            format!("[[method]]\nname = \"{name}\"\nemulate = {{ {emulate} }}\n")
-        })
-        .collect();
+    let method = |(name, emulate): &(&str, &str)| {
+        format!("[[method]]\nname = \"{name}\"\nemulate = {{ {emulate} }}\n")
+    };
+    let methods = methods.iter().map(method).collect::<Vec<_>>().concat();
     format!(
         "name = \"e\"\n[view]\nfov_vertical_deg = 90\nbands_deg = [0, 30]\n[[scene]]\nname = \"s\"\n{scene}\n\
          {methods}[metrics]\npsnr = {{}}\natd = {{}}\n[[plot]]\nkind = \"table\"\n"

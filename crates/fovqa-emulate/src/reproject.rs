@@ -141,4 +141,5 @@ impl<'a> Places<'a> {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "values are whole or half numbers")]
 mod tests;
