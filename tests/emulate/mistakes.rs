@@ -28,7 +28,10 @@ fn mistakes_are_shown_in_their_place() {
         ("emulate = { model = \"rmfrr\" }", "did you mean \"rmfr\"?"),
         ("emulate = { model = \"rmfr\", sigm = 2 }", "did you mean sigma?"),
         ("emulate = { model = \"rmfr\", sigma = 0.001 }", "sigma cannot be 0.001"),
-        ("emulate = { model = \"rmfr\", filter = \"own\" }", "it has no filters of its own"),
+        (
+            "emulate = { model = \"rmfr\", filter = \"own\" }",
+            "rmfr has no filters of its own; only deamp, kfr",
+        ),
         ("emulate = { model = \"vafr\", filter = \"screen\" }", "it has the filter `buffer`"),
         (
             "emulate = { model = \"kfr\", \"filter.span\" = 4 }",
@@ -44,7 +47,10 @@ fn mistakes_are_shown_in_their_place() {
             "emulate = { model = \"kfr\", other_eye = { sigma = 3 } }",
             "no scene of this method has two eyes",
         ),
-        ("emulate = { model = \"kfr\", other_eye = { model = \"rmfr\" } }", "no parameter `model`"),
+        (
+            "emulate = { model = \"kfr\", other_eye = { model = \"rmfr\" } }",
+            "both eyes have that of the method",
+        ),
         ("emulate = { model = \"kfr\", other_eye = 3 }", "other_eye cannot be a whole number"),
         ("emulate = { model = \"kfr\" }\nlayer = \"x\"", "is emulated, and reads no layer"),
         ("emulate = { model = \"deamp\", sigmas = [1, 2], bounds_deg = [30] }", "deamp"),

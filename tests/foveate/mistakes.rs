@@ -19,8 +19,14 @@ fn a_wrong_command_line_is_exit_2() {
         ("--method rmfr --set sigma", &["PARAM=VALUE"]),
         ("--method rmfr --set taa.beta=0", &["taa.beta cannot be 0"]),
         ("--method rmfr --set taa.gamma=0", &["taa has no parameter", "alpha_max"]),
-        ("--method rmfr --set filter.factor=1", &["rmfr has no", "it has no filters"]),
-        ("--method rmfr --filter own", &["rmfr has no filter", "it has no filters"]),
+        (
+            "--method rmfr --set filter.factor=1",
+            &["rmfr has no", "only deamp, kfr, lafr and vafr have filters"],
+        ),
+        (
+            "--method rmfr --filter own",
+            &["rmfr has no filter", "only deamp, kfr, lafr and vafr have filters"],
+        ),
         ("--method deamp --filter buffer", &["`buffer`", "`screen`"]),
         ("--method vafr --filter screen --fov-vertical 90", &["`screen`", "`buffer`"]),
         ("--method kfr --filter all", &["--filter", "own"]),

@@ -24,8 +24,27 @@ impl Counts {
         Self { buffers, samples, samples_on_screen, samples_beyond: 0.0, quads: None }
     }
 
+    /// All samples, also those beyond the method's own field.
+    pub fn all(&self) -> f64 {
+        self.samples + self.samples_beyond
+    }
+
+    /// What remains if only `shaded` of all samples are shaded, all of them in the frame: those whose
+    /// pixels cannot be taken from the other eye. The share is the same within the field and beyond it.
+    #[must_use]
+    pub fn reshaded(&self, shaded: f64) -> Self {
+        let part = |samples: f64| samples * shaded / self.all();
+        Self {
+            buffers: self.buffers.clone(),
+            samples: part(self.samples),
+            samples_on_screen: shaded,
+            samples_beyond: part(self.samples_beyond),
+            quads: None,
+        }
+    }
+
     /// The share of `pixels` pixels that is shaded, with what lies beyond the method's own field.
     pub fn share(&self, pixels: f64) -> f64 {
-        (self.samples + self.samples_beyond) / pixels
+        self.all() / pixels
     }
 }

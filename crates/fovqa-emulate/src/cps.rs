@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use fovqa_frame::BLOCK_ROWS;
+use fovqa_frame::{BLOCK_ROWS, Mask};
 use fovqa_methods::Setting;
 use fovqa_methods::cps::{Cps as Mapped, Params, Quantise};
 
@@ -16,7 +16,7 @@ use crate::offsets::Offsets;
 use crate::radial::{Detail, Radial};
 use crate::sample_places::SamplePlaces;
 use crate::source::Source;
-use crate::sums::sum_over_pixels;
+use crate::sums::{count_on, sum_over_mask, sum_over_pixels};
 use crate::texel::narrowed;
 use crate::value::Value;
 
@@ -24,7 +24,12 @@ use crate::value::Value;
 #[derive(Debug)]
 pub(crate) enum Cps {
     Cells(Cells),
-    Continuous { grids: Grids, samples: f64 },
+    Continuous {
+        grids: Grids,
+        /// Samples for each pixel, by the distance from the gaze.
+        density: Radial,
+        samples: f64,
+    },
 }
 
 /// Sides of the cells of more than one pixel. A block of rows holds a whole number of each.
@@ -55,7 +60,8 @@ impl Cps {
                 let density = Radial::new(fine, reach, |r| request(r) * request(r));
                 let samples = sum_over_pixels(&density, &offsets);
                 let level = Radial::new(fine, reach, |r| -libm::log2(request(r)));
-                return Self::Continuous { grids: Grids::new(level, offsets, places), samples };
+                let grids = Grids::new(level, offsets, places);
+                return Self::Continuous { grids, density, samples };
             }
         };
         let reach_px = shares.map(|share| {
@@ -80,7 +86,17 @@ impl Cps {
     pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
         match self {
             Self::Cells(cells) => cells.positions(),
-            Self::Continuous { grids, .. } => grids.positions(),
+            Self::Continuous { grids, .. } => grids.positions().collect(),
+        }
+    }
+
+    /// Samples on the pixels of a mask.
+    pub(crate) fn samples_on(&self, mask: &Mask) -> f64 {
+        match self {
+            Self::Cells(cells) => count_on(mask, cells.positions()) as f64,
+            Self::Continuous { grids, density, .. } => {
+                sum_over_mask(density, grids.offsets(), mask)
+            }
         }
     }
 

@@ -22,6 +22,9 @@ struct Layer {
     buffer: Separable,
     /// Pixels of the frame whose centres are in the box, along x and y.
     inside: [Range<usize>; 2],
+    /// Columns and rows of its samples whose places are in the layer inside: where both are, samples are
+    /// not counted.
+    hole: [Range<usize>; 2],
 }
 
 /// DEAMP of a frame and a gaze.
@@ -56,11 +59,14 @@ impl Deamp {
             let axis = |axis| layer_axis(&mapped, setting, layer, axis, places);
             let buffer = Separable::new(axis(0), axis(1), places);
             let [w, h] = buffer.size();
-            let covered = [(0, &buffer.x), (1, &buffer.y)].map(|(axis, along)| {
-                let finer = |x: &&f64| layer_along(axis, **x) < layer;
-                along.centres_px.iter().filter(finer).count()
+            let hole = [(0, &buffer.x), (1, &buffer.y)].map(|(axis, along)| {
+                let finer = |x: &f64| layer_along(axis, *x) < layer;
+                let first = along.centres_px.iter().position(finer).unwrap_or(0);
+                let behind =
+                    along.centres_px.iter().rposition(finer).map_or(first, |last| last + 1);
+                first..behind
             });
-            samples += w * h - covered[0] * covered[1];
+            samples += w * h - hole[0].len() * hole[1].len();
             let inside = [0, 1].map(|axis| {
                 let side = setting.size_px()[axis] as usize;
                 let held = |i: &usize| layer_along(axis, *i as f64 + 0.5) <= layer;
@@ -68,7 +74,7 @@ impl Deamp {
                 let behind = (first..side).rev().find(held).map_or(first, |last| last + 1);
                 first..behind
             });
-            Layer { buffer, inside }
+            Layer { buffer, inside, hole }
         });
         let layers = layers.collect();
         let size = setting.size_px().map(|side| side as usize);
@@ -76,8 +82,13 @@ impl Deamp {
     }
 
     /// Where samples of all layers stand, the innermost first, in pixels.
-    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
-        self.layers.iter().flat_map(|layer| layer.buffer.positions()).collect()
+    pub(crate) fn positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.layers.iter().flat_map(|layer| layer.buffer.positions())
+    }
+
+    /// Where the samples that are counted stand, in pixels.
+    pub(crate) fn counted_positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.layers.iter().flat_map(|layer| layer.buffer.positions_outside(&layer.hole))
     }
 
     pub(crate) fn counts(&self) -> Counts {

@@ -78,6 +78,9 @@ pub enum EmulateError {
         /// Those of the emulator.
         expected: [usize; 2],
     },
+    /// Two eyes of which one is gray and the other in colour.
+    #[error("the frames of one eye are gray, and those of the other in colour")]
+    Channels,
     /// Parameters that do not go together, or not with the frame.
     #[error(transparent)]
     Method(#[from] MethodError),
@@ -93,13 +96,14 @@ impl EmulateError {
             Self::UnknownMethod { .. } | Self::Param(_) | Self::Method(_) => {
                 "`fovqa list methods` shows all methods with their parameters"
             }
-            Self::NoFilter { .. } => "leave the filter out, or choose one that the method has",
+            Self::NoFilter { .. } => "leave filters out, or choose one that the method has",
             Self::NoView { .. } => "give {view}",
             Self::OutOfRange { .. } => "give a number in this range",
             Self::Size { .. } => "all frames of a sequence must have the same size",
             Self::TooManySamples { .. } => {
                 "choose parameters with fewer samples, or a smaller budget"
             }
+            Self::Channels => "render both eyes alike",
             Self::BudgetAndParameter { .. } => "leave one of them out",
             Self::Budget(_) => "choose another share, or other parameters",
         }

@@ -76,8 +76,12 @@ impl FilterInfo {
     }
 }
 
-pub(crate) const NONE: FilterInfo =
-    FilterInfo { buffer: false, screen: false, known: "it has no filters of its own", params: &[] };
+pub(crate) const NONE: FilterInfo = FilterInfo {
+    buffer: false,
+    screen: false,
+    known: "only deamp, kfr, lafr and vafr have filters",
+    params: &[],
+};
 
 pub(crate) const LOG_POLAR: FilterInfo = FilterInfo {
     buffer: true,

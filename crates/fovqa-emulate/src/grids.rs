@@ -45,9 +45,14 @@ impl Grids {
     }
 
     /// Where samples of all levels stand, the finest first, in pixels.
-    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
+    pub(crate) fn positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         let pixels = pixel_positions(self.places, [self.offsets.width(), self.offsets.height()]);
-        pixels.chain(self.levels.iter().flat_map(Separable::positions)).collect()
+        pixels.chain(self.levels.iter().flat_map(Separable::positions))
+    }
+
+    /// The pixels of the frame, as seen from the gaze.
+    pub(crate) fn offsets(&self) -> &Offsets {
+        &self.offsets
     }
 
     /// The frame as seen through the grids.

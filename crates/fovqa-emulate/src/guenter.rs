@@ -79,8 +79,8 @@ impl Guenter {
     }
 
     /// Where samples of all layers stand, the innermost first, in pixels.
-    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
-        self.layers.iter().flat_map(|layer| layer.buffer.positions()).collect()
+    pub(crate) fn positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.layers.iter().flat_map(|layer| layer.buffer.positions())
     }
 
     pub(crate) fn counts(&self) -> Counts {

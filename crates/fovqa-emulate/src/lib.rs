@@ -17,7 +17,8 @@
 //! [`EmulationSpec`] says what is to be emulated, [`Emulator`] prepares it for a frame size, a view and
 //! a gaze, and turns [`Picture`]s into pictures, or in less time 8-bit codes into codes
 //! ([`Emulator::emulate_codes8`]). One file per method: `rmfr`, `deamp`, `guenter`, `cps`, `linear`,
-//! `log_polar` (KFR, LaFR), `vafr`, `visual_polar`, `sandbox`; behind them `temporal` and `enhance`.
+//! `log_polar` (KFR, LaFR), `vafr`, `visual_polar`, `sandbox`; behind them `temporal` and `enhance`, and
+//! `reproject` between the eyes of a stereo pair.
 //!
 //! Angles are planar, e = atan(r / f), as a renderer computes them.
 //!
@@ -74,6 +75,7 @@ mod radial;
 mod ragged;
 mod ragged_samples;
 mod read_frame;
+mod reproject;
 mod rmfr;
 mod rounded;
 mod sample_places;
@@ -108,6 +110,7 @@ pub use filters::FilterChoice;
 pub use image::Image;
 pub use jitter::Jitter;
 pub use picture::Picture;
+pub use reproject::{EyeFrame, Reprojected, reproject};
 pub use sampling::Sampling;
 pub use scene::SceneLight;
 pub use space::Space;

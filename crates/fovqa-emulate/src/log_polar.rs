@@ -74,8 +74,8 @@ impl LogPolar {
     }
 
     /// Where samples stand, in pixels.
-    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
-        self.buffer.positions().collect()
+    pub(crate) fn positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.buffer.positions()
     }
 
     pub(crate) fn counts(&self) -> Counts {

@@ -1,5 +1,6 @@
 //! A method, prepared for a frame size, a view and a gaze: one `match` each for what all of them do.
 
+use fovqa_frame::Mask;
 use fovqa_methods::{Method, Setting, kfr, lafr};
 
 use crate::counts::Counts;
@@ -17,6 +18,7 @@ use crate::sample_places::{SamplePlaces, pixel_positions};
 use crate::sandbox::{Aliased, Stable};
 use crate::source::Source;
 use crate::spec::EmulationSpec;
+use crate::sums::count_on;
 use crate::vafr::Vafr;
 use crate::value::Value;
 use crate::visual_polar::VisualPolar;
@@ -114,15 +116,34 @@ impl Prepared {
         match self {
             Self::Full(places, size) => pixel_positions(*places, *size).collect(),
             Self::Stable(method, size) => pixel_positions(method.places, *size).collect(),
-            Self::Rmfr(method) => method.positions(),
-            Self::Deamp(method) => method.positions(),
-            Self::Guenter(method) => method.positions(),
+            Self::Rmfr(method) => method.positions().collect(),
+            Self::Deamp(method) => method.positions().collect(),
+            Self::Guenter(method) => method.positions().collect(),
             Self::Cps(method) => method.positions(),
-            Self::Linear(method) => method.positions(),
-            Self::LogPolar(method) => method.positions(),
-            Self::Vafr(method) => method.positions(),
-            Self::VisualPolar(method) => method.positions(),
-            Self::Aliased(method, _) => method.positions(),
+            Self::Linear(method) => method.positions().collect(),
+            Self::LogPolar(method) => method.positions().collect(),
+            Self::Vafr(method) => method.positions().collect(),
+            Self::VisualPolar(method) => method.positions().collect(),
+            Self::Aliased(method, _) => method.positions().collect(),
+        }
+    }
+
+    /// How many of the samples that are counted stand on the pixels of a mask of the frame's size.
+    pub(crate) fn samples_on(&self, mask: &Mask) -> f64 {
+        match self {
+            Self::Full(places, size) => count_on(mask, pixel_positions(*places, *size)) as f64,
+            // They shade every pixel.
+            Self::Stable(_, [w, h]) | Self::Aliased(_, [w, h]) => {
+                (w * h) as f64 - mask.left_out() as f64
+            }
+            Self::Rmfr(method) => count_on(mask, method.positions()) as f64,
+            Self::Deamp(method) => count_on(mask, method.counted_positions()) as f64,
+            Self::Guenter(method) => count_on(mask, method.positions()) as f64,
+            Self::Cps(method) => method.samples_on(mask),
+            Self::Linear(method) => method.samples_on(mask),
+            Self::LogPolar(method) => count_on(mask, method.positions()) as f64,
+            Self::Vafr(method) => method.samples_on(mask),
+            Self::VisualPolar(method) => count_on(mask, method.positions()) as f64,
         }
     }
 

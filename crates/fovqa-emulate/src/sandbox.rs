@@ -49,7 +49,7 @@ impl Aliased {
     }
 
     /// Where samples stand, in pixels.
-    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
+    pub(crate) fn positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         self.grids.positions()
     }
 

@@ -77,6 +77,20 @@ impl Separable {
         ys.iter().flat_map(|y| xs.iter().map(|x| [*x, *y]))
     }
 
+    /// The same without the samples whose column and row are both in a hole.
+    pub(crate) fn positions_outside(
+        &self,
+        [columns, rows]: &[Range<usize>; 2],
+    ) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let (w, columns, rows) = (self.x.len(), columns.clone(), rows.clone());
+        let is_outside = move |index: usize| {
+            let (i, j) = (index % w, index / w);
+            !(columns.contains(&i) && rows.contains(&j))
+        };
+        let positions = self.positions().enumerate();
+        positions.filter(move |(index, _)| is_outside(*index)).map(|(_, position)| position)
+    }
+
     /// The buffer of a frame.
     pub(crate) fn sample<const C: usize, const L: usize>(
         &self,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fovqa_frame::Motion;
+use fovqa_frame::{Mask, Motion};
 
 use crate::emulator::Emulator;
 use crate::error::EmulateError;
@@ -55,6 +55,17 @@ impl Emulator {
     /// Those of [`Self::at_frame`].
     pub fn sample_positions(&self, frame: usize) -> Result<Vec<[f64; 2]>, EmulateError> {
         Ok(self.at_frame(frame)?.prepared.positions())
+    }
+
+    /// How many of the samples of frame `frame`, counted from 0, stand on the pixels of `mask`: of the
+    /// samples within the method's own field and beyond it. Methods whose samples have no positions of
+    /// their own (`linear`, `cps` with a continuous rate) share them out by their density.
+    ///
+    /// # Errors
+    /// When the mask has another size, and those of [`Self::at_frame`].
+    pub fn samples_on(&self, frame: usize, mask: &Mask) -> Result<f64, EmulateError> {
+        self.fits("a mask", [mask.width(), mask.height()])?;
+        Ok(self.at_frame(frame)?.prepared.samples_on(mask))
     }
 
     /// [`Emulator::emulate`] for the next picture of a sequence: with the temporal filter, where it is

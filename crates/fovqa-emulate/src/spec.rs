@@ -181,7 +181,7 @@ impl EmulationSpec {
         let info = self.method.filters();
         if info.chosen(choice).is_none() {
             let wanted = match choice {
-                FilterChoice::Own => "filter".to_owned(),
+                FilterChoice::Own => "filters of its own".to_owned(),
                 choice => format!("filter `{}`", choice.word()),
             };
             return Err(EmulateError::NoFilter { method: self.key(), wanted, known: info.known });

@@ -1,6 +1,7 @@
 //! VaFR: a polar buffer whose columns and rows follow acuity (Zhang, Gai, Li, Eq. 3-12, 19). Buffer filter:
 //! FXAA.
 
+use fovqa_frame::Mask;
 use fovqa_methods::vafr::{Beyond, FIELD_DEG, Params, Vafr as Mapped};
 use fovqa_methods::{Foveation, Mapping, MethodError, Place, Setting};
 
@@ -12,6 +13,7 @@ use crate::ragged::Ragged;
 use crate::rounded::rounded;
 use crate::sample_places::SamplePlaces;
 use crate::source::Source;
+use crate::sums::count_on;
 use crate::value::Value;
 
 /// VaFR of a frame and a gaze.
@@ -20,6 +22,7 @@ pub(crate) struct Vafr {
     buffer: Ragged,
     view: PolarView,
     counts: Counts,
+    shaded_share: f64,
     filter: Option<Fxaa>,
 }
 
@@ -44,17 +47,23 @@ impl Vafr {
         let view = PolarView::new(setting, n, reach_px, |r| {
             mapped.to_buffer(0, Place { radius_px: r, direction: [1.0, 0.0] })[0] * stretch
         });
-        let counts = counts(&buffer, setting, mapped.shaded_share());
-        Ok(Self { buffer, view, counts, filter })
+        let shaded_share = mapped.shaded_share();
+        let counts = counts(&buffer, setting, shaded_share);
+        Ok(Self { buffer, view, counts, shaded_share, filter })
     }
 
     /// Where samples stand, in pixels.
-    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
-        self.buffer.positions().collect()
+    pub(crate) fn positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.buffer.positions()
     }
 
     pub(crate) fn counts(&self) -> Counts {
         self.counts.clone()
+    }
+
+    /// Samples on the pixels of a mask, of which a share is shaded.
+    pub(crate) fn samples_on(&self, mask: &Mask) -> f64 {
+        count_on(mask, self.positions()) as f64 * self.shaded_share
     }
 
     /// The buffer of a frame, with its own filter where that is on.

@@ -42,8 +42,8 @@ impl VisualPolar {
     }
 
     /// Where samples stand, in pixels.
-    pub(crate) fn positions(&self) -> Vec<[f64; 2]> {
-        self.buffer.positions().collect()
+    pub(crate) fn positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.buffer.positions()
     }
 
     pub(crate) fn counts(&self) -> Counts {

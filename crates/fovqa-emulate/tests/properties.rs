@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use fovqa_emulate::{EmulationSpec, Emulator, FilterChoice, History, Picture, Sampling, Space};
-use fovqa_frame::{Channels, Crop, Frame, Samples, SignalParams, SignalTables, Transfer};
+use fovqa_frame::{Channels, Crop, Frame, Mask, Samples, SignalParams, SignalTables, Transfer};
 use fovqa_params::{ParamValue, Words};
 use fovqa_vision::{View, ViewSpec};
 
@@ -23,6 +23,46 @@ fn picture(channels: Channels, code: impl Fn(usize) -> u8) -> Picture {
     let codes = (0..SIZE[0] * SIZE[1] * channels.count()).map(code).collect();
     let frame = Frame::new(SIZE[0], SIZE[1], channels, Samples::U8(codes)).unwrap();
     Picture::from_frame(&frame, &SignalTables::new(SignalParams::default()))
+}
+
+/// Samples are on some pixel of the frame, or off it.
+#[test]
+fn every_sample_in_the_frame_is_on_one_pixel() {
+    let [width, height] = SIZE;
+    let mask = |is_on: fn(usize, usize) -> bool| {
+        let pixels = (0..width * height).map(|i| is_on(i % width, i / width)).collect();
+        Mask::new(width, height, pixels).unwrap()
+    };
+    let parts =
+        [mask(|x, y| x < 64 && y < 50), mask(|x, y| x >= 64 && y < 50), mask(|_, y| y >= 50)];
+    let continuous = [("quantise", ParamValue::Text("continuous".to_owned()))];
+    let methods = EmulationSpec::methods().into_iter().map(|info| spec(info.key, &[]));
+    for spec in methods.chain([spec("cps", &continuous)]) {
+        let emulator = emulator(&spec);
+        let counts = emulator.counts();
+        let on = |mask: &Mask| emulator.samples_on(0, mask).unwrap();
+        let parts = parts.each_ref().map(on);
+        let (all, sum) = (on(&mask(|_, _| true)), parts.iter().sum::<f64>());
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-9 * a;
+        // Blocks of pixels at the frame's edge may have their sample off the frame.
+        let is_cut = spec.key() == "cps" && all > 0.95 * counts.samples;
+        let is_all = close(all, counts.samples_on_screen) || is_cut;
+        assert!(is_all, "{}: {all} {counts:?}", spec.key());
+        assert!(close(all, sum) && parts.iter().all(|part| *part > 0.0), "{}: {sum}", spec.key());
+        let left = counts.reshaded(parts[2]);
+        assert!(close(left.all(), parts[2]) && close(left.samples_on_screen, parts[2]));
+        assert!(close(left.samples * counts.all(), parts[2] * counts.samples), "{left:?}");
+    }
+    // The gaze is on pixel (61, 70): the finest samples are there.
+    let near = mask(|x, y| x.abs_diff(61) <= 5 && y.abs_diff(70) <= 5);
+    let far = mask(|x, y| x.abs_diff(140) <= 5 && y.abs_diff(10) <= 5);
+    for method in ["rmfr", "deamp", "guenter", "cps", "linear", "kfr", "lafr", "vafr"] {
+        let emulator = emulator(&spec(method, &[]));
+        let [near, far] = [&near, &far].map(|mask| emulator.samples_on(0, mask).unwrap());
+        assert!(near > 1.5 * far, "{method}: {near} {far}");
+    }
+    let small = Mask::new(3, 2, vec![true; 6]).unwrap();
+    assert!(emulator(&spec("rmfr", &[])).samples_on(0, &small).is_err());
 }
 
 /// A pattern without order.

@@ -35,11 +35,11 @@ fn errors_say_what_there_is() {
     assert!(said(rmfr.set("foo.bar", &one)).contains("rmfr has no parameter \"foo.bar\""));
     assert_eq!(
         said(rmfr.set("filter.factor", &one)),
-        "rmfr has no parameter \"filter.factor\"; it has no filters of its own"
+        "rmfr has no parameter \"filter.factor\"; only deamp, kfr, lafr and vafr have filters"
     );
     assert_eq!(
         said(rmfr.set_filters(FilterChoice::Own)),
-        "rmfr has no filter; it has no filters of its own"
+        "rmfr has no filters of its own; only deamp, kfr, lafr and vafr have filters"
     );
     let mut vafr = EmulationSpec::new("vafr").unwrap();
     assert_eq!(

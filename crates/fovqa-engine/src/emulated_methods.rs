@@ -4,17 +4,18 @@ use std::collections::BTreeMap;
 
 use fovqa_emulate::{Picture, SceneLight, WriteFrameError};
 use fovqa_frame::{Frame, Samples, SignalTables, Transfer};
-use fovqa_gallery::FrameScene;
-use fovqa_plan::{EyeView, Gaze};
+use fovqa_plan::{Emulation, EyeView};
 
+use crate::dominant_eye::DominantEye;
 use crate::events::Warnings;
 use crate::found::FoundView;
 use crate::foveator::Foveator;
-use crate::load::{Fault, Made, Side, Step};
+use crate::load::{Fault, LoadError, Made, Side, Step};
+use crate::reprojector::Reprojector;
+use crate::view_frame::{BuiltinLight, ViewFrame, fixed_gaze};
 
 /// The emulated methods of a view. The picture of the present reference is made once for all of them.
-#[derive(Debug)]
-pub(crate) struct EmulatedMethods {
+pub(crate) struct EmulatedMethods<'a> {
     foveators: BTreeMap<usize, Foveator>,
     /// The picture of the present reference.
     picture: Option<Picture>,
@@ -23,11 +24,18 @@ pub(crate) struct EmulatedMethods {
     fixed_gaze: Option<[f64; 2]>,
     /// Whether the frames of the reference have motion, as far as is known.
     motion: Option<bool>,
+    /// What methods take from the dominant eye.
+    reprojector: Option<Reprojector<'a>>,
 }
 
-impl EmulatedMethods {
-    pub(crate) fn new(view: &FoundView, eye: &EyeView, needs_light: bool) -> Self {
-        let foveator = |(method, emulation): (usize, &fovqa_plan::Emulation)| {
+impl<'a> EmulatedMethods<'a> {
+    pub(crate) fn new(
+        view: &FoundView,
+        eye: &'a EyeView,
+        dominant: Option<DominantEye<'a>>,
+        needs_light: bool,
+    ) -> Self {
+        let foveator = |(method, emulation): (usize, &Emulation)| {
             (method, Foveator::new(emulation.spec.clone(), eye.settings.view.clone()))
         };
         Self {
@@ -36,12 +44,17 @@ impl EmulatedMethods {
             needs_light,
             fixed_gaze: fixed_gaze(eye),
             motion: None,
+            reprojector: dominant.map(|dominant| Reprojector::new(dominant, eye, view)),
         }
     }
 
-    /// Forgets the picture of a reference that is about to be dropped.
-    pub(crate) fn leave(&mut self) {
+    /// Goes on to another frame: forgets the picture of the reference that is dropped, and keeps the frame
+    /// of the dominant eye, if it was loaded.
+    pub(crate) fn enter(&mut self, dominant: Option<Result<Side, LoadError>>) {
         self.picture = None;
+        if let Some(reprojector) = &mut self.reprojector {
+            reprojector.enter(dominant);
+        }
     }
 
     /// Emulates the test of a step from its reference.
@@ -56,46 +69,38 @@ impl EmulatedMethods {
         let Some(foveator) = self.foveators.get_mut(&step.method) else {
             unreachable!("a test that is not read is emulated")
         };
-        reference.finite()?;
-        let position = view.frames[step.frame].position;
-        let motion = reference.guides.motion.as_ref();
-        if foveator.is_temporal() && !foveator.begins_at(position) {
-            check_motion(&mut self.motion, motion.is_some(), &reference.file, warnings)?;
-        }
-        if foveator.is_temporal() && step.frame > 0 && foveator.begins_at(position) {
-            warn_of_gap(view.frames[step.frame].number, warnings);
-        }
-        let gaze_px = view.trace.as_ref().map(|trace| trace[step.frame].px).or(self.fixed_gaze);
+        let at = ViewFrame { view, frame: step.frame, reference };
+        at.ready(foveator, &mut self.motion, warnings)?;
         let emulation = view.sources.test(step.method).emulation();
         let keeps = emulation.is_some_and(|emulation| emulation.keep_frames);
+        let reproject = emulation.and_then(Emulation::reproject);
         let file = view.sources.test_name(step.method, step.test);
-        if let Some(builtin) = &view.sources.builtin {
-            let scene = builtin.frame(step.test);
-            let lit = BuiltinLight(&*scene);
-            let (width, height) = reference.size();
-            let (at, seen) = ((position, step.test), (&lit as &dyn SceneLight, [width, height]));
-            let signal = tables.params();
-            let (shown, emulator) = foveator.next_of_scene(at, seen, signal, motion, gaze_px)?;
-            let frame = linear(shown.to_linear(signal), &shown, self.needs_light)?;
-            let made = Made {
-                counts: emulator.counts().clone(),
-                kept: keeps.then(|| kept(&shown, &frame)),
-            };
-            return Ok(Side::emulated(file, frame, reference.pixel_aspect, made));
-        }
-        if matches!(reference.frame.samples(), Samples::U8(_)) && !foveator.is_temporal() {
+        let gaze_px = at.gaze_px(self.fixed_gaze);
+        let is_scene = view.sources.builtin.is_some();
+        let is_alone = !foveator.is_temporal() && reproject.is_none();
+        if matches!(reference.frame.samples(), Samples::U8(_)) && is_alone && !is_scene {
             let (frame, emulator) =
-                foveator.next_codes8(position, &reference.frame, tables, gaze_px)?;
+                foveator.next_codes8(at.position(), &reference.frame, tables, gaze_px)?;
             let kept = keeps.then(|| frame.clone());
-            let made = Made { counts: emulator.counts().clone(), kept };
+            let made = Made { counts: emulator.counts().clone(), reshaded_share: None, kept };
             return Ok(Side::emulated(file, frame, reference.pixel_aspect, made));
         }
-        let before =
-            self.picture.get_or_insert_with(|| Picture::from_frame(&reference.frame, tables));
-        let (shown, emulator) = foveator.next(position, before, motion, gaze_px)?;
-        let frame = frame_of(&shown, before, &reference.frame, tables, self.needs_light)?;
-        let made =
-            Made { counts: emulator.counts().clone(), kept: keeps.then(|| kept(&shown, &frame)) };
+        let picture = || Picture::from_frame(&reference.frame, tables);
+        let before = (!is_scene).then(|| &*self.picture.get_or_insert_with(picture));
+        let (mut shown, emulator) = at.show(foveator, before, tables, gaze_px)?;
+        let (mut counts, mut reshaded_share) = (emulator.counts().clone(), None);
+        if let (Some(reproject), Some(reprojector)) = (reproject, &mut self.reprojector) {
+            let taken = reprojector.fill(step, reproject, (&shown, reference), warnings)?;
+            let shaded = emulator.samples_on(at.jittered(), &taken.reshaded)?;
+            reshaded_share = Some(shaded / counts.all());
+            counts = counts.reshaded(shaded);
+            shown = taken.picture;
+        }
+        let frame = match before {
+            Some(before) => frame_of(&shown, before, &reference.frame, tables, self.needs_light)?,
+            None => linear(shown.to_linear(tables.params()), &shown, self.needs_light)?,
+        };
+        let made = Made { counts, reshaded_share, kept: keeps.then(|| kept(&shown, &frame)) };
         Ok(Side::emulated(file, frame, reference.pixel_aspect, made))
     }
 
@@ -124,56 +129,6 @@ impl EmulatedMethods {
         let shown = foveator.alone(view.frames[frame].position, &picture, gaze_px)?;
         frame_of(&shown, &picture, reference, tables, self.needs_light)
     }
-}
-
-/// A frame of a built-in scene, as emulation asks for it.
-pub(crate) struct BuiltinLight<'a>(pub(crate) &'a dyn FrameScene);
-
-impl SceneLight for BuiltinLight<'_> {
-    fn light(&self, x: f64, y: f64) -> [f32; 3] {
-        self.0.light(x, y)
-    }
-}
-
-/// The gaze of all frames, if the user gave one.
-pub(crate) fn fixed_gaze(eye: &EyeView) -> Option<[f64; 2]> {
-    match eye.settings.gaze {
-        Gaze::Point(px) => Some(px),
-        Gaze::Centre | Gaze::Builtin | Gaze::Trace { .. } => None,
-    }
-}
-
-/// Warns of a frame at which a temporal filter begins again.
-pub(crate) fn warn_of_gap(frame: i64, warnings: &mut Warnings<'_>) {
-    let message = format!(
-        "no frame comes directly before frame {frame}: the temporal filter begins again there, and wherever frames \
-         are missing, left out, or could not be read"
-    );
-    warnings.once_a_view("temporal filter begins again", &message);
-}
-
-/// Warns if a temporal filter has no motion, and refuses frames without motion after frames with it.
-pub(crate) fn check_motion(
-    all: &mut Option<bool>,
-    here: bool,
-    file: &str,
-    warnings: &mut Warnings<'_>,
-) -> Result<(), Fault> {
-    if *all.get_or_insert(here) != here {
-        let message = if here {
-            format!("{file} has motion vectors, but earlier frames have none")
-        } else {
-            format!("{file} has no motion vectors, but earlier frames have some")
-        };
-        let help = "render them for all frames, or leave the temporal filter out".to_owned();
-        return Err(Fault { message, help });
-    }
-    if !here {
-        let message = "the frames have no motion vectors: the temporal filter takes every pixel as standing \
-                       still; if there are some, name them with {motion}";
-        warnings.once_a_view("temporal filter without motion", message);
-    }
-    Ok(())
 }
 
 /// The frame that an emulated picture stands for: codes of as many bits as the reference has, and

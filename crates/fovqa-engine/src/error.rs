@@ -54,6 +54,15 @@ pub enum EngineError {
         /// The model of the method.
         method: &'static str,
     },
+    /// A method that takes from the frames of the other eye, and FovVideoVDP begins a sequence with its
+    /// later frames.
+    #[error(
+        "to reproject, {method} needs the frames of both eyes in their order, but with this fvvdp.temp_padding FovVideoVDP begins with later frames"
+    )]
+    ReprojectsAhead {
+        /// The model of the method.
+        method: &'static str,
+    },
     /// A selection that contains no frame.
     #[error("the selection contains no frame; the frames are {first} to {last}")]
     NoFrames {
@@ -208,6 +217,7 @@ impl EngineError {
             | Self::EmulatedReference
             | Self::Gallery(_)
             | Self::LooksAhead { .. }
+            | Self::ReprojectsAhead { .. }
             | Self::NotGiven { .. }
             | Self::NoView { .. }
             | Self::NoLuminance { .. }
@@ -247,6 +257,9 @@ impl EngineError {
             Self::Output(error) => error.help(),
             Self::Gallery(_) => "give a number in this range".to_owned(),
             Self::EmulatedReference => "give files as the reference".to_owned(),
+            Self::ReprojectsAhead { .. } => {
+                "leave fvvdp.temp_padding at replicate, or leave reproject out".to_owned()
+            }
             Self::LooksAhead { .. } => {
                 "leave fvvdp.temp_padding at replicate, or leave the temporal filter out".to_owned()
             }

@@ -10,7 +10,6 @@ use fovqa_metrics::fvvdp::Padding;
 use fovqa_plan::{Emulation, EyeView, Plan, Scene};
 use fovqa_vision::GazeAt;
 
-use crate::emulated_methods::fixed_gaze;
 use crate::error::EngineError;
 use crate::find_gaze::gaze;
 use crate::found::{FoundInputs, FoundView, Problem, is_wanted};
@@ -20,6 +19,7 @@ use crate::remarks::remarks;
 use crate::sources::{Given, Opener, builtin};
 use crate::test_source::TestSource;
 use crate::timing::timings;
+use crate::view_frame::fixed_gaze;
 use crate::view_sources::ViewSources;
 
 /// Finds and pairs the frames of every scene. Reads names and gaze traces, but no pixels. `given`
@@ -152,9 +152,15 @@ fn refuse_streams(plan: &Plan, view: &FoundView) -> Result<(), EngineError> {
     let mut streams = view.sources.all().filter(|source| source.is_read_once());
     let looks_ahead = plan.params.fvvdp.temp_padding != Padding::Replicate;
     let looks_ahead = looks_ahead && view.frames.len() > 1;
-    let temporal = |(_, emulation): &(usize, &Emulation)| emulation.spec.is_temporal();
-    if let Some((_, emulation)) = view.sources.emulations().find(temporal).filter(|_| looks_ahead) {
-        return Err(EngineError::LooksAhead { method: emulation.spec.key() });
+    let mut emulations = view.sources.emulations().filter(|_| looks_ahead);
+    if let Some((_, emulation)) =
+        emulations.find(|(_, emulation)| emulation.is_temporal() || emulation.reproject().is_some())
+    {
+        let method = emulation.spec.key();
+        return Err(match emulation.reproject() {
+            Some(_) => EngineError::ReprojectsAhead { method },
+            None => EngineError::LooksAhead { method },
+        });
     }
     match streams.next().filter(|_| looks_ahead) {
         None => Ok(()),

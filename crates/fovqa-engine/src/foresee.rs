@@ -26,13 +26,14 @@ pub fn foresee(
     for view in &found.views {
         let scene = &plan.scenes[view.scene];
         let bands = scene_bands(scene, found, view.scene);
-        let scoring = Scoring { plan, scene, view, bands: bands.as_ref(), range: 0..view.pairs() };
+        let (bands, range) = (bands.as_ref(), 0..view.pairs());
+        let scoring = Scoring { plan, scene, view, bands, dominant: None, range };
         let wanted = scoring.begin(&mut warnings)?;
         match scoring.fits(&wanted) {
             Ok(much) => warnings.note_of_view(much.as_deref()),
             Err(error) => warnings.once_a_view("memory", &format!("{error}; {}", error.help())),
         }
-        metrics.extend(settle(plan, view, bands.as_ref(), wanted, &mut warnings));
+        metrics.extend(settle(plan, view, bands, wanted, &mut warnings));
     }
     metrics.sort_unstable();
     metrics.dedup();

@@ -7,13 +7,13 @@ use fovqa_frame::{Frame, SignalTables};
 use fovqa_plan::{Plan, SourceSpec};
 use fovqa_results::Failure;
 
-use crate::emulated_methods::{BuiltinLight, check_motion, fixed_gaze, warn_of_gap};
 use crate::error::EngineError;
 use crate::events::{Events, Progress, Warnings};
 use crate::found::FoundView;
 use crate::foveator::Foveator;
-use crate::load::{Fault, Loaded, Loader, Side, Step};
+use crate::load::{Fault, Loaded, Loader, Step};
 use crate::read_ahead::read_ahead;
+use crate::view_frame::{BuiltinLight, ViewFrame, fixed_gaze};
 
 /// An emulated frame.
 pub struct FoveatedFrame<'a> {
@@ -79,7 +79,10 @@ pub fn foveate(
         steps.len(),
         loader.loaders(),
         |nth| match &view.sources.builtin {
-            Some(builtin) => loader.unlit(builtin, &steps[nth]),
+            Some(builtin) => {
+                let reference = Some(Ok(loader.unlit(builtin, steps[nth].found)));
+                Loaded { reference, test: None, dominant: None }
+            }
             None => loader.load(&steps[nth]),
         },
         Loaded::bytes,
@@ -130,14 +133,15 @@ impl Pass<'_> {
         for note in &reference.notes {
             warnings.once(note, &format!("{}: {note}", reference.file));
         }
-        let gaze_px = self.view.trace.as_ref().map(|trace| trace[step.frame].px);
-        let gaze_px = gaze_px.or(self.fixed_gaze);
+        let at = ViewFrame { view: self.view, frame: step.frame, reference: &reference };
+        let gaze_px = at.gaze_px(self.fixed_gaze);
+        at.ready(&self.foveator, &mut self.motion, warnings).map_err(failed)?;
         let before = Picture::from_frame(&reference.frame, &self.tables);
         let scene = self.view.sources.builtin.as_ref().map(|of| of.frame(step.found.reference));
         let lit = scene.as_deref().map(BuiltinLight);
         let lit = lit.as_ref().map(|lit| lit as &dyn SceneLight);
-        let (shown, emulator) =
-            self.emulate(step, &reference, (&before, lit), gaze_px, warnings).map_err(failed)?;
+        let shown = at.show(&mut self.foveator, Some(&before), &self.tables, gaze_px);
+        let (shown, emulator) = shown.map_err(failed)?;
         Ok(take(FoveatedFrame {
             frame: step.found.number,
             input,
@@ -149,32 +153,5 @@ impl Pass<'_> {
             scene: lit,
             emulator: &emulator,
         }))
-    }
-
-    fn emulate(
-        &mut self,
-        step: &Step<'_>,
-        reference: &Side,
-        (before, scene): (&Picture, Option<&dyn SceneLight>),
-        gaze_px: Option<[f64; 2]>,
-        warnings: &mut Warnings<'_>,
-    ) -> Result<(Picture, std::sync::Arc<Emulator>), Fault> {
-        reference.finite()?;
-        let motion = reference.guides.motion.as_ref();
-        let position = step.found.position;
-        if self.foveator.is_temporal() && !self.foveator.begins_at(position) {
-            check_motion(&mut self.motion, motion.is_some(), &reference.file, warnings)?;
-        }
-        if self.foveator.is_temporal() && step.frame > 0 && self.foveator.begins_at(position) {
-            warn_of_gap(step.found.number, warnings);
-        }
-        match scene {
-            None => self.foveator.next(position, before, motion, gaze_px),
-            Some(scene) => {
-                let seen = (scene, [before.width(), before.height()]);
-                let at = (position, step.found.reference);
-                self.foveator.next_of_scene(at, seen, self.tables.params(), motion, gaze_px)
-            }
-        }
     }
 }

@@ -169,7 +169,7 @@ fn prepare(
     Ok(Emulator::new(spec, size, view.as_ref(), gaze(view.as_ref(), size, gaze_px))?)
 }
 
-fn resolved(
+pub(crate) fn resolved(
     view: Option<&ViewSpec>,
     [width, height]: [usize; 2],
 ) -> Result<Option<View>, EngineError> {

@@ -5,6 +5,7 @@
 
 mod assemble;
 mod available_memory;
+mod dominant_eye;
 mod emulated_methods;
 mod error;
 mod events;
@@ -29,6 +30,7 @@ mod open_ended;
 mod output_error;
 mod read_ahead;
 mod remarks;
+mod reprojector;
 mod resume;
 mod retina;
 mod run;
@@ -42,6 +44,7 @@ mod test_source;
 mod timing;
 mod unit;
 mod view;
+mod view_frame;
 mod view_sources;
 mod work;
 

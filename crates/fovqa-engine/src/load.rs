@@ -30,6 +30,8 @@ pub(crate) enum LoadError {
     },
     #[error("{file}: no {what} file matches this frame")]
     NoGuideFile { file: String, what: &'static str },
+    #[error("frame {frame} has no {eye} eye, from which it would be reprojected")]
+    NoDominantFrame { frame: i64, eye: &'static str },
     #[error("{file}: channel {} is {} at pixel ({}, {}){}", bad.channel, bad.value, bad.x, bad.y, more(bad.pixels))]
     Nonfinite { file: String, bad: BadPixel },
 }
@@ -52,6 +54,9 @@ impl LoadError {
             }
             Self::NoGuideFile { .. } => {
                 "motion and depth files are paired with the reference by name, then by frame number"
+            }
+            Self::NoDominantFrame { .. } => {
+                "render the same frames for both eyes, or leave reproject out"
             }
             Self::Nonfinite { .. } => {
                 "correct the render, or leave out such pixels with {nonfinite=mask}"
@@ -93,6 +98,8 @@ pub(crate) struct Loaded {
     pub(crate) reference: Option<Result<Side, LoadError>>,
     /// The test; `None` if it is emulated from the reference.
     pub(crate) test: Option<Result<Side, LoadError>>,
+    /// The frame of the dominant eye, if methods take from it. It comes with the reference.
+    pub(crate) dominant: Option<Result<Side, LoadError>>,
 }
 
 impl Loaded {
@@ -102,7 +109,7 @@ impl Loaded {
             Ok(side) => side.frame.bytes() + side.guides.bytes(),
             Err(_) => 0,
         };
-        [&self.reference, &self.test].into_iter().flatten().map(bytes).sum()
+        [&self.reference, &self.test, &self.dominant].into_iter().flatten().map(bytes).sum()
     }
 }
 
@@ -128,6 +135,8 @@ pub(crate) struct Side {
 pub(crate) struct Made {
     /// The samples that it stands for.
     pub(crate) counts: Counts,
+    /// The share of its samples that is shaded, if it takes what it can from the other eye.
+    pub(crate) reshaded_share: Option<f64>,
     /// The frame as it is to be kept, if it is.
     pub(crate) kept: Option<Frame>,
 }
@@ -218,18 +227,18 @@ impl Loader<'_> {
                 Some(self.side(source, step.test, self.guides))
             },
         );
-        Loaded { reference, test }
+        Loaded { reference, test, dominant: None }
     }
 
-    /// The frame of a step whose built-in scene is sampled itself: its ground truth is not needed and
+    /// A frame whose built-in scene is sampled itself: its ground truth is not needed and
     /// black, and only its motion and depth are computed, if they are wanted.
-    pub(crate) fn unlit(&self, builtin: &Builtin, step: &Step<'_>) -> Loaded {
-        let at = step.found.reference;
+    pub(crate) fn unlit(&self, builtin: &Builtin, found: &FoundFrame) -> Side {
+        let at = found.reference;
         let (width, height) = (builtin.view().width, builtin.view().height);
         let black = Samples::F32(vec![0.0; 3 * width * height]);
         let frame = Frame::new(width, height, Channels::Rgb, black);
         let frame = frame.unwrap_or_else(|_| unreachable!("three values for each pixel"));
-        let side = Side {
+        Side {
             file: self.sources.reference.listing().name(at).into(),
             frame,
             guides: if self.guides { builtin.guides(at) } else { Guides::default() },
@@ -239,8 +248,7 @@ impl Loader<'_> {
             made: None,
             bad: None,
             missing: MissingGuides::default(),
-        };
-        Loaded { reference: Some(Ok(side)), test: None }
+        }
     }
 
     /// Loads the frames of a pair alone, for code that looks ahead in a sequence. A test that is
@@ -269,7 +277,7 @@ impl Loader<'_> {
     }
 
     /// Loads a reference with its motion and depth, from its own source or from others.
-    fn reference(&self, found: &FoundFrame, first: bool) -> Result<Side, LoadError> {
+    pub(crate) fn reference(&self, found: &FoundFrame, first: bool) -> Result<Side, LoadError> {
         let mut side = self.side(&*self.sources.reference, found.reference, self.guides)?;
         if !self.guides {
             return Ok(side);

@@ -12,6 +12,7 @@
 //! | FovVideoVDP's pyramids | 5/4 n for each channel of reference and test: two levels at a time |
 //! | ATD | luma, 4 n for each of this frame and the one before, for the reference and for each method |
 //! | emulation | 24 n for the picture of the reference and that of a test, and 12 n for each temporal filter |
+//! | reprojection | the decoded frames of the dominant eye, 24 n for its pictures, and 12 n for each temporal filter |
 //! | maps | 7 n for the values and the image of each map; GMSD has a quarter of the pixels |
 //! | MS-SSIM | 3 n for the second level of both images |
 //!
@@ -45,6 +46,8 @@ struct Amount<'a> {
     maps: bool,
     /// Number of emulated methods, and of those with a temporal filter.
     emulated: [u64; 2],
+    /// The same of methods that take from the frames of the dominant eye, and of their filters there.
+    reprojected: [u64; 2],
 }
 
 impl Amount<'_> {
@@ -73,9 +76,16 @@ impl Amount<'_> {
         let maps = if self.maps { maps.into_values().sum() } else { 0 };
         let [emulated, filtered] = self.emulated;
         let emulation = if emulated > 0 { planes(6 + 3 * filtered) } else { 0 };
+        let [reprojected, filtered] = self.reprojected;
+        let reprojection = if reprojected > 0 {
+            file.saturating_mul(pairs * self.pixel_bytes).saturating_add(planes(6 + 3 * filtered))
+        } else {
+            0
+        };
         Needed(vec![
             ("decoded frames", decoded),
             ("emulation", emulation),
+            ("reprojection", reprojection),
             ("maps", maps),
             (FVVDP, fvvdp),
             ("ATD", atd),
@@ -117,6 +127,7 @@ pub(crate) fn check(
     let crop = settings.crop.map(|crop| (crop.width as u64).saturating_mul(crop.height as u64));
     let timings = timings(view, view.fps, &plan.params.fvvdp).unwrap_or_default();
     let windows = timings.values().filter_map(|timing| Some(timing.time.as_ref().ok()?.reach()));
+    let taken = || view.sources.emulations().filter_map(|(_, of)| of.reproject());
     let amount = Amount {
         pixels: [file, crop.unwrap_or(file).min(file)],
         pixel_bytes: reference.bytes_per_pixel(),
@@ -128,6 +139,10 @@ pub(crate) fn check(
         emulated: [
             view.sources.emulations().count() as u64,
             view.sources.emulations().filter(|(_, of)| of.spec.is_temporal()).count() as u64,
+        ],
+        reprojected: [
+            taken().count() as u64,
+            taken().filter(|reproject| reproject.spec.is_temporal()).count() as u64,
         ],
     };
     let needed = amount.needed();
@@ -160,6 +175,7 @@ mod tests {
             window: 23,
             maps: false,
             emulated: [0; 2],
+            reprojected: [0; 2],
         }
     }
 
@@ -202,6 +218,12 @@ mod tests {
         assert!(crop.bytes() < RETINAL * 12 + 1_000_000, "{crop}");
         let emulated = Amount { emulated: [5, 1], ..amount(&metrics) }.needed().bytes() / RETINAL;
         assert_eq!(emulated - of(&metrics), 24 + 12, "one test at a time, and one history");
+        let reprojected = Amount { reprojected: [2, 1], ..amount(&metrics) }.needed();
+        assert_eq!(
+            reprojected.bytes() / RETINAL - of(&metrics),
+            6 + 24 + 12,
+            "two frames of the other eye"
+        );
         let several = Amount { methods: 3, ..amount(&[Metric::Fvvdp]) }.needed();
         assert!(several.bytes() > 2 * 13_000_000_000 && several.is_of_fvvdp(), "{several}");
     }

@@ -200,7 +200,7 @@ fn of_view(
         return Ok(ViewFindings::default());
     }
     let fvvdp = metrics.contains(&Metric::Fvvdp);
-    let temporal = |(_, emulation): (usize, &Emulation)| emulation.spec.is_temporal();
+    let temporal = |(_, emulation): (usize, &Emulation)| emulation.is_temporal();
     let filtered = view.sources.emulations().any(temporal);
     if Needs::of(&metrics).lead_in > LeadIn::None || filtered {
         let timings = timings(view, view.fps, &plan.params.fvvdp);

@@ -5,6 +5,7 @@ use fovqa_plan::{Plan, SourceSpec};
 use fovqa_results::RunResults;
 
 use crate::assemble::{results, whole};
+use crate::dominant_eye::DominantEye;
 use crate::error::EngineError;
 use crate::events::{Events, Progress, Warnings};
 use crate::findings::{ComparisonIndex, Entry, Findings, Named, Record};
@@ -77,7 +78,8 @@ pub fn score(
         let range = unit.pairs.clone();
         let scene = &plan.scenes[view.scene];
         let bands = scene_bands(scene, found, view.scene);
-        let scoring = Scoring { plan, scene, view, bands: bands.as_ref(), range };
+        let dominant = DominantEye::of(plan, found, view);
+        let scoring = Scoring { plan, scene, view, bands: bands.as_ref(), dominant, range };
         let mut recorder = Recorder {
             inputs: &mut findings.inputs,
             warnings: &mut warnings,

@@ -12,13 +12,14 @@ use fovqa_results::{Input, Inputs};
 use fovqa_vision::{BandEdges, GazeAt};
 
 use crate::assemble::whole;
+use crate::dominant_eye::DominantEye;
 use crate::error::EngineError;
 use crate::events::{Progress, Warnings};
 use crate::findings::{Entry, Finished, Named, Outcome, Record, Settled, ViewFindings};
 use crate::found::{FoundInputs, FoundView};
 use crate::found_frame::FoundFrame;
 use crate::inputs::identity;
-use crate::load::{Loaded, Loader};
+use crate::load::{Loaded, Loader, Step};
 use crate::memory;
 use crate::open_ended::{Ended, OpenEnded};
 use crate::read_ahead::read_ahead;
@@ -33,6 +34,8 @@ pub(crate) struct Scoring<'a> {
     pub(crate) view: &'a FoundView,
     /// Bands of the whole scene, if they depend on the views of both eyes.
     pub(crate) bands: Option<&'a BandEdges>,
+    /// The dominant eye of the scene, if methods take from its frames.
+    pub(crate) dominant: Option<DominantEye<'a>>,
     /// Range of the view's pairs to score. It is not empty.
     pub(crate) range: Range<usize>,
 }
@@ -56,7 +59,7 @@ impl Recorder<'_, '_, '_> {
 
     /// Records the files that were read for a step.
     fn inputs_of(&mut self, loaded: &Loaded) -> Result<(), EngineError> {
-        let sides = loaded.reference.iter().chain(&loaded.test).flatten();
+        let sides = loaded.reference.iter().chain(&loaded.test).chain(&loaded.dominant).flatten();
         let mut ids = sides.flat_map(|side| side.ids.iter().map(move |id| (&side.file, id)));
         ids.try_for_each(|(frame, (file, id))| {
             // Usually, the frame has the name of its file, and both share it.
@@ -100,11 +103,18 @@ impl<'a> Scoring<'a> {
         if work.todo.is_empty() && known.settled.is_some() {
             return Ok(known);
         }
-        let temporal = |(_, emulation): (usize, &Emulation)| emulation.spec.is_temporal();
-        let guides = Needs::of(&metrics).guides || self.view.sources.emulations().any(temporal);
+        let uses_guides = |(_, emulation): (usize, &Emulation)| emulation.uses_guides();
+        let guides = Needs::of(&metrics).guides || self.view.sources.emulations().any(uses_guides);
         let loader = Loader { settings: &eye.settings, sources: &self.view.sources, guides };
         let sequence = (self.bands, self.view.fps);
-        let mut run = ViewRun::new(plan, eye, self.view, mask, metrics.clone(), sequence, &loader);
+        let mut run = ViewRun::new(
+            (plan, eye, self.view),
+            mask,
+            metrics.clone(),
+            sequence,
+            &loader,
+            self.dominant,
+        );
         let mut findings = known;
         let frame = self.take_up(&work, &mut run, &loader, &mut findings, recorder)?;
         let passed_over = self.score((&work, frame), &mut run, &loader, &mut findings, recorder)?;
@@ -132,7 +142,7 @@ impl<'a> Scoring<'a> {
                 continue;
             }
             frame = Some(step.frame);
-            let loaded = loader.load(&step);
+            let loaded = self.load(loader, &step);
             recorder.inputs_of(&loaded)?;
             if let Err(failure) = run.take_in(&step, loaded, kept, recorder.warnings) {
                 (recorder.record)(Entry::Before(self.named(step.method), &failure))?;
@@ -157,7 +167,7 @@ impl<'a> Scoring<'a> {
         read_ahead(
             work.todo.len(),
             loader.loaders(),
-            |nth| loader.load(&work.nth_step(nth, frame)),
+            |nth| self.load(loader, &work.nth_step(nth, frame)),
             Loaded::bytes,
             |nth, loaded| {
                 let (index, step) = (&work.todo[nth], &work.nth_step(nth, frame));
@@ -211,6 +221,13 @@ impl<'a> Scoring<'a> {
             findings.pairs.insert(pairs, Box::new(outcome));
         }
         Ok(passed_over)
+    }
+
+    /// Loads the frames of a step, and with its reference that of the dominant eye.
+    fn load(&self, loader: &Loader<'_>, step: &Step<'_>) -> Loaded {
+        let dominant = || Some(self.dominant.filter(|_| step.reference)?.load(step.found.number));
+        let (loaded, dominant) = rayon::join(|| loader.load(step), dominant);
+        Loaded { dominant, ..loaded }
     }
 
     fn settled(&self, run: &ViewRun<'_>, metrics: Vec<Metric>, work: &Work<'_>) -> Settled {

@@ -97,7 +97,7 @@ impl Opener<'_> {
         wanted
     }
 
-    /// Opens the files of motion and depth, if there are any and a metric or a temporal filter uses them, and finds
+    /// Opens the files of motion and depth, if there are any and a metric or a method uses them, and finds
     /// those that belong to each reference. A frame may have none: whether that is an error depends
     /// on the whole sequence.
     pub(crate) fn guides(
@@ -106,7 +106,7 @@ impl Opener<'_> {
         frames: &mut [FoundFrame],
     ) -> Result<[Option<Arc<dyn Source>>; 2], EngineError> {
         let filters = |(_, test): &(usize, SourceSpec)| match test {
-            SourceSpec::Emulated(emulation) => emulation.spec.is_temporal(),
+            SourceSpec::Emulated(emulation) => emulation.uses_guides(),
             SourceSpec::Files(_) | SourceSpec::Given(_) | SourceSpec::Builtin(_) => false,
         };
         let wanted = self.plan.metrics.metrics().contains(&Metric::Atd);

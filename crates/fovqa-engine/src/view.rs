@@ -4,17 +4,17 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use fovqa_emulate::Counts;
 use fovqa_frame::{Frame, Mask, SignalTables};
 use fovqa_metrics::{Image, Key, Layouts, Map, Metric, MetricKind, Needs, Rows, Subject};
 use fovqa_plan::{EyeView, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::BandEdges;
 
+use crate::dominant_eye::DominantEye;
 use crate::emulated_methods::EmulatedMethods;
 use crate::events::Warnings;
 use crate::found::FoundView;
-use crate::load::{Fault, Loaded, Loader, Side, Step, comparable};
+use crate::load::{Fault, Loaded, Loader, Made, Side, Step, comparable};
 use crate::meters::{Measured, Meters, Pair};
 use crate::setup::{Inputs, Setup};
 use crate::work::Work;
@@ -40,7 +40,7 @@ pub(crate) struct ViewRun<'a> {
     /// The reference of the present frame.
     reference: Option<Result<Side, Fault>>,
     meters: Meters,
-    emulated: EmulatedMethods,
+    emulated: EmulatedMethods<'a>,
     layouts: Layouts,
     loader: &'a Loader<'a>,
     /// Position of the reference's frame.
@@ -49,14 +49,14 @@ pub(crate) struct ViewRun<'a> {
 
 impl<'a> ViewRun<'a> {
     pub(crate) fn new(
-        plan: &'a Plan,
-        eye: &'a EyeView,
-        view: &'a FoundView,
+        (plan, eye, view): (&'a Plan, &'a EyeView, &'a FoundView),
         mask: Option<Mask>,
         metrics: Vec<Metric>,
         (bands, fps): (Option<&'a BandEdges>, Option<f64>),
         loader: &'a Loader<'a>,
+        dominant: Option<DominantEye<'a>>,
     ) -> Self {
+        let needs_light = Needs::of(&metrics).luminance;
         Self {
             plan,
             eye,
@@ -67,7 +67,7 @@ impl<'a> ViewRun<'a> {
             setup: None,
             reference: None,
             meters: Meters::new(plan, &eye.settings, &metrics, view, fps),
-            emulated: EmulatedMethods::new(view, eye, Needs::of(&metrics).luminance),
+            emulated: EmulatedMethods::new(view, eye, dominant, needs_light),
             layouts: Layouts::default(),
             metrics,
             loader,
@@ -165,7 +165,7 @@ impl<'a> ViewRun<'a> {
             if let Some(Ok(old)) = &self.reference {
                 self.meters.leave(old, self.position);
             }
-            self.emulated.leave();
+            self.emulated.enter(loaded.dominant);
             self.position = self.view.frames[step.frame].position;
             self.reference = Some(reference.map_err(Fault::from));
         }
@@ -270,7 +270,7 @@ impl<'a> ViewRun<'a> {
             self.with_pair(step, (reference, test), gaze_px, finite, |meters, pair| {
                 let mut measured = meters.measure(pair, warnings)?;
                 if let Some(made) = &test.made {
-                    add_samples(&made.counts, pair.setup.size, &mut measured.rows);
+                    add_samples(made, pair.setup.size, &mut measured.rows);
                 }
                 warn_of_left_out(&pair.setup.metrics, &measured.rows, frame.number, warnings);
                 Ok(measured)
@@ -340,14 +340,16 @@ impl<'a> ViewRun<'a> {
 }
 
 /// Adds the samples that an emulated test stands for.
-fn add_samples(counts: &Counts, (width, height): (usize, usize), rows: &mut Rows) {
+fn add_samples(made: &Made, (width, height): (usize, usize), rows: &mut Rows) {
+    let counts = &made.counts;
     let values = [
         (Subject::Samples, counts.samples),
         (Subject::SamplesOnScreen, counts.samples_on_screen),
         (Subject::SamplesBeyond, counts.samples_beyond),
         (Subject::SamplesShare, counts.share((width * height) as f64)),
     ];
-    for (subject, value) in values {
+    let reshaded = made.reshaded_share.map(|share| (Subject::ReshadedShare, share));
+    for (subject, value) in values.into_iter().chain(reshaded) {
         rows.score(Key::pixels(subject).of_image(Image::Test), value);
     }
 }

@@ -48,10 +48,7 @@ impl ViewSources {
 
     /// Whether a method's temporal filter needs the frames before each frame.
     pub(crate) fn is_temporal(&self, method: usize) -> bool {
-        self.tests
-            .get(&method)
-            .and_then(TestSource::emulation)
-            .is_some_and(|emulation| emulation.spec.is_temporal())
+        self.tests.get(&method).and_then(TestSource::emulation).is_some_and(Emulation::is_temporal)
     }
 
     /// All sources of the view that are read.

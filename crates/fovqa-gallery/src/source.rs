@@ -25,6 +25,13 @@ impl BuiltinSource {
         Self { builtin, listing, id }
     }
 
+    /// The sequence as an input of a run. Sequences of one scene differ in their names, as files do: two
+    /// eyes, or two sizes, are two inputs.
+    fn input(&self) -> (String, InputId) {
+        let short: String = self.id.sha256.chars().take(8).collect();
+        (format!("{}#{short}", self.listing.argument), self.id.clone())
+    }
+
     fn check(&self, frame: usize) -> Result<(), SourceError> {
         if frame < self.builtin.spec().frames {
             return Ok(());
@@ -56,19 +63,19 @@ impl Source for BuiltinSource {
         if guides {
             picture.guides = self.builtin.guides(frame);
         }
-        picture.inputs = vec![(self.listing.argument.clone(), self.id.clone())];
+        picture.inputs = vec![self.input()];
         Ok(picture)
     }
 
     fn read_guides(&self, frame: usize) -> Result<PictureGuides, SourceError> {
         self.check(frame)?;
         let guides = self.builtin.guides(frame);
-        let inputs = vec![(self.listing.argument.clone(), self.id.clone())];
-        Ok(PictureGuides { guides, notes: Vec::new(), inputs })
+        Ok(PictureGuides { guides, notes: Vec::new(), inputs: vec![self.input()] })
     }
 
     fn origins(&self, _frame: usize) -> Vec<(String, Origin)> {
-        vec![(self.listing.argument.clone(), Origin::Made(self.id.clone()))]
+        let (name, id) = self.input();
+        vec![(name, Origin::Made(id))]
     }
 
     fn fps(&self) -> Option<f64> {

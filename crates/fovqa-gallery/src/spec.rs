@@ -28,6 +28,8 @@ pub const IPD_M: f64 = 0.063;
 impl BuiltinSpec {
     /// The most frames.
     pub const MOST_FRAMES: usize = 100_000;
+    /// The longest side of a frame in pixels.
+    pub const MOST_SIDE: usize = 32_768;
     /// The most samples for each pixel.
     pub const MOST_SAMPLES: usize = 4096;
 
@@ -88,8 +90,7 @@ pub enum GalleryError {
 
 /// Checks the size of a view.
 pub(crate) fn check_size(view: &View) -> Result<(), GalleryError> {
-    const MOST: usize = 32_768;
     let View { width, height, .. } = *view;
-    let fits = |side: usize| (1..=MOST).contains(&side);
+    let fits = |side: usize| (1..=BuiltinSpec::MOST_SIDE).contains(&side);
     if fits(width) && fits(height) { Ok(()) } else { Err(GalleryError::Size { width, height }) }
 }

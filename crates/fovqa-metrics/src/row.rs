@@ -41,6 +41,9 @@ pub enum Subject {
     SamplesBeyond,
     /// All of its samples over the pixels of the frame.
     SamplesShare,
+    /// The share of an eye's own samples that it shades, because their pixels cannot be taken from the
+    /// frame of the other eye.
+    ReshadedShare,
     /// A metric.
     Metric(Metric),
 }
@@ -85,11 +88,11 @@ const PIXELS: Statistic = Statistic::count("");
 /// The statistic of sample counts. They are not whole numbers for methods with a continuous rate.
 const SAMPLES: Statistic = Statistic::of_test("").over_eyes(Pooling::Sum);
 
-/// The statistic of the share of samples.
+/// The statistic of shares of samples.
 const SHARE: Statistic = Statistic::of_test("");
 
 impl Subject {
-    const COUNTS: [Subject; 7] = [
+    const COUNTS: [Subject; 8] = [
         Subject::Pixels,
         Subject::PixelsOutsideBands,
         Subject::PixelsLeftOut,
@@ -97,6 +100,7 @@ impl Subject {
         Subject::SamplesOnScreen,
         Subject::SamplesBeyond,
         Subject::SamplesShare,
+        Subject::ReshadedShare,
     ];
 
     /// Its name in results.
@@ -109,6 +113,7 @@ impl Subject {
             Subject::SamplesOnScreen => "samples_on_screen",
             Subject::SamplesBeyond => "samples_beyond",
             Subject::SamplesShare => "samples_share",
+            Subject::ReshadedShare => "reshaded_share",
             Subject::Metric(metric) => metric.key(),
         }
     }
@@ -125,7 +130,7 @@ impl Subject {
             Subject::Metric(metric) => metric.info().statistics,
             Subject::Pixels | Subject::PixelsOutsideBands | Subject::PixelsLeftOut => &[PIXELS],
             Subject::Samples | Subject::SamplesOnScreen | Subject::SamplesBeyond => &[SAMPLES],
-            Subject::SamplesShare => &[SHARE],
+            Subject::SamplesShare | Subject::ReshadedShare => &[SHARE],
         }
     }
 
@@ -208,7 +213,8 @@ impl Key {
             Subject::SamplesOnScreen => (4, true),
             Subject::SamplesBeyond => (5, true),
             Subject::SamplesShare => (6, true),
-            Subject::Metric(metric) => (7 + metric as u64, false),
+            Subject::ReshadedShare => (7, true),
+            Subject::Metric(metric) => (8 + metric as u64, false),
         };
         let area = match (self.band, self.level) {
             (None, _) if counted => 1,

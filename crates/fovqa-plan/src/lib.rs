@@ -10,11 +10,13 @@ mod builtin;
 mod curves;
 mod emulation;
 mod experiment;
+mod eye;
 mod figures;
 mod gates;
 mod output;
 mod plan;
 mod plots;
+mod reprojection;
 mod resolved;
 mod settings;
 mod source;
@@ -26,13 +28,15 @@ pub use curves::{
 };
 pub use emulation::{Emulation, emulation_keys};
 pub use experiment::Experiment;
+pub use eye::Eye;
 pub use figures::{
     AxisScale, AxisSettings, Colour, FigureFormat, FigureSettings, PaletteChoice, PaletteName,
 };
 pub use gates::{Aggregate, Allowance, GateRule, Quantity, better};
 pub use output::{OutputSettings, TableFormat};
-pub use plan::{Eye, EyeView, MetricChoice, Plan, Scene};
+pub use plan::{EyeView, MetricChoice, Plan, Scene};
 pub use plots::{Plot, PlotKind};
+pub use reprojection::{Reproject, Reprojection};
 pub use resolved::{Resolved, ResolvedEye, ResolvedScene, other_parameter};
 pub use settings::{Gaze, Nonfinite, Settings};
 pub use source::SourceSpec;

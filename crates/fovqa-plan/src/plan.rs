@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use fovqa_io::sequence::{FrameRange, shown};
 use fovqa_metrics::{Metric, ParamSet};
-use fovqa_params::{Words, words};
+use fovqa_params::Words;
 use serde::{Deserialize, Serialize};
 
+use crate::eye::Eye;
 use crate::settings::Settings;
 use crate::source::SourceSpec;
 
@@ -29,26 +30,6 @@ impl MetricChoice {
             Self::Default => &Metric::DEFAULT,
             Self::Named(named) => named,
         }
-    }
-}
-
-words! {
-    /// One eye of a scene with two.
-    pub enum Eye {
-        /// The left eye.
-        Left "left" "The left eye";
-        /// The right eye.
-        Right "right" "The right eye";
-    }
-}
-
-impl Eye {
-    /// Both eyes.
-    pub const BOTH: [Eye; 2] = [Eye::Left, Eye::Right];
-
-    /// The name of the eye in paths, which replaces `{eye}`.
-    pub fn name(self) -> &'static str {
-        self.word()
     }
 }
 

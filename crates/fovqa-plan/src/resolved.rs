@@ -12,9 +12,10 @@ use serde_json::{Value, json};
 
 use crate::emulation::emulation_keys;
 use crate::experiment::Experiment;
+use crate::eye::Eye;
 use crate::figures::FigureSettings;
 use crate::gates::GateRule;
-use crate::plan::{Eye, EyeView, MetricChoice, Plan};
+use crate::plan::{EyeView, MetricChoice, Plan};
 use crate::plots::Plot;
 use crate::settings::{Gaze, Settings};
 use crate::source::SourceSpec;
@@ -286,7 +287,7 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
         let method = plan.methods[*index].clone();
         match test {
             SourceSpec::Emulated(emulation) => {
-                emulations.insert(method, emulation_keys(&emulation.spec));
+                emulations.insert(method, emulation_keys(emulation));
             }
             SourceSpec::Files(_) | SourceSpec::Given(_) | SourceSpec::Builtin(_) => {
                 tests.insert(method, plan.shown_source(test));

@@ -16,6 +16,9 @@ pub struct SampleSummary {
     pub beyond: f64,
     /// All samples over the pixels of the frame.
     pub share: f64,
+    /// The share of the eye's own samples that it shades, if it takes the others from the other eye.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reshaded_share: Option<f64>,
 }
 
 impl SampleSummary {
@@ -32,6 +35,7 @@ impl SampleSummary {
             on_screen: mean(Subject::SamplesOnScreen)?,
             beyond: mean(Subject::SamplesBeyond)?,
             share: mean(Subject::SamplesShare)?,
+            reshaded_share: mean(Subject::ReshadedShare),
         })
     }
 }

@@ -183,6 +183,10 @@ fn check_emulation_keys(
             check_value(&key.kind, value, &place(), faults);
         } else if let Some((_, info)) = settable.iter().find(|(known, _)| known == text) {
             check_value(&parameter(info.values), value, &place(), faults);
+        } else if text == "model" {
+            let message =
+                format!("{OTHER_EYE} cannot have a model: both eyes have that of the method");
+            faults.push(Fault::new(name.span(), message).help("leave it out"));
         } else {
             let known = settable.iter().map(|(name, _)| name.as_str());
             let known: Vec<&str> = known.chain(emulate::keys(other_eye).map(|k| k.name)).collect();
@@ -250,8 +254,9 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
                 faults.push(no_such(place, text, span, known));
             }
         }
-        (Kind::Resolution, DeValue::String(text)) => {
-            if resolution(text).is_none() {
+        (Kind::Resolution(most), DeValue::String(text)) => {
+            let fits = |size: [usize; 2]| size.iter().all(|side| side <= most);
+            if !resolution(text).is_some_and(fits) {
                 out_of_range(&format!("\"{text}\""));
             }
         }
@@ -333,7 +338,7 @@ fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
                 | Kind::Frames
                 | Kind::Display
                 | Kind::Metric
-                | Kind::Resolution
+                | Kind::Resolution(_)
         ),
         DeValue::Integer(_) | DeValue::Float(_) => {
             matches!(

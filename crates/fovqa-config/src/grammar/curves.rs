@@ -20,7 +20,7 @@ const NAMES: Kind = Kind::List(&Kind::Name, 1, 1000);
 const SCREENS: &[Key] = &[
     key(
         "resolutions",
-        Kind::List(&Kind::Resolution, 1, 100),
+        Kind::List(&Kind::Resolution(100_000), 1, 100),
         "sizes of the frame, such as [\"2560x1440\"]; one curve for each",
     ),
     key(

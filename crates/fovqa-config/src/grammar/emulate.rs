@@ -37,13 +37,30 @@ static AROUND: [Key; 8] = [
 ];
 
 /// The keys of the whole method.
-static WHOLE: [Key; 2] = [
+static WHOLE: [Key; 3] = [
     key("keep_frames", Kind::Bool, "whether the emulated frames are written beside the results"),
     key(
         "dominant",
         Kind::Words(words_of::<Eye>),
-        "the eye that the parameters belong to, where other_eye is given; default: right",
+        "the eye that the parameters belong to, where other_eye or reproject is given; default: right",
     ),
+    key(
+        REPROJECT,
+        Kind::Table(&REPROJECTION),
+        "the eye that is not dominant takes what it can from the dominant eye's frame",
+    ),
+];
+
+/// The name of the table of reprojection.
+pub(crate) const REPROJECT: &str = "reproject";
+
+static REPROJECTION: [Key; 2] = [
+    key(
+        "ipd_mm",
+        Kind::Above(0.0, 1000.0),
+        "distance between both eyes; default: 63, or that of a built-in scene",
+    ),
+    key("depth_m", Kind::Above(0.0, 1e6), "metres per unit of depth; default: 1"),
 ];
 
 /// The name of the table with what differs for the other eye.

@@ -1,6 +1,7 @@
 //! The keys of an experiment file.
 
 use fovqa_frame::{SignalChannels, ToneMap, Transfer};
+use fovqa_gallery::BuiltinSpec;
 use fovqa_io::{AlphaPolicy, CodeRange, ColourMatrix, GuidePreset, MotionUnit};
 use fovqa_params::words_of;
 use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
@@ -296,7 +297,7 @@ static SCENE_TABLE: [Key; 11 + VIEW.len() + 1 + SHARED.len() + SIGNAL.len() + 2]
         key("builtin", Kind::Word(BUILTIN), "instead of reference: a scene that needs no files"),
         key(
             "resolution",
-            Kind::Resolution,
+            Kind::Resolution(BuiltinSpec::MOST_SIDE),
             "size of the frames of a built-in scene; default: that of the display",
         ),
         key(

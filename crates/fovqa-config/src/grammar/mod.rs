@@ -10,7 +10,7 @@ mod schema;
 
 pub(crate) use check::{check, number};
 pub(crate) use curves::{CURVES, MOST_CURVES};
-pub(crate) use emulate::OTHER_EYE;
+pub(crate) use emulate::{OTHER_EYE, REPROJECT};
 pub(crate) use experiment::EXPERIMENT;
 pub use schema::{curves_schema, schema};
 
@@ -57,8 +57,9 @@ pub(crate) enum Kind {
     Display,
     /// The name of a metric.
     Metric,
-    /// The size of a frame as text, `2560x1440`.
-    Resolution,
+    /// The size of a frame as text, `2560x1440`, with the largest side: 100,000, or 32,768 for frames
+    /// that are drawn.
+    Resolution(usize),
     /// A table with the name of a foveation method, `model`, and its parameters.
     Method,
     /// A table with the name of an acuity model, `model`, and its parameters.
@@ -101,7 +102,9 @@ impl Kind {
             Kind::Frames => "a range of frames such as \"0..100\" or \"0..100:5\"".to_owned(),
             Kind::Display => "the name of a display (`fovqa list displays`)".to_owned(),
             Kind::Metric => "the name of a metric".to_owned(),
-            Kind::Resolution => "a size such as \"2560x1440\", each side 1 to 100000".to_owned(),
+            Kind::Resolution(most) => {
+                format!("a size such as \"2560x1440\", each side 1 to {most}")
+            }
             Kind::Method | Kind::Emulation => {
                 "a table such as { model = \"rmfr\", sigma = 2.6 }".to_owned()
             }

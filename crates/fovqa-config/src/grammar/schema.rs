@@ -1,6 +1,7 @@
 //! Makes the JSON Schema of the grammar, for editors.
 
 use fovqa_emulate::EmulationSpec;
+use fovqa_gallery::BuiltinSpec;
 use fovqa_metrics::Metric;
 use fovqa_params::ParamInfo;
 use fovqa_vision::displays;
@@ -8,6 +9,11 @@ use serde_json::{Map, Value, json};
 
 use super::emulate;
 use super::{CURVES, EXPERIMENT, Key, Kind, LONGEST_TEXT, Model, parameter};
+
+/// Whole numbers from 1 on, as regular expressions.
+const TO_100000: &str = "([1-9][0-9]{0,4}|100000)";
+const TO_32768: &str =
+    "([1-9][0-9]{0,3}|[12][0-9]{4}|3[01][0-9]{3}|32[0-6][0-9]{2}|327[0-5][0-9]|3276[0-8])";
 
 /// The JSON Schema of an experiment file.
 pub fn schema() -> Value {
@@ -91,8 +97,9 @@ fn kind(kind: &Kind) -> Value {
             json!({ "enum": all })
         }
         Kind::Metric => json!({ "enum": Metric::ALL.map(Metric::key) }),
-        Kind::Resolution => {
-            json!({ "type": "string", "pattern": r"^ *0*([1-9][0-9]{0,4}|100000) *[x×] *0*([1-9][0-9]{0,4}|100000) *$" })
+        Kind::Resolution(most) => {
+            let side = if *most == BuiltinSpec::MOST_SIDE { TO_32768 } else { TO_100000 };
+            json!({ "type": "string", "pattern": format!(r"^ *0*{side} *[x×] *0*{side} *$") })
         }
         Kind::Method | Kind::Acuity => {
             let models = kind.models().map(|(_, models)| models).unwrap_or_default();

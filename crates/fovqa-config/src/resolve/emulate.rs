@@ -3,20 +3,27 @@
 use std::ops::Range;
 
 use fovqa_emulate::{Budget, EmulateError, EmulationSpec};
-use fovqa_plan::{Emulation, Eye};
+use fovqa_plan::{Emulation, Eye, EyeView, Reprojection, Scene};
 
 use super::metrics::param_value;
+use super::reproject::{Geometry, Reproject};
 use crate::fault::{Fault, Faults};
-use crate::grammar::OTHER_EYE;
+use crate::grammar::{OTHER_EYE, REPROJECT};
 use crate::node::Node;
+
+/// The parameter of VaFR that assumes what reprojection measures.
+const ASSUMED_SHARE: &str = "reprojected_share";
 
 /// An emulated method of the file.
 pub(super) struct Emulated {
     /// For scenes with one image per frame, and for the dominant eye.
-    dominant: Emulation,
+    dominant: EmulationSpec,
     /// For the other eye, if it differs.
-    other: Option<Emulation>,
+    other: Option<EmulationSpec>,
+    keep_frames: bool,
     dominant_eye: Eye,
+    /// Whether the other eye takes what it can from the dominant one.
+    reproject: Option<Reproject>,
     /// The position of the table.
     pub(super) span: Range<usize>,
     /// The position of the other eye's table.
@@ -32,12 +39,23 @@ impl Emulated {
         let spec = spec(&[node], faults)?;
         let other = node.table(OTHER_EYE);
         let other_spec = other.and_then(|other| self::spec(&[node, other], faults));
-        if node.has("dominant") && other.is_none() {
-            let message =
-                format!("the dominant eye of method \"{place}\" says nothing without {OTHER_EYE}");
+        let reproject = Reproject::new(node);
+        if node.has("dominant") && other.is_none() && reproject.is_none() {
+            let message = format!(
+                "the dominant eye of method \"{place}\" says nothing without {OTHER_EYE} or {REPROJECT}"
+            );
             let help =
                 "add other_eye = { … } with what differs for the other eye, or leave dominant out";
             faults.push(Fault::new(node.span("dominant"), message).help(help));
+        }
+        for table in [Some(node), other].into_iter().flatten().filter(|_| reproject.is_some()) {
+            if table.has(ASSUMED_SHARE) {
+                let message = format!(
+                    "method \"{place}\" has {ASSUMED_SHARE}, a share that is assumed, and {REPROJECT}, which \
+                     measures it"
+                );
+                faults.push(Fault::new(table.span(ASSUMED_SHARE), message).help("leave one out"));
+            }
         }
         for table in [Some(node), other].into_iter().flatten() {
             if table.has("budget_of") && !node.has("budget") && !table.has("budget") {
@@ -46,20 +64,42 @@ impl Emulated {
             }
         }
         Some(Self {
-            dominant: Emulation { spec, keep_frames },
-            other: other_spec.map(|spec| Emulation { spec, keep_frames }),
+            dominant: spec,
+            other: other_spec,
+            keep_frames,
             dominant_eye: node.word("dominant").unwrap_or(Eye::Right),
+            reproject,
             span,
             other_span: other.map(|_| node.span(OTHER_EYE)),
         })
     }
 
-    /// What an eye sees; `None` stands for scenes with one image per frame.
-    pub(super) fn of_eye(&self, eye: Option<Eye>) -> &Emulation {
-        match &self.other {
-            Some(other) if eye.is_some_and(|eye| eye != self.dominant_eye) => other,
-            _ => &self.dominant,
-        }
+    /// What the eyes of a scene see, in their order, and what is wrong with that.
+    pub(super) fn of_scene(
+        &self,
+        method: &str,
+        scene: &Scene,
+        faults: &mut Faults,
+    ) -> Vec<Emulation> {
+        let geometry = self.reproject.as_ref().and_then(|reproject| {
+            reproject.of_scene(method, scene).map_err(|fault| faults.push(fault)).ok()
+        });
+        let of_eye = |view: &EyeView| {
+            let is_other = view.eye.is_some_and(|eye| eye != self.dominant_eye);
+            let reprojection = match geometry {
+                None => Reprojection::None,
+                Some(_) if !is_other => Reprojection::Gives,
+                Some(Geometry { ipd_mm, depth_m }) => {
+                    let (dominant, spec) = (self.dominant_eye, self.dominant.clone());
+                    let reproject = fovqa_plan::Reproject { dominant, spec, ipd_mm, depth_m };
+                    Reprojection::Takes(Box::new(reproject))
+                }
+            };
+            let other = self.other.as_ref().filter(|_| is_other);
+            let spec = other.unwrap_or(&self.dominant).clone();
+            Emulation { spec, keep_frames: self.keep_frames, reprojection }
+        };
+        scene.eyes.iter().map(of_eye).collect()
     }
 }
 

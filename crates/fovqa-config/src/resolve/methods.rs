@@ -117,19 +117,19 @@ fn emulations(
     scene: &mut SceneEntry,
     faults: &mut Faults,
 ) {
-    for view in &mut scene.scene.eyes {
-        let emulation = emulated.of_eye(view.eye);
+    let method = table.text("name").unwrap_or_default();
+    let emulations = emulated.of_scene(method, &scene.scene, faults);
+    for (view, emulation) in scene.scene.eyes.iter_mut().zip(emulations) {
         if view.settings.view.is_none()
             && let Some(what) = emulation.spec.needs_view()
         {
-            let method = table.text("name").unwrap_or_default();
             let message = format!(
                 "method \"{method}\": {what} depends on visual angles, but scene \"{}\" has no view",
                 scene.scene.name
             );
             faults.push(Fault::new(emulated.span.clone(), message).help(VIEW_HELP));
         }
-        view.tests.push((index, emulation.clone().into()));
+        view.tests.push((index, emulation.into()));
     }
 }
 

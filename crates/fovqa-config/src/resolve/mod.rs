@@ -12,6 +12,7 @@ mod metrics;
 mod output;
 mod placeholders;
 mod plots;
+mod reproject;
 mod scenes;
 mod settings;
 mod view;

@@ -327,6 +327,7 @@ mod tests {
                 on_screen: 1.0,
                 beyond: 0.0,
                 share: 0.125,
+                reshaded_share: Some(0.25),
             }),
             haar: vec![haar],
             atd: Some(AtdSummary {
