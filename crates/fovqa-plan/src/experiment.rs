@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use fovqa_metrics::Metric;
+
 use crate::gates::GateRule;
 use crate::output::OutputSettings;
 use crate::plan::Plan;
@@ -22,6 +24,8 @@ pub struct Experiment {
     pub plan: Plan,
     /// How the results are written.
     pub output: OutputSettings,
+    /// The metrics in the order of the file; empty if the file names none.
+    pub metric_order: Vec<Metric>,
     /// Tables and figures; if empty, all that fit are made.
     pub plots: Vec<Plot>,
     /// The rules of its gate.

@@ -28,7 +28,7 @@ pub use experiment::Experiment;
 pub use gates::{Aggregate, Allowance, GateRule, Quantity, better};
 pub use output::{OutputSettings, TableFormat};
 pub use plan::{Eye, EyeView, MetricChoice, Plan, Scene};
-pub use plots::{Plot, PlotKind};
+pub use plots::{AveragePlace, Plot, PlotKind, SpreadOver, TableLayout};
 pub use resolved::{Resolved, ResolvedEye, ResolvedScene, other_parameter};
 pub use settings::{Gaze, Nonfinite, Settings};
 pub use source::SourceSpec;

@@ -6,6 +6,7 @@ mod curves;
 mod emulate;
 mod experiment;
 mod schema;
+mod tables;
 
 pub(crate) use check::{check, number};
 pub(crate) use curves::{CURVES, MOST_CURVES};
