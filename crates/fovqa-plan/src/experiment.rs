@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use fovqa_metrics::Metric;
+
 use crate::figures::FigureSettings;
 use crate::gates::GateRule;
 use crate::output::OutputSettings;
@@ -23,6 +25,8 @@ pub struct Experiment {
     pub plan: Plan,
     /// How the results are written.
     pub output: OutputSettings,
+    /// The metrics in the order of the file; empty if the file names none.
+    pub metric_order: Vec<Metric>,
     /// Tables and figures; if empty, all that fit are made.
     pub plots: Vec<Plot>,
     /// How figures are printed if the file requests none.

@@ -35,7 +35,7 @@ pub use figures::{
 pub use gates::{Aggregate, Allowance, GateRule, Quantity, better};
 pub use output::{OutputSettings, TableFormat};
 pub use plan::{EyeView, MetricChoice, Plan, Scene};
-pub use plots::{Plot, PlotKind};
+pub use plots::{AveragePlace, Plot, PlotKind, SpreadOver, TableLayout};
 pub use reprojection::{Reproject, Reprojection};
 pub use resolved::{Resolved, ResolvedEye, ResolvedScene, other_parameter};
 pub use settings::{Gaze, Nonfinite, Settings};

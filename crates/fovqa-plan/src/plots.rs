@@ -8,8 +8,8 @@ use crate::figures::FigureSettings;
 words! {
     /// What a table or figure shows.
     pub enum PlotKind {
-        /// Scenes against metrics and methods, the best of each row marked.
-        Table "table" "Scenes against metrics and methods, the best of each row marked";
+        /// Methods against metrics in each scene, the best marked.
+        Table "table" "Methods against metrics in each scene, the best marked";
         /// A metric against eccentricity.
         Profile "profile" "A metric against eccentricity";
         /// A metric per scene and method.
@@ -23,6 +23,46 @@ words! {
     }
 }
 
+words! {
+    /// What the rows and columns of a table are.
+    #[derive(Default)]
+    pub enum TableLayout {
+        /// One row per method, in a section for each scene; one column per metric.
+        #[default]
+        Methods "methods" "One row per method, in a section for each scene; one column per metric";
+        /// One row per scene; one column per metric and method.
+        Scenes "scenes" "One row per scene; one column per metric and method";
+        /// One row per metric, in a section for each scene; one column per method.
+        Transposed "transposed" "One row per metric, in a section for each scene; one column per method";
+    }
+}
+
+words! {
+    /// Where a table shows the averages over its scenes.
+    #[derive(Default)]
+    pub enum AveragePlace {
+        /// Before the scenes.
+        First "first" "Before the scenes";
+        /// After the scenes.
+        #[default]
+        Last "last" "After the scenes";
+        /// In place of the scenes.
+        Only "only" "In place of the scenes";
+        /// Nowhere.
+        None "none" "Nowhere";
+    }
+}
+
+words! {
+    /// The values whose standard deviation a table shows.
+    pub enum SpreadOver {
+        /// The values of the scenes, beside their average.
+        Scenes "scenes" "The values of the scenes, beside their average";
+        /// The values of the frames, beside the value of each scene.
+        Frames "frames" "The values of the frames, beside the value of each scene";
+    }
+}
+
 /// One table or figure, or one for each metric.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Plot {
@@ -30,6 +70,10 @@ pub struct Plot {
     pub kind: PlotKind,
     /// Key of its metric; `None` for each metric that fits.
     pub metric: Option<String>,
+    /// Keys of several metrics, in the order in which they are shown; for a comparison table, also
+    /// [`Plot::SAMPLES`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub metrics: Option<Vec<String>>,
     /// Its scenes; `None` for all.
     pub scenes: Option<Vec<String>>,
     /// Its methods; `None` for all.
@@ -43,19 +87,58 @@ pub struct Plot {
     /// How its figures are printed.
     #[serde(default, skip_serializing_if = "FigureSettings::is_default")]
     pub figure: FigureSettings,
+    /// Its caption, as plain text; `None` for one that describes the content.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub caption: Option<String>,
+    /// The label of a table in LaTeX; `None` for one made from the name of the experiment.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+    /// The name in a table's file names; `None` for the usual names.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// What the rows and columns of a table are.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub layout: TableLayout,
+    /// Where a table shows averages.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub average: AveragePlace,
+    /// The standard deviation that a table shows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread: Option<SpreadOver>,
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 impl Plot {
+    /// The word for the samples of emulated methods in a list of metrics.
+    pub const SAMPLES: &'static str = "samples";
+
     /// A plot of one kind that shows everything.
     pub fn of(kind: PlotKind) -> Self {
         Self {
             kind,
             metric: None,
+            metrics: None,
             scenes: None,
             methods: None,
             levels: None,
             statistic: None,
             figure: FigureSettings::default(),
+            caption: None,
+            label: None,
+            name: None,
+            layout: TableLayout::default(),
+            average: AveragePlace::default(),
+            spread: None,
         }
+    }
+
+    /// The metrics that the plot names, in order; `None` if it names none.
+    pub fn named(&self) -> Option<Vec<&str>> {
+        let one = || self.metric.as_deref().map(|metric| vec![metric]);
+        let several = self.metrics.as_ref();
+        several.map(|keys| keys.iter().map(String::as_str).collect()).or_else(one)
     }
 }

@@ -34,6 +34,9 @@ pub struct Resolved {
     pub methods: Vec<String>,
     /// Every metric by its key, with all its parameters.
     pub metrics: BTreeMap<String, BTreeMap<String, Value>>,
+    /// The keys of the metrics in the order of the file, if it is not that of [`Metric::ALL`].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub metric_order: Vec<String>,
     /// Whether these are the default metrics, without those that do not fit.
     pub default_metrics: bool,
     /// The selected frames of each scene; `None` for all.
@@ -93,6 +96,17 @@ pub struct ResolvedEye {
 }
 
 impl Resolved {
+    /// All metrics, those that the file names first and in its order.
+    pub fn metrics_in_order(&self) -> Vec<Metric> {
+        let place = |metric: &Metric| {
+            let key = metric.key();
+            self.metric_order.iter().position(|k| k == key).unwrap_or(usize::MAX)
+        };
+        let mut metrics = Metric::ALL.to_vec();
+        metrics.sort_by_key(place);
+        metrics
+    }
+
     /// Describes the difference from another experiment: metrics, parameters, scenes, methods, or
     /// how scenes are seen and read. `None` if they are the same.
     pub fn differs(&self, other: &Self) -> Option<String> {
@@ -211,6 +225,11 @@ impl Experiment {
             scenes: scenes.collect(),
             methods: plan.methods.clone(),
             metrics: plan.metrics.metrics().iter().map(params).collect(),
+            metric_order: if self.metric_order.is_sorted() {
+                Vec::new()
+            } else {
+                self.metric_order.iter().map(|metric| metric.key().to_owned()).collect()
+            },
             default_metrics: plan.metrics == MetricChoice::Default,
             frames: plan.frames.map(|range| range.to_string()),
             plots: self.plots.clone(),

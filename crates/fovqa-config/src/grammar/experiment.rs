@@ -7,6 +7,7 @@ use fovqa_params::words_of;
 use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
 
 use super::figures::FIGURES;
+use super::tables::{METRICS, TABLE_KEYS};
 use super::{Key, Kind};
 use fovqa_plan::Nonfinite;
 use fovqa_plan::PlotKind;
@@ -365,13 +366,16 @@ static OUTPUT: [Key; 2] = [
     ),
 ];
 
-static PLOT_TABLE: [Key; 7] = [
+static PLOT_TABLE: [Key; PLOT.len() + TABLE_KEYS.len()] = joined(&[PLOT, TABLE_KEYS]);
+
+const PLOT: &[Key] = &[
     required(
         "kind",
         Kind::Words(words_of::<PlotKind>),
-        "table: scenes against metrics and methods; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames; sequence: frame by frame, saccades marked; ratios: table of test / reference by eccentricity",
+        "table: methods against metrics in each scene; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames; sequence: frame by frame, saccades marked; ratios: table of test / reference by eccentricity",
     ),
     key("metric", Kind::Metric, "the metric; default: one figure per metric"),
+    METRICS,
     key("scenes", NAMES, "only these scenes"),
     key("methods", NAMES, "only these methods"),
     key(
@@ -385,6 +389,11 @@ static PLOT_TABLE: [Key; 7] = [
         "statistic of the wavelet; default: energy",
     ),
     key("figure", Kind::Table(&FIGURES), "how its figures are printed; default: as [figures]"),
+    key(
+        "caption",
+        Kind::Text,
+        "caption of the table or figure, as plain text; default: a description of the content",
+    ),
 ];
 
 /// The allowed distance of a value from the baseline.

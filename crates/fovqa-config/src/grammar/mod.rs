@@ -7,6 +7,7 @@ mod emulate;
 mod experiment;
 mod figures;
 mod schema;
+mod tables;
 
 pub(crate) use check::{check, number};
 pub(crate) use curves::{CURVES, MOST_CURVES};

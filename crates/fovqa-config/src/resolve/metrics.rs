@@ -10,15 +10,23 @@ use crate::grammar::number;
 use crate::node::{Node, flag, numbers, pairs, table, text};
 use fovqa_plan::MetricChoice;
 
-pub(super) fn metrics(root: Node<'_>, faults: &mut Faults) -> (MetricChoice, ParamSet) {
+/// The metrics of a file.
+pub(super) struct Metrics {
+    pub(super) choice: MetricChoice,
+    pub(super) params: ParamSet,
+    /// The metrics in the order of the file.
+    pub(super) order: Vec<Metric>,
+}
+
+pub(super) fn metrics(root: Node<'_>, faults: &mut Faults) -> Metrics {
     let mut params = ParamSet::default();
     let Some(metrics) = root.table("metrics") else {
-        return (MetricChoice::Default, params);
+        return Metrics { choice: MetricChoice::Default, params, order: Vec::new() };
     };
     let mut named = Vec::new();
     for (key, span, value) in metrics.entries() {
         let Some(metric) = Metric::find(key) else { continue };
-        named.push(metric);
+        named.push((span.start, metric));
         for (name, at, value) in table(value).iter().flat_map(|table| table.entries()) {
             let known = metric.info().params.iter().any(|param| param.name == name);
             let Some(value) = param_value(value).filter(|_| known) else { continue };
@@ -34,8 +42,12 @@ pub(super) fn metrics(root: Node<'_>, faults: &mut Faults) -> (MetricChoice, Par
             faults.push(Fault::new(span, error.to_string()));
         }
     }
+    // A table of the file is sorted by key; positions give the order that was written.
     named.sort_unstable();
-    (MetricChoice::Named(named), params)
+    let order: Vec<Metric> = named.into_iter().map(|(_, metric)| metric).collect();
+    let mut named = order.clone();
+    named.sort_unstable();
+    Metrics { choice: MetricChoice::Named(named), params, order }
 }
 
 pub(super) fn param_value(value: &Spanned<DeValue<'_>>) -> Option<ParamValue> {

@@ -15,11 +15,14 @@ mod plots;
 mod reproject;
 mod scenes;
 mod settings;
+mod tables;
 mod view;
 
 pub(crate) use curves::curves;
 
 use std::path::Path;
+
+use metrics::Metrics;
 
 use crate::fault::Faults;
 use crate::node::Node;
@@ -33,7 +36,7 @@ pub(crate) fn experiment(
     faults: &mut Faults,
 ) -> Experiment {
     let base = path.parent().map(Path::to_owned).unwrap_or_default();
-    let (choice, params) = metrics::metrics(root, faults);
+    let Metrics { choice, params, order } = metrics::metrics(root, faults);
     let mut scenes = scenes::scenes(root, &base, &choice, faults);
     let methods = methods::methods(root, &base, &mut scenes, faults);
     let known =
@@ -48,6 +51,7 @@ pub(crate) fn experiment(
         path: path.to_owned(),
         text: String::new(),
         output: output::output(root, faults),
+        metric_order: order,
         plots,
         figures,
         gates,

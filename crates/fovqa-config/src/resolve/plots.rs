@@ -1,9 +1,12 @@
 //! `[[plot]]`.
 
+use std::ops::Range;
+
 use fovqa_metrics::{Metric, MetricKind, Params};
 
 use super::figures::figure;
 use super::scenes::SceneEntry;
+use super::tables::with_table_keys;
 use super::view::VIEW_HELP;
 use crate::fault::{Fault, Faults};
 use crate::grammar::{first_quoted, quoted};
@@ -30,20 +33,27 @@ pub(super) fn plots(
         let kind = table.word("kind").unwrap_or(PlotKind::Table);
         let metric = table.text("metric");
         if let Some(metric) = metric {
-            scored(table, metric, kind, known, faults);
+            scored((metric, table.span("metric")), kind, known, faults);
         }
-        wavelet(table, metric, kind, known, faults);
+        let metrics = metrics(table, kind, known, faults);
+        let of_haar = metric == Some(Metric::Haar.key())
+            || metrics.iter().flatten().any(|metric| metric == Metric::Haar.key());
+        wavelet(table, of_haar, kind, known, faults);
         let scenes: Vec<&str> = known.scenes.iter().map(|s| s.scene.name.as_str()).collect();
         let methods: Vec<&str> = known.methods.iter().map(String::as_str).collect();
         let plot = Plot {
-            kind,
             metric: metric.map(str::to_owned),
+            metrics,
             scenes: subset(table, "scenes", &scenes, faults),
             methods: subset(table, "methods", &methods, faults),
             levels: levels(table),
             statistic: table.text("statistic").map(str::to_owned),
             figure: figure(table.table("figure"), figures, faults),
+            caption: table.text("caption").map(str::to_owned),
+            ..Plot::of(kind)
         };
+        let shown = plot.scenes.as_ref().map_or(scenes.len(), Vec::len);
+        let plot = with_table_keys(table, plot, shown, faults);
         if faults.is_empty() {
             shows_something(table, &plot, known, faults);
         }
@@ -67,7 +77,7 @@ fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut
         && eyes.iter().all(|e| e.settings.view.is_none())
     {
         ("the plot shows values by eccentricity, but none of its scenes has a view", VIEW_HELP)
-    } else if plot.metric.is_none() && !known.metrics.metrics().iter().any(|m| fits(*m, plot.kind))
+    } else if plot.named().is_none() && !known.metrics.metrics().iter().any(|m| fits(*m, plot.kind))
     {
         ("the plot has nothing to show: no metric that is scored fits its kind", "")
     } else {
@@ -76,13 +86,46 @@ fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut
     faults.push(Fault::new(table.span("kind"), message).help(help));
 }
 
+/// The metrics in a list, each once.
+fn metrics(
+    table: Node<'_>,
+    kind: PlotKind,
+    known: &Known<'_>,
+    faults: &mut Faults,
+) -> Option<Vec<String>> {
+    let named = table.names("metrics")?;
+    if table.has("metric") {
+        let message = "a plot has either metric or metrics";
+        faults.push(Fault::new(table.span("metrics"), message).help("leave out one of them"));
+    }
+    let mut metrics: Vec<String> = Vec::new();
+    for (key, span) in named {
+        match (key, kind) {
+            (Plot::SAMPLES, PlotKind::Table) => {}
+            (Plot::SAMPLES, _) => {
+                let message = "only a comparison table shows samples";
+                faults.push(Fault::new(span, message).help("use it with kind = \"table\""));
+            }
+            _ => scored((key, span), kind, known, faults),
+        }
+        if !metrics.iter().any(|known| known == key) {
+            metrics.push(key.to_owned());
+        }
+    }
+    Some(metrics)
+}
+
 /// Checks that a plot's metric is scored and fits the kind of plot.
-fn scored(table: Node<'_>, key: &str, kind: PlotKind, known: &Known<'_>, faults: &mut Faults) {
+fn scored(
+    (key, span): (&str, Range<usize>),
+    kind: PlotKind,
+    known: &Known<'_>,
+    faults: &mut Faults,
+) {
     let scored = known.metrics.metrics();
     let keys = || scored.iter().map(|metric| metric.key());
     let Some(metric) = scored.iter().find(|metric| metric.key() == key) else {
-        let fault =
-            Fault::new(table.span("metric"), format!("the plot's metric {key} is not scored"));
+        let fault = Fault::new(span, format!("the plot's metric {key} is not scored"));
         faults.push(
             fault.help(format!("add it to [metrics]; the scored metrics are {}", quoted(keys()))),
         );
@@ -96,7 +139,7 @@ fn scored(table: Node<'_>, key: &str, kind: PlotKind, known: &Known<'_>, faults:
         };
         let others = scored.iter().filter(|metric| fits(**metric, kind));
         let help = format!("these fit: {}", quoted(others.map(|metric| metric.key())));
-        faults.push(Fault::new(table.span("metric"), format!("{key} {why}")).help(help));
+        faults.push(Fault::new(span, format!("{key} {why}")).help(help));
     }
 }
 
@@ -118,15 +161,9 @@ fn levels(table: Node<'_>) -> Option<Vec<usize>> {
 }
 
 /// Checks that levels and statistic are given only for a plot that has them.
-fn wavelet(
-    table: Node<'_>,
-    metric: Option<&str>,
-    kind: PlotKind,
-    known: &Known<'_>,
-    faults: &mut Faults,
-) {
+fn wavelet(table: Node<'_>, of_haar: bool, kind: PlotKind, known: &Known<'_>, faults: &mut Faults) {
     let fits = matches!(kind, PlotKind::Profile | PlotKind::Ratios);
-    if !fits || metric != Some(Metric::Haar.key()) {
+    if !fits || !of_haar {
         for key in ["levels", "statistic"].into_iter().filter(|key| table.has(key)) {
             let message = format!("{key} only applies to the wavelet");
             let fault = Fault::new(table.span(key), message);
