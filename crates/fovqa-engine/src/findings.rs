@@ -8,6 +8,7 @@ use fovqa_metrics::{Map, Metric};
 use fovqa_plan::{Eye, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, Input, Inputs, ViewResult};
 
+use crate::crops::CropPair;
 use crate::error::EngineError;
 
 /// The findings of a whole run, of one of its shards, or of a run that was interrupted.
@@ -100,6 +101,8 @@ pub struct Finished<'a> {
     pub maps: &'a [Map],
     /// The test, if it was emulated and is to be kept.
     pub kept: Option<&'a Frame>,
+    /// The regions that figures show.
+    pub crops: &'a [CropPair],
 }
 
 /// An entry to be recorded.
@@ -192,6 +195,7 @@ impl Findings {
                     guides: outcome.guides,
                     maps: &[],
                     kept: None,
+                    crops: &[],
                 }))?;
             }
             let (scene, eye) = (&plan.scenes[scene].name, plan.scenes[scene].eyes[eye].eye);

@@ -5,6 +5,7 @@
 
 mod assemble;
 mod available_memory;
+mod crops;
 mod dominant_eye;
 mod emulated_methods;
 mod error;
@@ -49,6 +50,7 @@ mod view_sources;
 mod work;
 
 pub use assemble::results;
+pub use crops::CropPair;
 pub use error::EngineError;
 pub use events::Events;
 pub use find::find;

@@ -193,6 +193,7 @@ impl<'a> Scoring<'a> {
                     guides,
                     maps: result.as_ref().map_or(&[][..], |scored| scored.maps.as_slice()),
                     kept: result.as_ref().ok().and_then(|scored| scored.kept.as_ref()),
+                    crops: result.as_ref().map_or(&[][..], |scored| scored.crops.as_slice()),
                 }));
                 let result = result.map(|scored| scored.result);
                 let outcome = Outcome { method: step.method, result, guides };
@@ -217,6 +218,7 @@ impl<'a> Scoring<'a> {
                 guides: outcome.guides,
                 maps: &[],
                 kept: None,
+                crops: &[],
             }))?;
             findings.pairs.insert(pairs, Box::new(outcome));
         }

@@ -10,6 +10,7 @@ use fovqa_plan::{EyeView, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::BandEdges;
 
+use crate::crops::{CropPair, CropSource};
 use crate::dominant_eye::DominantEye;
 use crate::emulated_methods::EmulatedMethods;
 use crate::events::Warnings;
@@ -25,6 +26,8 @@ pub(crate) struct Scored {
     pub(crate) maps: Vec<Map>,
     /// The emulated frame, if it is to be kept.
     pub(crate) kept: Option<Frame>,
+    /// The regions that figures show.
+    pub(crate) crops: Vec<CropPair>,
 }
 
 /// The state of a view while its frames are scored.
@@ -289,7 +292,31 @@ impl<'a> ViewRun<'a> {
             rows: self.layouts.pack(&rows),
         };
         let kept = test.made.as_ref().and_then(|made| made.kept.clone());
-        Ok(Scored { result, maps, kept })
+        let crops = self.crops(step, (reference, test), gaze_px.or(fixed), warnings);
+        Ok(Scored { result, maps, kept, crops })
+    }
+
+    /// The regions of a pair that figures show.
+    fn crops(
+        &self,
+        step: &Step<'_>,
+        (reference, test): (&Side, &Side),
+        gaze_px: Option<[f64; 2]>,
+        warnings: &mut Warnings<'_>,
+    ) -> Vec<CropPair> {
+        if self.plan.crops.is_empty() {
+            return Vec::new();
+        }
+        let source = CropSource {
+            scene: &self.plan.scenes[self.view.scene].name,
+            eye: self.eye,
+            frame: (self.view.frames[step.frame].number, step.frame == 0),
+            reference: &reference.frame,
+            test: &test.frame,
+            gaze_px,
+            tables: &self.tables,
+        };
+        source.cut(&self.plan.crops, warnings)
     }
 
     /// Passes a pair with its gaze to the meters.

@@ -7,6 +7,7 @@
 //! itself.
 
 mod builtin;
+mod crops;
 mod curves;
 mod emulation;
 mod experiment;
@@ -22,6 +23,7 @@ mod settings;
 mod source;
 
 pub use builtin::BuiltinFrames;
+pub use crops::CropRegion;
 pub use curves::{
     CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, CurvesFile, PanelOf, RateKind,
     RateUnit,
@@ -35,7 +37,7 @@ pub use figures::{
 pub use gates::{Aggregate, Allowance, GateRule, Quantity, better};
 pub use output::{OutputSettings, TableFormat};
 pub use plan::{EyeView, MetricChoice, Plan, Scene};
-pub use plots::{AveragePlace, Plot, PlotKind, SpreadOver, TableLayout};
+pub use plots::{AveragePlace, ErrorBars, Plot, PlotKind, SpreadOver, SpreadShape, TableLayout};
 pub use reprojection::{Reproject, Reprojection};
 pub use resolved::{Resolved, ResolvedEye, ResolvedScene, other_parameter};
 pub use settings::{Gaze, Nonfinite, Settings};

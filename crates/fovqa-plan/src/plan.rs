@@ -8,6 +8,7 @@ use fovqa_metrics::{Metric, ParamSet};
 use fovqa_params::Words;
 use serde::{Deserialize, Serialize};
 
+use crate::crops::CropRegion;
 use crate::eye::Eye;
 use crate::settings::Settings;
 use crate::source::SourceSpec;
@@ -84,6 +85,9 @@ pub struct Plan {
     pub hash_inputs: bool,
     /// Whether to make maps for the metrics that have one.
     pub maps: bool,
+    /// Regions of frames that figures show.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub crops: Vec<CropRegion>,
 }
 
 impl Plan {

@@ -3,6 +3,7 @@
 use fovqa_params::words;
 use serde::{Deserialize, Serialize};
 
+use crate::crops::CropRegion;
 use crate::figures::FigureSettings;
 
 words! {
@@ -18,6 +19,10 @@ words! {
         Frames "frames" "A metric's spread over the frames";
         /// A metric frame by frame, with saccades marked.
         Sequence "sequence" "A metric frame by frame, with saccades marked";
+        /// Regions of the reference and of all methods, side by side.
+        Crops "crops" "Regions of the reference and of all methods, magnified side by side";
+        /// Test / reference against eccentricity.
+        RatioProfile "ratio_profile" "Test / reference against eccentricity";
         /// Test / reference by eccentricity, as a table.
         Ratios "ratios" "Test / reference by eccentricity, as a table";
     }
@@ -63,6 +68,30 @@ words! {
     }
 }
 
+words! {
+    /// What error bars show.
+    pub enum ErrorBars {
+        /// The standard error of the mean.
+        StandardError "se" "Standard error of the mean";
+        /// The 95 % confidence interval of the mean.
+        Confidence "ci95" "95 % confidence interval of the mean (Student's t)";
+        /// The standard deviation.
+        Deviation "sd" "Standard deviation";
+    }
+}
+
+words! {
+    /// How a distribution is drawn.
+    #[derive(Default)]
+    pub enum SpreadShape {
+        /// A box plot.
+        #[default]
+        Box "box" "Box plot";
+        /// A violin.
+        Violin "violin" "Violin: the density, with quartiles and median inside";
+    }
+}
+
 /// One table or figure, or one for each metric.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Plot {
@@ -84,6 +113,15 @@ pub struct Plot {
     /// Statistic of the wavelet; `None` for the energy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statistic: Option<String>,
+    /// What the error bars of bars and profiles show; `None` for none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_bars: Option<ErrorBars>,
+    /// How distributions over frames are drawn.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub shape: SpreadShape,
+    /// Regions that are shown side by side.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub regions: Vec<CropRegion>,
     /// How its figures are printed.
     #[serde(default, skip_serializing_if = "FigureSettings::is_default")]
     pub figure: FigureSettings,
@@ -125,6 +163,9 @@ impl Plot {
             methods: None,
             levels: None,
             statistic: None,
+            error_bars: None,
+            shape: SpreadShape::default(),
+            regions: Vec::new(),
             figure: FigureSettings::default(),
             caption: None,
             label: None,

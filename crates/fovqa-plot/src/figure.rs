@@ -5,6 +5,7 @@ use crate::canvas::look::Look;
 use crate::canvas::printed::Printed;
 use crate::charts::bar::BarChart;
 use crate::charts::line::LineChart;
+use crate::charts::montage::MontageChart;
 use crate::charts::panels::PanelChart;
 use crate::charts::raster::RasterChart;
 use crate::charts::spread::SpreadChart;
@@ -27,6 +28,8 @@ pub enum Figure {
     Panels(PanelChart),
     /// Pictures of a quantity over a plane.
     Raster(RasterChart),
+    /// Pictures side by side.
+    Montage(MontageChart),
 }
 
 impl Figure {
@@ -69,6 +72,7 @@ impl Figure {
                 &mut chart.title
             }
             Self::Raster(chart) => &mut chart.title,
+            Self::Montage(chart) => &mut chart.title,
         };
         if !style.title {
             *title = None;
@@ -83,11 +87,13 @@ impl Figure {
             Self::Spread(chart) => chart.draw(paper),
             Self::Panels(chart) => Ok(chart.draw(paper)),
             Self::Raster(chart) => chart.draw(paper),
+            Self::Montage(chart) => Ok(chart.draw(paper)),
         }
     }
 
     /// The data of the figure as CSV, with one row per value: `series,x,y`, `panel,series,x,y`,
-    /// `group,series,value`, or `panel,x,y,value` at the centre of a cell. A missing value is an
+    /// `group,series,value`, `panel,x,y,value` at the centre of a cell, or `row,column` of pictures.
+    /// Where there are error bars, a column `error` has half their length. A missing value is an
     /// empty field, and an infinite value is `inf` or `-inf`. A span has two rows, one for each
     /// end, with an empty `y`, after the series of its chart. Areas between curves have no rows,
     /// because their edges are curves already.
@@ -98,6 +104,7 @@ impl Figure {
             Self::Spread(chart) => tidy::spread(chart),
             Self::Panels(chart) => tidy::panels(chart),
             Self::Raster(chart) => tidy::raster(chart),
+            Self::Montage(chart) => tidy::montage(chart),
         }
     }
 }

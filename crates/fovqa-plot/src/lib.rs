@@ -3,7 +3,7 @@
 //! and pictures have either.
 //!
 //! A figure is plain data ([`LineChart`], [`BarChart`], [`SpreadChart`], [`PanelChart`],
-//! [`RasterChart`]); nothing here knows what was measured. The same figure gives the same bytes on
+//! [`RasterChart`], [`MontageChart`]); nothing here knows what was measured. The same figure gives the same bytes on
 //! every machine and thread: text is measured and set in a bundled font, and no position depends on
 //! a function that differs between platforms.
 //!
@@ -44,9 +44,11 @@ mod tidy;
 pub use axes::axis::Axis;
 pub use canvas::look::Look;
 pub use canvas::palette::Palette;
+pub use canvas::photo::Photo;
 pub use canvas::printed::Printed;
 pub use charts::bar::{BarChart, BarSeries};
 pub use charts::line::{LineChart, LineSeries};
+pub use charts::montage::{MontageChart, MontageRow};
 pub use charts::panels::PanelChart;
 pub use charts::raster::RasterChart;
 pub use charts::raster_panel::{RasterLine, RasterPanel};

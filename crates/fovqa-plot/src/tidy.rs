@@ -3,6 +3,7 @@
 
 use crate::charts::bar::BarChart;
 use crate::charts::line::LineChart;
+use crate::charts::montage::MontageChart;
 use crate::charts::panels::PanelChart;
 use crate::charts::raster::RasterChart;
 use crate::charts::spread::SpreadChart;
@@ -32,42 +33,63 @@ fn row(csv: &mut String, fields: &[String]) {
 }
 
 pub(crate) fn line(chart: &LineChart) -> String {
-    let mut csv = "series,x,y\n".to_owned();
-    for fields in line_rows(chart) {
+    let errors = has_errors(chart);
+    let mut csv = format!("series,x,y{}\n", error_column(errors));
+    for fields in line_rows(chart, errors) {
         row(&mut csv, &fields);
     }
     csv
 }
 
 pub(crate) fn panels(chart: &PanelChart) -> String {
-    let mut csv = "panel,series,x,y\n".to_owned();
+    let errors = chart.panels.iter().any(has_errors);
+    let mut csv = format!("panel,series,x,y{}\n", error_column(errors));
     for panel in &chart.panels {
         let title = name(panel.title.as_deref().unwrap_or_default());
-        for [series, x, y] in line_rows(panel) {
-            row(&mut csv, &[title.clone(), series, x, y]);
+        for fields in line_rows(panel, errors) {
+            row(&mut csv, &[std::slice::from_ref(&title), fields.as_slice()].concat());
         }
     }
     csv
 }
 
+fn has_errors(chart: &LineChart) -> bool {
+    chart.series.iter().any(|series| !series.errors.is_empty())
+}
+
+/// The heading of the column with half the lengths of error bars.
+fn error_column(errors: bool) -> &'static str {
+    if errors { ",error" } else { "" }
+}
+
 /// The points of the curves, then the two ends of each span, which have no value.
-fn line_rows(chart: &LineChart) -> impl Iterator<Item = [String; 3]> {
-    let points = chart.series.iter().flat_map(|series| {
-        let fields =
-            |(x, y): &(f64, Option<f64>)| [name(&series.name), optional(Some(*x)), optional(*y)];
-        series.points.iter().map(fields)
+fn line_rows(chart: &LineChart, errors: bool) -> impl Iterator<Item = Vec<String>> {
+    let points = chart.series.iter().flat_map(move |series| {
+        let fields = move |(i, (x, y)): (usize, &(f64, Option<f64>))| {
+            let mut fields = vec![name(&series.name), optional(Some(*x)), optional(*y)];
+            fields.extend(errors.then(|| optional(series.errors.get(i).copied().flatten())));
+            fields
+        };
+        series.points.iter().enumerate().map(fields)
     });
-    let ends = chart.spans.iter().flat_map(|span| {
-        [span.from, span.to].map(|x| [name(&span.name), optional(Some(x)), String::new()])
+    let ends = chart.spans.iter().flat_map(move |span| {
+        [span.from, span.to].map(|x| {
+            let mut fields = vec![name(&span.name), optional(Some(x)), String::new()];
+            fields.extend(errors.then(String::new));
+            fields
+        })
     });
     points.chain(ends)
 }
 
 pub(crate) fn bar(chart: &BarChart) -> String {
-    let mut csv = "group,series,value\n".to_owned();
+    let errors = chart.series.iter().any(|series| !series.errors.is_empty());
+    let mut csv = format!("group,series,value{}\n", error_column(errors));
     for series in &chart.series {
-        for (group, value) in chart.groups.iter().zip(&series.values) {
-            row(&mut csv, &[name(group), name(&series.name), optional(*value)]);
+        for (i, (group, value)) in chart.groups.iter().zip(&series.values).enumerate() {
+            let mut fields = vec![name(group), name(&series.name), optional(*value)];
+            fields.extend(errors.then(|| optional(series.errors.get(i).copied().flatten())));
+            row(&mut csv, &fields);
         }
     }
     csv
@@ -92,6 +114,16 @@ pub(crate) fn raster(chart: &RasterChart) -> String {
                 row(&mut csv, &[title.clone(), x, y.clone(), optional(Some(*value))]);
             }
         }
+    }
+    csv
+}
+
+/// Which pictures there are. Their pixels are no data.
+pub(crate) fn montage(chart: &MontageChart) -> String {
+    let mut csv = "row,column\n".to_owned();
+    for of_row in &chart.rows {
+        let shown = chart.columns.iter().zip(&of_row.pictures).filter(|(_, of)| of.is_some());
+        shown.for_each(|(column, _)| row(&mut csv, &[name(&of_row.label), name(column)]));
     }
     csv
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use fovqa_plan::{Plot, PlotKind};
 use fovqa_results::{CsvNames, RUN_JSON, RUN_SCHEMA, RunRecord, check_files, read_json_file};
 
+use crate::band_spread::BandSpread;
 use crate::comparison::ComparisonTable;
 use crate::figures::{Source, default_plots, figures, ratio_tables, slug};
 use crate::frame_values::FrameValues;
@@ -38,7 +39,14 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let csv_names = CsvNames::from(&run.resolved);
     let values = FrameValues::read(folder, csv_names)?;
     let warning = check_files(folder, &run)?;
-    let source = Source { run: &run, overview: &overview, values: &values };
+    let has_error_bars = |plot: &Plot| plot.error_bars.is_some() && plot.kind != PlotKind::Bars;
+    let spread = if run.resolved.plots.iter().any(has_error_bars) {
+        BandSpread::read(folder, csv_names)?
+    } else {
+        BandSpread::default()
+    };
+    let source =
+        Source { run: &run, overview: &overview, values: &values, folder, spread: &spread };
     let plots = match run.resolved.plots.as_slice() {
         [] => {
             let figure = &run.resolved.figures;

@@ -98,7 +98,7 @@ impl Entry {
         // A figure is shown by its SVG, or by its PNG if it has none.
         let figures = plots().filter(|file| match file.strip_suffix(".png") {
             Some(name) => !drawn.contains(&format!("{name}.svg")),
-            None => file.ends_with(".svg"),
+            None => file.strip_suffix(".svg").is_some(),
         });
         let figures = figures.map(|file| format!("{folder}/{file}"));
         let tables = drawn.iter().filter(|file| file.strip_suffix(".md").is_some());

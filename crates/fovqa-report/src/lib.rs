@@ -1,5 +1,6 @@
 //! Presents scores to people: tables for terminals and papers, figures, and the page of a run.
 
+mod band_spread;
 mod comparison;
 mod curves;
 mod draw;
@@ -9,6 +10,7 @@ mod frame_values;
 mod index;
 mod latex;
 mod long_lines;
+mod moments;
 mod overview;
 mod page;
 mod print;

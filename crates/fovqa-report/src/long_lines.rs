@@ -22,6 +22,7 @@ pub(crate) fn for_picture(figure: &Figure) -> Cow<'_, Figure> {
         look: series.look,
         reference: series.reference,
         smooth: series.smooth,
+        errors: if is_long(series) { Vec::new() } else { series.errors.clone() },
         points: if is_long(series) { shortened(&series.points) } else { series.points.clone() },
     });
     Cow::Owned(Figure::Line(LineChart {

@@ -62,6 +62,7 @@ pub(crate) fn set_axes(figure: &mut Figure, settings: &FigureSettings) {
         }
         Figure::Bar(chart) => set(&mut chart.y, y),
         Figure::Spread(chart) => set(&mut chart.y, y),
+        Figure::Montage(_) => {}
         Figure::Raster(chart) => {
             for panel in &mut chart.panels {
                 set(&mut panel.x, &title_of(x));

@@ -4,6 +4,7 @@ mod baseline;
 mod both_eyes;
 mod checksums;
 mod compared;
+mod crops;
 mod csv_names;
 mod curves;
 mod files;
@@ -25,6 +26,7 @@ pub use baseline::{
 pub use both_eyes::both_eyes;
 pub use checksums::{Checksums, check_files, checksums};
 pub use compared::Sides;
+pub use crops::{CROPS, CropRecord, crop_folder};
 pub use csv_names::CsvNames;
 pub use curves::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{

@@ -116,7 +116,8 @@ pub(crate) fn copy_kept(shard: &Path, results: &Path) -> io::Result<()> {
     copy(&shard.join(FOLDER), &results.join(FOLDER))
 }
 
-fn copy(from: &Path, to: &Path) -> io::Result<()> {
+/// Copies a folder with all that is in it, if it exists.
+pub(crate) fn copy(from: &Path, to: &Path) -> io::Result<()> {
     let Ok(entries) = std::fs::read_dir(from) else { return Ok(()) };
     make_folder(to)?;
     for entry in entries {

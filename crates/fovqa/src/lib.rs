@@ -58,6 +58,7 @@
 //! and the findings of all tasks are merged again ([`TaskFindings::merge`], [`results`]).
 
 mod baseline;
+mod crops;
 mod curves;
 mod error;
 mod events;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use fovqa_engine::{Events, Header, Journal, Locking, ResultsFolder, Shards, results};
 use fovqa_plan::Experiment;
 
+use crate::crops::copy_crops;
 use crate::error::Error;
 use crate::finish::{clear, finish, in_folder};
 use crate::kept_frames::copy_kept;
@@ -40,7 +41,8 @@ pub fn merge(
     clear(&folder)?;
     Journal::begin(folder.path(), header, plan, &findings)?;
     for shard in shards {
-        copy_kept(shard, folder.path()).map_err(|error| {
+        let copied = copy_kept(shard, folder.path());
+        copied.and_then(|()| copy_crops(shard, folder.path())).map_err(|error| {
             let message =
                 format!("{}: its emulated frames cannot be copied: {error}", shard.display());
             Error::input(message, "free some space, or give another folder with {output}")

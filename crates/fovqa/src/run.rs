@@ -12,6 +12,7 @@ use fovqa_plan::{Experiment, Eye, TableFormat};
 use fovqa_report::Drawn;
 use fovqa_results::{HAS_PARQUET, table_file};
 
+use crate::crops::Crops;
 use crate::error::{Complaint, Error};
 use crate::finish::{clear, finish, in_folder, say_failures_of_shard};
 use crate::kept_frames::{KeptFrames, check_inputs};
@@ -202,6 +203,10 @@ impl Run {
         if resumed.known.scored(plan).any(|(named, frame)| !kept.has(plan, named, frame)) {
             changes.push("emulated frames that the experiment keeps are missing".to_owned());
         }
+        let crops = Crops::new(folder.path());
+        if resumed.known.scored(plan).any(|(named, frame)| !crops.has(plan, named, frame.frame)) {
+            changes.push("regions of frames that figures show are missing".to_owned());
+        }
         if lacks {
             changes.push(NO_MAPS.to_owned());
         }
@@ -237,10 +242,12 @@ impl Run {
         clear(folder)?;
         let plan = &self.experiment.plan;
         let kept = KeptFrames::new(folder.path());
+        let crops = Crops::new(folder.path());
         let scored = Journal::begin(folder.path(), header, plan, &known).and_then(|mut journal| {
             let record = &mut |entry: Entry<'_>| {
                 maps.map_or(Ok(()), |maps| maps.write(&entry))?;
                 kept.write(&entry)?;
+                crops.write(&entry)?;
                 journal.write(entry)
             };
             let scored =

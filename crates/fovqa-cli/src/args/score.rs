@@ -126,6 +126,7 @@ impl ScoreArgs {
             frames: None,
             hash_inputs: false,
             maps: self.maps.is_some(),
+            crops: Vec::new(),
         })
     }
 }

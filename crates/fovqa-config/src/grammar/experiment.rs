@@ -10,8 +10,8 @@ use super::figures::FIGURES;
 use super::tables::{METRICS, TABLE_KEYS};
 use super::{Key, Kind};
 use fovqa_plan::Nonfinite;
-use fovqa_plan::PlotKind;
 use fovqa_plan::TableFormat;
+use fovqa_plan::{ErrorBars, PlotKind, SpreadShape};
 
 pub(super) const fn key(name: &'static str, kind: Kind, about: &'static str) -> Key {
     Key { name, required: false, kind, about }
@@ -368,11 +368,20 @@ static OUTPUT: [Key; 2] = [
 
 static PLOT_TABLE: [Key; PLOT.len() + TABLE_KEYS.len()] = joined(&[PLOT, TABLE_KEYS]);
 
+/// A region of frames for a figure.
+const REGION: &[Key] = &[
+    required("name", Kind::Name, "its name in the figure"),
+    required("at", POSITION_PAIR, "its centre in pixels, [x, y]"),
+    required("size", Kind::List(&Kind::Whole(1, 4096), 2, 2), "its width and height in pixels"),
+    key("scene", Kind::Name, "only in this scene; default: in each scene"),
+    key("frame", Kind::Whole(0, 1_000_000_000), "number of the frame; default: the first one"),
+];
+
 const PLOT: &[Key] = &[
     required(
         "kind",
         Kind::Words(words_of::<PlotKind>),
-        "table: methods against metrics in each scene; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames; sequence: frame by frame, saccades marked; ratios: table of test / reference by eccentricity",
+        "table: methods against metrics in each scene; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames; sequence: frame by frame, saccades marked; ratio_profile: test / reference against eccentricity; crops: regions of the reference and all methods side by side; ratios: table of test / reference by eccentricity",
     ),
     key("metric", Kind::Metric, "the metric; default: one figure per metric"),
     METRICS,
@@ -388,6 +397,17 @@ const PLOT: &[Key] = &[
         Kind::Word(&["mean_abs", "max_abs", "energy"]),
         "statistic of the wavelet; default: energy",
     ),
+    key(
+        "error_bars",
+        Kind::Words(words_of::<ErrorBars>),
+        "error bars over the frames of a scene, or over scenes where their mean is shown: se (standard error), ci95 (95 % confidence interval), sd (standard deviation); for bars and profile",
+    ),
+    key(
+        "regions",
+        Kind::Tables(REGION, 100),
+        "regions to show: [{ name = \"…\", at = [x, y], size = [64, 64] }]; for crops",
+    ),
+    key("shape", Kind::Words(words_of::<SpreadShape>), "box or violin; for frames"),
     key("figure", Kind::Table(&FIGURES), "how its figures are printed; default: as [figures]"),
     key(
         "caption",

@@ -54,12 +54,11 @@ fn palette(table: Node<'_>, faults: &mut Faults) -> Option<PaletteChoice> {
     };
     let mut found = Vec::new();
     for (text, span) in colours {
-        match Colour::of(text) {
-            Some(colour) => found.push(colour),
-            None => {
-                let fault = Fault::new(span, format!("\"{text}\" is not a colour"));
-                faults.push(fault.help("write colours as \"#0072b2\": red, green and blue"));
-            }
+        if let Some(colour) = Colour::of(text) {
+            found.push(colour);
+        } else {
+            let fault = Fault::new(span, format!("\"{text}\" is not a colour"));
+            faults.push(fault.help("write colours as \"#0072b2\": red, green and blue"));
         }
     }
     Some(PaletteChoice::Colours(found))

@@ -12,6 +12,7 @@ mod metrics;
 mod output;
 mod placeholders;
 mod plots;
+mod regions;
 mod reproject;
 mod scenes;
 mod settings;
@@ -44,6 +45,7 @@ pub(crate) fn experiment(
     let all = FigureSettings::default();
     let figures = figures::figure(root.table("figures"), &all, faults);
     let plots = plots::plots(root, &known, &figures, faults);
+    let crops = regions::of_all(root, &plots, faults);
     let gates = gates::gates(root, text, &known, faults);
     Experiment {
         name: root.text("name").unwrap_or_default().to_owned(),
@@ -64,6 +66,7 @@ pub(crate) fn experiment(
             frames: None,
             hash_inputs: true,
             maps: false,
+            crops,
         },
     }
 }

@@ -3,8 +3,10 @@
 use std::ops::Range;
 
 use fovqa_metrics::{Metric, MetricKind, Params};
+use fovqa_params::Words;
 
 use super::figures::figure;
+use super::regions;
 use super::scenes::SceneEntry;
 use super::tables::with_table_keys;
 use super::view::VIEW_HELP;
@@ -48,11 +50,20 @@ pub(super) fn plots(
             methods: subset(table, "methods", &methods, faults),
             levels: levels(table),
             statistic: table.text("statistic").map(str::to_owned),
+            regions: regions::of_plot(table, &scenes, faults),
+            error_bars: table.word("error_bars"),
+            shape: table.word("shape").unwrap_or_default(),
             figure: figure(table.table("figure"), figures, faults),
             caption: table.text("caption").map(str::to_owned),
             ..Plot::of(kind)
         };
         let shown = plot.scenes.as_ref().map_or(scenes.len(), Vec::len);
+        marks(table, kind, faults);
+        if kind == PlotKind::Crops && !table.has("regions") {
+            let fault = Fault::new(table.span("kind"), "the plot has no regions to show");
+            let help = "add regions = [{ name = \"door\", at = [400, 300], size = [64, 64] }]";
+            faults.push(fault.help(help));
+        }
         let plot = with_table_keys(table, plot, shown, faults);
         if faults.is_empty() {
             shows_something(table, &plot, known, faults);
@@ -60,6 +71,22 @@ pub(super) fn plots(
         plot
     });
     plots.collect()
+}
+
+/// Checks that error bars and shapes are given only for plots that have them.
+fn marks(table: Node<'_>, kind: PlotKind, faults: &mut Faults) {
+    let has_bars = matches!(kind, PlotKind::Bars | PlotKind::Profile | PlotKind::RatioProfile);
+    for (key, fits, kinds) in [
+        ("error_bars", has_bars, "\"bars\", \"profile\" or \"ratio_profile\""),
+        ("regions", kind == PlotKind::Crops, "\"crops\""),
+        ("shape", kind == PlotKind::Frames, "\"frames\""),
+    ] {
+        if table.has(key) && !fits {
+            let message = format!("{key} does not apply to kind = \"{}\"", kind.word());
+            let fault = Fault::new(table.span(key), message);
+            faults.push(fault.help(format!("use it with kind = {kinds}")));
+        }
+    }
 }
 
 /// Checks that at least one of a plot's methods is in one of its scenes and, for a profile, has
@@ -73,11 +100,13 @@ fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut
     let scored = |(method, _): &(usize, _)| wanted(&plot.methods, &known.methods[*method]);
     let (message, help) = if !eyes.iter().any(|eye| eye.tests.iter().any(scored)) {
         ("the plot has nothing to show: none of its methods is in any of its scenes", "")
-    } else if matches!(plot.kind, PlotKind::Profile | PlotKind::Ratios)
+    } else if matches!(plot.kind, PlotKind::Profile | PlotKind::Ratios | PlotKind::RatioProfile)
         && eyes.iter().all(|e| e.settings.view.is_none())
     {
         ("the plot shows values by eccentricity, but none of its scenes has a view", VIEW_HELP)
-    } else if plot.named().is_none() && !known.metrics.metrics().iter().any(|m| fits(*m, plot.kind))
+    } else if plot.kind != PlotKind::Crops
+        && plot.named().is_none()
+        && !known.metrics.metrics().iter().any(|m| fits(*m, plot.kind))
     {
         ("the plot has nothing to show: no metric that is scored fits its kind", "")
     } else {
@@ -134,7 +163,10 @@ fn scored(
     if !fits(*metric, kind) {
         let why = match (kind, metric.info().kind) {
             (PlotKind::Profile, _) => "has no values per band, and so no profile",
-            (PlotKind::Ratios, _) => "already compares test with reference, and so has no ratio",
+            (PlotKind::Ratios | PlotKind::RatioProfile, _) => {
+                "already compares test with reference, and so has no ratio"
+            }
+            (PlotKind::Crops, _) => "cannot be shown as pictures",
             _ => "describes each image by eccentricity: draw it as profile or ratios",
         };
         let others = scored.iter().filter(|metric| fits(**metric, kind));
@@ -147,7 +179,8 @@ fn scored(
 fn fits(metric: Metric, kind: PlotKind) -> bool {
     match kind {
         PlotKind::Profile => metric.info().per_band,
-        PlotKind::Ratios => !metric.is(MetricKind::Fidelity),
+        PlotKind::Ratios | PlotKind::RatioProfile => !metric.is(MetricKind::Fidelity),
+        PlotKind::Crops => false,
         PlotKind::Table | PlotKind::Bars | PlotKind::Frames | PlotKind::Sequence => {
             !metric.is(MetricKind::Profile)
         }
@@ -162,7 +195,7 @@ fn levels(table: Node<'_>) -> Option<Vec<usize>> {
 
 /// Checks that levels and statistic are given only for a plot that has them.
 fn wavelet(table: Node<'_>, of_haar: bool, kind: PlotKind, known: &Known<'_>, faults: &mut Faults) {
-    let fits = matches!(kind, PlotKind::Profile | PlotKind::Ratios);
+    let fits = matches!(kind, PlotKind::Profile | PlotKind::Ratios | PlotKind::RatioProfile);
     if !fits || !of_haar {
         for key in ["levels", "statistic"].into_iter().filter(|key| table.has(key)) {
             let message = format!("{key} only applies to the wavelet");

@@ -3,6 +3,7 @@
 
 use crate::canvas::bitmap::Bitmap;
 use crate::canvas::look::{Colour, INK};
+use crate::canvas::photo::Photo;
 #[cfg(test)]
 use crate::canvas::text::{CAPITAL, DESCENT, width_px};
 
@@ -119,6 +120,8 @@ pub(crate) enum Mark {
     Disc(Point, f64, Colour),
     /// A picture that fills a rectangle.
     Picture(Rect, Bitmap),
+    /// A picture of colours that fills a rectangle.
+    Photo(Rect, Photo),
     /// A line of text.
     Text(Text),
 }
@@ -160,6 +163,10 @@ impl Drawing {
         self.marks.push(Mark::Picture(rect, bitmap));
     }
 
+    pub(crate) fn photo(&mut self, rect: Rect, photo: Photo) {
+        self.marks.push(Mark::Photo(rect, photo));
+    }
+
     pub(crate) fn text(&mut self, text: Text) {
         if !text.line.is_empty() {
             self.marks.push(Mark::Text(text));
@@ -189,7 +196,7 @@ impl Drawing {
                     }
                 }
                 Mark::Disc(centre, ..) => centre.0 += right_px,
-                Mark::Picture(rect, _) => {
+                Mark::Picture(rect, _) | Mark::Photo(rect, _) => {
                     rect.left += right_px;
                     rect.right += right_px;
                 }

@@ -9,6 +9,7 @@ pub(crate) mod palette;
 pub(crate) mod path;
 pub(crate) mod pdf;
 pub(crate) mod pdf_font;
+pub(crate) mod photo;
 pub(crate) mod png;
 pub(crate) mod printed;
 pub(crate) mod setting;

@@ -5,9 +5,8 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect as PdfRect, Ref, Str, TextStr};
 
-use crate::canvas::bitmap::Bitmap;
 use crate::canvas::colour_map::palette;
-use crate::canvas::drawing::{Drawing, Mark, Point, Rect, Text};
+use crate::canvas::drawing::{Drawing, Mark, Point, Text};
 use crate::canvas::look::Colour;
 use crate::canvas::pdf_font::Embedded;
 use crate::canvas::setting::SetLine;
@@ -31,7 +30,7 @@ pub(crate) fn write(
     let mut next = Ref::new(1);
     let [catalogue, pages, page, contents, info] = [(); 5].map(|()| next.bump());
     let mut font = Embedded::default();
-    let mut pictures: Vec<(Ref, &Bitmap, Rect)> = Vec::new();
+    let mut pictures: Vec<(Ref, &Mark)> = Vec::new();
 
     let mut content = Content::new();
     let (width, height) = (drawing.width_px * pt_per_px, drawing.height_px * pt_per_px);
@@ -58,9 +57,9 @@ pub(crate) fn write(
                 circle(&mut content, *centre, *radius_px);
                 content.fill_nonzero();
             }
-            Mark::Picture(rect, bitmap) => {
+            Mark::Picture(rect, _) | Mark::Photo(rect, _) => {
                 let name = picture_name(pictures.len());
-                pictures.push((next.bump(), bitmap, *rect));
+                pictures.push((next.bump(), mark));
                 content.save_state();
                 let (w, h) = (short(rect.width()), short(rect.height()));
                 content.transform([w, 0.0, 0.0, -h, short(rect.left), short(rect.bottom)]);
@@ -88,15 +87,15 @@ pub(crate) fn write(
     }
     if !pictures.is_empty() {
         let mut objects = resources.x_objects();
-        for (i, (picture, ..)) in pictures.iter().enumerate() {
+        for (i, (picture, _)) in pictures.iter().enumerate() {
             objects.pair(Name(&picture_name(i)), *picture);
         }
     }
     resources.finish();
     leaf.finish();
     pdf.stream(contents, &content).filter(Filter::FlateDecode);
-    for (picture, bitmap, rect) in &pictures {
-        write_picture(&mut pdf, *picture, bitmap, *rect);
+    for (picture, mark) in &pictures {
+        write_picture(&mut pdf, *picture, mark);
     }
     if !font.is_empty() {
         font.write(&mut pdf, font_ref, &mut next)?;
@@ -175,15 +174,30 @@ fn write_text(content: &mut Content, font: &mut Embedded, text: &Text, line: &Se
     }
 }
 
-fn write_picture(pdf: &mut Pdf, picture: Ref, bitmap: &Bitmap, rect: Rect) {
-    let (columns, rows, pixels) = bitmap.enlarged((rect.width(), rect.height()));
-    let pixels = compress_to_vec_zlib(&pixels, LEVEL);
-    let mut object = pdf.image_xobject(picture, &pixels);
+fn write_picture(pdf: &mut Pdf, picture: Ref, mark: &Mark) {
+    let (columns, rows, samples, palette) = match mark {
+        Mark::Picture(rect, bitmap) => {
+            let (columns, rows, levels) = bitmap.enlarged((rect.width(), rect.height()));
+            let colours = palette().into_iter().flat_map(|Colour(r, g, b)| [r, g, b]);
+            (columns, rows, levels, Some(colours.collect::<Vec<u8>>()))
+        }
+        Mark::Photo(rect, photo) => {
+            let (columns, rows, samples) = photo.enlarged(rect.width());
+            (columns, rows, samples, None)
+        }
+        Mark::Line(..) | Mark::Area(..) | Mark::Disc(..) | Mark::Text(..) => return,
+    };
+    let samples = compress_to_vec_zlib(&samples, LEVEL);
+    let mut object = pdf.image_xobject(picture, &samples);
     object.filter(Filter::FlateDecode);
     object.width(columns as i32).height(rows as i32);
-    let colours: Vec<u8> = palette().iter().flat_map(|Colour(r, g, b)| [*r, *g, *b]).collect();
-    let highest = colours.len() as i32 / 3 - 1;
-    object.color_space().indexed(Name(b"DeviceRGB"), highest, &colours);
+    match palette {
+        Some(colours) => {
+            let highest = colours.len() as i32 / 3 - 1;
+            object.color_space().indexed(Name(b"DeviceRGB"), highest, &colours);
+        }
+        None => object.color_space().device_rgb(),
+    }
     object.bits_per_component(8).interpolate(false);
 }
 

@@ -29,7 +29,11 @@ impl Printed {
         self.lines.get_or_init(|| {
             let set = |mark: &Mark| match mark {
                 Mark::Text(text) => Some(SetLine::new(&text.line, text.anchor)),
-                Mark::Line(..) | Mark::Area(..) | Mark::Disc(..) | Mark::Picture(..) => None,
+                Mark::Line(..)
+                | Mark::Area(..)
+                | Mark::Disc(..)
+                | Mark::Picture(..)
+                | Mark::Photo(..) => None,
             };
             self.drawing.marks.iter().filter_map(set).collect()
         })

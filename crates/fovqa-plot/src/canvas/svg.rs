@@ -5,7 +5,7 @@ use std::error::Error;
 use plotters::backend::{DrawingBackend, SVGBackend};
 use plotters::style::{RGBColor, ShapeStyle};
 
-use crate::canvas::drawing::{Drawing, Mark, Point, Stroke};
+use crate::canvas::drawing::{Drawing, Mark, Point, Rect, Stroke};
 use crate::canvas::look::{Colour, WHITE};
 use crate::canvas::setting::SetLine;
 use crate::canvas::svg_text::Outlines;
@@ -40,7 +40,13 @@ pub(crate) fn write(
         }
         for mark in marks {
             match mark {
-                Mark::Picture(..) => write_picture(&mut body, mark)?,
+                Mark::Picture(rect, bitmap) => {
+                    let uri = bitmap.data_uri((rect.width(), rect.height()))?;
+                    write_picture(&mut body, *rect, &uri);
+                }
+                Mark::Photo(rect, photo) => {
+                    write_picture(&mut body, *rect, &photo.data_uri(rect.width())?);
+                }
                 Mark::Text(text) => {
                     let Some(line) = lines.next() else { unreachable!("each text was set") };
                     outlines.write(&mut body, (text, line), UNITS);
@@ -77,12 +83,10 @@ fn elements(
 /// Writes a picture, which plotters does not support. Both notations for pixels without
 /// interpolation are written, and the older notation for references, because programs differ in
 /// what they support.
-fn write_picture(body: &mut String, mark: &Mark) -> Result<(), PlotError> {
-    let Mark::Picture(rect, bitmap) = mark else { return Ok(()) };
+fn write_picture(body: &mut String, rect: Rect, uri: &str) {
     let ((left, top), (right, bottom)) =
         (place((rect.left, rect.top)), place((rect.right, rect.bottom)));
     let (width, height) = (right - left, bottom - top);
-    let uri = bitmap.data_uri((rect.width(), rect.height()))?;
     let element = format!(
         "<image x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" \
          preserveAspectRatio=\"none\" image-rendering=\"optimizeSpeed\" \
@@ -90,7 +94,6 @@ fn write_picture(body: &mut String, mark: &Mark) -> Result<(), PlotError> {
          xlink:href=\"{uri}\"/>\n"
     );
     body.push_str(&element);
-    Ok(())
 }
 
 /// The document with its size in inches and its own units. Corners of lines are rounded, because a
@@ -115,7 +118,7 @@ fn draw(backend: &mut SVGBackend<'_>, mark: &Mark) -> Result<(), PlotError> {
         Mark::Disc(centre, radius_px, colour) => {
             backend.draw_circle(place(*centre), units(*radius_px) as u32, &filled(*colour), true)
         }
-        Mark::Text(..) | Mark::Picture(..) => return Ok(()),
+        Mark::Text(..) | Mark::Picture(..) | Mark::Photo(..) => return Ok(()),
     };
     drawn.map_err(refused)
 }

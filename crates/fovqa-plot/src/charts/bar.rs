@@ -4,8 +4,9 @@ use crate::axes::axis::{AXIS_STROKE, Axis};
 use crate::axes::group_axis::GroupAxis;
 use crate::axes::value_axis::ValueAxis;
 use crate::canvas::drawing::{Drawing, Rect};
-use crate::canvas::look::Look;
+use crate::canvas::look::{INK, Look};
 use crate::error::PlotError;
+use crate::marks::error_bar;
 use crate::marks::infinity;
 use crate::marks::legend::Key;
 use crate::marks::marker;
@@ -50,6 +51,8 @@ pub struct BarSeries {
     pub name: String,
     /// Its look.
     pub look: Look,
+    /// Half the length of the error bar of each value; empty for none.
+    pub errors: Vec<Option<f64>>,
     /// A value for each group. `None` and NaN have an "n/a" instead of a bar. An infinite value has
     /// a bar as high as the plot area, with an "∞" above it.
     pub values: Vec<Option<f64>>,
@@ -82,6 +85,9 @@ impl BarChart {
         let height_px = paper.plot_height_px;
         for series in &self.series {
             PlotError::check_groups(&series.name, series.values.len(), self.groups.len())?;
+            if !series.errors.is_empty() {
+                PlotError::check_groups(&series.name, series.errors.len(), self.groups.len())?;
+            }
         }
         let scale = self.scale();
         let rough = ValueAxis::new(&self.y, scale, height_px);
@@ -136,6 +142,13 @@ impl BarChart {
         self.series.iter().flat_map(|series| &series.values).filter_map(|value| self.place(*value))
     }
 
+    /// The ends of all error bars.
+    fn error_ends(&self) -> impl Iterator<Item = f64> {
+        let all = self.series.iter().flat_map(|series| series.values.iter().zip(&series.errors));
+        let ends = all.filter_map(|(value, error)| error_ends(*value, *error));
+        ends.flat_map(<[f64; 2]>::from).filter(|end| self.y.has(*end))
+    }
+
     /// The place of a value, if the axis has one for it.
     fn place(&self, value: Option<f64>) -> Option<AxisPlace> {
         let place = value.and_then(AxisPlace::of)?;
@@ -144,7 +157,7 @@ impl BarChart {
 
     /// The range of the values, including 0 if there are bars; `None` without finite values.
     fn scale(&self) -> Option<Scale> {
-        let finite = || self.places().filter_map(AxisPlace::finite);
+        let finite = || self.places().filter_map(AxisPlace::finite).chain(self.error_ends());
         if !self.has_bars() {
             let scale =
                 if self.y.log { Scale::holding_log(finite()) } else { Scale::holding(finite()) };
@@ -183,7 +196,11 @@ impl BarChart {
                 let place = self.place(*value);
                 match place {
                     None => self.draw_missing(drawing, frame, x),
-                    Some(place) => self.draw_value(drawing, frame, (x, place), series.look),
+                    Some(place) => {
+                        let error = series.errors.get(g).copied().flatten();
+                        let ends = error_ends(*value, error);
+                        self.draw_value(drawing, frame, (x, place, ends), series.look);
+                    }
                 }
                 for (beyond, _, xs) in &mut infinite {
                     if place == Some(*beyond) {
@@ -201,7 +218,7 @@ impl BarChart {
         &self,
         drawing: &mut Drawing,
         frame: &Frame<'_>,
-        (x, place): (f64, AxisPlace),
+        (x, place, ends): (f64, AxisPlace, Option<(f64, f64)>),
         look: Look,
     ) {
         let plot = frame.plot;
@@ -220,11 +237,24 @@ impl BarChart {
             let radius_px = marker::RADIUS_PX.min(frame.groups.pitch_px() / 2.0);
             marker::draw(drawing, (x, end), look, radius_px, look.colour());
         }
+        let ends = ends.map(|(low, high)| {
+            let low = if self.y.has(low) { frame.axis.y(plot, low) } else { plot.bottom };
+            (low, frame.axis.y(plot, high))
+        });
+        if let Some(ends) = ends {
+            error_bar::draw(drawing, x, ends, INK);
+        }
         if let Some(value) = place.finite() {
             let downwards = self.has_bars() && value < 0.0;
             let side = if downwards { Side::Below } else { Side::Above };
             let off = if self.has_bars() { 0.0 } else { marker::RADIUS_PX };
-            frame.values.draw(drawing, &frame.format.label(value), (x, end - off), side);
+            // The label is beyond the error bar.
+            let end = match (ends, side) {
+                (Some((_, high)), Side::Above) => high.min(end - off),
+                (Some((low, _)), Side::Below) => low.max(end - off),
+                (None, _) => end - off,
+            };
+            frame.values.draw(drawing, &frame.format.label(value), (x, end), side);
         }
     }
 
@@ -236,4 +266,11 @@ impl BarChart {
         let side = if room_above { Side::Above } else { Side::Below };
         frame.missing.draw(drawing, MISSING, (x, base), side);
     }
+}
+
+/// The ends of the error bar of a value.
+fn error_ends(value: Option<f64>, error: Option<f64>) -> Option<(f64, f64)> {
+    let finite = |value: f64| AxisPlace::of(value).and_then(AxisPlace::finite);
+    let (value, error) = (finite(value?)?, finite(error?)?.abs());
+    Some((finite(value - error)?, finite(value + error)?))
 }

@@ -9,6 +9,7 @@ use crate::canvas::clip;
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
 use crate::canvas::look::{Look, REFERENCE};
 use crate::canvas::smooth;
+use crate::marks::error_bar;
 use crate::marks::fill::Fill;
 use crate::marks::infinity;
 use crate::marks::legend::{self, CURVE_PX, Key, REFERENCE_PX};
@@ -68,6 +69,9 @@ pub struct LineSeries {
     /// Whether it is a densely sampled function, whose points are not single data values. Some
     /// markers along the curve identify it. Markers of coinciding curves do not coincide.
     pub smooth: bool,
+    /// Half the length of the error bar of each point, in their order; empty for none. A point
+    /// without a finite one has no error bar.
+    pub errors: Vec<Option<f64>>,
     /// Points in the order of the curve. `None` and NaN leave a gap. An infinite value is drawn at
     /// the border, unconnected, with an "∞" beyond it. Points without a finite `x` are not drawn.
     pub points: Vec<(f64, Option<f64>)>,
@@ -81,6 +85,15 @@ impl LineSeries {
     fn places(&self) -> impl Iterator<Item = (f64, Option<AxisPlace>)> {
         let at = |&(x, y): &(f64, Option<f64>)| Some((finite(x)?, y.and_then(AxisPlace::of)));
         self.points.iter().filter_map(at)
+    }
+
+    /// The ends of the error bars: a position, and the lower and upper value.
+    fn error_bars(&self) -> impl Iterator<Item = (f64, f64, f64)> {
+        let ends = |(&(x, y), error): (&(f64, Option<f64>), &Option<f64>)| {
+            let (x, y, error) = (finite(x)?, finite(y?)?, finite((*error)?)?);
+            Some((x, finite(y - error.abs())?, finite(y + error.abs())?))
+        };
+        self.points.iter().zip(&self.errors).filter_map(ends)
     }
 
     fn stroke(&self) -> Stroke {
@@ -166,10 +179,28 @@ impl LineChart {
             Some((x.share(position), y.share(value)))
         };
         for series in &self.series {
+            self.draw_error_bars(drawing, series, plot, frame);
             let points: Vec<_> = self.places(series).map(|(x, place)| at(x, place)).collect();
             draw_curve(drawing, series, &points, plot);
         }
         self.draw_infinite(drawing, plot, x);
+    }
+
+    /// Draws the error bars of a series, cut off at the ends of the axis.
+    fn draw_error_bars(
+        &self,
+        drawing: &mut Drawing,
+        series: &LineSeries,
+        plot: Rect,
+        frame: &Frame<'_>,
+    ) {
+        for (x, low, high) in series.error_bars().filter(|(x, ..)| self.x.has(*x)) {
+            if (0.0..=1.0).contains(&frame.x.share(x)) && self.y.has(high) {
+                let low = if self.y.has(low) { frame.y.y(plot, low) } else { plot.bottom };
+                let ends = (low, frame.y.y(plot, high));
+                error_bar::draw(drawing, frame.x.x(plot, x), ends, series.stroke().colour);
+            }
+        }
     }
 
     fn draw_fills(&self, drawing: &mut Drawing, plot: Rect) {
@@ -204,7 +235,11 @@ impl LineChart {
     /// The finite values of a series between the ends of the horizontal axis, with those at the ends.
     fn seen(&self, series: &LineSeries) -> Vec<f64> {
         let finite = |place: Option<AxisPlace>| place.and_then(AxisPlace::finite);
-        let values = || self.places(series).filter_map(|(_, place)| finite(place));
+        let values = || {
+            let bars = series.error_bars().flat_map(|(_, low, high)| [low, high]);
+            let values = self.places(series).filter_map(|(_, place)| finite(place));
+            values.chain(bars.filter(|y| self.y.has(*y)))
+        };
         let has_ends = self.x.min.is_some() || self.x.max.is_some();
         let Some(scale) = self.x_scale().filter(|_| has_ends) else { return values().collect() };
         let share = |x: f64| scale.share(x).clamp(-clip::FAR, clip::FAR);
@@ -215,7 +250,9 @@ impl LineChart {
         let alone = runs.iter().filter(|run| run.len() == 1).flatten();
         let alone = alone.filter(|(x, _)| (0.0..=1.0).contains(x)).copied();
         let lines = runs.iter().flat_map(|run| clip::upright(run)).flatten();
-        alone.chain(lines).map(|(_, y)| y).collect()
+        let bars = series.error_bars().filter(|(x, ..)| (0.0..=1.0).contains(&share(*x)));
+        let bars = bars.flat_map(|(_, low, high)| [low, high]).filter(|y| self.y.has(*y));
+        alone.chain(lines).map(|(_, y)| y).chain(bars).collect()
     }
 
     fn span_ends(&self, scale: Scale) -> impl Iterator<Item = (f64, f64)> {

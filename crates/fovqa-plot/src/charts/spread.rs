@@ -4,10 +4,11 @@ use crate::axes::axis::{AXIS_STROKE, Axis};
 use crate::axes::group_axis::GroupAxis;
 use crate::axes::value_axis::ValueAxis;
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
-use crate::canvas::look::{INK, Look};
+use crate::canvas::look::{INK, Look, WHITE};
 use crate::charts::box_summary::{BoxSummary, quantile};
 use crate::charts::left_out::LeftOut;
 use crate::charts::spread_series::{BOX_FROM, SpreadSeries, finite};
+use crate::charts::violin::{self, Shape};
 use crate::error::PlotError;
 use crate::marks::marker;
 use crate::marks::swatch;
@@ -15,6 +16,8 @@ use crate::page::layout::{self, MARGIN_PX, Sides};
 use crate::page::paper::Paper;
 use crate::scales::scale::{AxisPlace, Scale};
 
+/// The width of the box inside a violin, as a share of the violin's largest width.
+const BOX_IN_VIOLIN: f64 = 0.14;
 /// The share of its slot that a box fills.
 const FILLED: f64 = 0.72;
 /// The largest width of a box.
@@ -43,6 +46,9 @@ pub struct SpreadChart {
     pub groups: Vec<String>,
     /// The series.
     pub series: Vec<SpreadSeries>,
+    /// Whether distributions of enough values are violins instead of boxes: a smooth estimate of
+    /// their density, with the box inside.
+    pub violins: bool,
 }
 
 impl SpreadChart {
@@ -87,6 +93,7 @@ impl SpreadChart {
                     x: groups.x(plot, g, s),
                     half_px: (groups.pitch_px() * FILLED).min(MOST_BOX_PX) / 2.0,
                     look: series.look,
+                    violin: self.violins,
                     y: &|value| axis.y(plot, value),
                     seen: &|value| (0.0..=1.0).contains(&axis.share(value)),
                 };
@@ -104,6 +111,7 @@ struct Slot<'a> {
     x: f64,
     half_px: f64,
     look: Look,
+    violin: bool,
     y: &'a dyn Fn(f64) -> f64,
     /// Whether a value is between the ends of the axis.
     seen: &'a dyn Fn(f64) -> bool,
@@ -112,7 +120,13 @@ struct Slot<'a> {
 impl Slot<'_> {
     fn draw(&self, drawing: &mut Drawing, values: &[f64]) {
         match BoxSummary::of(values) {
-            Some(summary) if values.len() >= BOX_FROM => self.draw_box(drawing, &summary),
+            Some(summary) if values.len() >= BOX_FROM => {
+                let shape = if self.violin { violin::shape(values) } else { None };
+                match shape {
+                    Some(shape) => self.draw_violin(drawing, &shape, &summary),
+                    None => self.draw_box(drawing, &summary),
+                }
+            }
             _ => self.draw_strip(drawing, values),
         }
     }
@@ -132,6 +146,29 @@ impl Slot<'_> {
         for value in summary.outliers.iter().filter(|value| (self.seen)(**value)) {
             drawing.disc((x, (self.y)(*value)), OUTLIER_PX, self.look.colour());
         }
+    }
+
+    /// Draws the density to both sides, with a thin box and the median in the middle.
+    fn draw_violin(&self, drawing: &mut Drawing, shape: &Shape, summary: &BoxSummary) {
+        let side = |sign: f64| {
+            move |(value, density): &(f64, f64)| {
+                (self.x + sign * density * self.half_px, (self.y)(*value))
+            }
+        };
+        let right: Vec<Point> = shape.iter().map(side(1.0)).collect();
+        let left = shape.iter().rev().map(side(-1.0));
+        let mut outline: Vec<Point> = right.into_iter().chain(left).collect();
+        drawing.area(outline.clone(), self.look.colour().tint(swatch::TINT));
+        outline.push(outline[0]);
+        drawing.line(&outline, swatch::edge(self.look));
+        let edge = swatch::edge(self.look);
+        let [bottom, top] = summary.quartiles.map(self.y);
+        let half = (self.half_px * BOX_IN_VIOLIN).max(1.0);
+        let rect = Rect { left: self.x - half, right: self.x + half, top, bottom };
+        drawing.rect(rect, WHITE, edge);
+        let y = (self.y)(summary.median);
+        let ends = [(self.x - half, y), (self.x + half, y)];
+        drawing.line(&ends, Stroke { colour: INK, width_px: MEDIAN_PX });
     }
 
     fn draw_strip(&self, drawing: &mut Drawing, values: &[f64]) {

@@ -20,7 +20,8 @@ pub(crate) fn shape(values: &[f64]) -> Option<Shape> {
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)));
     let mean = values.iter().map(|v| v / count).sum::<f64>();
-    let variance = values.iter().map(|v| (v - mean) * (v - mean) / (count - 1.0).max(1.0)).sum::<f64>();
+    let variance =
+        values.iter().map(|v| (v - mean) * (v - mean) / (count - 1.0).max(1.0)).sum::<f64>();
     let range = (summary.quartiles[1] - summary.quartiles[0]) / 1.34;
     let spread = if range > 0.0 { variance.sqrt().min(range) } else { variance.sqrt() };
     let width = 0.9 * spread * pow(count, -0.2);
@@ -28,7 +29,13 @@ pub(crate) fn shape(values: &[f64]) -> Option<Shape> {
         return None;
     }
     let density = |at: f64| -> f64 {
-        values.iter().map(|v| { let z = (at - v) / width; exp(-0.5 * z * z) }).sum()
+        values
+            .iter()
+            .map(|v| {
+                let z = (at - v) / width;
+                exp(-0.5 * z * z)
+            })
+            .sum()
     };
     let places = (0..=STEPS).map(|i| low + (high - low) * i as f64 / STEPS as f64);
     let points: Shape = places.map(|at| (at, density(at))).collect();
@@ -45,8 +52,9 @@ mod tests {
         // 0.9 min(sd, iqr / 1.34) n^-0.2 of 0, 1, ..., 31: sd 9.3808, iqr 15.5 / 1.34 = 11.5672.
         let values: Vec<f64> = (0..32).map(f64::from).collect();
         let shape = shape(&values).unwrap();
-        let width = 0.9 * 9.380_831_519_646_859 / 2.0;
-        let density = |at: f64| values.iter().map(|v| exp(-0.5 * ((at - v) / width).powi(2))).sum::<f64>();
+        let width = 0.9 * 9.380_831_519_646_86 / 2.0;
+        let density =
+            |at: f64| values.iter().map(|v| exp(-0.5 * ((at - v) / width).powi(2))).sum::<f64>();
         assert_eq!((shape.len(), shape[0].0, shape[64].0), (65, 0.0, 31.0));
         let want = density(0.0) / density(15.5);
         assert!((shape[0].1 - want).abs() < 1e-12 && (shape[32].1 - 1.0).abs() < 1e-12, "{want}");

@@ -9,6 +9,7 @@ use crate::{Axis, BarSeries, Fill, FillKind, LineSeries, Look, Span, SpreadSerie
 
 mod curves;
 mod marks;
+mod montages;
 mod panels;
 mod random_values;
 mod rasters;
@@ -68,6 +69,7 @@ fn bars(values: Vec<Vec<Option<f64>>>, from_zero: bool) -> Figure {
         name: name(i),
         look: Look::new(i),
         values,
+        ..BarSeries::default()
     });
     let y = Axis::new("SSIM");
     Figure::Bar(BarChart { title: Some(name(1)), y, groups, series: series.collect(), from_zero })
@@ -81,7 +83,7 @@ fn spread(values: Vec<Vec<Vec<f64>>>) -> Figure {
         values,
     });
     let y = Axis::new("a title that is far too long for the height of this axis, whoever wrote it");
-    Figure::Spread(SpreadChart { title: None, y, groups, series: series.collect() })
+    Figure::Spread(SpreadChart { y, groups, series: series.collect(), ..SpreadChart::default() })
 }
 
 /// A figure of `count` panels with the same curves, with a span and hostile titles.
@@ -137,7 +139,7 @@ fn check_drawing(drawing: &Drawing) {
             Mark::Line(points, _) | Mark::Area(points, _) => (points, 0.0),
             Mark::Disc(centre, radius, _) => (std::slice::from_ref(centre), *radius),
             Mark::Text(_) => (&[], 0.0),
-            Mark::Picture(rect, _) => {
+            Mark::Picture(rect, _) | Mark::Photo(rect, _) => {
                 assert!(inside(*rect), "{rect:?} leaves {width} x {height}");
                 (&[], 0.0)
             }

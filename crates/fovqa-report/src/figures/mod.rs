@@ -2,20 +2,24 @@
 //! method, and over frames. A method has the same colour and marker in all of them.
 
 mod compared;
+mod crops;
 mod parts;
+mod profile;
 mod sequence;
 
+use std::path::Path;
+
 use fovqa_metrics::{Better, Image, Metric, MetricKind};
-use fovqa_plan::{Plot, PlotKind};
-use fovqa_plot::{
-    Axis, BarChart, BarSeries, Figure, LineChart, LineSeries, Look, SpreadChart, SpreadSeries,
-};
-use fovqa_results::{EccentricityShare, RunRecord};
+use fovqa_plan::{ErrorBars, Plot, PlotKind, SpreadShape};
+use fovqa_plot::{Axis, BarChart, BarSeries, Figure, Look, SpreadChart, SpreadSeries};
+use fovqa_results::RunRecord;
 
 use parts::Part;
 
+use crate::band_spread::BandSpread;
 use crate::comparison::{ComparisonTable, Ratios, average_label, common_scenes, mean, named};
 use crate::frame_values::FrameValues;
+use crate::moments::half_length;
 use crate::overview::Overview;
 use crate::sheet::NamedFigure;
 
@@ -27,6 +31,10 @@ pub(crate) struct Source<'a> {
     pub(crate) run: &'a RunRecord,
     pub(crate) overview: &'a Overview,
     pub(crate) values: &'a FrameValues,
+    /// The folder of the results.
+    pub(crate) folder: &'a Path,
+    /// How values of bands vary over the frames; empty if no plot shows it.
+    pub(crate) spread: &'a BandSpread,
 }
 
 /// The scenes and methods of a plot, or of one of its figures.
@@ -46,6 +54,7 @@ struct Selection<'a> {
 pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
     let all = source.overview.all();
     let mut kinds = vec![PlotKind::Table, PlotKind::Ratios, PlotKind::Profile];
+    kinds.push(PlotKind::RatioProfile);
     if all.iter().filter(|measured| !measured.is_of_one_eye).count() > 1 {
         kinds.push(PlotKind::Bars);
     }
@@ -63,13 +72,17 @@ pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
 /// The figures of a plot; empty for a table.
 pub(crate) fn figures(source: &Source<'_>, plot: &Plot) -> Vec<NamedFigure> {
     let whole = Selection::new(source, plot);
+    if plot.kind == PlotKind::Crops {
+        return whole.crops(plot).into_iter().collect();
+    }
     let of_part = |metric: Metric, part: &Selection<'_>| -> Vec<NamedFigure> {
         match plot.kind {
-            PlotKind::Table | PlotKind::Ratios => Vec::new(),
+            PlotKind::Table | PlotKind::Ratios | PlotKind::Crops => Vec::new(),
             PlotKind::Profile => part.profiles(metric, plot),
+            PlotKind::RatioProfile => part.ratio_profiles(metric, plot),
             PlotKind::Sequence => part.sequences(metric),
-            PlotKind::Bars => vec![part.bars(metric)],
-            PlotKind::Frames => vec![part.frames(metric)],
+            PlotKind::Bars => vec![part.bars(metric, plot)],
+            PlotKind::Frames => vec![part.frames(metric, plot)],
         }
     };
     let of_metric = |metric: Metric| {
@@ -114,7 +127,9 @@ pub(crate) fn metrics(source: &Source<'_>, plot: &Plot) -> Vec<Metric> {
     let scored = |metric: Metric| all.iter().any(|measured| measured.is_scored(metric));
     let fits = |metric: Metric| match plot.kind {
         PlotKind::Profile => metric.info().per_band,
-        PlotKind::Ratios => !metric.is(MetricKind::Fidelity),
+        // The differences over time of test and reference are far apart, and both are in the profile.
+        PlotKind::RatioProfile if plot.named().is_none() => metric.is(MetricKind::Profile),
+        PlotKind::Ratios | PlotKind::RatioProfile => !metric.is(MetricKind::Fidelity),
         // The ratio of the test to the reference is in a column of the table.
         PlotKind::Bars | PlotKind::Frames if plot.named().is_none() => {
             metric.is(MetricKind::Fidelity)
@@ -158,141 +173,33 @@ impl<'a> Selection<'a> {
         (self.scenes.len() > 1).then(|| scene.to_owned())
     }
 
-    /// The profile of each scene. For a fidelity metric in several scenes, the profile of their
-    /// mean follows.
-    fn profiles(&self, metric: Metric, plot: &Plot) -> Vec<NamedFigure> {
-        if !metric.is(MetricKind::Fidelity) {
-            let scenes = self.scenes.iter();
-            return scenes.filter_map(|scene| self.compared(metric, scene, plot)).collect();
-        }
-        let name = format!("profile-{}", slug(metric.key()));
-        let label = match metric {
-            Metric::Fvvdp => "Share of FovVideoVDP's visible difference",
-            metric => metric.info().label,
-        };
-        let mut figures: Vec<NamedFigure> = Vec::new();
-        let mut common = self.common_scenes(metric);
-        // A scene without a view has values, but no bands.
-        common.retain(|scene| {
-            self.methods.iter().any(|(method, _)| !self.bands(metric, scene, method).is_empty())
-        });
-        if common.len() > 1 {
-            let bands = |method: &str| self.mean_bands(metric, &common, method);
-            let which =
-                if common.len() == self.scenes.len() { "" } else { " that all methods have" };
-            let count = common.len();
-            let caption = format!("{label} against eccentricity, mean over {count} scenes{which}");
-            figures.extend(self.profile(metric, name.clone(), None, caption, bands));
-        }
-        for scene in &self.scenes {
-            let bands = |method: &str| self.bands(metric, scene, method);
-            let alone = self.scenes.len() == 1;
-            let name = if alone { name.clone() } else { format!("{name}-{}", slug(scene)) };
-            let caption = format!("{label} against eccentricity, {scene}");
-            figures.extend(self.profile(metric, name, Some(scene), caption, bands));
-        }
-        figures
-    }
-
-    fn profile(
-        &self,
-        metric: Metric,
-        name: String,
-        title: Option<&str>,
-        caption: String,
-        bands: impl Fn(&str) -> Vec<Band>,
-    ) -> Option<NamedFigure> {
-        let mut edges: Vec<f64> = Vec::new();
-        let mut series = Vec::new();
-        for &(method, look) in &self.methods {
-            let bands = bands(method);
-            if bands.is_empty() {
-                continue;
-            }
-            edges.extend(bands.iter().flat_map(|band| [band.from_deg, band.to_deg]));
-            let points =
-                bands.iter().map(|band| (f64::midpoint(band.from_deg, band.to_deg), band.value));
-            let points = points.collect();
-            series.push(LineSeries {
-                name: method.to_owned(),
-                look,
-                points,
-                ..LineSeries::default()
-            });
-        }
-        if series.is_empty() {
-            return None;
-        }
-        edges.sort_by(f64::total_cmp);
-        edges.dedup_by(|a, b| a.to_bits() == b.to_bits());
-        let figure = Figure::Line(LineChart {
-            title: title.map(str::to_owned),
-            x: Axis::new("Eccentricity (°)"),
-            y: Axis::new(match metric {
-                Metric::Fvvdp => "Share of FovVideoVDP's Q".to_owned(),
-                metric => axis(metric),
-            }),
-            y_from_zero: metric == Metric::Fvvdp,
-            series,
-            x_ticks: Some(edges).filter(|edges| edges.len() <= MOST_EDGE_TICKS),
-            ..LineChart::default()
-        });
-        Some(NamedFigure::new(name, caption, figure))
-    }
-
-    fn bands(&self, metric: Metric, scene: &str, method: &str) -> Vec<Band> {
-        let Some(measured) = self.source.overview.of(scene, method) else { return Vec::new() };
-        if metric == Metric::Fvvdp {
-            let band = |share: &EccentricityShare| Band {
-                from_deg: share.from_deg,
-                to_deg: share.to_deg,
-                value: share.share,
-            };
-            return measured.shares.iter().map(band).collect();
-        }
-        let band = |band: &crate::overview::Band| Band {
-            from_deg: band.from_deg,
-            to_deg: band.to_deg,
-            value: band.mean(metric),
-        };
-        measured.bands.iter().map(band).collect()
-    }
-
     fn common_scenes(&self, metric: Metric) -> Vec<&'a str> {
         common_scenes(self.source.overview, &self.scenes, &self.all, metric)
     }
 
-    /// The mean over scenes of the bands that all scenes have.
-    fn mean_bands(&self, metric: Metric, scenes: &[&str], method: &str) -> Vec<Band> {
-        let scenes: Vec<Vec<Band>> =
-            scenes.iter().map(|scene| self.bands(metric, scene, method)).collect();
-        let Some((first, others)) = scenes.split_first() else { return Vec::new() };
-        let bands = first.iter().filter_map(|band| {
-            let mut values = vec![band.value?];
-            for other in others {
-                values.push(other.iter().find(|other| other.is_like(band))?.value?);
-            }
-            Some(Band { value: mean(&values), ..*band })
-        });
-        bands.collect()
-    }
-
-    fn bars(&self, metric: Metric) -> NamedFigure {
+    fn bars(&self, metric: Metric, plot: &Plot) -> NamedFigure {
         let series = self.methods.iter().map(|&(method, look)| {
             let value = |scene: &&str| self.source.overview.of(scene, method)?.value(metric);
             let values = self.scenes.iter().map(value).collect();
-            BarSeries { name: method.to_owned(), look, values }
+            let error = |scene: &&str, kind| half_length(&self.values(scene, method, metric), kind);
+            let errors = plot.error_bars.map_or_else(Vec::new, |kind| {
+                self.scenes.iter().map(|scene| error(scene, kind)).collect()
+            });
+            BarSeries { name: method.to_owned(), look, errors, values }
         });
         let mut series: Vec<BarSeries> = series.collect();
         let mut groups: Vec<String> = self.scenes.iter().map(|&scene| scene.to_owned()).collect();
         let common = self.common_scenes(metric);
         if common.len() > 1 {
             groups.push(average_label(common.len(), self.scenes.len()));
-            for BarSeries { values, .. } in &mut series {
+            for BarSeries { values, errors, .. } in &mut series {
                 let of_common = self.scenes.iter().zip(&*values);
                 let of_common = of_common.filter(|(scene, _)| common.contains(scene));
                 let of_common: Vec<f64> = of_common.filter_map(|(_, value)| *value).collect();
                 values.push(mean(&of_common));
+                if let Some(kind) = plot.error_bars {
+                    errors.push(half_length(&of_common, kind));
+                }
             }
         }
         let y = match metric {
@@ -301,7 +208,10 @@ impl<'a> Selection<'a> {
         };
         let figure = Figure::Bar(BarChart { y, groups, series, ..BarChart::default() });
         let over = if metric == Metric::Fvvdp { "of whole sequences" } else { "mean over frames" };
-        let caption = format!("{} per scene and method, {over}", metric.info().label);
+        let bars = plot.error_bars.map_or_else(String::new, |kind| {
+            format!("; error bars over frames (of the average: over scenes): {}", in_words(kind))
+        });
+        let caption = format!("{} per scene and method, {over}{bars}", metric.info().label);
         NamedFigure::new(format!("bars-{}", slug(metric.key())), caption, figure)
     }
 
@@ -313,7 +223,7 @@ impl<'a> Selection<'a> {
         values.iter().map(|(_, value)| *value).collect()
     }
 
-    fn frames(&self, metric: Metric) -> NamedFigure {
+    fn frames(&self, metric: Metric, plot: &Plot) -> NamedFigure {
         let series = self.methods.iter().map(|&(method, look)| SpreadSeries {
             name: method.to_owned(),
             look,
@@ -322,25 +232,31 @@ impl<'a> Selection<'a> {
         let series = series.collect();
         let groups = self.scenes.iter().map(|&scene| scene.to_owned()).collect();
         let y = Axis::new(frame_axis(metric));
-        let figure = Figure::Spread(SpreadChart { title: None, y, groups, series });
+        let figure = Figure::Spread(SpreadChart {
+            title: None,
+            y,
+            groups,
+            series,
+            violins: plot.shape == SpreadShape::Violin,
+        });
         let caption = format!("{} over the frames of each scene", metric.info().label);
         NamedFigure::new(format!("frames-{}", slug(metric.key())), caption, figure)
     }
 }
 
-/// The value of a metric in a band.
-#[derive(Debug, Clone, Copy)]
-struct Band {
-    from_deg: f64,
-    to_deg: f64,
-    value: Option<f64>,
+/// What error bars show, in words.
+fn in_words(kind: ErrorBars) -> &'static str {
+    match kind {
+        ErrorBars::StandardError => "standard error",
+        ErrorBars::Confidence => "95 % confidence interval",
+        ErrorBars::Deviation => "standard deviation",
+    }
 }
 
-impl Band {
-    fn is_like(&self, other: &Self) -> bool {
-        let edges = |band: &Self| [band.from_deg, band.to_deg].map(f64::to_bits);
-        edges(self) == edges(other)
-    }
+/// The part of a caption about error bars; empty without any.
+fn error_bars_in_words(plot: &Plot, over: &str) -> String {
+    let words = |kind| format!("; error bars: {} over {over}", in_words(kind));
+    plot.error_bars.map_or_else(String::new, words)
 }
 
 /// The title of a metric's axis, with its unit and the better direction.

@@ -119,6 +119,7 @@ impl<'a> Selection<'a> {
             Figure::Spread(chart) => &mut chart.title,
             Figure::Panels(chart) => &mut chart.title,
             Figure::Raster(chart) => &mut chart.title,
+            Figure::Montage(chart) => &mut chart.title,
         };
         *title = Some(match title.take() {
             Some(title) => format!("{title}; {shown}"),

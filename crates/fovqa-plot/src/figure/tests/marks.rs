@@ -149,3 +149,76 @@ fn labels_of_infinite_values_keep_off_the_axis() {
         }
     }
 }
+
+/// The upright lines of a colour that have no other colour's length: error bars.
+fn upright(drawing: &Drawing, colour: Colour) -> Vec<(f64, f64)> {
+    let line = |mark: &Mark| match mark {
+        Mark::Line(points, stroke)
+            if stroke.colour == colour
+                && points.len() == 2
+                && points[0].0 == points[1].0
+                && stroke.width_px == 1.0 =>
+        {
+            Some((points[0].1, points[1].1))
+        }
+        _ => None,
+    };
+    drawing.marks.iter().filter_map(line).collect()
+}
+
+#[test]
+fn error_bars_of_curves_have_their_length_and_widen_the_axis() {
+    let points = vec![(0.0, Some(10.0)), (1.0, Some(20.0)), (2.0, None), (3.0, Some(15.0))];
+    let errors = vec![Some(2.0), Some(8.0), Some(3.0), None];
+    let series = vec![LineSeries { errors, points, ..LineSeries::default() }];
+    let chart = LineChart { series, ..LineChart::default() };
+    check(&Figure::Line(chart.clone()));
+    let scale = chart.y_scale().unwrap();
+    assert!(scale.low < 8.0 && scale.high > 28.0);
+    let drawing = chart.draw(&Paper::wide());
+    let bars = upright(&drawing, Look::new(0).colour());
+    assert_eq!(bars.len(), 2, "a gap and a point without one have none");
+    let unit = Paper::wide().plot_height_px / (scale.high - scale.low);
+    for ((from, to), error) in bars.iter().zip([2.0, 8.0]) {
+        assert!(((from - to).abs() - 2.0 * error * unit).abs() < 1e-6, "{from} {to}");
+    }
+    assert!(Figure::Line(chart).csv().starts_with("series,x,y,error\n,0.0,10.0,2.0\n"));
+}
+
+#[test]
+fn error_bars_of_bars_are_below_their_labels() {
+    let Figure::Bar(mut chart) = bars(vec![vec![Some(10.0), Some(12.0)]], true) else {
+        unreachable!()
+    };
+    chart.series[0].errors = vec![Some(5.0), None];
+    check(&Figure::Bar(chart.clone()));
+    let drawing = chart.draw(&Paper::wide()).unwrap();
+    let bars = upright(&drawing, INK);
+    assert_eq!(bars.len(), 1);
+    let label = drawing.texts().into_iter().find(|text| text.line == "10.0").unwrap();
+    assert!(label.at.1 < bars[0].0.min(bars[0].1));
+    assert!(Figure::Bar(chart.clone()).csv().contains("group,series,value,error\n"));
+    chart.series[0].errors = vec![None];
+    assert!(matches!(chart.draw(&Paper::wide()), Err(PlotError::Groups { found: 1, .. })));
+}
+
+#[test]
+fn violins_are_as_wide_as_their_density() {
+    let values: Vec<f64> = (0..40).map(|i| f64::from(i * i) / 10.0).collect();
+    let Figure::Spread(mut chart) = spread(vec![vec![values.clone(), vec![5.0; 20], vec![1.0]]])
+    else {
+        unreachable!()
+    };
+    chart.violins = true;
+    check(&Figure::Spread(chart.clone()));
+    let drawing = chart.draw(&Paper::wide()).unwrap();
+    let areas: Vec<&Vec<(f64, f64)>> = drawing
+        .marks
+        .iter()
+        .filter_map(|mark| if let Mark::Area(points, _) = mark { Some(points) } else { None })
+        .filter(|points| points.len() > 100)
+        .collect();
+    assert_eq!(areas.len(), 1, "equal values have a box, and single ones points");
+    let width = |i: usize| areas[0][i].0 - areas[0][129 - i].0;
+    assert!((0..65).all(|i| width(i) > 0.0) && width(5) > 4.0 * width(60), "most are small");
+}

@@ -78,8 +78,12 @@ fn a_height_that_was_asked_for_is_met() {
 fn impossible_sizes_are_errors_that_say_what_is_possible() {
     let style = |width_in, height| Style { width_in, height, ..Style::default() };
     let names: Vec<String> = (0..4).map(|i| format!("a_name_of_a_scene_{i}")).collect();
-    let series =
-        vec![BarSeries { name: "RMFR".to_owned(), look: Look::new(0), values: vec![Some(1e9); 4] }];
+    let series = vec![BarSeries {
+        name: "RMFR".to_owned(),
+        look: Look::new(0),
+        values: vec![Some(1e9); 4],
+        ..BarSeries::default()
+    }];
     let figure = Figure::Bar(BarChart { groups: names, series, ..BarChart::default() });
     let Err(PlotError::Narrow { least_in, .. }) = figure.print(&style(Some(0.5), Height::Suited))
     else {
@@ -117,7 +121,7 @@ fn titles_markers_and_dashes_can_be_left_out() {
         let colour = |mark: &Mark| match mark {
             Mark::Line(_, stroke) => Some(stroke.colour),
             Mark::Area(_, colour) | Mark::Disc(_, _, colour) => Some(*colour),
-            Mark::Picture(..) | Mark::Text(_) => None,
+            Mark::Picture(..) | Mark::Photo(..) | Mark::Text(_) => None,
         };
         printed.drawing.marks.iter().filter_map(colour).collect()
     };

@@ -3,14 +3,14 @@
 use fovqa_plan::ErrorBars;
 
 /// Half the length of the error bar of a mean; `None` with fewer than two values.
-pub(super) fn half_length(values: &[f64], kind: ErrorBars) -> Option<f64> {
+pub(crate) fn half_length(values: &[f64], kind: ErrorBars) -> Option<f64> {
     let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     Moments::of(&finite).half_length(kind)
 }
 
 /// The sums that a spread follows from, added value by value (Welford 1962).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Moments {
+pub(crate) struct Moments {
     count: f64,
     mean: f64,
     /// Sum of the squared distances from the mean.
@@ -18,14 +18,16 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    pub(super) fn of(values: &[f64]) -> Self {
+    pub(crate) fn of(values: &[f64]) -> Self {
         let mut moments = Self::default();
-        values.iter().for_each(|value| moments.add(*value));
+        for value in values {
+            moments.add(*value);
+        }
         moments
     }
 
     /// Adds a finite value.
-    pub(super) fn add(&mut self, value: f64) {
+    pub(crate) fn add(&mut self, value: f64) {
         self.count += 1.0;
         let off = value - self.mean;
         self.mean += off / self.count;
@@ -33,7 +35,7 @@ impl Moments {
     }
 
     /// Half the length of the error bar of the mean; `None` with fewer than two values.
-    pub(super) fn half_length(self, kind: ErrorBars) -> Option<f64> {
+    pub(crate) fn half_length(self, kind: ErrorBars) -> Option<f64> {
         if self.count < 2.0 {
             return None;
         }
@@ -62,13 +64,15 @@ const SMALL_T: [f64; 10] = [
     2.228_138_852,
 ];
 
+/// The 97.5 % quantile of the normal distribution.
+const Z: f64 = 1.959_963_984_540_054;
+
 /// The 97.5 % quantile of Student's t distribution. Beyond the table it is the expansion by Fisher
 /// and Cornish (Abramowitz and Stegun 26.7.5), which is right to six digits there.
 fn t_975(degrees: f64) -> f64 {
     if let Some(known) = SMALL_T.get(degrees as usize - 1) {
         return *known;
     }
-    const Z: f64 = 1.959_963_984_540_054;
     let (z2, z) = (Z * Z, Z);
     let terms = [
         z * (z2 + 1.0) / 4.0,

@@ -1,0 +1,85 @@
+//! Writes the regions of frames that figures show side by side.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use fovqa_engine::{CropPair, EngineError, Entry, Finished, Named};
+use fovqa_frame::Frame;
+use fovqa_io::{FrameFormat, encode_frame};
+use fovqa_plan::{CropRegion, Plan};
+use fovqa_results::{
+    CROPS, CropRecord, FileError, crop_folder, make_folder, write_json_file, write_whole,
+};
+
+use crate::kept_frames::copy;
+
+/// Writes regions into a results folder.
+#[derive(Debug)]
+pub(crate) struct Crops {
+    folder: PathBuf,
+}
+
+impl Crops {
+    pub(crate) fn new(results: &Path) -> Self {
+        Self { folder: results.to_owned() }
+    }
+
+    /// Whether the regions of a comparison exist, as far as its frames are known to have them.
+    pub(crate) fn has(&self, plan: &Plan, named: Named<'_>, frame: i64) -> bool {
+        let of_frame = |region: &&CropRegion| {
+            region.is_in(named.scene) && region.frame.is_some_and(|wanted| wanted == frame)
+        };
+        plan.crops.iter().filter(of_frame).all(|region| {
+            let folder = self.region(named, &region.name);
+            CropRecord::test_file(&folder, named.method).is_file()
+        })
+    }
+
+    fn region(&self, named: Named<'_>, region: &str) -> PathBuf {
+        crop_folder(&self.folder, named.scene, named.eye.map(fovqa_plan::Eye::name), region)
+    }
+
+    /// Writes the regions of a pair.
+    pub(crate) fn write(&self, entry: &Entry<'_>) -> Result<(), EngineError> {
+        let Entry::Pair(Finished { named, crops, .. }) = *entry else { return Ok(()) };
+        for crop in crops {
+            let folder = self.region(named, &crop.region);
+            write(&folder, named.method, crop)
+                .map_err(|error| EngineError::KeptFrame { path: folder, error })?;
+        }
+        Ok(())
+    }
+}
+
+fn write(folder: &Path, method: &str, crop: &CropPair) -> io::Result<()> {
+    make_folder(folder)?;
+    let picture = |path: &Path, frame: &Frame| {
+        let bytes = encode_frame(frame, FrameFormat::Png).map_err(io::Error::other)?;
+        write_whole(path, &bytes).map_err(reason)
+    };
+    picture(&CropRecord::reference_file(folder), &crop.reference)?;
+    picture(&CropRecord::test_file(folder, method), &crop.test)?;
+    let record = CropRecord {
+        frame: crop.frame,
+        frame_px: crop.frame_px,
+        corner_px: crop.corner_px,
+        gaze_px: crop.gaze_px,
+        eccentricity_deg: crop.eccentricity_deg,
+    };
+    write_json_file(&CropRecord::file(folder), &record).map_err(reason)
+}
+
+fn reason(error: FileError) -> io::Error {
+    match error {
+        FileError::Write { error, .. } | FileError::Read { error, .. } => error,
+        FileError::Format { detail, .. } => io::Error::other(detail),
+    }
+}
+
+/// Copies the regions that a shard has cut out.
+///
+/// # Errors
+/// If a file cannot be read or written.
+pub(crate) fn copy_crops(shard: &Path, results: &Path) -> io::Result<()> {
+    copy(&shard.join(CROPS), &results.join(CROPS))
+}
