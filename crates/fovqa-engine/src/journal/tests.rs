@@ -175,6 +175,7 @@ fn everything_is_read_again_to_the_last_bit() {
         guides: mended.guides,
         maps: &[],
         kept: None,
+        crops: &[],
     };
     journal.write(Entry::Pair(finished)).unwrap();
     let said = read_text(folder.path()).said(&plan);
@@ -249,6 +250,7 @@ fn what_is_no_number_is_read_again() {
         guides: AtdGuides::default(),
         maps: &[],
         kept: None,
+        crops: &[],
     };
     let folder = tempfile::tempdir().unwrap();
     Journal::begin(folder.path(), &header(&plan(), None), &plan(), &Findings::default()).unwrap();
@@ -330,6 +332,7 @@ fn lines_of_something_else_are_not_understood() {
             guides,
             maps: &[],
             kept: None,
+            crops: &[],
         };
         String::from_utf8(Lines::default().of(Entry::Pair(finished))).unwrap()
     };
