@@ -9,6 +9,36 @@ type Mistake = (&'static str, &'static str, &'static [&'static str], bool);
 const MISTAKES: &[Mistake] = &[
     (
         "fpsnr = {}",
+        "fpsnr = {}\n[[plot]]\nkind = \"crops\"",
+        &["the plot has no regions to show"],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[[plot]]\nkind = \"crops\"\nregions = [{ name = \"a\", at = [9, 9], size = [4, 4], scene = \"hall\" }]",
+        &["there is no scene \"hall\"", "\"room\""],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[[plot]]\nkind = \"crops\"\nregions = [{ name = \"a\", at = [9, 9], size = [4, 4] }, { name = \"a\", at = [8, 8], size = [4, 4] }]",
+        &["two different regions are named \"a\""],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[[plot]]\nkind = \"frames\"\nerror_bars = \"sd\"",
+        &["error_bars does not apply to kind = \"frames\"", "\"bars\""],
+        false,
+    ),
+    (
+        "fpsnr = {}",
+        "fpsnr = {}\n[[plot]]\nkind = \"bars\"\nshape = \"violin\"",
+        &["shape does not apply to kind = \"bars\""],
+        false,
+    ),
+    (
+        "fpsnr = {}",
         "fpsnr = {}\n[figures]\nwidth_in = 0",
         &["figures.width_in cannot be 0", "a number from 0.5 to 100"],
         true,

@@ -418,3 +418,114 @@ fn a_figure_that_does_not_fit_says_what_it_needs() {
     let run = folder.run(&["run", "e.toml", "--resume"]).ok();
     assert!(run.stderr.contains("the experiment file has changed"), "{}", run.stderr);
 }
+
+/// Half the length of an error bar over values, from its definition.
+fn deviation(values: &[f64]) -> f64 {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let squares = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
+    (squares / (values.len() as f64 - 1.0)).sqrt()
+}
+
+#[test]
+fn error_bars_are_over_frames_and_over_scenes() {
+    let folder = two_scenes();
+    folder.write(
+        "e.toml",
+        experiment(
+            "[metrics]\npsnr = {}\nrms_contrast = {}\n[[plot]]\nkind = \"bars\"\nmetric = \"psnr\"\nerror_bars = \"se\"\n\
+             [[plot]]\nkind = \"profile\"\nerror_bars = \"sd\"\n",
+        ),
+    );
+    folder.run(&["run", "e.toml"]).ok();
+    let rows = rows(&folder, "reports/e");
+    let values = |metric: &str, image: &str, from: &str| -> Vec<f64> {
+        let wanted = rows.iter().filter(|row| {
+            row["scene"] == "room"
+                && row["method"] == "B"
+                && row["metric"] == metric
+                && row["image"] == image
+                && row["from_deg"] == from
+                && row["frame"] != ""
+        });
+        wanted.map(|row| row["value"].parse().unwrap()).collect()
+    };
+    let near = |found: &str, want: f64| {
+        let found: f64 = found.parse().unwrap();
+        assert!((found - want).abs() <= 1e-9 * want.abs().max(1e-9), "{found} {want}");
+    };
+    let bars = data(&folder, "bars-psnr");
+    let bar = |group: &str| bars.iter().find(|row| row[0] == group && row[1] == "B").unwrap();
+    let frames = values("psnr", "pair", "");
+    assert_eq!(frames.len(), 3);
+    near(&bar("room")[3], deviation(&frames) / 3.0_f64.sqrt());
+    let scenes: Vec<f64> =
+        ["room", "hall"].iter().map(|scene| bar(scene)[2].parse().unwrap()).collect();
+    near(&bar("Average")[3], deviation(&scenes) / 2.0_f64.sqrt());
+    let profile = data(&folder, "profile-psnr-room");
+    let first = profile.iter().find(|row| row[0] == "B").unwrap();
+    near(&first[3], deviation(&values("psnr", "pair", "0")));
+    let contrast = data(&folder, "profile-rms-contrast-room");
+    let first = contrast.iter().find(|row| row[0] == "B").unwrap();
+    near(&first[3], deviation(&values("rms_contrast", "test", "0")));
+}
+
+#[test]
+fn a_ratio_is_that_of_test_and_reference() {
+    let folder = two_scenes();
+    folder.write(
+        "e.toml",
+        experiment("[metrics]\nrms_contrast = {}\n[[plot]]\nkind = \"ratio_profile\"\n[[plot]]\nkind = \"profile\"\n"),
+    );
+    folder.run(&["run", "e.toml"]).ok();
+    let value = |rows: &[Vec<String>], series: &str| -> f64 {
+        rows.iter().find(|row| row[0] == series).unwrap()[2].parse().unwrap()
+    };
+    let (ratios, profile) =
+        (data(&folder, "ratio-profile-rms-contrast-room"), data(&folder, "profile-rms-contrast-room"));
+    let want = value(&profile, "B") / value(&profile, "reference");
+    assert!((value(&ratios, "B") / want - 1.0).abs() < 1e-9);
+    assert!((value(&ratios, "reference") - 1.0).abs() < 1e-12);
+}
+
+const CROPS: &str = "[metrics]\npsnr = {}\n[[plot]]\nkind = \"crops\"\n\
+    regions = [{ name = \"corner\", at = [8, 6], size = [8, 4] }, { name = \"later\", at = [20, 20], size = [4, 4], scene = \"hall\", frame = 2 }]\n";
+
+#[test]
+fn regions_are_shown_side_by_side() {
+    let folder = two_scenes();
+    folder.write("e.toml", experiment(CROPS));
+    folder.run(&["run", "e.toml"]).ok();
+    // Pictures of 8 bits are cut out as they are.
+    let cut = image::open(folder.path("reports/e/crops/room/corner/methods/B.png")).unwrap();
+    let whole = image::open(folder.path("room/b/0000.png")).unwrap();
+    assert_eq!(cut.to_rgb8(), whole.crop_imm(4, 4, 8, 4).to_rgb8());
+    let later = image::open(folder.path("reports/e/crops/hall/later/reference.png")).unwrap();
+    let whole = image::open(folder.path("hall/gt/0002.png")).unwrap();
+    assert_eq!(later.to_rgb8(), whole.crop_imm(18, 18, 4, 4).to_rgb8());
+    assert!(!folder.path("reports/e/crops/room/later").exists());
+    assert_eq!(figures(&folder), ["crops"]);
+    let svg = fs::read_to_string(folder.path("reports/e/plots/crops.svg")).unwrap();
+    for words in ["corner, room, ", "° from the gaze, ×", "later, hall, frame 2", "Reference"] {
+        assert!(svg.contains(words), "{words}");
+    }
+    // Shards cut out the same, and so does a run that goes on.
+    let before = fs::read(folder.path("reports/e/plots/crops.pdf")).unwrap();
+    folder.run(&["run", "e.toml", "--shard", "1/2", "--output", "s1"]).ok();
+    folder.run(&["run", "e.toml", "--shard", "2/2", "--output", "s2"]).ok();
+    folder.run(&["merge", "s1", "s2", "--output", "merged"]).ok();
+    assert!(fs::read(folder.path("merged/plots/crops.pdf")).unwrap() == before);
+    // Another region needs the frames again.
+    folder.write("e.toml", experiment(&CROPS.replace("[8, 6]", "[9, 6]")));
+    folder.run(&["run", "e.toml", "--resume"]).ok().says(&["everything is scored again"]);
+    assert!(fs::read(folder.path("reports/e/plots/crops.pdf")).unwrap() != before);
+}
+
+#[test]
+fn a_region_outside_the_frame_is_left_out_with_a_word() {
+    let folder = two_scenes();
+    folder.write("e.toml", experiment(&CROPS.replace("[8, 6]", "[2, 6]")));
+    let words = ["the region \"corner\" is not within the frame of", "it is left out"];
+    folder.run(&["run", "e.toml"]).ok().says(&words);
+    let csv = fs::read_to_string(folder.path("reports/e/plots/crops.csv")).unwrap();
+    assert!(csv.contains("later") && !csv.contains("corner"));
+}
