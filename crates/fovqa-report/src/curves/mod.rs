@@ -1,6 +1,7 @@
 //! Figures, tables and the page of a curves file.
 
 mod labels;
+mod latex;
 mod models;
 mod page;
 mod picture;
@@ -17,6 +18,7 @@ use fovqa_results::{
 };
 
 use crate::figures::slug;
+use crate::latex::usual_label;
 use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
 use plain_table::PlainTable;
 
@@ -77,7 +79,9 @@ pub fn draw_curves(
     let page = page::page(&source, &made, &figures);
     let files = made.iter().map(|(name, table)| {
         let markdown: MakeText<'_> = Box::new(|| table.markdown());
-        NamedTable { name, files: vec![("md", markdown), ("csv", Box::new(|| table.csv()))] }
+        let latex: MakeText<'_> = Box::new(|| table.latex(&usual_label(&slug(&file.name), name)));
+        let files = vec![("md", markdown), ("csv", Box::new(|| table.csv())), ("tex", latex)];
+        NamedTable { name, files }
     });
     let page: MakeText<'_> = Box::new(|| page.clone());
     let sheet = Sheet { tables: files.collect(), figures, page, names: CsvNames::Plain };

@@ -33,7 +33,7 @@ pub(super) fn page(
         let _ = write!(
             text,
             "<h2>{}</h2>\n<div class=\"wide\">\n{}</div>\n<p class=\"note\">{} (<a href=\"{name}.md\">Markdown</a>, \
-             <a href=\"{name}.csv\">CSV</a>)</p>\n",
+             <a href=\"{name}.tex\">LaTeX</a>, <a href=\"{name}.csv\">CSV</a>)</p>\n",
             escaped(&table.caption),
             table.html(),
             escaped(&table.notes.join(" ")),

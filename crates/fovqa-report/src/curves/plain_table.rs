@@ -21,11 +21,27 @@ pub(super) struct PlainTable {
 pub(super) struct Column {
     pub(super) head: String,
     pub(super) key: String,
+    /// The heading over this and neighbouring columns in LaTeX.
+    pub(super) group: Option<String>,
+    /// The heading in LaTeX, if it is not `head`. A unit stands in brackets at its end.
+    pub(super) in_paper: Option<String>,
+    /// Whether every part of a table that is divided in LaTeX repeats the column.
+    pub(super) is_repeated: bool,
 }
 
 impl Column {
     pub(super) fn new(head: impl Into<String>, key: impl Into<String>) -> Self {
-        Self { head: head.into(), key: key.into() }
+        Self { head: head.into(), key: key.into(), group: None, in_paper: None, is_repeated: false }
+    }
+
+    /// The column with its headings in LaTeX.
+    pub(super) fn in_paper(self, group: &str, head: &str) -> Self {
+        Self { group: Some(group.to_owned()), in_paper: Some(head.to_owned()), ..self }
+    }
+
+    /// The column as one that every part of a divided table repeats.
+    pub(super) fn repeated(self) -> Self {
+        Self { is_repeated: true, ..self }
     }
 }
 
@@ -34,16 +50,18 @@ impl Column {
 pub(super) struct Cell {
     pub(super) shown: String,
     pub(super) value: String,
+    /// Whether it is a number. Numbers are aligned.
+    pub(super) is_number: bool,
 }
 
 impl Cell {
     pub(super) fn text(text: impl Into<String>) -> Self {
         let text = text.into();
-        Self { shown: text.clone(), value: text }
+        Self { shown: text.clone(), value: text, is_number: false }
     }
 
     pub(super) fn number(shown: String, value: f64) -> Self {
-        Self { shown, value: format!("{value:?}") }
+        Self { shown, value: format!("{value:?}"), is_number: true }
     }
 
     /// A share, shown in percent.

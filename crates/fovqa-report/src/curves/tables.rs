@@ -92,11 +92,12 @@ fn samples(curves: &[&Curve]) -> PlainTable {
             None => rows.push((name, vec![curve])),
         }
     }
-    let mut columns = vec![Column::new("Method", "method")];
+    let mut columns = vec![Column::new("Method", "method").repeated()];
     for size in &sizes {
         let plain = size.replace(" × ", "x");
-        columns.push(Column::new(size.clone(), format!("samples {plain}")));
-        columns.push(Column::new("load", format!("load {plain}")));
+        let samples = Column::new(size.clone(), format!("samples {plain}"));
+        columns.push(samples.in_paper(size, "Samples (10³)"));
+        columns.push(Column::new("load", format!("load {plain}")).in_paper(size, "Load"));
     }
     let cells = |row: &[&Curve], size: &String| {
         let of_size = |curve: &&&Curve| screen(curve).map(resolution).as_ref() == Some(size);
@@ -138,9 +139,9 @@ fn speed_up(curves: &[&Curve]) -> PlainTable {
     let labels = Labels::of(curves);
     let beyond = has_beyond(curves);
     let mut columns = vec![
-        Column::new("Method", "method"),
+        Column::new("Method", "method").repeated(),
         Column::new("Parameters", "parameters"),
-        Column::new("Resolution", "resolution"),
+        Column::new("Resolution", "resolution").repeated(),
         Column::new("Buffers (px)", "buffers_px"),
         Column::new("Samples", "samples"),
         Column::new("Share", "share"),
@@ -160,11 +161,13 @@ fn speed_up(curves: &[&Curve]) -> PlainTable {
             Cell {
                 shown: rounded(&curve.spec.parameters.replace(';', "; ")),
                 value: curve.spec.parameters.clone(),
+                is_number: false,
             },
             Cell::text(screen(curve).map(resolution).unwrap_or_default()),
             Cell {
                 shown: buffers.collect::<Vec<_>>().join(", "),
                 value: plain.collect::<Vec<_>>().join(";"),
+                is_number: false,
             },
             Cell::count(counts.samples),
             Cell::percent(counts.whole() / pixels(curve)),
@@ -198,16 +201,20 @@ fn speed_up(curves: &[&Curve]) -> PlainTable {
     }
 }
 
+/// Headings of the table of acuity in LaTeX.
+const FIELD: &str = "Field below acuity";
+const ABOVE: &str = "Samples above acuity";
+
 fn acuity(source: &Source<'_>, curves: &[&Curve]) -> PlainTable {
     let labels = Labels::of(curves);
     let columns = vec![
-        Column::new("Method", "method"),
-        Column::new("Resolution", "resolution"),
-        Column::new("Field below, radial", "below_radial"),
-        Column::new("tangential", "below_tangential"),
-        Column::new("either", "below"),
-        Column::new("Samples above", "samples_above"),
-        Column::new("of those on screen", "above"),
+        Column::new("Method", "method").repeated(),
+        Column::new("Resolution", "resolution").repeated(),
+        Column::new("Field below, radial", "below_radial").in_paper(FIELD, "Radial"),
+        Column::new("tangential", "below_tangential").in_paper(FIELD, "Tangential"),
+        Column::new("either", "below").in_paper(FIELD, "Either"),
+        Column::new("Samples above", "samples_above").in_paper(ABOVE, "Number"),
+        Column::new("of those on screen", "above").in_paper(ABOVE, "On screen"),
     ];
     let rows = curves.iter().filter_map(|curve| {
         let field = curve.shares?;
