@@ -7,8 +7,9 @@ use fovqa_plan::{Plot, PlotKind};
 use fovqa_results::{CsvNames, RUN_JSON, RUN_SCHEMA, RunRecord, check_files, read_json_file};
 
 use crate::comparison::ComparisonTable;
-use crate::figures::{Source, default_plots, figures, ratio_tables};
+use crate::figures::{Source, default_plots, figures, ratio_tables, slug};
 use crate::frame_values::FrameValues;
+use crate::latex::usual_label;
 use crate::overview::Overview;
 use crate::page::{PageFigure, page};
 use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, PLOTS, ReportError, Sheet};
@@ -45,11 +46,21 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let mut names = Names::default();
     let (mut tables, mut drawn) = (Vec::new(), Vec::new());
     for plot in &plots {
-        for (name, table) in tables_of(&source, plot) {
-            tables.push((names.free(&name), table));
+        for (index, (name, table)) in tables_of(&source, plot).into_iter().enumerate() {
+            let name = names.free(&name);
+            let label = label(&run.resolved.name, plot, index, &name);
+            tables.push((name, table.labelled(label)));
         }
-        for figure in figures(&source, plot) {
-            drawn.push(NamedFigure { name: names.free(&figure.name), ..figure });
+        let of_plot = figures(&source, plot);
+        let several = of_plot.len() > 1;
+        for figure in of_plot {
+            let caption = match &plot.caption {
+                None => figure.caption,
+                // What tells the figures of one plot apart stays.
+                Some(caption) if several => format!("{caption}: {}", figure.caption),
+                Some(caption) => caption.clone(),
+            };
+            drawn.push(NamedFigure { name: names.free(&figure.name), caption, ..figure });
         }
     }
 
@@ -87,10 +98,21 @@ fn files_of<'a>(name: &'a str, table: &'a ComparisonTable) -> NamedTable<'a> {
 fn tables_of(source: &Source<'_>, plot: &Plot) -> Vec<(String, ComparisonTable)> {
     match plot.kind {
         PlotKind::Table => {
-            let table = ComparisonTable::new(source.run, source.overview, plot);
-            table.map(|table| ("table".to_owned(), table)).into_iter().collect()
+            let own = plot.name.as_deref().map(slug).filter(|name| !name.is_empty());
+            let name = own.map_or_else(|| "table".to_owned(), |own| format!("table-{own}"));
+            let table = ComparisonTable::new(source.run, source.overview, source.values, plot);
+            table.map(|table| (name, table)).into_iter().collect()
         }
         PlotKind::Ratios => ratio_tables(source, plot),
         _ => Vec::new(),
+    }
+}
+
+/// The label of a plot's table in LaTeX. Each table of one document needs a label of its own.
+fn label(experiment: &str, plot: &Plot, index: usize, name: &str) -> String {
+    match &plot.label {
+        Some(label) if index == 0 => label.clone(),
+        Some(label) => format!("{label}-{}", index + 1),
+        None => usual_label(&slug(experiment), name),
     }
 }

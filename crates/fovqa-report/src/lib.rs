@@ -7,6 +7,7 @@ mod figures;
 mod foveate_text;
 mod frame_values;
 mod index;
+mod latex;
 mod long_lines;
 mod overview;
 mod page;

@@ -30,13 +30,15 @@ thead th{text-align:center;font-weight:600}tbody th{text-align:left;font-weight:
 thead tr:last-child th{font-weight:400;border-bottom:1px solid #888;text-align:right}
 thead tr:first-child th:first-child{border-bottom:1px solid #888;text-align:left;vertical-align:bottom}
 td.first{padding-left:1.8em}tr.average>*{border-top:1px solid #ccc}
+thead th.corner{text-align:left!important}u{text-decoration-thickness:1px;text-underline-offset:.2em}
+tr.section th{font-style:italic;padding-top:.6em}tr.section:not(:first-child) th{border-top:1px solid #ccc}
 .figures{display:flex;flex-wrap:wrap;gap:1.5em}
 img.small{max-width:380px;max-height:320px}figure{margin:0}figure img{max-width:100%}
 .errors li{color:#a00}
 code{background:#f3f3f3;padding:0 .2em}
 ";
 
-/// Additional style for tables with very many methods.
+/// Additional style for tables with very many rows or columns.
 const LONG_STYLE: &str = "\
 .long{overflow:auto;max-height:80vh}.long thead{position:sticky;top:0;z-index:1;background:#fff}
 .long tbody th{position:sticky;left:0;background:#fff}
@@ -81,17 +83,7 @@ pub(crate) fn page(
         }
     }
     for (name, table) in tables {
-        if table.is_long() {
-            long_table(&mut text, name, table);
-            continue;
-        }
-        let _ = write!(
-            text,
-            "<h2>{}</h2>\n<div class=\"wide\">\n{}</div>\n<p class=\"note\">{}</p>\n",
-            escaped(table.caption()),
-            table.html(),
-            escaped(&table.notes().join(" "))
-        );
+        self::table(&mut text, name, table);
     }
     if !figures.is_empty() {
         text.push_str("<h2>Figures</h2>\n");
@@ -108,22 +100,26 @@ pub(crate) fn page(
     text
 }
 
-/// Writes a table with very many methods in a box that scrolls, or only links to its files.
-fn long_table(text: &mut String, name: &str, table: &ComparisonTable) {
-    let (caption, name) = (escaped(table.caption()), escaped(name));
-    let _ = writeln!(text, "<h2>{caption}</h2>");
-    let note = match table.long_html() {
+/// Writes a table. One of very many rows or columns is in a box that scrolls; the page only links to
+/// one that is too large.
+fn table(text: &mut String, name: &str, table: &ComparisonTable) {
+    let name = escaped(name);
+    let _ = writeln!(text, "<h2>{}</h2>", escaped(table.caption()));
+    let too_large = match table.html() {
         Some(html) => {
-            let _ = writeln!(text, "<div class=\"long\">\n{html}</div>");
-            "Each method is a row here, and a column of the files"
+            let class = if table.is_long() { "long" } else { "wide" };
+            let _ = writeln!(text, "<div class=\"{class}\">\n{html}</div>");
+            ""
         }
-        None => "The table has too many methods for a page",
+        None => "The table is too large for a page. ",
     };
+    let legend = Some(table.html_legend()).filter(|legend| !legend.is_empty());
+    let notes: Vec<String> = legend.into_iter().chain(table.notes()).collect();
     let _ = writeln!(
         text,
-        "<p class=\"note\">{} {note}: <a href=\"{name}.csv\">CSV</a>, <a href=\"{name}.md\">Markdown</a>, \
-         <a href=\"{name}.tex\">LaTeX</a>.</p>",
-        escaped(&table.notes().join(" "))
+        "<p class=\"note\">{too_large}{} (<a href=\"{name}.md\">Markdown</a>, <a href=\"{name}.tex\">LaTeX</a>, \
+         <a href=\"{name}.csv\">CSV</a>)</p>",
+        escaped(&notes.join(" "))
     );
 }
 

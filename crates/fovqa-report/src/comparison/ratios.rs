@@ -4,9 +4,10 @@ use fovqa_metrics::{Better, Metric};
 use fovqa_plan::Plot;
 use fovqa_results::RunRecord;
 
-use super::group::Group;
-use super::{Cell, ComparedRow, ComparisonTable};
-use crate::overview::{Measured, Overview, WaveletBand};
+use super::ComparisonTable;
+use super::measure::Measure;
+use super::values::{Item, Items, Values, marked};
+use crate::overview::{Band, Measured, Overview, WaveletBand};
 
 /// The contents of a table of ratios.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,10 +15,8 @@ pub(crate) struct Ratios<'a> {
     pub(crate) metric: Metric,
     pub(crate) scene: &'a str,
     pub(crate) methods: &'a [&'a str],
-    /// Levels of the wavelet; `None` for all.
-    pub(crate) levels: Option<&'a [usize]>,
-    /// Statistic of the wavelet.
-    pub(crate) statistic: &'a str,
+    /// The plot, with levels and statistic of the wavelet, and with the layout.
+    pub(crate) plot: &'a Plot,
 }
 
 /// The statistic of the wavelet that is shown if none is named.
@@ -48,31 +47,27 @@ impl ComparisonTable {
         let found: Vec<&Measured> = ratios.methods.iter().filter_map(of).collect();
         let bands = found.iter().map(|c| &c.bands).find(|bands| !bands.is_empty())?;
         let levels = ratios.levels_of(&found);
-        let groups = ratios.groups(&levels);
-        let row = |label: String, value: &dyn Fn(&Measured, usize) -> Option<f64>| {
-            let cells = (0..groups.len()).map(|group| {
-                let value = |method: &&str| Some(value(of(method)?, group)? * 100.0);
-                let cell = |value| Cell { value, best: false };
-                ratios.methods.iter().map(|method| cell(value(method))).collect()
+        let measures = ratios.measures(&levels);
+        let item = |label: String, value: &dyn Fn(&Measured, usize) -> Option<f64>| {
+            let cells = measures.iter().enumerate().map(|(index, measure)| {
+                let value = |method: &&str| Some(value(of(method)?, index)? * 100.0);
+                let scored: Vec<_> = ratios.methods.iter().map(|m| (value(m), None)).collect();
+                marked(index, measure, &scored)
             });
-            ComparedRow { label, average: false, cells: cells.collect() }
+            Item { title: label.clone(), label, is_average: false, cells: cells.collect() }
         };
-        let mut rows: Vec<ComparedRow> = bands
-            .iter()
-            .map(|band| {
-                let edges = (band.from_deg, band.to_deg);
-                let label = format!("{}° to {}°", band.from_deg, band.to_deg);
-                row(label, &|comparison, group| {
-                    ratios.in_band(comparison, edges, levels.get(group))
-                })
-            })
-            .collect();
+        let band = |band: &Band| {
+            let edges = (band.from_deg, band.to_deg);
+            let label = format!("{}° to {}°", band.from_deg, band.to_deg);
+            item(label, &|comparison, index| ratios.in_band(comparison, edges, levels.get(index)))
+        };
+        let mut items: Vec<Item> = bands.iter().map(band).collect();
         if ratios.metric == Metric::Atd {
             let whole = |c: &Measured, _| c.atd.as_ref()?.ratio;
-            rows.push(ComparedRow { average: true, ..row("whole frame".to_owned(), &whole) });
+            items.push(Item { is_average: true, ..item("whole frame".to_owned(), &whole) });
         }
-        let cells = rows.iter().flat_map(|row| row.cells.iter().flatten());
-        if groups.is_empty() || cells.clone().all(|cell| cell.value.is_none()) {
+        let mut cells = items.iter().flat_map(|item| item.cells.iter().flatten());
+        if measures.is_empty() || cells.all(|cell| cell.value.is_none()) {
             return None;
         }
         let scene = if run.resolved.scenes.len() > 1 {
@@ -80,26 +75,35 @@ impl ComparisonTable {
         } else {
             String::new()
         };
+        let methods = ratios.methods.iter().map(|&method| method.to_owned()).collect();
         Some(Self {
-            caption: format!("{}, test / reference{scene}", ratios.label()),
-            corner: "eccentricity",
-            methods: ratios.methods.iter().map(|&method| method.to_owned()).collect(),
-            groups,
-            rows,
+            title: format!("{}, test / reference{scene}", ratios.label()),
+            caption: ratios.plot.caption.clone(),
+            label: String::new(),
+            layout: ratios.plot.layout,
+            means: ratios.means().to_owned(),
             notes: vec![NOTE.to_owned()],
+            values: Box::new(Values { items_are: Items::Bands, items, measures, methods }),
         })
     }
 }
 
-const NOTE: &str = "Ratios of means over frames (max |c|: of the largest values). 100 % means the same value as in the \
-                    reference; – means that the reference is 0, or that nothing was measured.";
+const NOTE: &str = "100 % means the same value as in the reference; – means that the reference is 0, or that nothing was measured.";
 
 impl Ratios<'_> {
     fn label(&self) -> String {
         let label = self.metric.info().label;
         match self.metric {
-            Metric::Haar => format!("{label} {}", statistic_in_words(self.statistic)),
+            Metric::Haar => format!("{label} {}", statistic_in_words(statistic(self.plot))),
             _ => label.to_owned(),
+        }
+    }
+
+    /// What the values are ratios of.
+    fn means(&self) -> &'static str {
+        match (self.metric, statistic(self.plot)) {
+            (Metric::Haar, "max_abs") => "Ratios of the largest values over frames.",
+            _ => "Ratios of means over frames.",
         }
     }
 
@@ -112,21 +116,22 @@ impl Ratios<'_> {
             found.iter().flat_map(|c| c.wavelet.iter().map(|band| band.level.into())).collect();
         levels.sort_unstable();
         levels.dedup();
-        levels.retain(|level| self.levels.is_none_or(|wanted| wanted.contains(level)));
+        let wanted = self.plot.levels.as_ref();
+        levels.retain(|level| wanted.is_none_or(|wanted| wanted.contains(level)));
         levels
     }
 
-    fn groups(&self, levels: &[usize]) -> Vec<Group> {
+    fn measures(&self, levels: &[usize]) -> Vec<Measure> {
         let key = self.metric.key();
         match self.metric {
             Metric::Haar => levels
                 .iter()
                 .map(|level| {
-                    let key = format!("{key}_{}_{level}_percent", self.statistic);
-                    Group::ratio(format!("level {level}"), key, Better::Neither)
+                    let key = format!("{key}_{}_{level}_percent", statistic(self.plot));
+                    Measure::ratio(format!("level {level}"), key, Better::Neither)
                 })
                 .collect(),
-            _ => vec![Group::ratio(self.label(), format!("{key}_percent"), Better::Neither)],
+            _ => vec![Measure::ratio(self.label(), format!("{key}_percent"), Better::Neither)],
         }
     }
 
@@ -144,6 +149,6 @@ impl Ratios<'_> {
         let of = |band: &&WaveletBand| {
             usize::from(band.level) == level && is_it(band.from_deg, band.to_deg)
         };
-        comparison.wavelet.iter().find(of)?.statistic(self.statistic).ratio()
+        comparison.wavelet.iter().find(of)?.statistic(statistic(self.plot)).ratio()
     }
 }

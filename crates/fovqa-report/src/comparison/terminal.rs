@@ -1,51 +1,73 @@
 //! Writes the table for a terminal.
 
-use super::group::Group;
-use super::{Cell, ComparedRow, ComparisonTable};
+use super::grid::{Grid, Group, Label};
+use super::marks::Mark;
+use super::values::Cell;
+use super::{ComparisonTable, legend};
 use crate::text_table::{aligned, plain_table, printable};
 
 impl ComparisonTable {
-    /// Text for a terminal: one metric below another or, if there is only one scene, one method
-    /// below another. `*` marks the best value of each scene.
+    /// Text for a terminal, with groups of columns below each other. `*` marks the best values, `+`
+    /// the second best.
     pub fn terminal(&self) -> String {
-        if let [row] = self.rows.as_slice() {
-            return self.one_scene(row);
-        }
+        let grid = self.grid();
         let mut text = if self.is_of_scenes() {
             String::new()
         } else {
-            format!("{}\n\n", printable(&self.caption))
+            format!("{}\n\n", printable(self.caption()))
         };
-        for (index, group) in self.groups.iter().enumerate() {
-            let heading = group.heading();
-            let methods = self.methods.iter().map(String::as_str);
-            let header: Vec<&str> = [heading.as_str()].into_iter().chain(methods).collect();
-            let mut table = plain_table(&header);
-            for row in &self.rows {
-                let cells = row.cells[index].iter().map(|cell| starred(group, cell));
-                table.add_row([printable(&row.label)].into_iter().chain(cells));
-            }
-            text.push_str(&aligned(table));
-            text.push_str("\n\n");
+        let mut from = 0;
+        for group in &grid.groups {
+            let table = of_group(&grid, group, from);
+            text.push_str(&table);
+            text.push_str(if grid.groups.len() > 1 { "\n\n" } else { "\n" });
+            from += group.columns.len();
+        }
+        let legend = legend(&grid, "*", "+");
+        if !legend.is_empty() {
+            text.push_str(&legend);
+            text.push('\n');
         }
         text
     }
-
-    fn one_scene(&self, row: &ComparedRow) -> String {
-        let headings: Vec<String> = self.groups.iter().map(Group::heading).collect();
-        let label = printable(&row.label);
-        let headings = headings.iter().map(String::as_str);
-        let header: Vec<&str> = [label.as_str()].into_iter().chain(headings).collect();
-        let mut table = plain_table(&header);
-        for (index, method) in self.methods.iter().enumerate() {
-            let groups = self.groups.iter().zip(&row.cells);
-            let cells = groups.map(|(group, cells)| starred(group, &cells[index]));
-            table.add_row([printable(method)].into_iter().chain(cells));
-        }
-        aligned(table) + "\n"
-    }
 }
 
-fn starred(group: &Group, cell: &Cell) -> String {
-    format!("{}{}", group.shown(cell.value), if cell.best { "*" } else { " " })
+/// The columns of a group, which begin at `from`. The titles of sections are lines between the
+/// rows, so that a long title does not make the first column wide.
+fn of_group(grid: &Grid, group: &Group, from: usize) -> String {
+    let first = match &group.head {
+        Some(head) => head.heading(),
+        None => grid.first_heading().to_owned(),
+    };
+    let headings = group.columns.iter().map(Label::heading);
+    let header: Vec<String> =
+        [first].into_iter().chain(headings).map(|name| printable(&name)).collect();
+    let mut table = plain_table(&header.iter().map(String::as_str).collect::<Vec<_>>());
+    let range = from..from + group.columns.len();
+    for section in &grid.sections {
+        let indent = if section.title.is_empty() { "" } else { "  " };
+        for row in &section.rows {
+            let label = format!("{indent}{}", printable(&row.label.heading()));
+            table.add_row([label].into_iter().chain(row.cells[range.clone()].iter().map(starred)));
+        }
+    }
+    let text = aligned(table);
+    let mut lines = text.lines();
+    let mut shown: Vec<String> = lines.next().map(str::to_owned).into_iter().collect();
+    for section in &grid.sections {
+        if !section.title.is_empty() {
+            shown.push(printable(&section.title));
+        }
+        shown.extend(lines.by_ref().take(section.rows.len()).map(str::to_owned));
+    }
+    shown.join("\n")
+}
+
+fn starred(cell: &Cell) -> String {
+    let mark = match cell.mark {
+        Mark::Best => '*',
+        Mark::Second => '+',
+        Mark::None => ' ',
+    };
+    format!("{}{mark}", cell.shown())
 }

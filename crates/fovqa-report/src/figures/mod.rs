@@ -14,7 +14,7 @@ use fovqa_results::{EccentricityShare, RunRecord};
 
 use parts::Part;
 
-use crate::comparison::{ComparisonTable, Ratios, average_label, common_scenes, mean, statistic};
+use crate::comparison::{ComparisonTable, Ratios, average_label, common_scenes, mean, named};
 use crate::frame_values::FrameValues;
 use crate::overview::Overview;
 use crate::sheet::NamedFigure;
@@ -84,23 +84,26 @@ pub(crate) fn figures(source: &Source<'_>, plot: &Plot) -> Vec<NamedFigure> {
 
 /// The tables of ratios of a plot: one per metric and scene.
 pub(crate) fn ratio_tables(source: &Source<'_>, plot: &Plot) -> Vec<(String, ComparisonTable)> {
-    let selection = Selection::new(source, plot);
+    let resolved = &source.run.resolved;
+    let scenes = resolved.scenes.iter().map(|scene| scene.name.as_str());
+    let scenes = named(plot.scenes.as_deref(), scenes);
+    let methods = named(plot.methods.as_deref(), resolved.methods.iter().map(String::as_str));
+    let metrics = metrics(source, plot);
     let table = |(metric, scene): (Metric, &str)| {
-        let name = format!("ratios-{}", slug(metric.key()));
-        let alone = selection.scenes.len() == 1;
-        let name = if alone { name } else { format!("{name}-{}", slug(scene)) };
-        let ratios = Ratios {
-            metric,
-            scene,
-            methods: &selection.all,
-            levels: plot.levels.as_deref(),
-            statistic: statistic(plot),
+        let own = plot.name.as_deref().map(slug).filter(|name| !name.is_empty());
+        let key = slug(metric.key());
+        let part = match own {
+            None => key,
+            Some(own) if metrics.len() == 1 => own,
+            Some(own) => format!("{own}-{key}"),
         };
+        let alone = scenes.len() == 1;
+        let name = format!("ratios-{part}");
+        let name = if alone { name } else { format!("{name}-{}", slug(scene)) };
+        let ratios = Ratios { metric, scene, methods: &methods, plot };
         Some((name, ComparisonTable::ratios(source.run, source.overview, &ratios)?))
     };
-    let metrics = metrics(source, plot).into_iter();
-    let each =
-        metrics.flat_map(|metric| selection.scenes.iter().map(move |scene| (metric, *scene)));
+    let each = metrics.iter().flat_map(|metric| scenes.iter().map(move |scene| (*metric, *scene)));
     each.filter_map(table).collect()
 }
 
@@ -113,17 +116,20 @@ pub(crate) fn metrics(source: &Source<'_>, plot: &Plot) -> Vec<Metric> {
         PlotKind::Profile => metric.info().per_band,
         PlotKind::Ratios => !metric.is(MetricKind::Fidelity),
         // The ratio of the test to the reference is in a column of the table.
-        PlotKind::Bars | PlotKind::Frames if plot.metric.is_none() => {
+        PlotKind::Bars | PlotKind::Frames if plot.named().is_none() => {
             metric.is(MetricKind::Fidelity)
         }
         _ => !metric.is(MetricKind::Profile),
     };
-    let wanted = |metric: Metric| match &plot.metric {
-        Some(key) => key == metric.key(),
-        None => metric != Metric::Mse || !scored(Metric::Psnr),
+    let in_order = source.run.resolved.metrics_in_order();
+    let wanted: Vec<Metric> = if let Some(keys) = plot.named() {
+        let metric = |key: &str| in_order.iter().find(|metric| metric.key() == key).copied();
+        keys.into_iter().filter_map(metric).collect()
+    } else {
+        let is_shown = |metric: &Metric| *metric != Metric::Mse || !scored(Metric::Psnr);
+        in_order.into_iter().filter(is_shown).collect()
     };
-    let all = Metric::ALL.into_iter();
-    all.filter(|&metric| scored(metric) && fits(metric) && wanted(metric)).collect()
+    wanted.into_iter().filter(|&metric| scored(metric) && fits(metric)).collect()
 }
 
 impl<'a> Selection<'a> {

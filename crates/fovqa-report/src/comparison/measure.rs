@@ -1,10 +1,10 @@
-//! A group of columns: one measure, with one column per method.
+//! What a table shows of each method: a metric, or another measure.
 
 use fovqa_metrics::{Better, Metric};
 
-/// The measure that the columns of a group show.
+/// A measure, and how its values are written.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Group {
+pub(crate) struct Measure {
     /// Label that people read.
     pub(crate) label: String,
     /// Its unit; empty for a plain number.
@@ -13,12 +13,12 @@ pub(crate) struct Group {
     pub(crate) better: Better,
     /// Name in CSV files.
     pub(crate) key: String,
-    digits: Digits,
+    pub(super) digits: Digits,
 }
 
 /// How the digits of numbers are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Digits {
+pub(super) enum Digits {
     Decibels,
     Thousandths,
     Scientific,
@@ -26,8 +26,8 @@ enum Digits {
     Percent,
 }
 
-impl Group {
-    /// The group for a metric's own values.
+impl Measure {
+    /// The measure of a metric's own values.
     pub(crate) fn of(metric: Metric) -> Self {
         let info = metric.info();
         let digits = match metric {
@@ -45,7 +45,7 @@ impl Group {
         }
     }
 
-    /// The group for the samples of emulated methods.
+    /// The measure of the samples of emulated methods.
     pub(crate) fn samples() -> Self {
         Self {
             label: "Samples".to_owned(),
@@ -56,7 +56,7 @@ impl Group {
         }
     }
 
-    /// The group for percentages of the reference's value.
+    /// The measure of percentages of the reference's value.
     pub(crate) fn ratio(label: String, key: String, better: Better) -> Self {
         Self { label, unit: "% of reference", better, key, digits: Digits::Percent }
     }
@@ -74,7 +74,13 @@ impl Group {
 
     /// Formats a value for people.
     pub(crate) fn shown(&self, value: Option<f64>) -> String {
-        match (value, self.digits) {
+        self.digits.shown(value)
+    }
+}
+
+impl Digits {
+    pub(super) fn shown(self, value: Option<f64>) -> String {
+        match (value, self) {
             (None, _) => "–".to_owned(),
             (Some(value), _) if value.is_infinite() => "inf".to_owned(),
             (Some(value), Digits::Decibels) => format!("{value:.2}"),
