@@ -480,8 +480,10 @@ fn a_ratio_is_that_of_test_and_reference() {
     let value = |rows: &[Vec<String>], series: &str| -> f64 {
         rows.iter().find(|row| row[0] == series).unwrap()[2].parse().unwrap()
     };
-    let (ratios, profile) =
-        (data(&folder, "ratio-profile-rms-contrast-room"), data(&folder, "profile-rms-contrast-room"));
+    let (ratios, profile) = (
+        data(&folder, "ratio-profile-rms-contrast-room"),
+        data(&folder, "profile-rms-contrast-room"),
+    );
     let want = value(&profile, "B") / value(&profile, "reference");
     assert!((value(&ratios, "B") / want - 1.0).abs() < 1e-9);
     assert!((value(&ratios, "reference") - 1.0).abs() < 1e-12);

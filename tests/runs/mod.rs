@@ -17,4 +17,6 @@ mod results_folder;
 pub(crate) mod resume;
 pub(crate) mod shards;
 mod spreadsheet_names;
+mod table_layouts;
+mod typeset;
 mod unchanged;

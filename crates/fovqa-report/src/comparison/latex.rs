@@ -66,8 +66,11 @@ impl ComparisonTable {
         if let Some(caption) = &self.caption {
             return caption.clone();
         }
-        let subject =
-            if grid.subject.is_empty() { String::new() } else { format!(", {}", grid.subject) };
+        let subject = match grid.subject.as_str() {
+            "" => String::new(),
+            _ if self.values.items[0].is_average => format!(", {}", grid.subject.to_lowercase()),
+            scene => format!(", {scene}"),
+        };
         let marks = legend(grid, "bold", "underlined");
         let about = format!("{}{subject}. {} {marks}", self.title, self.means);
         about.trim_end().to_owned()

@@ -49,15 +49,19 @@ pub(super) fn notes(
 
 /// What the values are.
 pub(super) fn means(plot: &Plot) -> String {
-    let of = match plot.average {
-        AveragePlace::Only => "Means over frames, averaged over scenes",
-        _ => "Means over frames",
+    let only = plot.average == AveragePlace::Only;
+    let means = match (plot.spread, only) {
+        (None, false) => "Means over frames.",
+        (None, true) => "Means over frames, averaged over scenes.",
+        (Some(SpreadOver::Scenes), false) => {
+            "Means over frames; averages ± standard deviation over scenes."
+        }
+        (Some(SpreadOver::Scenes), true) => {
+            "Means over frames, averaged over scenes ± standard deviation over scenes."
+        }
+        (Some(SpreadOver::Frames), _) => "Means ± standard deviation over frames.",
     };
-    match plot.spread {
-        None => format!("{of}."),
-        Some(SpreadOver::Scenes) => format!("{of}; averages ± standard deviation over scenes."),
-        Some(SpreadOver::Frames) => format!("{of} ± standard deviation over frames."),
-    }
+    means.to_owned()
 }
 
 /// A note on the metrics that have no spread.

@@ -4,12 +4,12 @@ use std::fmt::Write;
 
 use super::cells::{Printer, broken};
 use super::number::BEST;
-use super::parts::{Part, Slice, height, pages, parts, runs};
-use super::width::{INCH, width};
+use super::parts::{Part, RULE, Slice, height, pages, parts, runs};
+use super::width::{INCH, LINE, lines, width};
 use super::{Cell, Sheet};
 
-/// Maximum number of lines of a float, without its caption. A page of 9 inches has about 50.
-const MOST_LINES: usize = 42;
+/// Maximum height of a float in points: the text of a page of the standard classes.
+const HIGHEST: f64 = 540.0;
 /// Width in points of a column of a page with two. A wider table spans both.
 const NARROW: f64 = 3.3 * INCH;
 /// Words of captions and titles that are wider than this may be broken, in points.
@@ -30,21 +30,27 @@ pub(super) fn floats(sheet: &Sheet) -> Floats {
     let parts = parts(sheet, &printers);
     let width = parts.iter().map(|part| part.width).fold(0.0, f64::max);
     let is_wide = width > NARROW;
-    let head_lines = 3 + usize::from(!sheet.groups.is_empty());
-    let pages = pages(sheet, MOST_LINES - head_lines);
+    let narrowest = parts.iter().map(|part| part.width).fold(width, f64::min);
+    let column = if is_wide { width } else { NARROW };
+    let caption = LINE * (1 + lines(&sheet.caption, 0.9 * column)) as f64 + 20.0;
+    let heads = parts.iter().map(|part| head_height(sheet, part));
+    let highest = heads.fold(0.0, f64::max);
+    let most = HIGHEST - caption;
+    let pages = pages(sheet, narrowest, (most - highest).max(10.0 * LINE));
     // All parts of some rows stand in one float if there is space.
-    let mut bodies: Vec<(String, usize)> = Vec::new();
+    let mut bodies: Vec<(String, f64)> = Vec::new();
     for page in &pages {
-        let lines = head_lines + page.iter().map(height).sum::<usize>();
+        let rows: f64 = page.iter().map(|slice| height(slice, narrowest)).sum();
         for part in &parts {
+            let high = head_height(sheet, part) + rows;
             let text = Tabular { sheet, printers: &printers, part }.text(page);
             match bodies.last_mut() {
-                Some((body, used)) if *used + lines < MOST_LINES => {
+                Some((body, used)) if *used + LINE + high < most => {
                     body.push_str("\n\\medskip\n");
                     body.push_str(&text);
-                    *used += lines + 1;
+                    *used += LINE + high;
                 }
-                _ => bodies.push((text, lines)),
+                _ => bodies.push((text, high)),
             }
         }
     }
@@ -71,6 +77,14 @@ pub(super) fn floats(sheet: &Sheet) -> Floats {
         let _ = writeln!(text, "\\smallskip\n{body}\\end{{{float}}}");
     }
     Floats { text, width, is_wide }
+}
+
+/// The height in points of the headings of a part and of the rules around it.
+fn head_height(sheet: &Sheet, part: &Part) -> f64 {
+    let names = part.columns.iter().map(|index| sheet.columns[*index].head.name_lines());
+    let names = names.max().unwrap_or(1);
+    let groups = if sheet.groups.is_empty() { 0.0 } else { LINE + RULE };
+    groups + LINE * (names + 1) as f64 + 2.0 * RULE
 }
 
 fn has_best(sheet: &Sheet) -> bool {

@@ -3,7 +3,7 @@
 use super::Head;
 use super::cells::wrapped;
 use super::escape::escaped;
-use super::width::width;
+use super::width::{lines, width};
 
 /// The width in points from which the name of a column is wrapped.
 const WIDEST_NAME: f64 = 66.0;
@@ -48,6 +48,11 @@ impl Head {
     /// The width of the name alone in points, as it is wrapped.
     pub(super) fn name_width(&self) -> f64 {
         width(&self.name).min(WIDEST_NAME)
+    }
+
+    /// The number of lines of the name.
+    pub(super) fn name_lines(&self) -> usize {
+        if width(&self.name) > WIDEST_NAME { lines(&self.name, WIDEST_NAME) } else { 1 }
     }
 
     pub(super) fn unit_width(&self) -> f64 {

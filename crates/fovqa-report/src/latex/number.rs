@@ -77,7 +77,7 @@ impl Fill {
         let value = 1.15 * whole + point + 1.15 * digits(self.decimals) + power(self.power);
         let spread = if self.has_spread {
             let digits = digits(self.spread_whole + self.spread_decimals);
-            5.0 + 0.85 * (7.8 + 2.8 + digits) + power(self.spread_power)
+            6.5 + 0.85 * (7.8 + 2.8 + digits) + power(self.spread_power)
         } else {
             0.0
         };
@@ -115,7 +115,7 @@ impl Fill {
 
     fn spread(&self, spread: &str) -> String {
         let parts = Parts::of(spread);
-        let mut text = String::from("\\enspace{\\scriptsize$\\pm$");
+        let mut text = String::from("\\kern.65em{\\scriptsize$\\pm$");
         fill(&mut text, &mut "0".repeat(self.spread_whole.saturating_sub(parts.whole.len())));
         text.push_str(&sign(parts.whole));
         let point = if self.spread_decimals > 0 { "." } else { "" };

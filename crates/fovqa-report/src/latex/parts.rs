@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::cells::Printer;
+use super::width::{LINE, lines};
 use super::{Section, Sheet};
 
 /// Maximum number of columns of a part, besides those that every part repeats.
@@ -103,24 +104,30 @@ pub(super) struct Slice<'a> {
     pub(super) rows: Range<usize>,
 }
 
-/// The number of lines that rows of a section take, with the rule and the title above them.
-pub(super) fn height(Slice { section, rows }: &Slice<'_>) -> usize {
+/// The space of a rule in points.
+pub(super) const RULE: f64 = 6.5;
+
+/// The height in points of rows of a section, with the rule and the title above them, in a part of
+/// this width.
+pub(super) fn height(Slice { section, rows }: &Slice<'_>, width: f64) -> f64 {
     let of_row = |row: &Vec<_>| row.iter().map(Printer::lines).max().unwrap_or(1);
-    let title = usize::from(!section.title.is_empty());
-    title + section.rows[rows.clone()].iter().map(of_row).sum::<usize>()
+    let title = if section.title.is_empty() { 0 } else { lines(&section.title, 0.9 * width) };
+    let rows: usize = section.rows[rows.clone()].iter().map(of_row).sum();
+    RULE + LINE * (title + rows) as f64
 }
 
-/// Divides the rows into pages of at most so many lines. A section stays together if a page can
-/// hold it.
-pub(super) fn pages(sheet: &Sheet, most: usize) -> Vec<Vec<Slice<'_>>> {
+/// Divides the rows into pages of at most this height in points. A section stays together if a page
+/// can hold it.
+pub(super) fn pages(sheet: &Sheet, width: f64, most: f64) -> Vec<Vec<Slice<'_>>> {
+    let height = |slice: &Slice<'_>| height(slice, width);
     let mut pages: Vec<Vec<Slice<'_>>> = vec![Vec::new()];
-    let mut used = 0;
+    let mut used = 0.0;
     for section in &sheet.sections {
         let whole = Slice { section, rows: 0..section.rows.len() };
         let height_of_whole = height(&whole);
-        if used > 0 && used + height_of_whole > most {
+        if used > 0.0 && used + height_of_whole > most {
             pages.push(Vec::new());
-            used = 0;
+            used = 0.0;
         }
         if height_of_whole <= most {
             used += height_of_whole;

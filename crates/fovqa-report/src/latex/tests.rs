@@ -48,9 +48,9 @@ fn deviations_and_powers_take_the_same_space_in_each_row() {
     assert_eq!(
         column(&values),
         [
-            "24.70\\enspace{\\scriptsize$\\pm$\\phantom{0}0.12}",
-            "3.10\\enspace{\\scriptsize$\\pm$10.50}",
-            "--\\phantom{.00\\enspace{\\scriptsize$\\pm$00\\phantom{.00}}}"
+            "24.70\\kern.65em{\\scriptsize$\\pm$\\phantom{0}0.12}",
+            "3.10\\kern.65em{\\scriptsize$\\pm$10.50}",
+            "--\\phantom{.00\\kern.65em{\\scriptsize$\\pm$00\\phantom{.00}}}"
         ]
     );
     let values = [number("3.39e-3", ""), number("3.39e-12", ""), number("0.00", "")];

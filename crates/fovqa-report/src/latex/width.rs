@@ -1,6 +1,9 @@
 //! The width of text, as it is printed in Computer Modern at 10 pt. Only an estimate is needed: it
 //! decides which columns stand side by side, and where a name is wrapped.
 
+/// The height of a line in points.
+pub(super) const LINE: f64 = 12.0;
+
 /// An inch in points.
 pub(super) const INCH: f64 = 72.27;
 
@@ -37,7 +40,8 @@ pub(super) fn lines(text: &str, column: f64) -> usize {
             lines += 1;
             used = 0.0;
         }
-        // A long word is broken.
+        // A long word is broken, but not at any place.
+        let word = if word > column { 1.2 * word } else { word };
         lines += (word / column) as usize;
         used += 3.33 + word % column;
     }
@@ -58,7 +62,7 @@ mod tests {
     #[test]
     fn long_texts_need_several_lines() {
         assert_eq!(lines("RMFR", 100.0), 1);
-        assert_eq!(lines("RMFR with TAA and more", 70.0), 2);
-        assert_eq!(lines(&"W".repeat(20), 60.0), 4);
+        assert_eq!(lines("RMFR with TAA and more", 75.0), 2);
+        assert_eq!(lines(&"W".repeat(20), 60.0), 5);
     }
 }
