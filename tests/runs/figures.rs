@@ -207,6 +207,7 @@ fn a_sequence_with_default_metrics_has_all_figures_of_them() {
     for metric in ["fpsnr", "psnr", "ssim"] {
         want.extend([format!("bars-{metric}"), format!("frames-{metric}")]);
     }
+    want.extend(["ratio-profile-haar", "ratio-profile-rms-contrast"].map(str::to_owned));
     want.push("sequence-atd".to_owned());
     want.sort_unstable();
     assert_eq!(figures(&folder), want);
@@ -463,10 +464,10 @@ fn error_bars_are_over_frames_and_over_scenes() {
     near(&bar("Average")[3], deviation(&scenes) / 2.0_f64.sqrt());
     let profile = data(&folder, "profile-psnr-room");
     let first = profile.iter().find(|row| row[0] == "B").unwrap();
-    near(&first[3], deviation(&values("psnr", "pair", "0")));
+    near(&first[3], deviation(&values("psnr", "pair", "0.0")));
     let contrast = data(&folder, "profile-rms-contrast-room");
     let first = contrast.iter().find(|row| row[0] == "B").unwrap();
-    near(&first[3], deviation(&values("rms_contrast", "test", "0")));
+    near(&first[3], deviation(&values("rms_contrast", "test", "0.0")));
 }
 
 #[test]

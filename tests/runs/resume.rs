@@ -265,7 +265,7 @@ fn what_has_changed_is_said_and_all_is_scored() {
         resumed(&cut, &[], &[&format!("{file} has changed")]);
         folder.write(file, whole);
     }
-    folder.write("e.toml", text.replace("psnr = {}\n", "psnr = {}\nmse = {}\n"));
+    folder.write("e.toml", text.replace("ssim = {}\n", "ssim = { sigma = 2.0 }\n"));
     resumed(&cut, &[], &["the experiment file has changed"]);
     folder.write("e.toml", text.replace("psnr = {}\n", "psnr = {}\n# a remark\n"));
     resumed(&cut, &[], &[]);

@@ -125,6 +125,14 @@ pub enum EngineError {
         /// The reason.
         error: std::io::Error,
     },
+    /// A region of a frame that a figure shows and that cannot be written.
+    #[error("{}: the region of a frame cannot be written: {error}", path.display())]
+    Region {
+        /// The folder of the region.
+        path: PathBuf,
+        /// The reason.
+        error: std::io::Error,
+    },
     /// A parameter with a value that is not possible.
     #[error(transparent)]
     Param(#[from] ParamError),
@@ -236,6 +244,7 @@ impl EngineError {
             | Self::Memory { .. }
             | Self::Map { .. }
             | Self::KeptFrame { .. }
+            | Self::Region { .. }
             | Self::Journal { .. }
             | Self::JournalChanged { .. }
             | Self::JournalRead { .. } => false,
@@ -282,6 +291,7 @@ impl EngineError {
                 "check {fps}; skipped frames make it lower".to_owned()
             }
             Self::Map { .. } => "give another folder with {maps}, or free some space".to_owned(),
+            Self::Region { .. } => "give another folder with {output}, or free some space".to_owned(),
             Self::KeptFrame { .. } => {
                 "give another folder with {output}, free some space, or leave out keep_frames".to_owned()
             }

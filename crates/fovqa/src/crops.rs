@@ -45,20 +45,21 @@ impl Crops {
         for crop in crops {
             let folder = self.region(named, &crop.region);
             write(&folder, named.method, crop)
-                .map_err(|error| EngineError::KeptFrame { path: folder, error })?;
+                .map_err(|error| EngineError::Region { path: folder, error })?;
         }
         Ok(())
     }
 }
 
 fn write(folder: &Path, method: &str, crop: &CropPair) -> io::Result<()> {
-    make_folder(folder)?;
+    let test = CropRecord::test_file(folder, method);
+    make_folder(test.parent().unwrap_or(folder))?;
     let picture = |path: &Path, frame: &Frame| {
         let bytes = encode_frame(frame, FrameFormat::Png).map_err(io::Error::other)?;
         write_whole(path, &bytes).map_err(reason)
     };
     picture(&CropRecord::reference_file(folder), &crop.reference)?;
-    picture(&CropRecord::test_file(folder, method), &crop.test)?;
+    picture(&test, &crop.test)?;
     let record = CropRecord {
         frame: crop.frame,
         frame_px: crop.frame_px,
