@@ -37,13 +37,19 @@ fn typeset(folder: &Folder, files: &[String], width: &str) {
     }
     text.push_str("\\end{document}\n");
     folder.write("d.tex", text);
+    pdflatex(folder, "d");
+}
+
+/// Typesets a document of the folder, and refuses what an author would have to mend.
+#[track_caller]
+fn pdflatex(folder: &Folder, name: &str) {
     let run = Command::new("pdflatex")
-        .args(["-interaction=nonstopmode", "-halt-on-error", "d.tex"])
+        .args(["-interaction=nonstopmode", "-halt-on-error", &format!("{name}.tex")])
         .current_dir(folder.path(""))
         .stdin(Stdio::null())
         .output()
         .unwrap();
-    let log = fs::read(folder.path("d.log")).unwrap_or_default();
+    let log = fs::read(folder.path(&format!("{name}.log"))).unwrap_or_default();
     let log = String::from_utf8_lossy(&log);
     let bad = |line: &&str| {
         ["Overfull", "! ", "Float too large", "multiply-defined", "Missing character"]
@@ -51,7 +57,7 @@ fn typeset(folder: &Folder, files: &[String], width: &str) {
             .any(|word| line.contains(word))
     };
     let found: Vec<&str> = log.lines().filter(bad).collect();
-    assert!(run.status.success() && found.is_empty(), "{found:#?}\n{files:?}");
+    assert!(run.status.success() && found.is_empty(), "{name}: {found:#?}");
 }
 
 /// The LaTeX files below a folder, relative to it.
@@ -214,3 +220,24 @@ kind = "speed_up"
 [[table]]
 kind = "acuity"
 "#;
+
+/// The sample paper in docs/paper, from its own runs.
+#[test]
+fn the_sample_paper_has_nothing_overfull() {
+    if !has_latex() {
+        return;
+    }
+    let folder = Folder::new();
+    for file in ["experiment.toml", "curves.toml", "paper.tex"] {
+        fs::copy(root().join("docs/paper").join(file), folder.path(file)).unwrap();
+    }
+    folder.run(&["run", "experiment.toml"]).ok();
+    folder.run(&["curves", "curves.toml"]).ok();
+    for _ in 0..2 {
+        pdflatex(&folder, "paper");
+    }
+    let paper = fs::read_to_string(folder.path("paper.tex")).unwrap();
+    let figures = paper.matches("\n\\figwide{").count() + paper.matches("\n\\figcolumn{").count();
+    let tables = paper.matches("\n\\input{").count();
+    assert_eq!((figures, tables), (6, 4));
+}

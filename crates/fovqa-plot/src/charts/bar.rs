@@ -102,6 +102,8 @@ impl BarChart {
         let axis = self.axis_with_room(scale, values.reach_px(label_px), height_px);
 
         let (above, below) = infinity::strips_px(self.places());
+        // Under an end that was set, labels have no room in the plot area.
+        let above = if self.y.max.is_some() { above.max(values.reach_px(label_px)) } else { above };
         let sides = Sides {
             left: axis.left_px(),
             right: MARGIN_PX,

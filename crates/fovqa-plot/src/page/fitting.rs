@@ -13,6 +13,9 @@ use crate::page::style::{Height, Style};
 const TRIES: usize = 8;
 /// A height is met if it differs less than this.
 const CLOSE_PX: f64 = 1.0;
+/// How much wider or narrower than a column or a page a figure may be laid out to be printed as wide
+/// as it; the smallest text stays above 6 points.
+const SLACK: f64 = 1.12;
 /// A step of the height of plot areas, to find out how the figure grows with it.
 const PROBE_PX: f64 = 20.0;
 /// The smallest height of a plot area.
@@ -34,12 +37,18 @@ pub(crate) fn fit(
             with_height(&paper, |drawing: &Drawing| drawing.width_px / aspect, &draw)?
         }
     };
-    let Some(width_in) = style.width_in else {
-        return Ok(Printed::new(drawing, paper.pt_per_px));
+    let width_px = match style.width_in {
+        Some(_) => paper.column_px,
+        // A little more than a column or a page is made as wide as it, with smaller text.
+        None => [paper.column_px, paper.page_px]
+            .into_iter()
+            .find(|usual| (usual / SLACK..=usual * SLACK).contains(&drawing.width_px))
+            .unwrap_or(drawing.width_px),
     };
-    let drawing = centred(drawing, paper.column_px);
+    let drawing = centred(drawing, width_px);
     // Labels that need more room make everything smaller.
-    let pt_per_px = paper.pt_per_px * paper.column_px / drawing.width_px;
+    let pt_per_px = paper.pt_per_px * width_px / drawing.width_px;
+    let Some(width_in) = style.width_in else { return Ok(Printed::new(drawing, pt_per_px)) };
     if pt_per_px * VALUE_PX < LEAST_PT * (1.0 - 1e-6) {
         let least_in = width_in * LEAST_PT / (pt_per_px * VALUE_PX);
         return Err(PlotError::Narrow { width_in, least_in: up(least_in) });

@@ -222,3 +222,10 @@ fn violins_are_as_wide_as_their_density() {
     let width = |i: usize| areas[0][i].0 - areas[0][129 - i].0;
     assert!((0..65).all(|i| width(i) > 0.0) && width(5) > 4.0 * width(60), "most are small");
 }
+
+#[test]
+fn labels_have_room_above_an_end_that_was_set() {
+    let Figure::Bar(mut chart) = bars(vec![vec![Some(0.99); 9]; 3], true) else { unreachable!() };
+    chart.y.max = Some(1.0);
+    check(&Figure::Bar(chart));
+}
