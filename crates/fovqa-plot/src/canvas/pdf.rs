@@ -213,3 +213,57 @@ fn rgb(Colour(r, g, b): Colour) -> [f32; 3] {
 fn short(value: f64) -> f32 {
     ((value * 1e4).round() / 1e4) as f32
 }
+
+#[cfg(test)]
+mod tests {
+    use miniz_oxide::inflate::decompress_to_vec_zlib;
+
+    use super::*;
+    use crate::canvas::drawing::{Anchor, Rect, Stroke};
+    use crate::canvas::photo::Photo;
+    use crate::canvas::printed::Printed;
+    use crate::canvas::text::width_px;
+
+    /// The instructions of the page, as text.
+    fn page(marks: Vec<Mark>) -> String {
+        let drawing = Drawing { width_px: 48.0, height_px: 32.0, marks };
+        let pdf = Printed::new(drawing, 0.75).pdf("title").unwrap();
+        let find = |what: &[u8], from: usize| {
+            from + pdf[from..].windows(what.len()).position(|part| part == what).unwrap()
+        };
+        let begin = find(b"stream\n", find(b"4 0 obj", 0)) + 7;
+        let content = decompress_to_vec_zlib(&pdf[begin..find(b"endstream", begin)]).unwrap();
+        String::from_utf8_lossy(&content).into_owned()
+    }
+
+    #[test]
+    fn pixels_count_from_the_top() {
+        let stroke = Stroke { colour: Colour(255, 0, 51), width_px: 2.0 };
+        let page = page(vec![Mark::Line(vec![(1.0, 2.0), (10.5, 20.25)], stroke)]);
+        assert!(page.starts_with("0.75 0 0 -0.75 0 24 cm"), "{page}");
+        assert!(page.contains("1 0 0.2 RG\n2 w\n1 2 m\n10.5 20.25 l\nS"), "{page}");
+    }
+
+    #[test]
+    fn text_stands_where_it_stands_in_the_png() {
+        let text = |anchor| Text::new("00", (20.0, 30.0), 10.0, anchor);
+        let width = width_px("00", 10.0);
+        for (anchor, x) in [(Anchor::Start, 20.0), (Anchor::End, 20.0 - width)] {
+            let page = page(vec![Mark::Text(text(anchor))]);
+            let matrix = page.lines().find(|line| line.ends_with("Tm")).unwrap().to_owned();
+            let numbers: Vec<f64> =
+                matrix.split(' ').filter_map(|word| word.parse().ok()).collect();
+            assert_eq!(numbers[..4], [1.0, 0.0, 0.0, -1.0]);
+            assert!((numbers[4] - x).abs() < 0.01 && numbers[5] == 30.0, "{matrix}");
+        }
+        let page = page(vec![Mark::Text(text(Anchor::Start).upwards())]);
+        assert!(page.contains("0 -1 -1 0 20 30 Tm"), "{page}");
+    }
+
+    #[test]
+    fn a_picture_fills_its_rectangle_upright() {
+        let rect = Rect { left: 5.0, top: 8.0, right: 25.0, bottom: 18.0 };
+        let page = page(vec![Mark::Photo(rect, Photo { width: 1, rgb: vec![[9; 3]] })]);
+        assert!(page.contains("20 0 0 -10 5 18 cm\n/P0 Do"), "{page}");
+    }
+}

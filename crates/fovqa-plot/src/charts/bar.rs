@@ -21,6 +21,8 @@ use crate::scales::scale::{AxisPlace, Scale};
 const FILLED: f64 = 0.88;
 /// Space around the data of an axis that does not begin at 0, as a share of its range.
 const AIR: f64 = 0.06;
+/// The largest share of the plot area's height that labels above and below the bars may take.
+const MOST_LABELS: f64 = 0.8;
 /// The text in place of a missing value.
 const MISSING: &str = "n/a";
 
@@ -77,6 +79,8 @@ struct Frame<'a> {
     plot: Rect,
     format: Format,
     values: Orientation,
+    /// Whether values have labels.
+    labelled: bool,
     missing: Orientation,
 }
 
@@ -99,11 +103,15 @@ impl BarChart {
         let label_px = widest_px(labels.iter().map(String::as_str));
         let values = Orientation::of(label_px, groups.pitch_px());
         let missing = Orientation::of(widest_px([MISSING]), groups.pitch_px());
-        let axis = self.axis_with_room(scale, values.reach_px(label_px), height_px);
+        // Labels that leave too little room for the bars are left out: the axis tells the values.
+        let reach_px = values.reach_px(label_px);
+        let labelled = 2.0 * reach_px <= MOST_LABELS * height_px;
+        let reach_px = if labelled { reach_px } else { 0.0 };
+        let axis = self.axis_with_room(scale, reach_px, height_px);
 
         let (above, below) = infinity::strips_px(self.places());
         // Under an end that was set, labels have no room in the plot area.
-        let above = if self.y.max.is_some() { above.max(values.reach_px(label_px)) } else { above };
+        let above = if self.y.max.is_some() { above.max(reach_px) } else { above };
         let sides = Sides {
             left: axis.left_px(),
             right: MARGIN_PX,
@@ -122,7 +130,8 @@ impl BarChart {
         if self.places().next().is_none() {
             layout::write_no_data(&mut drawing, plot);
         } else {
-            let frame = Frame { axis: &axis, groups: &groups, plot, format, values, missing };
+            let frame =
+                Frame { axis: &axis, groups: &groups, plot, format, values, labelled, missing };
             self.draw_series(&mut drawing, &frame);
         }
         axis.draw(&mut drawing, plot, 0.0);
@@ -185,7 +194,7 @@ impl BarChart {
             (true, false) => 0.0,
             (false, _) => reach_px + marker::RADIUS_PX,
         };
-        let data_px = (height_px - up_px - down_px).max(height_px / 4.0);
+        let data_px = height_px - up_px - down_px;
         axis(self.y.ranged(Some(scale.with_air(down_px / data_px, up_px / data_px))))
     }
 
@@ -246,7 +255,7 @@ impl BarChart {
         if let Some(ends) = ends {
             error_bar::draw(drawing, x, ends, INK);
         }
-        if let Some(value) = place.finite() {
+        if let Some(value) = place.finite().filter(|_| frame.labelled) {
             let downwards = self.has_bars() && value < 0.0;
             let side = if downwards { Side::Below } else { Side::Above };
             let off = if self.has_bars() { 0.0 } else { marker::RADIUS_PX };

@@ -27,27 +27,22 @@ pub(crate) fn fit(
     draw: impl Fn(&Paper) -> Result<Drawing, PlotError>,
 ) -> Result<Printed, PlotError> {
     let paper = Paper::new(style);
+    let scale_of = |drawing: &Drawing| scale(style, &paper, drawing);
     let drawing = match style.height {
         Height::Suited => draw(&paper)?,
         Height::Inches(inches) => {
-            let wanted_px = |_: &Drawing| inches / paper.inches(1.0);
-            with_height(&paper, wanted_px, &draw)?
+            let wanted_px = |drawing: &Drawing| inches / paper.inches(scale_of(drawing));
+            with_height(&paper, (wanted_px, scale_of), &draw)?
         }
         Height::Aspect(aspect) => {
-            with_height(&paper, |drawing: &Drawing| drawing.width_px / aspect, &draw)?
+            let wanted_px =
+                |drawing: &Drawing| drawing.width_px.max(width_px(style, &paper, drawing)) / aspect;
+            with_height(&paper, (wanted_px, scale_of), &draw)?
         }
     };
-    let width_px = match style.width_in {
-        Some(_) => paper.column_px,
-        // A little more than a column or a page is made as wide as it, with smaller text.
-        None => [paper.column_px, paper.page_px]
-            .into_iter()
-            .find(|usual| (usual / SLACK..=usual * SLACK).contains(&drawing.width_px))
-            .unwrap_or(drawing.width_px),
-    };
+    let pt_per_px = paper.pt_per_px * scale_of(&drawing);
+    let width_px = width_px(style, &paper, &drawing);
     let drawing = centred(drawing, width_px);
-    // Labels that need more room make everything smaller.
-    let pt_per_px = paper.pt_per_px * width_px / drawing.width_px;
     let Some(width_in) = style.width_in else { return Ok(Printed::new(drawing, pt_per_px)) };
     if pt_per_px * VALUE_PX < LEAST_PT * (1.0 - 1e-6) {
         let least_in = width_in * LEAST_PT / (pt_per_px * VALUE_PX);
@@ -56,10 +51,27 @@ pub(crate) fn fit(
     Ok(Printed::new(drawing, pt_per_px))
 }
 
+/// The width that a drawing is printed at, in pixels of the paper.
+fn width_px(style: &Style, paper: &Paper, drawing: &Drawing) -> f64 {
+    if style.width_in.is_some() {
+        return paper.column_px;
+    }
+    // A little more than a column or a page is made as wide as it, with smaller text.
+    let close = |usual: &f64| (usual / SLACK..=usual * SLACK).contains(&drawing.width_px);
+    let usual = [paper.column_px, paper.page_px].into_iter().find(close);
+    usual.unwrap_or(drawing.width_px)
+}
+
+/// How much smaller a drawing is printed than it was laid out: labels that need more room than the
+/// width has make everything smaller.
+fn scale(style: &Style, paper: &Paper, drawing: &Drawing) -> f64 {
+    (width_px(style, paper, drawing) / drawing.width_px).min(1.0)
+}
+
 /// Draws with plot areas whose height makes that of the whole figure right.
 fn with_height(
     paper: &Paper,
-    wanted_px: impl Fn(&Drawing) -> f64,
+    (wanted_px, scale): (impl Fn(&Drawing) -> f64, impl Fn(&Drawing) -> f64),
     draw: impl Fn(&Paper) -> Result<Drawing, PlotError>,
 ) -> Result<Drawing, PlotError> {
     let of_height = |height_px: f64| draw(&paper.with_plot_height(height_px));
@@ -78,16 +90,17 @@ fn with_height(
         if missing.abs() < CLOSE_PX {
             break;
         }
-        let next_px = height_px + missing / rows;
-        if next_px < LEAST_PLOT_HEIGHT_PX {
-            let least_px = of_height(LEAST_PLOT_HEIGHT_PX)?.height_px;
+        // Ticks and labels change with the height, so the smallest one is tried before it is refused.
+        height_px = (height_px + missing / rows).max(LEAST_PLOT_HEIGHT_PX);
+        drawing = of_height(height_px)?;
+        let beyond = drawing.height_px - wanted_px(&drawing);
+        if height_px <= LEAST_PLOT_HEIGHT_PX && beyond >= CLOSE_PX {
+            let inches = |px: f64| paper.inches(px * scale(&drawing));
             return Err(PlotError::Low {
-                height_in: round(paper.inches(wanted)),
-                least_in: up(paper.inches(least_px)),
+                height_in: round(inches(wanted_px(&drawing))),
+                least_in: up(inches(drawing.height_px)),
             });
         }
-        height_px = next_px;
-        drawing = of_height(height_px)?;
     }
     // What is left is less than a pixel, unless ticks do not settle.
     let wanted = wanted_px(&drawing);

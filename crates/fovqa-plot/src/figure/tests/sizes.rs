@@ -94,7 +94,8 @@ fn impossible_sizes_are_errors_that_say_what_is_possible() {
     else {
         panic!("0.4 inches are too low")
     };
-    assert!(figure.print(&style(None, Height::Inches(least_in + 0.05))).is_ok(), "{least_in}");
+    let printed = figure.print(&style(None, Height::Inches(least_in + 0.05)));
+    assert!(printed.is_ok(), "{least_in} {:?}", printed.err());
     let error = kinds()[4].print(&style(None, Height::Inches(3.0))).unwrap_err();
     assert!(error.to_string().contains("a height of 3.00 in is not possible"), "{error}");
 }
