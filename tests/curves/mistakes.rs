@@ -111,12 +111,6 @@ const MISTAKES: &[Mistake] = &[
     ),
     (
         "method = { model = \"rmfr\" }",
-        "method = { model = \"guenter\" }\nbudget = 0.9",
-        &["cannot reach a budget of 0.9"],
-        false,
-    ),
-    (
-        "method = { model = \"rmfr\" }",
         "method = { model = \"rmfr\" }\nbudget_of = \"buffer\"",
         &["none is given"],
         false,

@@ -39,6 +39,8 @@ pub struct CurvePlan {
     pub plots: Vec<CurvePlot>,
     /// The tables. If the file names no figure and no table, these are all tables that fit.
     pub tables: Vec<CurveTable>,
+    /// Which curves, figures and tables are left out, and why: their budget cannot be reached.
+    pub left_out: Vec<String>,
 }
 
 /// A figure.
@@ -61,8 +63,10 @@ pub struct CurvePlot {
     /// Whether over- and under-sampled areas are shaded. `None` shades them if a panel has only one
     /// curve.
     pub areas: Option<bool>,
-    /// Whether the display's own rate is drawn as well.
-    pub display: bool,
+    /// Whether the display's own rate is drawn as well. `None` draws it in cycles per degree.
+    pub display: Option<bool>,
+    /// Whether rates are drawn that exceed the display's own, which the display cannot show.
+    pub beyond_display: bool,
     /// Lower and upper end of the vertical axis.
     pub y_limits: Option<[f64; 2]>,
     /// Measured values: a name, an eccentricity in degrees, and a value in cycles per degree.
@@ -128,6 +132,8 @@ words! {
         /// Each curve with its settings.
         #[default]
         Curve "curve" "Each curve with its settings";
+        /// Each setting (resolution, gaze and direction), with all curves of it.
+        Setting "setting" "Each resolution, gaze and direction, with all curves of it";
         /// Each resolution.
         Resolution "resolution" "Each resolution";
         /// Each gaze.

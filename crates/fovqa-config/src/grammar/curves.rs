@@ -73,7 +73,7 @@ static MARK: [Key; 2] = [
     ),
 ];
 
-static PLOT_TABLE: [Key; 15] = [
+static PLOT_TABLE: [Key; 16] = [
     required(
         "kind",
         Kind::Words(words_of::<CurvePlotKind>),
@@ -95,14 +95,19 @@ static PLOT_TABLE: [Key; 15] = [
     key(
         "panels",
         Kind::Words(words_of::<PanelOf>),
-        "what each panel shows; default: one curve with its settings",
+        "what each panel shows; default: one curve with its settings, or of more than four curves with several settings each setting",
     ),
     key(
         "areas",
         Kind::Bool,
         "shade the areas where the rate is above and below acuity; default: only in panels of one curve",
     ),
-    key("display", Kind::Bool, "also draw the display's own rate"),
+    key("display", Kind::Bool, "also draw the display's own rate; default: in cycles per degree"),
+    key(
+        "beyond_display",
+        Kind::Bool,
+        "draw rates that exceed the display's own, which shows no more; default: false",
+    ),
     key(
         "y_limits",
         Kind::List(&Kind::Number(0.0, 1e6), 2, 2),

@@ -68,7 +68,9 @@ impl Labels {
         if panels == PanelOf::Curve {
             return name(curve);
         }
-        let parts = self.parts(curve, |of| of != panels);
+        let parts = self.parts(curve, |of| {
+            of != panels && (panels != PanelOf::Setting || of == PanelOf::Curve)
+        });
         if parts.is_empty() { name(curve) } else { parts.join(", ") }
     }
 
@@ -89,6 +91,7 @@ impl Labels {
                 }
                 parts.join(", ")
             }
+            PanelOf::Setting => self.parts(curve, |of| of != PanelOf::Curve).join(", "),
             panels => self.parts(curve, |of| of == panels).join(", "),
         }
     }
@@ -99,7 +102,7 @@ impl Labels {
             PanelOf::Resolution => screen(curve).map(resolution),
             PanelOf::Gaze => screen(curve).map(gaze),
             PanelOf::Direction => screen(curve).map(direction),
-            PanelOf::One => None,
+            PanelOf::One | PanelOf::Setting => None,
         };
         self.differ.iter().copied().filter(|of| wanted(*of)).filter_map(text).collect()
     }

@@ -1,6 +1,8 @@
 //! Figures, tables and the page of a curves file.
 
+mod axes;
 mod labels;
+mod looks;
 mod models;
 mod page;
 mod picture;

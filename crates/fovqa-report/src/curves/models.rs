@@ -10,6 +10,7 @@ use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look};
 
 use super::Source;
 use super::labels::Labels;
+use super::looks::Looks;
 use crate::sheet::NamedFigure;
 
 /// Number of points of a curve.
@@ -21,6 +22,7 @@ pub(super) fn accumulated(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure 
         matches!(curve.spec.source, CurveSource::Method { method: Method::Deamp(_), .. })
     });
     let labels = Labels::of(&curves);
+    let looks = Looks::of(source, &curves, &labels, PanelOf::One);
     let mut series = Vec::new();
     for curve in curves {
         let CurveSource::Method { method: Method::Deamp(params), setting } = &curve.spec.source
@@ -37,8 +39,8 @@ pub(super) fn accumulated(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure 
             (2.0 * half_deg, Some(100.0 * deamp.share_within(half_deg)))
         });
         series.push(LineSeries {
+            look: looks.look(&curve.spec.name, &labels.label(curve, PanelOf::One)),
             name: labels.label(curve, PanelOf::One),
-            look: Look::new(series.len()),
             points: points.collect(),
             smooth: true,
             ..LineSeries::default()

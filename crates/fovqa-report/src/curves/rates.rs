@@ -6,7 +6,9 @@ use fovqa_plan::{CurvePlot, PanelOf, RateKind, RateUnit};
 use fovqa_plot::{Axis, Figure, Fill, FillKind, LineChart, LineSeries, Look, PanelChart};
 
 use super::Source;
+use super::axes;
 use super::labels::{Labels, resolution, screen};
+use super::looks::Looks;
 use crate::sheet::NamedFigure;
 
 /// Factor between the end of the axis and the highest acuity or display rate, if a rate grows
@@ -44,8 +46,7 @@ struct Rates<'a> {
     source: &'a Source<'a>,
     plot: &'a CurvePlot,
     labels: Labels,
-    /// Labels in the order of the plan, so that a curve looks the same in every panel.
-    looks: Vec<String>,
+    looks: Looks,
     /// Names of displays, in the same order.
     displays: Vec<String>,
 }
@@ -56,13 +57,7 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
         curves.retain(|curve| curve.counts.is_some());
     }
     let labels = Labels::of(&curves);
-    let mut looks: Vec<String> = Vec::new();
-    for curve in &curves {
-        let label = labels.label(curve, plot.panels);
-        if !looks.contains(&label) {
-            looks.push(label);
-        }
-    }
+    let looks = Looks::of(source, &curves, &labels, plot.panels);
     let mut displays: Vec<String> = Vec::new();
     for screen in curves.iter().filter_map(|curve| screen(curve)) {
         let name = format!("Display {}", resolution(screen));
@@ -90,12 +85,14 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
             charts.push(rates.chart(title, group, along));
         }
     }
+    let capped = curves.iter().any(|curve| rates.is_capped(curve, along));
     let cut = charts.iter().any(|chart| chart.y.max.is_some()) && plot.y_limits.is_none();
     if charts.len() > 1 {
         // The axis of a panel has no space for more.
         for chart in &mut charts {
             chart.y.title = chart.y.title.replace("cycles per degree", "cpd");
         }
+        axes::share(&mut charts);
     }
     let figure = if charts.len() == 1 {
         let only = charts.swap_remove(0);
@@ -118,8 +115,13 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
         ""
     };
     let caption = plot.title.clone().unwrap_or_else(|| format!("{what} against eccentricity"));
+    let capped = if capped {
+        "; where a method samples more densely than the display, the rate is that of the display"
+    } else {
+        ""
+    };
     let name = plot.name.clone().unwrap_or_else(|| "rates".to_owned());
-    NamedFigure::new(name, format!("{caption}{cut}"), figure)
+    NamedFigure::new(name, format!("{caption}{capped}{cut}"), figure)
 }
 
 fn capitalised(word: &str) -> String {
@@ -155,22 +157,22 @@ impl<'a> Rates<'a> {
         let mut series: Vec<LineSeries> = Vec::new();
         for curve in group {
             let label = self.labels.label(curve, plot.panels);
-            let look = self.looks.iter().position(|known| *known == label).unwrap_or_default();
+            let look = self.looks.look(&curve.spec.name, &label);
             series.push(LineSeries {
                 name: label,
-                look: Look::new(look),
-                points: self.points(curve, |point| Some(along.of(point)), along),
+                look,
+                points: self.points(curve, |point| Some(self.shown(point, along)), along),
                 smooth: true,
                 ..LineSeries::default()
             });
         }
         series.extend(plot.marks.iter().enumerate().map(|(i, (name, [e, cpd]))| LineSeries {
             name: name.clone(),
-            look: Look::new(self.looks.len() + i),
+            look: self.looks.beside(i),
             points: vec![(*e, Some(*cpd))],
             ..LineSeries::default()
         }));
-        if plot.display {
+        if plot.display.unwrap_or(plot.unit == RateUnit::Cpd) {
             series.extend(self.displays(group, along));
         }
         // Acuity is drawn last, because a curve that follows it would hide it.
@@ -213,6 +215,24 @@ impl<'a> Rates<'a> {
         let (references, rates) = (most(true), most(false));
         let hidden = !self.plot.log && references > 0.0 && rates > 2.0 * references;
         hidden.then_some((0.0, references * ROOM))
+    }
+
+    /// The rate that is shown at a point: at most the display's own.
+    fn shown(&self, point: &CurvePoint, along: Along) -> f64 {
+        match along.display(point) {
+            Some(display) if !self.plot.beyond_display => along.of(point).min(display),
+            _ => along.of(point),
+        }
+    }
+
+    /// Whether a curve is somewhere drawn below its rate. Rates that equal the display's own may
+    /// differ in the last digits.
+    fn is_capped(&self, curve: &Curve, along: &[Along]) -> bool {
+        const EQUAL: f64 = 1.0 - 1e-9;
+        let capped = |point: &CurvePoint| {
+            along.iter().any(|&along| self.shown(point, along) < along.of(point) * EQUAL)
+        };
+        curve.points.iter().any(capped)
     }
 
     fn points(
@@ -286,7 +306,7 @@ impl<'a> Rates<'a> {
         };
         let mut fills = Vec::new();
         for curve in shaded {
-            let rates = self.points(curve, |point| Some(along.of(point)), along);
+            let rates = self.points(curve, |point| Some(self.shown(point, along)), along);
             let cut_off = |point: &CurvePoint| Some(acuity.cutoff_cpd(point.eccentricity_deg));
             let needed = self.points(curve, cut_off, along);
             let value = |y: Option<f64>| y.unwrap_or(f64::NAN);

@@ -1,5 +1,6 @@
 //! `[[plot]]` and `[[table]]` of a curves file.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use fovqa_methods::Method;
@@ -22,9 +23,14 @@ fn shown<'a>(
     plan.curves.iter().filter(wanted)
 }
 
+/// Whether a plot or table has no curve because all of its curves are left out.
+pub(super) fn nothing_is_left(plan: &CurvePlan, wanted: Option<&[String]>) -> bool {
+    !plan.left_out.is_empty() && shown(plan, wanted).next().is_none()
+}
+
 /// The plots and tables for a file that names none.
 pub(super) fn all_that_fit(plan: &CurvePlan) -> (Vec<CurvePlot>, Vec<CurveTable>) {
-    let mut plots = vec![CurvePlot::default()];
+    let mut plots = vec![CurvePlot { panels: usual_panels(plan, None), ..CurvePlot::default() }];
     if !plan.curves.iter().any(|spec| matches!(spec.source, CurveSource::Method { .. })) {
         plots[0].panels = PanelOf::One;
         return (plots, Vec::new());
@@ -52,6 +58,9 @@ pub(super) fn few_panels(
             (CurvePlotKind::Rates, PanelOf::Curve) => {
                 format!("{} {size:?} {:?} {}", spec.name, setting.gaze_px, setting.direction_deg)
             }
+            (CurvePlotKind::Rates, PanelOf::Setting) => {
+                format!("{size:?} {:?} {}", setting.gaze_px, setting.direction_deg)
+            }
             (CurvePlotKind::Rates, PanelOf::Resolution) => format!("{size:?}"),
             (CurvePlotKind::Rates, PanelOf::Gaze) => format!("{:?}", setting.gaze_px),
             (CurvePlotKind::Rates, PanelOf::Direction) => setting.direction_deg.to_string(),
@@ -70,6 +79,24 @@ pub(super) fn few_panels(
     }
 }
 
+/// What each panel shows if the file does not say it: a curve with its areas. Of many curves with
+/// several settings each panel shows one setting, so that methods are compared on the same screen.
+fn usual_panels(plan: &CurvePlan, wanted: Option<&[String]>) -> PanelOf {
+    const FEW: usize = 4;
+    let (mut names, mut settings, mut curves) = (BTreeSet::new(), Vec::new(), 0);
+    for spec in shown(plan, wanted) {
+        let CurveSource::Method { setting, .. } = &spec.source else { continue };
+        let at = (setting.view, setting.gaze_px, setting.direction_deg);
+        names.insert(&spec.name);
+        if !settings.contains(&at) {
+            settings.push(at);
+        }
+        curves += 1;
+    }
+    let many = names.len() > 1 && settings.len() > 1 && curves > FEW;
+    if many { PanelOf::Setting } else { PanelOf::Curve }
+}
+
 /// Resolves a figure.
 pub(super) fn plot(
     table: Node<'_>,
@@ -78,16 +105,19 @@ pub(super) fn plot(
     faults: &mut Faults,
 ) -> CurvePlot {
     let flag = |key| table.flag(key).unwrap_or(false);
+    let curves = subset(table, "curves", names, faults);
+    let usual = || usual_panels(plan, curves.as_deref());
     let plot = CurvePlot {
         kind: table.word("kind").unwrap_or_default(),
         name: table.text("name").map(str::to_owned),
         title: table.text("title").map(str::to_owned),
-        curves: subset(table, "curves", names, faults),
+        panels: table.word("panels").unwrap_or_else(usual),
+        curves,
         rate: table.word("rate").unwrap_or_default(),
         unit: table.word("unit").unwrap_or_default(),
-        panels: table.word("panels").unwrap_or_default(),
         areas: table.flag("areas"),
-        display: flag("display"),
+        display: table.flag("display"),
+        beyond_display: flag("beyond_display"),
         y_limits: table.array("y_limits"),
         marks: table.tables("marks").iter().filter_map(|(mark, _)| named_mark(*mark)).collect(),
         log: flag("log"),
@@ -107,6 +137,7 @@ pub(super) fn plot(
     };
     if faults.is_empty()
         && plot.kind != CurvePlotKind::HalfAxis
+        && !nothing_is_left(plan, plot.curves.as_deref())
         && shown(plan, plot.curves.as_deref()).all(nothing)
     {
         let message = match plot.kind {
@@ -126,45 +157,21 @@ fn named_mark(mark: Node<'_>) -> Option<(String, [f64; 2])> {
 /// digits.
 const NEAREST: f64 = 1e-6;
 
+/// Keys that only plots of rates have.
+const OF_RATES: &[&str] =
+    &["rate", "unit", "panels", "areas", "display", "beyond_display", "y_limits", "marks"];
+
 /// Checks that the keys of a plot belong to its kind.
 fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Faults) {
-    let (kind, keys): (&str, &[&str]) = match plot.kind {
+    let (kind, others): (&str, &[&str]) = match plot.kind {
         CurvePlotKind::Rates => ("rates", &["rings_deg", "f"]),
-        CurvePlotKind::Density => {
-            ("density", &["rate", "unit", "panels", "areas", "display", "y_limits", "marks", "f"])
-        }
-        CurvePlotKind::Accumulated => (
-            "accumulated",
-            &[
-                "rate",
-                "unit",
-                "panels",
-                "areas",
-                "display",
-                "y_limits",
-                "marks",
-                "log",
-                "rings_deg",
-                "f",
-            ],
-        ),
-        CurvePlotKind::HalfAxis => (
-            "half_axis",
-            &[
-                "curves",
-                "rate",
-                "unit",
-                "panels",
-                "areas",
-                "display",
-                "y_limits",
-                "marks",
-                "log",
-                "rings_deg",
-            ],
-        ),
+        CurvePlotKind::Density => ("density", &["f"]),
+        CurvePlotKind::Accumulated => ("accumulated", &["log", "rings_deg", "f"]),
+        CurvePlotKind::HalfAxis => ("half_axis", &["curves", "log", "rings_deg"]),
     };
-    for key in keys.iter().filter(|key| table.has(key)) {
+    let of_rates = if plot.kind == CurvePlotKind::Rates { &[] } else { OF_RATES };
+    let keys = of_rates.iter().chain(others);
+    for key in keys.filter(|key| table.has(key)) {
         let message = format!("{key} does not apply to a plot of kind \"{kind}\"");
         faults.push(Fault::new(table.span(key), message).help("remove it"));
     }
@@ -202,7 +209,8 @@ pub(super) fn table(
     let kind = table.word("kind").unwrap_or(CurveTableKind::SpeedUp);
     let curves = subset(table, "curves", names, faults);
     let of_method = |spec: &CurveSpec| matches!(spec.source, CurveSource::Method { .. });
-    if faults.is_empty() && !shown(plan, curves.as_deref()).any(of_method) {
+    let left = !nothing_is_left(plan, curves.as_deref());
+    if faults.is_empty() && left && !shown(plan, curves.as_deref()).any(of_method) {
         let message = "the table has nothing to show: none of its curves has a method";
         faults.push(Fault::new(table.span("kind"), message));
     }
