@@ -22,6 +22,8 @@ pub(crate) fn for_picture(figure: &Figure) -> Cow<'_, Figure> {
         look: series.look,
         reference: series.reference,
         smooth: series.smooth,
+        dots: series.dots,
+        unlisted: series.unlisted,
         points: if is_long(series) { shortened(&series.points) } else { series.points.clone() },
     });
     Cow::Owned(Figure::Line(LineChart {

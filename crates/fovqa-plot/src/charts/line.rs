@@ -10,6 +10,7 @@ use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
 use crate::canvas::look::{Look, REFERENCE};
 use crate::canvas::smooth;
 use crate::marks::fill::Fill;
+use crate::marks::fill_kind::FillKind;
 use crate::marks::infinity;
 use crate::marks::legend::{self, CURVE_PX, Key, REFERENCE_PX};
 use crate::marks::marker;
@@ -26,6 +27,8 @@ const SIDE_AIR: f64 = 0.02;
 /// The smallest distance of markers along a curve. If points are denser, only some of them have
 /// one.
 const MARKER_PITCH_PX: f64 = 12.0;
+/// The radius of a dot.
+const DOT_PX: f64 = 2.2;
 /// Distance between the markers of infinite values of two series at the same position.
 const BESIDE_PX: f64 = 9.0;
 
@@ -56,6 +59,7 @@ pub struct LineChart {
 }
 
 /// One curve.
+#[allow(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LineSeries {
     /// Its name in the legend.
@@ -68,6 +72,10 @@ pub struct LineSeries {
     /// Whether it is a densely sampled function, whose points are not single data values. Some
     /// markers along the curve identify it. Markers of coinciding curves do not coincide.
     pub smooth: bool,
+    /// Whether its points are small dots without a line, such as positions of samples.
+    pub dots: bool,
+    /// Whether the legend leaves it out, because it belongs to another series or area.
+    pub unlisted: bool,
     /// Points in the order of the curve. `None` and NaN leave a gap. An infinite value is drawn at
     /// the border, unconnected, with an "∞" beyond it. Points without a finite `x` are not drawn.
     pub points: Vec<(f64, Option<f64>)>,
@@ -125,8 +133,18 @@ impl LineChart {
         drawing
     }
 
+    /// The looks of its series and bands.
+    pub(crate) fn looks(&mut self) -> impl Iterator<Item = &mut Look> {
+        let bands = self.fills.iter_mut().filter_map(|fill| match &mut fill.kind {
+            FillKind::Band(look) => Some(look),
+            FillKind::Surplus | FillKind::Deficit => None,
+        });
+        self.series.iter_mut().map(|series| &mut series.look).chain(bands)
+    }
+
     pub(crate) fn series_keys(&self) -> impl Iterator<Item = (&str, Key)> {
-        self.series.iter().map(|series| (series.name.as_str(), series.key()))
+        let listed = self.series.iter().filter(|series| !series.unlisted);
+        listed.map(|series| (series.name.as_str(), series.key()))
     }
 
     /// The legend keys of all visible spans.
@@ -308,6 +326,12 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
         .collect();
     let px = |&(x, y): &Point| (plot.left + x * plot.width(), level_px(plot, y));
     let inside = |(x, y): &&Point| (0.0..=1.0).contains(x) && (0.0..=1.0).contains(y);
+    if series.dots {
+        for at in runs.iter().flatten().filter(inside).map(px) {
+            drawing.disc(at, DOT_PX, series.stroke().colour);
+        }
+        return;
+    }
     let pieces: Vec<Vec<Point>> = runs
         .iter()
         .flat_map(|run| clip::upright(run))
