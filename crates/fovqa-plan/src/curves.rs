@@ -44,6 +44,7 @@ pub struct CurvePlan {
 }
 
 /// A figure.
+#[allow(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CurvePlot {
     /// What it shows.
@@ -77,8 +78,40 @@ pub struct CurvePlot {
     pub rings_deg: Vec<f64>,
     /// Values of RMFR's parameter f for the figure of the half axis.
     pub f: Vec<f64>,
+    /// Whether the rates of a method over the settings of a panel are one band.
+    pub band: bool,
+    /// Whether positions of samples are dots on the half axis.
+    pub dots: bool,
+    /// How density is drawn.
+    pub style: DensityStyle,
+    /// What acuity is divided by if rates are in samples per pixel.
+    pub acuity_scale: AcuityScale,
     /// How it is printed.
     pub figure: FigureSettings,
+}
+
+words! {
+    /// What acuity is divided by where rates are relative.
+    #[derive(Default)]
+    pub enum AcuityScale {
+        /// The display's own rate, as the rates.
+        #[default]
+        Display "display" "The display's own rate, as the rates";
+        /// Acuity at the gaze (DEAMP, Fig. 5c).
+        Own "own" "Acuity at the gaze";
+    }
+}
+
+words! {
+    /// How density is drawn over the field.
+    #[derive(Default)]
+    pub enum DensityStyle {
+        /// A picture with rings of equal eccentricity.
+        #[default]
+        Rings "rings" "A picture with rings of equal eccentricity";
+        /// A picture with lines of equal density.
+        Contours "contours" "A picture with lines of equal density";
+    }
 }
 
 words! {
@@ -94,6 +127,14 @@ words! {
         Accumulated "accumulated" "DEAMP: shaded pixels within a layer's angle";
         /// RMFR: where a half axis goes (Fig. 3).
         HalfAxis "half_axis" "RMFR: the mapping of a half axis";
+        /// Layered methods: the scale of each layer, in steps.
+        Steps "steps" "Layered methods: the scale of each layer";
+        /// Where samples lie over the frame.
+        Samples "samples" "Positions of the samples over the frame";
+        /// The numbers of samples as bars over resolutions.
+        SamplesBars "samples_bars" "Numbers of samples as bars over resolutions";
+        /// VaFR: the outline of the buffer (Figs. 2 and 4).
+        Outline "outline" "VaFR: the outline of the buffer";
     }
 }
 
@@ -132,6 +173,8 @@ words! {
         /// Each curve with its settings.
         #[default]
         Curve "curve" "Each curve with its settings";
+        /// Each curve of the file, with all its settings.
+        Name "name" "Each curve of the file, with all its settings";
         /// Each setting (resolution, gaze and direction), with all curves of it.
         Setting "setting" "Each resolution, gaze and direction, with all curves of it";
         /// Each resolution.

@@ -21,8 +21,8 @@ mod source;
 
 pub use builtin::BuiltinFrames;
 pub use curves::{
-    CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, CurvesFile, PanelOf, RateKind,
-    RateUnit,
+    AcuityScale, CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, CurvesFile,
+    DensityStyle, PanelOf, RateKind, RateUnit,
 };
 pub use emulation::{Emulation, emulation_keys};
 pub use experiment::Experiment;

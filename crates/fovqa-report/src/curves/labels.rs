@@ -68,8 +68,10 @@ impl Labels {
         if panels == PanelOf::Curve {
             return name(curve);
         }
-        let parts = self.parts(curve, |of| {
-            of != panels && (panels != PanelOf::Setting || of == PanelOf::Curve)
+        let parts = self.parts(curve, |of| match panels {
+            PanelOf::Setting => of == PanelOf::Curve,
+            PanelOf::Name => of != PanelOf::Curve,
+            panels => of != panels,
         });
         if parts.is_empty() { name(curve) } else { parts.join(", ") }
     }
@@ -91,6 +93,7 @@ impl Labels {
                 }
                 parts.join(", ")
             }
+            PanelOf::Name => name(curve),
             PanelOf::Setting => self.parts(curve, |of| of != PanelOf::Curve).join(", "),
             panels => self.parts(curve, |of| of == panels).join(", "),
         }
@@ -102,7 +105,7 @@ impl Labels {
             PanelOf::Resolution => screen(curve).map(resolution),
             PanelOf::Gaze => screen(curve).map(gaze),
             PanelOf::Direction => screen(curve).map(direction),
-            PanelOf::One | PanelOf::Setting => None,
+            PanelOf::One | PanelOf::Setting | PanelOf::Name => None,
         };
         self.differ.iter().copied().filter(|of| wanted(*of)).filter_map(text).collect()
     }

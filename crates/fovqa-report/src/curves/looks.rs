@@ -50,6 +50,12 @@ impl Looks {
         if self.alone { Look::new(index + variant) } else { Look::new(index).with_variant(variant) }
     }
 
+    /// The look of a curve of the file, whatever its setting.
+    pub(super) fn of_name(&self, curve: &Curve) -> Look {
+        let index = self.names.iter().position(|known| *known == curve.spec.name);
+        Look::new(index.unwrap_or_default())
+    }
+
     /// The look of what is drawn beside the curves.
     pub(super) fn beside(&self, i: usize) -> Look {
         Look::new(self.names.len().max(self.series.len()) + i)

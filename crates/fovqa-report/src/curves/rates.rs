@@ -2,12 +2,13 @@
 //! under-sampled.
 
 use fovqa_methods::curves::{Curve, CurvePoint};
-use fovqa_plan::{CurvePlot, PanelOf, RateKind, RateUnit};
+use fovqa_plan::{AcuityScale, CurvePlot, PanelOf, RateKind, RateUnit};
 use fovqa_plot::{Axis, Figure, Fill, FillKind, LineChart, LineSeries, Look, PanelChart};
 
 use super::Source;
 use super::axes;
-use super::labels::{Labels, resolution, screen};
+use super::bands::{Member, bands};
+use super::labels::{Labels, name, resolution, screen};
 use super::looks::Looks;
 use crate::sheet::NamedFigure;
 
@@ -47,6 +48,8 @@ struct Rates<'a> {
     plot: &'a CurvePlot,
     labels: Labels,
     looks: Looks,
+    /// Whether each panel has only one curve of a method.
+    alone: bool,
     /// Names of displays, in the same order.
     displays: Vec<String>,
 }
@@ -65,8 +68,10 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
             displays.push(name);
         }
     }
-    let rates = Rates { source, plot, labels, looks, displays };
+    let mut rates = Rates { source, plot, labels, looks, alone: false, displays };
     let groups = rates.groups(&curves);
+    let shaded = |group: &[&Curve]| group.iter().filter(|curve| screen(curve).is_some()).count();
+    rates.alone = groups.iter().all(|(_, group)| shaded(group) <= 1);
     let along: &[Along] = match plot.rate {
         RateKind::Radial => &[Along::Radial],
         RateKind::Tangential => &[Along::Tangential],
@@ -155,20 +160,29 @@ impl<'a> Rates<'a> {
     fn chart(&self, title: String, group: &[&Curve], along: Along) -> LineChart {
         let plot = self.plot;
         let mut series: Vec<LineSeries> = Vec::new();
+        let mut members: Vec<Member> = Vec::new();
         for curve in group {
             let label = self.labels.label(curve, plot.panels);
             let look = self.looks.look(&curve.spec.name, &label);
+            let points = self.points(curve, |point| Some(self.shown(point, along)), along);
+            if plot.band && screen(curve).is_some() {
+                members.push(Member { name: name(curve), look: self.looks.of_name(curve), points });
+                continue;
+            }
             series.push(LineSeries {
                 name: label,
                 look,
-                points: self.points(curve, |point| Some(self.shown(point, along)), along),
+                points,
                 smooth: true,
                 ..LineSeries::default()
             });
         }
+        let (edges, bands) = bands(members);
+        series.extend(edges);
         series.extend(plot.marks.iter().enumerate().map(|(i, (name, [e, cpd]))| LineSeries {
             name: name.clone(),
-            look: self.looks.beside(i),
+            look: self.looks.beside(first_of(&plot.marks, name).unwrap_or(i)),
+            unlisted: first_of(&plot.marks, name) != Some(i),
             points: vec![(*e, Some(*cpd))],
             ..LineSeries::default()
         }));
@@ -200,7 +214,7 @@ impl<'a> Rates<'a> {
                 ..Axis::new(y)
             },
             y_from_zero: !plot.log,
-            fills: self.fills(group, along),
+            fills: if plot.band { bands } else { self.fills(group, along) },
             series,
             ..LineChart::default()
         }
@@ -254,18 +268,30 @@ impl<'a> Rates<'a> {
         let model = &self.source.file.plan.acuity;
         let acuity = model.curve().ok()?;
         let shaded: Vec<&&Curve> = group.iter().filter(|c| screen(c).is_some()).collect();
-        if self.plot.unit == RateUnit::PerPixel && !same_displays(group) {
+        let by_display =
+            self.plot.unit == RateUnit::PerPixel && self.plot.acuity_scale == AcuityScale::Display;
+        if by_display && !same_displays(group) {
             return None;
         }
         let longest = shaded.iter().max_by_key(|curve| curve.points.len())?;
         let cut_off = |point: &CurvePoint| Some(acuity.cutoff_cpd(point.eccentricity_deg));
+        let points = match self.plot.acuity_scale {
+            AcuityScale::Display => self.points(longest, cut_off, along),
+            AcuityScale::Own => {
+                let most = acuity.cutoff_cpd(0.0);
+                let own = |point: &CurvePoint| {
+                    (point.eccentricity_deg, cut_off(point).map(|cpd| cpd / most))
+                };
+                longest.points.iter().map(own).collect()
+            }
+        };
         Some(LineSeries {
             name: match self.source.file.plan.acuity_parameters.as_str() {
                 "" => format!("Acuity ({})", model.info().label),
                 set => format!("Acuity ({}, {})", model.info().label, set.replace(';', ", ")),
             },
             reference: true,
-            points: self.points(longest, cut_off, along),
+            points,
             ..LineSeries::default()
         })
     }
@@ -300,7 +326,8 @@ impl<'a> Rates<'a> {
     /// The areas in which the rate of a panel's only curve is below and above acuity.
     fn fills(&self, group: &[&Curve], along: Along) -> Vec<Fill> {
         let shaded: Vec<&&Curve> = group.iter().filter(|c| screen(c).is_some()).collect();
-        let wanted = self.plot.areas.unwrap_or(shaded.len() == 1);
+        let compared = self.plot.acuity_scale == AcuityScale::Display;
+        let wanted = self.plot.areas.unwrap_or(self.alone && compared);
         let (true, Ok(acuity)) = (wanted, self.source.file.plan.acuity.curve()) else {
             return Vec::new();
         };
@@ -320,6 +347,11 @@ impl<'a> Rates<'a> {
         }
         fills
     }
+}
+
+/// The place of the first mark with a name; marks with the same name look the same.
+fn first_of(marks: &[(String, [f64; 2])], name: &str) -> Option<usize> {
+    marks.iter().position(|(known, _)| known == name)
 }
 
 /// Whether all curves of a panel have the same number of pixels per degree.

@@ -10,8 +10,8 @@ use crate::node::Node;
 use crate::resolve::plots::subset;
 use fovqa_methods::curves::{CurveSource, CurveSpec};
 use fovqa_plan::{
-    CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, FigureSettings, PanelOf,
-    RateKind, RateUnit,
+    AcuityScale, CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, DensityStyle,
+    FigureSettings, PanelOf, RateKind, RateUnit,
 };
 
 /// The curves that a plot or table shows.
@@ -54,13 +54,16 @@ pub(super) fn few_panels(
         let CurveSource::Method { setting, .. } = &spec.source else { continue };
         let size = [setting.view.width, setting.view.height];
         let panel = match (plot.kind, plot.panels) {
-            (CurvePlotKind::Density, _) => format!("{} {size:?} {:?}", spec.name, setting.gaze_px),
+            (CurvePlotKind::Density | CurvePlotKind::Samples, _) => {
+                format!("{} {size:?} {:?}", spec.name, setting.gaze_px)
+            }
             (CurvePlotKind::Rates, PanelOf::Curve) => {
                 format!("{} {size:?} {:?} {}", spec.name, setting.gaze_px, setting.direction_deg)
             }
             (CurvePlotKind::Rates, PanelOf::Setting) => {
                 format!("{size:?} {:?} {}", setting.gaze_px, setting.direction_deg)
             }
+            (CurvePlotKind::Rates, PanelOf::Name) => spec.name.clone(),
             (CurvePlotKind::Rates, PanelOf::Resolution) => format!("{size:?}"),
             (CurvePlotKind::Rates, PanelOf::Gaze) => format!("{:?}", setting.gaze_px),
             (CurvePlotKind::Rates, PanelOf::Direction) => setting.direction_deg.to_string(),
@@ -123,16 +126,29 @@ pub(super) fn plot(
         log: flag("log"),
         rings_deg: table.numbers("rings_deg").unwrap_or_default(),
         f: table.numbers("f").unwrap_or_default(),
+        band: flag("band"),
+        dots: flag("dots"),
+        style: table.word("style").unwrap_or_default(),
+        acuity_scale: table.word("acuity_scale").unwrap_or_default(),
         figure: FigureSettings::default(),
     };
     fits(table, &plot, faults);
     let nothing = |spec: &CurveSpec| match (plot.kind, &spec.source) {
         (CurvePlotKind::Rates, CurveSource::Acuity(_)) => plot.unit == RateUnit::PerPixel,
-        (CurvePlotKind::Rates | CurvePlotKind::Density, CurveSource::Method { .. })
-        | (CurvePlotKind::HalfAxis, _) => false,
         (CurvePlotKind::Accumulated, CurveSource::Method { method, .. }) => {
             !matches!(method, Method::Deamp(_))
         }
+        (CurvePlotKind::Steps, CurveSource::Method { method, .. }) => {
+            !matches!(method, Method::Deamp(_) | Method::Guenter(_))
+        }
+        (CurvePlotKind::Outline, CurveSource::Method { method, .. }) => {
+            !matches!(method, Method::Vafr(_))
+        }
+        (CurvePlotKind::Samples, CurveSource::Method { method, setting }) => {
+            let over = setting.setting().and_then(|over| method.apply(&over));
+            over.is_ok_and(|method| method.mapping().is_none())
+        }
+        (CurvePlotKind::HalfAxis, _) | (_, CurveSource::Method { .. }) => false,
         (_, CurveSource::Acuity(_)) => true,
     };
     if faults.is_empty()
@@ -142,6 +158,11 @@ pub(super) fn plot(
     {
         let message = match plot.kind {
             CurvePlotKind::Accumulated => "this plot needs a curve of deamp, but it has none",
+            CurvePlotKind::Steps => "this plot needs a curve of deamp or guenter, but it has none",
+            CurvePlotKind::Outline => "this plot needs a curve of vafr, but it has none",
+            CurvePlotKind::Samples => {
+                "this plot needs a method with a buffer, but none of its curves has one"
+            }
             _ => "the plot has nothing to show: none of its curves has a method",
         };
         faults.push(Fault::new(table.span("kind"), message));
@@ -158,16 +179,33 @@ fn named_mark(mark: Node<'_>) -> Option<(String, [f64; 2])> {
 const NEAREST: f64 = 1e-6;
 
 /// Keys that only plots of rates have.
-const OF_RATES: &[&str] =
-    &["rate", "unit", "panels", "areas", "display", "beyond_display", "y_limits", "marks"];
+const OF_RATES: &[&str] = &[
+    "rate",
+    "unit",
+    "panels",
+    "areas",
+    "display",
+    "beyond_display",
+    "y_limits",
+    "marks",
+    "band",
+    "acuity_scale",
+];
+
+/// Keys that a plot of simple curves does not have.
+const NO_PICTURE: &[&str] = &["log", "rings_deg", "f", "dots", "style"];
 
 /// Checks that the keys of a plot belong to its kind.
 fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Faults) {
     let (kind, others): (&str, &[&str]) = match plot.kind {
-        CurvePlotKind::Rates => ("rates", &["rings_deg", "f"]),
-        CurvePlotKind::Density => ("density", &["f"]),
-        CurvePlotKind::Accumulated => ("accumulated", &["log", "rings_deg", "f"]),
-        CurvePlotKind::HalfAxis => ("half_axis", &["curves", "log", "rings_deg"]),
+        CurvePlotKind::Rates => ("rates", &["rings_deg", "f", "dots", "style"]),
+        CurvePlotKind::Density => ("density", &["f", "dots"]),
+        CurvePlotKind::Samples => ("samples", &["log", "f", "dots", "style"]),
+        CurvePlotKind::SamplesBars => ("samples_bars", &["rings_deg", "f", "dots", "style"]),
+        CurvePlotKind::Accumulated => ("accumulated", NO_PICTURE),
+        CurvePlotKind::Steps => ("steps", NO_PICTURE),
+        CurvePlotKind::Outline => ("outline", NO_PICTURE),
+        CurvePlotKind::HalfAxis => ("half_axis", &["curves", "log", "rings_deg", "style"]),
     };
     let of_rates = if plot.kind == CurvePlotKind::Rates { &[] } else { OF_RATES };
     let keys = of_rates.iter().chain(others);
@@ -179,6 +217,21 @@ fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Faults) {
         let fault =
             Fault::new(table.span("marks"), "marks are in cycles per degree, but the plot is not");
         faults.push(fault.help("remove them, or remove unit = \"per_pixel\""));
+    }
+    if plot.acuity_scale == AcuityScale::Own && plot.unit == RateUnit::Cpd {
+        let fault = Fault::new(
+            table.span("acuity_scale"),
+            "acuity has a scale of its own only in samples per pixel",
+        );
+        faults.push(fault.help("write unit = \"per_pixel\", or remove it"));
+    }
+    if plot.band && plot.areas == Some(true) {
+        let message = "a plot has either bands or areas against acuity";
+        faults.push(Fault::new(table.span("band"), message).help("remove one of the two"));
+    }
+    if plot.style == DensityStyle::Contours && !plot.rings_deg.is_empty() {
+        let message = "a plot has either rings or contours";
+        faults.push(Fault::new(table.span("style"), message).help("remove rings_deg or style"));
     }
     if plot.kind == CurvePlotKind::HalfAxis && plot.f.is_empty() {
         let fault = Fault::new(table.span("kind"), "a plot of a half axis needs values of f");
