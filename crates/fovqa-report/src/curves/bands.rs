@@ -83,8 +83,12 @@ mod tests {
         let twice = [member("C", &[7.0, 8.0]), member("C", &[7.0, 8.000_000_000_1])];
         let (one, none) = bands(twice.into());
         assert_eq!((one.len(), one[0].name.as_str(), none.len()), (1, "C", 0));
-        let members =
-            vec![member("A", &[3.0, 1.0]), member("B", &[9.0]), member("A", &[2.0, 4.0, 5.0])];
+        let members = vec![
+            member("A", &[3.0, 1.0]),
+            member("B", &[9.0]),
+            member("A", &[2.0, 4.0, 5.0]),
+            member("A", &[2.5, 2.0]),
+        ];
         let (series, fills) = bands(members);
         let names: Vec<&str> = series.iter().map(|series| series.name.as_str()).collect();
         assert_eq!(names, ["A, lowest", "A, highest", "B"]);
