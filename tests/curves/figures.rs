@@ -46,6 +46,13 @@ kind = "rates"
 name = "across"
 rate = "tangential"
 panels = "one"
+beyond_display = true
+curves = ["Full", "2L"]
+[[plot]]
+kind = "rates"
+name = "shown"
+panels = "one"
+rate = "tangential"
 curves = ["Full", "2L"]
 [[plot]]
 kind = "rates"
@@ -54,6 +61,7 @@ curves = ["Sparse"]
 [[plot]]
 kind = "rates"
 name = "dense"
+beyond_display = true
 curves = ["Dense"]
 [[plot]]
 kind = "density"
@@ -100,6 +108,12 @@ fn figures_show_what_they_say() {
     let pixels = 800.0 * 1f64.to_radians() / 15f64.to_radians().cos().powi(2);
     near(at(&across, 15.0), (608.0 + 1200.0) / (608.0 * 2.6) * pixels / 2.0);
     assert!(plot("across.svg").contains("Tangential rate"));
+    // The display shows at most its own rate, one sample per pixel.
+    let shown = series("shown", "2L, gaze (400, 1200), direction 90°");
+    near(at(&shown, 15.0), pixels / 2.0);
+    near(at(&series("shown", "Display 1600 × 1600"), 15.0), pixels / 2.0);
+    let page = fs::read_to_string(folder.path("reports/f/index.html")).unwrap();
+    assert_eq!(page.matches("the rate is that of the display").count(), 4, "shown and pixels");
 
     // Areas are named after the side they lie on.
     let areas =
@@ -143,6 +157,75 @@ fn a_gaze_outside_is_drawn_at_the_border() {
         fs::read_to_string(folder.path("reports/good/plots/density.svg")).unwrap()
     };
     assert!(picture("[3000, 400]") == picture("[1440, 400]"));
+}
+
+/// A curve whose budget is out of reach is left out, and so is what shows nothing else.
+#[test]
+fn what_cannot_reach_its_budget_is_left_out() {
+    let folder = Folder::new();
+    let sparse = "name = \"A\"\nmethod = { model = \"guenter\" }\nbudget = 0.9";
+    let text = GOOD.replace("name = \"A\"\nmethod = { model = \"rmfr\" }", sparse);
+    let of_a = "\n[[plot]]\nkind = \"density\"\ncurves = [\"A\"]\n[[table]]\nkind = \"acuity\"\ncurves = [\"A\"]\n";
+    folder.write("e.toml", format!("{text}{of_a}"));
+    let reason = "curve \"A\" at 1440x1600 is left out: guenter cannot reach a budget of 0.9";
+    let mend = "or change bounds_deg, or the inner scales";
+    let also = ["the plot density is left out", "the table acuity is left out"];
+    folder.run(&["check", "e.toml"]).ok().says(&[reason, mend, also[0], also[1]]);
+    folder.run(&["curves", "e.toml"]).ok().says(&[reason, "1 figure"]);
+    let record = json(&folder, "reports/good/curves.json");
+    assert_eq!(record["curves"].as_array().unwrap().len(), 1);
+    assert!(record["left_out"][0].as_str().unwrap().starts_with(reason), "{record}");
+    let page = fs::read_to_string(folder.path("reports/good/index.html")).unwrap();
+    assert!(page.contains("cannot reach a budget of 0.9"), "{page}");
+    // Nothing is left if it was the only one.
+    let alone = text.replace(
+        "name = \"B\"\nacuity = { model = \"piecewise\" }",
+        "name = \"B\"\nmethod = { model = \"guenter\" }\nbudget = 0.8",
+    );
+    folder.write("e.toml", alone);
+    folder.run(&["check", "e.toml"]).fails(2, &["budget of 0.9", "budget of 0.8"]);
+}
+
+/// Many curves with several settings have a panel per setting, with the same axes, and a method has
+/// one look in all of them.
+#[test]
+fn panels_of_settings_are_compared() {
+    let folder = Folder::new();
+    let three = GOOD.replace("[view]", "[view]\ngazes = [\"center\", [0, 0], [100, 0]]").replace(
+        "name = \"B\"\nacuity = { model = \"piecewise\" }",
+        "name = \"B\"\nmethod = { model = \"full\" }",
+    );
+    folder.write(
+        "e.toml",
+        format!("{three}\n[[plot]]\nkind = \"rates\"\nname = \"b\"\ncurves = [\"B\"]\n"),
+    );
+    folder.run(&["curves", "e.toml"]).ok();
+    let csv = |name: &str| {
+        let text =
+            fs::read_to_string(folder.path(&format!("reports/good/plots/{name}.csv"))).unwrap();
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let rows = reader.records().map(|row| {
+            let row = row.unwrap();
+            (row[0].to_owned(), row[1].to_owned())
+        });
+        rows.collect::<std::collections::BTreeSet<_>>()
+    };
+    let panels = csv("rates");
+    for gaze in ["gaze at centre", "gaze (0, 0)", "gaze (100, 0)"] {
+        for name in ["A", "B", "Display 1440 × 1600"] {
+            assert!(
+                panels.contains(&(gaze.to_owned(), name.to_owned())),
+                "{gaze} {name}: {panels:?}"
+            );
+        }
+    }
+    assert_eq!(panels.len(), 3 * 4, "with acuity");
+    // B is the second method of the file, in its own figure too: vermilion.
+    let svg = |name: &str| {
+        fs::read_to_string(folder.path(&format!("reports/good/plots/{name}.svg"))).unwrap()
+    };
+    assert!(svg("rates").contains("#D55E00") && svg("b").contains("#D55E00"));
+    assert!(svg("rates").contains("#0072B2") && !svg("b").contains("#0072B2"));
 }
 
 #[test]

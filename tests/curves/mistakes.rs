@@ -111,12 +111,6 @@ const MISTAKES: &[Mistake] = &[
     ),
     (
         "method = { model = \"rmfr\" }",
-        "method = { model = \"guenter\" }\nbudget = 0.9",
-        &["cannot reach a budget of 0.9"],
-        false,
-    ),
-    (
-        "method = { model = \"rmfr\" }",
         "method = { model = \"rmfr\" }\nbudget_of = \"buffer\"",
         &["none is given"],
         false,
@@ -142,6 +136,50 @@ const MISTAKES: &[Mistake] = &[
     ("name = \"B\"", "name = \"A\"", &["\"A\""], false),
     ("kind = \"rates\"", "kind = \"rate\"", &["did you mean \"rates\"?"], true),
     ("kind = \"rates\"", "kind = \"rates\"\ncurves = [\"C\"]", &["there is no curve \"C\""], false),
+    (
+        "kind = \"rates\"",
+        "kind = \"density\"\ncurves = [\"A\"]\nband = true",
+        &["band does not apply to a plot of kind"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\ndots = true",
+        &["dots does not apply to a plot of kind"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\nstyle = \"contours\"",
+        &["style does not apply to a plot of kind"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\nband = true\nareas = true",
+        &["either bands or areas"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"density\"\nstyle = \"contours\"\nrings_deg = [10]",
+        &["either rings or contours"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\nacuity_scale = \"own\"",
+        &["only in samples per pixel"],
+        false,
+    ),
+    ("kind = \"rates\"", "kind = \"outline\"", &["needs a curve of vafr"], false),
+    ("kind = \"rates\"", "kind = \"steps\"", &["needs a curve of deamp or guenter"], false),
+    (
+        "kind = \"rates\"",
+        "kind = \"samples\"\ncurves = [\"B\"]",
+        &["needs a method with a buffer"],
+        false,
+    ),
     (
         "kind = \"rates\"",
         "kind = \"rates\"\nf = [2]",

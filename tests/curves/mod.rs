@@ -4,4 +4,5 @@ mod figures;
 pub(crate) mod files;
 mod flags;
 mod golden;
+mod kinds;
 mod mistakes;

@@ -17,7 +17,8 @@ This page compares numbers printed in four papers with those that fovqa computes
 A verdict depends only on the printed digits:
 
 - **reproduced**: the computed number, rounded, gives the printed digits (a tie may go either way), or
-  truncated, where the row says so;
+  truncated, where the row says so; a fraction counts as its hundredths (3/4 is 0.75), and \"up to\", \"over\", <
+  and > are bounds that it keeps;
 - **close**: the digits differ, but the number is within {close} % of the printed one;
 - **not reproduced**: neither of these; the reasons are at the end of the page;
 - **not independent**: it gives the printed digits, but one of its inputs was derived from them;

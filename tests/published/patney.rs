@@ -34,27 +34,23 @@ fn quads() -> Vec<PageRow> {
     let of_guenter = GUENTER_QUADS.iter().zip(QUADS).map(|(of, quads)| saved(*of, quads));
     let most_of_guenter = of_guenter.fold(0.0, f64::max);
     let taking = "Taking Table 1's shares as shares of the frame's quads";
+    let most_row = |quantity: &str, printed: &str, computed: f64, decimals| {
+        one("text", quantity, Cell::new("", Printed::new(printed), computed, decimals))
+    };
     vec![
-        one("text", "quads saved", Cell::new("", Printed::new("3/4"), most / 100.0, 3))
-            .because("printed in quarters")
+        most_row("quads saved, the most", "3/4", most / 100.0, 3)
+            .because("less in its Table 1")
+            .more(format!("{taking}: {least:.1} to {most:.1} % are saved.")),
+        most_row("quads saved, the most, of Guenter's", "up to 50 %", most_of_guenter, 1)
+            .because("from its Table 1")
             .more(format!(
-                "{taking}: {least:.1} to {most:.1} % are saved. Rounded to quarters, the maximum is 3/4.",
+                "{taking}, at most {most_of_guenter:.1} % of the quads that Guenter's method shades are saved, \
+                 which is within the bound.",
             )),
-        one(
-            "text",
-            "quads saved, \"up to\", of Guenter's",
-            Cell::new("", Printed::new("50 %"), most_of_guenter, 1),
-        )
-        .because("less in its Table 1")
-        .more(format!(
-            "{taking}, at most {most_of_guenter:.1} % of the quads that Guenter's method shades are saved. \
-             Rounded to tens, this is 50 %.",
-        )),
-        one("text", "quads saved, \"up to\", of all", Cell::new("", Printed::new("70 %"), most, 1))
+        most_row("quads saved, the most, of all", "up to 70 %", most, 1)
             .because("more in its Table 1")
             .more(format!(
-                "{taking}, {least:.1} to {most:.1} % are saved, which exceeds the printed limit. Rounded to \
-                 tens, this is 70 %.",
+                "{taking}, {least:.1} to {most:.1} % are saved, which exceeds the printed limit.",
             )),
     ]
 }

@@ -1,7 +1,8 @@
 //! A number as a paper prints it, and what is to be said of a computed one beside it.
 //!
 //! What counts are the printed digits: "14.8 %" is any number from 14.75 to 14.85, ties included,
-//! since they may be rounded either way; "3/4" is a number of quarters.
+//! since they may be rounded either way; a
+//! fraction counts as its hundredths: "3/4" is 0.75. "Up to" and "over" are bounds.
 
 /// How far from a printed number a computed one may be, relative to it, to be called close.
 pub(super) const CLOSE: f64 = 1e-3;
@@ -39,6 +40,7 @@ enum Sense {
     Rounded,
     Truncated,
     Below,
+    UpTo,
     Above,
 }
 
@@ -55,13 +57,18 @@ pub(super) struct Printed {
 }
 
 impl Printed {
-    /// A number that was rounded: "1,061,735", "14.8 %", "3/4"; or a bound: "< .01", "> .05".
+    /// A number that was rounded: "1,061,735", "14.8 %", "3/4"; or a bound: "< .01", "> .05",
+    /// "up to 50 %", "over 50 %".
     pub(super) fn new(text: &str) -> Self {
-        let (sense, number) = match (text.strip_prefix("< "), text.strip_prefix("> ")) {
-            (Some(number), _) => (Sense::Below, number),
-            (_, Some(number)) => (Sense::Above, number),
-            (None, None) => (Sense::Rounded, text),
-        };
+        let bounds = [
+            ("< ", Sense::Below),
+            ("up to ", Sense::UpTo),
+            ("> ", Sense::Above),
+            ("over ", Sense::Above),
+        ];
+        let bound =
+            bounds.iter().find_map(|(word, sense)| Some((*sense, text.strip_prefix(word)?)));
+        let (sense, number) = bound.unwrap_or((Sense::Rounded, text));
         let end = number.find(|c: char| !c.is_ascii_digit() && !"., /".contains(c));
         let (digits, _) = number.split_at(end.unwrap_or(number.len()));
         let digits = digits.trim_end();
@@ -104,6 +111,7 @@ impl Printed {
             Sense::Rounded => above.abs() <= self.step / 2.0 + slack,
             Sense::Truncated => above >= -slack && above < self.step - slack,
             Sense::Below => computed < self.value,
+            Sense::UpTo => computed <= self.value + slack,
             Sense::Above => computed > self.value,
         };
         let close = self.relative_error(computed).is_some_and(|error| error.abs() <= CLOSE);
@@ -124,7 +132,7 @@ impl Printed {
 fn value_and_step(digits: &str) -> (f64, f64) {
     let number = |text: &str| text.parse().unwrap_or(f64::NAN);
     if let Some((above, below)) = digits.split_once('/') {
-        return (number(above) / number(below), 1.0 / number(below));
+        return (number(above) / number(below), 0.01);
     }
     let decimals = digits.split_once('.').map_or(0, |(_, behind)| behind.len());
     let step = (0..decimals).fold(1.0, |step, _| step / 10.0);
@@ -156,7 +164,8 @@ mod tests {
             (".637", 0.637, 0.001, ""),
             ("45°", 45.0, 1.0, "°"),
             ("1.83x", 1.83, 0.01, "x"),
-            ("3/4", 0.75, 0.25, ""),
+            ("3/4", 0.75, 0.01, ""),
+            ("up to 50 %", 50.0, 1.0, " %"),
             ("< .01", 0.01, 0.01, ""),
             ("76.8 M", 76.8, 0.1, " M"),
             ("1 arcmin", 1.0, 1.0, " arcmin"),
@@ -174,8 +183,8 @@ mod tests {
     fn rounded_digits_take_half_a_step_on_both_sides() {
         held(&Printed::new("14.8 %"), &[14.75, 14.8, 14.85, 14.849]);
         refused(&Printed::new("14.8 %"), &[14.74, 14.86, f64::NAN]);
-        held(&Printed::new("3/4"), &[0.734, 0.626, 0.874]);
-        refused(&Printed::new("3/4"), &[0.62, 0.88]);
+        held(&Printed::new("3/4"), &[0.7451, 0.7549]);
+        refused(&Printed::new("3/4"), &[0.734, 0.76]);
     }
 
     #[test]
@@ -192,6 +201,10 @@ mod tests {
         refused(&Printed::new("< .01"), &[0.0128, 0.010_000_1]);
         held(&Printed::new("> .05"), &[0.906]);
         refused(&Printed::new("> .05"), &[0.05, 0.01]);
+        held(&Printed::new("up to 50 %"), &[45.0, 50.0]);
+        refused(&Printed::new("up to 70 %"), &[73.4]);
+        held(&Printed::new("over 50 %"), &[50.1]);
+        refused(&Printed::new("over 50 %"), &[50.0]);
         assert_eq!(Printed::new("< .01").relative_error(0.5), None);
     }
 

@@ -21,7 +21,7 @@ const FRAME_TIMES_MS: [f64; 2] = [26.2, 14.29];
 
 /// The rows of RMFR: Eq. 4-7, Fig. 11, Tables 1 and 3, the study. `table` is Table 1.
 pub(super) fn rmfr(table: Option<&Table>) -> Vec<PageRow> {
-    [vec![samples()], study(), densities(), vec![averages(table)], times()].concat()
+    [vec![samples()], vec![trials()], study(), densities(), vec![averages(table)], times()].concat()
 }
 
 fn one(place: &'static str, quantity: impl Into<String>, cell: Cell) -> PageRow {
@@ -38,6 +38,18 @@ fn samples() -> PageRow {
     let share = 100.0 * share(&centred(FRAME, FOV_VERTICAL_DEG));
     one("text", "share of samples at σ = 2.6", Cell::new("", Printed::new("14.8 %"), share, 2))
         .because("1 / σ²")
+}
+
+/// The number of trials that all percentages of the study are whole votes of.
+fn trials() -> PageRow {
+    let fit = |trials: &u64| {
+        VOTES.iter().all(|(share, _)| !whole_votes(&Printed::new(share), *trials).is_empty())
+    };
+    let fewest = (1..=TRIALS).find(fit).map_or(f64::NAN, |trials| trials as f64);
+    let cell = Cell::new("", Printed::new(&TRIALS.to_string()), fewest, 0);
+    one("study", "trials of a comparison", cell)
+        .because("the fewest that give all four percentages")
+        .read_off()
 }
 
 fn study() -> Vec<PageRow> {

@@ -6,6 +6,7 @@
 use fovqa_methods::vafr::{FIELD_DEG, Params, Vafr};
 use fovqa_methods::{Foveation, Method, lafr};
 use fovqa_vision::acuity::{AcuityModel, PiecewiseParams};
+use fovqa_vision::find_display;
 
 use super::frame::{centred, possible};
 use super::printed::Printed;
@@ -33,7 +34,7 @@ const FIELD_OF_EYE_DEG: [f64; 2] = [120.0, 100.0];
 
 /// The rows of VaFR: text, Eq. 3-12 and 19, Table 1.
 pub(super) fn vafr() -> Vec<PageRow> {
-    [buffer(), table_1(), savings(), retinal()].concat()
+    [caps(), buffer(), table_1(), savings(), retinal()].concat()
 }
 
 fn applied(resolution: [usize; 2], params: &Params) -> Vafr {
@@ -155,6 +156,24 @@ fn savings() -> Vec<PageRow> {
                 "The buffer width, with the knots that give its printed size, is closer, but does not reproduce both \
                  numbers either.",
             ),
+    ]
+}
+
+/// The caps of Fig. 3, from the pixels per degree at the centre of the displays.
+fn caps() -> Vec<PageRow> {
+    let row = |name: &str, key: &str, printed: &str, why: &str| {
+        let ppd =
+            find_display(key).map_or(f64::NAN, fovqa_vision::Display::central_pixels_per_degree);
+        let cell = Cell::new("", Printed::new(printed), ppd / 2.0, 1);
+        PageRow::one(Paper::Vafr, "Fig. 3", format!("what the {name} shows"), cell)
+            .because(why)
+            .more(format!(
+                "Half of its {ppd:.1} pixels per degree at the centre, since a cycle is two pixels."
+            ))
+    };
+    vec![
+        row("Pimax Crystal", "pimax-crystal", "18 cpd", "half of 35 pixels per degree"),
+        row("Vive Pro Eye", "vive-pro-eye", "9 cpd", "less at its resolution and field"),
     ]
 }
 

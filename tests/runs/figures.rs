@@ -446,7 +446,7 @@ fn error_bars_are_over_frames_and_over_scenes() {
                 && row["metric"] == metric
                 && row["image"] == image
                 && row["from_deg"] == from
-                && row["frame"] != ""
+                && !row["frame"].is_empty()
         });
         wanted.map(|row| row["value"].parse().unwrap()).collect()
     };

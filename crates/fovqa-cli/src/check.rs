@@ -89,6 +89,9 @@ fn curves(args: &CheckArgs) -> Exit {
         let set = if spec.parameters.is_empty() { "" } else { ", " };
         let _ = writeln!(text, "  {}: {model}{set}{}{screen}", spec.name, spec.parameters);
     }
+    for why in &file.plan.left_out {
+        diagnostic::note(why);
+    }
     let plots = count(file.plan.plots.len(), "figure");
     let tables = count(file.plan.tables.len(), "table");
     let _ = writeln!(text, "\n{plots}, {tables}; output: reports/{}", file.name);

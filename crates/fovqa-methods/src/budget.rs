@@ -56,6 +56,8 @@ pub enum BudgetError {
         least: f64,
         /// The largest possible share.
         most: f64,
+        /// The parameters that change this range; empty if none does.
+        others: &'static str,
     },
     /// The method cannot be applied to the frame.
     #[error(transparent)]
@@ -127,6 +129,7 @@ impl Method {
                 parameter: free.name,
                 least,
                 most,
+                others: self.others(),
             });
         }
         // Shares change with powers of the parameter, so the bisection works on its logarithm.
@@ -145,6 +148,19 @@ impl Method {
             _ => (free.name, dense.to_string()),
         };
         Ok(Budgeted { method, parameter, value })
+    }
+
+    /// The parameters that change the range of budgets that the free parameter allows.
+    fn others(&self) -> &'static str {
+        match self {
+            Self::Guenter(_) => "bounds_deg, or the inner scales",
+            Self::Linear(_) => "inner_deg or p_min",
+            Self::Cps(_) => "foveal_deg",
+            Self::Deamp(_) => "bounds_deg",
+            Self::Lafr(_) => "alpha or beta",
+            Self::Vafr(_) => "acuity",
+            _ => "",
+        }
     }
 
     fn free(&self) -> Option<FreeParameter> {

@@ -39,9 +39,12 @@ pub struct CurvePlan {
     pub plots: Vec<CurvePlot>,
     /// The tables. If the file names no figure and no table, these are all tables that fit.
     pub tables: Vec<CurveTable>,
+    /// Which curves, figures and tables are left out, and why: their budget cannot be reached.
+    pub left_out: Vec<String>,
 }
 
 /// A figure.
+#[allow(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CurvePlot {
     /// What it shows.
@@ -61,8 +64,10 @@ pub struct CurvePlot {
     /// Whether over- and under-sampled areas are shaded. `None` shades them if a panel has only one
     /// curve.
     pub areas: Option<bool>,
-    /// Whether the display's own rate is drawn as well.
-    pub display: bool,
+    /// Whether the display's own rate is drawn as well. `None` draws it in cycles per degree.
+    pub display: Option<bool>,
+    /// Whether rates are drawn that exceed the display's own, which the display cannot show.
+    pub beyond_display: bool,
     /// Lower and upper end of the vertical axis.
     pub y_limits: Option<[f64; 2]>,
     /// Measured values: a name, an eccentricity in degrees, and a value in cycles per degree.
@@ -73,8 +78,40 @@ pub struct CurvePlot {
     pub rings_deg: Vec<f64>,
     /// Values of RMFR's parameter f for the figure of the half axis.
     pub f: Vec<f64>,
+    /// Whether the rates of a method over the settings of a panel are one band.
+    pub band: bool,
+    /// Whether positions of samples are dots on the half axis.
+    pub dots: bool,
+    /// How density is drawn.
+    pub style: DensityStyle,
+    /// What acuity is divided by if rates are in samples per pixel.
+    pub acuity_scale: AcuityScale,
     /// How it is printed.
     pub figure: FigureSettings,
+}
+
+words! {
+    /// What acuity is divided by where rates are relative.
+    #[derive(Default)]
+    pub enum AcuityScale {
+        /// The display's own rate, as the rates.
+        #[default]
+        Display "display" "The display's own rate, as the rates";
+        /// Acuity at the gaze (DEAMP, Fig. 5c).
+        Own "own" "Acuity at the gaze";
+    }
+}
+
+words! {
+    /// How density is drawn over the field.
+    #[derive(Default)]
+    pub enum DensityStyle {
+        /// A picture with rings of equal eccentricity.
+        #[default]
+        Rings "rings" "A picture with rings of equal eccentricity";
+        /// A picture with lines of equal density.
+        Contours "contours" "A picture with lines of equal density";
+    }
 }
 
 words! {
@@ -90,6 +127,14 @@ words! {
         Accumulated "accumulated" "DEAMP: shaded pixels within a layer's angle";
         /// RMFR: where a half axis goes (Fig. 3).
         HalfAxis "half_axis" "RMFR: the mapping of a half axis";
+        /// Layered methods: the scale of each layer, in steps.
+        Steps "steps" "Layered methods: the scale of each layer";
+        /// Where samples lie over the frame.
+        Samples "samples" "Positions of the samples over the frame";
+        /// The numbers of samples as bars over resolutions.
+        SamplesBars "samples_bars" "Numbers of samples as bars over resolutions";
+        /// VaFR: the outline of the buffer (Figs. 2 and 4).
+        Outline "outline" "VaFR: the outline of the buffer";
     }
 }
 
@@ -128,6 +173,10 @@ words! {
         /// Each curve with its settings.
         #[default]
         Curve "curve" "Each curve with its settings";
+        /// Each curve of the file, with all its settings.
+        Name "name" "Each curve of the file, with all its settings";
+        /// Each setting (resolution, gaze and direction), with all curves of it.
+        Setting "setting" "Each resolution, gaze and direction, with all curves of it";
         /// Each resolution.
         Resolution "resolution" "Each resolution";
         /// Each gaze.

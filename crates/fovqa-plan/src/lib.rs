@@ -25,8 +25,8 @@ mod source;
 pub use builtin::BuiltinFrames;
 pub use crops::CropRegion;
 pub use curves::{
-    CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, CurvesFile, PanelOf, RateKind,
-    RateUnit,
+    AcuityScale, CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, CurvesFile,
+    DensityStyle, PanelOf, RateKind, RateUnit,
 };
 pub use emulation::{Emulation, emulation_keys};
 pub use experiment::Experiment;

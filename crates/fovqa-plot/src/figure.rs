@@ -55,7 +55,7 @@ impl Figure {
         };
         let title = match &mut figure {
             Self::Line(chart) => {
-                chart.series.iter_mut().for_each(|series| look(&mut series.look));
+                chart.looks().for_each(look);
                 &mut chart.title
             }
             Self::Bar(chart) => {
@@ -67,8 +67,7 @@ impl Figure {
                 &mut chart.title
             }
             Self::Panels(chart) => {
-                let series = chart.panels.iter_mut().flat_map(|panel| &mut panel.series);
-                series.for_each(|series| look(&mut series.look));
+                chart.panels.iter_mut().flat_map(LineChart::looks).for_each(look);
                 &mut chart.title
             }
             Self::Raster(chart) => &mut chart.title,

@@ -95,7 +95,7 @@ pub(crate) fn bar(chart: &BarChart) -> String {
     csv
 }
 
-/// The values at the centres of their cells. Lines are not included, because they are only a visual
+/// The values at the centres of their cells, then the dots, without a value. Lines are not included, because they are only a visual
 /// aid.
 pub(crate) fn raster(chart: &RasterChart) -> String {
     let mut csv = "panel,x,y,value\n".to_owned();
@@ -113,6 +113,9 @@ pub(crate) fn raster(chart: &RasterChart) -> String {
                 let x = middle(panel.x_range, c, panel.columns);
                 row(&mut csv, &[title.clone(), x, y.clone(), optional(Some(*value))]);
             }
+        }
+        for (x, y) in &panel.dots {
+            row(&mut csv, &[title.clone(), number(*x), number(*y), String::new()]);
         }
     }
     csv

@@ -23,6 +23,8 @@ pub(crate) fn for_picture(figure: &Figure) -> Cow<'_, Figure> {
         reference: series.reference,
         smooth: series.smooth,
         errors: if is_long(series) { Vec::new() } else { series.errors.clone() },
+        dots: series.dots,
+        unlisted: series.unlisted,
         points: if is_long(series) { shortened(&series.points) } else { series.points.clone() },
     });
     Cow::Owned(Figure::Line(LineChart {

@@ -36,7 +36,8 @@ pub fn curves(
         }
     })?;
     let mut notes: Vec<&String> = Vec::new();
-    for note in curves.iter().flat_map(|curve| &curve.notes) {
+    let of_curves = curves.iter().flat_map(|curve| &curve.notes);
+    for note in file.plan.left_out.iter().chain(of_curves) {
         if !notes.contains(&note) {
             notes.push(note);
             events.note(note);

@@ -190,6 +190,7 @@ impl CurvesArgs {
         let budget = self.budget.map(|share| CurveBudget { share, samples: self.budget_of });
         let name = method.info().label.to_owned();
         CurveSpec::of_method(name, method, parameters, self.setting()?, budget)
+            .map_err(|error| error.to_string())
     }
 
     fn setting(&self) -> Result<CurveSetting, String> {

@@ -7,7 +7,9 @@ use fovqa_vision::{EccentricityKind, Tangential};
 use super::experiment::{POSITION_PAIR, VIEW, joined, key, required};
 use super::figures::FIGURES;
 use super::{Key, Kind};
-use fovqa_plan::{CurvePlotKind, CurveTableKind, PanelOf, RateKind, RateUnit};
+use fovqa_plan::{
+    AcuityScale, CurvePlotKind, CurveTableKind, DensityStyle, PanelOf, RateKind, RateUnit,
+};
 
 /// Maximum number of curves. More could not be told apart.
 pub(crate) const MOST_CURVES: usize = 200;
@@ -73,11 +75,11 @@ static MARK: [Key; 2] = [
     ),
 ];
 
-static PLOT_TABLE: [Key; 15] = [
+static PLOT_TABLE: [Key; 20] = [
     required(
         "kind",
         Kind::Words(words_of::<CurvePlotKind>),
-        "rates: rates and acuity against eccentricity; density: picture of the samples per pixel over the field; accumulated: DEAMP's shaded pixels within an angle (Fig. 5b); half_axis: RMFR's mapping of a half axis (Fig. 3)",
+        "rates: rates and acuity against eccentricity; density: picture of the samples per pixel over the field; accumulated: DEAMP's shaded pixels within an angle (Fig. 5b); half_axis: RMFR's mapping of a half axis (Fig. 3); steps: scales of the layers of DEAMP and Guenter; samples: positions of samples over the frame; samples_bars: numbers of samples over resolutions; outline: VaFR's buffer (Figs. 2 and 4)",
     ),
     key("name", Kind::Name, "name of its files; default: the kind"),
     key("title", Kind::Text, "title above the figure"),
@@ -95,14 +97,19 @@ static PLOT_TABLE: [Key; 15] = [
     key(
         "panels",
         Kind::Words(words_of::<PanelOf>),
-        "what each panel shows; default: one curve with its settings",
+        "what each panel shows; default: one curve with its settings, or of more than four curves with several settings each setting",
     ),
     key(
         "areas",
         Kind::Bool,
         "shade the areas where the rate is above and below acuity; default: only in panels of one curve",
     ),
-    key("display", Kind::Bool, "also draw the display's own rate"),
+    key("display", Kind::Bool, "also draw the display's own rate; default: in cycles per degree"),
+    key(
+        "beyond_display",
+        Kind::Bool,
+        "draw rates that exceed the display's own, which shows no more; default: false",
+    ),
     key(
         "y_limits",
         Kind::List(&Kind::Number(0.0, 1e6), 2, 2),
@@ -119,6 +126,18 @@ static PLOT_TABLE: [Key; 15] = [
         "f",
         Kind::List(&Kind::Number(1.001, 1e6), 1, 20),
         "for half_axis: values of f, with one curve each",
+    ),
+    key("band", Kind::Bool, "for rates: one band per method, from its lowest to its highest rate"),
+    key(
+        "acuity_scale",
+        Kind::Words(words_of::<AcuityScale>),
+        "for per_pixel: acuity relative to the display's rate (display), or to acuity at 0° (own)",
+    ),
+    key("dots", Kind::Bool, "for half_axis: positions of samples as dots"),
+    key(
+        "style",
+        Kind::Words(words_of::<DensityStyle>),
+        "for density: lines of equal eccentricity (rings) or of equal density (contours)",
     ),
     key("figure", Kind::Table(&FIGURES), "how it is printed; default: as [figures]"),
 ];

@@ -1,5 +1,6 @@
-//! Compares a method with acuity over the field of view: how much of the field is shaded too
-//! sparsely, and how many samples exceed the need of acuity.
+//! Compares a method with acuity over the field of view: how much of the field is shown too
+//! sparsely, and how many samples exceed the need of acuity. A rate above the display's own counts
+//! as that of the display, which shows no more.
 
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::{Eccentricity, PixelScale};
@@ -15,7 +16,8 @@ const CELLS: f64 = 720.0;
 /// rounding error.
 const EQUAL: f64 = 1e-9;
 
-/// The shares of a frame that a method shades below and above acuity. They are shares of the
+/// The shares of a frame that is seen below and above acuity: at the rate of the method, or that of
+/// the display where it is lower. They are shares of the
 /// frame's pixels, evaluated at the centres of cells that are at most 1/720 of the longer side
 /// wide, with a precision of about 1/1000.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -26,8 +28,9 @@ pub struct AcuityShares {
     pub below_tangential: f64,
     /// Share of the field where either rate is below acuity.
     pub below: f64,
-    /// The number of shaded samples beyond the need of acuity: the integral over the frame of
-    /// density (1 - min(1, f/radial) min(1, f/tangential)), multiplied by the share that is shaded.
+    /// The number of shaded samples beyond the need of acuity or of the display: the integral over
+    /// the frame of density (1 - min(1, f/radial) min(1, f/tangential)), multiplied by the share
+    /// that is shaded. f is acuity, or the display's own rate where it is lower.
     pub samples_above: f64,
     /// These samples as a share of all samples that are shaded and visible.
     pub above: f64,
@@ -60,19 +63,21 @@ pub fn acuity_shares(
             let e = seen.at_deg(at[0], at[1]);
             let scale =
                 PixelScale::at(&view, gaze_px, eccentricity, tangential, place.direction, e);
+            // The rate along and across, and the display's own; a pixel has one sample at most.
             let rates = foveation.rates(place).zip(scale).map(|(rates, scale)| {
-                [rates.radial * scale.radial / 2.0, rates.tangential * scale.tangential / 2.0]
+                let [along, across] = [scale.radial / 2.0, scale.tangential / 2.0];
+                [(rates.radial * along, along), (rates.tangential * across, across)]
             });
             let needed = acuity.cutoff_cpd(e);
-            let [radial, tangential] = rates.unwrap_or_default();
-            let (less, across) =
-                (radial < needed * (1.0 - EQUAL), tangential < needed * (1.0 - EQUAL));
+            let rates = rates.unwrap_or_default();
+            let [less, across] = rates.map(|(rate, own)| rate.min(own) < needed * (1.0 - EQUAL));
             sums.below_radial += f64::from(less);
             sums.below_tangential += f64::from(across);
             sums.below += f64::from(less || across);
             let density = foveation.density(place);
             samples += density;
-            let useful = (needed / radial).min(1.0) * (needed / tangential).min(1.0);
+            let [along, abreast] = rates.map(|(rate, own)| (needed.min(own) / rate).min(1.0));
+            let useful = along * abreast;
             // A rate that follows acuity has no samples above it, whatever its last bit is.
             if 1.0 - useful > 2.0 * EQUAL {
                 sums.samples_above += density * (1.0 - useful);
@@ -113,14 +118,39 @@ mod tests {
         acuity_shares(&Method::find(name).unwrap(), screen, &AcuityModel::default()).unwrap()
     }
 
+    /// A display that shows all of acuity.
+    const FINE: (usize, usize) = (60_000, 33_750);
+
     #[test]
     fn vafr_is_acuity_and_nothing_else() {
-        let paper = found("vafr", &screen(2560, 1440, Tangential::Paper));
+        let paper = found("vafr", &screen(FINE.0, FINE.1, Tangential::Paper));
         assert_eq!(paper, AcuityShares::default());
         // In visual angle the tangential rate is f cos e, which is below acuity everywhere.
-        let angle = found("vafr", &screen(2560, 1440, Tangential::Angle));
+        let angle = found("vafr", &screen(FINE.0, FINE.1, Tangential::Angle));
         assert!((angle.below_tangential - 1.0).abs() < 1e-12 && angle.below_radial == 0.0);
         assert!((angle.below - 1.0).abs() < 1e-12 && angle.above == 0.0);
+    }
+
+    /// On a coarse display VaFR is below acuity where the display is, and its samples beyond those of
+    /// the display are above what can be seen.
+    #[test]
+    fn no_more_is_seen_than_the_display_shows() {
+        let screen = screen(2560, 1440, Tangential::Paper);
+        let (vafr, full) = (found("vafr", &screen), found("full", &screen));
+        assert!(vafr.below > 0.01 && (vafr.below - full.below).abs() < 1e-12, "{vafr:?} {full:?}");
+        let acuity = AcuityModel::default().curve().unwrap();
+        let focal_px = screen.view.focal_px[0];
+        // Density f² / display² per pixel, of which one per pixel is seen.
+        let mut wasted = 0.0;
+        for y in 0..720 {
+            for x in 0..1280 {
+                let r = (f64::from(x) + 0.5).hypot(f64::from(y) + 0.5);
+                let display = (1.0 + (r / focal_px).powi(2)) * focal_px * 1f64.to_radians() / 2.0;
+                let rate = acuity.cutoff_cpd((r / focal_px).atan().to_degrees()) / display;
+                wasted += 4.0 * (rate * rate - 1.0).max(0.0);
+            }
+        }
+        assert!((vafr.samples_above / wasted - 1.0).abs() < 0.02, "{vafr:?} {wasted}");
     }
 
     /// Reprojected samples are not shaded, so they do not count as above acuity. The shares
@@ -248,12 +278,12 @@ mod tests {
     /// Where a method has no rate, it is below acuity and has no samples.
     #[test]
     fn where_there_is_no_rate_there_is_too_little() {
-        let screen = screen(2560, 1440, Tangential::Paper);
+        let screen = screen(FINE.0, FINE.1, Tangential::Paper);
         let mut clamped = Method::find("vafr").unwrap();
         clamped.set("beyond", &fovqa_params::ParamValue::Text("clamp".into())).unwrap();
         let found = acuity_shares(&clamped, &screen, &AcuityModel::default()).unwrap();
         // 40 % of the pixels lie beyond 60°.
-        let radius = screen.view.focal_px[0] * 60f64.to_radians().tan();
+        let radius = screen.view.focal_px[0] / 60_000.0 * 2560.0 * 60f64.to_radians().tan();
         let (mut beyond, half) = (0usize, radius * radius);
         for y in 0..720 {
             for x in 0..1280 {

@@ -3,7 +3,7 @@
 use fovqa_vision::acuity::AcuityModel;
 
 use super::setting::CurveSetting;
-use crate::budget::BudgetSamples;
+use crate::budget::{BudgetError, BudgetSamples};
 use crate::registry::Method;
 
 /// The specification of one curve.
@@ -21,19 +21,18 @@ impl CurveSpec {
     /// The specification of a method's curve; a budget is solved.
     ///
     /// # Errors
-    /// A message, when the method cannot be applied or cannot reach the budget.
+    /// When the method cannot be applied or cannot reach the budget.
     pub fn of_method(
         name: String,
         method: Method,
         parameters: String,
         setting: CurveSetting,
         budget: Option<CurveBudget>,
-    ) -> Result<Self, String> {
-        let over = setting.setting().map_err(|error| error.to_string())?;
+    ) -> Result<Self, BudgetError> {
+        let over = setting.setting()?;
         let (mut method, mut parameters) = (method, parameters);
         if let Some(CurveBudget { share, samples }) = budget {
-            let found =
-                method.at_budget(&over, share, samples).map_err(|error| error.to_string())?;
+            let found = method.at_budget(&over, share, samples)?;
             method = found.method;
             // The solved value replaces a given one.
             let given = parameters.split(';').filter(|given| {
@@ -42,7 +41,7 @@ impl CurveSpec {
             let solved = format!("{}={}", found.parameter, found.value);
             parameters = given.chain([solved.as_str()]).collect::<Vec<_>>().join(";");
         }
-        method.apply(&over).map_err(|error| error.to_string())?;
+        method.apply(&over)?;
         Ok(Self { name, source: CurveSource::Method { method, setting }, parameters })
     }
 }

@@ -131,6 +131,8 @@ const HATCHES: [Hatch; 7] = [
 pub struct Look {
     /// The index of the series: 0 for the first one, and so on.
     pub index: usize,
+    /// Which of the curves that share its colour it is; each has its own dash and marker.
+    pub variant: usize,
     palette: Palette,
     line_styles: bool,
     markers: bool,
@@ -139,7 +141,15 @@ pub struct Look {
 impl Look {
     /// The look with an index.
     pub fn new(index: usize) -> Self {
-        Self { index, palette: Palette::default(), line_styles: true, markers: true }
+        let palette = Palette::default();
+        Self { index, variant: 0, palette, line_styles: true, markers: true }
+    }
+
+    /// The look of another curve of the same method, such as at another resolution: the same colour
+    /// with another dash and marker. The variant 0 is the look itself.
+    #[must_use]
+    pub fn with_variant(self, variant: usize) -> Self {
+        Self { variant, ..self }
     }
 
     /// The look with the colours of a palette, with or without dashes and markers.
@@ -152,7 +162,7 @@ impl Look {
     }
 
     pub(crate) fn marker(self) -> Marker {
-        MARKERS[self.palette.position(self.index) % MARKERS.len()]
+        MARKERS[(self.palette.position(self.index) + self.variant) % MARKERS.len()]
     }
 
     /// Whether its curves have markers.
@@ -184,7 +194,7 @@ impl Look {
     /// colours repeat.
     fn kind(self, kinds: usize) -> usize {
         let first = if self.line_styles { self.palette.position(self.index) } else { 0 };
-        (first + TURN * self.turn()) % kinds
+        (first + TURN * self.turn() + self.variant) % kinds
     }
 }
 

@@ -11,6 +11,7 @@ use crate::canvas::look::{Look, REFERENCE};
 use crate::canvas::smooth;
 use crate::marks::error_bar;
 use crate::marks::fill::Fill;
+use crate::marks::fill_kind::FillKind;
 use crate::marks::infinity;
 use crate::marks::legend::{self, CURVE_PX, Key, REFERENCE_PX};
 use crate::marks::marker;
@@ -27,6 +28,8 @@ const SIDE_AIR: f64 = 0.02;
 /// The smallest distance of markers along a curve. If points are denser, only some of them have
 /// one.
 const MARKER_PITCH_PX: f64 = 12.0;
+/// The radius of a dot.
+const DOT_PX: f64 = 2.2;
 /// Distance between the markers of infinite values of two series at the same position.
 const BESIDE_PX: f64 = 9.0;
 
@@ -57,6 +60,7 @@ pub struct LineChart {
 }
 
 /// One curve.
+#[allow(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LineSeries {
     /// Its name in the legend.
@@ -72,6 +76,10 @@ pub struct LineSeries {
     /// Half the length of the error bar of each point, in their order; empty for none. A point
     /// without a finite one has no error bar.
     pub errors: Vec<Option<f64>>,
+    /// Whether its points are small dots without a line, such as positions of samples.
+    pub dots: bool,
+    /// Whether the legend leaves it out, because it belongs to another series or area.
+    pub unlisted: bool,
     /// Points in the order of the curve. `None` and NaN leave a gap. An infinite value is drawn at
     /// the border, unconnected, with an "∞" beyond it. Points without a finite `x` are not drawn.
     pub points: Vec<(f64, Option<f64>)>,
@@ -138,8 +146,18 @@ impl LineChart {
         drawing
     }
 
+    /// The looks of its series and bands.
+    pub(crate) fn looks(&mut self) -> impl Iterator<Item = &mut Look> {
+        let bands = self.fills.iter_mut().filter_map(|fill| match &mut fill.kind {
+            FillKind::Band(look) => Some(look),
+            FillKind::Surplus | FillKind::Deficit => None,
+        });
+        self.series.iter_mut().map(|series| &mut series.look).chain(bands)
+    }
+
     pub(crate) fn series_keys(&self) -> impl Iterator<Item = (&str, Key)> {
-        self.series.iter().map(|series| (series.name.as_str(), series.key()))
+        let listed = self.series.iter().filter(|series| !series.unlisted);
+        listed.map(|series| (series.name.as_str(), series.key()))
     }
 
     /// The legend keys of all visible spans.
@@ -345,6 +363,12 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
         .collect();
     let px = |&(x, y): &Point| (plot.left + x * plot.width(), level_px(plot, y));
     let inside = |(x, y): &&Point| (0.0..=1.0).contains(x) && (0.0..=1.0).contains(y);
+    if series.dots {
+        for at in runs.iter().flatten().filter(inside).map(px) {
+            drawing.disc(at, DOT_PX, series.stroke().colour);
+        }
+        return;
+    }
     let pieces: Vec<Vec<Point>> = runs
         .iter()
         .flat_map(|run| clip::upright(run))

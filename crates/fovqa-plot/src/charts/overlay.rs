@@ -3,7 +3,7 @@
 
 use crate::canvas::clip;
 use crate::canvas::drawing::{Anchor, Drawing, Point, Rect, Stroke, Text};
-use crate::canvas::look::{INK, WHITE};
+use crate::canvas::look::{Colour, INK, WHITE};
 use crate::canvas::path;
 use crate::canvas::text::{CAPITAL, VALUE_PX, width_px};
 use crate::canvas::wrap::wrap;
@@ -13,6 +13,9 @@ const EDGE: Stroke = Stroke { colour: INK, width_px: 3.2 };
 const CORE: Stroke = Stroke { colour: WHITE, width_px: 1.4 };
 /// The edge of a label.
 const LABEL_EDGE: Stroke = Stroke { colour: INK, width_px: 0.8 };
+/// The colour and the radius of a dot.
+const DOT: Colour = Colour(0, 80, 140);
+const DOT_PX: f64 = 0.9;
 /// Distance from a label's text to its edge.
 const PADDING_PX: f64 = 2.5;
 /// Distance between labels, and from them to the border.
@@ -35,6 +38,11 @@ pub(crate) fn draw(drawing: &mut Drawing, plot: Rect, panel: &RasterPanel) {
     let ranges = (panel.x_range, panel.y_range);
     let seen: Vec<Vec<Vec<Point>>> =
         panel.lines.iter().map(|line| pieces(plot, ranges, &line.points)).collect();
+    let middle = |at: &Point| share(ranges, *at).filter(|(x, y)| inside(*x) && inside(*y));
+    for (x, y) in panel.dots.iter().filter_map(middle) {
+        let at = (plot.left + x * plot.width(), plot.top + y * plot.height());
+        drawing.disc(at, DOT_PX, DOT);
+    }
     let arms = panel.cross.map(|at| arms(plot, ranges, at)).unwrap_or_default();
     for stroke in [EDGE, CORE] {
         for piece in seen.iter().flatten().chain(&arms) {
@@ -94,9 +102,12 @@ fn share(((left, right), (top, bottom)): Ranges, (x, y): Point) -> Option<Point>
     finite.then(|| (along(x, left, right), along(y, top, bottom)))
 }
 
+fn inside(share: f64) -> bool {
+    (0.0..=1.0).contains(&share)
+}
+
 /// The two arms of the cross within the picture; none if its centre is outside.
 fn arms(plot: Rect, ranges: Ranges, at: Point) -> Vec<Vec<Point>> {
-    let inside = |share: f64| (0.0..=1.0).contains(&share);
     let middle = share(ranges, at).filter(|(x, y)| inside(*x) && inside(*y));
     let Some((x, y)) = middle else { return Vec::new() };
     let (x, y) = (plot.left + x * plot.width(), plot.top + y * plot.height());

@@ -7,6 +7,7 @@ use crate::axes::value_axis::ValueAxis;
 use crate::canvas::bitmap::Bitmap;
 use crate::canvas::colour_map::NO_VALUE;
 use crate::canvas::drawing::{Anchor, Drawing, Rect, Text};
+use crate::canvas::look::WHITE;
 use crate::canvas::text::{LINE_PITCH, TITLE_PX};
 use crate::canvas::wrap::wrap;
 use crate::charts::overlay;
@@ -69,10 +70,13 @@ impl RasterChart {
         let picture_px = if columns == 1 { paper.column_px } else { paper.page_px };
         let least_px = paper.least_picture_px();
         let mut width_px = picture_px / columns as f64 - BESIDE_PX;
+        // Dots alone have no colours that a bar could explain.
+        let has_bar = !charts.iter().all(RasterPanel::has_only_dots);
+        let bar_width_px = |bar: &ColourBar| if has_bar { bar.width_px() } else { 0.0 };
         for _ in 0..MEASURED {
             let (panels, grid) = panels(charts, columns, (width_px, least_px));
             let bar = ColourBar::new(&self.colour, scale, bar_px(plots_px(&panels, &grid)));
-            width_px += (picture_px - grid.width_px() - bar.width_px()) / columns as f64;
+            width_px += (picture_px - grid.width_px() - bar_width_px(&bar)) / columns as f64;
         }
         let (panels, grid) = panels(charts, columns, (width_px, least_px));
         let plots_px = plots_px(&panels, &grid);
@@ -80,14 +84,17 @@ impl RasterChart {
         let bar = ColourBar::new(&self.colour, scale, bar_px);
 
         let first = grid.place(0, 0.0).plot;
-        let width_px = (grid.width_px() + bar.width_px()).ceil();
+        let width_px = (grid.width_px() + bar_width_px(&bar)).ceil();
         let (mut drawing, top) = layout::head(self.title.as_deref(), &[], first.left, width_px);
         for (i, panel) in panels.iter().enumerate() {
             panel.draw(&mut drawing, grid.place(i, top), scale);
         }
         let bar_top = top + first.top + (plots_px - bar_px).max(0.0) / 2.0;
-        bar.draw(&mut drawing, (grid.width_px(), bar_top), bar_px);
-        let bottom = (top + grid.height_px()).max(bar_top + bar_px + 2.0 * MARGIN_PX);
+        let mut bottom = top + grid.height_px();
+        if has_bar {
+            bar.draw(&mut drawing, (grid.width_px(), bar_top), bar_px);
+            bottom = bottom.max(bar_top + bar_px + 2.0 * MARGIN_PX);
+        }
         drawing.height_px = bottom.ceil();
         Ok(drawing)
     }
@@ -171,12 +178,13 @@ impl<'a> Panel<'a> {
         let plot = Rect { right: plot.left + width, bottom: plot.top + height, ..plot };
         let chart = self.chart;
         if chart.values.is_empty() {
-            drawing.area(plot.corners().to_vec(), NO_VALUE);
+            let paper = if chart.has_only_dots() { WHITE } else { NO_VALUE };
+            drawing.area(plot.corners().to_vec(), paper);
         } else {
             let levels = chart.levels(scale);
             drawing.picture(plot, Bitmap { columns: chart.columns, levels });
         }
-        if chart.values.iter().all(|value| value.is_nan()) {
+        if !chart.has_only_dots() && chart.values.iter().all(|value| value.is_nan()) {
             layout::write_no_data(drawing, plot);
         } else {
             overlay::draw(drawing, plot, chart);

@@ -35,6 +35,8 @@ pub struct RasterPanel {
     pub values: Vec<f64>,
     /// Lines over the picture, in units of the axes. If there is no value, no line is drawn.
     pub lines: Vec<RasterLine>,
+    /// Dots over the picture, in units of the axes. Without cells they are on white paper.
+    pub dots: Vec<(f64, f64)>,
     /// The position of the gaze, which is marked with a cross.
     pub cross: Option<(f64, f64)>,
 }
@@ -63,6 +65,7 @@ impl Default for RasterPanel {
             rows: 0,
             values: Vec::new(),
             lines: Vec::new(),
+            dots: Vec::new(),
             cross: None,
         }
     }
@@ -91,6 +94,11 @@ impl RasterPanel {
         let ratio = ratio.clamp(1.0 / MOST_RATIO, MOST_RATIO);
         let width_px = width_px.max(least_px).min(MOST_HEIGHT_PX / ratio).floor();
         (width_px, width_px * ratio)
+    }
+
+    /// Whether it consists of dots alone.
+    pub(crate) fn has_only_dots(&self) -> bool {
+        self.values.is_empty() && !self.dots.is_empty()
     }
 
     pub(crate) fn levels(&self, scale: Option<Scale>) -> Vec<u8> {

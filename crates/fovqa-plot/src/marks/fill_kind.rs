@@ -1,13 +1,16 @@
 //! The look of an area between two curves: its meaning and its hatch.
 
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
-use crate::canvas::look::{Colour, DEFICIT, DEFICIT_HATCH, Hatch, SURPLUS, SURPLUS_EDGE};
+use crate::canvas::look::{Colour, DEFICIT, DEFICIT_HATCH, Hatch, Look, SURPLUS, SURPLUS_EDGE};
 use crate::marks::hatch;
 
 /// Horizontal distance between the lines of the hatch.
 const HATCH_PITCH_PX: f64 = 6.0;
 /// Width of a line of the hatch, and of the edge of a key.
 const HATCH_PX: f64 = 0.9;
+
+/// The share of the colour of a series in its band.
+const BAND_TINT: f64 = 0.3;
 
 /// The meaning of an area between two curves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -18,6 +21,9 @@ pub enum FillKind {
     /// Less than is needed, such as under-sampling. It is orange and hatched, so that it can be
     /// recognised without colour.
     Deficit,
+    /// The range of a series, such as all rates of a method over several displays. It has a tint of
+    /// the colour of the series.
+    Band(Look),
 }
 
 impl FillKind {
@@ -42,6 +48,7 @@ impl FillKind {
         match self {
             Self::Surplus => (SURPLUS, SURPLUS_EDGE),
             Self::Deficit => (DEFICIT, DEFICIT_HATCH),
+            Self::Band(look) => (look.colour().tint(BAND_TINT), look.colour()),
         }
     }
 }

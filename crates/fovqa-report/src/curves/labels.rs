@@ -68,7 +68,11 @@ impl Labels {
         if panels == PanelOf::Curve {
             return name(curve);
         }
-        let parts = self.parts(curve, |of| of != panels);
+        let parts = self.parts(curve, |of| match panels {
+            PanelOf::Setting => of == PanelOf::Curve,
+            PanelOf::Name => of != PanelOf::Curve,
+            panels => of != panels,
+        });
         if parts.is_empty() { name(curve) } else { parts.join(", ") }
     }
 
@@ -89,6 +93,8 @@ impl Labels {
                 }
                 parts.join(", ")
             }
+            PanelOf::Name => name(curve),
+            PanelOf::Setting => self.parts(curve, |of| of != PanelOf::Curve).join(", "),
             panels => self.parts(curve, |of| of == panels).join(", "),
         }
     }
@@ -99,7 +105,7 @@ impl Labels {
             PanelOf::Resolution => screen(curve).map(resolution),
             PanelOf::Gaze => screen(curve).map(gaze),
             PanelOf::Direction => screen(curve).map(direction),
-            PanelOf::One => None,
+            PanelOf::One | PanelOf::Setting | PanelOf::Name => None,
         };
         self.differ.iter().copied().filter(|of| wanted(*of)).filter_map(text).collect()
     }

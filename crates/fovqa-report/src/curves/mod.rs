@@ -1,12 +1,17 @@
 //! Figures, tables and the page of a curves file.
 
+mod axes;
+mod bands;
+mod contours;
 mod labels;
 mod latex;
+mod looks;
 mod models;
 mod page;
 mod picture;
 mod plain_table;
 mod rates;
+mod samples;
 mod tables;
 
 use std::path::Path;
@@ -63,6 +68,10 @@ pub fn draw_curves(
             CurvePlotKind::Density => picture::figure(&source, plot)?,
             CurvePlotKind::Accumulated => models::accumulated(&source, plot),
             CurvePlotKind::HalfAxis => models::half_axis(plot),
+            CurvePlotKind::Steps => models::steps(&source, plot),
+            CurvePlotKind::Outline => models::outline(&source, plot),
+            CurvePlotKind::Samples => samples::positions(&source, plot)?,
+            CurvePlotKind::SamplesBars => samples::bars(&source, plot),
         };
         // The name may contain any character, but a file name is part of an address on the page.
         let name = match slug(&drawn.name) {

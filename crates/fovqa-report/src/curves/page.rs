@@ -33,7 +33,7 @@ pub(super) fn page(
             name = escaped(name),
         );
     }
-    let mut notes: Vec<&String> = Vec::new();
+    let mut notes: Vec<&String> = file.plan.left_out.iter().collect();
     if tables.is_empty() {
         for note in source.curves.iter().flat_map(|curve| &curve.notes) {
             if !notes.contains(&note) {

@@ -2,11 +2,12 @@
 
 use fovqa_methods::Place;
 use fovqa_methods::curves::{CurveSetting, CurveSource, density_map};
-use fovqa_plan::{CurvePlot, PanelOf};
+use fovqa_plan::{CurvePlot, DensityStyle, PanelOf};
 use fovqa_plot::{Axis, Figure, RasterChart, RasterLine, RasterPanel};
 use fovqa_vision::{PixelScale, Tangential};
 
 use super::Source;
+use super::contours::contours;
 use super::labels::Labels;
 use super::tables::alike;
 use crate::sheet::{NamedFigure, ReportError};
@@ -35,16 +36,11 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
         let title = labels.title(curve, PanelOf::Curve);
         let map = density_map(method, setting, cells)
             .map_err(|error| ReportError::Curve { name: title.clone(), error })?;
-        let rings = if plot.rings_deg.is_empty() {
-            RINGS_DEG.as_slice()
-        } else {
-            plot.rings_deg.as_slice()
-        };
         let (width, height) = (setting.view.width as f64, setting.view.height as f64);
-        // The gaze that the method uses if the given gaze is outside the frame.
-        let [gaze_x, gaze_y] = setting.gaze_px;
-        let gaze_px = [gaze_x.clamp(0.0, width), gaze_y.clamp(0.0, height)];
-        let seen = CurveSetting { gaze_px, ..*setting };
+        let lines = match plot.style {
+            DensityStyle::Rings => rings(plot, setting),
+            DensityStyle::Contours => contours(&map, (width, height)),
+        };
         panels.push(RasterPanel {
             title: Some(title),
             x: Axis::new("x (px)"),
@@ -53,9 +49,10 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
             y_range: (0.0, height),
             columns: map.columns,
             rows: map.rows,
-            values: map.values.into_iter().map(short).collect(),
-            lines: rings.iter().map(|e| ring(&seen, *e)).collect(),
-            cross: Some((gaze_px[0], gaze_px[1])),
+            values: map.values.iter().copied().map(short).collect(),
+            lines,
+            cross: Some(gaze_of(setting)),
+            ..RasterPanel::default()
         });
     }
     let columns = if panels.len() <= 4 { 2 } else { 3 };
@@ -69,13 +66,31 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> Result<NamedFigur
     });
     let caption =
         plot.title.clone().unwrap_or_else(|| "Sampling density over the field".to_owned());
-    Ok(NamedFigure::new(name, format!("{caption}; rings of equal eccentricity"), figure))
+    let lines = match plot.style {
+        DensityStyle::Rings => "rings of equal eccentricity",
+        DensityStyle::Contours => "lines of equal density, in samples per pixel",
+    };
+    Ok(NamedFigure::new(name, format!("{caption}; {lines}"), figure))
 }
 
 /// A value with six digits. Colours cannot show more, and the data of the figure needs only a third
 /// of the bytes.
 fn short(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// The gaze that the method uses if the given gaze is outside the frame.
+pub(super) fn gaze_of(setting: &CurveSetting) -> (f64, f64) {
+    let [x, y] = setting.gaze_px;
+    (x.clamp(0.0, setting.view.width as f64), y.clamp(0.0, setting.view.height as f64))
+}
+
+/// The rings of a plot around the gaze.
+pub(super) fn rings(plot: &CurvePlot, setting: &CurveSetting) -> Vec<RasterLine> {
+    let given = plot.rings_deg.as_slice();
+    let rings = if given.is_empty() { RINGS_DEG.as_slice() } else { given };
+    let seen = CurveSetting { gaze_px: gaze_of(setting).into(), ..*setting };
+    rings.iter().map(|e| ring(&seen, *e)).collect()
 }
 
 /// The ring around the gaze at an eccentricity in degrees.

@@ -2,11 +2,14 @@
 //! under-sampled.
 
 use fovqa_methods::curves::{Curve, CurvePoint};
-use fovqa_plan::{CurvePlot, PanelOf, RateKind, RateUnit};
+use fovqa_plan::{AcuityScale, CurvePlot, PanelOf, RateKind, RateUnit};
 use fovqa_plot::{Axis, Figure, Fill, FillKind, LineChart, LineSeries, Look, PanelChart};
 
 use super::Source;
-use super::labels::{Labels, resolution, screen};
+use super::axes;
+use super::bands::{Member, bands};
+use super::labels::{Labels, name, resolution, screen};
+use super::looks::Looks;
 use crate::sheet::NamedFigure;
 
 /// Factor between the end of the axis and the highest acuity or display rate, if a rate grows
@@ -44,8 +47,9 @@ struct Rates<'a> {
     source: &'a Source<'a>,
     plot: &'a CurvePlot,
     labels: Labels,
-    /// Labels in the order of the plan, so that a curve looks the same in every panel.
-    looks: Vec<String>,
+    looks: Looks,
+    /// Whether each panel has only one curve of a method.
+    alone: bool,
     /// Names of displays, in the same order.
     displays: Vec<String>,
 }
@@ -56,13 +60,7 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
         curves.retain(|curve| curve.counts.is_some());
     }
     let labels = Labels::of(&curves);
-    let mut looks: Vec<String> = Vec::new();
-    for curve in &curves {
-        let label = labels.label(curve, plot.panels);
-        if !looks.contains(&label) {
-            looks.push(label);
-        }
-    }
+    let looks = Looks::of(source, &curves, &labels, plot.panels);
     let mut displays: Vec<String> = Vec::new();
     for screen in curves.iter().filter_map(|curve| screen(curve)) {
         let name = format!("Display {}", resolution(screen));
@@ -70,8 +68,10 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
             displays.push(name);
         }
     }
-    let rates = Rates { source, plot, labels, looks, displays };
+    let mut rates = Rates { source, plot, labels, looks, alone: false, displays };
     let groups = rates.groups(&curves);
+    let shaded = |group: &[&Curve]| group.iter().filter(|curve| screen(curve).is_some()).count();
+    rates.alone = groups.iter().all(|(_, group)| shaded(group) <= 1);
     let along: &[Along] = match plot.rate {
         RateKind::Radial => &[Along::Radial],
         RateKind::Tangential => &[Along::Tangential],
@@ -90,12 +90,14 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
             charts.push(rates.chart(title, group, along));
         }
     }
+    let capped = curves.iter().any(|curve| rates.is_capped(curve, along));
     let cut = charts.iter().any(|chart| chart.y.max.is_some()) && plot.y_limits.is_none();
     if charts.len() > 1 {
         // The axis of a panel has no space for more.
         for chart in &mut charts {
             chart.y.title = chart.y.title.replace("cycles per degree", "cpd");
         }
+        axes::share(&mut charts);
     }
     let figure = if charts.len() == 1 {
         let only = charts.swap_remove(0);
@@ -118,8 +120,13 @@ pub(super) fn figure(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
         ""
     };
     let caption = plot.title.clone().unwrap_or_else(|| format!("{what} against eccentricity"));
+    let capped = if capped {
+        "; where a method samples more densely than the display, the rate is that of the display"
+    } else {
+        ""
+    };
     let name = plot.name.clone().unwrap_or_else(|| "rates".to_owned());
-    NamedFigure::new(name, format!("{caption}{cut}"), figure)
+    NamedFigure::new(name, format!("{caption}{capped}{cut}"), figure)
 }
 
 fn capitalised(word: &str) -> String {
@@ -153,24 +160,33 @@ impl<'a> Rates<'a> {
     fn chart(&self, title: String, group: &[&Curve], along: Along) -> LineChart {
         let plot = self.plot;
         let mut series: Vec<LineSeries> = Vec::new();
+        let mut members: Vec<Member> = Vec::new();
         for curve in group {
             let label = self.labels.label(curve, plot.panels);
-            let look = self.looks.iter().position(|known| *known == label).unwrap_or_default();
+            let look = self.looks.look(&curve.spec.name, &label);
+            let points = self.points(curve, |point| Some(self.shown(point, along)), along);
+            if plot.band && screen(curve).is_some() {
+                members.push(Member { name: name(curve), look: self.looks.of_name(curve), points });
+                continue;
+            }
             series.push(LineSeries {
                 name: label,
-                look: Look::new(look),
-                points: self.points(curve, |point| Some(along.of(point)), along),
+                look,
+                points,
                 smooth: true,
                 ..LineSeries::default()
             });
         }
+        let (edges, bands) = bands(members);
+        series.extend(edges);
         series.extend(plot.marks.iter().enumerate().map(|(i, (name, [e, cpd]))| LineSeries {
             name: name.clone(),
-            look: Look::new(self.looks.len() + i),
+            look: self.looks.beside(first_of(&plot.marks, name).unwrap_or(i)),
+            unlisted: first_of(&plot.marks, name) != Some(i),
             points: vec![(*e, Some(*cpd))],
             ..LineSeries::default()
         }));
-        if plot.display {
+        if plot.display.unwrap_or(plot.unit == RateUnit::Cpd) {
             series.extend(self.displays(group, along));
         }
         // Acuity is drawn last, because a curve that follows it would hide it.
@@ -198,7 +214,7 @@ impl<'a> Rates<'a> {
                 ..Axis::new(y)
             },
             y_from_zero: !plot.log,
-            fills: self.fills(group, along),
+            fills: if plot.band { bands } else { self.fills(group, along) },
             series,
             ..LineChart::default()
         }
@@ -213,6 +229,24 @@ impl<'a> Rates<'a> {
         let (references, rates) = (most(true), most(false));
         let hidden = !self.plot.log && references > 0.0 && rates > 2.0 * references;
         hidden.then_some((0.0, references * ROOM))
+    }
+
+    /// The rate that is shown at a point: at most the display's own.
+    fn shown(&self, point: &CurvePoint, along: Along) -> f64 {
+        match along.display(point) {
+            Some(display) if !self.plot.beyond_display => along.of(point).min(display),
+            _ => along.of(point),
+        }
+    }
+
+    /// Whether a curve is somewhere drawn below its rate. Rates that equal the display's own may
+    /// differ in the last digits.
+    fn is_capped(&self, curve: &Curve, along: &[Along]) -> bool {
+        const EQUAL: f64 = 1.0 - 1e-9;
+        let capped = |point: &CurvePoint| {
+            along.iter().any(|&along| self.shown(point, along) < along.of(point) * EQUAL)
+        };
+        curve.points.iter().any(capped)
     }
 
     fn points(
@@ -234,18 +268,30 @@ impl<'a> Rates<'a> {
         let model = &self.source.file.plan.acuity;
         let acuity = model.curve().ok()?;
         let shaded: Vec<&&Curve> = group.iter().filter(|c| screen(c).is_some()).collect();
-        if self.plot.unit == RateUnit::PerPixel && !same_displays(group) {
+        let by_display =
+            self.plot.unit == RateUnit::PerPixel && self.plot.acuity_scale == AcuityScale::Display;
+        if by_display && !same_displays(group) {
             return None;
         }
         let longest = shaded.iter().max_by_key(|curve| curve.points.len())?;
         let cut_off = |point: &CurvePoint| Some(acuity.cutoff_cpd(point.eccentricity_deg));
+        let points = match self.plot.acuity_scale {
+            AcuityScale::Display => self.points(longest, cut_off, along),
+            AcuityScale::Own => {
+                let most = acuity.cutoff_cpd(0.0);
+                let own = |point: &CurvePoint| {
+                    (point.eccentricity_deg, cut_off(point).map(|cpd| cpd / most))
+                };
+                longest.points.iter().map(own).collect()
+            }
+        };
         Some(LineSeries {
             name: match self.source.file.plan.acuity_parameters.as_str() {
                 "" => format!("Acuity ({})", model.info().label),
                 set => format!("Acuity ({}, {})", model.info().label, set.replace(';', ", ")),
             },
             reference: true,
-            points: self.points(longest, cut_off, along),
+            points,
             ..LineSeries::default()
         })
     }
@@ -280,13 +326,14 @@ impl<'a> Rates<'a> {
     /// The areas in which the rate of a panel's only curve is below and above acuity.
     fn fills(&self, group: &[&Curve], along: Along) -> Vec<Fill> {
         let shaded: Vec<&&Curve> = group.iter().filter(|c| screen(c).is_some()).collect();
-        let wanted = self.plot.areas.unwrap_or(shaded.len() == 1);
+        let compared = self.plot.acuity_scale == AcuityScale::Display;
+        let wanted = self.plot.areas.unwrap_or(self.alone && compared);
         let (true, Ok(acuity)) = (wanted, self.source.file.plan.acuity.curve()) else {
             return Vec::new();
         };
         let mut fills = Vec::new();
         for curve in shaded {
-            let rates = self.points(curve, |point| Some(along.of(point)), along);
+            let rates = self.points(curve, |point| Some(self.shown(point, along)), along);
             let cut_off = |point: &CurvePoint| Some(acuity.cutoff_cpd(point.eccentricity_deg));
             let needed = self.points(curve, cut_off, along);
             let value = |y: Option<f64>| y.unwrap_or(f64::NAN);
@@ -300,6 +347,11 @@ impl<'a> Rates<'a> {
         }
         fills
     }
+}
+
+/// The place of the first mark with a name; marks with the same name look the same.
+fn first_of(marks: &[(String, [f64; 2])], name: &str) -> Option<usize> {
+    marks.iter().position(|(known, _)| known == name)
 }
 
 /// Whether all curves of a panel have the same number of pixels per degree.

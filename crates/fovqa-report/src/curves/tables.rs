@@ -236,7 +236,8 @@ fn acuity(source: &Source<'_>, curves: &[&Curve]) -> PlainTable {
     };
     let mut said = vec![format!(
         "Compared with {} acuity{set} ({}): the share of the frame's pixels where the rate is below acuity, \
-         and the samples on screen that exceed what acuity needs. Evaluated at the centres of cells: \
+         and the samples on screen that exceed what acuity needs or the display shows. A rate above the \
+         display's own counts as that of the display. Evaluated at the centres of cells: \
          shares are exact to about a thousandth, samples to about a hundredth.",
         model.label, model.source
     )];

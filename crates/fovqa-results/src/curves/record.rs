@@ -29,6 +29,9 @@ pub struct CurvesRecord {
     pub text: String,
     /// The curves.
     pub curves: Vec<CurveRecord>,
+    /// Which curves, figures and tables are left out, and why.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub left_out: Vec<String>,
 }
 
 /// A curve.
@@ -125,6 +128,7 @@ impl CurvesRecord {
             acuity_parameters: file.plan.acuity_parameters.clone(),
             text: file.text.clone(),
             curves: curves.iter().map(CurveRecord::new).collect(),
+            left_out: file.plan.left_out.clone(),
         }
     }
 }

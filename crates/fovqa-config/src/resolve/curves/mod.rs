@@ -6,8 +6,8 @@ mod screens;
 
 use std::ops::Range;
 
-use fovqa_methods::Method;
-use fovqa_params::{ParamError, ParamValue};
+use fovqa_methods::{BudgetError, Method};
+use fovqa_params::{ParamError, ParamValue, Words};
 use fovqa_vision::acuity::AcuityModel;
 
 use super::figures::figure;
@@ -16,9 +16,9 @@ use super::scenes::unique;
 use crate::fault::{Fault, Faults};
 use crate::grammar::MOST_CURVES;
 use crate::node::Node;
-use fovqa_methods::curves::{CurveBudget, CurveRange, CurveSource, CurveSpec};
+use fovqa_methods::curves::{CurveBudget, CurveRange, CurveSetting, CurveSource, CurveSpec};
 use fovqa_plan::{CurvePlan, CurvePlot, CurvePlotKind, FigureSettings};
-use plots::{all_that_fit, few_panels, plot, table};
+use plots::{all_that_fit, few_panels, nothing_is_left, plot, table};
 use screens::Screens;
 
 /// The name, the description and the plan. Mistakes are added to `faults`.
@@ -33,8 +33,9 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
     let tables = root.tables("curve");
     unique(&tables, "curve", faults);
     let mut curves = Vec::new();
+    let mut left_out: Vec<(Range<usize>, String)> = Vec::new();
     for (table, span) in &tables {
-        curves.extend(curve(root, *table, span.clone(), faults));
+        curves.extend(curve(root, *table, span.clone(), (faults, &mut left_out)));
         // The number is checked before further curves are made, because each may have a budget to
         // be solved.
         if curves.len() > MOST_CURVES {
@@ -45,9 +46,16 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
             break;
         }
     }
+    if curves.is_empty() && faults.is_empty() {
+        for (span, why) in left_out.drain(..) {
+            faults.push(Fault::new(span, why));
+        }
+    }
+    let left_out = left_out.into_iter().map(|(_, why)| why).collect();
     let names: Vec<&str> = tables.iter().filter_map(|(table, _)| table.text("name")).collect();
     let acuity_parameters = root.table("acuity").map(written).unwrap_or_default();
-    let mut plan = CurvePlan { curves, acuity, acuity_parameters, range, ..CurvePlan::default() };
+    let mut plan =
+        CurvePlan { curves, acuity, acuity_parameters, range, left_out, ..CurvePlan::default() };
     let figures = figure(root.table("figures"), &FigureSettings::default(), faults);
     plan.plots = root
         .tables("plot")
@@ -70,12 +78,47 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
             few_panels(plot, &plan, span, faults);
         }
     }
+    leave_out(&mut plan);
     let drawn_without = |plot: &CurvePlot| plot.kind == CurvePlotKind::HalfAxis;
     if tables.is_empty() && !plan.plots.iter().any(drawn_without) {
         let fault = Fault::new(0..0, "the file has no curve");
         faults.push(fault.help("add [[curve]] with a name and method = { model = \"rmfr\" }"));
     }
     (text("name"), text("about"), plan)
+}
+
+/// Leaves out the figures and tables all of whose curves are left out.
+fn leave_out(plan: &mut CurvePlan) {
+    let (plots, tables) = (std::mem::take(&mut plan.plots), std::mem::take(&mut plan.tables));
+    let mut notes = Vec::new();
+    let mut left = |what: &str, name: &str, curves: Option<&[String]>| {
+        let nothing = nothing_is_left(plan, curves);
+        if nothing {
+            notes.push(format!("{what} {name} is left out: so are all of its curves"));
+        }
+        !nothing
+    };
+    let plots = plots.into_iter().filter(|plot| {
+        let name = plot.name.as_deref().unwrap_or(plot.kind.word());
+        plot.kind == CurvePlotKind::HalfAxis || left("the plot", name, plot.curves.as_deref())
+    });
+    let plots = plots.collect();
+    let tables = tables
+        .into_iter()
+        .filter(|table| left("the table", table.kind.word(), table.curves.as_deref()))
+        .collect();
+    (plan.plots, plan.tables) = (plots, tables);
+    plan.left_out.extend(notes);
+}
+
+/// Why a curve is left out, if it is because its budget cannot be reached.
+fn out_of_reach(name: &str, setting: &CurveSetting, error: &BudgetError) -> Option<String> {
+    let BudgetError::OutOfReach { others, .. } = error else { return None };
+    let [width, height] = [setting.view.width, setting.view.height];
+    let change = if others.is_empty() { String::new() } else { format!(", or change {others}") };
+    Some(format!(
+        "curve \"{name}\" at {width}x{height} is left out: {error}; give a budget within these{change}"
+    ))
 }
 
 /// The acuity model in the key `acuity` of a table.
@@ -110,12 +153,12 @@ fn written(node: Node<'_>) -> String {
     written.collect::<Vec<_>>().join(";")
 }
 
-/// A curve with each of its settings.
+/// A curve with each of its settings, except those that are left out.
 fn curve(
     root: Node<'_>,
     table: Node<'_>,
     span: Range<usize>,
-    faults: &mut Faults,
+    (faults, left_out): (&mut Faults, &mut Vec<(Range<usize>, String)>),
 ) -> Vec<CurveSpec> {
     let name = table.text("name").unwrap_or_default().to_owned();
     let one_of = "give it either method = { model = … } or acuity = { model = … }";
@@ -161,19 +204,20 @@ fn curve(
             }
             let at = if budget.is_some() { table.span("budget") } else { table.span("method") };
             let written = written(node);
-            let spec = |setting| {
-                CurveSpec::of_method(name.clone(), method.clone(), written.clone(), setting, budget)
-            };
-            let specs = settings.into_iter().map(spec);
+            let mut specs = Vec::new();
+            for setting in settings {
+                let (name, method, written) = (name.clone(), method.clone(), written.clone());
+                match CurveSpec::of_method(name.clone(), method, written, setting, budget) {
+                    Ok(spec) => specs.push(spec),
+                    Err(error) => match out_of_reach(&name, &setting, &error) {
+                        // Curves that differ only in direction have the same reason.
+                        Some(why) if left_out.iter().any(|(_, known)| *known == why) => {}
+                        Some(why) => left_out.push((at.clone(), why)),
+                        None => faults.push(Fault::new(at.clone(), error.to_string())),
+                    },
+                }
+            }
             specs
-                .filter_map(|spec| match spec {
-                    Ok(spec) => Some(spec),
-                    Err(message) => {
-                        faults.push(Fault::new(at.clone(), message));
-                        None
-                    }
-                })
-                .collect()
         }
     }
 }

@@ -1,5 +1,6 @@
 //! `[[plot]]` and `[[table]]` of a curves file.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use fovqa_methods::Method;
@@ -9,8 +10,8 @@ use crate::node::Node;
 use crate::resolve::plots::subset;
 use fovqa_methods::curves::{CurveSource, CurveSpec};
 use fovqa_plan::{
-    CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, FigureSettings, PanelOf,
-    RateKind, RateUnit,
+    AcuityScale, CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, DensityStyle,
+    FigureSettings, PanelOf, RateKind, RateUnit,
 };
 
 /// The curves that a plot or table shows.
@@ -22,9 +23,14 @@ fn shown<'a>(
     plan.curves.iter().filter(wanted)
 }
 
+/// Whether a plot or table has no curve because all of its curves are left out.
+pub(super) fn nothing_is_left(plan: &CurvePlan, wanted: Option<&[String]>) -> bool {
+    !plan.left_out.is_empty() && shown(plan, wanted).next().is_none()
+}
+
 /// The plots and tables for a file that names none.
 pub(super) fn all_that_fit(plan: &CurvePlan) -> (Vec<CurvePlot>, Vec<CurveTable>) {
-    let mut plots = vec![CurvePlot::default()];
+    let mut plots = vec![CurvePlot { panels: usual_panels(plan, None), ..CurvePlot::default() }];
     if !plan.curves.iter().any(|spec| matches!(spec.source, CurveSource::Method { .. })) {
         plots[0].panels = PanelOf::One;
         return (plots, Vec::new());
@@ -48,10 +54,16 @@ pub(super) fn few_panels(
         let CurveSource::Method { setting, .. } = &spec.source else { continue };
         let size = [setting.view.width, setting.view.height];
         let panel = match (plot.kind, plot.panels) {
-            (CurvePlotKind::Density, _) => format!("{} {size:?} {:?}", spec.name, setting.gaze_px),
+            (CurvePlotKind::Density | CurvePlotKind::Samples, _) => {
+                format!("{} {size:?} {:?}", spec.name, setting.gaze_px)
+            }
             (CurvePlotKind::Rates, PanelOf::Curve) => {
                 format!("{} {size:?} {:?} {}", spec.name, setting.gaze_px, setting.direction_deg)
             }
+            (CurvePlotKind::Rates, PanelOf::Setting) => {
+                format!("{size:?} {:?} {}", setting.gaze_px, setting.direction_deg)
+            }
+            (CurvePlotKind::Rates, PanelOf::Name) => spec.name.clone(),
             (CurvePlotKind::Rates, PanelOf::Resolution) => format!("{size:?}"),
             (CurvePlotKind::Rates, PanelOf::Gaze) => format!("{:?}", setting.gaze_px),
             (CurvePlotKind::Rates, PanelOf::Direction) => setting.direction_deg.to_string(),
@@ -70,6 +82,24 @@ pub(super) fn few_panels(
     }
 }
 
+/// What each panel shows if the file does not say it: a curve with its areas. Of many curves with
+/// several settings each panel shows one setting, so that methods are compared on the same screen.
+fn usual_panels(plan: &CurvePlan, wanted: Option<&[String]>) -> PanelOf {
+    const FEW: usize = 4;
+    let (mut names, mut settings, mut curves) = (BTreeSet::new(), Vec::new(), 0);
+    for spec in shown(plan, wanted) {
+        let CurveSource::Method { setting, .. } = &spec.source else { continue };
+        let at = (setting.view, setting.gaze_px, setting.direction_deg);
+        names.insert(&spec.name);
+        if !settings.contains(&at) {
+            settings.push(at);
+        }
+        curves += 1;
+    }
+    let many = names.len() > 1 && settings.len() > 1 && curves > FEW;
+    if many { PanelOf::Setting } else { PanelOf::Curve }
+}
+
 /// Resolves a figure.
 pub(super) fn plot(
     table: Node<'_>,
@@ -78,39 +108,61 @@ pub(super) fn plot(
     faults: &mut Faults,
 ) -> CurvePlot {
     let flag = |key| table.flag(key).unwrap_or(false);
+    let curves = subset(table, "curves", names, faults);
+    let usual = || usual_panels(plan, curves.as_deref());
     let plot = CurvePlot {
         kind: table.word("kind").unwrap_or_default(),
         name: table.text("name").map(str::to_owned),
         title: table.text("title").map(str::to_owned),
-        curves: subset(table, "curves", names, faults),
+        panels: table.word("panels").unwrap_or_else(usual),
+        curves,
         rate: table.word("rate").unwrap_or_default(),
         unit: table.word("unit").unwrap_or_default(),
-        panels: table.word("panels").unwrap_or_default(),
         areas: table.flag("areas"),
-        display: flag("display"),
+        display: table.flag("display"),
+        beyond_display: flag("beyond_display"),
         y_limits: table.array("y_limits"),
         marks: table.tables("marks").iter().filter_map(|(mark, _)| named_mark(*mark)).collect(),
         log: flag("log"),
         rings_deg: table.numbers("rings_deg").unwrap_or_default(),
         f: table.numbers("f").unwrap_or_default(),
+        band: flag("band"),
+        dots: flag("dots"),
+        style: table.word("style").unwrap_or_default(),
+        acuity_scale: table.word("acuity_scale").unwrap_or_default(),
         figure: FigureSettings::default(),
     };
     fits(table, &plot, faults);
     let nothing = |spec: &CurveSpec| match (plot.kind, &spec.source) {
         (CurvePlotKind::Rates, CurveSource::Acuity(_)) => plot.unit == RateUnit::PerPixel,
-        (CurvePlotKind::Rates | CurvePlotKind::Density, CurveSource::Method { .. })
-        | (CurvePlotKind::HalfAxis, _) => false,
         (CurvePlotKind::Accumulated, CurveSource::Method { method, .. }) => {
             !matches!(method, Method::Deamp(_))
         }
+        (CurvePlotKind::Steps, CurveSource::Method { method, .. }) => {
+            !matches!(method, Method::Deamp(_) | Method::Guenter(_))
+        }
+        (CurvePlotKind::Outline, CurveSource::Method { method, .. }) => {
+            !matches!(method, Method::Vafr(_))
+        }
+        (CurvePlotKind::Samples, CurveSource::Method { method, setting }) => {
+            let over = setting.setting().and_then(|over| method.apply(&over));
+            over.is_ok_and(|method| method.mapping().is_none())
+        }
+        (CurvePlotKind::HalfAxis, _) | (_, CurveSource::Method { .. }) => false,
         (_, CurveSource::Acuity(_)) => true,
     };
     if faults.is_empty()
         && plot.kind != CurvePlotKind::HalfAxis
+        && !nothing_is_left(plan, plot.curves.as_deref())
         && shown(plan, plot.curves.as_deref()).all(nothing)
     {
         let message = match plot.kind {
             CurvePlotKind::Accumulated => "this plot needs a curve of deamp, but it has none",
+            CurvePlotKind::Steps => "this plot needs a curve of deamp or guenter, but it has none",
+            CurvePlotKind::Outline => "this plot needs a curve of vafr, but it has none",
+            CurvePlotKind::Samples => {
+                "this plot needs a method with a buffer, but none of its curves has one"
+            }
             _ => "the plot has nothing to show: none of its curves has a method",
         };
         faults.push(Fault::new(table.span("kind"), message));
@@ -126,45 +178,38 @@ fn named_mark(mark: Node<'_>) -> Option<(String, [f64; 2])> {
 /// digits.
 const NEAREST: f64 = 1e-6;
 
+/// Keys that only plots of rates have.
+const OF_RATES: &[&str] = &[
+    "rate",
+    "unit",
+    "panels",
+    "areas",
+    "display",
+    "beyond_display",
+    "y_limits",
+    "marks",
+    "band",
+    "acuity_scale",
+];
+
+/// Keys that a plot of simple curves does not have.
+const NO_PICTURE: &[&str] = &["log", "rings_deg", "f", "dots", "style"];
+
 /// Checks that the keys of a plot belong to its kind.
 fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Faults) {
-    let (kind, keys): (&str, &[&str]) = match plot.kind {
-        CurvePlotKind::Rates => ("rates", &["rings_deg", "f"]),
-        CurvePlotKind::Density => {
-            ("density", &["rate", "unit", "panels", "areas", "display", "y_limits", "marks", "f"])
-        }
-        CurvePlotKind::Accumulated => (
-            "accumulated",
-            &[
-                "rate",
-                "unit",
-                "panels",
-                "areas",
-                "display",
-                "y_limits",
-                "marks",
-                "log",
-                "rings_deg",
-                "f",
-            ],
-        ),
-        CurvePlotKind::HalfAxis => (
-            "half_axis",
-            &[
-                "curves",
-                "rate",
-                "unit",
-                "panels",
-                "areas",
-                "display",
-                "y_limits",
-                "marks",
-                "log",
-                "rings_deg",
-            ],
-        ),
+    let (kind, others): (&str, &[&str]) = match plot.kind {
+        CurvePlotKind::Rates => ("rates", &["rings_deg", "f", "dots", "style"]),
+        CurvePlotKind::Density => ("density", &["f", "dots"]),
+        CurvePlotKind::Samples => ("samples", &["log", "f", "dots", "style"]),
+        CurvePlotKind::SamplesBars => ("samples_bars", &["rings_deg", "f", "dots", "style"]),
+        CurvePlotKind::Accumulated => ("accumulated", NO_PICTURE),
+        CurvePlotKind::Steps => ("steps", NO_PICTURE),
+        CurvePlotKind::Outline => ("outline", NO_PICTURE),
+        CurvePlotKind::HalfAxis => ("half_axis", &["curves", "log", "rings_deg", "style"]),
     };
-    for key in keys.iter().filter(|key| table.has(key)) {
+    let of_rates = if plot.kind == CurvePlotKind::Rates { &[] } else { OF_RATES };
+    let keys = of_rates.iter().chain(others);
+    for key in keys.filter(|key| table.has(key)) {
         let message = format!("{key} does not apply to a plot of kind \"{kind}\"");
         faults.push(Fault::new(table.span(key), message).help("remove it"));
     }
@@ -172,6 +217,21 @@ fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Faults) {
         let fault =
             Fault::new(table.span("marks"), "marks are in cycles per degree, but the plot is not");
         faults.push(fault.help("remove them, or remove unit = \"per_pixel\""));
+    }
+    if plot.acuity_scale == AcuityScale::Own && plot.unit == RateUnit::Cpd {
+        let fault = Fault::new(
+            table.span("acuity_scale"),
+            "acuity has a scale of its own only in samples per pixel",
+        );
+        faults.push(fault.help("write unit = \"per_pixel\", or remove it"));
+    }
+    if plot.band && plot.areas == Some(true) {
+        let message = "a plot has either bands or areas against acuity";
+        faults.push(Fault::new(table.span("band"), message).help("remove one of the two"));
+    }
+    if plot.style == DensityStyle::Contours && !plot.rings_deg.is_empty() {
+        let message = "a plot has either rings or contours";
+        faults.push(Fault::new(table.span("style"), message).help("remove rings_deg or style"));
     }
     if plot.kind == CurvePlotKind::HalfAxis && plot.f.is_empty() {
         let fault = Fault::new(table.span("kind"), "a plot of a half axis needs values of f");
@@ -202,7 +262,8 @@ pub(super) fn table(
     let kind = table.word("kind").unwrap_or(CurveTableKind::SpeedUp);
     let curves = subset(table, "curves", names, faults);
     let of_method = |spec: &CurveSpec| matches!(spec.source, CurveSource::Method { .. });
-    if faults.is_empty() && !shown(plan, curves.as_deref()).any(of_method) {
+    let left = !nothing_is_left(plan, curves.as_deref());
+    if faults.is_empty() && left && !shown(plan, curves.as_deref()).any(of_method) {
         let message = "the table has nothing to show: none of its curves has a method";
         faults.push(Fault::new(table.span("kind"), message));
     }
