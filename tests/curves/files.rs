@@ -203,20 +203,25 @@ fn tables_hold_what_the_papers_print() {
     let table = root().join("configs/papers/vafr-table-1.toml");
     folder.run(&["curves", table.to_str().unwrap(), "--output", "out"]).ok();
     let text = fs::read_to_string(folder.path("out/table-samples.md")).unwrap();
-    let row = |name: &str| text.lines().find(|line| line.contains(name)).unwrap().to_owned();
+    let lines: Vec<Vec<&str>> = text
+        .lines()
+        .filter(|line| line.starts_with('|'))
+        .map(|line| line.trim_matches('|').split('|').map(str::trim).collect())
+        .collect();
     for (name, cells) in [
         ("GT", ["3686.4", "8294.4", "18662.4", "33177.6", "74649.6"]),
         ("LaFR, δ = 2.2", ["761.7", "1713.7", "3855.9", "6854.9", "15423.5"]),
         ("LaFR, δ = 1.8", ["1137.8", "2560.0", "5760.0", "10240.0", "23040.0"]),
-        ("Dup", ["1061.7", "1061.7", "1061.7", "1061.7", "1061.7"]),
+        ("VaFR\\_Dup", ["1061.7", "1061.7", "1061.7", "1061.7", "1061.7"]),
+        ("VaFR\\_Rep", ["637.0", "743.2", "849.4", "955.6", "1035.2"]),
     ] {
-        let row = row(name);
-        let found: Vec<&str> = row.split('|').map(str::trim).skip(2).step_by(2).take(5).collect();
+        let column = lines[0].iter().position(|head| *head == name).unwrap();
+        let found: Vec<&str> = lines[2..].iter().map(|row| row[column]).collect();
         assert_eq!(found, cells, "{name}");
     }
     assert!(text.contains("not an independent check"), "VaFR_Rep says where its shares come from");
     let csv = fs::read_to_string(folder.path("out/table-samples.csv")).unwrap();
-    assert!(csv.contains("samples 2560x1440") && csv.contains("VaFR_Dup,1061733.65"), "{csv}");
+    assert!(csv.contains("samples VaFR_Dup") && csv.contains(",1061733.65"), "{csv}");
 }
 
 pub(super) fn schema_allows(text: &str) -> bool {
@@ -370,4 +375,29 @@ fn the_committed_pictures_come_out_again() {
             "{name}: fovqa curves configs/curves/headset.toml, and copy it"
         );
     }
+}
+
+/// Methods across are the same numbers, and a method with another parameter at each resolution is
+/// one column.
+#[test]
+fn methods_stand_across_where_they_are_wanted() {
+    let folder = Folder::new();
+    let text = |across: &str| {
+        format!(
+            "name = \"t\"\n[view]\nfov_vertical_deg = 110\nresolutions = [\"640x360\", \"1280x720\"]\n\
+             [[curve]]\nname = \"GT\"\nmethod = {{ model = \"full\" }}\n\
+             [[curve]]\nname = \"KFR, a\"\nmethod = {{ model = \"kfr\", sigma = 2 }}\nresolutions = [\"640x360\"]\n\
+             [[curve]]\nname = \"KFR, b\"\nmethod = {{ model = \"kfr\", sigma = 4 }}\nresolutions = [\"1280x720\"]\n\
+             [[table]]\nkind = \"samples\"\n{across}"
+        )
+    };
+    folder.write("t.toml", text("across = \"methods\"\n"));
+    folder.run(&["curves", "t.toml", "--output", "out"]).ok();
+    let csv = fs::read_to_string(folder.path("out/table-samples.csv")).unwrap();
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines[0], "resolution,samples GT,load GT,samples KFR,load KFR");
+    assert_eq!(lines[1], "640 × 360,230400.0,1.0,57600.0,0.25");
+    assert_eq!(lines[2], "1280 × 720,921600.0,1.0,57600.0,0.0625");
+    folder.write("t.toml", text("").replace("samples", "speed_up") + "across = \"methods\"\n");
+    folder.run(&["check", "t.toml"]).fails(2, &["across only applies to kind = \"samples\""]);
 }

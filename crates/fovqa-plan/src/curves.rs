@@ -193,6 +193,20 @@ pub struct CurveTable {
     pub kind: CurveTableKind,
     /// Names of its curves; `None` for all.
     pub curves: Option<Vec<String>>,
+    /// What the columns of a table of samples are.
+    pub across: TableAcross,
+}
+
+words! {
+    /// What the columns of a table of samples are.
+    #[derive(Default)]
+    pub enum TableAcross {
+        /// One column per resolution.
+        #[default]
+        Resolutions "resolutions" "One column per resolution, one row per method";
+        /// One column per method.
+        Methods "methods" "One column per method, one row per resolution";
+    }
 }
 
 words! {

@@ -26,7 +26,7 @@ pub use builtin::BuiltinFrames;
 pub use crops::CropRegion;
 pub use curves::{
     AcuityScale, CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, CurvesFile,
-    DensityStyle, PanelOf, RateKind, RateUnit,
+    DensityStyle, PanelOf, RateKind, RateUnit, TableAcross,
 };
 pub use emulation::{Emulation, emulation_keys};
 pub use experiment::Experiment;

@@ -9,6 +9,7 @@ use super::figures::FIGURES;
 use super::{Key, Kind};
 use fovqa_plan::{
     AcuityScale, CurvePlotKind, CurveTableKind, DensityStyle, PanelOf, RateKind, RateUnit,
+    TableAcross,
 };
 
 /// Maximum number of curves. More could not be told apart.
@@ -142,13 +143,18 @@ static PLOT_TABLE: [Key; 20] = [
     key("figure", Kind::Table(&FIGURES), "how it is printed; default: as [figures]"),
 ];
 
-static TABLE_TABLE: [Key; 2] = [
+static TABLE_TABLE: [Key; 3] = [
     required(
         "kind",
         Kind::Words(words_of::<CurveTableKind>),
         "samples: samples and load, curves against resolutions; speed_up: buffer, samples, share of the pixels, theoretical speed-up; acuity: share of the field below acuity, samples spent above it",
     ),
     key("curves", NAMES, "only these curves"),
+    key(
+        "across",
+        Kind::Words(words_of::<TableAcross>),
+        "for samples: what the columns are; methods of one name up to a comma share a column if no resolution has two of them",
+    ),
 ];
 
 static CURVES_TABLE: [Key; 11] = [

@@ -2,7 +2,7 @@
 
 use fovqa_methods::Counts;
 use fovqa_methods::curves::Curve;
-use fovqa_plan::{CurveTable, CurveTableKind};
+use fovqa_plan::{CurveTable, CurveTableKind, TableAcross};
 
 use super::Source;
 use super::labels::{Labels, resolution, screen};
@@ -13,7 +13,7 @@ pub(super) fn table(source: &Source<'_>, table: &CurveTable) -> (&'static str, P
     let mut curves = source.chosen(table.curves.as_deref());
     curves.retain(|curve| curve.counts.is_some());
     match table.kind {
-        CurveTableKind::Samples => ("table-samples", samples(&alike(curves))),
+        CurveTableKind::Samples => ("table-samples", samples(&alike(curves), table.across)),
         CurveTableKind::SpeedUp => ("table-speed-up", speed_up(&alike(curves))),
         CurveTableKind::Acuity => ("table-acuity", acuity(source, &alike(curves))),
     }
@@ -75,9 +75,9 @@ fn notes<'a>(curves: impl Iterator<Item = &'a &'a Curve>) -> Vec<String> {
     notes
 }
 
-/// One row per method and two columns per resolution, as in Table 1 of VaFR. Counts are in
-/// thousands.
-fn samples(curves: &[&Curve]) -> PlainTable {
+/// One row per method and two columns per resolution, or the other way round as in Table 1 of VaFR.
+/// Counts are in thousands.
+fn samples(curves: &[&Curve], across: TableAcross) -> PlainTable {
     let mut sizes: Vec<String> = Vec::new();
     let mut rows: Vec<(String, Vec<&Curve>)> = Vec::new();
     let labels = Labels::of(curves);
@@ -92,12 +92,18 @@ fn samples(curves: &[&Curve]) -> PlainTable {
             None => rows.push((name, vec![curve])),
         }
     }
-    let mut columns = vec![Column::new("Method", "method").repeated()];
-    for size in &sizes {
-        let plain = size.replace(" × ", "x");
-        let samples = Column::new(size.clone(), format!("samples {plain}"));
-        columns.push(samples.in_paper(size, "Samples (10³)"));
-        columns.push(Column::new("load", format!("load {plain}")).in_paper(size, "Load"));
+    let methods = if across == TableAcross::Methods { joined(&rows) } else { rows };
+    let names: Vec<String> = methods.iter().map(|(name, _)| name.clone()).collect();
+    let (corner, heads) = match across {
+        TableAcross::Resolutions => (Column::new("Method", "method"), &sizes),
+        TableAcross::Methods => (Column::new("Resolution", "resolution"), &names),
+    };
+    let mut columns = vec![corner.repeated()];
+    for head in heads {
+        let plain = head.replace(" × ", "x");
+        let samples = Column::new(head.clone(), format!("samples {plain}"));
+        columns.push(samples.in_paper(head, "Samples (10³)"));
+        columns.push(Column::new("load", format!("load {plain}")).in_paper(head, "Load"));
     }
     let cells = |row: &[&Curve], size: &String| {
         let of_size = |curve: &&&Curve| screen(curve).map(resolution).as_ref() == Some(size);
@@ -108,10 +114,22 @@ fn samples(curves: &[&Curve]) -> PlainTable {
             [Cell::number(thousands, *samples), Cell::percent(samples / pixels(curve))]
         })
     };
-    let rows = rows.iter().map(|(name, row)| {
-        let head = std::iter::once(Cell::text(name));
-        head.chain(sizes.iter().flat_map(|size| cells(row, size))).collect()
-    });
+    let rows: Vec<Vec<Cell>> = match across {
+        TableAcross::Resolutions => methods
+            .iter()
+            .map(|(name, row)| {
+                let head = std::iter::once(Cell::text(name));
+                head.chain(sizes.iter().flat_map(|size| cells(row, size))).collect()
+            })
+            .collect(),
+        TableAcross::Methods => sizes
+            .iter()
+            .map(|size| {
+                let head = std::iter::once(Cell::text(size));
+                head.chain(methods.iter().flat_map(|(_, row)| cells(row, size))).collect()
+            })
+            .collect(),
+    };
     let mut said = vec![
         "Samples per frame and eye in thousands, and their share of the display's pixels."
             .to_owned(),
@@ -123,12 +141,33 @@ fn samples(curves: &[&Curve]) -> PlainTable {
         );
     }
     said.extend(notes(curves.iter()));
-    PlainTable {
-        caption: "Samples and load".to_owned(),
-        columns,
-        rows: rows.collect(),
-        notes: said,
+    PlainTable { caption: "Samples and load".to_owned(), columns, rows, notes: said }
+}
+
+/// Methods and their curves.
+type Rows<'a> = Vec<(String, Vec<&'a Curve>)>;
+
+/// The methods, where those of one name up to a comma are one if no resolution has two of them: a
+/// method with another parameter at each resolution.
+fn joined<'a>(rows: &[(String, Vec<&'a Curve>)]) -> Rows<'a> {
+    let stem = |name: &str| name.split(',').next().unwrap_or(name).trim().to_owned();
+    let sizes = |row: &[&Curve]| -> Vec<_> {
+        row.iter().map(|curve| screen(curve).map(resolution)).collect()
+    };
+    let mut joined: Rows<'a> = Vec::new();
+    for (name, row) in rows {
+        let family = || rows.iter().filter(|(other, _)| stem(other) == stem(name));
+        let all: Vec<_> = family().flat_map(|(_, row)| sizes(row)).collect();
+        let apart = all.iter().enumerate().all(|(i, size)| !all[..i].contains(size));
+        if !apart || family().count() == 1 {
+            joined.push((name.clone(), row.clone()));
+        } else if let Some((_, known)) = joined.iter_mut().find(|(known, _)| *known == stem(name)) {
+            known.extend(row);
+        } else {
+            joined.push((stem(name), row.clone()));
+        }
     }
+    joined
 }
 
 fn has_beyond(curves: &[&Curve]) -> bool {

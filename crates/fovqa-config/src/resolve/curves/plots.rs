@@ -11,7 +11,7 @@ use crate::resolve::plots::subset;
 use fovqa_methods::curves::{CurveSource, CurveSpec};
 use fovqa_plan::{
     AcuityScale, CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, DensityStyle,
-    FigureSettings, PanelOf, RateKind, RateUnit,
+    FigureSettings, PanelOf, RateKind, RateUnit, TableAcross,
 };
 
 /// The curves that a plot or table shows.
@@ -38,7 +38,10 @@ pub(super) fn all_that_fit(plan: &CurvePlan) -> (Vec<CurvePlot>, Vec<CurveTable>
     // Log-polar methods are so dense at the gaze that nothing else could be seen on a linear axis.
     plots.push(CurvePlot { kind: CurvePlotKind::Density, log: true, ..CurvePlot::default() });
     let all = [CurveTableKind::Samples, CurveTableKind::SpeedUp, CurveTableKind::Acuity];
-    (plots, all.map(|kind| CurveTable { kind, curves: None }).to_vec())
+    (
+        plots,
+        all.map(|kind| CurveTable { kind, curves: None, across: TableAcross::default() }).to_vec(),
+    )
 }
 
 /// Whether a figure has no more panels than a page can show.
@@ -267,5 +270,10 @@ pub(super) fn table(
         let message = "the table has nothing to show: none of its curves has a method";
         faults.push(Fault::new(table.span("kind"), message));
     }
-    CurveTable { kind, curves }
+    if table.has("across") && kind != CurveTableKind::Samples {
+        let fault = Fault::new(table.span("across"), "across only applies to kind = \"samples\"");
+        faults.push(fault.help("remove it"));
+    }
+    let across = table.word("across").unwrap_or_default();
+    CurveTable { kind, curves, across }
 }
