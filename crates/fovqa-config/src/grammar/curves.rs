@@ -4,8 +4,9 @@ use fovqa_methods::BudgetSamples;
 use fovqa_params::words_of;
 use fovqa_vision::{EccentricityKind, Tangential};
 
-use super::experiment::{POSITION_PAIR, VIEW, joined, key, required};
+use super::experiment::{POSITION_PAIR, VIEW};
 use super::figures::FIGURES;
+use super::keys::{joined, key, required};
 use super::{Key, Kind};
 use fovqa_plan::{
     AcuityScale, CurvePlotKind, CurveTableKind, DensityStyle, PanelOf, RateKind, RateUnit,

@@ -5,7 +5,7 @@ use fovqa_methods::BudgetSamples;
 use fovqa_params::words_of;
 use fovqa_plan::Eye;
 
-use super::experiment::key;
+use super::keys::key;
 use super::{Key, Kind};
 
 /// The keys that both eyes may have, beside the parameters of the model.

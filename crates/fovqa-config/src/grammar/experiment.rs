@@ -7,19 +7,12 @@ use fovqa_params::words_of;
 use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
 
 use super::figures::FIGURES;
+use super::keys::{joined, key, required};
 use super::tables::{METRICS, TABLE_KEYS};
 use super::{Key, Kind};
 use fovqa_plan::Nonfinite;
 use fovqa_plan::TableFormat;
 use fovqa_plan::{ErrorBars, PlotKind, SpreadShape};
-
-pub(super) const fn key(name: &'static str, kind: Kind, about: &'static str) -> Key {
-    Key { name, required: false, kind, about }
-}
-
-pub(super) const fn required(name: &'static str, kind: Kind, about: &'static str) -> Key {
-    Key { name, required: true, kind, about }
-}
 
 /// A full angle of view in degrees.
 const FOV: Kind = Kind::Above(0.0, 179.999);
@@ -248,22 +241,6 @@ const SHARED: &[Key] = &[
         "edges of the eccentricity bands, °",
     ),
 ];
-
-pub(super) const fn joined<const N: usize>(parts: &[&[Key]]) -> [Key; N] {
-    let mut keys = [key("", Kind::Bool, ""); N];
-    let (mut part, mut at) = (0, 0);
-    while part < parts.len() {
-        let mut index = 0;
-        while index < parts[part].len() {
-            keys[at] = parts[part][index];
-            at += 1;
-            index += 1;
-        }
-        part += 1;
-    }
-    assert!(at == N, "as many keys as the parts have");
-    keys
-}
 
 static VIEW_EYE: [Key; VIEW.len() + 1] = joined(&[VIEW, EYE_GAZE]);
 static SIGNAL_EYE: [Key; SIGNAL.len()] = joined(&[SIGNAL]);

@@ -3,7 +3,7 @@
 use fovqa_params::words_of;
 use fovqa_plan::{AxisScale, FigureFormat, PaletteName};
 
-use super::experiment::key;
+use super::keys::key;
 use super::{Key, Kind};
 
 /// Palettes have at most this number of colours.

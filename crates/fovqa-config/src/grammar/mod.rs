@@ -6,6 +6,7 @@ mod curves;
 mod emulate;
 mod experiment;
 mod figures;
+mod keys;
 mod schema;
 mod tables;
 

@@ -4,7 +4,7 @@ use fovqa_metrics::Metric;
 use fovqa_params::words_of;
 use fovqa_plan::{AveragePlace, Plot, SpreadOver, TableLayout};
 
-use super::experiment::key;
+use super::keys::key;
 use super::{Key, Kind};
 
 /// What a list of metrics may contain.

@@ -1,7 +1,7 @@
 //! The description of an axis, and constants that all axes share.
 
+use crate::canvas::colour::{AXIS, GRID};
 use crate::canvas::drawing::Stroke;
-use crate::canvas::look::{AXIS, GRID};
 use crate::scales::scale::Scale;
 
 /// An axis of a figure.

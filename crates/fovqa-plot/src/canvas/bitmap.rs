@@ -4,8 +4,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
+use crate::canvas::colour::Colour;
 use crate::canvas::colour_map;
-use crate::canvas::look::Colour;
 use crate::error::PlotError;
 
 /// The smallest number of PNG pixels per pixel of the figure. If a viewer interpolates between

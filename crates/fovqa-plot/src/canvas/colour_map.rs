@@ -6,7 +6,7 @@
 //! to the original. The map contains no gray, so that a missing value cannot be mistaken for a
 //! value.
 
-use crate::canvas::look::Colour;
+use crate::canvas::colour::Colour;
 
 /// The colour of a missing value.
 pub(crate) const NO_VALUE: Colour = Colour(221, 221, 221);

@@ -2,7 +2,7 @@
 //! tests check their positions.
 
 use crate::canvas::bitmap::Bitmap;
-use crate::canvas::look::{Colour, INK};
+use crate::canvas::colour::{Colour, INK};
 use crate::canvas::photo::Photo;
 #[cfg(test)]
 use crate::canvas::text::{CAPITAL, DESCENT, width_px};

@@ -2,6 +2,7 @@
 
 pub(crate) mod bitmap;
 pub(crate) mod clip;
+pub(crate) mod colour;
 pub(crate) mod colour_map;
 pub(crate) mod drawing;
 pub(crate) mod look;

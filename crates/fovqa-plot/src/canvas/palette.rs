@@ -1,6 +1,6 @@
 //! The colours of series.
 
-use crate::canvas::look::Colour;
+use crate::canvas::colour::Colour;
 
 /// The largest number of colours of a palette.
 const MOST: usize = 12;

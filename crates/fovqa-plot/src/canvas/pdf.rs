@@ -5,9 +5,9 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::LineJoinStyle;
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect as PdfRect, Ref, Str, TextStr};
 
+use crate::canvas::colour::Colour;
 use crate::canvas::colour_map::palette;
 use crate::canvas::drawing::{Drawing, Mark, Point, Text};
-use crate::canvas::look::Colour;
 use crate::canvas::pdf_font::Embedded;
 use crate::canvas::setting::SetLine;
 use crate::error::PlotError;

@@ -5,8 +5,8 @@ use std::error::Error;
 use plotters::backend::{DrawingBackend, SVGBackend};
 use plotters::style::{RGBColor, ShapeStyle};
 
+use crate::canvas::colour::{Colour, WHITE};
 use crate::canvas::drawing::{Drawing, Mark, Point, Rect, Stroke};
-use crate::canvas::look::{Colour, WHITE};
 use crate::canvas::setting::SetLine;
 use crate::canvas::svg_text::Outlines;
 use crate::error::PlotError;

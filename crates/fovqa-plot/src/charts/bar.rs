@@ -3,8 +3,9 @@
 use crate::axes::axis::{AXIS_STROKE, Axis};
 use crate::axes::group_axis::GroupAxis;
 use crate::axes::value_axis::ValueAxis;
+use crate::canvas::colour::INK;
 use crate::canvas::drawing::{Drawing, Rect};
-use crate::canvas::look::{INK, Look};
+use crate::canvas::look::Look;
 use crate::error::PlotError;
 use crate::marks::error_bar;
 use crate::marks::infinity;

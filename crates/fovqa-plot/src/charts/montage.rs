@@ -1,8 +1,8 @@
 //! Pictures side by side: one row per region of a frame, one column per method.
 
 use crate::axes::axis::AXIS_STROKE;
+use crate::canvas::colour::{INK, WHITE};
 use crate::canvas::drawing::{Anchor, Drawing, Rect, Stroke, Text};
-use crate::canvas::look::{INK, WHITE};
 use crate::canvas::photo::Photo;
 use crate::canvas::text::{DESCENT, LINE_PITCH, TICK_PX};
 use crate::canvas::wrap::wrap;

@@ -2,8 +2,8 @@
 //! every colour.
 
 use crate::canvas::clip;
+use crate::canvas::colour::{Colour, INK, WHITE};
 use crate::canvas::drawing::{Anchor, Drawing, Point, Rect, Stroke, Text};
-use crate::canvas::look::{Colour, INK, WHITE};
 use crate::canvas::path;
 use crate::canvas::text::{CAPITAL, VALUE_PX, width_px};
 use crate::canvas::wrap::wrap;

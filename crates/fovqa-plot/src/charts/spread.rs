@@ -3,8 +3,9 @@
 use crate::axes::axis::{AXIS_STROKE, Axis};
 use crate::axes::group_axis::GroupAxis;
 use crate::axes::value_axis::ValueAxis;
+use crate::canvas::colour::{INK, WHITE};
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
-use crate::canvas::look::{INK, Look, WHITE};
+use crate::canvas::look::Look;
 use crate::charts::box_summary::{BoxSummary, quantile};
 use crate::charts::left_out::LeftOut;
 use crate::charts::spread_series::{BOX_FROM, SpreadSeries, finite};

@@ -2,8 +2,8 @@
 //! texts must not overlap, and the output must be the same each time.
 
 use super::*;
+use crate::canvas::colour::{AXIS, Colour, GRID, INK, REFERENCE, SPAN};
 use crate::canvas::drawing::{Mark, Rect, Text};
-use crate::canvas::look::{AXIS, Colour, GRID, INK, REFERENCE, SPAN};
 use crate::canvas::png;
 use crate::{Axis, BarSeries, Fill, FillKind, LineSeries, Look, Span, SpreadSeries};
 

@@ -1,7 +1,7 @@
 //! Error bars: an upright line with two caps, from the lower to the upper end of an interval.
 
+use crate::canvas::colour::Colour;
 use crate::canvas::drawing::{Drawing, Stroke};
-use crate::canvas::look::Colour;
 
 /// Width of the line.
 const LINE_PX: f64 = 1.0;

@@ -1,7 +1,8 @@
 //! The look of an area between two curves: its meaning and its hatch.
 
+use crate::canvas::colour::{Colour, DEFICIT, DEFICIT_HATCH, SURPLUS, SURPLUS_EDGE};
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
-use crate::canvas::look::{Colour, DEFICIT, DEFICIT_HATCH, Hatch, Look, SURPLUS, SURPLUS_EDGE};
+use crate::canvas::look::{Hatch, Look};
 use crate::marks::hatch;
 
 /// Horizontal distance between the lines of the hatch.

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use crate::canvas::colour::{REFERENCE, SPAN, SPAN_EDGE};
 use crate::canvas::drawing::{Anchor, Drawing, Point, Rect, Stroke, Text};
-use crate::canvas::look::{Look, REFERENCE, SPAN, SPAN_EDGE};
+use crate::canvas::look::Look;
 use crate::canvas::text::{CAPITAL, LINE_PITCH, TICK_PX};
 use crate::canvas::wrap::{widest_px, wrap};
 use crate::marks::fill_kind::FillKind;

@@ -1,7 +1,8 @@
 //! The shapes of markers. Their corners are constants, so that they are the same on every machine.
 
+use crate::canvas::colour::{Colour, WHITE};
 use crate::canvas::drawing::{Drawing, Point};
-use crate::canvas::look::{Colour, Look, Marker, WHITE};
+use crate::canvas::look::{Look, Marker};
 
 /// Half the size of a marker in pixels, large enough to distinguish the shapes in print.
 pub(crate) const RADIUS_PX: f64 = 3.6;

@@ -1,7 +1,7 @@
 //! Shaded stretches behind the curves of a chart, such as the frames of a saccade.
 
+use crate::canvas::colour::SPAN;
 use crate::canvas::drawing::{Drawing, Rect};
-use crate::canvas::look::SPAN;
 use crate::marks::legend::Key;
 use crate::scales::scale::{AxisPlace, Scale};
 

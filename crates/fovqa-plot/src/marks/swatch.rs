@@ -1,7 +1,8 @@
 //! Filled rectangles with the look of a series: bars, boxes, and their keys in the legend.
 
+use crate::canvas::colour::{Colour, WHITE};
 use crate::canvas::drawing::{Drawing, Rect, Stroke};
-use crate::canvas::look::{Colour, Look, WHITE};
+use crate::canvas::look::Look;
 use crate::marks::hatch;
 
 /// Width of the edge in pixels.

@@ -4,6 +4,7 @@
 //! eccentricity bands ([`ratios`]).
 
 mod average;
+mod column;
 mod csv;
 mod grid;
 mod html;

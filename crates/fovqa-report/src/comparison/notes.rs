@@ -4,7 +4,7 @@ use fovqa_metrics::Metric;
 use fovqa_plan::{AveragePlace, Plot, SpreadOver};
 use fovqa_results::GuideSource;
 
-use super::scenes::Column;
+use super::column::Column;
 use crate::overview::Overview;
 
 const FOVEAL_NOTE: &str = "FPSNR and FSSIM: the papers print no constants for the foveal weight; \

@@ -1,54 +1,17 @@
 //! The values of all methods in all scenes.
 
-use fovqa_metrics::{Image, Metric, MetricKind};
+use fovqa_metrics::Image;
 use fovqa_plan::{AveragePlace, Plot, SpreadOver};
 use fovqa_results::RunRecord;
 
 use super::average::average;
+use super::column::Column;
 use super::measure::Measure;
 use super::notes::{means, notes};
 use super::values::{Item, Items, Scored, Values, deviation, marked};
 use super::{ComparisonTable, named};
 use crate::frame_values::FrameValues;
-use crate::overview::{Measured, Overview};
-
-/// What a table shows of each method in each scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Column {
-    /// The values of a metric.
-    Metric(Metric),
-    /// The samples of emulated methods.
-    Samples,
-}
-
-impl Column {
-    fn measure(self) -> Measure {
-        match self {
-            // Of temporal differences, the percentage that the papers use.
-            Self::Metric(Metric::Atd) => {
-                let info = Metric::Atd.info();
-                Measure::ratio(info.label.to_owned(), "atd_percent".to_owned(), info.better)
-            }
-            Self::Metric(metric) => Measure::of(metric),
-            Self::Samples => Measure::samples(),
-        }
-    }
-
-    fn value(self, measured: &Measured) -> Option<f64> {
-        match self {
-            Self::Metric(metric) => measured.value(metric),
-            Self::Samples => measured.samples_percent,
-        }
-    }
-
-    /// Whether the value is a mean over the values of frames.
-    pub(super) fn has_frames(self) -> bool {
-        match self {
-            Self::Metric(metric) => metric.is(MetricKind::Fidelity) && metric != Metric::Fvvdp,
-            Self::Samples => false,
-        }
-    }
-}
+use crate::overview::Overview;
 
 /// The columns of a plot: those that it names, in its order, or all that have values, in the order
 /// of the experiment.

@@ -1,7 +1,7 @@
 //! Areas between curves, limits of the vertical axis and curves that are functions.
 
 use super::*;
-use crate::canvas::look::{DEFICIT, SURPLUS};
+use crate::canvas::colour::{DEFICIT, SURPLUS};
 
 /// A straight curve from 0 to 10 along the axis.
 fn straight(from: f64, to: f64) -> LineSeries {

@@ -1,7 +1,7 @@
 //! Pictures side by side.
 
 use super::*;
-use crate::canvas::look::WHITE;
+use crate::canvas::colour::WHITE;
 use crate::{MontageRow, Photo};
 
 fn photo(width: usize, height: usize) -> Photo {

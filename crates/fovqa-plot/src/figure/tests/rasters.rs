@@ -3,8 +3,8 @@
 use resvg::tiny_skia::Pixmap;
 
 use super::*;
+use crate::canvas::colour::WHITE;
 use crate::canvas::colour_map::{NO_VALUE, palette};
-use crate::canvas::look::WHITE;
 use crate::{RasterLine, RasterPanel};
 
 /// A panel from −20 to 20 across and from −10 to 10 down.
