@@ -56,7 +56,8 @@ pub struct Colour(pub [u8; 3]);
 impl Colour {
     /// A colour from its notation, a `#` with six hexadecimal digits.
     pub fn of(text: &str) -> Option<Self> {
-        let digits = text.strip_prefix('#').filter(|d| d.len() == 6 && d.is_ascii())?;
+        let is_colour = |d: &&str| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit());
+        let digits = text.strip_prefix('#').filter(is_colour)?;
         let part = |from: usize| u8::from_str_radix(&digits[from..from + 2], 16).ok();
         Some(Self([part(0)?, part(2)?, part(4)?]))
     }
