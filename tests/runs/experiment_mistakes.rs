@@ -9,6 +9,12 @@ type Mistake = (&'static str, &'static str, &'static [&'static str], bool);
 const MISTAKES: &[Mistake] = &[
     (
         "fpsnr = {}",
+        "haar = {}\n[[plot]]\nkind = \"ratio_profile\"\nerror_bars = \"se\"",
+        &["error_bars does not apply to kind = \"ratio_profile\""],
+        false,
+    ),
+    (
+        "fpsnr = {}",
         "fpsnr = {}\n[[plot]]\nkind = \"crops\"",
         &["the plot has no regions to show"],
         false,

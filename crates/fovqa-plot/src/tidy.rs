@@ -3,7 +3,7 @@
 
 use crate::charts::bar::BarChart;
 use crate::charts::line::LineChart;
-use crate::charts::montage::MontageChart;
+use crate::charts::montage::{MontageChart, MontageRow};
 use crate::charts::panels::PanelChart;
 use crate::charts::raster::RasterChart;
 use crate::charts::spread::SpreadChart;
@@ -126,7 +126,9 @@ pub(crate) fn montage(chart: &MontageChart) -> String {
     let mut csv = "row,column\n".to_owned();
     for of_row in &chart.rows {
         let shown = chart.columns.iter().zip(&of_row.pictures).filter(|(_, of)| of.is_some());
-        shown.for_each(|(column, _)| row(&mut csv, &[name(&of_row.label), name(column)]));
+        // How large they are printed is no data.
+        let label = of_row.label.replace(&format!(", {}", MontageRow::MAGNIFICATION), "");
+        shown.for_each(|(column, _)| row(&mut csv, &[name(&label), name(column)]));
     }
     csv
 }

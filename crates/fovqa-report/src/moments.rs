@@ -49,9 +49,9 @@ impl Moments {
     }
 }
 
-/// The 97.5 % quantile of Student's t distribution for up to 10 degrees of freedom (tables of any
+/// The 97.5 % quantile of Student's t distribution for up to 20 degrees of freedom (tables of any
 /// textbook).
-const SMALL_T: [f64; 10] = [
+const SMALL_T: [f64; 20] = [
     12.706_204_736,
     4.302_652_730,
     3.182_446_305,
@@ -62,6 +62,16 @@ const SMALL_T: [f64; 10] = [
     2.306_004_135,
     2.262_157_163,
     2.228_138_852,
+    2.200_985_160,
+    2.178_812_830,
+    2.160_368_656,
+    2.144_786_688,
+    2.131_449_546,
+    2.119_905_299,
+    2.109_815_578,
+    2.100_922_040,
+    2.093_024_054,
+    2.085_963_447,
 ];
 
 /// The 97.5 % quantile of the normal distribution.
@@ -109,6 +119,7 @@ mod tests {
             (1.0, 12.706_204_736_2),
             (10.0, 2.228_138_852_0),
             (11.0, 2.200_985_160_1),
+            (21.0, 2.079_613_844_7),
             (29.0, 2.045_229_642_1),
             (100.0, 1.983_971_518_5),
             (1e6, 1.959_966_356_8),

@@ -75,9 +75,9 @@ pub(super) fn plots(
 
 /// Checks that error bars and shapes are given only for plots that have them.
 fn marks(table: Node<'_>, kind: PlotKind, faults: &mut Faults) {
-    let has_bars = matches!(kind, PlotKind::Bars | PlotKind::Profile | PlotKind::RatioProfile);
+    let has_bars = matches!(kind, PlotKind::Bars | PlotKind::Profile);
     for (key, fits, kinds) in [
-        ("error_bars", has_bars, "\"bars\", \"profile\" or \"ratio_profile\""),
+        ("error_bars", has_bars, "\"bars\" or \"profile\""),
         ("regions", kind == PlotKind::Crops, "\"crops\""),
         ("shape", kind == PlotKind::Frames, "\"frames\""),
     ] {

@@ -234,6 +234,10 @@ impl BarChart {
         look: Look,
     ) {
         let plot = frame.plot;
+        let outside = |value: f64| !(0.0..=1.0).contains(&frame.axis.share(value));
+        if !self.has_bars() && place.finite().is_some_and(outside) {
+            return;
+        }
         let end = match place {
             AxisPlace::At(value) => frame.axis.y(plot, value),
             AxisPlace::Above => plot.top,

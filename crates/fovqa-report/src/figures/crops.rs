@@ -26,7 +26,10 @@ impl Selection<'_> {
         }
         let methods = self.methods.iter().map(|(method, _)| (*method).to_owned());
         let columns = ["Reference".to_owned()].into_iter().chain(methods).collect();
-        let names: Vec<&str> = plot.regions.iter().map(|region| region.name.as_str()).collect();
+        let is_shown =
+            |region: &&CropRegion| rows.iter().any(|row| row.label.starts_with(&region.name));
+        let names: Vec<&str> =
+            plot.regions.iter().filter(is_shown).map(|region| region.name.as_str()).collect();
         let caption = format!(
             "Regions of the frames ({}); their eccentricity, and the magnification compared with the whole frame \
              at the width of this figure",
@@ -39,11 +42,12 @@ impl Selection<'_> {
     fn row(&self, region: &CropRegion, scene: &str) -> Option<MontageRow> {
         // Of two eyes, the left one is shown.
         let eyes = [None, Some("left"), Some("right")].into_iter();
-        let folders = eyes.map(|eye| crop_folder(self.source.folder, scene, eye, &region.name));
-        let (folder, record) = folders.into_iter().find_map(|folder| {
+        let folders =
+            eyes.map(|eye| (eye, crop_folder(self.source.folder, scene, eye, &region.name)));
+        let (eye, folder, record) = folders.into_iter().find_map(|(eye, folder)| {
             let file = CropRecord::file(&folder);
             let record: CropRecord = file.is_file().then(|| read_record(&file)).flatten()?;
-            Some((folder, record))
+            Some((eye, folder, record))
         })?;
         let tests = self.methods.iter().map(|(method, _)| CropRecord::test_file(&folder, method));
         let files = [CropRecord::reference_file(&folder)].into_iter().chain(tests);
@@ -53,6 +57,7 @@ impl Selection<'_> {
         if self.scenes.len() > 1 {
             label.push(scene.to_owned());
         }
+        label.extend(eye.map(|eye| format!("{eye} eye")));
         if region.frame.is_some() {
             label.push(format!("frame {}", record.frame));
         }

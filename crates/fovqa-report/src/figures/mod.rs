@@ -178,11 +178,14 @@ impl<'a> Selection<'a> {
     }
 
     fn bars(&self, metric: Metric, plot: &Plot) -> NamedFigure {
+        // FovVideoVDP is a value of the whole sequence, and ATD the ratio of two means.
+        let is_mean = metric.is(MetricKind::Fidelity) && metric != Metric::Fvvdp;
+        let error_bars = plot.error_bars.filter(|_| is_mean);
         let series = self.methods.iter().map(|&(method, look)| {
             let value = |scene: &&str| self.source.overview.of(scene, method)?.value(metric);
             let values = self.scenes.iter().map(value).collect();
             let error = |scene: &&str, kind| half_length(&self.values(scene, method, metric), kind);
-            let errors = plot.error_bars.map_or_else(Vec::new, |kind| {
+            let errors = error_bars.map_or_else(Vec::new, |kind| {
                 self.scenes.iter().map(|scene| error(scene, kind)).collect()
             });
             BarSeries { name: method.to_owned(), look, errors, values }
@@ -197,7 +200,7 @@ impl<'a> Selection<'a> {
                 let of_common = of_common.filter(|(scene, _)| common.contains(scene));
                 let of_common: Vec<f64> = of_common.filter_map(|(_, value)| *value).collect();
                 values.push(mean(&of_common));
-                if let Some(kind) = plot.error_bars {
+                if let Some(kind) = error_bars {
                     errors.push(half_length(&of_common, kind));
                 }
             }
@@ -208,7 +211,7 @@ impl<'a> Selection<'a> {
         };
         let figure = Figure::Bar(BarChart { y, groups, series, ..BarChart::default() });
         let over = if metric == Metric::Fvvdp { "of whole sequences" } else { "mean over frames" };
-        let bars = plot.error_bars.map_or_else(String::new, |kind| {
+        let bars = error_bars.map_or_else(String::new, |kind| {
             format!("; error bars over frames (of the average: over scenes): {}", in_words(kind))
         });
         let caption = format!("{} per scene and method, {over}{bars}", metric.info().label);

@@ -229,3 +229,14 @@ fn labels_have_room_above_an_end_that_was_set() {
     chart.y.max = Some(1.0);
     check(&Figure::Bar(chart));
 }
+
+#[test]
+fn markers_beyond_the_ends_of_the_axis_are_not_drawn() {
+    let Figure::Bar(mut chart) = bars(vec![vec![Some(19.8), Some(35.0)]], true) else {
+        unreachable!()
+    };
+    (chart.y.min, chart.y.max) = (Some(30.0), Some(40.0));
+    let figure = Figure::Bar(chart);
+    check(&figure);
+    assert_eq!((count(&figure, "19.8"), count(&figure, "35.0")), (0, 1));
+}
