@@ -13,6 +13,7 @@ mod killed;
 mod library;
 mod many_methods;
 mod parquet;
+mod printed_figures;
 mod results_folder;
 pub(crate) mod resume;
 pub(crate) mod shards;

@@ -53,12 +53,12 @@ fn needs_scenes(table: Node<'_>, plot: &Plot, scenes: usize, faults: &mut Faults
         ),
         AveragePlace::None if over_scenes => (
             "spread",
-            "the spread over scenes stands beside the averages, but average is \"none\"",
+            "the spread over scenes is shown with the averages, but average is \"none\"",
             "use average = \"last\", \"first\" or \"only\"",
         ),
         AveragePlace::Only if plot.spread == Some(SpreadOver::Frames) => (
             "spread",
-            "the spread over frames stands beside the value of each scene, but average is \"only\"",
+            "the spread over frames is shown with the value of each scene, but average is \"only\"",
             "use spread = \"scenes\", or average = \"last\" or \"first\"",
         ),
         _ => return,

@@ -128,7 +128,7 @@ fn circle(content: &mut Content, (x, y): Point, r: f64) {
     content.close_path();
 }
 
-/// Writes a line of text. Glyphs are moved one by one to where they stand in the PNG.
+/// Writes a line of text. Each glyph has the position that it has in the PNG.
 fn write_text(content: &mut Content, font: &mut Embedded, text: &Text, line: &SetLine) {
     let [r, g, b] = rgb(text.colour);
     let whole = !line.is_complete();

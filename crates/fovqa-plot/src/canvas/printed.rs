@@ -8,7 +8,7 @@ use crate::canvas::{pdf, png, svg};
 use crate::error::PlotError;
 
 /// Points per inch.
-const PT_PER_IN: f64 = 72.0;
+pub(crate) const PT_PER_IN: f64 = 72.0;
 
 /// A figure that was laid out for a size in print.
 #[derive(Debug, Clone, PartialEq)]

@@ -169,7 +169,7 @@ mod tests {
     fn needs_no_installed_font() {
         let svg = with_text("xx עברית");
         assert!(!svg.contains("<text") && svg.contains("aria-label=\"xx עברית\""), "{svg}");
-        // Two letters share one outline, and the second one stands beside the first.
+        // Two letters share one outline, and the second one is to the right of the first.
         assert_eq!(svg.matches("<use xlink:href=\"#g91\"").count(), 2, "{svg}");
         assert!(
             svg.contains("<path id=\"g91\" d=\"M") && svg.contains("#g91\" x=\"1212\""),

@@ -1,5 +1,5 @@
 //! Text of an SVG as outlines of the bundled font, so that it looks the same in every program and
-//! needs no installed font. The words stand beside the outlines, for screen readers and searches.
+//! needs no installed font. An attribute has the words, for screen readers and searches.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

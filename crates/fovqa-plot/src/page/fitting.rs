@@ -13,8 +13,8 @@ use crate::page::style::{Height, Style};
 const TRIES: usize = 8;
 /// A height is met if it differs less than this.
 const CLOSE_PX: f64 = 1.0;
-/// How much wider or narrower than a column or a page a figure may be laid out to be printed as wide
-/// as it; the smallest text stays above 6 points.
+/// A figure whose layout is up to this factor wider or narrower than a column or a page is printed
+/// with exactly that width; the smallest text stays above 6 points.
 const SLACK: f64 = 1.12;
 /// A step of the height of plot areas, to find out how the figure grows with it.
 const PROBE_PX: f64 = 20.0;

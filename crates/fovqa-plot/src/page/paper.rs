@@ -1,10 +1,9 @@
 //! The paper that a figure is printed on, in pixels: the smallest text has 11 of them.
 
+use crate::canvas::printed::PT_PER_IN;
 use crate::canvas::text::VALUE_PX;
 use crate::page::style::Style;
 
-/// Points per inch.
-const PT_PER_IN: f64 = 72.0;
 /// The width of a column in inches.
 const COLUMN_IN: f64 = 3.3;
 /// The width of a page in inches.

@@ -23,7 +23,7 @@ pub(super) struct Column {
     pub(super) key: String,
     /// The heading over this and neighbouring columns in LaTeX.
     pub(super) group: Option<String>,
-    /// The heading in LaTeX, if it is not `head`. A unit stands in brackets at its end.
+    /// The heading in LaTeX, if it is not `head`. A unit is in brackets at its end.
     pub(super) in_paper: Option<String>,
     /// Whether every part of a table that is divided in LaTeX repeats the column.
     pub(super) is_repeated: bool,

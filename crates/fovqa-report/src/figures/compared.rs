@@ -64,7 +64,7 @@ impl Selection<'_> {
                 (self.wavelet(scene, plot, shown)?, format!("Haar wavelet {words} by level"))
             }
             metric => {
-                let error_bars = plot.error_bars;
+                let error_bars = error_bars(plot);
                 let content = Content { shown, metric, level: None, statistic: None, error_bars };
                 let chart =
                     self.chart(scene, titled(axis(metric), metric.info().label, shown), content)?;
@@ -75,14 +75,15 @@ impl Selection<'_> {
                 (Figure::Line(chart), metric.info().label.to_owned())
             }
         };
-        let bars = error_bars_in_words(plot, "frames");
+        let bars =
+            error_bars(plot).map_or_else(String::new, |_| error_bars_in_words(plot, "frames"));
         let caption = match shown {
             Shown::Values => {
                 format!("{what} against eccentricity, {scene}; the reference is dashed{bars}")
             }
             Shown::Ratio => {
                 format!(
-                    "{what} of the test over that of the reference against eccentricity, {scene}{bars}"
+                    "{what} of the test over that of the reference against eccentricity, {scene}"
                 )
             }
         };
@@ -104,7 +105,7 @@ impl Selection<'_> {
                 metric: Metric::Haar,
                 level: Some(*level),
                 statistic: Some(statistic),
-                error_bars: plot.error_bars,
+                error_bars: error_bars(plot),
             };
             let chart = self.chart(scene, titled(label.clone(), &label, shown), content)?;
             let side = 1u64 << level;
@@ -183,10 +184,11 @@ impl Selection<'_> {
     ) -> Vec<Values> {
         let Content { shown, metric, level, statistic, error_bars } = content;
         let values = |(from_deg, to_deg): (f64, f64), compared: &Compared| {
-            let (reference, test, image) = match shown {
-                Shown::Values => (compared.reference(), compared.test(), Image::Test),
-                Shown::Ratio => (Some(1.0), compared.ratio(), Image::Ratio),
+            let (reference, test) = match shown {
+                Shown::Values => (compared.reference(), compared.test()),
+                Shown::Ratio => (Some(1.0), compared.ratio()),
             };
+            let image = Image::Test;
             let place = InBand { metric, image, level, statistic, from_deg, to_deg };
             let error = error_bars.and_then(|kind| self.source.spread.half_length(of, place, kind));
             Values { from_deg, to_deg, reference, test, error }
@@ -211,4 +213,9 @@ fn titled(values: String, label: &str, shown: Shown) -> Axis {
         Shown::Values => Axis::new(values),
         Shown::Ratio => Axis::new(format!("{label} (test / reference)")),
     }
+}
+
+/// The error bars of a plot. The largest coefficient is not a mean, so it has none.
+fn error_bars(plot: &Plot) -> Option<ErrorBars> {
+    plot.error_bars.filter(|_| statistic(plot) != "max_abs")
 }

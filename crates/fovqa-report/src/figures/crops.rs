@@ -13,23 +13,22 @@ use super::{NamedFigure, Selection};
 impl Selection<'_> {
     /// The figure of a plot's regions; `None` if no picture of them was written.
     pub(super) fn crops(&self, plot: &Plot) -> Option<NamedFigure> {
-        let rows: Vec<MontageRow> = plot
-            .regions
-            .iter()
-            .flat_map(|region| {
-                let scenes = self.scenes.iter().filter(|scene| region.is_in(scene));
-                scenes.filter_map(|scene| self.row(region, scene)).collect::<Vec<_>>()
-            })
-            .collect();
+        let mut names: Vec<&str> = Vec::new();
+        let mut rows: Vec<MontageRow> = Vec::new();
+        for region in &plot.regions {
+            let scenes = self.scenes.iter().filter(|scene| region.is_in(scene));
+            let shown: Vec<MontageRow> =
+                scenes.filter_map(|scene| self.row(region, scene)).collect();
+            if !shown.is_empty() {
+                names.push(&region.name);
+            }
+            rows.extend(shown);
+        }
         if rows.is_empty() {
             return None;
         }
         let methods = self.methods.iter().map(|(method, _)| (*method).to_owned());
         let columns = ["Reference".to_owned()].into_iter().chain(methods).collect();
-        let is_shown =
-            |region: &&CropRegion| rows.iter().any(|row| row.label.starts_with(&region.name));
-        let names: Vec<&str> =
-            plot.regions.iter().filter(is_shown).map(|region| region.name.as_str()).collect();
         let caption = format!(
             "Regions of the frames ({}); their eccentricity, and the magnification compared with the whole frame \
              at the width of this figure",

@@ -62,7 +62,11 @@ impl Selection<'_> {
             let bands = |method: &str| self.with_errors(metric, scene, method, plot.error_bars);
             let alone = self.scenes.len() == 1;
             let name = if alone { name.clone() } else { format!("{name}-{}", slug(scene)) };
-            let bars = error_bars_in_words(plot, "frames");
+            // The shares of FovVideoVDP are those of the whole sequence.
+            let bars = match metric {
+                Metric::Fvvdp => String::new(),
+                _ => error_bars_in_words(plot, "frames"),
+            };
             let caption = format!("{label} against eccentricity, {scene}{bars}");
             figures.extend(self.profile(metric, name, Some(scene), caption, bands));
         }
