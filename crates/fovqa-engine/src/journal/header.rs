@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use fovqa_frame::source::Source;
 use fovqa_io::{IdWriter, id_of, open_regular_file};
-use fovqa_plan::{Experiment, Eye, Plan};
+use fovqa_plan::{Experiment, Eye, FigureSettings, Plan, Plot, Resolved};
 use fovqa_vision::BandEdges;
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -67,11 +67,24 @@ impl ViewFiles {
     }
 }
 
-/// The SHA-256 of what an experiment scores: its plan, which has no plots, rules or descriptions.
+/// The plots whose content comes from the frames, without the way they are printed.
+fn plots_with_crops(experiment: &Experiment) -> Vec<Plot> {
+    let plots = experiment.plots.iter().filter(|plot| !plot.regions.is_empty());
+    let of = |plot: &Plot| Plot { regions: plot.regions.clone(), ..Plot::of(plot.kind) };
+    plots.map(of).collect()
+}
+
+/// The SHA-256 of what an experiment scores: without its plots, figures, rules and description.
 fn scored(experiment: &Experiment) -> String {
-    // Maps have a field of their own.
-    let plan = Plan { maps: false, ..experiment.plan.clone() };
-    let text = serde_json::to_string(&plan);
+    let scored = Resolved {
+        about: None,
+        plots: plots_with_crops(experiment),
+        figures: FigureSettings::default(),
+        gates: Vec::new(),
+        spreadsheet_safe: false,
+        ..experiment.resolved()
+    };
+    let text = serde_json::to_string(&scored);
     sha256(text.unwrap_or_else(|_| experiment.text.clone()).as_bytes())
 }
 
