@@ -51,7 +51,7 @@ pub use charts::line::{LineChart, LineSeries};
 pub use charts::montage::{MontageChart, MontageRow};
 pub use charts::panels::PanelChart;
 pub use charts::raster::RasterChart;
-pub use charts::raster_panel::{RasterLine, RasterPanel};
+pub use charts::raster_panel::{GridPlaces, RasterLine, RasterPanel};
 pub use charts::spread::SpreadChart;
 pub use charts::spread_series::SpreadSeries;
 pub use error::PlotError;

@@ -108,9 +108,15 @@ pub(crate) fn raster(chart: &RasterChart) -> String {
             number(format!("{at:.6e}").parse().unwrap_or(at))
         };
         for (r, values) in panel.values.chunks(panel.columns.max(1)).enumerate() {
-            let y = middle(panel.y_range, r, panel.rows);
+            let y = match &panel.grid {
+                Some(grid) => grid.y.get(r).copied().map(number).unwrap_or_default(),
+                None => middle(panel.y_range, r, panel.rows),
+            };
             for (c, value) in values.iter().enumerate() {
-                let x = middle(panel.x_range, c, panel.columns);
+                let x = match &panel.grid {
+                    Some(grid) => grid.x.get(c).copied().map(number).unwrap_or_default(),
+                    None => middle(panel.x_range, c, panel.columns),
+                };
                 row(&mut csv, &[title.clone(), x, y.clone(), optional(Some(*value))]);
             }
         }

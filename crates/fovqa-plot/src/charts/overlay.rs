@@ -7,7 +7,7 @@ use crate::canvas::drawing::{Anchor, Drawing, Point, Rect, Stroke, Text};
 use crate::canvas::path;
 use crate::canvas::text::{CAPITAL, VALUE_PX, width_px};
 use crate::canvas::wrap::wrap;
-use crate::charts::raster_panel::RasterPanel;
+use crate::charts::raster_panel::{RasterPanel, along};
 
 const EDGE: Stroke = Stroke { colour: INK, width_px: 3.2 };
 const CORE: Stroke = Stroke { colour: WHITE, width_px: 1.4 };
@@ -35,15 +35,23 @@ type Ranges = ((f64, f64), (f64, f64));
 
 /// Draws the lines and the cross over a picture.
 pub(crate) fn draw(drawing: &mut Drawing, plot: Rect, panel: &RasterPanel) {
-    let ranges = (panel.x_range, panel.y_range);
-    let seen: Vec<Vec<Vec<Point>>> =
-        panel.lines.iter().map(|line| pieces(plot, ranges, &line.points)).collect();
+    let placed = |(x, y): Point| (along(x, panel.x.log), along(y, panel.y.log));
+    let range = |(from, to): Point, log: bool| (along(from, log), along(to, log));
+    let ranges = (range(panel.x_range, panel.x.log), range(panel.y_range, panel.y.log));
+    let seen: Vec<Vec<Vec<Point>>> = panel
+        .lines
+        .iter()
+        .map(|line| {
+            let points: Vec<Point> = line.points.iter().copied().map(placed).collect();
+            pieces(plot, ranges, &points)
+        })
+        .collect();
     let middle = |at: &Point| share(ranges, *at).filter(|(x, y)| inside(*x) && inside(*y));
-    for (x, y) in panel.dots.iter().filter_map(middle) {
+    for (x, y) in panel.dots.iter().copied().map(placed).filter_map(|at| middle(&at)) {
         let at = (plot.left + x * plot.width(), plot.top + y * plot.height());
         drawing.disc(at, DOT_PX, DOT);
     }
-    let arms = panel.cross.map(|at| arms(plot, ranges, at)).unwrap_or_default();
+    let arms = panel.cross.map(|at| arms(plot, ranges, placed(at))).unwrap_or_default();
     for stroke in [EDGE, CORE] {
         for piece in seen.iter().flatten().chain(&arms) {
             drawing.line(piece, stroke);

@@ -4,7 +4,6 @@ use crate::axes::axis::{AXIS_STROKE, Axis};
 use crate::axes::colour_bar::ColourBar;
 use crate::axes::position_axis::PositionAxis;
 use crate::axes::value_axis::ValueAxis;
-use crate::canvas::bitmap::Bitmap;
 use crate::canvas::colour::WHITE;
 use crate::canvas::colour_map::NO_VALUE;
 use crate::canvas::drawing::{Anchor, Drawing, Rect, Text};
@@ -147,8 +146,17 @@ impl<'a> Panel<'a> {
         Self {
             chart,
             title: wrap(title, TITLE_PX, size_px.0, TITLE_LINES),
-            x: PositionAxis::spanning(&chart.x, Some(Scale::even(left, right)), None, size_px.0),
-            y: ValueAxis::new(y, Some(Scale::even(bottom, top)), size_px.1),
+            x: PositionAxis::spanning(
+                &chart.x,
+                Some(Scale { log: chart.x.log, ..Scale::even(left, right) }),
+                None,
+                size_px.0,
+            ),
+            y: ValueAxis::new(
+                y,
+                Some(Scale { log: chart.y.log, ..Scale::even(bottom, top) }),
+                size_px.1,
+            ),
             size_px,
         }
     }
@@ -181,8 +189,7 @@ impl<'a> Panel<'a> {
             let paper = if chart.has_only_dots() { WHITE } else { NO_VALUE };
             drawing.area(plot.corners().to_vec(), paper);
         } else {
-            let levels = chart.levels(scale);
-            drawing.picture(plot, Bitmap { columns: chart.columns, levels });
+            drawing.picture(plot, chart.bitmap(scale));
         }
         if !chart.has_only_dots() && chart.values.iter().all(|value| value.is_nan()) {
             layout::write_no_data(drawing, plot);
