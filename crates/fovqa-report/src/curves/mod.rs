@@ -4,12 +4,10 @@ mod axes;
 mod bands;
 mod contours;
 mod labels;
-mod latex;
 mod looks;
 mod models;
 mod page;
 mod picture;
-mod plain_table;
 mod rates;
 mod samples;
 mod tables;
@@ -24,8 +22,8 @@ use fovqa_results::{
 
 use crate::figures::slug;
 use crate::latex::usual_label;
+use crate::plain_table::PlainTable;
 use crate::sheet::{MakePage, MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
-use plain_table::PlainTable;
 
 /// The figures and tables that were made from a curves file.
 #[derive(Debug, Clone, PartialEq)]

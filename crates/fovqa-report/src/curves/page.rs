@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use super::Source;
-use super::plain_table::PlainTable;
 use super::tables::sentence;
 use crate::page::{PageFigure, begin, end, escaped, figures as figures_html};
+use crate::plain_table::PlainTable;
 
 pub(super) fn page(
     source: &Source<'_>,

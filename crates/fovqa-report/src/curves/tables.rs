@@ -6,7 +6,7 @@ use fovqa_plan::{CurveTable, CurveTableKind, TableAcross};
 
 use super::Source;
 use super::labels::{Labels, resolution, screen};
-use super::plain_table::{Cell, Column, PlainTable};
+use crate::plain_table::{Cell, Column, PlainTable};
 
 /// A table and the name of its files.
 pub(super) fn table(source: &Source<'_>, table: &CurveTable) -> (&'static str, PlainTable) {

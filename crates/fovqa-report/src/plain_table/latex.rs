@@ -1,11 +1,11 @@
-//! Tables of curves for papers.
+//! Plain tables for papers.
 
-use super::plain_table::{Cell, Column, PlainTable};
+use super::{Cell, Column, PlainTable};
 use crate::latex::{self, Group, Head, Number, Section, Sheet};
 
 impl PlainTable {
     /// A complete `table` float with caption and label. It needs `\usepackage{booktabs}`.
-    pub(super) fn latex(&self, label: &str) -> String {
+    pub(crate) fn latex(&self, label: &str) -> String {
         // Columns that every part repeats come first.
         let (first, others): (Vec<usize>, Vec<usize>) =
             (0..self.columns.len()).partition(|index| self.columns[*index].is_repeated);

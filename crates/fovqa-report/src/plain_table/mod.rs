@@ -1,5 +1,7 @@
 //! A table of names and numbers, for Markdown, CSV, the page and a terminal.
 
+mod latex;
+
 use std::fmt::Write;
 
 use crate::comparison::escaped_markdown;
@@ -8,75 +10,80 @@ use crate::text_table::{aligned, plain_table, printable};
 
 /// A table. The first cells of each row are names.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct PlainTable {
+pub(crate) struct PlainTable {
     /// The caption.
-    pub(super) caption: String,
+    pub(crate) caption: String,
     /// Headings of the columns, each with its name in CSV.
-    pub(super) columns: Vec<Column>,
-    pub(super) rows: Vec<Vec<Cell>>,
-    pub(super) notes: Vec<String>,
+    pub(crate) columns: Vec<Column>,
+    pub(crate) rows: Vec<Vec<Cell>>,
+    pub(crate) notes: Vec<String>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Column {
-    pub(super) head: String,
-    pub(super) key: String,
+pub(crate) struct Column {
+    pub(crate) head: String,
+    pub(crate) key: String,
     /// The heading over this and neighbouring columns in LaTeX.
-    pub(super) group: Option<String>,
+    pub(crate) group: Option<String>,
     /// The heading in LaTeX, if it is not `head`. A unit is in brackets at its end.
-    pub(super) in_paper: Option<String>,
+    pub(crate) in_paper: Option<String>,
     /// Whether every part of a table that is divided in LaTeX repeats the column.
-    pub(super) is_repeated: bool,
+    pub(crate) is_repeated: bool,
 }
 
 impl Column {
-    pub(super) fn new(head: impl Into<String>, key: impl Into<String>) -> Self {
+    pub(crate) fn new(head: impl Into<String>, key: impl Into<String>) -> Self {
         Self { head: head.into(), key: key.into(), group: None, in_paper: None, is_repeated: false }
     }
 
     /// The column with its headings in LaTeX.
-    pub(super) fn in_paper(self, group: &str, head: &str) -> Self {
+    pub(crate) fn in_paper(self, group: &str, head: &str) -> Self {
         Self { group: Some(group.to_owned()), in_paper: Some(head.to_owned()), ..self }
     }
 
     /// The column as one that every part of a divided table repeats.
-    pub(super) fn repeated(self) -> Self {
+    pub(crate) fn repeated(self) -> Self {
         Self { is_repeated: true, ..self }
     }
 }
 
 /// The text of a cell, and the value that it shows.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Cell {
-    pub(super) shown: String,
-    pub(super) value: String,
+pub(crate) struct Cell {
+    pub(crate) shown: String,
+    pub(crate) value: String,
     /// Whether it is a number. Numbers are aligned.
-    pub(super) is_number: bool,
+    pub(crate) is_number: bool,
 }
 
 impl Cell {
-    pub(super) fn text(text: impl Into<String>) -> Self {
+    pub(crate) fn text(text: impl Into<String>) -> Self {
         let text = text.into();
         Self { shown: text.clone(), value: text, is_number: false }
     }
 
-    pub(super) fn number(shown: String, value: f64) -> Self {
+    /// A text that CSV writes otherwise.
+    pub(crate) fn named(shown: impl Into<String>, value: impl Into<String>) -> Self {
+        Self { shown: shown.into(), value: value.into(), is_number: false }
+    }
+
+    pub(crate) fn number(shown: String, value: f64) -> Self {
         Self { shown, value: format!("{value:?}"), is_number: true }
     }
 
     /// A share, shown in percent.
-    pub(super) fn percent(share: f64) -> Self {
+    pub(crate) fn percent(share: f64) -> Self {
         Self::number(format!("{:.1} %", 100.0 * share), share)
     }
 
     /// A count, shown in thousands if it is large.
-    pub(super) fn count(count: f64) -> Self {
+    pub(crate) fn count(count: f64) -> Self {
         Self::number(grouped(count), count)
     }
 }
 
 /// A rounded number with thin spaces as thousands separators.
-pub(super) fn grouped(count: f64) -> String {
+pub(crate) fn grouped(count: f64) -> String {
     let digits = format!("{count:.0}");
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {
@@ -89,7 +96,7 @@ pub(super) fn grouped(count: f64) -> String {
 }
 
 impl PlainTable {
-    pub(super) fn markdown(&self) -> String {
+    pub(crate) fn markdown(&self) -> String {
         let plain = |text: &str| escaped_markdown(text);
         let mut text = String::from("|");
         for column in &self.columns {
@@ -111,7 +118,7 @@ impl PlainTable {
     }
 
     /// CSV with full precision.
-    pub(super) fn csv(&self) -> String {
+    pub(crate) fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
         // Writing to memory does not fail, and all rows have the same length.
         let _ = writer.write_record(self.columns.iter().map(|column| &column.key));
@@ -121,7 +128,7 @@ impl PlainTable {
         String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
     }
 
-    pub(super) fn html(&self) -> String {
+    pub(crate) fn html(&self) -> String {
         let mut text = String::from("<table>\n<thead>\n<tr>");
         for column in &self.columns {
             let _ = write!(text, "<th>{}</th>", escaped(&column.head));
@@ -139,7 +146,7 @@ impl PlainTable {
         text
     }
 
-    pub(super) fn terminal(&self) -> String {
+    pub(crate) fn terminal(&self) -> String {
         let heads: Vec<&str> = self.columns.iter().map(|column| column.head.as_str()).collect();
         let mut table = plain_table(&heads);
         for row in &self.rows {
