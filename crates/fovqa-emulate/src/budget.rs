@@ -16,8 +16,8 @@ pub struct BudgetReport {
     pub budget: Budget,
     /// The parameter that was solved.
     pub parameter: &'static str,
-    /// Its value as TOML.
-    pub value: String,
+    /// Its value.
+    pub value: ParamValue,
     /// The share of the ideal buffer, before its size is rounded.
     pub ideal_share: f64,
     /// The share of the buffer that is emulated.
@@ -29,11 +29,39 @@ pub struct BudgetReport {
 pub(crate) struct Solution {
     budget: Budget,
     parameter: &'static str,
-    value: String,
+    value: ParamValue,
     ideal_share: f64,
 }
 
 impl EmulationSpec {
+    /// The name of the parameter that a budget solves; `None` if the method has none.
+    pub fn free_parameter(&self) -> Option<&'static str> {
+        match &self.method {
+            Emulated::Foveation(method) => method.free_parameter(),
+            _ => None,
+        }
+    }
+
+    /// Checks that a budget, if there is one, has a parameter to solve, and that the parameter is not
+    /// given. Of a list, such as the densities of layers, a budget changes the scale alone.
+    ///
+    /// # Errors
+    /// If the method has no such parameter, or it is given.
+    pub fn check_budget(&self) -> Result<(), EmulateError> {
+        if self.budget.is_none() {
+            return Ok(());
+        }
+        let Some(parameter) = self.free_parameter() else {
+            return Err(BudgetError::NotFree { method: self.key() }.into());
+        };
+        match self.set_by_name().get(parameter) {
+            Some(ParamValue::Number(_)) => {
+                Err(EmulateError::BudgetAndParameter { method: self.key(), parameter })
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The spec with its budget's parameter solved for a setting, on ideal sizes.
     pub(crate) fn solved(
         &self,
@@ -41,15 +69,11 @@ impl EmulationSpec {
     ) -> Result<(Self, Option<Solution>), EmulateError> {
         let found = self.written_out(setting)?;
         let Some(budget) = self.budget else { return Ok((found, None)) };
+        self.check_budget()?;
         let Emulated::Foveation(method) = &found.method else {
             return Err(BudgetError::NotFree { method: self.key() }.into());
         };
         let solved = method.at_budget(setting, budget.share, budget.of)?;
-        // Of a list, such as the densities of layers, a budget changes the scale alone.
-        if let Some(ParamValue::Number(_)) = self.set_by_name().get(solved.parameter) {
-            let (method, parameter) = (self.key(), solved.parameter);
-            return Err(EmulateError::BudgetAndParameter { method, parameter });
-        }
         let ideal = solved.method.apply(setting)?.counts();
         let samples = match budget.of {
             BudgetSamples::Buffer => ideal.whole(),

@@ -82,7 +82,8 @@ impl<'a> EmulatedMethods<'a> {
             let (frame, emulator) =
                 foveator.next_codes8(at.position(), &reference.frame, tables, gaze_px)?;
             let kept = keeps.then(|| frame.clone());
-            let made = Made { counts: emulator.counts().clone(), reshaded_share: None, kept };
+            let (counts, budget) = (emulator.counts().clone(), emulator.budget().cloned());
+            let made = Made { counts, reshaded_share: None, budget, kept };
             return Ok(Side::emulated(file, frame, reference.pixel_aspect, made));
         }
         let picture = || Picture::from_frame(&reference.frame, tables);
@@ -100,7 +101,9 @@ impl<'a> EmulatedMethods<'a> {
             Some(before) => frame_of(&shown, before, &reference.frame, tables, self.needs_light)?,
             None => linear(shown.to_linear(tables.params()), &shown, self.needs_light)?,
         };
-        let made = Made { counts, reshaded_share, kept: keeps.then(|| kept(&shown, &frame)) };
+        let budget = emulator.budget().cloned();
+        let kept = keeps.then(|| kept(&shown, &frame));
+        let made = Made { counts, reshaded_share, budget, kept };
         Ok(Side::emulated(file, frame, reference.pixel_aspect, made))
     }
 

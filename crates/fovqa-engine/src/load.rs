@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fovqa_emulate::Counts;
+use fovqa_emulate::{BudgetReport, Counts};
 use fovqa_frame::source::{InputId, MissingGuides, Source, SourceError};
 use fovqa_frame::{
     BadPixel, Channels, CropError, Frame, Guides, Mask, Motion, Plane, Samples, Transfer,
@@ -137,6 +137,8 @@ pub(crate) struct Made {
     pub(crate) counts: Counts,
     /// The share of its samples that is shaded, if it takes what it can from the other eye.
     pub(crate) reshaded_share: Option<f64>,
+    /// The budget, and how it was met.
+    pub(crate) budget: Option<BudgetReport>,
     /// The frame as it is to be kept, if it is.
     pub(crate) kept: Option<Frame>,
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use fovqa_frame::{Frame, Mask, SignalTables};
 use fovqa_metrics::{Image, Key, Layouts, Map, Metric, MetricKind, Needs, Rows, Subject};
+use fovqa_params::ParamValue;
 use fovqa_plan::{EyeView, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::BandEdges;
@@ -376,8 +377,24 @@ fn add_samples(made: &Made, (width, height): (usize, usize), rows: &mut Rows) {
         (Subject::SamplesShare, counts.share((width * height) as f64)),
     ];
     let reshaded = made.reshaded_share.map(|share| (Subject::ReshadedShare, share));
-    for (subject, value) in values.into_iter().chain(reshaded) {
-        rows.score(Key::pixels(subject).of_image(Image::Test), value);
+    let quads = counts.quads.map(|quads| (Subject::Quads, quads as f64));
+    let budget = made.budget.as_ref();
+    let asked = budget.map(|budget| (Subject::BudgetShare, budget.budget.share));
+    let ideal = budget.map(|budget| (Subject::BudgetIdealShare, budget.ideal_share));
+    let key = |subject| Key::pixels(subject).of_image(Image::Test);
+    for (subject, value) in
+        values.into_iter().chain(reshaded).chain(quads).chain(asked).chain(ideal)
+    {
+        rows.score(key(subject), value);
+    }
+    match budget.map(|budget| &budget.value) {
+        Some(ParamValue::Number(value)) => rows.score(key(Subject::BudgetValue), *value),
+        Some(ParamValue::List(values)) => {
+            for (index, value) in values.iter().enumerate() {
+                rows.score(key(Subject::BudgetValue).on_level(index + 1), *value);
+            }
+        }
+        _ => {}
     }
 }
 

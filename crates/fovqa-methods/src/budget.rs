@@ -1,6 +1,6 @@
 //! A method at a sample budget: its free parameter is solved for a given share of samples.
 
-use fovqa_params::words;
+use fovqa_params::{ParamValue, words};
 use thiserror::Error;
 
 use crate::error::MethodError;
@@ -27,8 +27,8 @@ pub struct Budgeted {
     pub method: Method,
     /// Name of the parameter that was solved.
     pub parameter: &'static str,
-    /// Its value as TOML.
-    pub value: String,
+    /// Its value.
+    pub value: ParamValue,
 }
 
 /// A budget that a method cannot meet.
@@ -143,11 +143,20 @@ impl Method {
         }
         let method = with(dense);
         let (parameter, value) = match &method {
-            Self::Deamp(params) => ("sigmas", format!("{:?}", params.sigmas)),
-            Self::Guenter(params) => ("scales", format!("{:?}", params.scales)),
-            _ => (free.name, dense.to_string()),
+            Self::Deamp(params) => ("sigmas", ParamValue::List(params.sigmas.clone())),
+            Self::Guenter(params) => ("scales", ParamValue::List(params.scales.clone())),
+            _ => (free.name, ParamValue::Number(dense)),
         };
         Ok(Budgeted { method, parameter, value })
+    }
+
+    /// The name of the parameter that a budget solves; `None` if it has none.
+    pub fn free_parameter(&self) -> Option<&'static str> {
+        match self {
+            Self::Deamp(_) => Some("sigmas"),
+            Self::Guenter(_) => Some("scales"),
+            _ => self.free().map(|free| free.name),
+        }
     }
 
     /// The parameters that change the range of budgets that the free parameter allows.

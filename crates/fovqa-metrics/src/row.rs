@@ -44,6 +44,15 @@ pub enum Subject {
     /// The share of an eye's own samples that it shades, because their pixels cannot be taken from the
     /// frame of the other eye.
     ReshadedShare,
+    /// The number of quads, blocks of 2x2 samples that a rasteriser shades together, of which at least
+    /// one sample is shaded.
+    Quads,
+    /// The budget that was asked for, as a share of the frame's pixels.
+    BudgetShare,
+    /// The share that the method shades at its budget, before the sizes of its buffers are rounded.
+    BudgetIdealShare,
+    /// The parameter that the budget solves; of a list, one value per level.
+    BudgetValue,
     /// A metric.
     Metric(Metric),
 }
@@ -91,8 +100,11 @@ const SAMPLES: Statistic = Statistic::of_test("").over_eyes(Pooling::Sum);
 /// The statistic of shares of samples.
 const SHARE: Statistic = Statistic::of_test("");
 
+/// The statistic of parameters. Each eye has its own.
+const PARAMETER: Statistic = Statistic::of_test("").over_eyes(Pooling::None);
+
 impl Subject {
-    const COUNTS: [Subject; 8] = [
+    const COUNTS: [Subject; 12] = [
         Subject::Pixels,
         Subject::PixelsOutsideBands,
         Subject::PixelsLeftOut,
@@ -101,6 +113,10 @@ impl Subject {
         Subject::SamplesBeyond,
         Subject::SamplesShare,
         Subject::ReshadedShare,
+        Subject::Quads,
+        Subject::BudgetShare,
+        Subject::BudgetIdealShare,
+        Subject::BudgetValue,
     ];
 
     /// Its name in results.
@@ -114,6 +130,10 @@ impl Subject {
             Subject::SamplesBeyond => "samples_beyond",
             Subject::SamplesShare => "samples_share",
             Subject::ReshadedShare => "reshaded_share",
+            Subject::Quads => "quads",
+            Subject::BudgetShare => "budget_share",
+            Subject::BudgetIdealShare => "budget_ideal_share",
+            Subject::BudgetValue => "budget_value",
             Subject::Metric(metric) => metric.key(),
         }
     }
@@ -129,8 +149,15 @@ impl Subject {
         match self {
             Subject::Metric(metric) => metric.info().statistics,
             Subject::Pixels | Subject::PixelsOutsideBands | Subject::PixelsLeftOut => &[PIXELS],
-            Subject::Samples | Subject::SamplesOnScreen | Subject::SamplesBeyond => &[SAMPLES],
-            Subject::SamplesShare | Subject::ReshadedShare => &[SHARE],
+            Subject::Samples
+            | Subject::SamplesOnScreen
+            | Subject::SamplesBeyond
+            | Subject::Quads => &[SAMPLES],
+            Subject::SamplesShare
+            | Subject::ReshadedShare
+            | Subject::BudgetShare
+            | Subject::BudgetIdealShare => &[SHARE],
+            Subject::BudgetValue => &[PARAMETER],
         }
     }
 
@@ -214,7 +241,11 @@ impl Key {
             Subject::SamplesBeyond => (5, true),
             Subject::SamplesShare => (6, true),
             Subject::ReshadedShare => (7, true),
-            Subject::Metric(metric) => (8 + metric as u64, false),
+            Subject::Quads => (8, true),
+            Subject::BudgetShare => (9, true),
+            Subject::BudgetIdealShare => (10, true),
+            Subject::BudgetValue => (11, true),
+            Subject::Metric(metric) => (12 + metric as u64, false),
         };
         let area = match (self.band, self.level) {
             (None, _) if counted => 1,

@@ -38,7 +38,7 @@ impl CurveSpec {
             let given = parameters.split(';').filter(|given| {
                 !given.is_empty() && given.split('=').next() != Some(found.parameter)
             });
-            let solved = format!("{}={}", found.parameter, found.value);
+            let solved = format!("{}={}", found.parameter, found.value.in_words());
             parameters = given.chain([solved.as_str()]).collect::<Vec<_>>().join(";");
         }
         method.apply(&over)?;

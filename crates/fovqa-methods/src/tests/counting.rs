@@ -332,16 +332,7 @@ fn budgets_keep_parameters_that_are_not_free() {
         }
         // The value, set by name, gives the same method.
         let found = method.at_budget(&setting, 0.2, BudgetSamples::OnScreen).unwrap();
-        let numbers: Vec<f64> = found
-            .value
-            .trim_matches(['[', ']'])
-            .split(", ")
-            .map(|number| number.parse().unwrap())
-            .collect();
-        let value = match numbers.as_slice() {
-            &[one] => number(one),
-            many => list(many),
-        };
+        let value = found.value;
         let mut set = method.clone();
         set.set(found.parameter, &value).unwrap();
         assert_eq!(set, found.method);

@@ -112,32 +112,8 @@ pub(super) fn budget_record(report: &BudgetReport) -> BudgetRecord {
         share: report.budget.share,
         of: report.budget.of.word(),
         parameter: report.parameter.to_owned(),
-        value: value(&report.value),
+        value: report.value.clone(),
         ideal_share: report.ideal_share,
         rounded_share: report.rounded_share,
-    }
-}
-
-/// A value from its TOML: a number, a list of numbers, or a word.
-fn value(toml: &str) -> ParamValue {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let inner = toml.strip_prefix('[').and_then(|list| list.strip_suffix(']'));
-    let list = inner.and_then(|list| list.split(',').map(number).collect::<Option<Vec<f64>>>());
-    match (number(toml), list) {
-        (Some(number), _) => ParamValue::Number(number),
-        (None, Some(list)) => ParamValue::List(list),
-        (None, None) => ParamValue::Text(toml.to_owned()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_of_budgets_are_numbers_or_lists() {
-        assert_eq!(value("2.5"), ParamValue::Number(2.5));
-        assert_eq!(value("[2.5, 3]"), ParamValue::List(vec![2.5, 3.0]));
-        assert_eq!(value("auto"), ParamValue::Text("auto".to_owned()));
     }
 }
