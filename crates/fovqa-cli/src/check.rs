@@ -193,8 +193,19 @@ fn scene(text: &mut String, experiment: &Experiment, view: &FoundView) {
             (there, all) if there < all => format!(" ({there} of {})", count(all, "frame")),
             _ => String::new(),
         };
-        let path = experiment.plan.shown_source(path);
-        lines.push((&experiment.plan.methods[*method], format!("{path}{missing}")));
+        let sweep = experiment.plan.sweeps.iter().find(|sweep| sweep.methods().contains(method));
+        match (sweep, path) {
+            // The points of a sweep share a line.
+            (Some(sweep), _) if sweep.first != *method => {}
+            (Some(sweep), SourceSpec::Emulated(emulation)) => {
+                let (key, swept) = (emulation.spec.key(), sweep.in_words());
+                lines.push((&sweep.method, format!("emulated: {key}, swept: {swept}{missing}")));
+            }
+            _ => {
+                let path = experiment.plan.shown_source(path);
+                lines.push((&experiment.plan.methods[*method], format!("{path}{missing}")));
+            }
+        }
     }
     if let Some(seen) = seen(eye, size) {
         lines.push(("view", seen));

@@ -105,6 +105,7 @@ pub fn emulation_keys(emulation: &Emulation) -> Value {
     if let Some(budget) = spec.budget() {
         keys["budget"] = json!(budget.share);
         keys["budget_of"] = json!(budget.of.word());
+        keys["budget_parameter"] = json!(spec.free_parameter());
     }
     if let Some(reproject) = emulation.reproject() {
         keys["reproject"] = json!({

@@ -21,6 +21,7 @@ mod reprojection;
 mod resolved;
 mod settings;
 mod source;
+mod sweep;
 
 pub use builtin::BuiltinFrames;
 pub use crops::CropRegion;
@@ -42,3 +43,4 @@ pub use reprojection::{Reproject, Reprojection};
 pub use resolved::{Resolved, ResolvedEye, ResolvedScene, other_parameter};
 pub use settings::{Gaze, Nonfinite, Settings};
 pub use source::SourceSpec;
+pub use sweep::{Sweep, SweptKey, shown as shown_value, swept_label};

@@ -12,6 +12,7 @@ use crate::crops::CropRegion;
 use crate::eye::Eye;
 use crate::settings::Settings;
 use crate::source::SourceSpec;
+use crate::sweep::Sweep;
 
 /// The choice of metrics.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -73,8 +74,12 @@ pub struct Plan {
     pub base: PathBuf,
     /// The scenes.
     pub scenes: Vec<Scene>,
-    /// Names of the methods; one empty name if there is only one method.
+    /// Names of the methods; one empty name if there is only one method. Each point of a sweep is a
+    /// method of its own.
     pub methods: Vec<String>,
+    /// The methods that are swept.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sweeps: Vec<Sweep>,
     /// The metrics.
     pub metrics: MetricChoice,
     /// Parameters of the metrics.
@@ -95,6 +100,13 @@ impl Plan {
     /// unchanged. Folders are separated by `/`, and bytes that are not UTF-8 are shown as `\\xff`.
     pub fn shown(&self, path: &Path) -> String {
         shown(&self.base, path)
+    }
+
+    /// The swept method of which a method is a point, and the parameters of the point; `None` if it is
+    /// not swept.
+    pub fn swept(&self, method: usize) -> Option<(&str, String)> {
+        let sweep = self.sweeps.iter().find(|sweep| sweep.methods().contains(&method))?;
+        Some((&sweep.method, sweep.parameters(method - sweep.first)))
     }
 
     /// A source as results show it.

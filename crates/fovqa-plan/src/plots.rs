@@ -25,6 +25,12 @@ words! {
         RatioProfile "ratio_profile" "Test / reference against eccentricity";
         /// Test / reference by eccentricity, as a table.
         Ratios "ratios" "Test / reference by eccentricity, as a table";
+        /// A metric over the parameters of a sweep.
+        Sweep "sweep" "A metric over the parameters of a sweep";
+        /// The best point of each sweep, as a table.
+        Optima "optima" "The best point of each sweep, as a table";
+        /// The budget of each method, and how it was met, as a table.
+        Budgets "budgets" "The budget of each method, and how it was met, as a table";
     }
 }
 

@@ -19,6 +19,7 @@ use crate::plan::{EyeView, MetricChoice, Plan};
 use crate::plots::Plot;
 use crate::settings::{Gaze, Settings};
 use crate::source::SourceSpec;
+use crate::sweep::Sweep;
 
 /// A resolved experiment. Paths are relative to the folder of its file if they are inside it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,6 +33,9 @@ pub struct Resolved {
     pub scenes: Vec<ResolvedScene>,
     /// The methods, in order.
     pub methods: Vec<String>,
+    /// The methods that are swept, with the points of each grid among the methods.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sweeps: Vec<Sweep>,
     /// Every metric by its key, with all its parameters.
     pub metrics: BTreeMap<String, BTreeMap<String, Value>>,
     /// The keys of the metrics in the order of the file, if it is not that of [`Metric::ALL`].
@@ -224,6 +228,7 @@ impl Experiment {
             about: self.about.clone(),
             scenes: scenes.collect(),
             methods: plan.methods.clone(),
+            sweeps: plan.sweeps.clone(),
             metrics: plan.metrics.metrics().iter().map(params).collect(),
             metric_order: if self.metric_order.is_sorted() {
                 Vec::new()

@@ -121,6 +121,7 @@ impl ScoreArgs {
             base: std::env::current_dir().unwrap_or_default(),
             scenes: vec![scene],
             methods: vec![String::new()],
+            sweeps: Vec::new(),
             metrics: self.metrics.choice(),
             params: self.metrics.params()?,
             frames: None,

@@ -287,6 +287,8 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
         (Kind::Method | Kind::Acuity, _) => check_model(kind, value, place, faults),
         (Kind::Emulation, _) => check_emulation(value, place, faults),
         (Kind::Metrics, _) => check_metrics(value, place, faults),
+        // Its keys are names of methods, which are resolved later.
+        (Kind::Sweep, DeValue::Table(_)) => {}
         (Kind::Either(kinds), _) => match kinds.iter().find(|kind| is_of(kind, value)) {
             Some(kind) => check_value(kind, value, place, faults),
             None => wrong_type(kind, value, place, faults),

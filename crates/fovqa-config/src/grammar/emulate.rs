@@ -8,6 +8,18 @@ use fovqa_plan::Eye;
 use super::keys::key;
 use super::{Key, Kind};
 
+/// The key of a budget.
+pub(crate) const BUDGET: &str = "budget";
+
+/// The word of a method that does not take the budget of the experiment.
+const NO_BUDGET: &str = "none";
+
+/// A share of the frame's pixels.
+pub(super) const SHARE: Kind = Kind::Above(0.0, 1e4);
+
+/// The budget of a method.
+const OWN_BUDGET: [Kind; 2] = [SHARE, Kind::Word(&[NO_BUDGET])];
+
 /// The keys that both eyes may have, beside the parameters of the model.
 static AROUND: [Key; 8] = [
     key(
@@ -25,9 +37,9 @@ static AROUND: [Key; 8] = [
     key("temporal", Kind::Bool, "whether the temporal filter follows the method"),
     key("enhance", Kind::Number(0.0, 100.0), "strength f_max of contrast enhancement"),
     key(
-        "budget",
-        Kind::Above(0.0, 1e4),
-        "samples as a share of the frame's pixels; sets the method's free parameter",
+        BUDGET,
+        Kind::Either(&OWN_BUDGET),
+        "samples as a share of the frame's pixels; sets the method's free parameter; \"none\": not that of the experiment",
     ),
     key(
         "budget_of",

@@ -3,9 +3,11 @@
 use fovqa_frame::{SignalChannels, ToneMap, Transfer};
 use fovqa_gallery::BuiltinSpec;
 use fovqa_io::{AlphaPolicy, CodeRange, ColourMatrix, GuidePreset, MotionUnit};
+use fovqa_methods::BudgetSamples;
 use fovqa_params::words_of;
 use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
 
+use super::emulate::{BUDGET, SHARE};
 use super::figures::FIGURES;
 use super::keys::{joined, key, required};
 use super::tables::{METRICS, TABLE_KEYS};
@@ -358,7 +360,7 @@ const PLOT: &[Key] = &[
     required(
         "kind",
         Kind::Words(words_of::<PlotKind>),
-        "table: methods against metrics in each scene; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames; sequence: frame by frame, saccades marked; ratio_profile: test / reference against eccentricity; crops: regions of the reference and all methods side by side; ratios: table of test / reference by eccentricity",
+        "table: methods against metrics in each scene; profile: a metric against eccentricity; bars: a metric per scene and method; frames: its spread over frames; sequence: frame by frame, saccades marked; ratio_profile: test / reference against eccentricity; crops: regions of the reference and all methods side by side; ratios: table of test / reference by eccentricity; sweep: a metric over the parameters of a sweep; optima: table of the best points of sweeps; budgets: table of budgets and how they were met",
     ),
     key("metric", Kind::Metric, "the metric; default: one figure per metric"),
     METRICS,
@@ -442,7 +444,17 @@ static GATE_TABLE: [Key; 14] = [
     ),
 ];
 
-static EXPERIMENT_TABLE: [Key; 12] = [
+/// A range of values in a sweep.
+pub(crate) const SWEEP_RANGE: &[Key] = &[
+    required("from", FINITE, "the first value"),
+    required("to", FINITE, "the last value"),
+    required("steps", Kind::Whole(2, 100_000), "number of values, both ends included"),
+    key("scale", Kind::Word(&["linear", "log"]), "equal differences (the default) or equal ratios"),
+];
+
+const FINITE: Kind = Kind::Number(-1e12, 1e12);
+
+static EXPERIMENT_TABLE: [Key; 15] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
     required("name", Kind::Name, "name of the experiment, and of its folder below reports/"),
     key("about", Kind::Text, "description of what it shows, for its page"),
@@ -454,6 +466,17 @@ static EXPERIMENT_TABLE: [Key; 12] = [
         "metrics",
         Kind::Metrics,
         "the metrics with their parameters; default: the default metrics",
+    ),
+    key(
+        BUDGET,
+        SHARE,
+        "samples of each emulated method that has a parameter to set, as a share of the frame's pixels",
+    ),
+    key("budget_of", Kind::Words(words_of::<BudgetSamples>), "which samples budget counts"),
+    key(
+        "sweep",
+        Kind::Sweep,
+        "values of keys of emulated methods, each point of the grid a run: \"RMFR.fx\" = [0.1, 0.2], or { from, to, steps, scale }; budget = […] is for all methods",
     ),
     key("output", Kind::Table(&OUTPUT), "how the results are written"),
     key(

@@ -12,8 +12,8 @@ mod tables;
 
 pub(crate) use check::{check, number};
 pub(crate) use curves::{CURVES, MOST_CURVES};
-pub(crate) use emulate::{OTHER_EYE, REPROJECT};
-pub(crate) use experiment::EXPERIMENT;
+pub(crate) use emulate::{BUDGET, OTHER_EYE, REPROJECT};
+pub(crate) use experiment::{EXPERIMENT, SWEEP_RANGE};
 pub use schema::{curves_schema, schema};
 
 use fovqa_methods::Method;
@@ -77,6 +77,8 @@ pub(crate) enum Kind {
     Tables(&'static [Key], usize),
     /// A table whose keys are metrics and whose values are tables of parameters.
     Metrics,
+    /// A table whose keys are those of emulated methods and whose values are lists or ranges.
+    Sweep,
     /// One of several kinds with different types.
     Either(&'static [Kind]),
 }
@@ -124,6 +126,7 @@ impl Kind {
             }
             Kind::Tables(_, most) => format!("an array of at most {most} tables"),
             Kind::Metrics => "a table of metrics".to_owned(),
+            Kind::Sweep => "a table such as { \"RMFR.fx\" = [0.1, 0.2] }".to_owned(),
             Kind::Either(kinds) => {
                 kinds.iter().map(Kind::in_words).collect::<Vec<_>>().join("; or ")
             }

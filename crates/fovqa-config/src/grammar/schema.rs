@@ -8,7 +8,7 @@ use fovqa_vision::displays;
 use serde_json::{Map, Value, json};
 
 use super::emulate;
-use super::{CURVES, EXPERIMENT, Key, Kind, LONGEST_TEXT, Model, parameter};
+use super::{CURVES, EXPERIMENT, Key, Kind, LONGEST_TEXT, Model, SWEEP_RANGE, parameter};
 
 /// Whole numbers from 1 on, as regular expressions.
 const TO_100000: &str = "([1-9][0-9]{0,4}|100000)";
@@ -124,6 +124,11 @@ fn kind(kind: &Kind) -> Value {
                 schema["properties"][metric.key()] = params;
             }
             schema
+        }
+        Kind::Sweep => {
+            let list = json!({ "type": "array", "minItems": 1 });
+            let values = json!([list, table(SWEEP_RANGE), { "type": "object" }]);
+            json!({ "type": "object", "minProperties": 1, "additionalProperties": { "anyOf": values } })
         }
         Kind::Either(kinds) => json!({ "anyOf": kinds.iter().map(self::kind).collect::<Vec<_>>() }),
     }

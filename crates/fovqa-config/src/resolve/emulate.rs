@@ -1,14 +1,17 @@
 //! `emulate = { … }` of a method: what is emulated from the reference, for each eye.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use fovqa_emulate::{Budget, EmulateError, EmulationSpec};
-use fovqa_plan::{Emulation, Eye, EyeView, Reprojection, Scene};
+use fovqa_params::{ParamValue, Words, words_of};
+use fovqa_plan::{Emulation, Eye, EyeView, Reprojection, Scene, shown_value};
 
 use super::metrics::param_value;
 use super::reproject::{Geometry, Reproject};
+use super::sweep::no_word;
 use crate::fault::{Fault, Faults};
-use crate::grammar::{OTHER_EYE, REPROJECT};
+use crate::grammar::{BUDGET, OTHER_EYE, REPROJECT};
 use crate::node::Node;
 
 /// The parameter of VaFR that assumes what reprojection measures.
@@ -22,6 +25,10 @@ pub(super) struct Emulated {
     other: Option<EmulationSpec>,
     keep_frames: bool,
     dominant_eye: Eye,
+    /// The keys that differ for the other eye.
+    other_keys: BTreeSet<String>,
+    /// Whether it has a budget of its own, or takes none.
+    own_budget: bool,
     /// Whether the other eye takes what it can from the dominant one.
     reproject: Option<Reproject>,
     /// The position of the table.
@@ -32,13 +39,19 @@ pub(super) struct Emulated {
 
 impl Emulated {
     /// Reads the table; `None` if the grammar has refused its model.
-    pub(super) fn new(method: Node<'_>, faults: &mut Faults) -> Option<Self> {
+    ///
+    /// `common` is the budget of the experiment.
+    pub(super) fn new(
+        method: Node<'_>,
+        common: Option<Budget>,
+        faults: &mut Faults,
+    ) -> Option<Self> {
         let node = method.table("emulate")?;
         let (span, place) = (method.span("emulate"), method.text("name").unwrap_or_default());
         let keep_frames = node.flag("keep_frames").unwrap_or(false);
-        let spec = spec(&[node], faults)?;
+        let mut spec = spec(&[node], faults)?;
         let other = node.table(OTHER_EYE);
-        let other_spec = other.and_then(|other| self::spec(&[node, other], faults));
+        let mut other_spec = other.and_then(|other| self::spec(&[node, other], faults));
         let reproject = Reproject::new(node);
         if node.has("dominant") && other.is_none() && reproject.is_none() {
             let message = format!(
@@ -63,8 +76,32 @@ impl Emulated {
                 faults.push(Fault::new(table.span("budget_of"), message));
             }
         }
+        let own_budget = [Some(node), other].into_iter().flatten().any(|table| table.has(BUDGET));
+        for spec in [Some(&mut spec), other_spec.as_mut()].into_iter().flatten() {
+            if let Some(budget) = common.filter(|_| !own_budget && spec.free_parameter().is_some())
+            {
+                // The grammar has checked the share.
+                let _ = spec.set_budget(budget);
+            }
+            if let Err(error) = spec.check_budget() {
+                let help = if own_budget {
+                    "leave one of them out"
+                } else {
+                    "the budget is that of the experiment: leave the parameter out, or add budget = \"none\""
+                };
+                let message = format!("method \"{place}\": {error}");
+                faults.push(Fault::new(span.clone(), message).help(help));
+                break;
+            }
+        }
         Some(Self {
             dominant: spec,
+            other_keys: other
+                .iter()
+                .flat_map(|other| other.entries())
+                .map(|e| e.0.to_owned())
+                .collect(),
+            own_budget,
             other: other_spec,
             keep_frames,
             dominant_eye: node.word("dominant").unwrap_or(Eye::Right),
@@ -72,6 +109,41 @@ impl Emulated {
             span,
             other_span: other.map(|_| node.span(OTHER_EYE)),
         })
+    }
+
+    /// Whether it can take a budget of the whole experiment.
+    pub(super) fn takes_common_budget(&self) -> bool {
+        !self.own_budget && self.dominant.free_parameter().is_some()
+    }
+
+    /// The keys that can be swept.
+    pub(super) fn sweepable(&self) -> Vec<String> {
+        let parameters = self.dominant.settable().into_iter().map(|(name, _)| name);
+        let around = AROUND_SWEPT.into_iter().map(str::to_owned);
+        parameters.chain(around).collect()
+    }
+
+    /// The method at a point of a sweep. A key that differs for the other eye stays for that one.
+    pub(super) fn at(&self, point: &[(&str, &ParamValue)]) -> Result<Self, String> {
+        let mut at = Self {
+            dominant: self.dominant.clone(),
+            other: self.other.clone(),
+            other_keys: BTreeSet::new(),
+            reproject: self.reproject.clone(),
+            span: self.span.clone(),
+            other_span: self.other_span.clone(),
+            ..*self
+        };
+        for (key, value) in point {
+            set(&mut at.dominant, key, value)?;
+            if let Some(other) = at.other.as_mut().filter(|_| !self.other_keys.contains(*key)) {
+                set(other, key, value)?;
+            }
+        }
+        for spec in [Some(&at.dominant), at.other.as_ref()].into_iter().flatten() {
+            spec.check_budget().map_err(|error| error.to_string())?;
+        }
+        Ok(at)
     }
 
     /// What the eyes of a scene see, in their order, and what is wrong with that.
@@ -101,6 +173,42 @@ impl Emulated {
         };
         scene.eyes.iter().map(of_eye).collect()
     }
+}
+
+/// The keys beside parameters that can be swept.
+const AROUND_SWEPT: [&str; 8] =
+    ["sampling", "jitter", "filter", "space", "temporal", "enhance", BUDGET, "budget_of"];
+
+/// Sets a key of a spec.
+fn set(spec: &mut EmulationSpec, key: &str, value: &ParamValue) -> Result<(), String> {
+    fn word<T: Words>(key: &str, value: &ParamValue) -> Result<T, String> {
+        let text = shown_value(value);
+        T::find(&text).ok_or_else(|| no_word(key, &text, &words_of::<T>()))
+    }
+    let number = || value.number().ok_or_else(|| format!("{key} must be a number"));
+    let said = |done: Result<(), EmulateError>| done.map_err(|error| error.to_string());
+    match key {
+        "sampling" => spec.set_sampling(word(key, value)?),
+        "jitter" => spec.set_jitter(word(key, value)?),
+        "space" => spec.set_space(word(key, value)?),
+        "filter" => said(spec.set_filters(word(key, value)?))?,
+        "temporal" => {
+            let on = value.flag().ok_or_else(|| format!("{key} must be true or false"))?;
+            spec.set_temporal(on);
+        }
+        "enhance" => said(spec.set_enhance(number()?))?,
+        BUDGET => {
+            let of = spec.budget().map(|budget| budget.of).unwrap_or_default();
+            said(spec.set_budget(Budget { share: number()?, of }))?;
+        }
+        "budget_of" => {
+            let of = word(key, value)?;
+            let share = spec.budget().ok_or("budget_of needs a budget")?.share;
+            said(spec.set_budget(Budget { share, of }))?;
+        }
+        parameter => said(spec.set(parameter, value))?,
+    }
+    Ok(())
 }
 
 /// The spec of some tables, of which later ones override earlier ones.

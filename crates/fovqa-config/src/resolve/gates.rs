@@ -23,7 +23,16 @@ pub(super) fn gates(
     faults: &mut Faults,
 ) -> Vec<GateRule> {
     let tables = root.tables("gate").into_iter();
-    tables.filter_map(|(table, span)| rule(table, span, text, known, faults)).collect()
+    let rules = tables.filter_map(|(table, span)| rule(table, span, text, known, faults));
+    // A rule for a method that is swept is one for each of its points.
+    let of_points = |rule: GateRule| match &rule.method {
+        None => vec![rule],
+        Some(method) => {
+            let points = known.methods.called(method).iter();
+            points.map(|point| GateRule { method: Some(point.clone()), ..rule.clone() }).collect()
+        }
+    };
+    rules.collect::<Vec<_>>().into_iter().flat_map(of_points).collect()
 }
 
 fn rule(
@@ -37,7 +46,7 @@ fn rule(
     let metric = metric(table, known, faults)?;
     let quantity = quantity(table, metric, known, faults);
     let scenes = known.scenes.iter().map(|scene| scene.scene.name.as_str()).collect::<Vec<_>>();
-    let methods = known.methods.iter().map(String::as_str).collect::<Vec<_>>();
+    let methods = known.methods.referable();
     let scene = one_of(table, "scene", &scenes, faults);
     let method = one_of(table, "method", &methods, faults);
     let eye = table.text("eye").map(str::to_owned);

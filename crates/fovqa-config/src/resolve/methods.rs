@@ -1,30 +1,77 @@
 //! `[[method]]`: the tests of each scene.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::Path;
+
+use fovqa_emulate::Budget;
+use fovqa_params::ParamValue;
 
 use super::emulate::Emulated;
 use super::placeholders::Placeholders;
 use super::placeholders::path;
 use super::scenes::{SceneEntry, TWO_EYES, unique};
+use super::sweep::{Entry, Sweeps};
 use super::view::VIEW_HELP;
 use crate::fault::{Fault, Faults};
-use crate::grammar::first_quoted;
+use crate::grammar::{BUDGET, first_quoted};
 use crate::nearest::nearest;
 use crate::node::Node;
-use fovqa_plan::{Eye, EyeView};
+use fovqa_plan::{Eye, EyeView, Sweep};
 
 /// Maximum number of comparisons, far more than fit in a table. Memory is needed for the path and
 /// the mistakes of each.
 const MOST_COMPARISONS: usize = 100_000;
 
-/// The names of the methods. Their tests are added to the scenes.
+/// The methods of a file.
+pub(super) struct Methods {
+    /// Their names; each point of a sweep has its own.
+    pub(super) names: Vec<String>,
+    pub(super) sweeps: Vec<Sweep>,
+}
+
+impl Methods {
+    /// The methods that a name of the file stands for: one, or all points of a sweep.
+    pub(super) fn called(&self, name: &str) -> &[String] {
+        let swept = self.sweeps.iter().find(|sweep| sweep.method == name);
+        let range = match swept {
+            Some(sweep) => sweep.methods(),
+            None => match self.names.iter().position(|known| known == name) {
+                Some(index) => index..index + 1,
+                None => 0..0,
+            },
+        };
+        &self.names[range]
+    }
+
+    /// The names that plots and rules may refer to.
+    pub(super) fn referable(&self) -> Vec<&str> {
+        let mut names = Vec::new();
+        let mut index = 0;
+        while index < self.names.len() {
+            match self.sweeps.iter().find(|sweep| sweep.first == index) {
+                Some(sweep) => {
+                    names.push(sweep.method.as_str());
+                    index = sweep.methods().end.max(index + 1);
+                }
+                None => {
+                    names.push(self.names[index].as_str());
+                    index += 1;
+                }
+            }
+        }
+        names
+    }
+}
+
+/// Reads the methods. Their tests are added to the scenes.
 pub(super) fn methods(
     root: Node<'_>,
     base: &Path,
     scenes: &mut [SceneEntry],
     faults: &mut Faults,
-) -> Vec<String> {
+) -> Methods {
+    let none = || Methods { names: Vec::new(), sweeps: Vec::new() };
     let tables = root.tables("method");
     if tables.is_empty() {
         faults.push(Fault::new(root.span("method"), "the experiment has no method"));
@@ -38,11 +85,34 @@ pub(super) fn methods(
         faults.push(
             Fault::new(root.span("method"), message).help("divide it into several experiments"),
         );
-        return Vec::new();
+        return none();
     }
-    for (index, (table, span)) in tables.iter().enumerate() {
+    let common = common_budget(root, faults);
+    let all_emulated = tables.iter().map(|(table, _)| Emulated::new(*table, common, faults));
+    let all_emulated: Vec<Option<Emulated>> = all_emulated.collect();
+    let takes = |emulated: &Emulated| emulated.takes_common_budget();
+    if common.is_some() && !all_emulated.iter().flatten().any(takes) && faults.is_empty() {
+        let message = "no method has a parameter that the budget of the experiment could set";
+        let help = "emulate a method such as rmfr, or leave the budget out";
+        faults.push(Fault::new(root.span(BUDGET), message).help(help));
+    }
+    let own_names: Vec<&str> =
+        tables.iter().map(|(table, _)| table.text("name").unwrap_or_default()).collect();
+    let swept = Sweeps::new(root, &own_names, &all_emulated, faults);
+    let runs = (0..tables.len()).map(|method| swept.points(method));
+    let runs = runs.fold(0, usize::saturating_add).saturating_mul(scenes.len());
+    if runs > MOST_COMPARISONS {
+        let message = format!(
+            "the sweep has {runs} runs, counting all methods and scenes: at most {MOST_COMPARISONS} are allowed"
+        );
+        let help = "sweep fewer keys or fewer values, or divide it into several experiments";
+        faults.push(Fault::new(swept.span, message).help(help));
+        return none();
+    }
+    let mut methods = none();
+    for (table_index, ((table, span), emulated)) in tables.iter().zip(&all_emulated).enumerate() {
+        let index = methods.names.len();
         let wanted = table.names("scenes");
-        let emulated = Emulated::new(*table, faults);
         if let Some(fault) = one_of_test_and_emulate(*table, span.clone()) {
             faults.push(fault);
             continue;
@@ -62,15 +132,33 @@ pub(super) fn methods(
         for scene in scenes.iter_mut() {
             let name = &scene.scene.name;
             if wanted.as_ref().is_none_or(|wanted| wanted.iter().any(|(scene, _)| scene == name)) {
-                match &emulated {
+                match emulated {
+                    // The points of a sweep are added below.
+                    Some(_) if !swept.of(table_index).is_empty() => {}
                     Some(emulated) => emulations(*table, index, emulated, scene, faults),
                     None if table.has("emulate") => {}
                     None => tests(*table, index, base, scene, faults),
                 }
             }
         }
+        let name = table.text("name").unwrap_or_default();
+        match (emulated, swept.of(table_index)) {
+            (None, _) | (_, []) => methods.names.push(name.to_owned()),
+            (Some(emulated), entries) => {
+                let keys = entries.iter().map(Entry::swept).collect();
+                let sweep = Sweep { method: name.to_owned(), keys, first: index };
+                let is_in = |scene: &&mut SceneEntry| {
+                    let name = &scene.scene.name;
+                    wanted.as_ref().is_none_or(|w| w.iter().any(|(scene, _)| scene == name))
+                };
+                let scenes: Vec<&mut SceneEntry> = scenes.iter_mut().filter(is_in).collect();
+                points(*table, (&sweep, &swept.span), emulated, scenes, faults);
+                methods.names.extend((0..sweep.methods().len()).map(|point| sweep.label(point)));
+                methods.sweeps.push(sweep);
+            }
+        }
         let of_method = |eye: &EyeView| eye.eye.is_some() && eye.tests.iter().any(|t| t.0 == index);
-        if let Some(span) = emulated.and_then(|emulated| emulated.other_span)
+        if let Some(span) = emulated.as_ref().and_then(|emulated| emulated.other_span.clone())
             && !scenes.iter().flat_map(|scene| &scene.scene.eyes).any(of_method)
         {
             let message = "no scene of this method has two eyes, so that other_eye says nothing";
@@ -84,7 +172,50 @@ pub(super) fn methods(
             faults.push(fault.help("name it in the scenes of a method, or remove it"));
         }
     }
-    tables.iter().map(|(table, _)| table.text("name").unwrap_or_default().to_owned()).collect()
+    if !methods.sweeps.is_empty() {
+        let mut seen = BTreeSet::new();
+        if let Some(twice) = methods.names.iter().find(|name| !seen.insert(name.to_lowercase())) {
+            let message = format!("a method has the name of a point of the sweep, \"{twice}\"");
+            faults.push(Fault::new(swept.span.clone(), message).help("give it another name"));
+        }
+    }
+    methods
+}
+
+/// The budget of the experiment.
+fn common_budget(root: Node<'_>, faults: &mut Faults) -> Option<Budget> {
+    let share = root.number(BUDGET);
+    if share.is_none() && root.has("budget_of") {
+        let message = "budget_of needs a budget, but none is given";
+        faults.push(Fault::new(root.span("budget_of"), message));
+    }
+    Some(Budget { share: share?, of: root.word("budget_of").unwrap_or_default() })
+}
+
+/// Adds a method's points of a sweep to its scenes.
+fn points(
+    table: Node<'_>,
+    (sweep, span): (&Sweep, &Range<usize>),
+    emulated: &Emulated,
+    mut scenes: Vec<&mut SceneEntry>,
+    faults: &mut Faults,
+) {
+    for (point, index) in sweep.methods().enumerate() {
+        let values: Vec<(&str, &ParamValue)> = sweep.at(point).collect();
+        let before = faults.count();
+        match emulated.at(&values) {
+            Ok(emulated) => {
+                for scene in &mut scenes {
+                    emulations(table, index, &emulated, scene, faults);
+                }
+            }
+            Err(error) => faults.push(Fault::new(span.clone(), error)),
+        }
+        // What is wrong with one point is wrong with most of them.
+        if faults.count() > before {
+            return;
+        }
+    }
 }
 
 /// Reports a method that has both tests and an emulation, or neither.

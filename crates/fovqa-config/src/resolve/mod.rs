@@ -16,6 +16,7 @@ mod regions;
 mod reproject;
 mod scenes;
 mod settings;
+mod sweep;
 mod tables;
 mod view;
 
@@ -60,7 +61,8 @@ pub(crate) fn experiment(
         plan: Plan {
             base,
             scenes: scenes.into_iter().map(|scene| scene.scene).collect(),
-            methods,
+            methods: methods.names,
+            sweeps: methods.sweeps,
             metrics: choice,
             params,
             frames: None,

@@ -6,6 +6,7 @@ use fovqa_metrics::{Metric, MetricKind, Params};
 use fovqa_params::Words;
 
 use super::figures::figure;
+use super::methods::Methods;
 use super::regions;
 use super::scenes::SceneEntry;
 use super::tables::with_table_keys;
@@ -19,7 +20,7 @@ use fovqa_plan::{FigureSettings, MetricChoice, Plot, PlotKind};
 /// The names that plots may refer to.
 pub(super) struct Known<'a> {
     pub(super) scenes: &'a [SceneEntry],
-    pub(super) methods: &'a [String],
+    pub(super) methods: &'a Methods,
     pub(super) metrics: &'a MetricChoice,
     pub(super) params: &'a Params,
 }
@@ -42,12 +43,14 @@ pub(super) fn plots(
             || metrics.iter().flatten().any(|metric| metric == Metric::Haar.key());
         wavelet(table, of_haar, kind, known, faults);
         let scenes: Vec<&str> = known.scenes.iter().map(|s| s.scene.name.as_str()).collect();
-        let methods: Vec<&str> = known.methods.iter().map(String::as_str).collect();
+        let methods = known.methods.referable();
         let plot = Plot {
             metric: metric.map(str::to_owned),
             metrics,
             scenes: subset(table, "scenes", &scenes, faults),
-            methods: subset(table, "methods", &methods, faults),
+            methods: subset(table, "methods", &methods, faults).map(|names| {
+                names.iter().flat_map(|name| known.methods.called(name)).cloned().collect()
+            }),
             levels: levels(table),
             statistic: table.text("statistic").map(str::to_owned),
             regions: regions::of_plot(table, &scenes, faults),
@@ -97,14 +100,23 @@ fn shows_something(table: Node<'_>, plot: &Plot, known: &Known<'_>, faults: &mut
     };
     let scenes = known.scenes.iter().filter(|scene| wanted(&plot.scenes, &scene.scene.name));
     let eyes: Vec<_> = scenes.flat_map(|scene| &scene.scene.eyes).collect();
-    let scored = |(method, _): &(usize, _)| wanted(&plot.methods, &known.methods[*method]);
+    let scored = |(method, _): &(usize, _)| wanted(&plot.methods, &known.methods.names[*method]);
     let (message, help) = if !eyes.iter().any(|eye| eye.tests.iter().any(scored)) {
         ("the plot has nothing to show: none of its methods is in any of its scenes", "")
     } else if matches!(plot.kind, PlotKind::Profile | PlotKind::Ratios | PlotKind::RatioProfile)
         && eyes.iter().all(|e| e.settings.view.is_none())
     {
         ("the plot shows values by eccentricity, but none of its scenes has a view", VIEW_HELP)
-    } else if plot.kind != PlotKind::Crops
+    } else if matches!(plot.kind, PlotKind::Sweep | PlotKind::Optima)
+        && !known.methods.sweeps.iter().any(|sweep| {
+            known.methods.names[sweep.methods()].iter().any(|name| wanted(&plot.methods, name))
+        })
+    {
+        (
+            "the plot shows a sweep, but none of its methods is swept",
+            "add [sweep], such as \"RMFR.fx\" = [0.1, 0.2]",
+        )
+    } else if !matches!(plot.kind, PlotKind::Crops | PlotKind::Budgets)
         && plot.named().is_none()
         && !known.metrics.metrics().iter().any(|m| fits(*m, plot.kind))
     {
@@ -167,6 +179,7 @@ fn scored(
                 "already compares test with reference, and so has no ratio"
             }
             (PlotKind::Crops, _) => "cannot be shown as pictures",
+            (PlotKind::Budgets, _) => "is no budget",
             _ => "describes each image by eccentricity: draw it as profile or ratios",
         };
         let others = scored.iter().filter(|metric| fits(**metric, kind));
@@ -181,9 +194,13 @@ fn fits(metric: Metric, kind: PlotKind) -> bool {
         PlotKind::Profile => metric.info().per_band,
         PlotKind::Ratios | PlotKind::RatioProfile => !metric.is(MetricKind::Fidelity),
         PlotKind::Crops => false,
-        PlotKind::Table | PlotKind::Bars | PlotKind::Frames | PlotKind::Sequence => {
-            !metric.is(MetricKind::Profile)
-        }
+        PlotKind::Budgets => false,
+        PlotKind::Table
+        | PlotKind::Bars
+        | PlotKind::Frames
+        | PlotKind::Sequence
+        | PlotKind::Sweep
+        | PlotKind::Optima => !metric.is(MetricKind::Profile),
     }
 }
 

@@ -22,6 +22,7 @@ const IPD_MM: f64 = 63.0;
 const WITHOUT_DEPTH: [&str; 4] = ["png", "jpg", "jpeg", "y4m"];
 
 /// The table of the file.
+#[derive(Clone)]
 pub(super) struct Reproject {
     ipd_mm: Option<f64>,
     depth_m: Option<f64>,
