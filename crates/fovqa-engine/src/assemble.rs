@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use fovqa_metrics::Metric;
 use fovqa_plan::{Eye, Plan};
-use fovqa_results::{Comparison, Failure, RunResults, ScoreReport, both_eyes};
+use fovqa_results::{Comparison, Failure, RunResults, ScoreReport, Swept, both_eyes};
 
 use crate::events::Events;
 use crate::findings::{ComparisonIndex, Findings, Outcome, Settled, ViewFindings, ViewIndex};
@@ -94,9 +94,12 @@ fn in_order(
     let mut comparisons = Vec::new();
     for (scene_index, scene) in plan.scenes.iter().enumerate() {
         for (method_index, method) in plan.methods.iter().enumerate() {
+            let swept = plan
+                .swept(method_index)
+                .map(|(method, parameters)| Swept { method: method.to_owned(), parameters });
             let mut push = |eye, report| {
                 let (scene, method) = (scene.name.clone(), method.clone());
-                comparisons.push(Comparison { scene, method, eye, report });
+                comparisons.push(Comparison { scene, method, swept: swept.clone(), eye, report });
             };
             let mut eyes = Vec::new();
             for (index, view) in scene.eyes.iter().enumerate() {

@@ -51,9 +51,9 @@ pub use output::{
 };
 pub use report::{
     AtdGuides, Comparison, Failure, FrameResult, FvvdpViewing, GuideSource, RunResults,
-    ScoreReport, ViewResult,
+    ScoreReport, Swept, ViewResult,
 };
-pub use samples::SampleSummary;
+pub use samples::{BudgetSummary, SampleSummary};
 pub use spread::Spread;
 pub use summary::{AtdSummary, BandSummary, SideStatistics, Statistics, Summary};
 #[cfg(feature = "parquet")]

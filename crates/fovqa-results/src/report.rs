@@ -130,12 +130,34 @@ impl ScoreReport {
 pub struct Comparison {
     /// The scene.
     pub scene: String,
-    /// The method.
+    /// The method; of a swept one, its name with the parameters of the point.
     pub method: String,
+    /// The point of a sweep.
+    pub swept: Option<Swept>,
     /// `left`, `right` or `both`; empty if the scene has one image per frame.
     pub eye: &'static str,
     /// The results.
     pub report: ScoreReport,
+}
+
+/// A point of a sweep.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Swept {
+    /// The method that is swept.
+    pub method: String,
+    /// The swept parameters with their values: `fx=0.1;fy=0.2`.
+    pub parameters: String,
+}
+
+impl Comparison {
+    /// The method as the experiment names it, and the parameters of a point of a sweep, as results
+    /// write them.
+    pub(crate) fn written(&self) -> (&str, &str) {
+        match &self.swept {
+            None => (&self.method, ""),
+            Some(Swept { method, parameters }) => (method, parameters),
+        }
+    }
 }
 
 /// All results of a run.

@@ -42,7 +42,7 @@ impl RunValues {
             .map(|error| {
                 let frame = error.frame.map(|frame| format!("frame {frame}"));
                 let eye = Some(error.eye.clone()).filter(|eye| !eye.is_empty());
-                let place = [Some(error.scene.clone()), Some(error.method.clone()), eye, frame];
+                let place = [Some(error.scene.clone()), Some(error.label()), eye, frame];
                 let place: Vec<String> = place.into_iter().flatten().collect();
                 format!("{}: {}", place.join(", "), error.message)
             })
@@ -52,7 +52,7 @@ impl RunValues {
 
     fn read_csv(&mut self, folder: &Path, names: CsvNames) -> Result<(), FileError> {
         read_results(folder, names, Which::All, |row| {
-            let place = (row.scene.to_owned(), row.method.to_owned(), row.eye.to_owned());
+            let place = (row.scene.to_owned(), row.label(), row.eye.to_owned());
             let values = self.places.entry(place).or_default();
             if row.metric != ERROR {
                 let (metric, statistic) = (row.metric.to_owned(), row.statistic.to_owned());
@@ -67,12 +67,12 @@ impl RunValues {
 }
 
 fn place(comparison: &ComparisonSummary) -> ComparisonName {
-    (comparison.scene.clone(), comparison.method.clone(), comparison.eye.clone())
+    (comparison.scene.clone(), comparison.label(), comparison.eye.clone())
 }
 
 /// Checks that the rows of a comparison agree with its summary.
 fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String> {
-    let ComparisonSummary { scene, method, .. } = comparison;
+    let (scene, method) = (&comparison.scene, comparison.label());
     let lacks = |what: &str| format!("its {what} of {scene}, {method} differ from {SUMMARY_JSON}");
     let rows = values.rows.values().flatten();
     let frames: BTreeSet<i64> = rows.filter_map(|row| row.frame).collect();

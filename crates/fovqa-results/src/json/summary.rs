@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use fovqa_metrics::Metric;
+use fovqa_plan::swept_label;
 use fovqa_vision::EccentricityKind;
 use serde::de::{Deserialize, Deserializer, Error};
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -91,6 +92,9 @@ pub struct ErrorRecord {
     pub scene: String,
     /// The method.
     pub method: String,
+    /// Values of swept parameters; empty if the method is not swept.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub parameters: String,
     /// The eye; empty if the scene has one image per frame.
     pub eye: String,
     /// Frame number; `None` if the whole comparison could not be scored.
@@ -102,9 +106,11 @@ pub struct ErrorRecord {
 impl ErrorRecord {
     /// The errors of a comparison.
     pub(super) fn all(comparison: &Comparison) -> impl Iterator<Item = Self> {
-        comparison.report.failures.iter().map(|failure| Self {
+        let (method, parameters) = comparison.written();
+        comparison.report.failures.iter().map(move |failure| Self {
             scene: comparison.scene.clone(),
-            method: comparison.method.clone(),
+            method: method.to_owned(),
+            parameters: parameters.to_owned(),
             eye: comparison.eye.to_owned(),
             frame: failure.frame,
             message: failure.message.clone(),
@@ -118,10 +124,11 @@ impl ComparisonSummary {
         let summary = Summary::of(report);
         // Each eye has its own view, but both together have none.
         let view = report.view.as_ref().filter(|_| comparison.eye != "both");
+        let (method, parameters) = comparison.written();
         Self {
             scene: comparison.scene.clone(),
-            method: comparison.method.clone(),
-            parameters: String::new(),
+            method: method.to_owned(),
+            parameters: parameters.to_owned(),
             eye: comparison.eye.to_owned(),
             frames: report.frames.len(),
             errors: report.failures.len(),
@@ -133,6 +140,20 @@ impl ComparisonSummary {
             samples: summary.samples,
             metrics: summary.statistics,
         }
+    }
+}
+
+impl ComparisonSummary {
+    /// The name of the method among all methods of the run: with the parameters of a point of a sweep.
+    pub fn label(&self) -> String {
+        swept_label(&self.method, &self.parameters)
+    }
+}
+
+impl ErrorRecord {
+    /// The name of the method among all methods of the run: with the parameters of a point of a sweep.
+    pub fn label(&self) -> String {
+        swept_label(&self.method, &self.parameters)
     }
 }
 
@@ -328,6 +349,8 @@ mod tests {
                 beyond: 0.0,
                 share: 0.125,
                 reshaded_share: Some(0.25),
+                quads: Some(3.0),
+                budget: Some(BudgetSummary { share: 0.1, ideal_share: 0.1, value: vec![2.5, 3.0] }),
             }),
             haar: vec![haar],
             atd: Some(AtdSummary {

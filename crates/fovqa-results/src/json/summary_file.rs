@@ -216,6 +216,7 @@ mod tests {
         let comparison = |method: &str| Comparison {
             scene: "s".to_owned(),
             method: method.to_owned(),
+            swept: None,
             eye: "",
             report: ScoreReport { failures: vec![failure.clone()], ..ScoreReport::default() },
         };

@@ -57,12 +57,12 @@ impl<W: Write> CsvTable<W> {
         let [from, to] = [0, 1].map(|side: usize| edge(row.band.map(|band| band[side])));
         let value = text(row.value);
         let level = row.level.map(|level| level.to_string()).unwrap_or_default();
-        let TableRow { scene, method, eye, metric, statistic, .. } = *row;
+        let TableRow { scene, method, parameters, eye, metric, statistic, .. } = *row;
         let [scene, method] = [scene, method].map(|name| self.names.written(name));
         let image = row.image.name();
         let cells = [
-            &*scene, &*method, "", eye, &frame, image, metric, statistic, &level, &from, &to,
-            &value,
+            &*scene, &*method, parameters, eye, &frame, image, metric, statistic, &level, &from,
+            &to, &value,
         ];
         self.writer.write_record(cells).map_err(io_error)
     }
@@ -121,6 +121,7 @@ fn row_of(record: &csv::StringRecord) -> Result<TableRow<'_>, String> {
     Ok(TableRow {
         scene: cell(0),
         method: cell(1),
+        parameters: cell(2),
         eye: cell(3),
         frame: whole(cell(4))?,
         image,

@@ -98,8 +98,8 @@ struct Group {
 
 impl Group {
     fn push(&mut self, row: &TableRow<'_>) {
-        let TableRow { scene, method, eye, metric, statistic, .. } = *row;
-        let texts = [scene, method, "", eye, row.image.name(), metric, statistic];
+        let TableRow { scene, method, parameters, eye, metric, statistic, .. } = *row;
+        let texts = [scene, method, parameters, eye, row.image.name(), metric, statistic];
         for (column, text) in self.texts.iter_mut().zip(texts) {
             let value = (!text.is_empty()).then(|| {
                 self.known.get(text).cloned().unwrap_or_else(|| {
@@ -272,7 +272,7 @@ impl Batch {
     }
 
     fn row(&self, row: usize) -> Result<TableRow<'_>, String> {
-        let [scene, method, eye] = [0, 1, 3].map(|column| self.text(column, row));
+        let [scene, method, parameters, eye] = [0, 1, 2, 3].map(|column| self.text(column, row));
         let [image, metric, statistic] = [4, 5, 6].map(|column| self.text(column, row));
         let (image, metric) = (image?, metric?);
         let image = Image::find(image).ok_or_else(|| format!("there is no image {image:?}"))?;
@@ -284,6 +284,7 @@ impl Batch {
         Ok(TableRow {
             scene: scene?,
             method: method?,
+            parameters: parameters?,
             eye: eye?,
             frame: self.whole[0][row],
             image,

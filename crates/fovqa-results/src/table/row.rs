@@ -3,6 +3,7 @@
 use std::fmt;
 
 use fovqa_metrics::Image;
+use fovqa_plan::swept_label;
 
 /// The columns, in order.
 pub(super) const COLUMNS: [&str; 12] = [
@@ -27,13 +28,15 @@ pub const ERROR: &str = "error";
 /// degrees.
 pub const GAZE_STEP: &str = "gaze_step_deg";
 
-/// A row of the table. The column `parameters` is always empty: it is reserved for sweeps.
+/// A row of the table.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
 pub struct TableRow<'a> {
     /// The scene.
     pub scene: &'a str,
     /// The method.
     pub method: &'a str,
+    /// The swept parameters with their values; empty if the method is not swept.
+    pub parameters: &'a str,
     /// `left`, `right` or `both`; empty if the scene has one image per frame.
     pub eye: &'a str,
     /// Frame number; `None` for a value of the whole sequence.
@@ -50,6 +53,13 @@ pub struct TableRow<'a> {
     pub band: Option<[f64; 2]>,
     /// The value; `None` if nothing could be measured.
     pub value: Option<Value>,
+}
+
+impl TableRow<'_> {
+    /// The name of the method among all methods of the run: with the parameters of a point of a sweep.
+    pub fn label(&self) -> String {
+        swept_label(self.method, self.parameters)
+    }
 }
 
 /// A cell of the last column.

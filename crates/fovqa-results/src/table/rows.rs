@@ -32,8 +32,10 @@ pub(super) fn rows_of_report(report: &ScoreReport, sink: &mut Sink<'_>) -> io::R
 /// If the sink refuses a row.
 pub(super) fn rows_of_run(results: &RunResults, sink: &mut Sink<'_>) -> io::Result<()> {
     let mut table = Table(sink);
-    for Comparison { scene, method, eye, report } in &results.comparisons {
-        let row = TableRow { scene, method, eye, ..TableRow::default() };
+    for comparison in &results.comparisons {
+        let Comparison { scene, eye, report, .. } = comparison;
+        let (method, parameters) = comparison.written();
+        let row = TableRow { scene, method, parameters, eye, ..TableRow::default() };
         table.frames(&row, report)?;
         if let Some(summary) = FvvdpSummary::of(report) {
             table.fvvdp_sequence(&row, &summary)?;
