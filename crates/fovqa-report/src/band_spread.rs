@@ -46,7 +46,7 @@ impl BandSpread {
         if row.frame.is_none() || !value.is_finite() {
             return;
         }
-        let of = [row.scene, row.method, row.eye].map(str::to_owned);
+        let of = [row.scene.to_owned(), row.label(), row.eye.to_owned()];
         let place =
             (metric, row.image, row.level, row.statistic.to_owned(), band.map(f64::to_bits));
         self.0.entry(of).or_default().entry(place).or_default().add(value);

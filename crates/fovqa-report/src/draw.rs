@@ -7,19 +7,23 @@ use fovqa_plan::{Plot, PlotKind};
 use fovqa_results::{CsvNames, RUN_JSON, RUN_SCHEMA, RunRecord, check_files, read_json_file};
 
 use crate::band_spread::BandSpread;
+use crate::budgets::budgets;
 use crate::comparison::ComparisonTable;
 use crate::figures::{Source, default_plots, figures, ratio_tables, slug};
 use crate::frame_values::FrameValues;
 use crate::latex::usual_label;
 use crate::overview::Overview;
 use crate::page::page;
+use crate::plain_table::PlainTable;
+use crate::run_table::RunTable;
 use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
+use crate::sweep::{self, optima};
 
 /// The tables and figures that were made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawn {
-    /// The first comparison table; `None` if nothing was scored.
-    pub table: Option<ComparisonTable>,
+    /// The first table; `None` if nothing was scored.
+    pub table: Option<RunTable>,
     /// Number of figures.
     pub figures: usize,
     /// A warning about the files of the run.
@@ -63,7 +67,10 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
             let label = label(&run.resolved.name, plot, index, &name);
             tables.push((name, table.labelled(label)));
         }
-        let of_plot = figures(&source, plot);
+        let of_plot = match plot.kind {
+            PlotKind::Sweep => sweep::figures(&source, plot),
+            _ => figures(&source, plot),
+        };
         let several = of_plot.len() > 1;
         for figure in of_plot {
             let caption = match &plot.caption {
@@ -90,7 +97,7 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
 }
 
 /// The files of a table.
-fn files_of<'a>(name: &'a str, table: &'a ComparisonTable) -> NamedTable<'a> {
+fn files_of<'a>(name: &'a str, table: &'a RunTable) -> NamedTable<'a> {
     let markdown: MakeText<'a> = Box::new(|| table.markdown());
     let files = vec![
         ("md", markdown),
@@ -101,15 +108,29 @@ fn files_of<'a>(name: &'a str, table: &'a ComparisonTable) -> NamedTable<'a> {
 }
 
 /// The tables of a plot, with their names.
-fn tables_of(source: &Source<'_>, plot: &Plot) -> Vec<(String, ComparisonTable)> {
+fn tables_of(source: &Source<'_>, plot: &Plot) -> Vec<(String, RunTable)> {
+    let plain = |kind: &str, table: Option<PlainTable>| {
+        let own = plot.name.as_deref().map(slug).filter(|name| !name.is_empty());
+        let name = own.map_or_else(|| format!("table-{kind}"), |own| format!("table-{own}"));
+        let captioned = |table: PlainTable| PlainTable {
+            caption: plot.caption.clone().unwrap_or(table.caption),
+            ..table
+        };
+        table.map(|table| (name, RunTable::plain(captioned(table)))).into_iter().collect()
+    };
     match plot.kind {
         PlotKind::Table => {
             let own = plot.name.as_deref().map(slug).filter(|name| !name.is_empty());
             let name = own.map_or_else(|| "table".to_owned(), |own| format!("table-{own}"));
             let table = ComparisonTable::new(source.run, source.overview, source.values, plot);
-            table.map(|table| (name, table)).into_iter().collect()
+            table.map(|table| (name, RunTable::Comparison(table))).into_iter().collect()
         }
-        PlotKind::Ratios => ratio_tables(source, plot),
+        PlotKind::Ratios => {
+            let tables = ratio_tables(source, plot).into_iter();
+            tables.map(|(name, table)| (name, RunTable::Comparison(table))).collect()
+        }
+        PlotKind::Optima => plain("optima", optima(source, plot)),
+        PlotKind::Budgets => plain("budgets", budgets(source, plot)),
         _ => Vec::new(),
     }
 }

@@ -45,7 +45,7 @@ impl FrameValues {
         if known.is_none() && row.metric != GAZE_STEP {
             return;
         }
-        let key = (row.scene.to_owned(), row.method.to_owned(), row.eye.to_owned());
+        let key = (row.scene.to_owned(), row.label(), row.eye.to_owned());
         let comparison = self.0.entry(key).or_default();
         match known {
             Some(metric) => {

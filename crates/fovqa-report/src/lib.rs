@@ -1,6 +1,7 @@
 //! Presents scores to people: tables for terminals and papers, figures, and the page of a run.
 
 mod band_spread;
+mod budgets;
 mod comparison;
 mod curves;
 mod draw;
@@ -13,8 +14,11 @@ mod long_lines;
 mod moments;
 mod overview;
 mod page;
+mod plain_table;
 mod print;
+mod run_table;
 mod sheet;
+mod sweep;
 mod terminal;
 mod text_table;
 mod verdict;
@@ -24,6 +28,7 @@ pub use curves::{DrawnCurves, draw_curves};
 pub use draw::{Drawn, draw};
 pub use foveate_text::foveate_text;
 pub use index::draw_index;
+pub use run_table::{PlainRunTable, RunTable};
 pub use sheet::{ReportError, clear};
 pub use terminal::score_table;
 pub use verdict::{

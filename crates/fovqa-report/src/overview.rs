@@ -6,8 +6,8 @@ use std::path::Path;
 
 use fovqa_metrics::{Metric, MetricKind};
 use fovqa_results::{
-    AtdSummary, BandStatistics, ComparisonSummary, EccentricityShare, ErrorRecord, FileError,
-    HaarRecord, HaarValues, SideValues, Spread, Statistics, read_summary,
+    AtdSummary, BandStatistics, BudgetSummary, ComparisonSummary, EccentricityShare, ErrorRecord,
+    FileError, HaarRecord, HaarValues, SideValues, Spread, Statistics, read_summary,
 };
 
 /// The comparisons of a run, and its errors.
@@ -36,6 +36,10 @@ pub(crate) struct Measured {
     pub(crate) atd: Option<AtdSummary>,
     /// JOD of FovVideoVDP.
     pub(crate) jod: Option<f64>,
+    /// `left`, `right` or `both`; empty if the scene has one image per frame.
+    pub(crate) eye: String,
+    /// The budget of an emulated method.
+    pub(crate) budget: Option<BudgetSummary>,
     /// Samples of an emulated method in percent of the frame's pixels.
     pub(crate) samples_percent: Option<f64>,
     /// Share of each eccentricity band in the Q of FovVideoVDP.
@@ -85,10 +89,23 @@ impl Overview {
     fn add(&mut self, comparison: ComparisonSummary) {
         let measured = Measured::of(&comparison);
         if !measured.is_of_one_eye {
-            let methods = self.overall.entry(comparison.scene).or_default();
-            methods.entry(comparison.method).or_insert(self.comparisons.len());
+            let methods = self.overall.entry(comparison.scene.clone()).or_default();
+            methods.entry(comparison.label()).or_insert(self.comparisons.len());
         }
         self.comparisons.push(measured);
+    }
+
+    /// The values of a method in a scene: of each eye, if there are two.
+    pub(crate) fn eyes_of(&self, scene: &str, method: &str) -> Vec<&Measured> {
+        let overall = self.overall.get(scene).and_then(|methods| methods.get(method));
+        let Some(&overall) = overall else { return Vec::new() };
+        match self.comparisons.get(overall) {
+            // Both together follow the two eyes.
+            Some(both) if both.is_of_both_eyes => {
+                self.comparisons[overall.saturating_sub(2)..overall].iter().collect()
+            }
+            alone => alone.into_iter().collect(),
+        }
     }
 
     /// All comparisons.
@@ -118,7 +135,9 @@ impl Measured {
             wavelet: comparison.haar.iter().map(WaveletBand::of).collect(),
             atd: comparison.atd.clone(),
             jod: fvvdp.and_then(|fvvdp| fvvdp.jod),
-            samples_percent: comparison.samples.map(|samples| samples.share * 100.0),
+            eye: comparison.eye.clone(),
+            budget: comparison.samples.as_ref().and_then(|samples| samples.budget.clone()),
+            samples_percent: comparison.samples.as_ref().map(|samples| samples.share * 100.0),
             shares: fvvdp.map(|fvvdp| fvvdp.shares.as_slice().into()).unwrap_or_default(),
         }
     }

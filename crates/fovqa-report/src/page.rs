@@ -5,8 +5,8 @@ use std::fmt::Write;
 
 use fovqa_results::{RESULTS_CSV, RESULTS_PARQUET, RunRecord};
 
-use crate::comparison::ComparisonTable;
 use crate::overview::Overview;
+use crate::run_table::RunTable;
 use crate::text_table::printable;
 
 /// Maximum number of errors that the page lists.
@@ -52,7 +52,7 @@ const LONG_STYLE: &str = "\
 pub(crate) fn page(
     (run, inputs): (&RunRecord, usize),
     overview: &Overview,
-    tables: &[(String, ComparisonTable)],
+    tables: &[(String, RunTable)],
     figures: &[PageFigure<'_>],
 ) -> String {
     let is_long = tables.iter().any(|(_, table)| table.is_long());
@@ -77,7 +77,7 @@ pub(crate) fn page(
             let frame = error.frame.map(|frame| format!(", frame {frame}")).unwrap_or_default();
             let eye =
                 if error.eye.is_empty() { String::new() } else { format!(", {} eye", error.eye) };
-            let place = format!("{}, {}{eye}{frame}", error.scene, error.method);
+            let place = format!("{}, {}{eye}{frame}", error.scene, error.label());
             let _ = writeln!(text, "<li>{}: {}</li>", escaped(&place), escaped(&error.message));
         }
         text.push_str("</ul>\n");
@@ -106,7 +106,7 @@ pub(crate) fn page(
 
 /// Writes a table. One of very many rows or columns is in a box that scrolls; the page only links to
 /// one that is too large.
-fn table(text: &mut String, name: &str, table: &ComparisonTable) {
+fn table(text: &mut String, name: &str, table: &RunTable) {
     let name = escaped(name);
     let _ = writeln!(text, "<h2>{}</h2>", escaped(table.caption()));
     let too_large = match table.html() {

@@ -45,6 +45,18 @@ impl Measure {
         }
     }
 
+    /// The measure of a metric's value in tables and bars: differences over time are percentages of those
+    /// of the reference.
+    pub(crate) fn of_value(metric: Metric) -> Self {
+        let info = metric.info();
+        match metric {
+            Metric::Atd => {
+                Self::ratio(info.label.to_owned(), "atd_percent".to_owned(), info.better)
+            }
+            metric => Self::of(metric),
+        }
+    }
+
     /// The measure of the samples of emulated methods.
     pub(crate) fn samples() -> Self {
         Self {

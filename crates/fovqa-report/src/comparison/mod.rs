@@ -25,6 +25,7 @@ pub(crate) use average::{average_label, common_scenes};
 use grid::Grid;
 pub(crate) use markdown::escaped_markdown;
 use marks::Mark;
+pub(crate) use measure::Measure;
 pub(crate) use ratios::{DEFAULT_STATISTIC, Ratios, statistic, statistic_in_words};
 use values::Values;
 pub(crate) use values::mean;

@@ -50,9 +50,26 @@ struct Selection<'a> {
     part: Option<Part>,
 }
 
+impl Source<'_> {
+    /// The parameter that a method's budget solves.
+    pub(crate) fn parameter_of_budget(&self, scene: &str, method: &str) -> String {
+        let scenes = &self.run.resolved.scenes;
+        let eyes = scenes.iter().find(|known| known.name == scene).map(|scene| &scene.eyes);
+        let keys = eyes.into_iter().flatten().find_map(|eye| eye.emulations.get(method));
+        let parameter = keys.and_then(|keys| keys.get("budget_parameter")?.as_str());
+        parameter.unwrap_or_default().to_owned()
+    }
+}
+
 /// The plots of a run that requests none: all plots that have something to show.
 pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
     let all = source.overview.all();
+    let budgets = all.iter().any(|measured| measured.budget.is_some());
+    if !source.run.resolved.sweeps.is_empty() {
+        let kinds = [PlotKind::Optima, PlotKind::Sweep, PlotKind::Table];
+        let budgets = budgets.then_some(PlotKind::Budgets);
+        return kinds.into_iter().chain(budgets).map(Plot::of).collect();
+    }
     let mut kinds = vec![PlotKind::Table, PlotKind::Ratios, PlotKind::Profile];
     kinds.push(PlotKind::RatioProfile);
     if all.iter().filter(|measured| !measured.is_of_one_eye).count() > 1 {
@@ -60,6 +77,9 @@ pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
     }
     if all.iter().any(|measured| measured.frames > 1) {
         kinds.push(PlotKind::Frames);
+    }
+    if budgets {
+        kinds.push(PlotKind::Budgets);
     }
     let mut plots: Vec<Plot> = kinds.into_iter().map(Plot::of).collect();
     if all.iter().any(|of| of.atd.as_ref().is_some_and(|atd| atd.frames > 1)) {
@@ -77,7 +97,12 @@ pub(crate) fn figures(source: &Source<'_>, plot: &Plot) -> Vec<NamedFigure> {
     }
     let of_part = |metric: Metric, part: &Selection<'_>| -> Vec<NamedFigure> {
         match plot.kind {
-            PlotKind::Table | PlotKind::Ratios | PlotKind::Crops => Vec::new(),
+            PlotKind::Table
+            | PlotKind::Ratios
+            | PlotKind::Crops
+            | PlotKind::Sweep
+            | PlotKind::Optima
+            | PlotKind::Budgets => Vec::new(),
             PlotKind::Profile => part.profiles(metric, plot),
             PlotKind::RatioProfile => part.ratio_profiles(metric, plot),
             PlotKind::Sequence => part.sequences(metric),
@@ -205,10 +230,7 @@ impl<'a> Selection<'a> {
                 }
             }
         }
-        let y = match metric {
-            Metric::Atd => Axis::new("ATD in % of the reference (lower is better)"),
-            metric => Axis::new(axis(metric)),
-        };
+        let y = Axis::new(metric_axis(metric));
         let figure = Figure::Bar(BarChart { y, groups, series, ..BarChart::default() });
         let over = if metric == Metric::Fvvdp { "of whole sequences" } else { "mean over frames" };
         let bars = error_bars.map_or_else(String::new, |kind| {
@@ -260,6 +282,14 @@ fn in_words(kind: ErrorBars) -> &'static str {
 fn error_bars_in_words(plot: &Plot, over: &str) -> String {
     let words = |kind| format!("; error bars: {} over {over}", in_words(kind));
     plot.error_bars.map_or_else(String::new, words)
+}
+
+/// The title of the axis for the value of a metric in tables and bars.
+pub(crate) fn metric_axis(metric: Metric) -> String {
+    match metric {
+        Metric::Atd => "ATD in % of the reference (lower is better)".to_owned(),
+        metric => axis(metric),
+    }
 }
 
 /// The title of a metric's axis, with its unit and the better direction.

@@ -1,0 +1,113 @@
+//! A table of a run, of either form.
+
+use crate::comparison::ComparisonTable;
+use crate::plain_table::PlainTable;
+
+/// A table of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RunTable {
+    /// Methods against metrics, or against eccentricity bands.
+    Comparison(ComparisonTable),
+    /// A list of names and numbers.
+    Plain(Box<PlainRunTable>),
+}
+
+/// A plain table with its label in LaTeX.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlainRunTable {
+    pub(crate) table: PlainTable,
+    pub(crate) label: String,
+}
+
+/// Maximum number of rows that a page shows in full.
+const MOST_ROWS: usize = 40;
+/// Maximum number of rows on a page.
+const MOST_ON_PAGE: usize = 20_000;
+
+impl RunTable {
+    pub(crate) fn plain(table: PlainTable) -> Self {
+        Self::Plain(Box::new(PlainRunTable { table, label: String::new() }))
+    }
+
+    /// The table with another label in LaTeX.
+    pub(crate) fn labelled(self, label: String) -> Self {
+        match self {
+            Self::Comparison(table) => Self::Comparison(table.labelled(label)),
+            Self::Plain(plain) => Self::Plain(Box::new(PlainRunTable { label, ..*plain })),
+        }
+    }
+
+    /// The caption of the table.
+    pub fn caption(&self) -> &str {
+        match self {
+            Self::Comparison(table) => table.caption(),
+            Self::Plain(plain) => &plain.table.caption,
+        }
+    }
+
+    /// Remarks that must be shown together with the numbers.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        match self {
+            Self::Comparison(table) => table.notes(),
+            Self::Plain(plain) => plain.table.notes.clone(),
+        }
+    }
+
+    /// Text for a terminal.
+    pub fn terminal(&self) -> String {
+        match self {
+            Self::Comparison(table) => table.terminal(),
+            Self::Plain(plain) => {
+                let PlainTable { caption, .. } = &plain.table;
+                format!("{caption}\n\n{}\n", plain.table.terminal())
+            }
+        }
+    }
+
+    pub(crate) fn markdown(&self) -> String {
+        match self {
+            Self::Comparison(table) => table.markdown(),
+            Self::Plain(plain) => plain.table.markdown(),
+        }
+    }
+
+    pub(crate) fn csv(&self) -> String {
+        match self {
+            Self::Comparison(table) => table.csv(),
+            Self::Plain(plain) => plain.table.csv(),
+        }
+    }
+
+    pub(crate) fn latex(&self) -> String {
+        match self {
+            Self::Comparison(table) => table.latex(),
+            Self::Plain(plain) => plain.table.latex(&plain.label),
+        }
+    }
+
+    /// Whether it scrolls in a box of its own.
+    pub(crate) fn is_long(&self) -> bool {
+        match self {
+            Self::Comparison(table) => table.is_long(),
+            Self::Plain(plain) => plain.table.rows.len() > MOST_ROWS,
+        }
+    }
+
+    /// HTML; `None` if it is too large for a page.
+    pub(crate) fn html(&self) -> Option<String> {
+        match self {
+            Self::Comparison(table) => table.html(),
+            Self::Plain(plain) => {
+                (plain.table.rows.len() <= MOST_ON_PAGE).then(|| plain.table.html())
+            }
+        }
+    }
+
+    /// What the marks on the page mean.
+    pub(crate) fn html_legend(&self) -> String {
+        match self {
+            Self::Comparison(table) => table.html_legend(),
+            Self::Plain(_) => String::new(),
+        }
+    }
+}
