@@ -12,7 +12,7 @@ use fovqa_frame::source::Origin;
 use fovqa_io::frame_size;
 use fovqa_methods::curves::CurveSource;
 use fovqa_metrics::Metric;
-use fovqa_plan::{Experiment, EyeView, Gaze, MetricChoice};
+use fovqa_plan::{Experiment, EyeView, Gaze, MetricChoice, SourceSpec};
 
 use crate::args::CheckArgs;
 use crate::diagnostic;
