@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use fovqa_frame::{Frame, SignalTables};
 use fovqa_methods::cps::Cps;
-use fovqa_methods::{Method, Setting};
+use fovqa_methods::{BudgetError, Method, Setting};
 use fovqa_vision::View;
 
 use crate::budget::BudgetReport;
@@ -86,6 +86,25 @@ impl Emulator {
     ) -> Result<(), EmulateError> {
         let setting = setting(spec, size, view, gaze_px)?;
         few_enough(&spec.solved(&setting)?.0, &setting)
+    }
+
+    /// The smallest and the largest share of the frame's pixels that the method can have as a budget,
+    /// counted as the budget of the spec says, if it has one.
+    ///
+    /// # Errors
+    /// When the method cannot be applied, or has no parameter that a budget could set.
+    pub fn budget_range(
+        spec: &EmulationSpec,
+        size: [usize; 2],
+        view: Option<&View>,
+        gaze_px: [f64; 2],
+    ) -> Result<[f64; 2], EmulateError> {
+        let setting = setting(spec, size, view, gaze_px)?;
+        let of = spec.budget.map(|budget| budget.of).unwrap_or_default();
+        match &spec.method {
+            Emulated::Foveation(method) => Ok(method.budget_range(&setting, of)?),
+            _ => Err(BudgetError::NotFree { method: spec.key() }.into()),
+        }
     }
 
     /// How many samples each frame stands for.

@@ -256,6 +256,23 @@ impl EmulationSpec {
         Ok(())
     }
 
+    /// Takes the budget away.
+    pub fn clear_budget(&mut self) {
+        self.budget = None;
+    }
+
+    /// Sets the method's free parameter by a budget, also if the parameter was set by name.
+    ///
+    /// # Errors
+    /// When the share is not above 0.
+    pub fn free_budget(&mut self, budget: Budget) -> Result<(), EmulateError> {
+        let solved = self.free_parameter();
+        self.set.retain(|name, value| {
+            Some(name.as_str()) != solved || !matches!(value, ParamValue::Number(_))
+        });
+        self.set_budget(budget)
+    }
+
     /// What needs a view, if anything does: the method, or enhancement.
     pub fn needs_view(&self) -> Option<&'static str> {
         if self.method.needs_view() {

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use fovqa_io::read_head;
 use fovqa_results::{
-    CURVES_CSV, CURVES_JSON, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, SUMMARY_JSON,
-    make_folder, sweep, take_away, try_writing,
+    CURVES_CSV, CURVES_JSON, LIMITS_CSV, LIMITS_JSON, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET,
+    RUN_JSON, SUMMARY_JSON, make_folder, sweep, take_away, try_writing,
 };
 use thiserror::Error;
 
@@ -18,7 +18,7 @@ use crate::journal::JOURNAL;
 const LOCK: &str = ".fovqa.lock";
 
 /// The files that a run writes, and the figures at the top level of its folder.
-const OURS: [&str; 12] = [
+const OURS: [&str; 14] = [
     RESULTS_CSV,
     RESULTS_PARQUET,
     SUMMARY_JSON,
@@ -27,6 +27,8 @@ const OURS: [&str; 12] = [
     REPORT_JSON,
     CURVES_CSV,
     CURVES_JSON,
+    LIMITS_CSV,
+    LIMITS_JSON,
     "index.html",
     "table.csv",
     "table.md",
@@ -40,7 +42,25 @@ fn is_ours(path: &Path) -> bool {
         || begins(path, JOURNAL, "fovqa.journal")
         || begins(path, REPORT_JSON, "fovqa.report")
         || begins(path, CURVES_JSON, "fovqa.curves")
+        || begins(path, LIMITS_JSON, "fovqa.limits")
 }
+
+/// Whose results a folder holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Run,
+    Curves,
+    Limits,
+}
+
+/// The files that tell whose results a folder holds, with the beginning of their schemas and the
+/// command that writes them.
+const KINDS: [(Kind, &str, &str, &str); 4] = [
+    (Kind::Run, RUN_JSON, "fovqa.run", "`fovqa run`"),
+    (Kind::Run, JOURNAL, "fovqa.journal", "`fovqa run`"),
+    (Kind::Curves, CURVES_JSON, "fovqa.curves", "`fovqa curves`"),
+    (Kind::Limits, LIMITS_JSON, "fovqa.limits", "`fovqa limit`"),
+];
 
 /// Whether a file in a folder begins like a file with the given schema.
 fn begins(path: &Path, file: &str, schema: &str) -> bool {
@@ -95,7 +115,7 @@ pub enum FolderError {
     /// Another process writes to it.
     #[error("{}: another run is writing to this folder", .0.display())]
     Busy(PathBuf),
-    /// It contains results of the other kind: of a run, or of rate-distortion curves.
+    /// It contains results of another kind: of a run, of curves, or of a search for limits.
     #[error("{}: the folder contains the results of {of}", path.display())]
     Other {
         /// The folder.
@@ -162,10 +182,7 @@ impl ResultsFolder {
     /// If the folder cannot be created or written to, another process uses it, or its files do not
     /// belong to a run.
     pub fn open(path: &Path, locking: Locking) -> Result<Self, FolderError> {
-        if begins(path, CURVES_JSON, "fovqa.curves") {
-            return Err(FolderError::Other { path: path.to_owned(), of: "`fovqa curves`" });
-        }
-        Self::of_any(path, locking)
+        Self::of_one(path, Kind::Run, locking)
     }
 
     /// Creates the folder of curves and locks it.
@@ -174,10 +191,25 @@ impl ResultsFolder {
     /// If the folder cannot be created or written to, another process uses it, or its files do not
     /// belong to curves.
     pub fn open_for_curves(path: &Path, locking: Locking) -> Result<Self, FolderError> {
-        if begins(path, RUN_JSON, "fovqa.run") || begins(path, JOURNAL, "fovqa.journal") {
-            return Err(FolderError::Other { path: path.to_owned(), of: "`fovqa run`" });
+        Self::of_one(path, Kind::Curves, locking)
+    }
+
+    /// Creates the folder of a search for limits and locks it.
+    ///
+    /// # Errors
+    /// If the folder cannot be created or written to, another process uses it, or its files do not
+    /// belong to such a search.
+    pub fn open_for_limits(path: &Path, locking: Locking) -> Result<Self, FolderError> {
+        Self::of_one(path, Kind::Limits, locking)
+    }
+
+    fn of_one(path: &Path, kind: Kind, locking: Locking) -> Result<Self, FolderError> {
+        let other = KINDS.into_iter().filter(|(other, ..)| *other != kind);
+        let mut other = other.filter(|(_, file, schema, _)| begins(path, file, schema));
+        match other.next() {
+            Some((.., of)) => Err(FolderError::Other { path: path.to_owned(), of }),
+            None => Self::of_any(path, locking),
         }
-        Self::of_any(path, locking)
     }
 
     fn of_any(path: &Path, locking: Locking) -> Result<Self, FolderError> {
@@ -212,8 +244,17 @@ impl ResultsFolder {
     /// # Errors
     /// If the operating system refuses.
     pub fn clear(&self) -> Result<(), FolderError> {
-        for file in [RESULTS_CSV, RESULTS_PARQUET, SUMMARY_JSON, RUN_JSON, CURVES_CSV, CURVES_JSON]
-        {
+        let files = [
+            RESULTS_CSV,
+            RESULTS_PARQUET,
+            SUMMARY_JSON,
+            RUN_JSON,
+            CURVES_CSV,
+            CURVES_JSON,
+            LIMITS_CSV,
+            LIMITS_JSON,
+        ];
+        for file in files {
             take_away(&self.path.join(file))
                 .map_err(|error| FolderError::Io { path: self.path.clone(), error })?;
         }

@@ -1,7 +1,7 @@
 //! What was found for a plan before any pixel is read: frames, gaze, and inputs that cannot be
 //! scored.
 
-use fovqa_plan::{Plan, Scene};
+use fovqa_plan::{EyeView, Plan, Scene};
 use fovqa_vision::GazeAt;
 
 use crate::error::EngineError;
@@ -40,6 +40,15 @@ pub struct FoundView {
 }
 
 impl FoundView {
+    /// Width and height of its frames; `None` if they can be found out only when a frame is read.
+    pub fn frame_size(&self, eye: &EyeView) -> Option<[usize; 2]> {
+        if let Some(crop) = eye.settings.crop {
+            return Some([crop.width, crop.height]);
+        }
+        let first = self.frames.first()?;
+        Some(self.sources.reference.size(first.reference).ok()?.into())
+    }
+
     /// Number of tests to score.
     pub fn pairs(&self) -> usize {
         self.frames.iter().map(|frame| frame.tests.len()).sum()

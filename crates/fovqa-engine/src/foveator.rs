@@ -159,6 +159,18 @@ pub(crate) fn check(
     Ok(())
 }
 
+/// The range of budgets of a method for frames of a size at a gaze; `None` is the principal point.
+pub(crate) fn budget_range(
+    spec: &EmulationSpec,
+    view: Option<&ViewSpec>,
+    size: [usize; 2],
+    gaze_px: Option<[f64; 2]>,
+) -> Result<[f64; 2], EngineError> {
+    let view = resolved(view, size)?;
+    let gaze = gaze(view.as_ref(), size, gaze_px);
+    Ok(Emulator::budget_range(spec, size, view.as_ref(), gaze)?)
+}
+
 fn prepare(
     spec: &EmulationSpec,
     view: Option<&ViewSpec>,

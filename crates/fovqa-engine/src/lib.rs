@@ -5,6 +5,7 @@
 
 mod assemble;
 mod available_memory;
+mod budget_range;
 mod crops;
 mod dominant_eye;
 mod emulated_methods;
@@ -50,6 +51,7 @@ mod view_sources;
 mod work;
 
 pub use assemble::results;
+pub use budget_range::budget_range;
 pub use crops::CropPair;
 pub use error::EngineError;
 pub use events::Events;

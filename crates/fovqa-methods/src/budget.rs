@@ -107,19 +107,7 @@ impl Method {
         let Some(free) = self.free() else {
             return Err(BudgetError::NotFree { method: self.key() });
         };
-        let with = |value: f64| {
-            let mut method = self.clone();
-            (free.set)(&mut method, value);
-            method
-        };
-        let share_of = |value: f64| -> Result<f64, BudgetError> {
-            let counts = with(value).apply(setting)?.counts();
-            let samples = match of {
-                BudgetSamples::Buffer => counts.whole(),
-                BudgetSamples::OnScreen => counts.samples_on_screen,
-            };
-            Ok(samples / setting.pixels())
-        };
+        let share_of = |value: f64| self.with(&free, value).share(setting, of);
         let [mut sparse, mut dense] = free.ends;
         let (least, most) = (share_of(sparse)?, share_of(dense)?);
         if !(least <= share && share <= most) {
@@ -141,13 +129,55 @@ impl Method {
                 dense = middle;
             }
         }
-        let method = with(dense);
+        let method = self.with(&free, dense);
         let (parameter, value) = match &method {
             Self::Deamp(params) => ("sigmas", ParamValue::List(params.sigmas.clone())),
             Self::Guenter(params) => ("scales", ParamValue::List(params.scales.clone())),
             _ => (free.name, ParamValue::Number(dense)),
         };
         Ok(Budgeted { method, parameter, value })
+    }
+
+    /// The smallest and the largest share of the frame's pixels that a budget can be.
+    ///
+    /// # Errors
+    /// When the method has no free parameter, or cannot be applied.
+    pub fn budget_range(
+        &self,
+        setting: &Setting,
+        of: BudgetSamples,
+    ) -> Result<[f64; 2], BudgetError> {
+        if let Self::Guenter(params) = self
+            && params.fit == Fit::Optimised
+        {
+            return Self::Guenter(Guenter::new(params, setting)?.fixed(params))
+                .budget_range(setting, of);
+        }
+        let Some(free) = self.free() else {
+            return Err(BudgetError::NotFree { method: self.key() });
+        };
+        let [sparse, dense] = free.ends;
+        Ok([
+            self.with(&free, sparse).share(setting, of)?,
+            self.with(&free, dense).share(setting, of)?,
+        ])
+    }
+
+    /// The method with another value of its free parameter.
+    fn with(&self, free: &FreeParameter, value: f64) -> Self {
+        let mut method = self.clone();
+        (free.set)(&mut method, value);
+        method
+    }
+
+    /// Its samples as a share of the frame's pixels, on ideal sizes.
+    fn share(&self, setting: &Setting, of: BudgetSamples) -> Result<f64, BudgetError> {
+        let counts = self.apply(setting)?.counts();
+        let samples = match of {
+            BudgetSamples::Buffer => counts.whole(),
+            BudgetSamples::OnScreen => counts.samples_on_screen,
+        };
+        Ok(samples / setting.pixels())
     }
 
     /// The name of the parameter that a budget solves; `None` if it has none.
