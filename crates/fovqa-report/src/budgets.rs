@@ -55,7 +55,9 @@ pub(crate) fn budgets(source: &Source<'_>, plot: &Plot) -> Option<PlainTable> {
     ];
     if !has_eyes {
         columns.remove(2);
-        rows.iter_mut().for_each(|row| drop(row.remove(2)));
+        for row in &mut rows {
+            row.remove(2);
+        }
     }
     Some(PlainTable {
         caption: "Budgets as shares of the frame's pixels, and how they were met".to_owned(),

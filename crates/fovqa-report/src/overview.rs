@@ -82,12 +82,12 @@ impl Overview {
     /// Reads the overview from a results folder.
     pub(crate) fn read(folder: &Path) -> Result<Self, FileError> {
         let mut overview = Self::default();
-        let errors = read_summary(folder, |comparison| overview.add(comparison))?;
+        let errors = read_summary(folder, |comparison| overview.add(&comparison))?;
         Ok(Self { errors, ..overview })
     }
 
-    fn add(&mut self, comparison: ComparisonSummary) {
-        let measured = Measured::of(&comparison);
+    fn add(&mut self, comparison: &ComparisonSummary) {
+        let measured = Measured::of(comparison);
         if !measured.is_of_one_eye {
             let methods = self.overall.entry(comparison.scene.clone()).or_default();
             methods.entry(comparison.label()).or_insert(self.comparisons.len());
@@ -288,10 +288,10 @@ mod tests {
     fn both_eyes_stand_for_a_method_in_a_scene() {
         let mut overview = Overview::default();
         for (eye, frames) in [("left", 1), ("right", 2), ("both", 3)] {
-            overview.add(comparison("s", "m", eye, frames));
+            overview.add(&comparison("s", "m", eye, frames));
         }
-        overview.add(comparison("s", "n", "", 4));
-        overview.add(comparison("t", "m", "left", 5));
+        overview.add(&comparison("s", "n", "", 4));
+        overview.add(&comparison("t", "m", "left", 5));
         let frames = |scene, method| overview.of(scene, method).map(|of| of.frames);
         assert_eq!((frames("s", "m"), frames("s", "n")), (Some(3), Some(4)));
         assert_eq!((frames("t", "m"), frames("u", "m"), frames("s", "o")), (None, None, None));

@@ -205,7 +205,8 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
         );
     };
     match (kind, value.get_ref()) {
-        (Kind::Bool, DeValue::Boolean(_)) => {}
+        // The keys of a sweep are names of methods, which are resolved later.
+        (Kind::Bool, DeValue::Boolean(_)) | (Kind::Sweep, DeValue::Table(_)) => {}
         (Kind::Text, DeValue::String(text)) => {
             if text.is_empty() || text.chars().any(char::is_control) {
                 out_of_range("empty, or have control characters");
@@ -287,8 +288,6 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
         (Kind::Method | Kind::Acuity, _) => check_model(kind, value, place, faults),
         (Kind::Emulation, _) => check_emulation(value, place, faults),
         (Kind::Metrics, _) => check_metrics(value, place, faults),
-        // Its keys are names of methods, which are resolved later.
-        (Kind::Sweep, DeValue::Table(_)) => {}
         (Kind::Either(kinds), _) => match kinds.iter().find(|kind| is_of(kind, value)) {
             Some(kind) => check_value(kind, value, place, faults),
             None => wrong_type(kind, value, place, faults),

@@ -49,15 +49,12 @@ impl Methods {
         let mut names = Vec::new();
         let mut index = 0;
         while index < self.names.len() {
-            match self.sweeps.iter().find(|sweep| sweep.first == index) {
-                Some(sweep) => {
-                    names.push(sweep.method.as_str());
-                    index = sweep.methods().end.max(index + 1);
-                }
-                None => {
-                    names.push(self.names[index].as_str());
-                    index += 1;
-                }
+            if let Some(sweep) = self.sweeps.iter().find(|sweep| sweep.first == index) {
+                names.push(sweep.method.as_str());
+                index = sweep.methods().end.max(index + 1);
+            } else {
+                names.push(self.names[index].as_str());
+                index += 1;
             }
         }
         names
@@ -90,12 +87,7 @@ pub(super) fn methods(
     let common = common_budget(root, faults);
     let all_emulated = tables.iter().map(|(table, _)| Emulated::new(*table, common, faults));
     let all_emulated: Vec<Option<Emulated>> = all_emulated.collect();
-    let takes = |emulated: &Emulated| emulated.takes_common_budget();
-    if common.is_some() && !all_emulated.iter().flatten().any(takes) && faults.is_empty() {
-        let message = "no method has a parameter that the budget of the experiment could set";
-        let help = "emulate a method such as rmfr, or leave the budget out";
-        faults.push(Fault::new(root.span(BUDGET), message).help(help));
-    }
+    budget_of_nobody(root, &all_emulated, faults);
     let own_names: Vec<&str> =
         tables.iter().map(|(table, _)| table.text("name").unwrap_or_default()).collect();
     let swept = Sweeps::new(root, &own_names, &all_emulated, faults);
@@ -172,14 +164,18 @@ pub(super) fn methods(
             faults.push(fault.help("name it in the scenes of a method, or remove it"));
         }
     }
-    if !methods.sweeps.is_empty() {
-        let mut seen = BTreeSet::new();
-        if let Some(twice) = methods.names.iter().find(|name| !seen.insert(name.to_lowercase())) {
-            let message = format!("a method has the name of a point of the sweep, \"{twice}\"");
-            faults.push(Fault::new(swept.span.clone(), message).help("give it another name"));
-        }
-    }
+    alike(&methods, swept.span.clone(), faults);
     methods
+}
+
+/// Reports a method that has the name of a point of a sweep.
+fn alike(methods: &Methods, span: Range<usize>, faults: &mut Faults) {
+    let mut seen = BTreeSet::new();
+    let mut twice = methods.names.iter().filter(|name| !seen.insert(name.to_lowercase()));
+    if let Some(twice) = twice.next().filter(|_| !methods.sweeps.is_empty()) {
+        let message = format!("a method has the name of a point of the sweep, \"{twice}\"");
+        faults.push(Fault::new(span, message).help("give it another name"));
+    }
 }
 
 /// The budget of the experiment.
@@ -190,6 +186,18 @@ fn common_budget(root: Node<'_>, faults: &mut Faults) -> Option<Budget> {
         faults.push(Fault::new(root.span("budget_of"), message));
     }
     Some(Budget { share: share?, of: root.word("budget_of").unwrap_or_default() })
+}
+
+/// Reports a budget of the experiment that no method can take.
+fn budget_of_nobody(root: Node<'_>, emulated: &[Option<Emulated>], faults: &mut Faults) {
+    if root.has(BUDGET)
+        && !emulated.iter().flatten().any(Emulated::takes_common_budget)
+        && faults.is_empty()
+    {
+        let message = "no method has a parameter that the budget of the experiment could set";
+        let help = "emulate a method such as rmfr, or leave the budget out";
+        faults.push(Fault::new(root.span(BUDGET), message).help(help));
+    }
 }
 
 /// Adds a method's points of a sweep to its scenes.

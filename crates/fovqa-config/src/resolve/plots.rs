@@ -193,8 +193,7 @@ fn fits(metric: Metric, kind: PlotKind) -> bool {
     match kind {
         PlotKind::Profile => metric.info().per_band,
         PlotKind::Ratios | PlotKind::RatioProfile => !metric.is(MetricKind::Fidelity),
-        PlotKind::Crops => false,
-        PlotKind::Budgets => false,
+        PlotKind::Crops | PlotKind::Budgets => false,
         PlotKind::Table
         | PlotKind::Bars
         | PlotKind::Frames

@@ -211,7 +211,7 @@ impl Of<'_> {
         grids: &[&Grid<'_>],
         others: &[&str],
     ) -> Option<NamedFigure> {
-        let mut all: Vec<(String, Vec<(&ParamValue, Option<f64>)>)> = Vec::new();
+        let mut all: Vec<Named<'_>> = Vec::new();
         let mut best = Vec::new();
         for grid in grids {
             let values = self.values(grid);
@@ -283,7 +283,7 @@ impl Of<'_> {
         })
     }
 
-    fn bar_chart(&self, all: &[(String, Vec<(&ParamValue, Option<f64>)>)]) -> Figure {
+    fn bar_chart(&self, all: &[Named<'_>]) -> Figure {
         let mut groups: Vec<String> = Vec::new();
         for (value, _) in all.iter().flat_map(|(_, points)| points) {
             let shown = shown_value(value);
@@ -311,12 +311,15 @@ impl Of<'_> {
     }
 }
 
-/// A name and its points.
+/// A name, and its points by the values of a key.
+type Named<'a> = (String, Vec<(&'a ParamValue, Option<f64>)>);
+
+/// A name, and its points by numbers.
 type Curve = (String, Vec<(f64, Option<f64>)>);
 
 /// The curves, if all their positions are numbers.
-fn numbers_of(all: &[(String, Vec<(&ParamValue, Option<f64>)>)]) -> Option<Vec<Curve>> {
-    let curve = |(name, points): &(String, Vec<(&ParamValue, Option<f64>)>)| {
+fn numbers_of(all: &[Named<'_>]) -> Option<Vec<Curve>> {
+    let curve = |(name, points): &Named<'_>| {
         let points = points.iter().map(|(at, value)| Some((at.number()?, *value)));
         Some((name.clone(), points.collect::<Option<Vec<_>>>()?))
     };
