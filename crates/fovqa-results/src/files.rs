@@ -26,6 +26,10 @@ pub const REPORT_JSON: &str = "report.json";
 pub const CURVES_CSV: &str = "curves.csv";
 /// The record of a curves file.
 pub const CURVES_JSON: &str = "curves.json";
+/// All values that a search for limits measured.
+pub const LIMITS_CSV: &str = "limits.csv";
+/// The record of a search for limits.
+pub const LIMITS_JSON: &str = "limits.json";
 /// Name and version of the format of [`CURVES_JSON`].
 pub const CURVES_SCHEMA: &str = "fovqa.curves/1";
 

@@ -12,6 +12,7 @@ mod fvvdp;
 mod gate;
 mod inputs;
 mod json;
+mod limits;
 
 mod output;
 mod report;
@@ -30,8 +31,8 @@ pub use crops::{CROPS, CropRecord, crop_folder};
 pub use csv_names::CsvNames;
 pub use curves::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
-    CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET,
-    RUN_JSON, SUMMARY_JSON, open_result_file, read_json_file,
+    CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, LIMITS_CSV, LIMITS_JSON, REPORT_JSON,
+    RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, SUMMARY_JSON, open_result_file, read_json_file,
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{
@@ -45,6 +46,7 @@ pub use json::{
     RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, ViewRecord, read_summary,
     write_json, write_summary,
 };
+pub use limits::{LIMITS_SCHEMA, LimitRecord, LimitRule, LimitState, LimitsRecord};
 pub use output::{
     Batch, make_folder, replaces, sweep, take_away, try_writing, write_json_file,
     write_json_output, write_output, write_whole, write_whole_with,

@@ -10,7 +10,10 @@ use super::values::{ComparisonName, RunValues, ValueRow, Values};
 use crate::csv_names::CsvNames;
 use crate::files::{FileError, SUMMARY_JSON};
 use crate::json::{ComparisonSummary, read_summary};
-use crate::table::{ERROR, Value, Which, not_results, read_results, table_file};
+use crate::report::RunResults;
+use crate::table::{
+    ERROR, TableRow, Value, Which, not_results, read_results, rows_of_run, table_file,
+};
 
 impl RunValues {
     /// Reads the values in a results folder.
@@ -50,17 +53,38 @@ impl RunValues {
         Ok(values)
     }
 
+    /// The values of a run that is still in memory. It has no errors of its own: they are in `results`.
+    pub fn of_results(results: &RunResults) -> Self {
+        let mut values = Self::default();
+        // The sink refuses nothing.
+        let _ = rows_of_run(results, &mut |row| {
+            values.take(row);
+            Ok(())
+        });
+        for comparison in &results.comparisons {
+            let summary = ComparisonSummary::of(comparison);
+            let entry = values.places.entry(place(&summary)).or_default();
+            entry.errors = summary.errors;
+            entry.summary = Some(summary);
+        }
+        values
+    }
+
+    fn take(&mut self, row: &TableRow<'_>) {
+        let place = (row.scene.to_owned(), row.label(), row.eye.to_owned());
+        let values = self.places.entry(place).or_default();
+        if row.metric != ERROR {
+            let (metric, statistic) = (row.metric.to_owned(), row.statistic.to_owned());
+            let kind = (metric, statistic, row.image.name().to_owned(), row.level);
+            let value = row.value.map(Value::number);
+            let (frame, band) = (row.frame, row.band);
+            values.rows.entry(kind).or_default().push(ValueRow { frame, band, value });
+        }
+    }
+
     fn read_csv(&mut self, folder: &Path, names: CsvNames) -> Result<(), FileError> {
         read_results(folder, names, Which::All, |row| {
-            let place = (row.scene.to_owned(), row.label(), row.eye.to_owned());
-            let values = self.places.entry(place).or_default();
-            if row.metric != ERROR {
-                let (metric, statistic) = (row.metric.to_owned(), row.statistic.to_owned());
-                let kind = (metric, statistic, row.image.name().to_owned(), row.level);
-                let value = row.value.map(Value::number);
-                let (frame, band) = (row.frame, row.band);
-                values.rows.entry(kind).or_default().push(ValueRow { frame, band, value });
-            }
+            self.take(row);
             Ok(())
         })
     }

@@ -8,6 +8,7 @@ use fovqa_plan::{Aggregate, Quantity};
 
 use super::aggregate::aggregate;
 use crate::json::ComparisonSummary;
+use crate::samples::SampleSummary;
 
 /// Scene, method and eye.
 pub type ComparisonName = (String, String, String);
@@ -96,6 +97,11 @@ impl RunValues {
     pub fn frames_of(&self, place: &ComparisonName) -> usize {
         let summary = self.places.get(place).and_then(|values| values.summary.as_ref());
         summary.map_or(0, |summary| summary.frames)
+    }
+
+    /// The samples of a comparison, if its method is emulated.
+    pub fn samples_of(&self, place: &ComparisonName) -> Option<&SampleSummary> {
+        self.places.get(place)?.summary.as_ref()?.samples.as_ref()
     }
 
     /// A value of a comparison.

@@ -119,7 +119,7 @@ impl ErrorRecord {
 }
 
 impl ComparisonSummary {
-    pub(super) fn of(comparison: &Comparison) -> Self {
+    pub(crate) fn of(comparison: &Comparison) -> Self {
         let report = &comparison.report;
         let summary = Summary::of(report);
         // Each eye has its own view, but both together have none.

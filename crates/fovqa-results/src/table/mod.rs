@@ -17,6 +17,7 @@ pub use parquet::write_results_parquet;
 pub use reading::Which;
 pub(crate) use reading::not_results;
 pub use row::{ERROR, GAZE_STEP, TableRow, Value};
+pub(crate) use rows::rows_of_run;
 
 use crate::csv_names::CsvNames;
 use crate::files::{FileError, RESULTS_CSV, RESULTS_PARQUET};

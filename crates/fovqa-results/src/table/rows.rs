@@ -30,7 +30,7 @@ pub(super) fn rows_of_report(report: &ScoreReport, sink: &mut Sink<'_>) -> io::R
 ///
 /// # Errors
 /// If the sink refuses a row.
-pub(super) fn rows_of_run(results: &RunResults, sink: &mut Sink<'_>) -> io::Result<()> {
+pub(crate) fn rows_of_run(results: &RunResults, sink: &mut Sink<'_>) -> io::Result<()> {
     let mut table = Table(sink);
     for comparison in &results.comparisons {
         let Comparison { scene, eye, report, .. } = comparison;
@@ -54,7 +54,7 @@ fn is_seldom(subject: Subject) -> bool {
 }
 
 /// Receives one row.
-pub(super) type Sink<'s> = dyn FnMut(&TableRow<'_>) -> io::Result<()> + 's;
+pub(crate) type Sink<'s> = dyn FnMut(&TableRow<'_>) -> io::Result<()> + 's;
 
 struct Table<'s, 'a>(&'a mut Sink<'s>);
 
