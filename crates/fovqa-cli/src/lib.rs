@@ -12,6 +12,7 @@ mod failures;
 mod foveate;
 mod gallery;
 mod gate;
+mod limit;
 mod list;
 mod merge;
 mod output;
@@ -49,6 +50,7 @@ fn dispatch(cli: Cli) -> Exit {
         Command::Gallery(args) => gallery::run(&args),
         Command::Run(args) => run::run(&args),
         Command::Gate(args) => gate::run(&args),
+        Command::Limit(args) => limit::run(&args),
         Command::Baseline(command) => baseline::run(&command),
         Command::Merge(args) => merge::run(&args),
         Command::Report(args) => report::run(&args),

@@ -3,8 +3,10 @@
 use std::path::Path;
 
 use fovqa_engine::{Locking, ResultsFolder, shard_in};
-use fovqa_report::Drawn;
-use fovqa_results::{CURVES_JSON, RUN_JSON};
+use fovqa_report::{Drawn, DrawnLimits};
+use fovqa_results::{
+    CURVES_JSON, LIMITS_JSON, LIMITS_SCHEMA, LimitsRecord, RUN_JSON, read_json_file,
+};
 
 use crate::error::Error;
 use crate::finish::in_folder;
@@ -14,6 +16,8 @@ use crate::finish::in_folder;
 pub enum Report {
     /// The tables and figures of a run.
     Run(Drawn),
+    /// The table and figures of a search for limits.
+    Limits(DrawnLimits),
     /// A page about this number of results folders in it.
     Index(usize),
 }
@@ -29,6 +33,18 @@ pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
         let message = format!("{shown}: the folder contains curves");
         let help = "draw them again with `fovqa curves`, from their file";
         return Err(Error::input(message, help));
+    }
+    if folder.join(LIMITS_JSON).is_file() {
+        let failed = |error: &dyn std::fmt::Display| {
+            Error::input(error.to_string(), "search again with `fovqa limit`")
+        };
+        let record: LimitsRecord =
+            read_json_file(&folder.join(LIMITS_JSON), LIMITS_SCHEMA, "the record of a search")
+                .map_err(|error| failed(&error))?;
+        let folder =
+            ResultsFolder::open_for_limits(folder, locking).map_err(|error| in_folder(&error))?;
+        let drawn = fovqa_report::draw_limits(folder.path(), &record);
+        return Ok(Report::Limits(drawn.map_err(|error| failed(&error))?));
     }
     if !folder.join(RUN_JSON).is_file() && folder.is_dir() {
         let index = fovqa_report::draw_index(folder);

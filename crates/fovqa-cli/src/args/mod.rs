@@ -7,6 +7,7 @@ mod foveate;
 mod gallery;
 mod gate;
 mod guides;
+mod limit;
 mod lock;
 mod luminance;
 mod metrics;
@@ -22,6 +23,7 @@ pub(crate) use curves::CurvesArgs;
 pub(crate) use foveate::{FoveateArgs, FoveateFormat};
 pub(crate) use gallery::GalleryArgs;
 pub(crate) use gate::{Annotations, GateArgs, GateFormat};
+pub(crate) use limit::LimitArgs;
 pub(crate) use run::{CheckArgs, MergeArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
 
@@ -61,6 +63,9 @@ pub(crate) enum Command {
     /// Check the [[gate]] rules of an experiment against its results; exit code 0 (pass) or 1 (fail).
     #[command(after_help = gate::EXAMPLES)]
     Gate(Box<GateArgs>),
+    /// Find how far methods can foveate: the smallest budget at which each [[gate]] rule still holds.
+    #[command(after_help = limit::EXAMPLES)]
+    Limit(Box<LimitArgs>),
     /// Save, show and update the baseline that a gate compares with.
     #[command(subcommand, after_help = baseline::EXAMPLES)]
     Baseline(BaselineCommand),
