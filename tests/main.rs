@@ -14,3 +14,4 @@ mod gate;
 mod metrics;
 mod published;
 mod runs;
+mod sweeps;

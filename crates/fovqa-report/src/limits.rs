@@ -254,11 +254,13 @@ fn chart(
     for limit in limits {
         let index = methods.iter().position(|method| *method == limit.method).unwrap_or(0);
         let look = Look::new(index);
+        // Points close to the limit would only show how scores depend on whole sizes of buffers.
+        let steps = limit.points.iter().filter(|point| !point.closer);
         series.push(LineSeries {
             name: limit.method.clone(),
             look,
             smooth: true,
-            points: limit.points.iter().map(|(at, value)| (*at, Some(value.0))).collect(),
+            points: steps.map(|point| (point.at, Some(point.value.0))).collect(),
             ..LineSeries::default()
         });
         let dot = limit.limit.zip(limit.value);

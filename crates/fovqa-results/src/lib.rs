@@ -46,7 +46,7 @@ pub use json::{
     RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, ViewRecord, read_summary,
     write_json, write_summary,
 };
-pub use limits::{LIMITS_SCHEMA, LimitRecord, LimitRule, LimitState, LimitsRecord};
+pub use limits::{LIMITS_SCHEMA, LimitPoint, LimitRecord, LimitRule, LimitState, LimitsRecord};
 pub use output::{
     Batch, make_folder, replaces, sweep, take_away, try_writing, write_json_file,
     write_json_output, write_output, write_whole, write_whole_with,

@@ -105,8 +105,20 @@ pub struct LimitRecord {
     pub monotone: bool,
     /// Why there is no limit, if there is none.
     pub note: Option<String>,
-    /// All values that were measured: of what was varied, and of the metric.
-    pub points: Vec<(f64, Number)>,
+    /// All that was measured, in ascending order.
+    pub points: Vec<LimitPoint>,
+}
+
+/// What was measured at a value of what was varied.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LimitPoint {
+    /// The value of what was varied.
+    pub at: f64,
+    /// The value of the metric.
+    pub value: Number,
+    /// Whether it was measured to come closer to the limit, after the first steps.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub closer: bool,
 }
 
 impl LimitsRecord {
@@ -117,8 +129,8 @@ impl LimitsRecord {
         let _ = writer.write_record(["rule", "scene", "method", "eye", &self.vary, "value"]);
         for limit in &self.limits {
             let rule = self.rules.get(limit.rule).map_or("", |rule| rule.name.as_str());
-            for (at, value) in &limit.points {
-                let [at, value] = [*at, value.0].map(|number| format!("{number:?}"));
+            for point in &limit.points {
+                let [at, value] = [point.at, point.value.0].map(|number| format!("{number:?}"));
                 let LimitRecord { scene, method, eye, .. } = limit;
                 let _ = writer.write_record([rule, scene, method, eye, &at, &value]);
             }

@@ -261,6 +261,7 @@ mod tests {
     use super::*;
     use crate::fvvdp::{EccentricityShare, SpatialBand};
     use crate::report::GuideSource;
+    use crate::samples::BudgetSummary;
 
     fn fvvdp(spread: Spread) -> FvvdpSummary {
         FvvdpSummary {

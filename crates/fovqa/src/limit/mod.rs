@@ -12,8 +12,8 @@ use fovqa_engine::{Events, Locking, ResultsFolder, budget_range};
 use fovqa_plan::{Experiment, GateRule};
 use fovqa_report::DrawnLimits;
 use fovqa_results::{
-    ComparisonName, LIMITS_CSV, LIMITS_JSON, LIMITS_SCHEMA, LimitRecord, LimitRule, LimitState,
-    LimitsRecord, Number, RunValues, SampleSummary, write_json_file, write_whole,
+    ComparisonName, LIMITS_CSV, LIMITS_JSON, LIMITS_SCHEMA, LimitPoint, LimitRecord, LimitRule,
+    LimitState, LimitsRecord, Number, RunValues, SampleSummary, write_json_file, write_whole,
 };
 
 use crate::error::Error;
@@ -65,6 +65,13 @@ pub struct FoundLimits {
     pub drawn: DrawnLimits,
 }
 
+/// What is known of a measured value beside it.
+struct Sample {
+    samples: Option<SampleSummary>,
+    /// Whether it was measured to come closer to the limit.
+    closer: bool,
+}
+
 /// The range of budgets that is searched by default, if methods can have all of it.
 const BUDGETS: [f64; 2] = [0.01, 1.0];
 
@@ -73,7 +80,7 @@ struct Wanted {
     rule: usize,
     target: usize,
     eye: String,
-    search: Search<Option<SampleSummary>>,
+    search: Search<Sample>,
     /// Why there are no values.
     lacks: Option<String>,
 }
@@ -107,16 +114,18 @@ pub fn find_limits(
         at.map(move |at| Candidate { target: index, at })
     });
     let mut candidates: Vec<Candidate> = scan.collect();
+    let mut closer = false;
     while !candidates.is_empty() {
         let scored = scorer.score(&targets, &candidates, events)?;
         for of in &mut wanted {
             let target = of.target;
             let own = scored.iter().filter(|(candidate, _)| candidate.target == target);
             for (candidate, values) in own {
-                take(of, &experiment.gates[of.rule], *candidate, values);
+                take(of, &experiment.gates[of.rule], (*candidate, closer), values);
             }
         }
         candidates.clear();
+        closer = true;
         for of in wanted.iter().filter(|of| of.lacks.is_none()) {
             let next = of.search.next(options.tolerance);
             let next = next.map(|at| Candidate { target: of.target, at });
@@ -211,10 +220,10 @@ fn with_ranges(
         if range[0].is_nan() || range[1].is_nan() || range[0] >= range[1] {
             let method = &experiment.plan.methods[target.method];
             let message = format!(
-                "{}, {method}: budgets from {:.4} to {:.4} can be reached, but not from {} to {}",
+                "{}, {method}: budgets from {} to {} can be reached, but not from {} to {}",
                 scene.name,
-                reach[0],
-                reach[1],
+                short(reach[0]),
+                short(reach[1]),
                 from.unwrap_or(BUDGETS[0]),
                 to.unwrap_or(BUDGETS[1])
             );
@@ -253,7 +262,7 @@ fn wanted(experiment: &Experiment, options: &LimitOptions, targets: &[Target]) -
 }
 
 /// Takes the value of a candidate.
-fn take(of: &mut Wanted, rule: &GateRule, candidate: Candidate, scored: &Scored) {
+fn take(of: &mut Wanted, rule: &GateRule, (candidate, closer): (Candidate, bool), scored: &Scored) {
     let place: ComparisonName = (scored.scene.clone(), scored.label.clone(), of.eye.clone());
     match scored.values.of(&place, &rule.quantity) {
         Ok(found) if scored.values.errors_of(&place) == 0 => {
@@ -261,7 +270,8 @@ fn take(of: &mut Wanted, rule: &GateRule, candidate: Candidate, scored: &Scored)
             let holds = rule.at_least.is_none_or(|least| value >= least)
                 && rule.at_most.is_none_or(|most| value <= most);
             let samples = scored.values.samples_of(&place).cloned();
-            of.search.add(Measured { at: candidate.at, value, holds, of: samples });
+            let of_sample = Sample { samples, closer };
+            of.search.add(Measured { at: candidate.at, value, holds, of: of_sample });
         }
         Ok(_) => of.lacks = of.lacks.take().or_else(|| scored.failure.clone()),
         Err(lacking) => {
@@ -315,7 +325,8 @@ fn limit(experiment: &Experiment, targets: &[Target], of: &Wanted) -> LimitRecor
     let place = of.search.place();
     let [from, to] = target.range;
     let named = |why: &str| Some(format!("{scene}, {method}: {why}"));
-    let in_range = |why: &str| named(&format!("the rule holds {why} from {from:.5} to {to:.5}"));
+    let in_range =
+        |why: &str| named(&format!("the rule holds {why} from {} to {}", short(from), short(to)));
     let (state, note) = match (&of.lacks, place) {
         (Some(why), _) => (LimitState::NotScored, named(why)),
         (None, Place::Between(..)) => (LimitState::Found, None),
@@ -327,7 +338,7 @@ fn limit(experiment: &Experiment, targets: &[Target], of: &Wanted) -> LimitRecor
         _ => None,
     };
     let holds = ends.map(|(holds, _)| &of.search.measured[holds]);
-    let samples = holds.and_then(|holds| holds.of.as_ref());
+    let samples = holds.and_then(|holds| holds.of.samples.as_ref());
     let budget = samples.and_then(|samples| samples.budget.as_ref());
     LimitRecord {
         rule: of.rule,
@@ -345,8 +356,17 @@ fn limit(experiment: &Experiment, targets: &[Target], of: &Wanted) -> LimitRecor
         parameter_value: budget.map(|budget| budget.value.clone()).unwrap_or_default(),
         monotone: of.search.is_monotone(),
         note,
-        points: of.search.measured.iter().map(|of| (of.at, Number(of.value))).collect(),
+        points: of.search.measured.iter().map(point).collect(),
     }
+}
+
+/// A number with a few digits, for a message.
+fn short(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+fn point(of: &Measured<Sample>) -> LimitPoint {
+    LimitPoint { at: of.at, value: Number(of.value), closer: of.of.closer }
 }
 
 /// Writes the record, the table and the figures.
