@@ -12,3 +12,27 @@ pub struct ResponsePlot {
     /// The screen's pixels per degree at its centre.
     pub pixels_per_degree: f64,
 }
+
+/// Values that are drawn as bars.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GivenValues {
+    /// What the values are, with their unit: the title of the vertical axis.
+    pub quantity: String,
+    /// Names of the groups of bars.
+    pub groups: Vec<String>,
+    /// The series.
+    pub series: Vec<GivenSeries>,
+    /// The name of a further series, the sum of the others; `None` for none.
+    pub sum: Option<String>,
+}
+
+/// The values of one series.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GivenSeries {
+    /// Its name in the legend.
+    pub name: String,
+    /// A value for each group.
+    pub values: Vec<f64>,
+    /// Half the length of the error bar of each value; empty for none.
+    pub errors: Vec<f64>,
+}

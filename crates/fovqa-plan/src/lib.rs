@@ -25,7 +25,7 @@ mod source;
 
 pub use builtin::BuiltinFrames;
 pub use crops::CropRegion;
-pub use curve_data::ResponsePlot;
+pub use curve_data::{GivenSeries, GivenValues, ResponsePlot};
 pub use curves::{
     AcuityScale, CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, CurvesFile,
     DensityStyle, PanelOf, RateKind, RateUnit, TableAcross,

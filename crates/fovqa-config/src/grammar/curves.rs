@@ -78,11 +78,25 @@ static MARK: [Key; 2] = [
     ),
 ];
 
-static PLOT_TABLE: [Key; 25] = [
+/// Maximum number of groups of bars.
+const MOST_GROUPS: usize = 48;
+
+/// A series of given values.
+static SERIES: [Key; 3] = [
+    required("name", Kind::Name, "its name in the legend"),
+    required("at", Kind::List(&Kind::Number(-1e12, 1e12), 1, MOST_GROUPS), "one value per group"),
+    key(
+        "error",
+        Kind::List(&Kind::Number(0.0, 1e12), 1, MOST_GROUPS),
+        "half the length of the error bar of each value; default: no error bars",
+    ),
+];
+
+static PLOT_TABLE: [Key; 29] = [
     required(
         "kind",
         Kind::Words(words_of::<CurvePlotKind>),
-        "rates: rates and acuity against eccentricity; density: picture of the samples per pixel over the field; accumulated: DEAMP's shaded pixels within an angle (Fig. 5b); half_axis: RMFR's mapping of a half axis (Fig. 3); steps: scales of the layers of DEAMP and Guenter; samples: positions of samples over the frame; samples_bars: numbers of samples over resolutions; outline: VaFR's buffer (Figs. 2 and 4); response: what the sandbox of Patney et al. leaves of gratings (Fig. 3)",
+        "rates: rates and acuity against eccentricity; density: picture of the samples per pixel over the field; accumulated: DEAMP's shaded pixels within an angle (Fig. 5b); half_axis: RMFR's mapping of a half axis (Fig. 3); steps: scales of the layers of DEAMP and Guenter; samples: positions of samples over the frame; samples_bars: numbers of samples over resolutions; outline: VaFR's buffer (Figs. 2 and 4); response: what the sandbox of Patney et al. leaves of gratings (Fig. 3); values: given values as bars",
     ),
     key("name", Kind::Name, "name of its files; default: the kind"),
     key("title", Kind::Text, "title above the figure"),
@@ -163,6 +177,18 @@ static PLOT_TABLE: [Key; 25] = [
         "for response: over which enhancement rises to its full strength, °; default: 20",
     ),
     key("f_max", parameter(F_MAX.values), "for response: strength of the enhancement; default: 1"),
+    key("quantity", Kind::Text, "for values: title of the vertical axis, with the unit"),
+    key("groups", Kind::List(&Kind::Name, 1, MOST_GROUPS), "for values: names of the groups"),
+    key(
+        "values",
+        Kind::Tables(&SERIES, 12),
+        "for values: series of bars: [{ name = \"…\", at = [1, 2], error = [0.1, 0.2] }]",
+    ),
+    key(
+        "sum",
+        Kind::Either(&[Kind::Bool, Kind::Name]),
+        "for values: also draw the sum of the series; a text is its name",
+    ),
     key("figure", Kind::Table(&FIGURES), "how it is printed; default: as [figures]"),
 ];
 

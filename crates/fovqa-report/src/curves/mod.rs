@@ -14,6 +14,7 @@ mod rates;
 mod response;
 mod samples;
 mod tables;
+mod values;
 
 use std::path::Path;
 
@@ -105,5 +106,6 @@ fn drawn(source: &Source<'_>, plot: &CurvePlot) -> Result<Option<NamedFigure>, R
         CurvePlotKind::Samples => Some(samples::positions(source, plot)?),
         CurvePlotKind::SamplesBars => Some(samples::bars(source, plot)),
         CurvePlotKind::Response => response::figure(source, plot),
+        CurvePlotKind::Values => values::figure(plot),
     })
 }

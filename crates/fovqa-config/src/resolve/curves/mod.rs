@@ -4,6 +4,7 @@
 mod plots;
 mod response;
 mod screens;
+mod values;
 
 use std::ops::Range;
 

@@ -6,7 +6,7 @@ use std::ops::Range;
 use fovqa_methods::Method;
 use fovqa_params::Words;
 
-use super::response;
+use super::{response, values};
 use crate::fault::{Fault, Faults};
 use crate::node::Node;
 use crate::resolve::plots::subset;
@@ -139,6 +139,7 @@ pub(super) fn plot(
         response: (kind == CurvePlotKind::Response)
             .then(|| response::response(root, table, faults))
             .flatten(),
+        values: (kind == CurvePlotKind::Values).then(|| values::values(table, faults)).flatten(),
         figure: FigureSettings::default(),
     };
     fits(table, &plot, faults);
@@ -213,6 +214,7 @@ fn keys_of(kind: CurvePlotKind) -> &'static [&'static str] {
         CurvePlotKind::Accumulated | CurvePlotKind::Steps | CurvePlotKind::Outline => &["curves"],
         CurvePlotKind::HalfAxis => &["f", "dots"],
         CurvePlotKind::Response => response::KEYS,
+        CurvePlotKind::Values => values::KEYS,
     }
 }
 
