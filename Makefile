@@ -9,7 +9,7 @@ figures:
 	for figure in 4 10 12; do \
 	  cargo run --release --locked --bin fovqa -- run configs/papers/patney-fig-$$figure.toml --output reports/papers/patney-fig-$$figure || exit; \
 	done
-	cargo run --release --locked --bin fovqa -- curves configs/papers/vafr-*.toml configs/papers/rmfr-*.toml configs/papers/deamp-*.toml configs/papers/patney-rates.toml configs/papers/patney-fig-8.toml --output reports/papers
+	cargo run --release --locked --bin fovqa -- curves configs/papers/vafr-*.toml configs/papers/rmfr-*.toml configs/papers/deamp-*.toml configs/papers/patney-rates.toml configs/papers/patney-fig-3.toml configs/papers/patney-fig-8.toml --output reports/papers
 	cargo run --release --locked --bin fovqa -- report reports/papers
 
 # docs/published-numbers.md, from the models and the papers' tables in ../shared/papers.

@@ -216,6 +216,108 @@ const MISTAKES: &[Mistake] = &[
         false,
     ),
     ("kind = \"rates\"", "kind = \"rates\"\n[[scene]]\nname = \"x\"", &["no key `scene`"], true),
+    (
+        "kind = \"rates\"",
+        "kind = \"response\"",
+        &["needs eccentricities", "eccentricities_deg = [20, 30]"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"response\"\neccentricities_deg = []",
+        &["a list of 0", "1 to 12"],
+        true,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"response\"\neccentricities_deg = [90]",
+        &["cannot be 90", "from 0 to 89"],
+        true,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"response\"\neccentricities_deg = [30, 80]",
+        &["no pixel is 80° from the gaze", "the last one is at 62.5°"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"response\"\neccentricities_deg = [30]\ncurves = [\"A\"]",
+        &["curves does not apply to a plot of kind \"response\""],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"rates\"\nf_max = 1",
+        &["f_max does not apply to a plot of kind \"rates\""],
+        false,
+    ),
+    (
+        "resolutions = [\"1440x1600\"]",
+        "resolutions = [\"1440x1600\", \"720x800\"]\n[[plot]]\nkind = \"response\"\neccentricities_deg = [30]",
+        &["shows one screen and gaze"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"values\"",
+        &["needs quantity", "needs groups", "needs values"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"values\"\nquantity = \"ms\"\ngroups = []\nvalues = []",
+        &["groups cannot be a list of 0"],
+        true,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"values\"\nquantity = \"ms\"\ngroups = [\"X\"]\nvalues = []",
+        &["needs values"],
+        true,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"values\"\nquantity = \"ms\"\ngroups = [\"X\", \"Y\"]\nvalues = [{ name = \"a\", at = [1] }]",
+        &["\"a\" has 1 values, but there are 2 groups"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"values\"\nquantity = \"ms\"\ngroups = [\"X\"]\nvalues = [{ name = \"a\", at = [1], error = [1, 2] }]",
+        &["\"a\" has 2 errors, but there are 1 groups"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"values\"\nquantity = \"ms\"\ngroups = [\"X\"]\nvalues = [{ name = \"a\", at = [1], error = [-1] }]",
+        &["error cannot be -1"],
+        true,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"values\"\nquantity = \"ms\"\ngroups = [\"X\", \"X\"]\nvalues = [{ name = \"a\", at = [1, 2] }]",
+        &["two groups named \"X\""],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"values\"\nquantity = \"ms\"\ngroups = [\"X\"]\nvalues = [{ name = \"a\", at = [1] }, { name = \"a\", at = [2] }]",
+        &["two bars named \"a\""],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"values\"\nquantity = \"ms\"\ngroups = [\"X\"]\nvalues = [{ name = \"a\", at = [1] }]\nsum = true",
+        &["a sum needs at least two series"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"values\"\nquantity = \"ms\"\ngroups = [\"X\"]\nvalues = [{ name = \"a\", at = [1] }, { name = \"b\", at = [2] }]\nsum = \"A\"",
+        &["the sum and a series are both named \"A\""],
+        false,
+    ),
 ];
 
 #[test]

@@ -1,5 +1,6 @@
 //! `fovqa curves`.
 
+mod data;
 mod figures;
 pub(crate) mod files;
 mod flags;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use fovqa_frame::{Frame, SignalTables};
 use fovqa_methods::cps::Cps;
+use fovqa_methods::sandbox::Sandbox;
 use fovqa_methods::{BudgetError, Method, Setting};
 use fovqa_vision::View;
 
@@ -262,12 +263,9 @@ fn rates(spec: &EmulationSpec, setting: &Setting) -> Option<Arc<Image<1>>> {
 /// The enhancement of the perceptual target, and the one that was asked for.
 fn enhancers(spec: &EmulationSpec, setting: &Setting) -> Arc<[Enhancer]> {
     let own = match &spec.method {
-        Emulated::PerceptualTarget(params) => Some((params.f_max, params)),
+        Emulated::PerceptualTarget(params) => Some(*params),
         _ => None,
     };
-    let asked = spec.enhance.map(|f_max| (f_max, &spec.enhancement));
-    let enhancer = |(f_max, params): (f64, &crate::sandbox_params::SandboxParams)| {
-        Enhancer::new(f_max, params.growth, params.transition_deg, setting)
-    };
-    own.into_iter().chain(asked).map(enhancer).collect()
+    let asked = spec.enhance.map(|f_max| Sandbox { f_max, ..spec.enhancement });
+    own.into_iter().chain(asked).map(|sandbox| Enhancer::new(&sandbox, setting)).collect()
 }

@@ -3,11 +3,11 @@
 //! 2016, section 3.1). On the encoded signal.
 
 use fovqa_methods::Setting;
+use fovqa_methods::sandbox::Sandbox;
 
 use crate::blur::Blur;
 use crate::image::Image;
 use crate::offsets::Offsets;
-use crate::peripheral::Growth;
 use crate::radial::{Detail, Radial};
 
 /// Enhancement of frames at a gaze.
@@ -19,14 +19,10 @@ pub(crate) struct Enhancer {
 }
 
 impl Enhancer {
-    /// `transition_deg` is T, above 0.
-    pub(crate) fn new(f_max: f64, growth: Growth, transition_deg: f64, setting: &Setting) -> Self {
+    pub(crate) fn new(sandbox: &Sandbox, setting: &Setting) -> Self {
         let reach = setting.corner_px();
-        let width = |r: f64| 2.0 * growth.width_px(setting, r);
-        let strength = |r: f64| {
-            let beyond_deg = setting.eccentricity_deg(r) - growth.foveal_deg;
-            f_max * (beyond_deg / transition_deg).clamp(0.0, 1.0)
-        };
+        let width = |r: f64| 2.0 * sandbox.width_px(setting, r);
+        let strength = |r: f64| sandbox.strength(setting.eccentricity_deg(r));
         Self {
             blur: Blur::new(Radial::new(Detail::Fine, reach, width)),
             strength: Radial::new(Detail::Fine, reach, strength),

@@ -63,7 +63,6 @@ mod method;
 mod moments;
 mod offsets;
 mod parameters;
-mod peripheral;
 mod picture;
 mod piece;
 mod piece_samples;

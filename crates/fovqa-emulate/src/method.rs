@@ -1,20 +1,21 @@
 //! The list of everything that can be emulated: the methods of `fovqa-methods`, and those of emulation
 //! alone.
 
+use fovqa_methods::sandbox::Sandbox;
 use fovqa_methods::{Method, MethodInfo};
 use fovqa_params::{ParamError, ParamValue, find};
 
 use crate::filters::{self, FilterInfo};
-use crate::sandbox_params::{BLUR, SandboxParams, TARGET};
+use crate::sandbox_params::{BLUR, TARGET};
 
 /// A method with its parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Emulated {
     Foveation(Method),
     Taa,
-    Stable(SandboxParams),
-    Aliased(SandboxParams),
-    PerceptualTarget(SandboxParams),
+    Stable(Sandbox),
+    Aliased(Sandbox),
+    PerceptualTarget(Sandbox),
 }
 
 const SANDBOX: &str = "Patney et al. 2016, section 3.1";
@@ -55,7 +56,7 @@ impl Emulated {
     /// All of them with their defaults, in the order of tables.
     pub(crate) fn all() -> Vec<Self> {
         let mut all: Vec<Self> = Method::all().into_iter().map(Self::Foveation).collect();
-        let sandbox = SandboxParams::default();
+        let sandbox = Sandbox::default();
         all.extend([
             Self::Taa,
             Self::Stable(sandbox),

@@ -47,7 +47,7 @@ impl EmulationSpec {
     /// Parameters of enhancement that follow those of coarse pixel shading.
     fn followed(&self, name: &str) -> Option<ParamValue> {
         match name {
-            "enhance.foveal_deg" => Some(ParamValue::Number(self.enhancement.growth.foveal_deg)),
+            "enhance.foveal_deg" => Some(ParamValue::Number(self.enhancement.foveal_deg)),
             "enhance.transition_deg" => Some(ParamValue::Number(self.enhancement.transition_deg)),
             _ => None,
         }

@@ -55,11 +55,9 @@ impl Prepared {
         Ok(match &spec.method {
             Emulated::Taa | Emulated::Foveation(Method::Full) => Self::Full(places, size),
             Emulated::Stable(params) | Emulated::PerceptualTarget(params) => {
-                Self::Stable(Stable::new(params.growth, setting, places), size)
+                Self::Stable(Stable::new(params, setting, places), size)
             }
-            Emulated::Aliased(params) => {
-                Self::Aliased(Aliased::new(params.growth, setting, places), size)
-            }
+            Emulated::Aliased(params) => Self::Aliased(Aliased::new(params, setting, places), size),
             Emulated::Foveation(Method::Rmfr(params)) => {
                 Self::Rmfr(Rmfr::new(params, setting, places))
             }

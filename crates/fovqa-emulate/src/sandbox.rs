@@ -3,12 +3,12 @@
 //! (`perceptual-target`). Methods of emulation alone: they have no buffer and save nothing.
 
 use fovqa_methods::Setting;
+use fovqa_methods::sandbox::Sandbox;
 
 use crate::blur::Blur;
 use crate::grids::Grids;
 use crate::image::Image;
 use crate::offsets::Offsets;
-use crate::peripheral::Growth;
 use crate::radial::{Detail, Radial};
 use crate::sample_places::SamplePlaces;
 use crate::source::Source;
@@ -23,8 +23,8 @@ pub(crate) struct Stable {
 }
 
 impl Stable {
-    pub(crate) fn new(growth: Growth, setting: &Setting, places: SamplePlaces) -> Self {
-        let width = |r: f64| growth.width_px(setting, r);
+    pub(crate) fn new(sandbox: &Sandbox, setting: &Setting, places: SamplePlaces) -> Self {
+        let width = |r: f64| sandbox.width_px(setting, r);
         let width = Radial::new(Detail::Fine, setting.corner_px(), width);
         Self { blur: Blur::new(width), offsets: Offsets::new(setting), places }
     }
@@ -42,8 +42,8 @@ pub(crate) struct Aliased {
 }
 
 impl Aliased {
-    pub(crate) fn new(growth: Growth, setting: &Setting, places: SamplePlaces) -> Self {
-        let level = |r: f64| libm::log2(growth.width_px(setting, r).max(1.0));
+    pub(crate) fn new(sandbox: &Sandbox, setting: &Setting, places: SamplePlaces) -> Self {
+        let level = |r: f64| libm::log2(sandbox.width_px(setting, r).max(1.0));
         let level = Radial::new(Detail::Fine, setting.corner_px(), level);
         Self { grids: Grids::new(level, Offsets::new(setting), places) }
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use fovqa_methods::sandbox::{MOST_F_MAX, Sandbox};
 use fovqa_methods::{BudgetSamples, Method, MethodInfo};
 use fovqa_params::{ParamValue, Words, find};
 
@@ -10,7 +11,7 @@ use crate::filters::{FilterChoice, FilterParams};
 use crate::jitter::Jitter;
 use crate::method::Emulated;
 use crate::sampling::Sampling;
-use crate::sandbox_params::{ENHANCE, MOST_F_MAX, SandboxParams};
+use crate::sandbox_params::ENHANCE;
 use crate::space::Space;
 use crate::temporal::TaaParams;
 
@@ -35,7 +36,7 @@ pub struct EmulationSpec {
     pub(crate) temporal: bool,
     pub(crate) taa: TaaParams,
     pub(crate) enhance: Option<f64>,
-    pub(crate) enhancement: SandboxParams,
+    pub(crate) enhancement: Sandbox,
     pub(crate) budget: Option<Budget>,
     /// What was set by name.
     pub(crate) set: BTreeMap<String, ParamValue>,
@@ -64,9 +65,9 @@ impl EmulationSpec {
     }
 
     fn of(method: Emulated) -> Self {
-        let mut enhancement = SandboxParams::default();
+        let mut enhancement = Sandbox::default();
         if let Emulated::Foveation(Method::Cps(params)) = &method {
-            enhancement.growth.foveal_deg = params.foveal_deg;
+            enhancement.foveal_deg = params.foveal_deg;
             enhancement.transition_deg = params.transition_deg;
         }
         Self {
@@ -144,7 +145,7 @@ impl EmulationSpec {
     pub(crate) fn follow_cps(&mut self) {
         if let Emulated::Foveation(Method::Cps(params)) = &self.method {
             if !self.set.contains_key("enhance.foveal_deg") {
-                self.enhancement.growth.foveal_deg = params.foveal_deg;
+                self.enhancement.foveal_deg = params.foveal_deg;
             }
             if !self.set.contains_key("enhance.transition_deg") {
                 self.enhancement.transition_deg = params.transition_deg;

@@ -44,6 +44,7 @@ mod log_polar;
 mod quadrature;
 mod registry;
 pub mod rmfr;
+pub mod sandbox;
 mod setting;
 pub mod vafr;
 pub mod visual_polar;

@@ -7,6 +7,7 @@ use fovqa_methods::curves::{CurveRange, CurveSpec};
 use fovqa_params::words;
 use fovqa_vision::acuity::AcuityModel;
 
+use crate::curve_data::{GivenValues, ResponsePlot};
 use crate::figures::FigureSettings;
 
 /// A curves file and its plan.
@@ -86,6 +87,10 @@ pub struct CurvePlot {
     pub style: DensityStyle,
     /// What acuity is divided by if rates are in samples per pixel.
     pub acuity_scale: AcuityScale,
+    /// The frequency responses of a plot of this kind.
+    pub response: Option<ResponsePlot>,
+    /// The values of a plot of this kind.
+    pub values: Option<GivenValues>,
     /// How it is printed.
     pub figure: FigureSettings,
 }
@@ -135,6 +140,17 @@ words! {
         SamplesBars "samples_bars" "Numbers of samples as bars over resolutions";
         /// VaFR: the outline of the buffer (Figs. 2 and 4).
         Outline "outline" "VaFR: the outline of the buffer";
+        /// What the sandbox of Patney et al. 2016 leaves of gratings (Fig. 3).
+        Response "response" "What the sandbox of Patney et al. leaves of gratings";
+        /// Values that the file gives, as bars.
+        Values "values" "Values that the file gives, as bars";
+    }
+}
+
+impl CurvePlotKind {
+    /// Whether it shows no curve of the file.
+    pub fn needs_no_curve(self) -> bool {
+        matches!(self, Self::HalfAxis | Self::Response | Self::Values)
     }
 }
 

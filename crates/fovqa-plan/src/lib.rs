@@ -8,6 +8,7 @@
 
 mod builtin;
 mod crops;
+mod curve_data;
 mod curves;
 mod emulation;
 mod experiment;
@@ -25,6 +26,7 @@ mod sweep;
 
 pub use builtin::BuiltinFrames;
 pub use crops::CropRegion;
+pub use curve_data::{GivenSeries, GivenValues, ResponsePlot};
 pub use curves::{
     AcuityScale, CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, CurvesFile,
     DensityStyle, PanelOf, RateKind, RateUnit, TableAcross,

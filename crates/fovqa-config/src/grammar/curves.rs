@@ -1,13 +1,14 @@
 //! The keys of a curves file.
 
 use fovqa_methods::BudgetSamples;
+use fovqa_methods::sandbox::{F_MAX, FOVEAL, RATE, TRANSITION};
 use fovqa_params::words_of;
 use fovqa_vision::{EccentricityKind, Tangential};
 
 use super::experiment::{POSITION_PAIR, VIEW};
 use super::figures::FIGURES;
 use super::keys::{joined, key, required};
-use super::{Key, Kind};
+use super::{Key, Kind, parameter};
 use fovqa_plan::{
     AcuityScale, CurvePlotKind, CurveTableKind, DensityStyle, PanelOf, RateKind, RateUnit,
     TableAcross,
@@ -77,11 +78,25 @@ static MARK: [Key; 2] = [
     ),
 ];
 
-static PLOT_TABLE: [Key; 20] = [
+/// Maximum number of groups of bars.
+const MOST_GROUPS: usize = 48;
+
+/// A series of given values.
+static SERIES: [Key; 3] = [
+    required("name", Kind::Name, "its name in the legend"),
+    required("at", Kind::List(&Kind::Number(-1e12, 1e12), 1, MOST_GROUPS), "one value per group"),
+    key(
+        "error",
+        Kind::List(&Kind::Number(0.0, 1e12), 1, MOST_GROUPS),
+        "half the length of the error bar of each value; default: no error bars",
+    ),
+];
+
+static PLOT_TABLE: [Key; 29] = [
     required(
         "kind",
         Kind::Words(words_of::<CurvePlotKind>),
-        "rates: rates and acuity against eccentricity; density: picture of the samples per pixel over the field; accumulated: DEAMP's shaded pixels within an angle (Fig. 5b); half_axis: RMFR's mapping of a half axis (Fig. 3); steps: scales of the layers of DEAMP and Guenter; samples: positions of samples over the frame; samples_bars: numbers of samples over resolutions; outline: VaFR's buffer (Figs. 2 and 4)",
+        "rates: rates and acuity against eccentricity; density: picture of the samples per pixel over the field; accumulated: DEAMP's shaded pixels within an angle (Fig. 5b); half_axis: RMFR's mapping of a half axis (Fig. 3); steps: scales of the layers of DEAMP and Guenter; samples: positions of samples over the frame; samples_bars: numbers of samples over resolutions; outline: VaFR's buffer (Figs. 2 and 4); response: what the sandbox of Patney et al. leaves of gratings (Fig. 3); values: given values as bars",
     ),
     key("name", Kind::Name, "name of its files; default: the kind"),
     key("title", Kind::Text, "title above the figure"),
@@ -140,6 +155,39 @@ static PLOT_TABLE: [Key; 20] = [
         "style",
         Kind::Words(words_of::<DensityStyle>),
         "for density: lines of equal eccentricity (rings) or of equal density (contours)",
+    ),
+    key(
+        "eccentricities_deg",
+        Kind::List(&Kind::Number(0.0, 89.0), 1, 12),
+        "for response: eccentricities, °; one panel for each",
+    ),
+    key(
+        "rate_arcmin",
+        parameter(RATE.values),
+        "for response: growth of the blur, minutes of arc per degree; default: 2",
+    ),
+    key(
+        "foveal_deg",
+        parameter(FOVEAL.values),
+        "for response: where the blur begins, °; default: 15 (7.5 on a desktop)",
+    ),
+    key(
+        "transition_deg",
+        parameter(TRANSITION.values),
+        "for response: over which enhancement rises to its full strength, °; default: 20",
+    ),
+    key("f_max", parameter(F_MAX.values), "for response: strength of the enhancement; default: 1"),
+    key("quantity", Kind::Text, "for values: title of the vertical axis, with the unit"),
+    key("groups", Kind::List(&Kind::Name, 1, MOST_GROUPS), "for values: names of the groups"),
+    key(
+        "values",
+        Kind::Tables(&SERIES, 12),
+        "for values: series of bars: [{ name = \"…\", at = [1, 2], error = [0.1, 0.2] }]",
+    ),
+    key(
+        "sum",
+        Kind::Either(&[Kind::Bool, Kind::Name]),
+        "for values: also draw the sum of the series; a text is its name",
     ),
     key("figure", Kind::Table(&FIGURES), "how it is printed; default: as [figures]"),
 ];

@@ -198,7 +198,7 @@ pub(crate) fn first_quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> Stri
 }
 
 /// The kind of a metric's parameter.
-pub(crate) fn parameter(values: ParamValues) -> Kind {
+pub(crate) const fn parameter(values: ParamValues) -> Kind {
     const FINITE: Kind = Kind::Number(f64::NEG_INFINITY, f64::INFINITY);
     const PAIR: Kind = Kind::List(&FINITE, 2, 2);
     /// `Either` needs static memory for its kinds. All parameters that are lists of pairs accept

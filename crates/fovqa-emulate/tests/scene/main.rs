@@ -4,6 +4,7 @@
 
 mod asked;
 mod frames;
+mod gain;
 mod light;
 
 use fovqa_emulate::{EmulationSpec, Emulator, FilterChoice, History, Picture};

@@ -9,13 +9,15 @@ mod models;
 mod page;
 mod picture;
 mod rates;
+mod response;
 mod samples;
 mod tables;
+mod values;
 
 use std::path::Path;
 
 use fovqa_methods::curves::Curve;
-use fovqa_plan::{CurvePlotKind, CurvesFile};
+use fovqa_plan::{CurvePlot, CurvePlotKind, CurvesFile};
 use fovqa_results::{
     CURVES_CSV, CURVES_JSON, CsvNames, CurvesRecord, curves_csv, write_json_file, write_whole,
 };
@@ -61,16 +63,7 @@ pub fn draw_curves(
     let mut names = Names::default();
     let mut figures: Vec<NamedFigure> = Vec::new();
     for plot in &file.plan.plots {
-        let drawn = match plot.kind {
-            CurvePlotKind::Rates => rates::figure(&source, plot),
-            CurvePlotKind::Density => picture::figure(&source, plot)?,
-            CurvePlotKind::Accumulated => models::accumulated(&source, plot),
-            CurvePlotKind::HalfAxis => models::half_axis(plot),
-            CurvePlotKind::Steps => models::steps(&source, plot),
-            CurvePlotKind::Outline => models::outline(&source, plot),
-            CurvePlotKind::Samples => samples::positions(&source, plot)?,
-            CurvePlotKind::SamplesBars => samples::bars(&source, plot),
-        };
+        let Some(drawn) = drawn(&source, plot)? else { continue };
         // The name may contain any character, but a file name is part of an address on the page.
         let name = match slug(&drawn.name) {
             name if name.is_empty() => "figure".to_owned(),
@@ -97,4 +90,20 @@ pub fn draw_curves(
     sheet.write(folder)?;
     let tables = made.iter().map(|(_, table)| table.terminal()).collect();
     Ok(DrawnCurves { tables, figures: sheet.figures.len() })
+}
+
+/// The figure of a plot. `None` if the plot lacks the data of its kind, which no file gives.
+fn drawn(source: &Source<'_>, plot: &CurvePlot) -> Result<Option<NamedFigure>, ReportError> {
+    Ok(match plot.kind {
+        CurvePlotKind::Rates => Some(rates::figure(source, plot)),
+        CurvePlotKind::Density => Some(picture::figure(source, plot)?),
+        CurvePlotKind::Accumulated => Some(models::accumulated(source, plot)),
+        CurvePlotKind::HalfAxis => Some(models::half_axis(plot)),
+        CurvePlotKind::Steps => Some(models::steps(source, plot)),
+        CurvePlotKind::Outline => Some(models::outline(source, plot)),
+        CurvePlotKind::Samples => Some(samples::positions(source, plot)?),
+        CurvePlotKind::SamplesBars => Some(samples::bars(source, plot)),
+        CurvePlotKind::Response => response::figure(source, plot),
+        CurvePlotKind::Values => values::figure(plot),
+    })
 }

@@ -217,7 +217,7 @@ pub(super) fn outline(source: &Source<'_>, plot: &CurvePlot) -> NamedFigure {
     named(plot, "outline", caption, figure)
 }
 
-fn named(plot: &CurvePlot, name: &str, caption: &str, figure: Figure) -> NamedFigure {
+pub(super) fn named(plot: &CurvePlot, name: &str, caption: &str, figure: Figure) -> NamedFigure {
     let name = plot.name.clone().unwrap_or_else(|| name.to_owned());
     NamedFigure::new(name, plot.title.clone().unwrap_or_else(|| caption.to_owned()), figure)
 }

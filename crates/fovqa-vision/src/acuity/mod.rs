@@ -11,9 +11,11 @@ mod geisler_perry;
 mod linear_mar;
 mod model;
 mod piecewise_mar;
+mod thibos;
 
 pub use curve::AcuityCurve;
 pub use geisler_perry::GeislerPerry;
 pub use linear_mar::LinearMar;
 pub use model::{AcuityInfo, AcuityModel};
 pub use piecewise_mar::{PiecewiseMar, PiecewiseMarError, PiecewiseParams};
+pub use thibos::{GratingThresholds, THIBOS_1996};

@@ -2,7 +2,9 @@
 //! check that this is possible.
 
 mod plots;
+mod response;
 mod screens;
+mod values;
 
 use std::ops::Range;
 
@@ -17,7 +19,7 @@ use crate::fault::{Fault, Faults};
 use crate::grammar::MOST_CURVES;
 use crate::node::Node;
 use fovqa_methods::curves::{CurveBudget, CurveRange, CurveSetting, CurveSource, CurveSpec};
-use fovqa_plan::{CurvePlan, CurvePlot, CurvePlotKind, FigureSettings};
+use fovqa_plan::{CurvePlan, CurvePlot, FigureSettings};
 use plots::{all_that_fit, few_panels, nothing_is_left, plot, table};
 use screens::Screens;
 
@@ -62,7 +64,7 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
         .iter()
         .map(|(table, _)| CurvePlot {
             figure: figure(table.table("figure"), &figures, faults),
-            ..plot(*table, &names, &plan, faults)
+            ..plot(root, *table, (&names, &plan), faults)
         })
         .collect();
     plan.tables =
@@ -79,7 +81,7 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
         }
     }
     leave_out(&mut plan);
-    let drawn_without = |plot: &CurvePlot| plot.kind == CurvePlotKind::HalfAxis;
+    let drawn_without = |plot: &CurvePlot| plot.kind.needs_no_curve();
     if tables.is_empty() && !plan.plots.iter().any(drawn_without) {
         let fault = Fault::new(0..0, "the file has no curve");
         faults.push(fault.help("add [[curve]] with a name and method = { model = \"rmfr\" }"));
@@ -100,7 +102,7 @@ fn leave_out(plan: &mut CurvePlan) {
     };
     let plots = plots.into_iter().filter(|plot| {
         let name = plot.name.as_deref().unwrap_or(plot.kind.word());
-        plot.kind == CurvePlotKind::HalfAxis || left("the plot", name, plot.curves.as_deref())
+        plot.kind.needs_no_curve() || left("the plot", name, plot.curves.as_deref())
     });
     let plots = plots.collect();
     let tables = tables
@@ -193,7 +195,8 @@ fn curve(
                 said(method.set(name, &value), span, faults);
             }
             let settings =
-                Screens { tables: [root.table("view"), Some(table)] }.settings(&span, faults);
+                Screens { tables: [root.table("view"), Some(table)], of: "a curve of a method" }
+                    .settings(&span, faults);
             let budget = table.number("budget").map(|share| CurveBudget {
                 share,
                 samples: table.word("budget_of").unwrap_or_default(),

@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use fovqa_methods::Method;
+use fovqa_params::Words;
 
+use super::{response, values};
 use crate::fault::{Fault, Faults};
 use crate::node::Node;
 use crate::resolve::plots::subset;
@@ -105,16 +107,17 @@ fn usual_panels(plan: &CurvePlan, wanted: Option<&[String]>) -> PanelOf {
 
 /// Resolves a figure.
 pub(super) fn plot(
+    root: Node<'_>,
     table: Node<'_>,
-    names: &[&str],
-    plan: &CurvePlan,
+    (names, plan): (&[&str], &CurvePlan),
     faults: &mut Faults,
 ) -> CurvePlot {
+    let kind = table.word("kind").unwrap_or_default();
     let flag = |key| table.flag(key).unwrap_or(false);
     let curves = subset(table, "curves", names, faults);
     let usual = || usual_panels(plan, curves.as_deref());
     let plot = CurvePlot {
-        kind: table.word("kind").unwrap_or_default(),
+        kind,
         name: table.text("name").map(str::to_owned),
         title: table.text("title").map(str::to_owned),
         panels: table.word("panels").unwrap_or_else(usual),
@@ -133,6 +136,10 @@ pub(super) fn plot(
         dots: flag("dots"),
         style: table.word("style").unwrap_or_default(),
         acuity_scale: table.word("acuity_scale").unwrap_or_default(),
+        response: (kind == CurvePlotKind::Response)
+            .then(|| response::response(root, table, faults))
+            .flatten(),
+        values: (kind == CurvePlotKind::Values).then(|| values::values(table, faults)).flatten(),
         figure: FigureSettings::default(),
     };
     fits(table, &plot, faults);
@@ -151,11 +158,11 @@ pub(super) fn plot(
             let over = setting.setting().and_then(|over| method.apply(&over));
             over.is_ok_and(|method| method.mapping().is_none())
         }
-        (CurvePlotKind::HalfAxis, _) | (_, CurveSource::Method { .. }) => false,
+        (_, CurveSource::Method { .. }) => false,
         (_, CurveSource::Acuity(_)) => true,
     };
     if faults.is_empty()
-        && plot.kind != CurvePlotKind::HalfAxis
+        && !plot.kind.needs_no_curve()
         && !nothing_is_left(plan, plot.curves.as_deref())
         && shown(plan, plot.curves.as_deref()).all(nothing)
     {
@@ -181,38 +188,41 @@ fn named_mark(mark: Node<'_>) -> Option<(String, [f64; 2])> {
 /// digits.
 const NEAREST: f64 = 1e-6;
 
-/// Keys that only plots of rates have.
-const OF_RATES: &[&str] = &[
-    "rate",
-    "unit",
-    "panels",
-    "areas",
-    "display",
-    "beyond_display",
-    "y_limits",
-    "marks",
-    "band",
-    "acuity_scale",
-];
+/// The keys of plots of any kind.
+const OF_ALL: &[&str] = &["kind", "name", "title", "figure"];
 
-/// Keys that a plot of simple curves does not have.
-const NO_PICTURE: &[&str] = &["log", "rings_deg", "f", "dots", "style"];
+/// The keys that plots of a kind have beside these.
+fn keys_of(kind: CurvePlotKind) -> &'static [&'static str] {
+    match kind {
+        CurvePlotKind::Rates => &[
+            "curves",
+            "log",
+            "rate",
+            "unit",
+            "panels",
+            "areas",
+            "display",
+            "beyond_display",
+            "y_limits",
+            "marks",
+            "band",
+            "acuity_scale",
+        ],
+        CurvePlotKind::Density => &["curves", "log", "rings_deg", "style"],
+        CurvePlotKind::Samples => &["curves", "rings_deg"],
+        CurvePlotKind::SamplesBars => &["curves", "log"],
+        CurvePlotKind::Accumulated | CurvePlotKind::Steps | CurvePlotKind::Outline => &["curves"],
+        CurvePlotKind::HalfAxis => &["f", "dots"],
+        CurvePlotKind::Response => response::KEYS,
+        CurvePlotKind::Values => values::KEYS,
+    }
+}
 
 /// Checks that the keys of a plot belong to its kind.
 fn fits(table: Node<'_>, plot: &CurvePlot, faults: &mut Faults) {
-    let (kind, others): (&str, &[&str]) = match plot.kind {
-        CurvePlotKind::Rates => ("rates", &["rings_deg", "f", "dots", "style"]),
-        CurvePlotKind::Density => ("density", &["f", "dots"]),
-        CurvePlotKind::Samples => ("samples", &["log", "f", "dots", "style"]),
-        CurvePlotKind::SamplesBars => ("samples_bars", &["rings_deg", "f", "dots", "style"]),
-        CurvePlotKind::Accumulated => ("accumulated", NO_PICTURE),
-        CurvePlotKind::Steps => ("steps", NO_PICTURE),
-        CurvePlotKind::Outline => ("outline", NO_PICTURE),
-        CurvePlotKind::HalfAxis => ("half_axis", &["curves", "log", "rings_deg", "style"]),
-    };
-    let of_rates = if plot.kind == CurvePlotKind::Rates { &[] } else { OF_RATES };
-    let keys = of_rates.iter().chain(others);
-    for key in keys.filter(|key| table.has(key)) {
+    let (kind, own) = (plot.kind.word(), keys_of(plot.kind));
+    for (key, ..) in table.entries().filter(|(key, ..)| !OF_ALL.contains(key) && !own.contains(key))
+    {
         let message = format!("{key} does not apply to a plot of kind \"{kind}\"");
         faults.push(Fault::new(table.span(key), message).help("remove it"));
     }

@@ -15,6 +15,8 @@ use fovqa_methods::curves::CurveSetting;
 /// The tables that describe the screens of a curve, with the most specific one last.
 pub(super) struct Screens<'a> {
     pub(super) tables: [Option<Node<'a>>; 2],
+    /// What needs a screen, for messages.
+    pub(super) of: &'static str,
 }
 
 impl<'a> Screens<'a> {
@@ -34,7 +36,7 @@ impl<'a> Screens<'a> {
     pub(super) fn settings(&self, span: &Range<usize>, faults: &mut Faults) -> Vec<CurveSetting> {
         let gives = |table: &&Node<'a>| gives_view(**table);
         let Some(seen) = self.tables.iter().rev().flatten().find(gives) else {
-            let message = "a curve of a method needs a view, but no view is given";
+            let message = format!("{} needs a view, but no view is given", self.of);
             let help =
                 "give one in [view], such as fov_vertical_deg = 110 or display = \"vive-pro-eye\"";
             faults.push(Fault::new(span.clone(), message).help(help));
@@ -47,7 +49,7 @@ impl<'a> Screens<'a> {
             if let ViewSpec::Display(display) = &spec {
                 sizes.push(display.resolution);
             } else {
-                let message = "a curve of a method needs a resolution, but none is given";
+                let message = format!("{} needs a resolution, but none is given", self.of);
                 let help = "give some, such as resolutions = [\"2560x1440\"] in [view]";
                 faults.push(Fault::new(span.clone(), message).help(help));
             }
@@ -98,7 +100,7 @@ impl<'a> Screens<'a> {
 }
 
 /// Values that appear twice give only one curve.
-fn once<T: PartialEq>(values: Vec<T>) -> Vec<T> {
+pub(super) fn once<T: PartialEq>(values: Vec<T>) -> Vec<T> {
     let mut once = Vec::new();
     for value in values {
         if !once.contains(&value) {
