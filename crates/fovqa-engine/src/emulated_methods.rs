@@ -35,8 +35,10 @@ impl<'a> EmulatedMethods<'a> {
         dominant: Option<DominantEye<'a>>,
         needs_light: bool,
     ) -> Self {
+        let methods = view.sources.emulations().count();
         let foveator = |(method, emulation): (usize, &Emulation)| {
-            (method, Foveator::new(emulation.spec.clone(), eye.settings.view.clone()))
+            let foveator = Foveator::new(emulation.spec.clone(), eye.settings.view.clone());
+            (method, foveator.one_of(methods))
         };
         Self {
             foveators: view.sources.emulations().map(foveator).collect(),

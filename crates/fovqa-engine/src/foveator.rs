@@ -11,12 +11,16 @@ use crate::load::Fault;
 
 /// Number of gaze positions for which an emulator is kept: the eyes return to earlier positions.
 const KEPT: usize = 4;
+/// Maximum number of methods of a view that keep emulators. Those of a long sweep would fill the memory.
+const MOST_KEEPING: usize = 256;
 
 /// A method with what it keeps from frame to frame.
 #[derive(Debug)]
 pub(crate) struct Foveator {
     spec: EmulationSpec,
     view: Option<ViewSpec>,
+    /// Number of gaze positions for which an emulator is kept.
+    kept: usize,
     /// The emulators that were used last, the latest at the end.
     emulators: Vec<(Place, Arc<Emulator>)>,
     history: History,
@@ -29,7 +33,13 @@ type Place = ([usize; 2], [u64; 2]);
 
 impl Foveator {
     pub(crate) fn new(spec: EmulationSpec, view: Option<ViewSpec>) -> Self {
-        Self { spec, view, emulators: Vec::new(), history: History::default(), last: None }
+        let (emulators, history) = (Vec::new(), History::default());
+        Self { spec, view, kept: KEPT, emulators, history, last: None }
+    }
+
+    /// One of so many foveators of a view.
+    pub(crate) fn one_of(self, methods: usize) -> Self {
+        Self { kept: if methods > MOST_KEEPING { 0 } else { KEPT }, ..self }
     }
 
     /// Whether its temporal filter needs the frame before each frame, and its motion.
@@ -139,10 +149,10 @@ impl Foveator {
             Some(index) => self.emulators.remove(index).1,
             None => Arc::new(prepare(&self.spec, self.view.as_ref(), size, gaze_px)?),
         };
-        if self.emulators.len() == KEPT {
+        self.emulators.push((place, Arc::clone(&emulator)));
+        if self.emulators.len() > self.kept {
             self.emulators.remove(0);
         }
-        self.emulators.push((place, Arc::clone(&emulator)));
         Ok(emulator)
     }
 }
