@@ -23,6 +23,18 @@ kind = "rates"
 "#;
 
 const MISTAKES: &[Mistake] = &[
+    (
+        "kind = \"rates\"",
+        "kind = \"density\"\nfigure = { x = { min = 1 }, y = { label = \"rows\" } }",
+        &["x.min has no effect on density"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"samples_bars\"\nfigure = { x = { label = \"a\" } }",
+        &["x has no effect on samples_bars"],
+        false,
+    ),
     ("name = \"good\"", "nam = \"good\"", &["did you mean name?"], true),
     (
         "name = \"good\"",

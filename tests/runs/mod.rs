@@ -6,6 +6,7 @@ pub(crate) mod experiment_files;
 pub(crate) mod experiment_folder;
 mod experiment_mistakes;
 mod experiments;
+mod figure_mistakes;
 mod figures;
 mod foreseen;
 pub(crate) mod interrupted_runs;

@@ -1,8 +1,10 @@
 //! Resolves a curves file: every curve with each of its settings. Each method is applied once to
 //! check that this is possible.
 
+mod panels;
 mod plots;
 mod screens;
+mod shown;
 
 use std::ops::Range;
 
@@ -10,16 +12,18 @@ use fovqa_methods::{BudgetError, Method};
 use fovqa_params::{ParamError, ParamValue, Words};
 use fovqa_vision::acuity::AcuityModel;
 
-use super::figures::figure;
+use super::figures::{figure, has_effect};
 use super::metrics::param_value;
 use super::scenes::unique;
 use crate::fault::{Fault, Faults};
 use crate::grammar::MOST_CURVES;
 use crate::node::Node;
 use fovqa_methods::curves::{CurveBudget, CurveRange, CurveSetting, CurveSource, CurveSpec};
-use fovqa_plan::{CurvePlan, CurvePlot, CurvePlotKind, FigureSettings};
-use plots::{all_that_fit, few_panels, nothing_is_left, plot, table};
+use fovqa_plan::{CurvePlan, CurvePlot, CurvePlotKind, FigureForm, FigureSettings};
+use panels::{all_that_fit, few_panels};
+use plots::{plot, table};
 use screens::Screens;
+use shown::nothing_is_left;
 
 /// The name, the description and the plan. Mistakes are added to `faults`.
 pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, CurvePlan) {
@@ -60,15 +64,12 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
     plan.plots = root
         .tables("plot")
         .iter()
-        .map(|(table, _)| CurvePlot {
-            figure: figure(table.table("figure"), &figures, faults),
-            ..plot(*table, &names, &plan, faults)
-        })
+        .map(|(table, _)| printed(*table, plot(*table, &names, &plan, faults), &figures, faults))
         .collect();
     plan.tables =
         root.tables("table").iter().map(|(t, _)| table(*t, &names, &plan, faults)).collect();
     if plan.plots.is_empty() && plan.tables.is_empty() {
-        (plan.plots, plan.tables) = all_that_fit(&plan);
+        all_that_fit(&mut plan);
         plan.plots.iter_mut().for_each(|plot| plot.figure = figures.clone());
     }
     if faults.is_empty() {
@@ -85,6 +86,20 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
         faults.push(fault.help("add [[curve]] with a name and method = { model = \"rmfr\" }"));
     }
     (text("name"), text("about"), plan)
+}
+
+/// A plot with how it is printed.
+fn printed(
+    table: Node<'_>,
+    plot: CurvePlot,
+    all: &FigureSettings,
+    faults: &mut Faults,
+) -> CurvePlot {
+    let node = table.table("figure");
+    let own = || figure(node, &FigureSettings::default(), &mut Faults::default());
+    let form = FigureForm::of_curves(plot.kind);
+    has_effect(table, Some(form), plot.kind.word(), own, faults);
+    CurvePlot { figure: figure(node, all, faults), ..plot }
 }
 
 /// Leaves out the figures and tables all of whose curves are left out.
