@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use fovqa_engine::{
     Entry, Events, Findings, FoundInputs, Given, Header, Journal, Locking, NO_MAPS, ResultsFolder,
-    Shard, Unit, results, resume, units,
+    Shard, Unit, found_regions, results, resume, units, warn_of_regions,
 };
 use fovqa_io::sequence::FrameRange;
 use fovqa_plan::{Experiment, Eye, TableFormat};
@@ -153,6 +153,7 @@ impl Run {
         } else {
             Findings::default()
         };
+        warn_of_regions(&self.experiment.plan, &self.found, events);
         let findings = self.score(&folder, &header, maps.as_ref(), known, events)?;
         let plan = &self.experiment.plan;
         let path = folder.path().to_owned();
@@ -204,7 +205,7 @@ impl Run {
             changes.push("emulated frames that the experiment keeps are missing".to_owned());
         }
         let crops = Crops::new(folder.path());
-        if resumed.known.scored(plan).any(|(named, frame)| !crops.has(plan, named, frame.frame)) {
+        if !crops.has(&found_regions(plan, &self.found), resumed.known.scored(plan)) {
             changes.push("regions of frames that figures show are missing".to_owned());
         }
         if lacks {
