@@ -46,7 +46,7 @@ impl Printed {
         (inches(self.drawing.width_px), inches(self.drawing.height_px))
     }
 
-    /// The characters in it that the bundled font lacks, in their order. In PDF and PNG they are
+    /// The characters in it that the bundled font lacks. In PDF and PNG they are
     /// boxes; an SVG leaves them to the fonts of the viewer.
     pub fn missing_characters(&self) -> BTreeSet<char> {
         let glyphs = self.lines().iter().flat_map(|line| &line.glyphs);

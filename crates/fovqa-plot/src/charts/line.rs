@@ -219,7 +219,7 @@ impl LineChart {
     fn shifts_px(&self, x: &PositionAxis, plot: Rect) -> Vec<f64> {
         let at = |(position, ..): (f64, f64, f64)| {
             let seen = self.x.has(position) && (0.0..=1.0).contains(&x.share(position));
-            seen.then(|| x.x(plot, position))
+            seen.then(|| x.x(plot, position) - plot.left)
         };
         let bars = |series: &LineSeries| series.error_bars().filter_map(at).collect();
         let curves: Vec<Vec<f64>> = self.series.iter().map(bars).collect();

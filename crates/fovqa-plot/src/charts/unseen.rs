@@ -1,5 +1,6 @@
 //! Figures whose axes were set so that they show none of their values.
 
+use crate::axes::axis::Axis;
 use crate::canvas::clip;
 use crate::canvas::drawing::Point;
 use crate::charts::bar::BarChart;
@@ -13,10 +14,24 @@ use crate::scales::scale::{AxisPlace, Scale};
 pub struct Unseen {
     /// The title of the panel; `None` if the figure has only one chart.
     pub panel: Option<String>,
+    /// The ends of the horizontal axis that were set.
+    pub x_ends: [Option<f64>; 2],
+    /// The ends of the vertical axis that were set.
+    pub y_ends: [Option<f64>; 2],
     /// The smallest and the largest position; `None` for groups.
     pub x: Option<(f64, f64)>,
     /// The smallest and the largest value.
     pub y: Option<(f64, f64)>,
+}
+
+impl Unseen {
+    fn of_groups(axis: &Axis, y: Option<(f64, f64)>) -> Self {
+        Self { panel: None, x_ends: [None; 2], y_ends: ends_of(axis), x: None, y }
+    }
+}
+
+fn ends_of(axis: &Axis) -> [Option<f64>; 2] {
+    [axis.min, axis.max]
 }
 
 /// Finds out whether the ends of the axes of a chart of curves leave nothing of it.
@@ -36,6 +51,8 @@ pub(crate) fn of_curves(chart: &LineChart) -> Option<Unseen> {
     let values = places().filter(|(_, place)| place.is_some());
     Some(Unseen {
         panel: None,
+        x_ends: ends_of(&chart.x),
+        y_ends: ends_of(&chart.y),
         x: range(values.map(|(x, _)| x)),
         y: range(places().filter_map(|(_, place)| finite(place))),
     })
@@ -79,7 +96,7 @@ pub(crate) fn of_bars(chart: &BarChart) -> Option<Unseen> {
         return None;
     }
     let y = range(chart.places().filter_map(AxisPlace::finite));
-    Some(Unseen { panel: None, x: None, y })
+    Some(Unseen::of_groups(&chart.y, y))
 }
 
 /// The same for distributions.
@@ -99,7 +116,7 @@ pub(crate) fn of_spread(chart: &SpreadChart) -> Option<Unseen> {
         spans || values.iter().any(inside)
     };
     let y = range(all.iter().flatten().copied())?;
-    (!all.iter().any(is_seen)).then_some(Unseen { panel: None, x: None, y: Some(y) })
+    (!all.iter().any(is_seen)).then(|| Unseen::of_groups(&chart.y, Some(y)))
 }
 
 fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
