@@ -22,8 +22,8 @@ pub struct Drawn {
     pub table: Option<ComparisonTable>,
     /// Number of figures.
     pub figures: usize,
-    /// A warning about the files of the run.
-    pub warning: Option<String>,
+    /// Warnings about the files of the run and about figures.
+    pub warnings: Vec<String>,
 }
 
 /// Writes tables, figures and the page of a run into its folder.
@@ -45,8 +45,13 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     } else {
         BandSpread::default()
     };
-    let source =
-        Source { run: &run, overview: &overview, values: &values, folder, spread: &spread };
+    let source = Source {
+        run: &run,
+        overview: &overview,
+        values: &values,
+        folder,
+        spread: &spread,
+    };
     let plots = match run.resolved.plots.as_slice() {
         [] => {
             let figure = &run.resolved.figures;
@@ -78,15 +83,17 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     }
 
     let figures = drawn.len();
-    Sheet {
+    let sheet = Sheet {
         tables: tables.iter().map(|(name, table)| files_of(name, table)).collect(),
         figures: drawn,
         page: Box::new(|figures| page((&run, inputs), &overview, &tables, figures)),
         names: csv_names,
-    }
-    .write(folder)?;
+    };
+    let of_figures = sheet.write(folder)?;
+    drop(sheet);
+    let warnings = warning.into_iter().chain(of_figures).collect();
     let table = tables.into_iter().next().map(|(_, table)| table);
-    Ok(Drawn { table, figures, warning })
+    Ok(Drawn { table, figures, warnings })
 }
 
 /// The files of a table.

@@ -3,6 +3,7 @@
 mod band_spread;
 mod comparison;
 mod curves;
+mod doubts;
 mod draw;
 mod figures;
 mod foveate_text;
