@@ -49,7 +49,7 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
         run: &run,
         overview: &overview,
         values: &values,
-        folder,
+        folder: Some(folder),
         spread: &spread,
     };
     let plots = match run.resolved.plots.as_slice() {
