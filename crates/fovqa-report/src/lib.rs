@@ -6,6 +6,7 @@ mod curves;
 mod doubts;
 mod draw;
 mod figures;
+mod foresee;
 mod foveate_text;
 mod frame_values;
 mod index;
@@ -21,8 +22,9 @@ mod text_table;
 mod verdict;
 
 pub use comparison::ComparisonTable;
-pub use curves::{DrawnCurves, draw_curves};
+pub use curves::{DrawnCurves, draw_curves, impossible_curves};
 pub use draw::{Drawn, draw};
+pub use foresee::{ExpectedScore, impossible_figures};
 pub use foveate_text::foveate_text;
 pub use index::draw_index;
 pub use sheet::{ReportError, clear};

@@ -15,6 +15,7 @@ use fovqa_results::{HAS_PARQUET, table_file};
 use crate::crops::Crops;
 use crate::error::{Complaint, Error};
 use crate::finish::{clear, finish, in_folder, say_failures_of_shard};
+use crate::foreseen_figures::foresee_figures_of_run;
 use crate::kept_frames::{KeptFrames, check_inputs};
 use crate::maps::{MapsFolder, maps_lacking};
 
@@ -139,6 +140,7 @@ impl Run {
     /// If the results or the figures cannot be written. Items that could not be scored are reported
     /// and counted.
     pub fn start(self, events: &dyn Events) -> Result<Finished, Error> {
+        foresee_figures_of_run(&self.experiment, &self.found, events)?;
         let folder = self.options.output.clone().unwrap_or_else(|| self.default_folder());
         check_inputs(&self.experiment.plan, &self.found, &folder)?;
         // The folder is opened before anything is scored, so that a folder that cannot be written

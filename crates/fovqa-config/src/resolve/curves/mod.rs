@@ -79,6 +79,7 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
             few_panels(plot, &plan, span, faults);
         }
     }
+    plan.figures = figures;
     leave_out(&mut plan);
     let drawn_without = |plot: &CurvePlot| plot.kind == CurvePlotKind::HalfAxis;
     if tables.is_empty() && !plan.plots.iter().any(drawn_without) {
