@@ -246,3 +246,20 @@ fn every_mistake_is_shown_in_its_place_and_the_schema_agrees() {
     }
     assert!(!folder.path("reports/good/curves.csv").exists());
 }
+
+#[test]
+fn sizes_that_figures_cannot_have_are_found_by_check() {
+    let folder = Folder::new();
+    folder.write("e.toml", GOOD.replace("[[plot]]", "[figures]\nheight_in = 0.5\n[[plot]]"));
+    for command in ["check", "curves"] {
+        let run = folder.run(&[command, "e.toml"]);
+        run.fails(2, &["rates: a height of 0.5 in is too low", "[figures]"]);
+    }
+    // Pictures keep their own height; a setting that no figure has is named.
+    let text = GOOD.replace("[[plot]]", "[figures]\nheight_in = 2.5\n[[plot]]");
+    folder.write("e.toml", text.replace("kind = \"rates\"", "kind = \"density\""));
+    for command in ["check", "curves"] {
+        let run = folder.run(&[command, "e.toml"]).ok();
+        run.says(&["height_in in [figures] has no effect on density"]);
+    }
+}

@@ -9,6 +9,7 @@ mod experiments;
 mod figure_mistakes;
 mod figures;
 mod foreseen;
+mod foreseen_figures;
 pub(crate) mod interrupted_runs;
 mod killed;
 mod library;
