@@ -239,6 +239,9 @@ fn what_differs_decides_what_is_drawn_and_how_often() {
         )
     };
     folder.write("e.toml", many(49));
+    folder.run(&["check", "e.toml"]).ok();
+    let each = "kind = \"rates\"\npanels = \"curve\"";
+    folder.write("e.toml", many(49).replace("kind = \"rates\"", each));
     folder
         .run(&["check", "e.toml"])
         .fails(2, &["the figure has 49 panels, but at most 48", "panels = \"one\""]);
@@ -247,8 +250,15 @@ fn what_differs_decides_what_is_drawn_and_how_often() {
         many(49).replace("kind = \"rates\"", "kind = \"rates\"\npanels = \"one\""),
     );
     folder.run(&["check", "e.toml"]).ok();
+    let density = "kind = \"density\"";
+    folder.write("e.toml", many(49).replace("kind = \"rates\"", density));
+    let run = folder.run(&["check", "e.toml"]).fails(2, &["49 panels", "curves = […]"]);
+    assert!(!run.stderr.contains("panels = "), "{}", run.stderr);
+    // A file that names no plot has those that fit.
     folder.write("e.toml", many(49).replace("[[plot]]\nkind = \"rates\"", ""));
-    folder.run(&["check", "e.toml"]).fails(2, &["panels, but at most 48"]);
+    let said = ["the plot density is left out: it would have 49 panels", density];
+    let run = folder.run(&["check", "e.toml"]).ok().says(&said);
+    assert!(run.stdout.contains("1 figure, 3 tables"), "{}", run.stdout);
     folder.write("e.toml", many(101));
     folder.run(&["check", "e.toml"]).fails(2, &["a list of 1 to 100 values"]);
 

@@ -23,6 +23,18 @@ kind = "rates"
 "#;
 
 const MISTAKES: &[Mistake] = &[
+    (
+        "kind = \"rates\"",
+        "kind = \"density\"\nfigure = { x = { min = 1 }, y = { label = \"rows\" } }",
+        &["x.min has no effect on density"],
+        false,
+    ),
+    (
+        "kind = \"rates\"",
+        "kind = \"samples_bars\"\nfigure = { x = { label = \"a\" } }",
+        &["x has no effect on samples_bars"],
+        false,
+    ),
     ("name = \"good\"", "nam = \"good\"", &["did you mean name?"], true),
     (
         "name = \"good\"",
@@ -335,4 +347,21 @@ fn every_mistake_is_shown_in_its_place_and_the_schema_agrees() {
         assert_eq!(schema_allows(&text), !structural, "{instead}");
     }
     assert!(!folder.path("reports/good/curves.csv").exists());
+}
+
+#[test]
+fn sizes_that_figures_cannot_have_are_found_by_check() {
+    let folder = Folder::new();
+    folder.write("e.toml", GOOD.replace("[[plot]]", "[figures]\nheight_in = 0.5\n[[plot]]"));
+    for command in ["check", "curves"] {
+        let run = folder.run(&[command, "e.toml"]);
+        run.fails(2, &["rates: a height of 0.5 in is too low", "[figures]"]);
+    }
+    // Pictures keep their own height; a setting that no figure has is named.
+    let text = GOOD.replace("[[plot]]", "[figures]\nheight_in = 2.5\n[[plot]]");
+    folder.write("e.toml", text.replace("kind = \"rates\"", "kind = \"density\""));
+    for command in ["check", "curves"] {
+        let run = folder.run(&[command, "e.toml"]).ok();
+        run.says(&["height_in in [figures] has no effect on density"]);
+    }
 }

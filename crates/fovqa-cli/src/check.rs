@@ -37,6 +37,9 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
         Ok(metrics) => metrics,
         Err(error) => return experiment::failed(&error.into()),
     };
+    if let Err(error) = fovqa::foresee_figures(&experiment, &found, &metrics, &warnings) {
+        return experiment::failed(&error);
+    }
     let text = plan(&experiment, &metrics, &found);
     let printed = output::write(|out| out.write_all(text.as_bytes()));
     for message in warnings.0.take() {
@@ -73,6 +76,10 @@ fn curves(args: &CheckArgs) -> Exit {
         Ok(file) => file,
         Err(exit) => return exit,
     };
+    let warnings = Later::default();
+    if let Err(error) = fovqa::check_curves(&file, &warnings) {
+        return experiment::failed(&error);
+    }
     let mut text = format!("{}: {}\n", file.name, count(file.plan.curves.len(), "curve"));
     for spec in &file.plan.curves {
         let (model, screen) = match &spec.source {
@@ -95,7 +102,11 @@ fn curves(args: &CheckArgs) -> Exit {
     let plots = count(file.plan.plots.len(), "figure");
     let tables = count(file.plan.tables.len(), "table");
     let _ = writeln!(text, "\n{plots}, {tables}; output: reports/{}", file.name);
-    output::write(|out| out.write_all(text.as_bytes()))
+    let printed = output::write(|out| out.write_all(text.as_bytes()));
+    for message in warnings.0.take() {
+        diagnostic::warning(&message);
+    }
+    printed
 }
 
 /// Checks that every mask exists and can be read.

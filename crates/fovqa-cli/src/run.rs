@@ -43,7 +43,7 @@ pub(crate) fn say(finished: &Finished) -> Exit {
         Some(table) => output::write(|out| out.write_all(table.terminal().as_bytes())),
         None => Exit::Done,
     };
-    if let Some(warning) = finished.drawn.as_ref().and_then(|drawn| drawn.warning.as_ref()) {
+    for warning in finished.drawn.iter().flat_map(|drawn| &drawn.warnings) {
         diagnostic::warning(warning);
     }
     diagnostic::note(&finished.in_words());

@@ -38,6 +38,8 @@ pub(crate) struct CropSource<'a> {
     pub(crate) test: &'a Frame,
     pub(crate) gaze_px: Option<[f64; 2]>,
     pub(crate) tables: &'a SignalTables,
+    /// Whether it was known before the frame was read which regions are within it.
+    pub(crate) is_foreseen: &'a dyn Fn() -> bool,
 }
 
 impl CropSource<'_> {
@@ -54,17 +56,19 @@ impl CropSource<'_> {
         let size = (self.reference.width(), self.reference.height());
         let name = &region.name;
         let Some(corner_px) = region.corner(size) else {
-            let message = format!(
-                "the region \"{name}\" is not within the frame of {}x{}: it is left out",
-                size.0, size.1
-            );
-            warnings.once_a_view(&format!("region {name}"), &message);
+            if !(self.is_foreseen)() {
+                let message = format!(
+                    "the region \"{name}\" is left out: it is not within the frame of {}x{}",
+                    size.0, size.1
+                );
+                warnings.once(&format!("region {name}"), &message);
+            }
             return None;
         };
         let [x, y] = corner_px;
         let crop = Crop { x, y, width: region.size[0], height: region.size[1] };
         let cut = |frame: &Frame| {
-            let part = frame.clone().cropped(crop).ok()?;
+            let part = frame.part(crop).ok()?;
             Some(Picture::from_frame(&part, self.tables).to_codes8())
         };
         Some(CropPair {

@@ -7,6 +7,7 @@ use fovqa_vision::BandEdges;
 use crate::error::EngineError;
 use crate::events::{Events, Warnings};
 use crate::found::{FoundInputs, FoundView};
+use crate::regions::warn_of_regions;
 use crate::scoring::{Scoring, scene_bands};
 use crate::setup::{Inputs, Setup};
 use crate::view::warn_of_gaze;
@@ -35,6 +36,7 @@ pub fn foresee(
         }
         metrics.extend(settle(plan, view, bands, wanted, &mut warnings));
     }
+    warn_of_regions(plan, found, events);
     metrics.sort_unstable();
     metrics.dedup();
     Ok(metrics)

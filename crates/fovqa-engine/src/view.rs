@@ -18,6 +18,7 @@ use crate::events::Warnings;
 use crate::found::FoundView;
 use crate::load::{Fault, Loaded, Loader, Made, Side, Step, comparable};
 use crate::meters::{Measured, Meters, Pair};
+use crate::regions::is_foreseen;
 use crate::setup::{Inputs, Setup};
 use crate::work::Work;
 
@@ -308,14 +309,16 @@ impl<'a> ViewRun<'a> {
         if self.plan.crops.is_empty() {
             return Vec::new();
         }
+        let frame = &self.view.frames[step.frame];
         let source = CropSource {
             scene: &self.plan.scenes[self.view.scene].name,
             eye: self.eye,
-            frame: (self.view.frames[step.frame].number, step.frame == 0),
+            frame: (frame.number, step.frame == 0),
             reference: &reference.frame,
             test: &test.frame,
             gaze_px,
             tables: &self.tables,
+            is_foreseen: &|| is_foreseen(self.view, frame),
         };
         source.cut(&self.plan.crops, warnings)
     }

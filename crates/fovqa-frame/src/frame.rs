@@ -1,5 +1,7 @@
 //! A picture as its file holds it, before any transfer function.
 
+use std::ops::Range;
+
 use half::f16;
 use multiversion::multiversion;
 use rayon::prelude::*;
@@ -212,6 +214,31 @@ impl Frame {
         Ok(self)
     }
 
+    /// A rectangle of the visible part as a frame of its own. Only its samples are copied.
+    ///
+    /// # Errors
+    /// When the rectangle is empty or reaches beyond the frame.
+    pub fn part(&self, crop: Crop) -> Result<Self, CropError> {
+        let Crop { x, y, width, height } = crop.within(self.crop)?;
+        let count = self.channels.count();
+        let row = |y: usize| y * self.width + x..y * self.width + x + width;
+        let rows = || (y..y + height).map(row);
+        let interleaved = || rows().map(|row| row.start * count..row.end * count);
+        let planes = || {
+            let plane = |c: usize| c * self.plane_len();
+            let of_plane = move |c| rows().map(move |row| plane(c) + row.start..plane(c) + row.end);
+            (0..count).flat_map(of_plane)
+        };
+        let samples = match &self.samples {
+            Samples::U8(s) => Samples::U8(copied(s, interleaved())),
+            Samples::U16(s) => Samples::U16(copied(s, interleaved())),
+            Samples::F16(s) => Samples::F16(copied(s, planes())),
+            Samples::F32(s) => Samples::F32(copied(s, planes())),
+        };
+        let crop = Crop { x: 0, y: 0, width, height };
+        Ok(Self { width, height, samples, crop, ..*self })
+    }
+
     /// Width of the visible part in pixels.
     pub fn width(&self) -> usize {
         self.crop.width
@@ -385,6 +412,11 @@ fn range_of(values: &[f32]) -> (f32, f32) {
     lanes.chain(rest).fold(NO_RANGE, wider)
 }
 
+/// Copies ranges of samples, one after the other.
+fn copied<T: Copy>(samples: &[T], ranges: impl Iterator<Item = Range<usize>>) -> Vec<T> {
+    ranges.flat_map(|range| samples[range].iter().copied()).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -420,6 +452,24 @@ mod tests {
         assert_eq!(frame.finite_mask().left_out(), 2);
         let cut = frame.cropped(Crop { x: 0, y: 2, width: 4, height: 2 }).unwrap();
         assert!(cut.bad_pixel().is_none());
+    }
+
+    #[test]
+    fn a_part_is_a_copy_of_what_a_crop_shows() {
+        let codes: Vec<u8> = (0..90).collect();
+        let floats: Vec<f32> = codes.iter().copied().map(f32::from).collect();
+        for samples in [Samples::U8(codes), Samples::F32(floats)] {
+            let frame = Frame::new(6, 5, Channels::Rgb, samples).unwrap().encoded();
+            let frame = frame.cropped(Crop { x: 1, y: 1, width: 5, height: 4 }).unwrap();
+            let crop = Crop { x: 2, y: 1, width: 3, height: 2 };
+            let (part, cut) = (frame.part(crop).unwrap(), frame.clone().cropped(crop).unwrap());
+            assert_eq!((part.width(), part.height(), part.samples().len()), (3, 2, 18));
+            assert!(part.is_encoded());
+            for (c, (x, y)) in (0..3).flat_map(|c| (0..6).map(move |i| (c, (i % 3, i / 3)))) {
+                assert!((part.sample(c, x, y) - cut.sample(c, x, y)).abs() < f32::EPSILON);
+            }
+            assert!(frame.part(Crop { x: 3, ..crop }).is_err());
+        }
     }
 
     #[test]

@@ -38,6 +38,8 @@ pub struct CurvePlan {
     pub range: CurveRange,
     /// The figures. If the file names no figure and no table, these are all figures that fit.
     pub plots: Vec<CurvePlot>,
+    /// `[figures]`, how figures are printed; it is part of the settings of each figure already.
+    pub figures: FigureSettings,
     /// The tables. If the file names no figure and no table, these are all tables that fit.
     pub tables: Vec<CurveTable>,
     /// Which curves, figures and tables are left out, and why: their budget cannot be reached.

@@ -141,6 +141,17 @@ pub struct FigureSettings {
 }
 
 impl AxisSettings {
+    /// The keys that are set.
+    fn keys(&self) -> impl Iterator<Item = &'static str> {
+        let keys = [
+            ("scale", self.scale.is_some()),
+            ("min", self.min.is_some()),
+            ("max", self.max.is_some()),
+            ("label", self.label.is_some()),
+        ];
+        keys.into_iter().filter_map(|(key, is_set)| is_set.then_some(key))
+    }
+
     fn is_default(&self) -> bool {
         *self == Self::default()
     }
@@ -157,6 +168,33 @@ impl AxisSettings {
 }
 
 impl FigureSettings {
+    /// The longest side of a figure that is written as PNG, in inches: PNG has 300 pixels per inch,
+    /// and at most 16384 on a side.
+    pub const MOST_PNG_IN: f64 = 54.6;
+
+    /// Whether a figure is written as PNG.
+    pub fn has_png(&self) -> bool {
+        self.formats.as_ref().is_none_or(|formats| formats.contains(&FigureFormat::Png))
+    }
+
+    /// The keys that are set; those of an axis as `x.min`.
+    pub(crate) fn keys(&self) -> Vec<String> {
+        let own = [
+            ("width_in", self.width_in.is_some()),
+            ("height_in", self.height_in.is_some()),
+            ("aspect", self.aspect.is_some()),
+            ("font_pt", self.font_pt.is_some()),
+            ("title", self.title.is_some()),
+            ("markers", self.markers.is_some()),
+            ("line_styles", self.line_styles.is_some()),
+            ("palette", self.palette.is_some()),
+            ("formats", self.formats.is_some()),
+        ];
+        let own = own.into_iter().filter(|(_, is_set)| *is_set).map(|(key, _)| key.to_owned());
+        let x = self.x.keys().map(|key| format!("x.{key}"));
+        own.chain(x).chain(self.y.keys().map(|key| format!("y.{key}"))).collect()
+    }
+
     /// Whether nothing was set.
     pub fn is_default(&self) -> bool {
         *self == Self::default()

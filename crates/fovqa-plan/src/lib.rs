@@ -13,6 +13,7 @@ mod curves;
 mod emulation;
 mod experiment;
 mod eye;
+mod figure_form;
 mod figures;
 mod gates;
 mod output;
@@ -34,6 +35,7 @@ pub use curves::{
 pub use emulation::{Emulation, emulation_keys};
 pub use experiment::Experiment;
 pub use eye::Eye;
+pub use figure_form::{FigureForm, without_effect_on_all};
 pub use figures::{
     AxisScale, AxisSettings, Colour, FigureFormat, FigureSettings, PaletteChoice, PaletteName,
 };

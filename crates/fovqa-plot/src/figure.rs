@@ -9,6 +9,7 @@ use crate::charts::montage::MontageChart;
 use crate::charts::panels::PanelChart;
 use crate::charts::raster::RasterChart;
 use crate::charts::spread::SpreadChart;
+use crate::charts::unseen::{self, Unseen};
 use crate::error::PlotError;
 use crate::page::fitting;
 use crate::page::paper::Paper;
@@ -87,6 +88,22 @@ impl Figure {
             Self::Panels(chart) => Ok(chart.draw(paper)),
             Self::Raster(chart) => chart.draw(paper),
             Self::Montage(chart) => Ok(chart.draw(paper)),
+        }
+    }
+
+    /// The charts whose axes were set so that they show none of their values.
+    pub fn unseen(&self) -> Vec<Unseen> {
+        match self {
+            Self::Line(chart) => unseen::of_curves(chart).into_iter().collect(),
+            Self::Bar(chart) => unseen::of_bars(chart).into_iter().collect(),
+            Self::Spread(chart) => unseen::of_spread(chart).into_iter().collect(),
+            Self::Panels(chart) => {
+                let panel = |chart: &LineChart| {
+                    Some(Unseen { panel: chart.title.clone(), ..unseen::of_curves(chart)? })
+                };
+                chart.panels.iter().filter_map(panel).collect()
+            }
+            Self::Raster(_) | Self::Montage(_) => Vec::new(),
         }
     }
 

@@ -54,6 +54,7 @@ pub use charts::raster::RasterChart;
 pub use charts::raster_panel::{GridPlaces, RasterLine, RasterPanel};
 pub use charts::spread::SpreadChart;
 pub use charts::spread_series::SpreadSeries;
+pub use charts::unseen::Unseen;
 pub use error::PlotError;
 pub use figure::Figure;
 pub use limits::LEAST_PT;

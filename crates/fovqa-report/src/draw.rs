@@ -9,15 +9,16 @@ use fovqa_results::{CsvNames, RUN_JSON, RUN_SCHEMA, RunRecord, check_files, read
 use crate::band_spread::BandSpread;
 use crate::budgets::budgets;
 use crate::comparison::ComparisonTable;
-use crate::figures::{Source, default_plots, figures, ratio_tables, slug};
+use crate::figures::{Source, default_plots, ratio_tables, slug};
 use crate::frame_values::FrameValues;
 use crate::latex::usual_label;
 use crate::overview::Overview;
 use crate::page::page;
 use crate::plain_table::PlainTable;
+use crate::plot_figures::plot_figures;
 use crate::run_table::RunTable;
 use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
-use crate::sweep::{self, optima};
+use crate::sweep::optima;
 
 /// The tables and figures that were made.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,8 +27,8 @@ pub struct Drawn {
     pub table: Option<RunTable>,
     /// Number of figures.
     pub figures: usize,
-    /// A warning about the files of the run.
-    pub warning: Option<String>,
+    /// Warnings about the files of the run and about figures.
+    pub warnings: Vec<String>,
 }
 
 /// Writes tables, figures and the page of a run into its folder.
@@ -49,8 +50,13 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     } else {
         BandSpread::default()
     };
-    let source =
-        Source { run: &run, overview: &overview, values: &values, folder, spread: &spread };
+    let source = Source {
+        run: &run,
+        overview: &overview,
+        values: &values,
+        folder: Some(folder),
+        spread: &spread,
+    };
     let plots = match run.resolved.plots.as_slice() {
         [] => {
             let figure = &run.resolved.figures;
@@ -67,10 +73,7 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
             let label = label(&run.resolved.name, plot, index, &name);
             tables.push((name, table.labelled(label)));
         }
-        let of_plot = match plot.kind {
-            PlotKind::Sweep => sweep::figures(&source, plot),
-            _ => figures(&source, plot),
-        };
+        let of_plot = plot_figures(&source, plot);
         let several = of_plot.len() > 1;
         for figure in of_plot {
             let caption = match &plot.caption {
@@ -85,15 +88,17 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     }
 
     let figures = drawn.len();
-    Sheet {
+    let sheet = Sheet {
         tables: tables.iter().map(|(name, table)| files_of(name, table)).collect(),
         figures: drawn,
         page: Box::new(|figures| page((&run, inputs), &overview, &tables, figures)),
         names: csv_names,
-    }
-    .write(folder)?;
+    };
+    let of_figures = sheet.write(folder)?;
+    drop(sheet);
+    let warnings = warning.into_iter().chain(of_figures).collect();
     let table = tables.into_iter().next().map(|(_, table)| table);
-    Ok(Drawn { table, figures, warning })
+    Ok(Drawn { table, figures, warnings })
 }
 
 /// The files of a table.

@@ -55,6 +55,17 @@ impl FrameValues {
         }
     }
 
+    /// Adds made-up values of two frames, for figures that are laid out before anything is scored.
+    pub(crate) fn expect(&mut self, scene: &str, method: &str, metrics: &[Metric]) {
+        let key = (scene.to_owned(), method.to_owned(), String::new());
+        let values = &mut self.0.entry(key).or_default().values;
+        for metric in metrics {
+            for image in [Image::Pair, Image::Test, Image::Reference] {
+                values.insert((*metric, image), vec![(0, 1.0), (1, 2.0)]);
+            }
+        }
+    }
+
     fn comparison(&self, scene: &str, method: &str, eye: &str) -> Option<&Comparison> {
         self.0.get(&(scene.to_owned(), method.to_owned(), eye.to_owned()))
     }
@@ -71,6 +82,15 @@ impl FrameValues {
         let comparison = of_eye("both").or_else(|| of_eye(""));
         let values = comparison.and_then(|comparison| comparison.values.get(&(metric, image)));
         values.map(Vec::as_slice).unwrap_or_default()
+    }
+
+    /// Whether there are values of a frame in any eye; `None` if there are none of single frames.
+    pub(crate) fn has_frame(&self, scene: &str, method: &str, frame: i64) -> Option<bool> {
+        let eyes = ["both", "", "left", "right"].into_iter();
+        let of_eyes = eyes.filter_map(|eye| self.comparison(scene, method, eye));
+        let mut values = of_eyes.flat_map(|of| of.values.values().flatten()).peekable();
+        values.peek()?;
+        Some(values.any(|(number, _)| *number == frame))
     }
 
     /// The frames in which the gaze of any eye moves by more than `deg` degrees, in order.

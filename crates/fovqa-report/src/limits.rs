@@ -24,6 +24,8 @@ pub struct DrawnLimits {
     pub table: String,
     /// Number of figures.
     pub figures: usize,
+    /// What the user should know of the figures.
+    pub warnings: Vec<String>,
 }
 
 /// The name of the table's files.
@@ -51,10 +53,10 @@ pub fn draw_limits(folder: &Path, record: &LimitsRecord) -> Result<DrawnLimits, 
         page: Box::new(|figures| page(record, &table, figures)),
         names: CsvNames::Plain,
     };
-    sheet.write(folder)?;
+    let warnings = sheet.write(folder)?;
     let notes = table.notes.iter().fold(String::new(), |text, note| text + "\n" + note);
     let text = format!("{}\n\n{}\n{notes}", table.caption, table.terminal());
-    Ok(DrawnLimits { table: text, figures: sheet.figures.len() })
+    Ok(DrawnLimits { table: text, figures: sheet.figures.len(), warnings })
 }
 
 /// What was varied, as the title of an axis.

@@ -7,7 +7,7 @@ use std::path::Path;
 use fovqa_metrics::{Metric, MetricKind};
 use fovqa_results::{
     AtdSummary, BandStatistics, BudgetSummary, ComparisonSummary, EccentricityShare, ErrorRecord,
-    FileError, HaarRecord, HaarValues, SideValues, Spread, Statistics, read_summary,
+    FileError, GuideSource, HaarRecord, HaarValues, SideValues, Spread, Statistics, read_summary,
 };
 
 /// The comparisons of a run, and its errors.
@@ -29,6 +29,8 @@ pub(crate) struct Measured {
     pub(crate) is_of_both_eyes: bool,
     /// Number of frames that were scored.
     pub(crate) frames: usize,
+    /// Width and height of the frames; `None` without a view.
+    pub(crate) frame_px: Option<[usize; 2]>,
     scores: Box<[(Metric, Score)]>,
     pub(crate) bands: Box<[Band]>,
     /// The wavelet statistics by level and band.
@@ -88,9 +90,14 @@ impl Overview {
 
     fn add(&mut self, comparison: &ComparisonSummary) {
         let measured = Measured::of(comparison);
+        self.insert(&comparison.scene, comparison.label(), measured);
+    }
+
+    /// Adds a comparison.
+    pub(crate) fn insert(&mut self, scene: &str, method: String, measured: Measured) {
         if !measured.is_of_one_eye {
-            let methods = self.overall.entry(comparison.scene.clone()).or_default();
-            methods.entry(comparison.label()).or_insert(self.comparisons.len());
+            let methods = self.overall.entry(scene.to_owned()).or_default();
+            methods.entry(method).or_insert(self.comparisons.len());
         }
         self.comparisons.push(measured);
     }
@@ -121,6 +128,59 @@ impl Overview {
 }
 
 impl Measured {
+    /// Made-up values, for figures that are laid out before anything is scored. With a number of
+    /// levels of the wavelet, there are values by eccentricity.
+    pub(crate) fn expected(metrics: &[Metric], frames: usize, levels: Option<usize>) -> Self {
+        let has = |metric: Metric| metrics.contains(&metric);
+        let bands = levels.map_or(0, |_| 2);
+        let edges = (0..bands).map(|band| (f64::from(band) * 10.0, f64::from(band + 1) * 10.0));
+        let compared = || Compared([1.0, 2.0, 2.0]);
+        let of_band = |(from_deg, to_deg)| Band {
+            from_deg,
+            to_deg,
+            means: metrics.iter().map(|metric| (*metric, Some(1.0 + from_deg))).collect(),
+            compared: metrics.iter().map(|metric| (*metric, compared())).collect(),
+        };
+        let level = |level: usize| {
+            edges.clone().map(move |(from_deg, to_deg)| WaveletBand {
+                level: level as u8,
+                from_deg,
+                to_deg,
+                statistics: [compared(); 3],
+            })
+        };
+        let share = |(from_deg, to_deg)| EccentricityShare { from_deg, to_deg, share: Some(0.5) };
+        let score = |metric: &Metric| (*metric, Score { mean: 1.0, identical_frames: None });
+        let of_metric = |metric: &&Metric| metric.is(MetricKind::Fidelity);
+        let levels = 1..=levels.filter(|_| has(Metric::Haar)).unwrap_or(0);
+        let shares = edges.clone().filter(|_| has(Metric::Fvvdp)).map(share);
+        Self {
+            is_of_one_eye: false,
+            is_of_both_eyes: false,
+            frames,
+            frame_px: None,
+            scores: metrics.iter().filter(of_metric).map(score).collect(),
+            bands: edges.clone().map(of_band).collect(),
+            wavelet: levels.flat_map(level).collect(),
+            atd: has(Metric::Atd).then(|| AtdSummary {
+                reference: Some(1.0),
+                test: Some(1.0),
+                ratio: Some(1.0),
+                left_out: None,
+                left_out_test: None,
+                frames: frames.saturating_sub(1),
+                motion: GuideSource::default(),
+                depth: GuideSource::default(),
+                reason: None,
+            }),
+            jod: has(Metric::Fvvdp).then_some(9.0),
+            eye: String::new(),
+            budget: None,
+            samples_percent: None,
+            shares: shares.collect(),
+        }
+    }
+
     fn of(comparison: &ComparisonSummary) -> Self {
         let score = |(metric, of): (&Metric, &Statistics)| {
             (*metric, Score { mean: of.mean, identical_frames: of.identical_frames })
@@ -130,6 +190,7 @@ impl Measured {
             is_of_one_eye: !matches!(comparison.eye.as_str(), "" | "both"),
             is_of_both_eyes: comparison.eye == "both",
             frames: comparison.frames,
+            frame_px: comparison.view.as_ref().map(|view| [view.width, view.height]),
             scores: comparison.metrics.iter().map(score).collect(),
             bands: comparison.bands.iter().map(Band::of).collect(),
             wavelet: comparison.haar.iter().map(WaveletBand::of).collect(),

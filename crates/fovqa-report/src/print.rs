@@ -5,6 +5,9 @@ use fovqa_plan::{
 };
 use fovqa_plot::{Axis, Figure, Height, Palette, Style};
 
+/// Pixels of a PNG per inch.
+pub(crate) const PNG_DPI: f32 = 300.0;
+
 /// The files of a figure if nothing else was asked for.
 const ALL: [FigureFormat; 3] = [FigureFormat::Svg, FigureFormat::Pdf, FigureFormat::Png];
 
@@ -32,6 +35,16 @@ pub(crate) fn style(settings: &FigureSettings) -> Style {
         markers: settings.markers.unwrap_or(usual.markers),
         line_styles: settings.line_styles.unwrap_or(usual.line_styles),
         palette: settings.palette.as_ref().and_then(palette).unwrap_or(usual.palette),
+    }
+}
+
+/// The style of a figure. The height of pictures follows from their width, so that one that is meant
+/// for other figures does not apply to them.
+pub(crate) fn style_of(figure: &Figure, settings: &FigureSettings) -> Style {
+    let style = style(settings);
+    match figure {
+        Figure::Montage(_) | Figure::Raster(_) => Style { height: Height::Suited, ..style },
+        Figure::Line(_) | Figure::Bar(_) | Figure::Spread(_) | Figure::Panels(_) => style,
     }
 }
 
@@ -109,6 +122,17 @@ mod tests {
         let Figure::Line(chart) = figure else { unreachable!() };
         let want = Axis { log: true, min: Some(1.0), max: Some(9.0), ..Axis::new("dB") };
         assert_eq!((chart.y, chart.x), (want, Axis::default()));
+    }
+
+    #[test]
+    fn the_largest_side_of_a_png_is_one_that_can_be_written() {
+        let most = FigureSettings::MOST_PNG_IN;
+        let side = |inches: f64| {
+            let settings = FigureSettings { width_in: Some(inches), ..FigureSettings::default() };
+            let figure = Figure::Line(LineChart::default());
+            figure.print(&style(&settings)).unwrap().check_png(PNG_DPI)
+        };
+        assert!(side(most).is_ok() && side(most + 0.1).is_err());
     }
 
     #[test]

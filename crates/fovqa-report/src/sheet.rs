@@ -15,16 +15,15 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::doubts::{missing_in_words, unseen_in_words};
 use crate::long_lines::for_picture;
 use crate::page::PageFigure;
-use crate::print::{formats, set_axes, style};
+use crate::print::{PNG_DPI, formats, set_axes, style_of};
 
 /// Folder of the figures.
 pub(crate) const PLOTS: &str = "plots";
 /// Name and version of the format of [`REPORT_JSON`].
 const SCHEMA: &str = "fovqa.report/1";
-/// Pixels of a PNG per inch.
-const PNG_DPI: f32 = 300.0;
 
 /// A figure with its name and caption.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,12 +34,14 @@ pub(crate) struct NamedFigure {
     pub(crate) figure: Figure,
     /// How it is printed.
     pub(crate) settings: FigureSettings,
+    /// Warnings about files that it shows.
+    pub(crate) warnings: Vec<String>,
 }
 
 impl NamedFigure {
     /// A figure that is printed as usual.
     pub(crate) fn new(name: String, caption: String, figure: Figure) -> Self {
-        Self { name, caption, figure, settings: FigureSettings::default() }
+        Self { name, caption, figure, settings: FigureSettings::default(), warnings: Vec::new() }
     }
 
     /// The endings of its files.
@@ -108,7 +109,10 @@ impl ReportError {
         let Self::Plot { error, .. } = self else { return false };
         matches!(
             error,
-            PlotError::Narrow { .. } | PlotError::Low { .. } | PlotError::FollowsFromWidth { .. }
+            PlotError::Narrow { .. }
+                | PlotError::Low { .. }
+                | PlotError::FollowsFromWidth { .. }
+                | PlotError::Size { .. }
         )
     }
 }
@@ -120,8 +124,8 @@ struct Manifest {
 }
 
 impl Sheet<'_> {
-    /// Writes all files into a folder.
-    pub(crate) fn write(&self, folder: &Path) -> Result<(), ReportError> {
+    /// Writes all files into a folder. Returns warnings about the figures.
+    pub(crate) fn write(&self, folder: &Path) -> Result<Vec<String>, ReportError> {
         let table_files = self.tables.iter().flat_map(|table| {
             table.files.iter().map(|(ending, _)| format!("{}.{ending}", table.name))
         });
@@ -154,7 +158,7 @@ impl Sheet<'_> {
             make_folder(&plots).map_err(|error| FileError::Write { path: plots.clone(), error })?;
         }
         let names = self.names;
-        let written: Vec<Result<f64, ReportError>> = self
+        let written: Vec<Result<WrittenFigure, ReportError>> = self
             .figures
             .par_iter()
             .map(|figure| write_figure(&plots, figure, names, &batch))
@@ -162,27 +166,43 @@ impl Sheet<'_> {
         let mut on_page: Vec<PageFigure<'_>> = Vec::new();
         // A figure that cannot be drawn must not take the others with it.
         let mut wrong = None;
-        for (figure, width_px) in self.figures.iter().zip(written) {
-            let path = format!("{PLOTS}/{}", figure.name);
-            match width_px {
-                Ok(width_px) => on_page.push(PageFigure {
-                    path,
-                    caption: &figure.caption,
-                    endings: figure.endings().collect(),
-                    width_px,
-                }),
+        let mut drawn: Vec<(&NamedFigure, WrittenFigure)> = Vec::new();
+        for (figure, written) in self.figures.iter().zip(written) {
+            match written {
+                Ok(written) => drawn.push((figure, written)),
                 Err(error @ ReportError::Plot { .. }) => {
-                    files.retain(|file| !file.starts_with(&format!("{path}.")));
+                    let path = format!("{PLOTS}/{}.", figure.name);
+                    files.retain(|file| !file.starts_with(&path));
                     wrong = wrong.or(Some(error));
                 }
                 Err(error) => return Err(error),
             }
         }
+        for (figure, WrittenFigure { caption, width_px, .. }) in &drawn {
+            let path = format!("{PLOTS}/{}", figure.name);
+            let endings = figure.endings().collect();
+            on_page.push(PageFigure { path, caption, endings, width_px: *width_px });
+        }
         batch.write(&folder.join("index.html"), (self.page)(&on_page).as_bytes())?;
         remove(folder, old.iter().filter(|old| !files.contains(old)));
         write_manifest(folder, files, &batch)?;
-        wrong.map_or(Ok(()), Err)
+        wrong.map_or_else(|| Ok(warnings(&drawn)), Err)
     }
+}
+
+/// The warnings about figures, each once.
+fn warnings(drawn: &[(&NamedFigure, WrittenFigure)]) -> Vec<String> {
+    let mut warnings: Vec<String> = Vec::new();
+    for (figure, written) in drawn {
+        for warning in figure.warnings.iter().chain(&written.warnings) {
+            if !warnings.contains(warning) {
+                warnings.push(warning.clone());
+            }
+        }
+    }
+    let missing = drawn.iter().map(|(f, written)| (f.name.as_str(), &written.missing));
+    warnings.extend(missing_in_words(missing));
+    warnings
 }
 
 fn write_manifest(folder: &Path, files: Vec<String>, batch: &Batch) -> Result<(), FileError> {
@@ -200,24 +220,42 @@ pub fn clear(folder: &Path) {
     }
 }
 
-/// Writes the files of a figure. Returns the width in pixels that it has on a page.
+/// A figure whose files were written.
+struct WrittenFigure {
+    /// Its caption, which says if it is empty.
+    caption: String,
+    /// The width in pixels that it has on a page.
+    width_px: f64,
+    warnings: Vec<String>,
+    /// Characters that its PDF or PNG lacks.
+    missing: BTreeSet<char>,
+}
+
+/// Writes the files of a figure.
 fn write_figure(
     plots: &Path,
     figure: &NamedFigure,
     names: CsvNames,
     batch: &Batch,
-) -> Result<f64, ReportError> {
-    let NamedFigure { name, caption, figure, settings } = figure;
+) -> Result<WrittenFigure, ReportError> {
+    let NamedFigure { name, caption, figure, settings, .. } = figure;
     let failed = |error| ReportError::Plot { name: name.clone(), error };
     let mut shown = for_picture(figure);
     if *settings != FigureSettings::default() {
         set_axes(shown.to_mut(), settings);
     }
-    let printed = shown.print(&style(settings)).map_err(failed)?;
-    for format in formats(settings) {
+    let unseen = unseen_in_words(&shown.unseen());
+    let warnings = unseen.iter().map(|unseen| format!("{name}: {unseen}")).collect();
+    let caption = [caption.as_str()].into_iter().chain(unseen.iter().map(String::as_str));
+    let caption = caption.collect::<Vec<_>>().join("; ");
+    let printed = shown.print(&style_of(&shown, settings)).map_err(failed)?;
+    let formats = formats(settings);
+    let is_drawn = formats.iter().any(|format| *format != FigureFormat::Svg);
+    let missing = if is_drawn { printed.missing_characters() } else { BTreeSet::new() };
+    for format in formats {
         let bytes = match format {
             FigureFormat::Svg => printed.svg().map(String::into_bytes),
-            FigureFormat::Pdf => printed.pdf(caption),
+            FigureFormat::Pdf => printed.pdf(&caption),
             FigureFormat::Png => printed.png(PNG_DPI),
         };
         let path = plots.join(format!("{name}.{}", format.word()));
@@ -225,7 +263,7 @@ fn write_figure(
     }
     let data = names.in_csv(figure.csv());
     batch.write(&plots.join(format!("{name}.csv")), data.as_bytes())?;
-    Ok(printed.screen_width_px())
+    Ok(WrittenFigure { caption, width_px: printed.screen_width_px(), warnings, missing })
 }
 
 /// The files in the last list. Only names that a report could have written are accepted, because

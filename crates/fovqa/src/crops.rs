@@ -1,14 +1,16 @@
 //! Writes the regions of frames that figures show side by side.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use fovqa_engine::{CropPair, EngineError, Entry, Finished, Named};
+use fovqa_engine::{CropPair, EngineError, Entry, Finished, FoundRegion, Named};
 use fovqa_frame::Frame;
 use fovqa_io::{FrameFormat, encode_frame};
-use fovqa_plan::{CropRegion, Plan};
+use fovqa_plan::Eye;
 use fovqa_results::{
-    CROPS, CropRecord, FileError, crop_folder, make_folder, write_json_file, write_whole,
+    CROPS, CropRecord, FileError, FrameResult, crop_folder, make_folder, write_json_file,
+    write_whole,
 };
 
 use crate::kept_frames::copy;
@@ -24,14 +26,28 @@ impl Crops {
         Self { folder: results.to_owned() }
     }
 
-    /// Whether the regions of a comparison exist, as far as its frames are known to have them.
-    pub(crate) fn has(&self, plan: &Plan, named: Named<'_>, frame: i64) -> bool {
-        let of_frame = |region: &&CropRegion| {
-            region.is_in(named.scene) && region.frame.is_some_and(|wanted| wanted == frame)
-        };
-        plan.crops.iter().filter(of_frame).all(|region| {
-            let folder = self.region(named, &region.name);
-            CropRecord::test_file(&folder, named.method).is_file()
+    /// Whether the pictures of all regions exist that are in these frames.
+    pub(crate) fn has<'a>(
+        &self,
+        regions: &[FoundRegion<'_>],
+        scored: impl Iterator<Item = (Named<'a>, &'a FrameResult)>,
+    ) -> bool {
+        let mut of_frames: BTreeMap<_, Vec<&str>> = BTreeMap::new();
+        for FoundRegion { region, scene, eye, frame } in regions {
+            let place = (*scene, eye.map(Eye::name), *frame);
+            of_frames.entry(place).or_default().push(&region.name);
+        }
+        let is_there =
+            |path: PathBuf| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0);
+        let mut scored = scored;
+        scored.all(|(named, frame)| {
+            let place = (named.scene, named.eye.map(Eye::name), frame.frame);
+            of_frames.get(&place).into_iter().flatten().all(|region| {
+                let folder = self.region(named, region);
+                let test = CropRecord::test_file(&folder, named.method);
+                let files = [CropRecord::file(&folder), CropRecord::reference_file(&folder), test];
+                files.into_iter().all(is_there)
+            })
         })
     }
 

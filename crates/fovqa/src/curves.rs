@@ -9,6 +9,7 @@ use fovqa_report::DrawnCurves;
 
 use crate::error::Error;
 use crate::finish::in_folder;
+use crate::foreseen_figures::{CHANGE, warn_of_curves};
 
 /// Computes the curves of a file, and writes its values, figures and tables into a folder. The
 /// folder is `output`, or `reports/NAME` in the working directory, where NAME is the name in the
@@ -30,11 +31,13 @@ pub fn curves(
     folder.clear().map_err(|error| in_folder(&error))?;
     let drawn = fovqa_report::draw_curves(folder.path(), file, &curves).map_err(|error| {
         if error.is_of_settings() {
-            Error::usage(error.to_string(), "change its `figure`, or [figures]")
+            Error::usage(error.to_string(), CHANGE)
         } else {
             Error::input(error.to_string(), "free some space, or give another folder with {output}")
         }
     })?;
+    warn_of_curves(file, events);
+    drawn.warnings.iter().for_each(|warning| events.warn(warning));
     let mut notes: Vec<&String> = Vec::new();
     let of_curves = curves.iter().flat_map(|curve| &curve.notes);
     for note in file.plan.left_out.iter().chain(of_curves) {

@@ -70,6 +70,13 @@ pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
     }
     let folder = ResultsFolder::open(folder, locking).map_err(|error| in_folder(&error))?;
     let drawn = fovqa_report::draw(folder.path());
-    let drawn = drawn.map_err(|error| Error::input(error.to_string(), "run the experiment again"));
+    let drawn = drawn.map_err(|error| {
+        if error.is_of_settings() {
+            let help = "change its `figure`, or [figures], in the experiment file, and run `fovqa run FILE --resume`";
+            Error::usage(error.to_string(), help)
+        } else {
+            Error::input(error.to_string(), "`fovqa run FILE --resume` writes the results again")
+        }
+    });
     Ok(Report::Run(drawn?))
 }

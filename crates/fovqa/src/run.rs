@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use fovqa_engine::{
     Entry, Events, Findings, FoundInputs, Given, Header, Journal, Locking, NO_MAPS, ResultsFolder,
-    Shard, Unit, results, resume, units,
+    Shard, Unit, found_regions, results, resume, units, warn_of_regions,
 };
 use fovqa_io::sequence::FrameRange;
 use fovqa_plan::{Experiment, Eye, TableFormat};
@@ -15,6 +15,7 @@ use fovqa_results::{HAS_PARQUET, table_file};
 use crate::crops::Crops;
 use crate::error::{Complaint, Error};
 use crate::finish::{clear, finish, in_folder, say_failures_of_shard};
+use crate::foreseen_figures::foresee_figures_of_run;
 use crate::kept_frames::{KeptFrames, check_inputs};
 use crate::maps::{MapsFolder, maps_lacking};
 
@@ -139,6 +140,7 @@ impl Run {
     /// If the results or the figures cannot be written. Items that could not be scored are reported
     /// and counted.
     pub fn start(self, events: &dyn Events) -> Result<Finished, Error> {
+        foresee_figures_of_run(&self.experiment, &self.found, events)?;
         let folder = self.options.output.clone().unwrap_or_else(|| self.default_folder());
         check_inputs(&self.experiment.plan, &self.found, &folder)?;
         // The folder is opened before anything is scored, so that a folder that cannot be written
@@ -153,6 +155,7 @@ impl Run {
         } else {
             Findings::default()
         };
+        warn_of_regions(&self.experiment.plan, &self.found, events);
         let findings = self.score(&folder, &header, maps.as_ref(), known, events)?;
         let plan = &self.experiment.plan;
         let path = folder.path().to_owned();
@@ -204,7 +207,7 @@ impl Run {
             changes.push("emulated frames that the experiment keeps are missing".to_owned());
         }
         let crops = Crops::new(folder.path());
-        if resumed.known.scored(plan).any(|(named, frame)| !crops.has(plan, named, frame.frame)) {
+        if !crops.has(&found_regions(plan, &self.found), resumed.known.scored(plan)) {
             changes.push("regions of frames that figures show are missing".to_owned());
         }
         if lacks {

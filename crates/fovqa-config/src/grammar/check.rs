@@ -307,7 +307,11 @@ fn check_display(text: &str, place: &str, span: Range<usize>, faults: &mut Fault
 
 fn one_of(words: &[&str], text: &str, place: &str, span: Range<usize>, faults: &mut Faults) {
     if !words.contains(&text) {
-        faults.push(no_such(place, text, span, words.iter().copied()));
+        // Of two spellings of a word, the help names one.
+        let is_second =
+            |word: &&&str| word.contains('-') && words.contains(&&*word.replace('-', "_"));
+        let once = words.iter().filter(|word| !is_second(word)).copied();
+        faults.push(no_such(place, text, span, once));
     }
 }
 

@@ -2,7 +2,8 @@
 
 use fovqa_params::Words;
 use fovqa_plan::{
-    AxisScale, AxisSettings, Colour, FigureFormat, FigureSettings, PaletteChoice, PaletteName,
+    AxisScale, AxisSettings, Colour, FigureForm, FigureFormat, FigureSettings, PaletteChoice,
+    PaletteName,
 };
 
 use crate::fault::{Fault, Faults};
@@ -42,10 +43,60 @@ pub(super) fn figure(
         y: axis(table, "y"),
     };
     let settings = own.over(all);
+    check_png(table, &settings, faults);
     for (name, axis) in [("x", &settings.x), ("y", &settings.y)] {
         check_axis(table, name, axis, faults);
     }
     settings
+}
+
+/// Checks that the settings in `figure` of a plot have an effect. `form` is what its figures are made
+/// of; `None` if it is a table.
+pub(super) fn has_effect(
+    plot: Node<'_>,
+    form: Option<FigureForm>,
+    kind: &str,
+    settings: impl FnOnce() -> FigureSettings,
+    faults: &mut Faults,
+) {
+    let Some(table) = plot.table("figure") else { return };
+    let Some(form) = form else {
+        let message = format!("figure has no effect on {kind}, which is a table");
+        faults.push(Fault::new(plot.span("figure"), message).help("remove it"));
+        return;
+    };
+    for key in form.without_effect(&settings()) {
+        let span = match key.split_once('.') {
+            Some((axis, key)) => table.table(axis).map(|axis| axis.span(key)).unwrap_or_default(),
+            None => table.span(&key),
+        };
+        let help = match (form, key.as_str()) {
+            (FigureForm::Maps | FigureForm::Photos, "height_in" | "aspect") => {
+                "remove it: the height of pictures follows from their width; set width_in"
+            }
+            _ => "remove it",
+        };
+        faults.push(Fault::new(span, format!("{key} has no effect on {kind}")).help(help));
+    }
+}
+
+/// Checks that a figure is not too large for PNG, as far as its settings say how large it is.
+fn check_png(table: Node<'_>, settings: &FigureSettings, faults: &mut Faults) {
+    const MOST: f64 = FigureSettings::MOST_PNG_IN;
+    let FigureSettings { width_in, height_in, aspect, .. } = *settings;
+    let of_aspect = width_in.zip(aspect).map(|(width, aspect)| ("aspect", width / aspect));
+    let sides = [width_in.map(|width| ("width_in", width)), height_in.map(|h| ("height_in", h))];
+    let mut sides = sides.into_iter().chain([of_aspect]).flatten();
+    let Some((key, inches)) = sides.find(|(_, inches)| *inches > MOST) else { return };
+    if settings.has_png() {
+        let span = [key, "width_in", "formats"].into_iter().find(|key| table.has(key));
+        let span = span.map_or(0..0, |key| table.span(key));
+        let message = format!(
+            "a side of {inches:.1} in is too long for PNG, which can have at most {MOST} in"
+        );
+        let help = format!("write at most {MOST} in, or formats = [\"pdf\", \"svg\"]");
+        faults.push(Fault::new(span, message).help(help));
+    }
 }
 
 fn palette(table: Node<'_>, faults: &mut Faults) -> Option<PaletteChoice> {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use fovqa_metrics::{Metric, MetricKind, Params};
 use fovqa_params::Words;
 
-use super::figures::figure;
+use super::figures::{figure, has_effect};
 use super::methods::Methods;
 use super::regions;
 use super::scenes::SceneEntry;
@@ -15,7 +15,7 @@ use crate::fault::{Fault, Faults};
 use crate::grammar::{first_quoted, quoted};
 use crate::nearest::nearest;
 use crate::node::Node;
-use fovqa_plan::{FigureSettings, MetricChoice, Plot, PlotKind};
+use fovqa_plan::{FigureForm, FigureSettings, MetricChoice, Plot, PlotKind};
 
 /// The names that plots may refer to.
 pub(super) struct Known<'a> {
@@ -44,16 +44,18 @@ pub(super) fn plots(
         wavelet(table, of_haar, kind, known, faults);
         let scenes: Vec<&str> = known.scenes.iter().map(|s| s.scene.name.as_str()).collect();
         let methods = known.methods.referable();
+        let shown_scenes = subset(table, "scenes", &scenes, faults);
+        let of_plot = shown_scenes.as_deref();
         let plot = Plot {
+            regions: regions::of_plot(table, &scenes, of_plot, faults),
             metric: metric.map(str::to_owned),
             metrics,
-            scenes: subset(table, "scenes", &scenes, faults),
+            scenes: shown_scenes,
             methods: subset(table, "methods", &methods, faults).map(|names| {
                 names.iter().flat_map(|name| known.methods.called(name)).cloned().collect()
             }),
             levels: levels(table),
             statistic: table.text("statistic").map(str::to_owned),
-            regions: regions::of_plot(table, &scenes, faults),
             error_bars: table.word("error_bars"),
             shape: table.word("shape").unwrap_or_default(),
             figure: figure(table.table("figure"), figures, faults),
@@ -62,10 +64,11 @@ pub(super) fn plots(
         };
         let shown = plot.scenes.as_ref().map_or(scenes.len(), Vec::len);
         marks(table, kind, faults);
-        if kind == PlotKind::Crops && !table.has("regions") {
-            let fault = Fault::new(table.span("kind"), "the plot has no regions to show");
-            let help = "add regions = [{ name = \"door\", at = [400, 300], size = [64, 64] }]";
-            faults.push(fault.help(help));
+        let own =
+            || figure(table.table("figure"), &FigureSettings::default(), &mut Faults::default());
+        has_effect(table, FigureForm::of(kind), kind.word(), own, faults);
+        if kind == PlotKind::Crops {
+            regions::has_some(table, faults);
         }
         let plot = with_table_keys(table, plot, shown, faults);
         if faults.is_empty() {
@@ -182,8 +185,16 @@ fn scored(
             (PlotKind::Budgets, _) => "is no budget",
             _ => "describes each image by eccentricity: draw it as profile or ratios",
         };
-        let others = scored.iter().filter(|metric| fits(**metric, kind));
-        let help = format!("these fit: {}", quoted(others.map(|metric| metric.key())));
+        let others = scored.iter().filter(|metric| fits(**metric, kind)).map(|m| m.key());
+        let help = match kind {
+            PlotKind::Crops => {
+                "remove it: crops show regions of the frames, whatever is scored".to_owned()
+            }
+            _ if others.clone().next().is_none() => {
+                "none of the scored metrics fits: add one to [metrics]".to_owned()
+            }
+            _ => format!("these fit: {}", quoted(others)),
+        };
         faults.push(Fault::new(span, format!("{key} {why}")).help(help));
     }
 }

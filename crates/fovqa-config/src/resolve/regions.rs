@@ -1,13 +1,31 @@
 //! The regions of frames that a plot shows.
 
 use fovqa_plan::{CropRegion, Plot};
+use serde_spanned::Spanned;
+use toml::de::DeValue;
 
 use crate::fault::{Fault, Faults};
 use crate::grammar::first_quoted;
 use crate::node::Node;
 
-/// The regions of one plot.
-pub(super) fn of_plot(table: Node<'_>, scenes: &[&str], faults: &mut Faults) -> Vec<CropRegion> {
+/// Checks that a plot of regions has any.
+pub(super) fn has_some(table: Node<'_>, faults: &mut Faults) {
+    let is_empty = matches!(table.value("regions").map(Spanned::get_ref), Some(DeValue::Array(items)) if items.is_empty());
+    if is_empty || !table.has("regions") {
+        let key = if is_empty { "regions" } else { "kind" };
+        let fault = Fault::new(table.span(key), "the plot has no regions to show");
+        let help = "add regions = [{ name = \"door\", at = [400, 300], size = [64, 64] }]";
+        faults.push(fault.help(help));
+    }
+}
+
+/// The regions of one plot. `shown` are the scenes that it names.
+pub(super) fn of_plot(
+    table: Node<'_>,
+    scenes: &[&str],
+    shown: Option<&[String]>,
+    faults: &mut Faults,
+) -> Vec<CropRegion> {
     let tables = table.tables("regions");
     let region = |region: &Node<'_>| {
         Some(CropRegion {
@@ -23,6 +41,12 @@ pub(super) fn of_plot(table: Node<'_>, scenes: &[&str], faults: &mut Faults) -> 
             let fault = Fault::new(of.span("scene"), format!("there is no scene \"{scene}\""));
             let known = first_quoted(scenes.iter().copied());
             faults.push(fault.help(format!("the scenes are {known}")));
+        } else if let (Some(scene), Some(shown)) = (of.text("scene"), shown)
+            && !shown.iter().any(|name| name == scene)
+        {
+            let message = format!("the plot does not show the scene \"{scene}\"");
+            let help = "add it to the plot's scenes, or remove the region";
+            faults.push(Fault::new(of.span("scene"), message).help(help));
         }
     }
     tables.iter().filter_map(|(table, _)| region(table)).collect()

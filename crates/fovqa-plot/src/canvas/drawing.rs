@@ -188,7 +188,12 @@ impl Drawing {
 
     /// Moves all marks to the right.
     pub(crate) fn shift(&mut self, right_px: f64) {
-        for mark in &mut self.marks {
+        self.shift_from(0, right_px);
+    }
+
+    /// Moves the marks from this number on to the right.
+    pub(crate) fn shift_from(&mut self, first: usize, right_px: f64) {
+        for mark in self.marks.iter_mut().skip(first) {
             match mark {
                 Mark::Line(points, _) | Mark::Area(points, _) => {
                     for point in points {

@@ -20,17 +20,26 @@ const INCH_M: f64 = 0.0254;
 pub(crate) fn render(svg: &str, dpi: f32) -> Result<Vec<u8>, PlotError> {
     let tree = Tree::from_str(svg, &options()).map_err(|error| PlotError::Svg(Box::new(error)))?;
     let scale = dpi / SVG_DPI;
-    // Half a hundredth of a pixel is not a pixel more: sizes in inches are rounded.
-    let side = |of: f32| (of * scale - 0.005).ceil();
-    let (width, height) = (side(tree.size().width()), side(tree.size().height()));
-    let sides = 1.0..=MAX_SIDE_PX;
-    let pixmap = (sides.contains(&width) && sides.contains(&height))
-        .then(|| Pixmap::new(width as u32, height as u32))
-        .flatten();
+    let size = tree.size();
+    let (width, height) = sides(dpi, (size.width() / SVG_DPI, size.height() / SVG_DPI))?;
+    let pixmap = Pixmap::new(width as u32, height as u32);
     let mut pixmap = pixmap.ok_or(PlotError::Size { dpi, width, height })?;
     pixmap.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     encode(&pixmap, dpi).map_err(|error| PlotError::Encode(Box::new(error)))
+}
+
+/// The sides in pixels of a picture of a size in inches.
+pub(crate) fn sides(dpi: f32, (width_in, height_in): (f32, f32)) -> Result<(f32, f32), PlotError> {
+    // Half a hundredth of a pixel is not a pixel more: sizes in inches are rounded.
+    let side = |inches: f32| (inches * SVG_DPI * (dpi / SVG_DPI) - 0.005).ceil();
+    let (width, height) = (side(width_in), side(height_in));
+    let sides = 1.0..=MAX_SIDE_PX;
+    if sides.contains(&width) && sides.contains(&height) {
+        Ok((width, height))
+    } else {
+        Err(PlotError::Size { dpi, width, height })
+    }
 }
 
 /// Encodes an opaque picture without its alpha.

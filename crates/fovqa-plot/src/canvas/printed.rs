@@ -1,5 +1,6 @@
 //! A drawing at its size in print, and the files made of it.
 
+use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use crate::canvas::drawing::{Drawing, Mark};
@@ -43,6 +44,22 @@ impl Printed {
     pub fn size_in(&self) -> (f64, f64) {
         let inches = |px: f64| px * self.pt_per_px / PT_PER_IN;
         (inches(self.drawing.width_px), inches(self.drawing.height_px))
+    }
+
+    /// The characters in it that the bundled font lacks. In PDF and PNG they are
+    /// boxes; an SVG leaves them to the fonts of the viewer.
+    pub fn missing_characters(&self) -> BTreeSet<char> {
+        let glyphs = self.lines().iter().flat_map(|line| &line.glyphs);
+        glyphs.filter(|glyph| glyph.id == 0).flat_map(|glyph| glyph.text.chars()).collect()
+    }
+
+    /// Checks that a PNG with this many pixels per inch is not too large.
+    ///
+    /// # Errors
+    /// When it would have no pixels or a side above 16384.
+    pub fn check_png(&self, dpi: f32) -> Result<(), PlotError> {
+        let (width, height) = self.size_in();
+        png::sides(dpi, (width as f32, height as f32)).map(|_| ())
     }
 
     /// Its width in the pixels of a screen, at which its smallest text has 11 pixels.

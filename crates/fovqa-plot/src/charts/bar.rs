@@ -142,7 +142,7 @@ impl BarChart {
     }
 
     /// Whether values are bars, and not markers.
-    fn has_bars(&self) -> bool {
+    pub(crate) fn has_bars(&self) -> bool {
         self.from_zero && !self.y.log && self.y.min.is_none_or(|min| min <= 0.0)
     }
 
@@ -150,7 +150,7 @@ impl BarChart {
         if self.has_bars() { Key::Bar(look) } else { Key::Marker(look) }
     }
 
-    fn places(&self) -> impl Iterator<Item = AxisPlace> {
+    pub(crate) fn places(&self) -> impl Iterator<Item = AxisPlace> {
         self.series.iter().flat_map(|series| &series.values).filter_map(|value| self.place(*value))
     }
 
@@ -181,6 +181,11 @@ impl BarChart {
         // An infinite bar downwards needs space to be visible.
         let low = if below && low >= 0.0 { -high / 2.0 } else { low };
         (finite().next().is_some() || below).then(|| Scale::even(low, high))
+    }
+
+    /// The range of the axis, without space for labels.
+    pub(crate) fn axis_range(&self) -> Option<Scale> {
+        self.y.ranged(self.scale())
     }
 
     /// The axis, with space beyond the outermost values for their labels.

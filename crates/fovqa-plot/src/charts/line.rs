@@ -10,6 +10,7 @@ use crate::canvas::colour::REFERENCE;
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
 use crate::canvas::look::Look;
 use crate::canvas::smooth;
+use crate::charts::dodge;
 use crate::marks::error_bar;
 use crate::marks::fill::Fill;
 use crate::marks::fill_kind::FillKind;
@@ -29,6 +30,8 @@ const SIDE_AIR: f64 = 0.02;
 /// The smallest distance of markers along a curve. If points are denser, only some of them have
 /// one.
 const MARKER_PITCH_PX: f64 = 12.0;
+/// The smallest number of given ticks on an axis whose ends were set.
+const FEWEST_TICKS: usize = 4;
 /// The radius of a dot.
 const DOT_PX: f64 = 2.2;
 /// Distance between the markers of infinite values of two series at the same position.
@@ -49,7 +52,8 @@ pub struct LineChart {
     /// The curves in drawing order; the first one is behind all others.
     pub series: Vec<LineSeries>,
     /// The ticks of the horizontal axis, for example the edges of bands; `None` means round
-    /// numbers.
+    /// numbers. If an end of the axis was set and fewer than four of them remain, it has round
+    /// numbers instead.
     pub x_ticks: Option<Vec<f64>>,
     /// Whether the vertical axis includes 0, and begins there if no value is below.
     pub y_from_zero: bool,
@@ -75,7 +79,8 @@ pub struct LineSeries {
     /// markers along the curve identify it. Markers of coinciding curves do not coincide.
     pub smooth: bool,
     /// Half the length of the error bar of each point, in their order; empty for none. A point
-    /// without a finite one has no error bar.
+    /// without a finite one has no error bar. Where the error bars of several series are at one
+    /// position, the series are drawn a few pixels apart.
     pub errors: Vec<Option<f64>>,
     /// Whether its points are small dots without a line, such as positions of samples.
     pub dots: bool,
@@ -197,19 +202,35 @@ impl LineChart {
             let value = place.and_then(AxisPlace::finite)?;
             Some((x.share(position), y.share(value)))
         };
-        for series in &self.series {
-            self.draw_error_bars(drawing, series, plot, frame);
+        let shifts_px = self.shifts_px(x, plot);
+        for (series, shift_px) in self.series.iter().zip(shifts_px) {
+            self.draw_error_bars(drawing, (series, shift_px), plot, frame);
             let points: Vec<_> = self.places(series).map(|(x, place)| at(x, place)).collect();
+            // The whole curve is moved, so that its points stay on it.
+            let first = drawing.marks.len();
             draw_curve(drawing, series, &points, plot);
+            drawing.shift_from(first, shift_px);
         }
         self.draw_infinite(drawing, plot, x);
+    }
+
+    /// How far each series is moved sideways, so that error bars at one position do not hide each
+    /// other.
+    fn shifts_px(&self, x: &PositionAxis, plot: Rect) -> Vec<f64> {
+        let at = |(position, ..): (f64, f64, f64)| {
+            let seen = self.x.has(position) && (0.0..=1.0).contains(&x.share(position));
+            seen.then(|| x.x(plot, position) - plot.left)
+        };
+        let bars = |series: &LineSeries| series.error_bars().filter_map(at).collect();
+        let curves: Vec<Vec<f64>> = self.series.iter().map(bars).collect();
+        dodge::shifts_px(&curves, plot.width())
     }
 
     /// Draws the error bars of a series, cut off at the ends of the axis.
     fn draw_error_bars(
         &self,
         drawing: &mut Drawing,
-        series: &LineSeries,
+        (series, shift_px): (&LineSeries, f64),
         plot: Rect,
         frame: &Frame<'_>,
     ) {
@@ -217,7 +238,8 @@ impl LineChart {
             if (0.0..=1.0).contains(&frame.x.share(x)) && self.y.has(high) {
                 let low = if self.y.has(low) { frame.y.y(plot, low) } else { plot.bottom };
                 let ends = (low, frame.y.y(plot, high));
-                error_bar::draw(drawing, frame.x.x(plot, x), ends, series.stroke().colour);
+                let x = frame.x.x(plot, x) + shift_px;
+                error_bar::draw(drawing, x, ends, series.stroke().colour);
             }
         }
     }
@@ -238,7 +260,7 @@ impl LineChart {
     }
 
     /// The places of the points of a series. A logarithmic axis cannot show all numbers.
-    fn places<'a>(
+    pub(crate) fn places<'a>(
         &'a self,
         series: &'a LineSeries,
     ) -> impl Iterator<Item = (f64, Option<AxisPlace>)> + 'a {
@@ -297,8 +319,18 @@ impl LineChart {
         Some(scale.with_air(air(scale.low < 0.0), air(scale.high > 0.0)))
     }
 
-    /// The given ticks, if they can be drawn.
+    /// The ticks of the horizontal axis, if they are given. Of an axis whose ends were set, they are
+    /// left out if only a few are between its ends: round numbers then say more.
     pub(crate) fn x_ticks(&self) -> Option<&[f64]> {
+        let ticks = self.given_ticks()?;
+        let has_ends = self.x.min.is_some() || self.x.max.is_some();
+        let Some(scale) = self.x_scale().filter(|_| has_ends) else { return Some(ticks) };
+        let seen = ticks.iter().filter(|x| (0.0..=1.0).contains(&scale.share(**x)));
+        (seen.count() >= FEWEST_TICKS).then_some(ticks)
+    }
+
+    /// The given ticks, if they can be drawn.
+    fn given_ticks(&self) -> Option<&[f64]> {
         let ticks = self.x_ticks.as_deref()?;
         ticks.iter().all(|x| finite(*x) == Some(*x)).then_some(ticks)
     }
@@ -306,7 +338,7 @@ impl LineChart {
     /// The range of the horizontal axis; `None` without finite positions.
     pub(crate) fn x_scale(&self) -> Option<Scale> {
         let data = self.series.iter().flat_map(LineSeries::places).map(|(x, _)| x);
-        let ticks = self.x_ticks().unwrap_or_default();
+        let ticks = self.given_ticks().unwrap_or_default();
         let values = data.chain(ticks.iter().copied());
         let scale = if self.x.log { Scale::holding_log(values) } else { Scale::holding(values) };
         let air = if ticks.is_empty() || self.x.log { SIDE_AIR } else { 0.0 };

@@ -2,6 +2,7 @@
 
 pub(crate) mod bar;
 pub(crate) mod box_summary;
+pub(crate) mod dodge;
 pub(crate) mod left_out;
 pub(crate) mod line;
 pub(crate) mod montage;
@@ -11,4 +12,5 @@ pub(crate) mod raster;
 pub(crate) mod raster_panel;
 pub(crate) mod spread;
 pub(crate) mod spread_series;
+pub(crate) mod unseen;
 pub(crate) mod violin;

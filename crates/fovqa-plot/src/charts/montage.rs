@@ -5,9 +5,10 @@ use crate::canvas::colour::{INK, WHITE};
 use crate::canvas::drawing::{Anchor, Drawing, Rect, Stroke, Text};
 use crate::canvas::photo::Photo;
 use crate::canvas::text::{DESCENT, LINE_PITCH, TICK_PX};
-use crate::canvas::wrap::wrap;
+use crate::canvas::wrap::{keeps_words, wrap};
 use crate::page::layout::{self, MARGIN_PX};
 use crate::page::paper::Paper;
+use crate::page::style::Style;
 
 /// Distance between pictures.
 const GAP_PX: f64 = 4.0;
@@ -17,6 +18,10 @@ const MOST_LINES: usize = 3;
 const TEXT_GAP_PX: f64 = 3.0;
 /// Half the length of the arms of a cross.
 const CROSS_PX: f64 = 5.0;
+/// The smallest width of a picture where columns can be left to another figure.
+const LEAST_CELL_PX: f64 = 84.0;
+/// A picture of this width is not made wider for the sake of its heading.
+const WIDE_CELL_PX: f64 = 170.0;
 /// The text in place of a missing picture.
 const MISSING: &str = "n/a";
 
@@ -59,10 +64,24 @@ impl MontageRow {
 }
 
 impl MontageChart {
+    /// The largest number of columns with these headings that fit beside each other in a style, so
+    /// that pictures are not too small and no heading is cut; at least 2.
+    pub fn most_columns(headings: &[String], style: &Style) -> usize {
+        let width_px = Paper::new(style).page_px;
+        let fits = |columns: &usize| {
+            let cell_px = cell_px(width_px, *columns);
+            let is_whole = |heading: &String| {
+                keeps_words(heading, TICK_PX, cell_px)
+                    && wrap(heading, TICK_PX, cell_px, MOST_LINES + 1).len() <= MOST_LINES
+            };
+            cell_px >= WIDE_CELL_PX || (cell_px >= LEAST_CELL_PX && headings.iter().all(is_whole))
+        };
+        (2..=headings.len()).rev().find(fits).unwrap_or(2)
+    }
+
     pub(crate) fn draw(&self, paper: &Paper) -> Drawing {
         let width_px = paper.page_px;
-        let columns = self.columns.len().max(1) as f64;
-        let cell_px = (width_px - 2.0 * MARGIN_PX - (columns - 1.0) * GAP_PX) / columns;
+        let cell_px = cell_px(width_px, self.columns.len().max(1));
         let (mut drawing, mut top) = layout::head(self.title.as_deref(), &[], MARGIN_PX, width_px);
         let left = |column: usize| MARGIN_PX + column as f64 * (cell_px + GAP_PX);
 
@@ -123,6 +142,12 @@ impl MontageChart {
         drawing.height_px = (top + MARGIN_PX).ceil();
         drawing
     }
+}
+
+/// The width of a picture.
+fn cell_px(width_px: f64, columns: usize) -> f64 {
+    let columns = columns as f64;
+    (width_px - 2.0 * MARGIN_PX - (columns - 1.0) * GAP_PX) / columns
 }
 
 /// Draws a picture, with a white cross with a dark edge if it is within the picture.

@@ -58,16 +58,7 @@ impl SpreadChart {
         for series in &self.series {
             PlotError::check_groups(&series.name, series.values.len(), self.groups.len())?;
         }
-        let values = || self.series.iter().flat_map(|series| series.values.iter().flatten());
-        let places = || values().copied().filter_map(AxisPlace::of);
-        let values_on_axis = places().filter_map(AxisPlace::finite);
-        let scale = if self.y.log {
-            Scale::holding_log(values_on_axis)
-        } else {
-            Scale::holding(values_on_axis)
-        };
-        let scale = self.y.ranged(scale.map(|scale| scale.with_air(AIR, AIR)));
-        let axis = ValueAxis::new(&self.y, scale, height_px);
+        let axis = ValueAxis::new(&self.y, self.axis_range(), height_px);
         let beside_px = axis.left_px() + MARGIN_PX;
         let groups = GroupAxis::new(&self.groups, self.series.len(), beside_px, paper);
         let left_out = LeftOut::of(&self.series, groups.pitch_px());
@@ -85,7 +76,7 @@ impl SpreadChart {
         groups.draw(&mut drawing, plot, left_out.below_px());
         let bottom = plot.bottom;
         drawing.line(&[(plot.left, bottom), (plot.right, bottom)], AXIS_STROKE);
-        if places().next().is_none() {
+        if self.places().next().is_none() {
             layout::write_no_data(&mut drawing, plot);
         }
         for (s, series) in self.series.iter().enumerate() {
@@ -104,6 +95,18 @@ impl SpreadChart {
         }
         left_out.draw(&mut drawing, plot, |group, series| groups.x(plot, group, series));
         Ok(drawing)
+    }
+
+    fn places(&self) -> impl Iterator<Item = AxisPlace> {
+        let values = self.series.iter().flat_map(|series| series.values.iter().flatten());
+        values.copied().filter_map(AxisPlace::of)
+    }
+
+    /// The range of the axis; `None` without ends that were set and finite values.
+    pub(crate) fn axis_range(&self) -> Option<Scale> {
+        let values = self.places().filter_map(AxisPlace::finite);
+        let scale = if self.y.log { Scale::holding_log(values) } else { Scale::holding(values) };
+        self.y.ranged(scale.map(|scale| scale.with_air(AIR, AIR)))
     }
 }
 

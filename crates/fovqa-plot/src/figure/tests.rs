@@ -7,6 +7,7 @@ use crate::canvas::drawing::{Mark, Rect, Text};
 use crate::canvas::png;
 use crate::{Axis, BarSeries, Fill, FillKind, LineSeries, Look, Span, SpreadSeries};
 
+mod axis_ends;
 mod curves;
 mod marks;
 mod montages;

@@ -6,7 +6,7 @@ use crate::canvas::drawing::{Drawing, Stroke};
 /// Width of the line.
 const LINE_PX: f64 = 1.0;
 /// Half the length of a cap.
-const CAP_PX: f64 = 3.0;
+pub(crate) const CAP_PX: f64 = 3.0;
 
 /// Draws an error bar at a horizontal position, between two vertical positions.
 pub(crate) fn draw(drawing: &mut Drawing, x: f64, (low, high): (f64, f64), colour: Colour) {

@@ -23,6 +23,7 @@ use fovqa_results::{
 };
 
 use crate::figures::slug;
+use crate::foresee::check;
 use crate::latex::usual_label;
 use crate::plain_table::PlainTable;
 use crate::sheet::{MakePage, MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
@@ -34,6 +35,8 @@ pub struct DrawnCurves {
     pub tables: Vec<String>,
     /// Number of figures.
     pub figures: usize,
+    /// Warnings about figures.
+    pub warnings: Vec<String>,
 }
 
 /// The data that figures and tables are made from.
@@ -61,17 +64,7 @@ pub fn draw_curves(
 ) -> Result<DrawnCurves, ReportError> {
     let source = Source { file, curves };
     let mut names = Names::default();
-    let mut figures: Vec<NamedFigure> = Vec::new();
-    for plot in &file.plan.plots {
-        let Some(drawn) = drawn(&source, plot)? else { continue };
-        // The name may contain any character, but a file name is part of an address on the page.
-        let name = match slug(&drawn.name) {
-            name if name.is_empty() => "figure".to_owned(),
-            name => name,
-        };
-        let (name, settings) = (names.free(&name), plot.figure.clone());
-        figures.push(NamedFigure { name, settings, ..drawn });
-    }
+    let figures = figures(&source, &mut names)?;
     let mut made: Vec<(String, PlainTable)> = Vec::new();
     for table in &file.plan.tables {
         let (name, table) = tables::table(&source, table);
@@ -87,9 +80,37 @@ pub fn draw_curves(
     let sheet = Sheet { tables: files.collect(), figures, page, names: CsvNames::Plain };
     write_whole(&folder.join(CURVES_CSV), curves_csv(&file.plan, curves).as_bytes())?;
     write_json_file(&folder.join(CURVES_JSON), &CurvesRecord::new(file, curves))?;
-    sheet.write(folder)?;
+    let warnings = sheet.write(folder)?;
     let tables = made.iter().map(|(_, table)| table.terminal()).collect();
-    Ok(DrawnCurves { tables, figures: sheet.figures.len() })
+    Ok(DrawnCurves { tables, figures: sheet.figures.len(), warnings })
+}
+
+/// The first figure of a file that cannot have the size that was asked for.
+///
+/// # Errors
+/// If a figure cannot be drawn at all.
+pub fn impossible_curves(
+    file: &CurvesFile,
+    curves: &[Curve],
+) -> Result<Option<ReportError>, ReportError> {
+    let figures = figures(&Source { file, curves }, &mut Names::default())?;
+    Ok(figures.into_iter().find_map(check))
+}
+
+/// The figures of the file.
+fn figures(source: &Source<'_>, names: &mut Names) -> Result<Vec<NamedFigure>, ReportError> {
+    let mut figures: Vec<NamedFigure> = Vec::new();
+    for plot in &source.file.plan.plots {
+        let Some(drawn) = drawn(source, plot)? else { continue };
+        // The name may contain any character, but a file name is part of an address on the page.
+        let name = match slug(&drawn.name) {
+            name if name.is_empty() => "figure".to_owned(),
+            name => name,
+        };
+        let (name, settings) = (names.free(&name), plot.figure.clone());
+        figures.push(NamedFigure { name, settings, ..drawn });
+    }
+    Ok(figures)
 }
 
 /// The figure of a plot. `None` if the plot lacks the data of its kind, which no file gives.

@@ -7,6 +7,7 @@ mod parts;
 mod profile;
 mod sequence;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use fovqa_metrics::{Better, Image, Metric, MetricKind};
@@ -26,15 +27,26 @@ use crate::sheet::NamedFigure;
 /// Maximum number of band edges that fit on the axis as ticks.
 const MOST_EDGE_TICKS: usize = 13;
 
+/// The title of an axis for differences over time.
+const ATD_PERCENT: &str = "ATD in % of the reference (lower is better)";
+
 /// The data that figures are made from.
 pub(crate) struct Source<'a> {
     pub(crate) run: &'a RunRecord,
     pub(crate) overview: &'a Overview,
     pub(crate) values: &'a FrameValues,
-    /// The folder of the results.
-    pub(crate) folder: &'a Path,
+    /// The folder of the results; `None` before anything was scored: pictures are blank then.
+    pub(crate) folder: Option<&'a Path>,
     /// How values of bands vary over the frames; empty if no plot shows it.
     pub(crate) spread: &'a BandSpread,
+}
+
+impl Source<'_> {
+    /// Whether a frame of a method was scored, as far as values of single frames are known.
+    fn has_frame(&self, scene: &str, method: &str, frame: i64) -> bool {
+        let is_measured = || self.overview.of(scene, method).is_some_and(|of| of.frames > 0);
+        self.values.has_frame(scene, method, frame).unwrap_or_else(is_measured)
+    }
 }
 
 /// The scenes and methods of a plot, or of one of its figures.
@@ -93,7 +105,7 @@ pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
 pub(crate) fn figures(source: &Source<'_>, plot: &Plot) -> Vec<NamedFigure> {
     let whole = Selection::new(source, plot);
     if plot.kind == PlotKind::Crops {
-        return whole.crops(plot).into_iter().collect();
+        return whole.crops(plot);
     }
     let of_part = |metric: Metric, part: &Selection<'_>| -> Vec<NamedFigure> {
         match plot.kind {
@@ -248,15 +260,34 @@ impl<'a> Selection<'a> {
         values.iter().map(|(_, value)| *value).collect()
     }
 
+    /// Test / reference in percent, of each frame.
+    fn percent(&self, scene: &str, method: &str, metric: Metric) -> Vec<f64> {
+        let of = |image| self.source.values.of(scene, method, (metric, image));
+        let reference: BTreeMap<i64, f64> = of(Image::Reference).iter().copied().collect();
+        let percent = |(frame, test): &(i64, f64)| {
+            let reference = reference.get(frame).filter(|reference| **reference > 0.0)?;
+            Some(test / reference * 100.0)
+        };
+        of(Image::Test).iter().filter_map(percent).collect()
+    }
+
     fn frames(&self, metric: Metric, plot: &Plot) -> NamedFigure {
+        let is_percent = metric == Metric::Atd;
+        let values = |scene: &str, method: &str| {
+            if is_percent {
+                self.percent(scene, method, metric)
+            } else {
+                self.values(scene, method, metric)
+            }
+        };
         let series = self.methods.iter().map(|&(method, look)| SpreadSeries {
             name: method.to_owned(),
             look,
-            values: self.scenes.iter().map(|scene| self.values(scene, method, metric)).collect(),
+            values: self.scenes.iter().map(|scene| values(scene, method)).collect(),
         });
         let series = series.collect();
         let groups = self.scenes.iter().map(|&scene| scene.to_owned()).collect();
-        let y = Axis::new(frame_axis(metric));
+        let y = Axis::new(if is_percent { ATD_PERCENT.to_owned() } else { frame_axis(metric) });
         let figure = Figure::Spread(SpreadChart {
             title: None,
             y,
@@ -264,7 +295,8 @@ impl<'a> Selection<'a> {
             series,
             violins: plot.shape == SpreadShape::Violin,
         });
-        let caption = format!("{} over the frames of each scene", metric.info().label);
+        let of = if is_percent { " in percent of the reference's" } else { "" };
+        let caption = format!("{}{of} over the frames of each scene", metric.info().label);
         NamedFigure::new(format!("frames-{}", slug(metric.key())), caption, figure)
     }
 }

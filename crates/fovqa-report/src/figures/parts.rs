@@ -38,13 +38,43 @@ impl<'a> Selection<'a> {
         if of > MOST_METHODS * MOST_PARTS {
             return vec![self.choice(&methods, metric)];
         }
-        let parts = methods.chunks(MOST_METHODS).enumerate().map(|(index, methods)| {
-            let first = index * MOST_METHODS + 1;
+        self.split(&methods, MOST_METHODS)
+    }
+
+    /// Splits the selection into parts of about the same size with at most `most` methods each, for
+    /// figures of no metric. Of very many methods, some are chosen.
+    pub(super) fn parts_of(&self, most: usize) -> Vec<Self> {
+        let methods: Vec<&str> = self.all.iter().copied().filter(|m| self.has(m)).collect();
+        if self.methods.len() <= most || methods.is_empty() {
+            return vec![self.clone()];
+        }
+        if methods.len() <= MOST_METHODS * MOST_PARTS {
+            let parts = methods.len().div_ceil(most);
+            return self.split(&methods, methods.len().div_ceil(parts));
+        }
+        let choice = self.choice(&methods, Metric::Psnr);
+        let chosen: Vec<&str> = choice.methods.iter().map(|(method, _)| *method).collect();
+        let parts = chosen.len().div_ceil(most);
+        let part = |(index, methods): (usize, &[&'a str])| {
+            let part = choice.part.as_ref().map(|part| Part {
+                suffix: format!("-part-{}", index + 1),
+                shown: format!("{}; part {} of {parts}", part.shown, index + 1),
+                of: part.of,
+            });
+            self.of_methods(methods, part)
+        };
+        chosen.chunks(chosen.len().div_ceil(parts)).enumerate().map(part).collect()
+    }
+
+    /// Parts of `size` methods each; some methods of the plot may have no values in its scenes.
+    fn split(&self, methods: &[&'a str], size: usize) -> Vec<Self> {
+        let of = methods.len();
+        let parts = methods.chunks(size).enumerate().map(|(index, methods)| {
+            let first = index * size + 1;
             let last = first + methods.len() - 1;
             let suffix = format!("-methods-{first}-{last}");
             let shown = format!("methods {first} to {last} of {of}");
-            // Some methods of the plot may have no values in its scenes.
-            let part = (of > MOST_METHODS).then_some(Part { suffix, shown, of });
+            let part = (of > size).then_some(Part { suffix, shown, of });
             self.of_methods(methods, part)
         });
         parts.collect()
@@ -112,8 +142,8 @@ impl<'a> Selection<'a> {
     /// Adds to the title and caption of a figure which methods it shows, if it does not show all.
     pub(super) fn labelled(&self, figure: NamedFigure) -> NamedFigure {
         let Some(Part { suffix, shown, of }) = &self.part else { return figure };
-        let NamedFigure { name, caption, mut figure, settings } = figure;
-        let title = match &mut figure {
+        let NamedFigure { name, caption, figure: mut drawn, settings, warnings } = figure;
+        let title = match &mut drawn {
             Figure::Line(chart) => &mut chart.title,
             Figure::Bar(chart) => &mut chart.title,
             Figure::Spread(chart) => &mut chart.title,
@@ -126,6 +156,6 @@ impl<'a> Selection<'a> {
             None => shown.clone(),
         });
         let caption = format!("{caption}; {shown} (all {of} are in summary.json)");
-        NamedFigure { name: format!("{name}{suffix}"), caption, figure, settings }
+        NamedFigure { name: format!("{name}{suffix}"), caption, figure: drawn, settings, warnings }
     }
 }

@@ -136,6 +136,9 @@ pub fn find_limits(
     let record = record(experiment, options, &targets, &wanted);
     folder.clear().map_err(|error| in_folder(&error))?;
     let drawn = write(folder.path(), &record)?;
+    for warning in &drawn.warnings {
+        events.warn(warning);
+    }
     if record.limits.iter().all(|limit| limit.state != LimitState::Found) {
         let why: Vec<&str> = record.limits.iter().filter_map(|of| of.note.as_deref()).collect();
         let message = format!("no rule has a limit: {}", why.join("; "));

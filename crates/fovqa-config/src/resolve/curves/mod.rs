@@ -1,9 +1,11 @@
 //! Resolves a curves file: every curve with each of its settings. Each method is applied once to
 //! check that this is possible.
 
+mod panels;
 mod plots;
 mod response;
 mod screens;
+mod shown;
 mod values;
 
 use std::ops::Range;
@@ -12,16 +14,18 @@ use fovqa_methods::{BudgetError, Method};
 use fovqa_params::{ParamError, ParamValue, Words};
 use fovqa_vision::acuity::AcuityModel;
 
-use super::figures::figure;
+use super::figures::{figure, has_effect};
 use super::metrics::param_value;
 use super::scenes::unique;
 use crate::fault::{Fault, Faults};
 use crate::grammar::MOST_CURVES;
 use crate::node::Node;
 use fovqa_methods::curves::{CurveBudget, CurveRange, CurveSetting, CurveSource, CurveSpec};
-use fovqa_plan::{CurvePlan, CurvePlot, FigureSettings};
-use plots::{all_that_fit, few_panels, nothing_is_left, plot, table};
+use fovqa_plan::{CurvePlan, CurvePlot, FigureForm, FigureSettings};
+use panels::{all_that_fit, few_panels};
+use plots::{plot, table};
 use screens::Screens;
+use shown::nothing_is_left;
 
 /// The name, the description and the plan. Mistakes are added to `faults`.
 pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, CurvePlan) {
@@ -62,15 +66,14 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
     plan.plots = root
         .tables("plot")
         .iter()
-        .map(|(table, _)| CurvePlot {
-            figure: figure(table.table("figure"), &figures, faults),
-            ..plot(root, *table, (&names, &plan), faults)
+        .map(|(table, _)| {
+            printed(*table, plot(root, *table, (&names, &plan), faults), &figures, faults)
         })
         .collect();
     plan.tables =
         root.tables("table").iter().map(|(t, _)| table(*t, &names, &plan, faults)).collect();
     if plan.plots.is_empty() && plan.tables.is_empty() {
-        (plan.plots, plan.tables) = all_that_fit(&plan);
+        all_that_fit(&mut plan);
         plan.plots.iter_mut().for_each(|plot| plot.figure = figures.clone());
     }
     if faults.is_empty() {
@@ -80,6 +83,7 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
             few_panels(plot, &plan, span, faults);
         }
     }
+    plan.figures = figures;
     leave_out(&mut plan);
     let drawn_without = |plot: &CurvePlot| plot.kind.needs_no_curve();
     if tables.is_empty() && !plan.plots.iter().any(drawn_without) {
@@ -87,6 +91,20 @@ pub(crate) fn curves(root: Node<'_>, faults: &mut Faults) -> (String, String, Cu
         faults.push(fault.help("add [[curve]] with a name and method = { model = \"rmfr\" }"));
     }
     (text("name"), text("about"), plan)
+}
+
+/// A plot with how it is printed.
+fn printed(
+    table: Node<'_>,
+    plot: CurvePlot,
+    all: &FigureSettings,
+    faults: &mut Faults,
+) -> CurvePlot {
+    let node = table.table("figure");
+    let own = || figure(node, &FigureSettings::default(), &mut Faults::default());
+    let form = FigureForm::of_curves(plot.kind);
+    has_effect(table, Some(form), plot.kind.word(), own, faults);
+    CurvePlot { figure: figure(node, all, faults), ..plot }
 }
 
 /// Leaves out the figures and tables all of whose curves are left out.

@@ -1,11 +1,10 @@
 //! `[[plot]]` and `[[table]]` of a curves file.
 
-use std::collections::BTreeSet;
-use std::ops::Range;
-
 use fovqa_methods::Method;
 use fovqa_params::Words;
 
+use super::panels::usual_panels;
+use super::shown::{nothing_is_left, shown};
 use super::{response, values};
 use crate::fault::{Fault, Faults};
 use crate::node::Node;
@@ -13,97 +12,8 @@ use crate::resolve::plots::subset;
 use fovqa_methods::curves::{CurveSource, CurveSpec};
 use fovqa_plan::{
     AcuityScale, CurvePlan, CurvePlot, CurvePlotKind, CurveTable, CurveTableKind, DensityStyle,
-    FigureSettings, PanelOf, RateKind, RateUnit, TableAcross,
+    FigureSettings, RateUnit,
 };
-
-/// The curves that a plot or table shows.
-fn shown<'a>(
-    plan: &'a CurvePlan,
-    wanted: Option<&'a [String]>,
-) -> impl Iterator<Item = &'a CurveSpec> {
-    let wanted = move |spec: &&CurveSpec| wanted.is_none_or(|wanted| wanted.contains(&spec.name));
-    plan.curves.iter().filter(wanted)
-}
-
-/// Whether a plot or table has no curve because all of its curves are left out.
-pub(super) fn nothing_is_left(plan: &CurvePlan, wanted: Option<&[String]>) -> bool {
-    !plan.left_out.is_empty() && shown(plan, wanted).next().is_none()
-}
-
-/// The plots and tables for a file that names none.
-pub(super) fn all_that_fit(plan: &CurvePlan) -> (Vec<CurvePlot>, Vec<CurveTable>) {
-    let mut plots = vec![CurvePlot { panels: usual_panels(plan, None), ..CurvePlot::default() }];
-    if !plan.curves.iter().any(|spec| matches!(spec.source, CurveSource::Method { .. })) {
-        plots[0].panels = PanelOf::One;
-        return (plots, Vec::new());
-    }
-    // Log-polar methods are so dense at the gaze that nothing else could be seen on a linear axis.
-    plots.push(CurvePlot { kind: CurvePlotKind::Density, log: true, ..CurvePlot::default() });
-    let all = [CurveTableKind::Samples, CurveTableKind::SpeedUp, CurveTableKind::Acuity];
-    (
-        plots,
-        all.map(|kind| CurveTable { kind, curves: None, across: TableAcross::default() }).to_vec(),
-    )
-}
-
-/// Whether a figure has no more panels than a page can show.
-pub(super) fn few_panels(
-    plot: &CurvePlot,
-    plan: &CurvePlan,
-    span: Range<usize>,
-    faults: &mut Faults,
-) {
-    const MOST: usize = 48;
-    let mut different: Vec<String> = Vec::new();
-    for spec in shown(plan, plot.curves.as_deref()) {
-        let CurveSource::Method { setting, .. } = &spec.source else { continue };
-        let size = [setting.view.width, setting.view.height];
-        let panel = match (plot.kind, plot.panels) {
-            (CurvePlotKind::Density | CurvePlotKind::Samples, _) => {
-                format!("{} {size:?} {:?}", spec.name, setting.gaze_px)
-            }
-            (CurvePlotKind::Rates, PanelOf::Curve) => {
-                format!("{} {size:?} {:?} {}", spec.name, setting.gaze_px, setting.direction_deg)
-            }
-            (CurvePlotKind::Rates, PanelOf::Setting) => {
-                format!("{size:?} {:?} {}", setting.gaze_px, setting.direction_deg)
-            }
-            (CurvePlotKind::Rates, PanelOf::Name) => spec.name.clone(),
-            (CurvePlotKind::Rates, PanelOf::Resolution) => format!("{size:?}"),
-            (CurvePlotKind::Rates, PanelOf::Gaze) => format!("{:?}", setting.gaze_px),
-            (CurvePlotKind::Rates, PanelOf::Direction) => setting.direction_deg.to_string(),
-            _ => String::new(),
-        };
-        if !different.contains(&panel) {
-            different.push(panel);
-        }
-    }
-    let sides = if plot.rate == RateKind::Both { 2 } else { 1 };
-    let panels = different.len() * sides;
-    if panels > MOST {
-        let message = format!("the figure has {panels} panels, but at most {MOST} are allowed");
-        let help = "name some of the curves with curves = […], or give panels = \"one\"";
-        faults.push(Fault::new(span, message).help(help));
-    }
-}
-
-/// What each panel shows if the file does not say it: a curve with its areas. Of many curves with
-/// several settings each panel shows one setting, so that methods are compared on the same screen.
-fn usual_panels(plan: &CurvePlan, wanted: Option<&[String]>) -> PanelOf {
-    const FEW: usize = 4;
-    let (mut names, mut settings, mut curves) = (BTreeSet::new(), Vec::new(), 0);
-    for spec in shown(plan, wanted) {
-        let CurveSource::Method { setting, .. } = &spec.source else { continue };
-        let at = (setting.view, setting.gaze_px, setting.direction_deg);
-        names.insert(&spec.name);
-        if !settings.contains(&at) {
-            settings.push(at);
-        }
-        curves += 1;
-    }
-    let many = names.len() > 1 && settings.len() > 1 && curves > FEW;
-    if many { PanelOf::Setting } else { PanelOf::Curve }
-}
 
 /// Resolves a figure.
 pub(super) fn plot(
@@ -115,14 +25,15 @@ pub(super) fn plot(
     let kind = table.word("kind").unwrap_or_default();
     let flag = |key| table.flag(key).unwrap_or(false);
     let curves = subset(table, "curves", names, faults);
-    let usual = || usual_panels(plan, curves.as_deref());
+    let rate = table.word("rate").unwrap_or_default();
+    let usual = || usual_panels(plan, curves.as_deref(), rate);
     let plot = CurvePlot {
         kind,
         name: table.text("name").map(str::to_owned),
         title: table.text("title").map(str::to_owned),
         panels: table.word("panels").unwrap_or_else(usual),
         curves,
-        rate: table.word("rate").unwrap_or_default(),
+        rate,
         unit: table.word("unit").unwrap_or_default(),
         areas: table.flag("areas"),
         display: table.flag("display"),

@@ -67,3 +67,21 @@ fn a_missing_picture_says_so_and_a_cross_outside_is_not_drawn() {
     check(&empty);
     assert_eq!(count(&empty, "no data"), 1);
 }
+
+#[test]
+fn as_many_columns_fit_as_have_readable_headings() {
+    let most = |names: &[&str], width_in: Option<f64>| {
+        let headings: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        MontageChart::most_columns(&headings, &Style { width_in, ..Style::default() })
+    };
+    let short = vec!["RMFR"; 40];
+    // At 7 in and 7 pt, the page has 792 pixels of 11 for the smallest text.
+    assert_eq!((most(&short, None), most(&short, Some(3.3))), (8, 4));
+    assert_eq!(most(&short[..3], None), 3, "no more than there are");
+    let mut long = short.clone();
+    long[7] = "Foveated-super-resolution, no temporal filter";
+    let fewer = most(&long, None);
+    assert!((4..8).contains(&fewer), "{fewer}");
+    assert_eq!(most(&["w".repeat(200).as_str(), "b", "c", "d", "e"], None), 4, "it is cut then");
+    assert_eq!(most(&short, Some(0.5)), 2);
+}
