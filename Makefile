@@ -5,11 +5,12 @@
 demo:
 	cargo run --release --locked --bin fovqa -- run configs/demo.toml
 
+# The papers' experiments and curves, except those of data that is not in the repository. About 15 CPU minutes.
 figures:
-	for figure in 4 10 12; do \
-	  cargo run --release --locked --bin fovqa -- run configs/papers/patney-fig-$$figure.toml --output reports/papers/patney-fig-$$figure || exit; \
+	for file in $$(grep -l '^\[\[scene\]\]' configs/papers/*.toml | xargs grep -L 'shared/data'); do \
+	  cargo run --release --locked --bin fovqa -- run $$file --output reports/papers/$$(basename $$file .toml) || exit; \
 	done
-	cargo run --release --locked --bin fovqa -- curves configs/papers/vafr-*.toml configs/papers/rmfr-*.toml configs/papers/deamp-*.toml configs/papers/patney-rates.toml configs/papers/patney-fig-3.toml configs/papers/patney-fig-8.toml --output reports/papers
+	cargo run --release --locked --bin fovqa -- curves $$(grep -L '^\[\[scene\]\]' configs/papers/*.toml) --output reports/papers
 	cargo run --release --locked --bin fovqa -- report reports/papers
 
 # docs/published-numbers.md, from the models and the papers' tables in ../shared/papers.

@@ -23,7 +23,8 @@ const HEAD: &str = "name = \"e\"\n[view]\nfov_vertical_deg = 90\nbands_deg = [0,
 /// The values of a method that do not say how many samples it has, by everything else in their rows.
 fn values(rows: &[BTreeMap<String, String>], method: &str) -> BTreeMap<String, String> {
     let of = rows.iter().filter(|row| row["method"] == method);
-    let of = of.filter(|row| !row["metric"].starts_with("samples"));
+    let of = of
+        .filter(|row| !row["metric"].starts_with("samples") && !row["metric"].starts_with("quads"));
     let key = |row: &BTreeMap<String, String>| {
         let columns = row.iter().filter(|(name, _)| !["method", "value"].contains(&name.as_str()));
         columns.map(|(_, cell)| cell.as_str()).collect::<Vec<_>>().join(",")
@@ -175,6 +176,64 @@ fn samples_are_in_the_table_and_the_summary() {
     folder.run(&["gate", "out"]).ok();
     let checked = folder.run(&["check", "e.toml"]).ok();
     assert!(checked.stdout.contains("emulated: rmfr, budget = 0.25"), "{}", checked.stdout);
+}
+
+/// Blocks of 2x2 samples: of the buffers, or of the frame's pixels. Polar buffers and continuous rates
+/// have none.
+#[test]
+fn quads_are_counted_and_a_table_shows_them() {
+    let folder = Folder::new();
+    folder.png("gt.png", 95, 81, &codes(95, 81, 3, 1));
+    let methods = [
+        ("Full", "model = \"full\""),
+        ("TAA", "model = \"taa\""),
+        ("Stable", "model = \"stable\""),
+        // 37 x 31 samples: 95 / 2.6 and 81 / 2.6, rounded.
+        ("RMFR", "model = \"rmfr\""),
+        ("Guenter", "model = \"guenter\", scales = [1, 2, 4]"),
+        ("CPS", "model = \"cps\""),
+        ("KFR", "model = \"kfr\""),
+        ("VaFR", "model = \"vafr\""),
+        ("Linear", "model = \"linear\""),
+        ("Continuous", "model = \"cps\", quantise = \"continuous\""),
+    ];
+    let methods: String = methods
+        .iter()
+        .map(|(name, model)| format!("[[method]]\nname = \"{name}\"\nemulate = {{ {model} }}\n"))
+        .collect();
+    let scene = "[[scene]]\nname = \"s\"\nreference = \"gt.png\"\n";
+    let table =
+        "[metrics]\npsnr = {}\n[[plot]]\nkind = \"table\"\nmetrics = [\"quads\", \"samples\"]\n";
+    folder.write("e.toml", format!("{HEAD}{scene}{methods}{table}"));
+    let run = folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    assert!(run.stdout.contains("Quads (% of the frame's)"), "{}", run.stdout);
+    let comparisons = json(&folder, "out/summary.json")["comparisons"].clone();
+    let of = |method: &str| {
+        let of = comparisons.as_array().unwrap().iter().find(|c| c["method"] == method).unwrap();
+        of["samples"].clone()
+    };
+    let whole = 48.0 * 41.0;
+    for method in ["Full", "TAA", "Stable"] {
+        assert_eq!(of(method)["quads"], whole, "{method}");
+        assert_eq!(of(method)["quads_share"], 1.0, "{method}");
+    }
+    assert_eq!(of("RMFR")["samples"], 37.0 * 31.0);
+    assert_eq!(of("RMFR")["quads"], 19.0 * 16.0);
+    assert_eq!(of("RMFR")["quads_share"], 19.0 * 16.0 / whole);
+    // At 90°, R(10°) = 7.1 and R(20°) = 14.7 pixels around (47.5, 40.5): squares of 16 and 30 pixels, or
+    // of 15 samples, and 24 x 20 samples of the frame.
+    assert_eq!(of("Guenter")["quads"], 8.0 * 8.0 + 8.0 * 8.0 + 12.0 * 10.0);
+    let cps = of("CPS")["quads"].as_f64().unwrap();
+    let samples = of("CPS")["samples"].as_f64().unwrap();
+    assert!(cps > samples / 4.0 && cps < whole, "{cps}");
+    for method in ["KFR", "VaFR", "Linear", "Continuous"] {
+        assert!(of(method).get("quads").is_none(), "{method}");
+    }
+    let rows = rows(&folder, "out");
+    let shares = rows.iter().filter(|row| row["metric"] == "quads_share").count();
+    assert_eq!(shares, 6);
+    let csv = fs::read_to_string(folder.path("out/table.csv")).unwrap();
+    assert!(csv.starts_with("scene,quads_percent Full,"), "{csv}");
 }
 
 /// Threads do not matter.

@@ -219,6 +219,7 @@ fn what_does_not_apply_is_an_error() {
         ("kind = \"table\"\nmetrics = [\"gmsd\"]", "the plot's metric gmsd is not scored"),
         ("kind = \"table\"\nmetrics = [\"psnrr\"]", "psnrr"),
         ("kind = \"bars\"\nmetrics = [\"samples\"]", "only a comparison table shows samples"),
+        ("kind = \"bars\"\nmetrics = [\"quads\"]", "only a comparison table shows quads"),
         ("kind = \"table\"\nlabel = \"a}b\"", "a label in LaTeX cannot contain '}'"),
         ("kind = \"table\"\nscenes = [\"hall\"]\nspread = \"scenes\"", "needs at least two"),
         ("kind = \"table\"\nscenes = [\"hall\"]\naverage = \"only\"", "it has one scene"),

@@ -75,7 +75,7 @@ const SCORES: &[Scores] = &[
         ],
     },
     Scores {
-        experiment: "patney-fig-4",
+        experiment: "patney-fig-4-renders",
         options: "--fov-vertical 100 --bands 0,5,10,15,20,25,30,35,40,45,50,55,60 \
                   --metrics rms-contrast",
         pairs: &[(
@@ -97,7 +97,7 @@ const SCORES: &[Scores] = &[
         )],
     },
     Scores {
-        experiment: "patney-fig-10",
+        experiment: "patney-fig-10-renders",
         options: "--fov-vertical 100 --bands 0,5,10,15,20,25,30,35,40,45,50,55,60 \
                   --metrics haar --set haar.levels=5",
         pairs: &[
@@ -175,7 +175,7 @@ const SCORES: &[Scores] = &[
     },
     // Sequences with motion, depth and a gaze trace.
     Scores {
-        experiment: "patney-fig-12",
+        experiment: "patney-fig-12-renders",
         options: "--fov-vertical 100 --bands 0,10,20,30,40,50,60 --exposure 0.6597580961872381 \
                   --tonemap clamp --fps 72 --gaze tests/data/small/classroom/gaze.csv \
                   --metrics atd",
@@ -272,7 +272,7 @@ impl Experiment {
     }
 }
 
-/// Those with scenes in files, by name. (The results of the demo are in `reports/demo`.)
+/// Those with scenes and renders in files, by name. (The results of the demo are in `reports/demo`.)
 fn experiments() -> Vec<Experiment> {
     let configs = root().join("configs");
     let folders = [configs.join("papers"), configs.join("ci"), configs];
@@ -283,7 +283,7 @@ fn experiments() -> Vec<Experiment> {
             continue;
         }
         let text = fs::read_to_string(&path).unwrap();
-        if text.contains("[[scene]]") && !text.contains("builtin = ") {
+        if text.contains("[[scene]]") && !text.contains("emulate = ") {
             let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
             found.push(Experiment { name, path, text });
         }

@@ -15,13 +15,34 @@ pub struct Counts {
     pub samples_beyond: f64,
     /// Coarse pixel shading: blocks of 2x2 samples with a sample in use.
     pub quads: Option<u64>,
+    /// Blocks of 2x2 samples of the buffers, of methods with rectangular buffers. Where nested buffers
+    /// repeat samples, so do these blocks.
+    pub buffer_quads: Option<u64>,
 }
 
 impl Counts {
     /// Of a method that shades each sample once, all of them in the frame.
     pub(crate) fn on_screen(buffers: Vec<[usize; 2]>, samples: f64) -> Self {
-        let samples_on_screen = samples;
-        Self { buffers, samples, samples_on_screen, samples_beyond: 0.0, quads: None }
+        Self {
+            buffers,
+            samples,
+            samples_on_screen: samples,
+            samples_beyond: 0.0,
+            quads: None,
+            buffer_quads: None,
+        }
+    }
+
+    /// Of a method whose buffers are rectangles, so that a rasteriser would fill them.
+    pub(crate) fn rectangular(buffers: Vec<[usize; 2]>, samples: f64) -> Self {
+        let buffer_quads = buffers.iter().copied().map(quads).sum();
+        Self { buffer_quads: Some(buffer_quads), ..Self::on_screen(buffers, samples) }
+    }
+
+    /// The quads that a rasteriser would shade; `None` for polar buffers, continuous rates and
+    /// reprojected samples, which do not fill blocks of 2x2.
+    pub fn shaded_quads(&self) -> Option<u64> {
+        self.quads.or(self.buffer_quads)
     }
 
     /// All samples, also those beyond the method's own field.
@@ -40,11 +61,32 @@ impl Counts {
             samples_on_screen: shaded,
             samples_beyond: part(self.samples_beyond),
             quads: None,
+            buffer_quads: None,
         }
     }
 
     /// The share of `pixels` pixels that is shaded, with what lies beyond the method's own field.
     pub fn share(&self, pixels: f64) -> f64 {
         self.all() / pixels
+    }
+}
+
+/// The number of quads, blocks of 2x2 samples, of a rectangle: those at its right and bottom edge may
+/// be cut.
+pub fn quads([width, height]: [usize; 2]) -> u64 {
+    width.div_ceil(2) as u64 * height.div_ceil(2) as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quads_are_those_of_rectangular_buffers() {
+        assert_eq!(quads([4, 6]), 6);
+        assert_eq!(quads([5, 7]), 12);
+        let counts = Counts::rectangular(vec![[5, 7], [2, 2]], 39.0);
+        assert_eq!(counts.shaded_quads(), Some(13));
+        assert_eq!(counts.reshaded(20.0).shaded_quads(), None);
     }
 }

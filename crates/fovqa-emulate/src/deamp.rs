@@ -93,7 +93,7 @@ impl Deamp {
 
     pub(crate) fn counts(&self) -> Counts {
         let buffers = self.layers.iter().map(|layer| layer.buffer.size()).collect();
-        Counts::on_screen(buffers, self.samples)
+        Counts::rectangular(buffers, self.samples)
     }
 
     pub(crate) fn buffers<const C: usize>(&self, source: &impl Source<C>) -> Vec<Image<C>> {

@@ -86,7 +86,7 @@ impl Guenter {
     pub(crate) fn counts(&self) -> Counts {
         let buffers: Vec<[usize; 2]> = self.layers.iter().map(Layer::size).collect();
         let samples = buffers.iter().map(|[w, h]| w * h).sum::<usize>();
-        Counts::on_screen(buffers, samples as f64)
+        Counts::rectangular(buffers, samples as f64)
     }
 
     pub(crate) fn buffers<const C: usize>(&self, source: &impl Source<C>) -> Vec<Image<C>> {

@@ -102,7 +102,7 @@ mod write_frame;
 mod written;
 
 pub use budget::BudgetReport;
-pub use counts::Counts;
+pub use counts::{Counts, quads};
 pub use emulator::Emulator;
 pub use error::EmulateError;
 pub use filters::FilterChoice;

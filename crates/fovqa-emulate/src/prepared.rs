@@ -96,7 +96,7 @@ impl Prepared {
     pub(crate) fn counts(&self) -> Counts {
         match self {
             Self::Full(_, [w, h]) | Self::Stable(_, [w, h]) | Self::Aliased(_, [w, h]) => {
-                Counts::on_screen(vec![[*w, *h]], (w * h) as f64)
+                Counts::rectangular(vec![[*w, *h]], (w * h) as f64)
             }
             Self::Rmfr(method) => method.counts(),
             Self::Deamp(method) => method.counts(),

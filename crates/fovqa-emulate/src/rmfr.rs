@@ -31,7 +31,7 @@ impl Rmfr {
 
     pub(crate) fn counts(&self) -> Counts {
         let [w, h] = self.buffer.size();
-        Counts::on_screen(vec![[w, h]], (w * h) as f64)
+        Counts::rectangular(vec![[w, h]], (w * h) as f64)
     }
 
     pub(crate) fn buffer<const C: usize>(&self, source: &impl Source<C>) -> Image<C> {

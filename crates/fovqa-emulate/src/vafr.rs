@@ -102,5 +102,6 @@ fn counts(buffer: &Ragged, setting: &Setting, shaded: f64) -> Counts {
         samples_on_screen: buffer.on_screen(setting) as f64 * shaded,
         samples_beyond: beyond as f64 * shaded,
         quads: None,
+        buffer_quads: None,
     }
 }

@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use fovqa_emulate::quads;
 use fovqa_frame::{Frame, Mask, SignalTables};
 use fovqa_metrics::{Image, Key, Layouts, Map, Metric, MetricKind, Needs, Rows, Subject};
 use fovqa_params::ParamValue;
@@ -380,13 +381,20 @@ fn add_samples(made: &Made, (width, height): (usize, usize), rows: &mut Rows) {
         (Subject::SamplesShare, counts.share((width * height) as f64)),
     ];
     let reshaded = made.reshaded_share.map(|share| (Subject::ReshadedShare, share));
-    let quads = counts.quads.map(|quads| (Subject::Quads, quads as f64));
+    let quads = counts.shaded_quads().map(|shaded| {
+        let share = shaded as f64 / quads([width, height]) as f64;
+        [(Subject::Quads, shaded as f64), (Subject::QuadsShare, share)]
+    });
     let budget = made.budget.as_ref();
     let asked = budget.map(|budget| (Subject::BudgetShare, budget.budget.share));
     let ideal = budget.map(|budget| (Subject::BudgetIdealShare, budget.ideal_share));
     let key = |subject| Key::pixels(subject).of_image(Image::Test);
-    for (subject, value) in
-        values.into_iter().chain(reshaded).chain(quads).chain(asked).chain(ideal)
+    for (subject, value) in values
+        .into_iter()
+        .chain(reshaded)
+        .chain(quads.into_iter().flatten())
+        .chain(asked)
+        .chain(ideal)
     {
         rows.score(key(subject), value);
     }

@@ -47,6 +47,8 @@ pub enum Subject {
     /// The number of quads, blocks of 2x2 samples that a rasteriser shades together, of which at least
     /// one sample is shaded.
     Quads,
+    /// The quads over those of the frame.
+    QuadsShare,
     /// The budget that was asked for, as a share of the frame's pixels.
     BudgetShare,
     /// The share that the method shades at its budget, before the sizes of its buffers are rounded.
@@ -104,7 +106,7 @@ const SHARE: Statistic = Statistic::of_test("");
 const PARAMETER: Statistic = Statistic::of_test("").over_eyes(Pooling::None);
 
 impl Subject {
-    const COUNTS: [Subject; 12] = [
+    const COUNTS: [Subject; 13] = [
         Subject::Pixels,
         Subject::PixelsOutsideBands,
         Subject::PixelsLeftOut,
@@ -114,6 +116,7 @@ impl Subject {
         Subject::SamplesShare,
         Subject::ReshadedShare,
         Subject::Quads,
+        Subject::QuadsShare,
         Subject::BudgetShare,
         Subject::BudgetIdealShare,
         Subject::BudgetValue,
@@ -131,6 +134,7 @@ impl Subject {
             Subject::SamplesShare => "samples_share",
             Subject::ReshadedShare => "reshaded_share",
             Subject::Quads => "quads",
+            Subject::QuadsShare => "quads_share",
             Subject::BudgetShare => "budget_share",
             Subject::BudgetIdealShare => "budget_ideal_share",
             Subject::BudgetValue => "budget_value",
@@ -155,6 +159,7 @@ impl Subject {
             | Subject::Quads => &[SAMPLES],
             Subject::SamplesShare
             | Subject::ReshadedShare
+            | Subject::QuadsShare
             | Subject::BudgetShare
             | Subject::BudgetIdealShare => &[SHARE],
             Subject::BudgetValue => &[PARAMETER],
@@ -242,10 +247,11 @@ impl Key {
             Subject::SamplesShare => (6, true),
             Subject::ReshadedShare => (7, true),
             Subject::Quads => (8, true),
-            Subject::BudgetShare => (9, true),
-            Subject::BudgetIdealShare => (10, true),
-            Subject::BudgetValue => (11, true),
-            Subject::Metric(metric) => (12 + metric as u64, false),
+            Subject::QuadsShare => (9, true),
+            Subject::BudgetShare => (10, true),
+            Subject::BudgetIdealShare => (11, true),
+            Subject::BudgetValue => (12, true),
+            Subject::Metric(metric) => (13 + metric as u64, false),
         };
         let area = match (self.band, self.level) {
             (None, _) if counted => 1,

@@ -106,7 +106,7 @@ pub struct Plot {
     /// Key of its metric; `None` for each metric that fits.
     pub metric: Option<String>,
     /// Keys of several metrics, in the order in which they are shown; for a comparison table, also
-    /// [`Plot::SAMPLES`].
+    /// [`Plot::SAMPLES`] and [`Plot::QUADS`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub metrics: Option<Vec<String>>,
     /// Its scenes; `None` for all.
@@ -158,6 +158,9 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 impl Plot {
     /// The word for the samples of emulated methods in a list of metrics.
     pub const SAMPLES: &'static str = "samples";
+
+    /// The word for the quads of emulated methods in a list of metrics.
+    pub const QUADS: &'static str = "quads";
 
     /// A plot of one kind that shows everything.
     pub fn of(kind: PlotKind) -> Self {

@@ -44,6 +44,8 @@ pub(crate) struct Measured {
     pub(crate) budget: Option<BudgetSummary>,
     /// Samples of an emulated method in percent of the frame's pixels.
     pub(crate) samples_percent: Option<f64>,
+    /// Its quads in percent of the frame's.
+    pub(crate) quads_percent: Option<f64>,
     /// Share of each eccentricity band in the Q of FovVideoVDP.
     pub(crate) shares: Box<[EccentricityShare]>,
 }
@@ -199,6 +201,11 @@ impl Measured {
             eye: comparison.eye.clone(),
             budget: comparison.samples.as_ref().and_then(|samples| samples.budget.clone()),
             samples_percent: comparison.samples.as_ref().map(|samples| samples.share * 100.0),
+            quads_percent: comparison
+                .samples
+                .as_ref()
+                .and_then(|samples| samples.quads_share)
+                .map(|share| share * 100.0),
             shares: fvvdp.map(|fvvdp| fvvdp.shares.as_slice().into()).unwrap_or_default(),
         }
     }

@@ -19,9 +19,13 @@ pub struct SampleSummary {
     /// The share of the eye's own samples that it shades, if it takes the others from the other eye.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reshaded_share: Option<f64>,
-    /// Quads with a sample that is shaded, of methods that shade pixels of the frame in blocks.
+    /// Blocks of 2x2 samples with a sample that is shaded, of methods whose samples lie in the frame's
+    /// grid or in rectangular buffers. For two eyes together, those of both.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub quads: Option<f64>,
+    /// The quads over those of the frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quads_share: Option<f64>,
     /// The budget, if the method has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub budget: Option<BudgetSummary>,
@@ -62,6 +66,7 @@ impl SampleSummary {
             share: mean(Subject::SamplesShare)?,
             reshaded_share: mean(Subject::ReshadedShare),
             quads: mean(Subject::Quads),
+            quads_share: mean(Subject::QuadsShare),
             budget: budget.map(|(share, ideal_share)| BudgetSummary {
                 share,
                 ideal_share,

@@ -9,13 +9,13 @@ use super::{Key, Kind};
 
 /// What a list of metrics may contain.
 fn columns() -> Vec<&'static str> {
-    Metric::ALL.map(Metric::key).into_iter().chain([Plot::SAMPLES]).collect()
+    Metric::ALL.map(Metric::key).into_iter().chain([Plot::SAMPLES, Plot::QUADS]).collect()
 }
 
 pub(super) const METRICS: Key = key(
     "metrics",
-    Kind::List(&Kind::Words(columns), 1, 13),
-    "several metrics, in the order in which they are shown; in a table also \"samples\", what emulated methods shade",
+    Kind::List(&Kind::Words(columns), 1, 14),
+    "several metrics, in the order in which they are shown; in a table also \"samples\" and \"quads\", what emulated methods shade",
 );
 
 /// Keys of tables. `fovqa-config/src/resolve/tables.rs` refuses them for figures.

@@ -145,9 +145,9 @@ fn metrics(
     let mut metrics: Vec<String> = Vec::new();
     for (key, span) in named {
         match (key, kind) {
-            (Plot::SAMPLES, PlotKind::Table) => {}
-            (Plot::SAMPLES, _) => {
-                let message = "only a comparison table shows samples";
+            (Plot::SAMPLES | Plot::QUADS, PlotKind::Table) => {}
+            (Plot::SAMPLES | Plot::QUADS, _) => {
+                let message = format!("only a comparison table shows {key}");
                 faults.push(Fault::new(span, message).help("use it with kind = \"table\""));
             }
             _ => scored((key, span), kind, known, faults),

@@ -12,6 +12,8 @@ pub(super) enum Column {
     Metric(Metric),
     /// The samples of emulated methods.
     Samples,
+    /// Their quads.
+    Quads,
 }
 
 impl Column {
@@ -24,6 +26,7 @@ impl Column {
             }
             Self::Metric(metric) => Measure::of(metric),
             Self::Samples => Measure::samples(),
+            Self::Quads => Measure::quads(),
         }
     }
 
@@ -31,6 +34,7 @@ impl Column {
         match self {
             Self::Metric(metric) => measured.value(metric),
             Self::Samples => measured.samples_percent,
+            Self::Quads => measured.quads_percent,
         }
     }
 
@@ -38,7 +42,7 @@ impl Column {
     pub(super) fn has_frames(self) -> bool {
         match self {
             Self::Metric(metric) => metric.is(MetricKind::Fidelity) && metric != Metric::Fvvdp,
-            Self::Samples => false,
+            Self::Samples | Self::Quads => false,
         }
     }
 }

@@ -68,6 +68,17 @@ impl Measure {
         }
     }
 
+    /// The measure of the quads of emulated methods.
+    pub(crate) fn quads() -> Self {
+        Self {
+            label: "Quads".to_owned(),
+            unit: "% of the frame's",
+            better: Better::Neither,
+            key: "quads_percent".to_owned(),
+            digits: Digits::Percent,
+        }
+    }
+
     /// The measure of percentages of the reference's value.
     pub(crate) fn ratio(label: String, key: String, better: Better) -> Self {
         Self { label, unit: "% of reference", better, key, digits: Digits::Percent }

@@ -19,6 +19,9 @@ const ATD_NOTE: &str =
 const SAMPLES_NOTE: &str = "Samples: what an emulated method shades, in percent of the frame's pixels. Emulation from a finished frame \
      understates aliasing and flicker.";
 
+const QUADS_NOTE: &str = "Quads: blocks of 2x2 samples of the buffers that a rasteriser shades, in percent of the frame's. Polar buffers and \
+     continuous rates have none.";
+
 /// The remarks of a table with these columns.
 pub(super) fn notes(
     overview: &Overview,
@@ -41,6 +44,9 @@ pub(super) fn notes(
     }
     if columns.contains(&Column::Samples) {
         notes.push(SAMPLES_NOTE.to_owned());
+    }
+    if columns.contains(&Column::Quads) {
+        notes.push(QUADS_NOTE.to_owned());
     }
     notes.extend(unequal_frames(overview, scenes, methods));
     notes.extend(identical_frames(overview, scenes, methods));

@@ -23,6 +23,7 @@ fn columns(run: &RunRecord, overview: &Overview, plot: &Plot) -> Vec<Column> {
         Some(keys) => {
             let column = |key: &str| match key {
                 Plot::SAMPLES => Some(Column::Samples),
+                Plot::QUADS => Some(Column::Quads),
                 key => metrics.iter().find(|m| m.key() == key).map(|m| Column::Metric(*m)),
             };
             keys.into_iter().filter_map(column).collect()

@@ -351,6 +351,7 @@ mod tests {
                 share: 0.125,
                 reshaded_share: Some(0.25),
                 quads: Some(3.0),
+                quads_share: Some(0.375),
                 budget: Some(BudgetSummary { share: 0.1, ideal_share: 0.1, value: vec![2.5, 3.0] }),
             }),
             haar: vec![haar],
