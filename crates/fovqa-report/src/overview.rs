@@ -179,6 +179,7 @@ impl Measured {
             eye: String::new(),
             budget: None,
             samples_percent: None,
+            quads_percent: None,
             shares: shares.collect(),
         }
     }
