@@ -197,10 +197,11 @@ fn quads_are_counted_and_a_table_shows_them() {
         ("Linear", "model = \"linear\""),
         ("Continuous", "model = \"cps\", quantise = \"continuous\""),
     ];
-    let methods: String = methods
+    let methods = methods
         .iter()
         .map(|(name, model)| format!("[[method]]\nname = \"{name}\"\nemulate = {{ {model} }}\n"))
-        .collect();
+        .collect::<Vec<_>>()
+        .concat();
     let scene = "[[scene]]\nname = \"s\"\nreference = \"gt.png\"\n";
     let table =
         "[metrics]\npsnr = {}\n[[plot]]\nkind = \"table\"\nmetrics = [\"quads\", \"samples\"]\n";
