@@ -125,10 +125,8 @@ fn missing_and_damaged_pictures_of_regions_are_named() {
 fn crops_of_many_methods_are_several_figures() {
     let folder = two_scenes();
     let text = crops(&region("a", "at = [9, 9], size = [4, 4]"));
-    let more = (1..=10)
-        .map(|i| format!("[[method]]\nname = \"Method {i}\"\ntest = \"{{scene}}/a\"\n"))
-        .collect::<Vec<_>>()
-        .concat();
+    let method = |i: usize| format!("[[method]]\nname = \"Method {i}\"\ntest = \"{{scene}}/a\"\n");
+    let more: String = (1..=10).map(method).collect();
     folder.write("e.toml", experiment(&format!("{more}{text}")));
     folder.run(&["run", "e.toml"]).ok();
     assert_eq!(figures(&folder), ["crops-methods-1-6", "crops-methods-7-12"]);

@@ -75,7 +75,8 @@ pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
             let help = "change its `figure`, or [figures], in the experiment file, and run `fovqa run FILE --resume`";
             Error::usage(error.to_string(), help)
         } else {
-            Error::input(error.to_string(), "`fovqa run FILE --resume` writes the results again")
+            let help = "run the experiment again; `fovqa run FILE --resume` keeps what is scored";
+            Error::input(error.to_string(), help)
         }
     });
     Ok(Report::Run(drawn?))
