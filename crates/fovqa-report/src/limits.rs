@@ -186,7 +186,7 @@ fn row(record: &LimitsRecord, limit: &LimitRecord) -> Vec<Cell> {
 }
 
 /// One figure for each rule and scene: the quality of all methods against what was varied, the bounds of
-/// the rule, and the limits as dots.
+/// the rule, and the limits as rings.
 fn figures(record: &LimitsRecord) -> Vec<NamedFigure> {
     let mut methods: Vec<&str> = Vec::new();
     for limit in &record.limits {
@@ -220,7 +220,7 @@ fn figures(record: &LimitsRecord) -> Vec<NamedFigure> {
                 parts.push(slug(&format!("{scene}{eye}")));
             }
             let caption = format!(
-                "{} {} in {scene}{eye}: {} against {}; dots: limits",
+                "{} {} in {scene}{eye}: {} against {}; rings: limits",
                 rule.name,
                 bounds(rule),
                 rule.quantity,
@@ -256,6 +256,15 @@ fn chart(
     for limit in limits {
         let index = methods.iter().position(|method| *method == limit.method).unwrap_or(0);
         let look = Look::new(index);
+        let ring = limit.limit.zip(limit.value);
+        series.extend(ring.map(|(at, value)| LineSeries {
+            name: format!("{}, limit", limit.method),
+            look,
+            rings: true,
+            unlisted: true,
+            points: vec![(at, Some(value.0))],
+            ..LineSeries::default()
+        }));
         // Points close to the limit would only show how scores depend on whole sizes of buffers.
         let steps = limit.points.iter().filter(|point| !point.closer);
         series.push(LineSeries {
@@ -265,15 +274,6 @@ fn chart(
             points: steps.map(|point| (point.at, Some(point.value.0))).collect(),
             ..LineSeries::default()
         });
-        let dot = limit.limit.zip(limit.value);
-        series.extend(dot.map(|(at, value)| LineSeries {
-            name: format!("{}, limit", limit.method),
-            look,
-            dots: true,
-            unlisted: true,
-            points: vec![(at, Some(value.0))],
-            ..LineSeries::default()
-        }));
     }
     let better = match rule.quantity.better() {
         Better::Higher => " (higher is better)",

@@ -24,6 +24,7 @@ pub(crate) fn for_picture(figure: &Figure) -> Cow<'_, Figure> {
         smooth: series.smooth,
         errors: if is_long(series) { Vec::new() } else { series.errors.clone() },
         dots: series.dots,
+        rings: series.rings,
         unlisted: series.unlisted,
         points: if is_long(series) { shortened(&series.points) } else { series.points.clone() },
     });

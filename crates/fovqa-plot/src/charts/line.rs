@@ -6,7 +6,7 @@ use crate::axes::axis::Axis;
 use crate::axes::position_axis::PositionAxis;
 use crate::axes::value_axis::ValueAxis;
 use crate::canvas::clip;
-use crate::canvas::colour::REFERENCE;
+use crate::canvas::colour::{REFERENCE, WHITE};
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
 use crate::canvas::look::Look;
 use crate::canvas::smooth;
@@ -32,6 +32,8 @@ const SIDE_AIR: f64 = 0.02;
 const MARKER_PITCH_PX: f64 = 12.0;
 /// The smallest number of given ticks on an axis whose ends were set.
 const FEWEST_TICKS: usize = 4;
+/// The outer and the inner radius of a ring.
+const RING_PX: (f64, f64) = (7.2, 6.0);
 /// The radius of a dot.
 const DOT_PX: f64 = 2.2;
 /// Distance between the markers of infinite values of two series at the same position.
@@ -84,6 +86,8 @@ pub struct LineSeries {
     pub errors: Vec<Option<f64>>,
     /// Whether its points are small dots without a line, such as positions of samples.
     pub dots: bool,
+    /// Whether its points are rings without a line, which point out points of a curve that follows.
+    pub rings: bool,
     /// Whether the legend leaves it out, because it belongs to another series or area.
     pub unlisted: bool,
     /// Points in the order of the curve. `None` and NaN leave a gap. An infinite value is drawn at
@@ -396,6 +400,13 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
         .collect();
     let px = |&(x, y): &Point| (plot.left + x * plot.width(), level_px(plot, y));
     let inside = |(x, y): &&Point| (0.0..=1.0).contains(x) && (0.0..=1.0).contains(y);
+    if series.rings {
+        for at in runs.iter().flatten().filter(inside).map(px) {
+            drawing.disc(at, RING_PX.0, series.stroke().colour);
+            drawing.disc(at, RING_PX.1, WHITE);
+        }
+        return;
+    }
     if series.dots {
         for at in runs.iter().flatten().filter(inside).map(px) {
             drawing.disc(at, DOT_PX, series.stroke().colour);

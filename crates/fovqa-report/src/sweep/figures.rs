@@ -237,7 +237,7 @@ impl Of<'_> {
             None => self.bar_chart(&all),
         };
         let name = self.name(if several { key } else { "" });
-        Some(NamedFigure::new(name, self.caption(key, &best, " (dot)"), figure))
+        Some(NamedFigure::new(name, self.caption(key, &best, " (ring)"), figure))
     }
 
     fn line_chart(&self, key: &str, curves: Vec<Curve>, others: &[&str]) -> Figure {
@@ -253,15 +253,16 @@ impl Of<'_> {
             let values: Vec<Option<f64>> = points.iter().map(|of| of.1).collect();
             let best = best_and_worst(self.metric, &values).map(|(best, _)| points[best]);
             let look = Look::new(index);
-            series.push(LineSeries { name: name.clone(), look, points, ..LineSeries::default() });
+            // The ring is behind its curve.
             series.extend(best.map(|best| LineSeries {
                 name: format!("{name}, best"),
                 look,
-                dots: true,
+                rings: true,
                 unlisted: true,
                 points: vec![best],
                 ..LineSeries::default()
             }));
+            series.push(LineSeries { name, look, points, ..LineSeries::default() });
         }
         // A method that is not swept is the same everywhere.
         for (index, name) in others.iter().enumerate() {
