@@ -319,3 +319,19 @@ fn limits_and_areas_of_a_logarithmic_axis() {
     let panels = vec![chart.clone(), log(&[3.0, 4.0]), log(&[1e-280, 1e300])];
     check(&Figure::Panels(PanelChart { panels, columns: 3, title: None }));
 }
+
+/// A ring lies around the marker of the point that it points out, behind its curve.
+#[test]
+fn a_ring_is_around_a_point_of_the_curve() {
+    let curve = straight(0.0, 10.0);
+    let ring =
+        LineSeries { rings: true, unlisted: true, points: vec![curve.points[4]], ..curve.clone() };
+    let chart = |series: Vec<LineSeries>| LineChart { series, ..LineChart::default() };
+    let alone = discs(&chart(vec![curve.clone()]).draw(&Paper::wide()), 0);
+    let ringed = discs(&chart(vec![ring, curve]).draw(&Paper::wide()), 0);
+    assert_eq!(ringed.len(), alone.len() + 1);
+    let twice = |at: &&(f64, f64)| ringed.iter().filter(|other| other == at).count() == 2;
+    let around: Vec<_> = ringed.iter().filter(twice).collect();
+    assert_eq!(around.len(), 2, "{ringed:?}");
+    assert!(alone.contains(around[0]));
+}

@@ -317,3 +317,29 @@ fn the_same_picture_is_the_same_bytes_on_any_thread() {
     assert_eq!(first.matches("<svg").count(), 1, "one document");
     assert_eq!(first.matches("</svg>").count(), 1);
 }
+
+/// Of a map over two parameters, the rows are those of the largest value at the top, whatever the order
+/// of the values, and each cell extends half the way to its neighbours.
+#[test]
+fn a_map_has_each_value_where_its_parameters_are() {
+    let (x, y) = ([4.0, 1.0, 2.0], [10.0, 20.0]);
+    let value = |column: usize, row: usize| Some(x[column] * 100.0 + y[row]);
+    let axis = |log| Axis { log, ..Axis::new("a") };
+    for (log, ends, edge) in
+        [(false, (0.5, 5.0), 2.0 / 9.0), (true, (0.5f64.sqrt(), 32f64.sqrt()), 1.0 / 3.0)]
+    {
+        let panel = RasterPanel::map((axis(log), &x), (axis(false), &y), value);
+        assert!((panel.x_range.0 - ends.0).abs() < 1e-9 && (panel.x_range.1 - ends.1).abs() < 1e-9);
+        assert_eq!(panel.y_range, (25.0, 5.0));
+        assert_eq!(panel.values, [120.0, 220.0, 420.0, 110.0, 210.0, 410.0]);
+        let levels = levels(&chart(vec![panel.clone()], 1));
+        let side = (levels.len() as f64).sqrt() as usize;
+        let first = levels[0];
+        let wide = levels[..side].iter().filter(|level| **level == first).count();
+        assert!((wide as f64 / side as f64 - edge).abs() < 2.0 / side as f64, "{log}: {wide}");
+        assert_eq!(levels[side * side - 1], levels[side * (side / 2 + 1) + side - 1]);
+        assert!(levels[0] > levels[side * (side - 1)], "the larger value is above");
+        let csv = Figure::Raster(chart(vec![panel], 1)).csv();
+        assert!(csv.starts_with("panel,x,y,value\n,1,20,120\n,2,20,220\n"), "{csv}");
+    }
+}
