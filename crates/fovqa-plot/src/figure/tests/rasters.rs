@@ -335,7 +335,7 @@ fn a_map_has_each_value_where_its_parameters_are() {
         let levels = levels(&chart(vec![panel.clone()], 1));
         let side = (levels.len() as f64).sqrt() as usize;
         let first = levels[0];
-        let wide = levels[..side].iter().filter(|level| **level == first).count();
+        let wide = levels.iter().take_while(|level| **level == first).count();
         assert!((wide as f64 / side as f64 - edge).abs() < 2.0 / side as f64, "{log}: {wide}");
         assert_eq!(levels[side * side - 1], levels[side * (side / 2 + 1) + side - 1]);
         assert!(levels[0] > levels[side * (side - 1)], "the larger value is above");
