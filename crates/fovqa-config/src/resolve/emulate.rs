@@ -9,9 +9,8 @@ use fovqa_plan::{Emulation, Eye, EyeView, Reprojection, Scene, shown_value};
 
 use super::metrics::param_value;
 use super::reproject::{Geometry, Reproject};
-use super::sweep::no_word;
 use crate::fault::{Fault, Faults};
-use crate::grammar::{BUDGET, OTHER_EYE, REPROJECT};
+use crate::grammar::{BUDGET, OTHER_EYE, REPROJECT, quoted};
 use crate::node::Node;
 
 /// The parameter of VaFR that assumes what reprojection measures.
@@ -209,6 +208,11 @@ fn set(spec: &mut EmulationSpec, key: &str, value: &ParamValue) -> Result<(), St
         parameter => said(spec.set(parameter, value))?,
     }
     Ok(())
+}
+
+/// The words that a key of an emulated method may have, in a message.
+fn no_word(key: &str, text: &str, words: &[&str]) -> String {
+    format!("{key} cannot be \"{text}\": write one of {}", quoted(words.iter().copied()))
 }
 
 /// The spec of some tables, of which later ones override earlier ones.

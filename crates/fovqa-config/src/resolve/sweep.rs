@@ -11,7 +11,7 @@ use toml::de::DeValue;
 use super::emulate::Emulated;
 use super::metrics::param_value;
 use crate::fault::{Fault, Faults};
-use crate::grammar::{BUDGET, SWEEP_RANGE, check, first_quoted, quoted};
+use crate::grammar::{BUDGET, SWEEP_RANGE, check, first_quoted};
 use crate::nearest::nearest;
 use crate::node::{Node, table};
 
@@ -266,9 +266,4 @@ fn of_range(
         (ParamValue::Number(value), span.clone())
     };
     Some((0..steps.min(MOST_VALUES)).map(value).collect())
-}
-
-/// The words that a key of an emulated method may have, in a message.
-pub(super) fn no_word(key: &str, text: &str, words: &[&str]) -> String {
-    format!("{key} cannot be \"{text}\": write one of {}", quoted(words.iter().copied()))
 }

@@ -12,7 +12,7 @@ use fovqa_plan::{Emulation, Experiment, EyeView, MetricChoice, Plan, SourceSpec}
 use fovqa_results::RunValues;
 
 use super::kept_source::{KeptFrames, KeptSource};
-use super::{LimitOptions, Scored};
+use super::options::LimitOptions;
 use crate::error::Error;
 use crate::run::problems;
 
@@ -38,6 +38,16 @@ pub(super) struct Candidate {
     pub(super) target: usize,
     /// The value.
     pub(super) at: f64,
+}
+
+/// The values of a candidate.
+pub(super) struct Scored {
+    pub(super) scene: String,
+    /// Its method in the plan that was scored.
+    pub(super) label: String,
+    pub(super) values: Arc<RunValues>,
+    /// Why a frame could not be scored.
+    pub(super) failure: Option<String>,
 }
 
 /// What is varied.

@@ -3,56 +3,24 @@
 
 mod candidates;
 mod kept_source;
+mod options;
 mod search;
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use fovqa_engine::{Events, Locking, ResultsFolder, budget_range};
+use fovqa_engine::{Events, ResultsFolder, budget_range};
 use fovqa_plan::{Experiment, GateRule};
 use fovqa_report::DrawnLimits;
 use fovqa_results::{
     ComparisonName, LIMITS_CSV, LIMITS_JSON, LIMITS_SCHEMA, LimitPoint, LimitRecord, LimitRule,
-    LimitState, LimitsRecord, Number, RunValues, SampleSummary, write_json_file, write_whole,
+    LimitState, LimitsRecord, Number, SampleSummary, write_json_file, write_whole,
 };
 
 use crate::error::Error;
 use crate::finish::in_folder;
-use candidates::{Candidate, Scorer, Target, Varied};
+use candidates::{Candidate, Scored, Scorer, Target, Varied};
+pub use options::LimitOptions;
 use search::{Measured, Place, Saves, Search};
-
-/// What a search for limits varies, and where.
-#[derive(Debug, Clone)]
-pub struct LimitOptions {
-    /// The folder for the results. `None` stands for `reports/NAME-limit` in the working directory, where
-    /// NAME is the name of the experiment.
-    pub output: Option<PathBuf>,
-    /// What is varied: `budget`, or a parameter of the methods.
-    pub vary: String,
-    /// The lowest value; for budgets `None` is the lowest that the method can have, but at least 0.01.
-    pub from: Option<f64>,
-    /// The highest value; for budgets `None` is the highest that the method can have, but at most 1.
-    pub to: Option<f64>,
-    /// Number of values that are measured before the search.
-    pub steps: usize,
-    /// How exactly limits are found, as a share of them.
-    pub tolerance: f64,
-    /// Only these methods; empty for all that have what is varied.
-    pub methods: Vec<String>,
-    /// Scores only these frames of each scene.
-    pub frames: Option<fovqa_io::sequence::FrameRange>,
-    /// Whether the results folder is locked.
-    pub locking: Locking,
-}
-
-impl LimitOptions {
-    /// What is varied by default.
-    pub const BUDGET: &'static str = "budget";
-    /// Number of values that are measured by default before the search.
-    pub const STEPS: usize = 16;
-    /// How exactly limits are found by default.
-    pub const TOLERANCE: f64 = 0.001;
-}
 
 /// What was found, and where it is.
 #[derive(Debug)]
@@ -282,16 +250,6 @@ fn take(of: &mut Wanted, rule: &GateRule, (candidate, closer): (Candidate, bool)
             of.lacks = of.lacks.take().or(Some(why));
         }
     }
-}
-
-/// The values of a candidate.
-struct Scored {
-    scene: String,
-    /// Its method in the plan that was scored.
-    label: String,
-    values: Arc<RunValues>,
-    /// Why a frame could not be scored.
-    failure: Option<String>,
 }
 
 fn record(
