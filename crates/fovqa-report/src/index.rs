@@ -10,7 +10,8 @@ use fovqa_results::{
     open_result_file, read_json_file, write_whole,
 };
 
-use crate::page::{address, begin, end, escaped};
+use crate::escaped::escaped;
+use crate::page::{address, begin, end};
 use crate::sheet::{PLOTS, ReportError, drawn_before};
 
 /// Marks a page as written by fovqa, so that it may be replaced.

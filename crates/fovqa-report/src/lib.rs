@@ -6,6 +6,7 @@ mod comparison;
 mod curves;
 mod doubts;
 mod draw;
+mod escaped;
 mod figures;
 mod foresee;
 mod foveate_text;

@@ -11,9 +11,10 @@ use fovqa_results::{
 };
 
 use crate::comparison::Measure;
+use crate::escaped::escaped;
 use crate::figures::slug;
 use crate::latex::usual_label;
-use crate::page::{PageFigure, begin, end, escaped, figures as figures_html};
+use crate::page::{PageFigure, begin, end, figures as figures_html};
 use crate::plain_table::{Cell, Column, PlainTable};
 use crate::sheet::{MakeText, NamedFigure, NamedTable, ReportError, Sheet};
 

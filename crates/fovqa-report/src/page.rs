@@ -5,9 +5,9 @@ use std::fmt::Write;
 
 use fovqa_results::{RESULTS_CSV, RESULTS_PARQUET, RunRecord};
 
+use crate::escaped::escaped;
 use crate::overview::Overview;
 use crate::run_table::RunTable;
-use crate::text_table::printable;
 
 /// Maximum number of errors that the page lists.
 const MOST_ERRORS: usize = 100;
@@ -183,21 +183,6 @@ pub(crate) fn address(path: &str) -> String {
             byte => {
                 let _ = write!(plain, "%{byte:02X}");
             }
-        }
-    }
-    plain
-}
-
-/// Escapes text for HTML, for use between tags and in attributes.
-pub(crate) fn escaped(text: &str) -> String {
-    let mut plain = String::new();
-    for c in printable(text).chars() {
-        match c {
-            '&' => plain.push_str("&amp;"),
-            '<' => plain.push_str("&lt;"),
-            '>' => plain.push_str("&gt;"),
-            '"' => plain.push_str("&quot;"),
-            c => plain.push(c),
         }
     }
     plain

@@ -6,7 +6,7 @@ use super::grid::{Grid, Label};
 use super::marks::Mark;
 use super::values::Cell;
 use super::{ComparisonTable, legend};
-use crate::page::escaped;
+use crate::escaped::escaped;
 
 /// Maximum number of rows and columns of a table that the page shows in full. A longer one scrolls.
 const MOST_LINES: usize = 40;

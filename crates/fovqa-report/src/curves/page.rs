@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use super::Source;
 use super::tables::sentence;
-use crate::page::{PageFigure, begin, end, escaped, figures as figures_html};
+use crate::escaped::escaped;
+use crate::page::{PageFigure, begin, end, figures as figures_html};
 use crate::plain_table::PlainTable;
 
 pub(super) fn page(

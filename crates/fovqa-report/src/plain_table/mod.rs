@@ -5,7 +5,7 @@ mod latex;
 use std::fmt::Write;
 
 use crate::comparison::escaped_markdown;
-use crate::page::escaped;
+use crate::escaped::escaped;
 use crate::text_table::{aligned, plain_table, printable};
 
 /// A table. The first cells of each row are names.
