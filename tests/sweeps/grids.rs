@@ -145,6 +145,12 @@ fn scenes_have_a_figure_each_and_one_of_their_average() {
     let optima = table(&folder, "out/table-optima.csv");
     let places: Vec<&str> = optima.iter().map(|row| row["scene"].as_str()).collect();
     assert_eq!(places, ["s", "s", "t", "t", "average", "average"]);
+    // A figure of one of them says which.
+    let one = "[[plot]]\nkind = \"sweep\"\nmetric = \"psnr\"\nscenes = [\"t\"]\n";
+    folder.write("e.toml", format!("{HEAD}{scenes}{RMFR}{METRICS}{GRID}{one}"));
+    folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    assert!(folder.path("out/plots/sweep-psnr-t.svg").exists());
+    assert!(!folder.path("out/plots/sweep-psnr-average.svg").exists());
 }
 
 /// The points are divided, broken off and gone on with as other methods.

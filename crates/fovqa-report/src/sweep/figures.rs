@@ -29,10 +29,12 @@ pub(crate) fn figures(source: &Source<'_>, plot: &Plot) -> Vec<NamedFigure> {
     let (maps, curves): (Vec<Grid<'_>>, Vec<Grid<'_>>) =
         grids.into_iter().partition(|grid| map_keys(grid).is_some());
     let others = Grid::others(source, plot);
+    // A plot of one scene names it too, if the run has others.
+    let is_one_of_several = source.run.resolved.scenes.len() > 1;
     let mut figures = Vec::new();
     for metric in metrics(source, plot) {
         for place in Place::all(&scenes) {
-            let of = Of { source, metric, place, is_one_of_several: scenes.len() > 1 };
+            let of = Of { source, metric, place, is_one_of_several };
             figures.extend(of.maps(&maps));
             figures.extend(of.curves(&curves, &others));
         }
