@@ -276,6 +276,8 @@ fn chart(
             ..LineSeries::default()
         });
     }
+    // Rings are behind all curves.
+    series.sort_by_key(|series: &LineSeries| !series.rings);
     let better = match rule.quantity.better() {
         Better::Higher => " (higher is better)",
         Better::Lower => " (lower is better)",

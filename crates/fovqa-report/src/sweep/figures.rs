@@ -255,7 +255,6 @@ impl Of<'_> {
             let values: Vec<Option<f64>> = points.iter().map(|of| of.1).collect();
             let best = best_and_worst(self.metric, &values).map(|(best, _)| points[best]);
             let look = Look::new(index);
-            // The ring is behind its curve.
             series.extend(best.map(|best| LineSeries {
                 name: format!("{name}, best"),
                 look,
@@ -277,6 +276,8 @@ impl Of<'_> {
                 ..LineSeries::default()
             });
         }
+        // Rings are behind all curves.
+        series.sort_by_key(|series: &LineSeries| !series.rings);
         Figure::Line(LineChart {
             title: self.title(),
             x: axis(key, &distinct),
