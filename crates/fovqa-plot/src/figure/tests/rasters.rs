@@ -340,6 +340,6 @@ fn a_map_has_each_value_where_its_parameters_are() {
         assert_eq!(levels[side * side - 1], levels[side * (side / 2 + 1) + side - 1]);
         assert!(levels[0] > levels[side * (side - 1)], "the larger value is above");
         let csv = Figure::Raster(chart(vec![panel], 1)).csv();
-        assert!(csv.starts_with("panel,x,y,value\n,1,20,120\n,2,20,220\n"), "{csv}");
+        assert!(csv.starts_with("panel,x,y,value\n,1.0,20.0,120.0\n,2.0,20.0,220.0\n"), "{csv}");
     }
 }
