@@ -1,6 +1,7 @@
 //! The search for limits.
 
-use super::{HEAD, METRICS, RMFR, SCENE, folder, number, table};
+use super::{HEAD, METRICS, RMFR, SCENE, SIZE, folder, number, smooth, table};
+use crate::fovqa::Folder;
 use crate::runs::experiment_folder::{bytes, json};
 
 fn rule(limits: &str) -> String {
@@ -185,4 +186,20 @@ fn what_cannot_be_searched_is_said() {
     folder
         .run(&["limit", "e.toml", "--output", "out"])
         .fails(3, &["contains the results of `fovqa run`"]);
+}
+
+/// A frame that one eye lacks leaves no value for both, rather than that of the other frames.
+#[test]
+fn a_frame_that_cannot_be_read_leaves_no_limit() {
+    let folder = Folder::new();
+    for (seed, file) in ["l/0.png", "l/1.png", "r/0.png", "r/1.png"].into_iter().enumerate() {
+        folder.png(file, SIZE.0, SIZE.1, &smooth(seed as u64));
+    }
+    let whole = std::fs::read(folder.path("l/1.png")).unwrap();
+    folder.write("l/1.png", &whole[..whole.len() / 2]);
+    let scene = "[[scene]]\nname = \"s\"\nreference = { left = \"l\", right = \"r\" }\n";
+    folder.write("e.toml", format!("{HEAD}{scene}{RMFR}{METRICS}{}", rule("at_least = 26")));
+    folder.run(&["limit", "e.toml", "--output", "out"]).fails(2, &["no rule has a limit", "1.png"]);
+    let limits = json(&folder, "out/limits.json");
+    assert_eq!(limits["limits"][0]["state"], "not_scored");
 }

@@ -23,6 +23,7 @@ mod reprojection;
 mod resolved;
 mod settings;
 mod source;
+mod spacing;
 mod sweep;
 
 pub use builtin::BuiltinFrames;
@@ -47,4 +48,5 @@ pub use reprojection::{Reproject, Reprojection};
 pub use resolved::{Resolved, ResolvedEye, ResolvedScene, other_parameter};
 pub use settings::{Gaze, Nonfinite, Settings};
 pub use source::SourceSpec;
+pub use spacing::spaced;
 pub use sweep::{Sweep, SweptKey, shown as shown_value, swept_label};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use fovqa_params::ParamValue;
-use fovqa_plan::{SweptKey, shown_value};
+use fovqa_plan::{SweptKey, shown_value, spaced};
 use serde_spanned::Spanned;
 use toml::de::DeValue;
 
@@ -252,17 +252,10 @@ fn of_range(
         return None;
     }
     let value = |step: usize| {
-        let part = step as f64 / (steps - 1) as f64;
-        let value = if is_log {
-            libm::exp(libm::log(from) + part * (libm::log(to) - libm::log(from)))
-        } else {
-            from + part * (to - from)
-        };
-        let value = match step {
-            0 => from,
-            last if last == steps - 1 => to,
-            _ => format!("{value:.*e}", RANGE_DIGITS - 1).parse().unwrap_or(value),
-        };
+        let value = spaced([from, to], step, steps, is_log);
+        let is_end = step == 0 || step + 1 == steps;
+        let short = || format!("{value:.*e}", RANGE_DIGITS - 1).parse().unwrap_or(value);
+        let value = if is_end { value } else { short() };
         (ParamValue::Number(value), span.clone())
     };
     Some((0..steps.min(MOST_VALUES)).map(value).collect())

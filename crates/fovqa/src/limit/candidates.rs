@@ -199,7 +199,7 @@ impl Scorer {
 
     /// Scores candidates in one pass over the frames. Each scored candidate has the values of the pass.
     pub(super) fn score(
-        &mut self,
+        &self,
         targets: &[Target],
         candidates: &[Candidate],
         events: &dyn Events,
@@ -239,9 +239,8 @@ impl Scorer {
             let complaint = (problem.error.to_string(), problem.error.help());
             return Err(Error::usage(complaint.0, complaint.1));
         }
-        for (number, view) in found.views.iter_mut().enumerate() {
-            // The same views follow each other in every pass.
-            let number = number_of(&self.found, view).unwrap_or(number);
+        for view in &mut found.views {
+            let Some(number) = number_of(&self.found, view) else { continue };
             view.sources.reference = Arc::new(KeptSource {
                 source: Arc::clone(&self.found.views[number].sources.reference),
                 number,

@@ -9,7 +9,7 @@ mod search;
 use std::path::{Path, PathBuf};
 
 use fovqa_engine::{Events, ResultsFolder, budget_range};
-use fovqa_plan::{Experiment, GateRule};
+use fovqa_plan::{Experiment, GateRule, spaced};
 use fovqa_report::DrawnLimits;
 use fovqa_results::{
     ComparisonName, LIMITS_CSV, LIMITS_JSON, LIMITS_SCHEMA, LimitPoint, LimitRecord, LimitRule,
@@ -68,7 +68,7 @@ pub fn find_limits(
     let name = format!("{}-limit", experiment.name);
     let folder = options.output.clone().unwrap_or_else(|| Path::new("reports").join(name));
     let varied = Varied::new(experiment, options)?;
-    let mut scorer = Scorer::new(experiment, options, &varied)?;
+    let scorer = Scorer::new(experiment, options, &varied)?;
     let targets = with_ranges(varied, &scorer, experiment, options)?;
     let folder =
         ResultsFolder::open_for_limits(&folder, options.locking).map_err(|e| in_folder(&e))?;
@@ -78,7 +78,8 @@ pub fn find_limits(
         return Err(Error::usage(message, "check scene and method of the [[gate]] rules"));
     }
     let scan = targets.iter().enumerate().flat_map(|(index, target)| {
-        let at = (0..options.steps).map(|step| value_at(target.range, step, options.steps));
+        let (range, steps) = (target.range, options.steps);
+        let at = (0..steps).map(move |step| spaced(range, step, steps, range[0] > 0.0));
         at.map(move |at| Candidate { target: index, at })
     });
     let mut candidates: Vec<Candidate> = scan.collect();
@@ -113,17 +114,6 @@ pub fn find_limits(
         return Err(Error::usage(message, "change the limits of the rules, or --from and --to"));
     }
     Ok(FoundLimits { folder: folder.path().to_owned(), record, drawn })
-}
-
-/// The nth of the values that are measured first: evenly spaced, in ratios if all are above 0.
-fn value_at([from, to]: [f64; 2], step: usize, steps: usize) -> f64 {
-    let share = step as f64 / (steps - 1) as f64;
-    match step {
-        0 => from,
-        step if step == steps - 1 => to,
-        _ if from > 0.0 => libm::exp(libm::log(from) + share * (libm::log(to) - libm::log(from))),
-        _ => from + share * (to - from),
-    }
 }
 
 /// Checks what needs no files.
@@ -235,8 +225,13 @@ fn wanted(experiment: &Experiment, options: &LimitOptions, targets: &[Target]) -
 /// Takes the value of a candidate.
 fn take(of: &mut Wanted, rule: &GateRule, (candidate, closer): (Candidate, bool), scored: &Scored) {
     let place: ComparisonName = (scored.scene.clone(), scored.label.clone(), of.eye.clone());
-    match scored.values.of(&place, &rule.quantity) {
-        Ok(found) if scored.values.errors_of(&place) == 0 => {
+    // A frame that could not be scored would leave the others with a value of their own.
+    let found = match &scored.failure {
+        Some(failure) => Err(failure.clone()),
+        None => scored.values.of(&place, &rule.quantity).map_err(|lacking| lacking.to_string()),
+    };
+    match found {
+        Ok(found) => {
             let value = found.value;
             let holds = rule.at_least.is_none_or(|least| value >= least)
                 && rule.at_most.is_none_or(|most| value <= most);
@@ -244,11 +239,7 @@ fn take(of: &mut Wanted, rule: &GateRule, (candidate, closer): (Candidate, bool)
             let of_sample = Sample { samples, closer };
             of.search.add(Measured { at: candidate.at, value, holds, of: of_sample });
         }
-        Ok(_) => of.lacks = of.lacks.take().or_else(|| scored.failure.clone()),
-        Err(lacking) => {
-            let why = scored.failure.clone().unwrap_or_else(|| lacking.to_string());
-            of.lacks = of.lacks.take().or(Some(why));
-        }
+        Err(why) => of.lacks = of.lacks.take().or(Some(why)),
     }
 }
 
