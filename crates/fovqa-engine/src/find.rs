@@ -12,7 +12,7 @@ use fovqa_vision::GazeAt;
 
 use crate::error::EngineError;
 use crate::find_gaze::gaze;
-use crate::found::{FoundInputs, FoundView, Problem, is_wanted};
+use crate::found::{FoundInputs, FoundView, Problem, frame_size, is_wanted};
 use crate::found_frame::{FoundFrame, GuideFrames};
 use crate::foveator;
 use crate::remarks::remarks;
@@ -130,12 +130,7 @@ fn emulations(
     trace: Option<&[GazeAt]>,
 ) -> Vec<(usize, EngineError)> {
     // A frame whose size cannot be found out becomes an error when it is read.
-    let size = || {
-        Some(match eye.settings.crop {
-            Some(crop) => [crop.width, crop.height],
-            None => <[usize; 2]>::from(sources.reference.size(frames.first()?.reference).ok()?),
-        })
-    };
+    let size = || frame_size(eye, sources, frames);
     let mut emulations = sources.emulations().peekable();
     let Some(size) = emulations.peek().and_then(|_| size()) else { return Vec::new() };
     let gaze_px = trace.and_then(|trace| Some(trace.first()?.px)).or(fixed_gaze(eye));

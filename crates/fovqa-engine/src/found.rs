@@ -42,17 +42,25 @@ pub struct FoundView {
 impl FoundView {
     /// Width and height of its frames; `None` if they can be found out only when a frame is read.
     pub fn frame_size(&self, eye: &EyeView) -> Option<[usize; 2]> {
-        if let Some(crop) = eye.settings.crop {
-            return Some([crop.width, crop.height]);
-        }
-        let first = self.frames.first()?;
-        Some(self.sources.reference.size(first.reference).ok()?.into())
+        frame_size(eye, &self.sources, &self.frames)
     }
 
     /// Number of tests to score.
     pub fn pairs(&self) -> usize {
         self.frames.iter().map(|frame| frame.tests.len()).sum()
     }
+}
+
+/// Width and height of the frames of a view; `None` if they can be found out only when a frame is read.
+pub(crate) fn frame_size(
+    eye: &EyeView,
+    sources: &ViewSources,
+    frames: &[FoundFrame],
+) -> Option<[usize; 2]> {
+    if let Some(crop) = eye.settings.crop {
+        return Some([crop.width, crop.height]);
+    }
+    Some(sources.reference.size(frames.first()?.reference).ok()?.into())
 }
 
 /// An input that cannot be scored.
