@@ -1,5 +1,5 @@
 //! Figures that cannot be as the file says are found before anything is scored, and what a figure
-//! does not show as expected is said.
+//! does not show as expected is named in a warning.
 
 use std::fs;
 

@@ -59,7 +59,7 @@ fn curve_key(grid: &Grid<'_>) -> usize {
     with_numbers.unwrap_or(keys.len().saturating_sub(1))
 }
 
-/// The axis of a key.
+/// An axis for the values of a swept key.
 fn axis(key: &str, values: &[f64]) -> Axis {
     let title = match key {
         "budget" => "Budget (share of the frame's pixels)".to_owned(),
