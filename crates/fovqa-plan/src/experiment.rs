@@ -9,6 +9,7 @@ use crate::gates::GateRule;
 use crate::output::OutputSettings;
 use crate::plan::Plan;
 use crate::plots::Plot;
+use crate::report::ReportSettings;
 
 /// The content of an experiment file.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -31,6 +32,8 @@ pub struct Experiment {
     pub plots: Vec<Plot>,
     /// How figures are printed if the file requests none.
     pub figures: FigureSettings,
+    /// What the report shows of the frames.
+    pub report: ReportSettings,
     /// The rules of its gate.
     pub gates: Vec<GateRule>,
 }

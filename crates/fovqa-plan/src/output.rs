@@ -1,5 +1,6 @@
 //! How the results of a run are written.
 
+use fovqa_metrics::Metric;
 use fovqa_params::words;
 
 /// How the results of a run are written.
@@ -10,11 +11,13 @@ pub struct OutputSettings {
     /// Whether names in CSV files are protected so that a spreadsheet does not read them as
     /// formulas.
     pub spreadsheet_safe: bool,
+    /// The metrics whose maps are written for every frame, into the folder `maps` of the results.
+    pub maps: Vec<Metric>,
 }
 
 impl Default for OutputSettings {
     fn default() -> Self {
-        Self { tables: vec![TableFormat::Csv], spreadsheet_safe: false }
+        Self { tables: vec![TableFormat::Csv], spreadsheet_safe: false, maps: Vec::new() }
     }
 }
 

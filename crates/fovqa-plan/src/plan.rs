@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::crops::CropRegion;
 use crate::eye::Eye;
+use crate::report::WantedPictures;
 use crate::settings::Settings;
 use crate::source::SourceSpec;
 use crate::sweep::Sweep;
@@ -93,6 +94,9 @@ pub struct Plan {
     /// Regions of frames that figures show.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub crops: Vec<CropRegion>,
+    /// The pairs whose pictures and maps are handed over.
+    #[serde(default, skip_serializing_if = "WantedPictures::is_empty")]
+    pub pictures: WantedPictures,
 }
 
 impl Plan {

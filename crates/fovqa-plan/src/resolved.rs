@@ -17,6 +17,7 @@ use crate::figures::FigureSettings;
 use crate::gates::GateRule;
 use crate::plan::{EyeView, MetricChoice, Plan};
 use crate::plots::Plot;
+use crate::report::ReportSettings;
 use crate::settings::{Gaze, Settings};
 use crate::source::SourceSpec;
 use crate::sweep::Sweep;
@@ -57,6 +58,12 @@ pub struct Resolved {
     /// formulas.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub spreadsheet_safe: bool,
+    /// What the report shows of the frames.
+    #[serde(default, skip_serializing_if = "ReportSettings::is_default")]
+    pub report: ReportSettings,
+    /// The keys of the metrics whose maps are written for every frame.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub maps: Vec<String>,
 }
 
 /// A scene with its defaults written out.
@@ -241,6 +248,8 @@ impl Experiment {
             figures: self.figures.clone(),
             gates: self.gates.clone(),
             spreadsheet_safe: self.output.spreadsheet_safe,
+            report: self.report.clone(),
+            maps: self.output.maps.iter().map(|metric| metric.key().to_owned()).collect(),
         }
     }
 }

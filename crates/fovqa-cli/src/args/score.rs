@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use fovqa_io::sequence::FrameRange;
-use fovqa_plan::{EyeView, Plan, Scene, Settings};
+use fovqa_plan::{EyeView, Plan, Scene, Settings, WantedPictures};
 
 use super::guides::GuideArgs;
 use super::metrics::MetricArgs;
@@ -128,6 +128,7 @@ impl ScoreArgs {
             hash_inputs: false,
             maps: self.maps.is_some(),
             crops: Vec::new(),
+            pictures: WantedPictures::default(),
         })
     }
 }

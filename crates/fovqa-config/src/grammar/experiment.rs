@@ -14,7 +14,7 @@ use super::tables::{METRICS, TABLE_KEYS};
 use super::{Key, Kind};
 use fovqa_plan::Nonfinite;
 use fovqa_plan::TableFormat;
-use fovqa_plan::{ErrorBars, PlotKind, SpreadShape};
+use fovqa_plan::{ErrorBars, FrameWord, PlotKind, SpreadShape};
 
 /// A full angle of view in degrees.
 const FOV: Kind = Kind::Above(0.0, 179.999);
@@ -332,7 +332,7 @@ static METHOD_TABLE: [Key; 5] = [
     ),
 ];
 
-static OUTPUT: [Key; 2] = [
+static OUTPUT: [Key; 3] = [
     key(
         "tables",
         Kind::List(&Kind::Words(words_of::<TableFormat>), 1, 2),
@@ -342,6 +342,33 @@ static OUTPUT: [Key; 2] = [
         "spreadsheet_safe",
         Kind::Bool,
         "an apostrophe before names in CSV files that a spreadsheet would take for a formula",
+    ),
+    key(
+        "maps",
+        Kind::List(&Kind::Metric, 1, 16),
+        "metrics whose maps are written for every frame, into the folder maps of the results: [\"ssim\", \"fvvdp\"]",
+    ),
+];
+
+static REPORT: [Key; 3] = [
+    key(
+        "size",
+        Kind::Whole(64, 4096),
+        "longer side of the pictures on the page, in pixels (default 512)",
+    ),
+    key(
+        "frames",
+        Kind::List(
+            &Kind::Either(&[Kind::Words(words_of::<FrameWord>), Kind::Whole(0, 1_000_000_000)]),
+            0,
+            100,
+        ),
+        "frames of each scene with pictures (default [\"worst\", \"median\", \"first\"]): these words, or numbers of frames; [] for no pictures",
+    ),
+    key(
+        "metric",
+        Kind::Metric,
+        "the metric that ranks frames (default: the first that is scored of fpsnr, fssim, psnr, ssim, ms_ssim, pu_psnr, gmsd, mse)",
     ),
 ];
 
@@ -454,7 +481,7 @@ pub(crate) const SWEEP_RANGE: &[Key] = &[
 
 const FINITE: Kind = Kind::Number(-1e12, 1e12);
 
-static EXPERIMENT_TABLE: [Key; 15] = [
+static EXPERIMENT_TABLE: [Key; 16] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
     required("name", Kind::Name, "name of the experiment, and of its folder below reports/"),
     key("about", Kind::Text, "description of what it shows, for its page"),
@@ -479,6 +506,7 @@ static EXPERIMENT_TABLE: [Key; 15] = [
         "values of keys of emulated methods, each point of the grid a run: \"RMFR.fx\" = [0.1, 0.2], or { from, to, steps, scale }; budget = […] is for all methods",
     ),
     key("output", Kind::Table(&OUTPUT), "how the results are written"),
+    key("report", Kind::Table(&REPORT), "what the page of the run shows of the frames"),
     key(
         "plot",
         Kind::Tables(&PLOT_TABLE, 1000),

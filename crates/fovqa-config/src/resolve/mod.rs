@@ -13,6 +13,7 @@ mod output;
 mod placeholders;
 mod plots;
 mod regions;
+mod report;
 mod reproject;
 mod scenes;
 mod settings;
@@ -28,7 +29,7 @@ use metrics::Metrics;
 
 use crate::fault::Faults;
 use crate::node::Node;
-use fovqa_plan::{Experiment, FigureSettings, Plan};
+use fovqa_plan::{Experiment, FigureSettings, Plan, WantedPictures};
 
 /// The experiment. Mistakes are added to `faults`.
 pub(crate) fn experiment(
@@ -53,7 +54,8 @@ pub(crate) fn experiment(
         about: root.text("about").map(str::to_owned),
         path: path.to_owned(),
         text: String::new(),
-        output: output::output(root, faults),
+        output: output::output(root, &choice, faults),
+        report: report::report(root, &choice, faults),
         metric_order: order,
         plots,
         figures,
@@ -69,6 +71,7 @@ pub(crate) fn experiment(
             hash_inputs: true,
             maps: false,
             crops,
+            pictures: WantedPictures::default(),
         },
     }
 }

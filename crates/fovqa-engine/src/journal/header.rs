@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use fovqa_frame::source::Source;
 use fovqa_io::{IdWriter, id_of, open_regular_file};
-use fovqa_plan::{Experiment, Eye, FigureSettings, Plan, Plot, Resolved};
+use fovqa_plan::{Experiment, Eye, FigureSettings, Plan, Plot, ReportSettings, Resolved};
 use fovqa_vision::BandEdges;
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -82,6 +82,8 @@ fn scored(experiment: &Experiment) -> String {
         figures: FigureSettings::default(),
         gates: Vec::new(),
         spreadsheet_safe: false,
+        report: ReportSettings::default(),
+        maps: Vec::new(),
         ..experiment.resolved()
     };
     let text = serde_json::to_string(&scored);

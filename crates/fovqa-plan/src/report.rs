@@ -1,0 +1,135 @@
+//! What the report of a run shows of its frames.
+
+use fovqa_metrics::Metric;
+use fovqa_params::words;
+use serde::{Deserialize, Serialize};
+
+words! {
+    /// A frame of a scene, by its place or its score.
+    pub enum FrameWord {
+        /// The first frame.
+        First "first" "the first frame";
+        /// The frame with the worst score of any method.
+        Worst "worst" "the frame with the worst score of any method";
+        /// The frame whose score, averaged over the methods, is the median.
+        Median "median" "the frame whose score, averaged over the methods, is the median";
+    }
+}
+
+/// A frame of each scene that the report shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum FrameChoice {
+    /// A frame by its place or its score.
+    Of(FrameWord),
+    /// A frame by its number, where a scene has it.
+    Number(i64),
+}
+
+impl FrameChoice {
+    /// Whether it is a frame, as far as that is known before the frames are scored: the `nth` of
+    /// `count` frames, from 0, with this number. A frame that stands alone is any choice by score.
+    pub fn is_foreseen(self, (nth, count): (usize, usize), number: i64) -> bool {
+        match self {
+            Self::Of(FrameWord::First) => nth == 0,
+            Self::Of(FrameWord::Worst | FrameWord::Median) => count == 1,
+            Self::Number(chosen) => chosen == number,
+        }
+    }
+}
+
+/// The pairs whose pictures and maps are handed over while they are scored.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct WantedPictures {
+    /// The frames of each scene.
+    pub frames: Vec<FrameChoice>,
+    /// Indices of the methods.
+    pub methods: Vec<usize>,
+}
+
+impl WantedPictures {
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.frames.is_empty() || self.methods.is_empty()
+    }
+
+    /// Whether those of a method are wanted of the `nth` of `count` frames, which has this number.
+    pub fn is_of(&self, method: usize, place: (usize, usize), number: i64) -> bool {
+        self.methods.contains(&method)
+            && self.frames.iter().any(|frame| frame.is_foreseen(place, number))
+    }
+}
+
+/// Which frames the report of a run shows, and how large.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ReportSettings {
+    /// Longer side of the pictures on the page, in pixels. Smaller frames keep their size.
+    pub size: usize,
+    /// The frames of each scene; none if the report has no pictures.
+    pub frames: Vec<FrameChoice>,
+    /// The metric that ranks frames; `None` for the first of [`ReportSettings::RANKING`] that was
+    /// scored.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub metric: Option<Metric>,
+}
+
+impl Default for ReportSettings {
+    fn default() -> Self {
+        let frames = [FrameWord::Worst, FrameWord::Median, FrameWord::First];
+        Self { size: 512, frames: frames.map(FrameChoice::Of).into(), metric: None }
+    }
+}
+
+impl ReportSettings {
+    /// The metrics that rank frames if none is chosen, the preferred one first: those that weight an
+    /// error by eccentricity come before those that do not.
+    pub const RANKING: [Metric; 8] = [
+        Metric::Fpsnr,
+        Metric::Fssim,
+        Metric::Psnr,
+        Metric::Ssim,
+        Metric::MsSsim,
+        Metric::PuPsnr,
+        Metric::Gmsd,
+        Metric::Mse,
+    ];
+
+    /// Whether these are the default settings.
+    pub fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The metric that ranks frames, of those that were scored.
+    pub fn ranking(&self, is_scored: impl Fn(Metric) -> bool) -> Option<Metric> {
+        match self.metric {
+            Some(metric) => Some(metric).filter(|metric| is_scored(*metric)),
+            None => Self::RANKING.into_iter().find(|metric| is_scored(*metric)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_still_is_every_choice_and_a_sequence_is_known_by_place_alone() {
+        let [first, worst] = [FrameWord::First, FrameWord::Worst].map(FrameChoice::Of);
+        assert!(first.is_foreseen((0, 9), 5) && !first.is_foreseen((1, 9), 6));
+        assert!(worst.is_foreseen((0, 1), 5) && !worst.is_foreseen((0, 2), 5));
+        let seven = FrameChoice::Number(7);
+        assert!(seven.is_foreseen((3, 9), 7) && !seven.is_foreseen((7, 9), 8));
+    }
+
+    #[test]
+    fn frames_are_ranked_by_the_foveated_metric_that_was_scored() {
+        let settings = ReportSettings::default();
+        let of = |scored: &[Metric]| settings.ranking(|metric| scored.contains(&metric));
+        assert_eq!(of(&[Metric::Mse, Metric::Psnr, Metric::Fpsnr]), Some(Metric::Fpsnr));
+        assert_eq!(of(&[Metric::Mse, Metric::Ssim]), Some(Metric::Ssim));
+        assert_eq!(of(&[Metric::Haar]), None);
+        let asked = ReportSettings { metric: Some(Metric::Ssim), ..settings };
+        assert_eq!(asked.ranking(|_| true), Some(Metric::Ssim));
+        assert_eq!(asked.ranking(|metric| metric == Metric::Psnr), None);
+    }
+}
