@@ -9,6 +9,7 @@ use fovqa_frame::{BLOCK_ROWS, Mask};
 use fovqa_methods::Setting;
 use fovqa_methods::cps::{Cps as Mapped, Params, Quantise};
 
+use crate::borders::{Border, circle};
 use crate::counts::Counts;
 use crate::grids::Grids;
 use crate::image::Image;
@@ -69,6 +70,13 @@ impl Cps {
             if bound_deg < 90.0 { setting.radius_px(bound_deg) } else { f64::INFINITY }
         });
         Self::Cells(Cells { reach_px, offsets, places })
+    }
+
+    /// The circles at which the rate changes.
+    pub(crate) fn borders(&self) -> Vec<Border> {
+        let Self::Cells(cells) = self else { return Vec::new() };
+        let gaze = cells.offsets.gaze_px();
+        cells.reach_px.into_iter().filter_map(|radius| circle(gaze, radius)).collect()
     }
 
     pub(crate) fn counts(&self) -> Counts {

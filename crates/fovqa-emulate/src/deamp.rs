@@ -9,6 +9,7 @@ use fovqa_methods::deamp::{Deamp as Mapped, Params};
 use fovqa_methods::{Mapping, MethodError, Place, Setting};
 
 use crate::blur::gaussian;
+use crate::borders::{Border, box_of};
 use crate::counts::Counts;
 use crate::image::Image;
 use crate::layer_axis::layer_axis;
@@ -89,6 +90,12 @@ impl Deamp {
     /// Where the samples that are counted stand, in pixels.
     pub(crate) fn counted_positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         self.layers.iter().flat_map(|layer| layer.buffer.positions_outside(&layer.hole))
+    }
+
+    /// The borders of all layers but the outermost, which ends with the frame.
+    pub(crate) fn borders(&self) -> Vec<Border> {
+        let [inner @ .., _] = self.layers.as_slice() else { return Vec::new() };
+        inner.iter().map(|layer| box_of(layer.inside.each_ref())).collect()
     }
 
     pub(crate) fn counts(&self) -> Counts {

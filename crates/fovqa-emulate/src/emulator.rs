@@ -8,6 +8,7 @@ use fovqa_methods::sandbox::Sandbox;
 use fovqa_methods::{BudgetError, Method, Setting};
 use fovqa_vision::View;
 
+use crate::borders::Border;
 use crate::budget::BudgetReport;
 use crate::codes::Codes;
 use crate::counts::Counts;
@@ -106,6 +107,12 @@ impl Emulator {
             Emulated::Foveation(method) => Ok(method.budget_range(&setting, of)?),
             _ => Err(BudgetError::NotFree { method: spec.key() }.into()),
         }
+    }
+
+    /// The borders between layers or rates on the frame, the innermost first; none for a method whose
+    /// rate changes everywhere.
+    pub fn borders(&self) -> Vec<Border> {
+        self.prepared.borders()
     }
 
     /// How many samples each frame stands for.

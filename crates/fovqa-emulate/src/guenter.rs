@@ -6,6 +6,7 @@ use std::ops::Range;
 use fovqa_methods::guenter::{Guenter as Mapped, Params};
 use fovqa_methods::{MethodError, Setting};
 
+use crate::borders::{Border, circle};
 use crate::counts::Counts;
 use crate::fetch::lerp;
 use crate::image::Image;
@@ -81,6 +82,12 @@ impl Guenter {
     /// Where samples of all layers stand, the innermost first, in pixels.
     pub(crate) fn positions(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         self.layers.iter().flat_map(|layer| layer.buffer.positions())
+    }
+
+    /// The circles within which a pixel shows the inner layers.
+    pub(crate) fn borders(&self) -> Vec<Border> {
+        let gaze = self.offsets.gaze_px();
+        self.bounds.iter().filter_map(|bound| circle(gaze, bound.radius_px)).collect()
     }
 
     pub(crate) fn counts(&self) -> Counts {

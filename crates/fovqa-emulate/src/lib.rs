@@ -39,6 +39,7 @@
 
 mod arcs;
 mod blur;
+mod borders;
 mod budget;
 mod circle;
 mod codes;
@@ -101,6 +102,7 @@ mod visual_polar;
 mod write_frame;
 mod written;
 
+pub use borders::Border;
 pub use budget::BudgetReport;
 pub use counts::{Counts, quads};
 pub use emulator::Emulator;

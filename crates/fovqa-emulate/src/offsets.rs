@@ -23,6 +23,11 @@ impl Offsets {
         Self { x: along(0), y: along(1), gaze_px, size_px }
     }
 
+    /// The gaze in pixels.
+    pub(crate) fn gaze_px(&self) -> [f64; 2] {
+        self.gaze_px
+    }
+
     /// Width of the frame in pixels.
     pub(crate) fn width(&self) -> usize {
         self.x.len()

@@ -3,6 +3,7 @@
 use fovqa_frame::Mask;
 use fovqa_methods::{Method, Setting, kfr, lafr};
 
+use crate::borders::Border;
 use crate::counts::Counts;
 use crate::cps::Cps;
 use crate::deamp::Deamp;
@@ -106,6 +107,24 @@ impl Prepared {
             Self::LogPolar(method) => method.counts(),
             Self::Vafr(method) => method.counts(),
             Self::VisualPolar(method) => method.counts(),
+        }
+    }
+
+    /// The borders between layers or rates, the innermost first; none for a method whose rate changes
+    /// everywhere.
+    pub(crate) fn borders(&self) -> Vec<Border> {
+        match self {
+            Self::Deamp(method) => method.borders(),
+            Self::Guenter(method) => method.borders(),
+            Self::Cps(method) => method.borders(),
+            Self::Full(..)
+            | Self::Rmfr(_)
+            | Self::Linear(_)
+            | Self::LogPolar(_)
+            | Self::Vafr(_)
+            | Self::VisualPolar(_)
+            | Self::Stable(..)
+            | Self::Aliased(..) => Vec::new(),
         }
     }
 

@@ -85,7 +85,8 @@ impl<'a> EmulatedMethods<'a> {
                 foveator.next_codes8(at.position(), &reference.frame, tables, gaze_px)?;
             let kept = keeps.then(|| frame.clone());
             let (counts, budget) = (emulator.counts().clone(), emulator.budget().cloned());
-            let made = Made { counts, reshaded_share: None, budget, kept };
+            let borders = emulator.borders();
+            let made = Made { counts, reshaded_share: None, budget, kept, borders };
             return Ok(Side::emulated(file, frame, reference.pixel_aspect, made));
         }
         let picture = || Picture::from_frame(&reference.frame, tables);
@@ -105,7 +106,8 @@ impl<'a> EmulatedMethods<'a> {
         };
         let budget = emulator.budget().cloned();
         let kept = keeps.then(|| kept(&shown, &frame));
-        let made = Made { counts, reshaded_share, budget, kept };
+        let borders = emulator.borders();
+        let made = Made { counts, reshaded_share, budget, kept, borders };
         Ok(Side::emulated(file, frame, reference.pixel_aspect, made))
     }
 

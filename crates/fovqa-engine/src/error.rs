@@ -133,6 +133,14 @@ pub enum EngineError {
         /// The reason.
         error: std::io::Error,
     },
+    /// A picture for the report that cannot be written.
+    #[error("{}: the picture for the report cannot be written: {error}", path.display())]
+    Picture {
+        /// The folder of the picture.
+        path: PathBuf,
+        /// The reason.
+        error: std::io::Error,
+    },
     /// A parameter with a value that is not possible.
     #[error(transparent)]
     Param(#[from] ParamError),
@@ -245,6 +253,7 @@ impl EngineError {
             | Self::Map { .. }
             | Self::KeptFrame { .. }
             | Self::Region { .. }
+            | Self::Picture { .. }
             | Self::Journal { .. }
             | Self::JournalChanged { .. }
             | Self::JournalRead { .. } => false,
@@ -292,6 +301,9 @@ impl EngineError {
             }
             Self::Map { .. } => "give another folder with {maps}, or free some space".to_owned(),
             Self::Region { .. } => "give another folder with {output}, or free some space".to_owned(),
+            Self::Picture { .. } => {
+                "give another folder with {output}, free some space, or write frames = [] in [report]".to_owned()
+            }
             Self::KeptFrame { .. } => {
                 "give another folder with {output}, free some space, or leave out keep_frames".to_owned()
             }

@@ -10,6 +10,7 @@ use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, Input, Inputs
 
 use crate::crops::CropPair;
 use crate::error::EngineError;
+use crate::pictures::PicturePair;
 
 /// The findings of a whole run, of one of its shards, or of a run that was interrupted.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -103,6 +104,8 @@ pub struct Finished<'a> {
     pub kept: Option<&'a Frame>,
     /// The regions that figures show.
     pub crops: &'a [CropPair],
+    /// Its pictures, if the report shows them.
+    pub pictures: Option<&'a PicturePair>,
 }
 
 /// An entry to be recorded.
@@ -196,6 +199,7 @@ impl Findings {
                     maps: &[],
                     kept: None,
                     crops: &[],
+                    pictures: None,
                 }))?;
             }
             let (scene, eye) = (&plan.scenes[scene].name, plan.scenes[scene].eyes[eye].eye);

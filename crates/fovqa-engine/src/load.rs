@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fovqa_emulate::{BudgetReport, Counts};
+use fovqa_emulate::{Border, BudgetReport, Counts};
 use fovqa_frame::source::{InputId, MissingGuides, Source, SourceError};
 use fovqa_frame::{
     BadPixel, Channels, CropError, Frame, Guides, Mask, Motion, Plane, Samples, Transfer,
@@ -141,6 +141,8 @@ pub(crate) struct Made {
     pub(crate) budget: Option<BudgetReport>,
     /// The frame as it is to be kept, if it is.
     pub(crate) kept: Option<Frame>,
+    /// The borders between the layers or rates of the method.
+    pub(crate) borders: Vec<Border>,
 }
 
 impl Side {

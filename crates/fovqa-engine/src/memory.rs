@@ -135,7 +135,7 @@ pub(crate) fn check(
         methods: timings.len().max(1) as u64,
         metrics,
         window: windows.max().unwrap_or(1) as u64,
-        maps: plan.maps,
+        maps: plan.maps || !plan.pictures.is_empty(),
         emulated: [
             view.sources.emulations().count() as u64,
             view.sources.emulations().filter(|(_, of)| of.spec.is_temporal()).count() as u64,

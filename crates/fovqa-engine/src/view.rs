@@ -19,6 +19,7 @@ use crate::events::Warnings;
 use crate::found::FoundView;
 use crate::load::{Fault, Loaded, Loader, Made, Side, Step, comparable};
 use crate::meters::{Measured, Meters, Pair};
+use crate::pictures::{PicturePair, picture_of};
 use crate::regions::is_foreseen;
 use crate::setup::{Inputs, Setup};
 use crate::work::Work;
@@ -31,6 +32,8 @@ pub(crate) struct Scored {
     pub(crate) kept: Option<Frame>,
     /// The regions that figures show.
     pub(crate) crops: Vec<CropPair>,
+    /// The pictures that the report shows.
+    pub(crate) pictures: Option<PicturePair>,
 }
 
 /// The state of a view while its frames are scored.
@@ -49,6 +52,8 @@ pub(crate) struct ViewRun<'a> {
     emulated: EmulatedMethods<'a>,
     layouts: Layouts,
     loader: &'a Loader<'a>,
+    /// The picture of a reference, with the index of its frame.
+    picture: Option<(usize, Arc<Frame>)>,
     /// Position of the reference's frame.
     position: usize,
 }
@@ -77,6 +82,7 @@ impl<'a> ViewRun<'a> {
             layouts: Layouts::default(),
             metrics,
             loader,
+            picture: None,
             position: 0,
         }
     }
@@ -296,7 +302,35 @@ impl<'a> ViewRun<'a> {
         };
         let kept = test.made.as_ref().and_then(|made| made.kept.clone());
         let crops = self.crops(step, (reference, test), gaze_px.or(fixed), warnings);
-        Ok(Scored { result, maps, kept, crops })
+        let pictures = self.pictures(step, (reference, test));
+        Ok(Scored { result, maps, kept, crops, pictures })
+    }
+
+    /// Whether the report shows the pair of a step.
+    fn is_shown(&self, step: &Step<'_>) -> bool {
+        let frames = &self.view.frames;
+        let (place, number) = ((step.frame, frames.len()), frames[step.frame].number);
+        self.plan.pictures.is_of(step.method, place, number)
+    }
+
+    /// The pictures of a pair, if the report shows it.
+    fn pictures(
+        &mut self,
+        step: &Step<'_>,
+        (reference, test): (&Side, &Side),
+    ) -> Option<PicturePair> {
+        if !self.is_shown(step) {
+            return None;
+        }
+        let known = self.picture.take().filter(|(frame, _)| *frame == step.frame);
+        let reference = known.map_or_else(
+            || Arc::new(picture_of(&reference.frame, &self.tables)),
+            |(_, picture)| picture,
+        );
+        self.picture = Some((step.frame, Arc::clone(&reference)));
+        let test_picture = picture_of(&test.frame, &self.tables);
+        let borders = test.made.as_ref().map(|made| made.borders.clone()).unwrap_or_default();
+        Some(PicturePair { reference, test: test_picture, borders })
     }
 
     /// The regions of a pair that figures show.
@@ -333,7 +367,7 @@ impl<'a> ViewRun<'a> {
         finite: Option<&Mask>,
         show: impl FnOnce(&mut Meters, &Pair<'_>) -> Result<T, Fault>,
     ) -> Result<T, Fault> {
-        let (view, loader) = (self.view, self.loader);
+        let (view, loader, is_shown) = (self.view, self.loader, self.is_shown(step));
         let (emulated, tables) = (&self.emulated, &self.tables);
         let Some(setup) = &mut self.setup else { unreachable!("it has just been settled") };
         if let Some(gaze_px) = gaze_px {
@@ -361,6 +395,7 @@ impl<'a> ViewRun<'a> {
             regions: &regions,
             blocks: &blocks,
             finite,
+            maps: self.plan.maps || is_shown,
             load: &|frame, method| {
                 let alone =
                     |reference: &Frame| emulated.alone(method, frame, reference, view, tables);

@@ -14,19 +14,23 @@ pub(super) struct Fidelity {
 
 impl Fidelity {
     pub(super) fn new(plan: &Plan, metrics: &[Metric]) -> Self {
-        let scorer = Scorer::new(metrics.to_vec(), (*plan.params).clone()).with_maps(plan.maps);
+        let scorer = Scorer::new(metrics.to_vec(), (*plan.params).clone());
         let lenient = plan.metrics == MetricChoice::Default;
         Self { scorer: if lenient { scorer.lenient() } else { scorer } }
     }
 
     /// Measures a pair.
     pub(super) fn measure(&self, pair: &Pair<'_>) -> Result<Scored, Fault> {
-        score(&self.scorer, pair)
+        if pair.maps {
+            score(&self.scorer.clone().with_maps(true), pair)
+        } else {
+            score(&self.scorer, pair)
+        }
     }
 
     /// Whether a pair can be measured.
     pub(super) fn check(&self, pair: &Pair<'_>) -> Result<(), Fault> {
-        score(&self.scorer.clone().with_maps(false), pair).map(|_| ())
+        score(&self.scorer, pair).map(|_| ())
     }
 }
 

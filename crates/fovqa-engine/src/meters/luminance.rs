@@ -32,7 +32,6 @@ pub(super) struct LuminanceMeter {
     photometry: Photometry,
     tables: LuminanceTables,
     pu_psnr: bool,
-    maps: bool,
     /// Index of the present frame, and the luminance of its reference.
     reference: Option<(usize, Arc<Grid>)>,
     /// Sequences of FovVideoVDP by the index of their method; empty if the metric is not requested.
@@ -72,7 +71,6 @@ impl LuminanceMeter {
             photometry,
             tables: photometry.tables(settings.signal, &params),
             pu_psnr: metrics.contains(&Metric::PuPsnr),
-            maps: plan.maps,
             reference: None,
             sequences: sequences.filter(|_| wants_fvvdp).collect(),
             prepared: None,
@@ -234,7 +232,7 @@ impl LuminanceMeter {
         }
         let Some((_, prepared)) = &self.prepared else { unreachable!("it has been prepared") };
         let channels = test.channels(time);
-        let mut differences = self.maps.then(DifferenceMap::default);
+        let mut differences = pair.maps.then(DifferenceMap::default);
         let frame = metric.score(prepared, &channels, regions, differences.as_mut());
         let map = differences.map(|differences| {
             let context = match self.params.map_context {

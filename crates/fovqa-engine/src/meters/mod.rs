@@ -70,6 +70,8 @@ pub(crate) struct Pair<'a> {
     /// Where both images are finite; `None` means everywhere.
     pub(crate) finite: Option<&'a Mask>,
     pub(crate) load: &'a LoadPair<'a>,
+    /// Whether maps are made of it.
+    pub(crate) maps: bool,
 }
 
 /// The progress through the pairs of a method.

@@ -11,13 +11,12 @@ use crate::load::Fault;
 pub(super) struct Own {
     metrics: Vec<Metric>,
     params: Params,
-    maps: bool,
 }
 
 impl Own {
     pub(super) fn new(plan: &Plan, metrics: &[Metric]) -> Self {
         let metrics = metrics.iter().copied().filter(|metric| metric.has_own_pass());
-        Self { metrics: metrics.collect(), params: (*plan.params).clone(), maps: plan.maps }
+        Self { metrics: metrics.collect(), params: (*plan.params).clone() }
     }
 
     /// Measures a pair, metric by metric. The maps are included if they are wanted and requested.
@@ -34,7 +33,7 @@ impl Own {
                 tables: pair.tables,
                 regions: pair.regions,
                 blocks: pair.blocks_of(self.params.block_levels(*metric)).unwrap_or(&none),
-                map: self.maps && maps,
+                map: pair.maps && maps,
             };
             let scored = self.params.measure(*metric, &input)?;
             Some(scored.map_err(|error| unscored(&pair.test.file, &error)))
