@@ -7,6 +7,7 @@ use fovqa_frame::Frame;
 use fovqa_metrics::{Map, Metric};
 use fovqa_plan::{Eye, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, Input, Inputs, ViewResult};
+use fovqa_vision::Seen;
 
 use crate::crops::CropPair;
 use crate::error::EngineError;
@@ -103,6 +104,8 @@ pub struct Finished<'a> {
     pub kept: Option<&'a Frame>,
     /// The regions that figures show.
     pub crops: &'a [CropPair],
+    /// How the eye sees the frame, if there is a view.
+    pub seen: Option<&'a Seen>,
 }
 
 /// An entry to be recorded.
@@ -196,6 +199,7 @@ impl Findings {
                     maps: &[],
                     kept: None,
                     crops: &[],
+                    seen: None,
                 }))?;
             }
             let (scene, eye) = (&plan.scenes[scene].name, plan.scenes[scene].eyes[eye].eye);

@@ -194,6 +194,7 @@ impl<'a> Scoring<'a> {
                     maps: result.as_ref().map_or(&[][..], |scored| scored.maps.as_slice()),
                     kept: result.as_ref().ok().and_then(|scored| scored.kept.as_ref()),
                     crops: result.as_ref().map_or(&[][..], |scored| scored.crops.as_slice()),
+                    seen: result.as_ref().ok().and_then(|scored| scored.seen.as_ref()),
                 }));
                 let result = result.map(|scored| scored.result);
                 let outcome = Outcome { method: step.method, result, guides };
@@ -219,6 +220,7 @@ impl<'a> Scoring<'a> {
                 maps: &[],
                 kept: None,
                 crops: &[],
+                seen: None,
             }))?;
             findings.pairs.insert(pairs, Box::new(outcome));
         }

@@ -10,7 +10,7 @@ use fovqa_metrics::{Image, Key, Layouts, Map, Metric, MetricKind, Needs, Rows, S
 use fovqa_params::ParamValue;
 use fovqa_plan::{EyeView, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
-use fovqa_vision::BandEdges;
+use fovqa_vision::{BandEdges, Seen};
 
 use crate::crops::{CropPair, CropSource};
 use crate::dominant_eye::DominantEye;
@@ -31,6 +31,8 @@ pub(crate) struct Scored {
     pub(crate) kept: Option<Frame>,
     /// The regions that figures show.
     pub(crate) crops: Vec<CropPair>,
+    /// How the eye sees the frame, if there is a view.
+    pub(crate) seen: Option<Seen>,
 }
 
 /// The state of a view while its frames are scored.
@@ -296,7 +298,9 @@ impl<'a> ViewRun<'a> {
         };
         let kept = test.made.as_ref().and_then(|made| made.kept.clone());
         let crops = self.crops(step, (reference, test), gaze_px.or(fixed), warnings);
-        Ok(Scored { result, maps, kept, crops })
+        let seen = self.setup.as_ref().zip(gaze_px.or(fixed));
+        let seen = seen.and_then(|(setup, gaze_px)| setup.seen(gaze_px));
+        Ok(Scored { result, maps, kept, crops, seen })
     }
 
     /// The regions of a pair that figures show.

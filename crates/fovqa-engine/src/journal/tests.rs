@@ -176,6 +176,7 @@ fn everything_is_read_again_to_the_last_bit() {
         maps: &[],
         kept: None,
         crops: &[],
+        seen: None,
     };
     journal.write(Entry::Pair(finished)).unwrap();
     let said = read_text(folder.path()).said(&plan);
@@ -251,6 +252,7 @@ fn what_is_no_number_is_read_again() {
         maps: &[],
         kept: None,
         crops: &[],
+        seen: None,
     };
     let folder = tempfile::tempdir().unwrap();
     Journal::begin(folder.path(), &header(&plan(), None), &plan(), &Findings::default()).unwrap();
@@ -333,6 +335,7 @@ fn lines_of_something_else_are_not_understood() {
             maps: &[],
             kept: None,
             crops: &[],
+            seen: None,
         };
         String::from_utf8(Lines::default().of(Entry::Pair(finished))).unwrap()
     };
