@@ -7,6 +7,7 @@ use fovqa_frame::Frame;
 use fovqa_metrics::{Map, Metric};
 use fovqa_plan::{Eye, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, Input, Inputs, ViewResult};
+use fovqa_vision::Seen;
 
 use crate::crops::CropPair;
 use crate::error::EngineError;
@@ -106,6 +107,8 @@ pub struct Finished<'a> {
     pub crops: &'a [CropPair],
     /// Its pictures, if the report shows them.
     pub pictures: Option<&'a PicturePair>,
+    /// How the eye sees the frame, if there is a view.
+    pub seen: Option<&'a Seen>,
 }
 
 /// An entry to be recorded.
@@ -200,6 +203,7 @@ impl Findings {
                     kept: None,
                     crops: &[],
                     pictures: None,
+                    seen: None,
                 }))?;
             }
             let (scene, eye) = (&plan.scenes[scene].name, plan.scenes[scene].eyes[eye].eye);

@@ -195,6 +195,7 @@ impl<'a> Scoring<'a> {
                     kept: result.as_ref().ok().and_then(|scored| scored.kept.as_ref()),
                     crops: result.as_ref().map_or(&[][..], |scored| scored.crops.as_slice()),
                     pictures: result.as_ref().ok().and_then(|scored| scored.pictures.as_ref()),
+                    seen: result.as_ref().ok().and_then(|scored| scored.seen.as_ref()),
                 }));
                 let result = result.map(|scored| scored.result);
                 let outcome = Outcome { method: step.method, result, guides };
@@ -221,6 +222,7 @@ impl<'a> Scoring<'a> {
                 kept: None,
                 crops: &[],
                 pictures: None,
+                seen: None,
             }))?;
             findings.pairs.insert(pairs, Box::new(outcome));
         }

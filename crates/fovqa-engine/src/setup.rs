@@ -9,7 +9,7 @@ use fovqa_metrics::fvvdp::{Fvvdp, Geometry, SMALLEST_SIDE};
 use fovqa_metrics::{Metric, Needs, WeightField};
 use fovqa_plan::{Gaze, MetricChoice, Plan, Settings};
 use fovqa_results::ViewResult;
-use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind, GazeAt, View, ViewSpec};
+use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind, GazeAt, Seen, View, ViewSpec};
 
 use crate::events::Warnings;
 use crate::load::Fault;
@@ -175,6 +175,13 @@ impl<'a> Setup<'a> {
             both.intersect(mask);
         }
         both
+    }
+
+    /// How the eye sees a frame with this gaze; `None` without a view.
+    pub(crate) fn seen(&self, gaze_px: [f64; 2]) -> Option<Seen> {
+        let Viewing { view, kind, edges } = self.retinas.maker.viewing.as_ref()?;
+        let eccentricity = Eccentricity::new(*view, gaze_px, *kind);
+        Some(Seen { eccentricity, bands: edges.clone() })
     }
 
     /// The distance between two gaze positions in degrees; `None` without a view.

@@ -10,7 +10,7 @@ use fovqa_metrics::{Image, Key, Layouts, Map, Metric, MetricKind, Needs, Rows, S
 use fovqa_params::ParamValue;
 use fovqa_plan::{EyeView, Plan};
 use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
-use fovqa_vision::BandEdges;
+use fovqa_vision::{BandEdges, Seen};
 
 use crate::crops::{CropPair, CropSource};
 use crate::dominant_eye::DominantEye;
@@ -34,6 +34,8 @@ pub(crate) struct Scored {
     pub(crate) crops: Vec<CropPair>,
     /// The pictures that the report shows.
     pub(crate) pictures: Option<PicturePair>,
+    /// How the eye sees the frame, if there is a view.
+    pub(crate) seen: Option<Seen>,
 }
 
 /// The state of a view while its frames are scored.
@@ -303,7 +305,9 @@ impl<'a> ViewRun<'a> {
         let kept = test.made.as_ref().and_then(|made| made.kept.clone());
         let crops = self.crops(step, (reference, test), gaze_px.or(fixed), warnings);
         let pictures = self.pictures(step, (reference, test));
-        Ok(Scored { result, maps, kept, crops, pictures })
+        let seen = self.setup.as_ref().zip(gaze_px.or(fixed));
+        let seen = seen.and_then(|(setup, gaze_px)| setup.seen(gaze_px));
+        Ok(Scored { result, maps, kept, crops, pictures, seen })
     }
 
     /// Whether the report shows the pair of a step.

@@ -15,6 +15,7 @@ mod json;
 mod limits;
 
 mod output;
+mod pictures;
 mod report;
 mod samples;
 mod spread;
@@ -50,6 +51,10 @@ pub use limits::{LIMITS_SCHEMA, LimitPoint, LimitRecord, LimitRule, LimitState, 
 pub use output::{
     Batch, make_folder, replaces, sweep, take_away, try_writing, write_json_file,
     write_json_output, write_output, write_whole, write_whole_with,
+};
+pub use pictures::{
+    ChosenFrame, FrameImages, FrameRecord, FrameView, IMAGES, IMAGES_JSON, IMAGES_SCHEMA,
+    ImagesRecord, MapBlocks, TestRecord, ViewImages, padded, read_record,
 };
 pub use report::{
     AtdGuides, Comparison, Failure, FrameResult, FvvdpViewing, GuideSource, RunResults,

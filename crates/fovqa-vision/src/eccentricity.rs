@@ -72,6 +72,11 @@ impl Eccentricity {
         &self.view
     }
 
+    /// The definition.
+    pub fn kind(&self) -> EccentricityKind {
+        self.kind
+    }
+
     /// The gaze in pixels.
     pub fn gaze_px(&self) -> [f64; 2] {
         self.gaze_px

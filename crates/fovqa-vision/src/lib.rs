@@ -18,6 +18,7 @@ mod gaze_error;
 mod gaze_table;
 mod gaze_trace;
 mod pixel_scale;
+mod seen;
 mod view;
 
 pub use bands::{BandEdges, BandEdgesError, BandMap, DEFAULT_BAND_DEG, Run};
@@ -26,4 +27,5 @@ pub use eccentricity::{Eccentricity, EccentricityKind};
 pub use gaze_error::{Export, GazeTraceError};
 pub use gaze_trace::{FrameAt, GazeAt, GazeTrace};
 pub use pixel_scale::{PixelScale, Tangential};
+pub use seen::Seen;
 pub use view::{ResolvedView, View, ViewError, ViewSpec};

@@ -42,8 +42,7 @@ pub(crate) fn finish(
     let errors = failures.clone().count();
     say_failures(failures, "summary.json", events);
     if let Err(error) = write(experiment, results, folder.path()) {
-        let help = "free some space, or give another folder with {output}; {resume} continues with the frames that are already scored";
-        return Err(Error::input(error.to_string(), help));
+        return Err(Error::input(error.to_string(), NO_SPACE));
     }
     let drawn = fovqa_report::draw(folder.path()).map_err(|error| {
         if error.is_of_settings() {
@@ -60,6 +59,9 @@ pub fn text_hash(text: &str) -> String {
     // Reading from memory does not fail.
     id_of(text.as_bytes()).map(|id| id.sha256).unwrap_or_default()
 }
+
+/// The help text for results that cannot be written.
+pub(crate) const NO_SPACE: &str = "free some space, or give another folder with {output}; {resume} continues with the frames that are already scored";
 
 /// The help text for figures that cannot be as the experiment says.
 const FIT: &str =

@@ -10,11 +10,10 @@ use fovqa_frame::{SignalParams, SignalTables};
 use fovqa_gallery::{Builtin, BuiltinSpec, IPD_M};
 use fovqa_io::{FrameFormat, encode_exr_with_guides, encode_frame};
 use fovqa_plan::Eye;
-use fovqa_results::{make_folder, write_whole};
+use fovqa_results::{make_folder, padded, write_whole};
 use fovqa_vision::ViewSpec;
 
 use crate::error::Error;
-use crate::maps::padded;
 
 /// A built-in scene that is to be written.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,10 +8,9 @@ use fovqa_frame::Frame;
 use fovqa_frame::source::Origin;
 use fovqa_io::{FrameFormat, encode_frame};
 use fovqa_plan::{Plan, SourceSpec};
-use fovqa_results::{FileError, FrameResult, make_folder, write_whole};
+use fovqa_results::{FileError, FrameResult, make_folder, padded, write_whole};
 
 use crate::error::Error;
-use crate::maps::padded;
 
 /// The folder below the results that emulated frames are written to.
 const FOLDER: &str = "emulated";

@@ -75,6 +75,7 @@ mod maps;
 mod memory;
 mod merge;
 mod pair;
+mod pictures;
 mod report;
 mod run;
 mod samples;

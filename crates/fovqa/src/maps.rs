@@ -3,10 +3,12 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use fovqa_engine::{EngineError, Entry, Finished, Named};
+use fovqa_engine::{EngineError, Entry, Finished, NO_MAPS, Named};
 use fovqa_io::{exr_gray, exr_gray_half, png_rgb8};
 use fovqa_metrics::{Map, Metric};
-use fovqa_results::{FileError, FrameResult, make_folder, write_whole};
+use fovqa_results::{FileError, FrameResult, make_folder, padded, write_whole};
+
+use crate::kept_frames::copy;
 
 /// The folder that maps are written to.
 #[derive(Debug)]
@@ -14,11 +16,35 @@ pub(crate) struct MapsFolder {
     folder: PathBuf,
     /// Whether several comparisons write to the folder. Each then has a subfolder.
     several: bool,
+    /// Names of the maps that are written; `None` for all.
+    only: Option<Vec<&'static str>>,
 }
+
+/// The folder of maps in a results folder.
+const FOLDER: &str = "maps";
 
 impl MapsFolder {
     pub(crate) fn new(folder: PathBuf, several: bool) -> Self {
-        Self { folder, several }
+        Self { folder, several, only: None }
+    }
+
+    /// The folder in the results of a run, for the maps of some metrics.
+    pub(crate) fn kept(results: &Path, metrics: &[Metric]) -> Self {
+        let names = metrics.iter().filter_map(|metric| metric.info().map);
+        let only = Some(names.map(|map| map.name).collect());
+        Self { folder: results.join(FOLDER), several: true, only }
+    }
+
+    /// The reason why finished frames cannot be used: they have no maps.
+    pub(crate) fn lacking(&self) -> String {
+        match self.only {
+            None => NO_MAPS.to_owned(),
+            Some(_) => "the maps of [output] are missing for finished frames".to_owned(),
+        }
+    }
+
+    fn takes(&self, map: &str) -> bool {
+        self.only.as_ref().is_none_or(|only| only.contains(&map))
     }
 
     /// The folder for a comparison.
@@ -35,7 +61,8 @@ impl MapsFolder {
     pub(crate) fn has(&self, named: Named<'_>, frame: &FrameResult) -> bool {
         let folder = self.folder(named);
         let scored = Metric::ALL.into_iter().filter(|metric| frame.rows.has(*metric));
-        let mut maps = scored.filter_map(|metric| metric.info().map);
+        let maps = scored.filter_map(|metric| metric.info().map);
+        let mut maps = maps.filter(|map| self.takes(map.name));
         let there =
             |path: PathBuf| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0);
         maps.all(|map| there(folder.join(values_file(map.name, frame.frame))))
@@ -52,7 +79,8 @@ impl MapsFolder {
         let folder = self.folder(named);
         let at = |path: &Path, error| EngineError::Map { path: path.to_owned(), error };
         make_folder(&folder).map_err(|error| at(&folder, error))?;
-        for (name, bytes) in maps.iter().flat_map(|map| files(map, frame.frame)) {
+        let maps = maps.iter().filter(|map| self.takes(map.name));
+        for (name, bytes) in maps.flat_map(|map| files(map, frame.frame)) {
             let path = folder.join(name);
             let bytes = bytes.map_err(|error| at(&path, error))?;
             write_whole(&path, &bytes).map_err(|error| match error {
@@ -102,8 +130,10 @@ fn values_file(map: &str, frame: i64) -> String {
     format!("{map}-{}.exr", padded(frame))
 }
 
-/// The number of a frame with at least four digits, after the minus sign if it is negative.
-pub(crate) fn padded(frame: i64) -> String {
-    let sign = if frame < 0 { "-" } else { "" };
-    format!("{sign}{:04}", frame.unsigned_abs())
+/// Copies the maps that a shard has written into its folder.
+///
+/// # Errors
+/// If a file cannot be read or written.
+pub(crate) fn copy_maps(shard: &Path, results: &Path) -> io::Result<()> {
+    copy(&shard.join(FOLDER), &results.join(FOLDER))
 }

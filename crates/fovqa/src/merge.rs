@@ -7,8 +7,10 @@ use fovqa_plan::Experiment;
 
 use crate::crops::copy_crops;
 use crate::error::Error;
-use crate::finish::{clear, finish, in_folder};
+use crate::finish::{NO_SPACE, clear, finish, in_folder};
 use crate::kept_frames::copy_kept;
+use crate::maps::copy_maps;
+use crate::pictures::{Pictures, Taking, clear_pictures, copy_pictures, take_missing};
 use crate::run::Finished;
 
 /// Merges the shards of a run. The results are the same as those of the whole run. Neither the
@@ -39,15 +41,19 @@ pub fn merge(
     // Nothing is written until all shards are known to be correct.
     let folder = ResultsFolder::open(output, locking).map_err(|error| in_folder(&error))?;
     clear(&folder)?;
+    clear_pictures(folder.path());
     Journal::begin(folder.path(), header, plan, &findings)?;
     for shard in shards {
-        let copied = copy_kept(shard, folder.path());
-        copied.and_then(|()| copy_crops(shard, folder.path())).map_err(|error| {
-            let message =
-                format!("{}: its emulated frames cannot be copied: {error}", shard.display());
+        let copies = [copy_kept, copy_crops, copy_maps, copy_pictures];
+        copies.into_iter().try_for_each(|copy| copy(shard, folder.path())).map_err(|error| {
+            let message = format!("{}: its pictures cannot be copied: {error}", shard.display());
             Error::input(message, "free some space, or give another folder with {output}")
         })?;
     }
+    let mut pictures = Pictures::new(folder.path(), experiment.report.size);
+    let taking = Taking { experiment: &experiment, found: None, findings: &findings, events };
+    let taken = take_missing(&taking, folder.path(), &mut pictures);
+    taken.map_err(|error| Error::input(error.to_string(), NO_SPACE))?;
     let results = results(plan, events, findings);
     let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
     let scored = own.map(|comparison| comparison.report.frames.len()).sum();

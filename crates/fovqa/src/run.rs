@@ -4,20 +4,21 @@
 use std::path::{Path, PathBuf};
 
 use fovqa_engine::{
-    Entry, Events, Findings, FoundInputs, Given, Header, Journal, Locking, NO_MAPS, ResultsFolder,
-    Shard, Unit, found_regions, results, resume, units, warn_of_regions,
+    Entry, Events, Findings, FoundInputs, Given, Header, Journal, Locking, ResultsFolder, Shard,
+    Unit, found_regions, results, resume, units, warn_of_regions,
 };
 use fovqa_io::sequence::FrameRange;
-use fovqa_plan::{Experiment, Eye, TableFormat};
+use fovqa_plan::{Experiment, Eye, TableFormat, WantedPictures};
 use fovqa_report::Drawn;
 use fovqa_results::{HAS_PARQUET, table_file};
 
 use crate::crops::Crops;
 use crate::error::{Complaint, Error};
-use crate::finish::{clear, finish, in_folder, say_failures_of_shard};
+use crate::finish::{NO_SPACE, clear, finish, in_folder, say_failures_of_shard};
 use crate::foreseen_figures::foresee_figures_of_run;
 use crate::kept_frames::{KeptFrames, check_inputs};
 use crate::maps::{MapsFolder, maps_lacking};
+use crate::pictures::{Pictures, Taking, clear_pictures, take_missing};
 
 /// How an experiment is run.
 #[derive(Debug, Clone, Default)]
@@ -96,7 +97,8 @@ impl Run {
     pub fn new(experiment: Experiment, options: RunOptions, given: &Given) -> Result<Self, Error> {
         let mut experiment = experiment;
         experiment.plan.frames = options.frames;
-        experiment.plan.maps = options.maps.is_some();
+        experiment.plan.maps = options.maps.is_some() || !experiment.output.maps.is_empty();
+        experiment.plan.pictures = foreseen_pictures(&experiment);
         let lacking = maps_lacking(experiment.plan.metrics.metrics());
         if let Some(message) = lacking.filter(|_| options.maps.is_some()) {
             return Err(Error::usage(message, "add one of them to [metrics], such as ssim = {}"));
@@ -147,16 +149,17 @@ impl Run {
         // to is noticed at once.
         let folder = ResultsFolder::open(&folder, self.options.locking)
             .map_err(|error| in_folder(&error))?;
-        let maps = self.options.maps.as_deref();
-        let header = Header::new(&self.experiment, &self.found, self.options.shard).with_maps(maps);
-        let maps = maps.map(|folder| MapsFolder::new(folder.to_owned(), true));
+        let header = Header::new(&self.experiment, &self.found, self.options.shard)
+            .with_maps(self.options.maps.as_deref());
+        let maps = self.maps(folder.path());
         let known = if self.options.resume {
-            self.known(&folder, &header, maps.as_ref(), events)?
+            self.known(&folder, &header, &maps, events)?
         } else {
             Findings::default()
         };
         warn_of_regions(&self.experiment.plan, &self.found, events);
-        let findings = self.score(&folder, &header, maps.as_ref(), known, events)?;
+        let mut pictures = Pictures::new(folder.path(), self.experiment.report.size);
+        let findings = self.score(&folder, (&header, known), (&maps, &mut pictures), events)?;
         let plan = &self.experiment.plan;
         let path = folder.path().to_owned();
         if self.options.shard.is_some() {
@@ -170,6 +173,10 @@ impl Run {
             let scored = findings.scored(plan).count();
             return Ok(Finished { folder: path, scored, errors: failures.len(), drawn: None });
         }
+        let (experiment, found) = (&self.experiment, Some(&self.found));
+        let taking = Taking { experiment, found, findings: &findings, events };
+        let taken = take_missing(&taking, folder.path(), &mut pictures);
+        taken.map_err(|error| Error::input(error.to_string(), NO_SPACE))?;
         // The results name all files that they need, and a long sequence has very many.
         drop(self.found);
         let results = results(plan, events, findings);
@@ -187,21 +194,30 @@ impl Run {
         })
     }
 
+    /// The folders that maps are written to.
+    fn maps(&self, results: &Path) -> Vec<MapsFolder> {
+        let asked = self.options.maps.clone().map(|folder| MapsFolder::new(folder, true));
+        let kept = &self.experiment.output.maps;
+        let kept = (!kept.is_empty()).then(|| MapsFolder::kept(results, kept));
+        asked.into_iter().chain(kept).collect()
+    }
+
     /// The findings of an earlier identical run. If they cannot be used, the reason is reported.
     fn known(
         &self,
         folder: &ResultsFolder,
         header: &Header,
-        maps: Option<&MapsFolder>,
+        maps: &[MapsFolder],
         events: &dyn Events,
     ) -> Result<Findings, Error> {
         const SHOWN: usize = 10;
         let plan = &self.experiment.plan;
         let resumed = resume(folder.path(), header, plan, &self.found)?;
         let mut changes = resumed.changes;
-        let lacks = maps.is_some_and(|maps| {
+        let lacks = |maps: &MapsFolder| {
             resumed.known.scored(plan).any(|(named, frame)| !maps.has(named, frame))
-        });
+        };
+        changes.extend(maps.iter().filter(|maps| lacks(maps)).map(MapsFolder::lacking));
         let kept = KeptFrames::new(folder.path());
         if resumed.known.scored(plan).any(|(named, frame)| !kept.has(plan, named, frame)) {
             changes.push("emulated frames that the experiment keeps are missing".to_owned());
@@ -209,9 +225,6 @@ impl Run {
         let crops = Crops::new(folder.path());
         if !crops.has(&found_regions(plan, &self.found), resumed.known.scored(plan)) {
             changes.push("regions of frames that figures show are missing".to_owned());
-        }
-        if lacks {
-            changes.push(NO_MAPS.to_owned());
         }
         let shown = folder.path().display();
         if changes.is_empty() {
@@ -237,18 +250,21 @@ impl Run {
     fn score(
         &self,
         folder: &ResultsFolder,
-        header: &Header,
-        maps: Option<&MapsFolder>,
-        known: Findings,
+        (header, known): (&Header, Findings),
+        (maps, pictures): (&[MapsFolder], &mut Pictures),
         events: &dyn Events,
     ) -> Result<Findings, Error> {
         clear(folder)?;
+        if known.pairs() == 0 {
+            clear_pictures(folder.path());
+        }
         let plan = &self.experiment.plan;
         let kept = KeptFrames::new(folder.path());
         let crops = Crops::new(folder.path());
         let scored = Journal::begin(folder.path(), header, plan, &known).and_then(|mut journal| {
             let record = &mut |entry: Entry<'_>| {
-                maps.map_or(Ok(()), |maps| maps.write(&entry))?;
+                maps.iter().try_for_each(|maps| maps.write(&entry))?;
+                pictures.write(&entry)?;
                 kept.write(&entry)?;
                 crops.write(&entry)?;
                 journal.write(entry)
@@ -260,6 +276,17 @@ impl Run {
         });
         events.finish();
         Ok(scored?)
+    }
+}
+
+/// The pictures that are known to be needed before anything is scored. Of a swept method, the report
+/// shows the best point alone.
+fn foreseen_pictures(experiment: &Experiment) -> WantedPictures {
+    let plan = &experiment.plan;
+    let is_swept = |method: &usize| plan.swept(*method).is_some();
+    WantedPictures {
+        frames: experiment.report.frames.clone(),
+        methods: (0..plan.methods.len()).filter(|method| !is_swept(method)).collect(),
     }
 }
 

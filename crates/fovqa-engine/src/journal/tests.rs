@@ -177,6 +177,7 @@ fn everything_is_read_again_to_the_last_bit() {
         kept: None,
         crops: &[],
         pictures: None,
+        seen: None,
     };
     journal.write(Entry::Pair(finished)).unwrap();
     let said = read_text(folder.path()).said(&plan);
@@ -253,6 +254,7 @@ fn what_is_no_number_is_read_again() {
         kept: None,
         crops: &[],
         pictures: None,
+        seen: None,
     };
     let folder = tempfile::tempdir().unwrap();
     Journal::begin(folder.path(), &header(&plan(), None), &plan(), &Findings::default()).unwrap();
@@ -336,6 +338,7 @@ fn lines_of_something_else_are_not_understood() {
             kept: None,
             crops: &[],
             pictures: None,
+            seen: None,
         };
         String::from_utf8(Lines::default().of(Entry::Pair(finished))).unwrap()
     };
