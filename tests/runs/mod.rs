@@ -15,6 +15,7 @@ mod killed;
 mod library;
 mod many_methods;
 mod parquet;
+mod pictures;
 mod printed_figures;
 mod results_folder;
 pub(crate) mod resume;

@@ -15,11 +15,12 @@ use fovqa_frame::Frame;
 use fovqa_io::{FrameFormat, encode_frame};
 use fovqa_metrics::Map;
 use fovqa_results::{
-    Batch, FileError, FrameImages, FrameRecord, FrameView, IMAGES, TestRecord, make_folder,
-    read_record,
+    Batch, FileError, FrameImages, FrameRecord, FrameView, IMAGES, IMAGES_JSON, TestRecord,
+    make_folder, read_record, take_away,
 };
 use fovqa_vision::Seen;
 use rayon::prelude::*;
+use serde::Serialize;
 
 use crate::kept_frames::copy;
 use blocks::blocks;
@@ -119,10 +120,10 @@ impl Pictures {
             frame_px: [test.width(), test.height()],
             view: seen.map(view_of),
         };
-        self.batch.write_json(&images.record(), &frame).map_err(reason)?;
+        write_record(&self.batch, &images.record(), &frame).map_err(reason)?;
         // The record is written last: if it exists, all pictures do.
         let test = TestRecord { borders: pictures.borders.clone(), maps };
-        self.batch.write_json(&images.test_record(method), &test).map_err(reason)
+        write_record(&self.batch, &images.test_record(method), &test).map_err(reason)
     }
 
     fn map(&self, map: &Map, _seen: Option<&Seen>, _test: &Frame) -> io::Result<Vec<u8>> {
@@ -135,6 +136,14 @@ impl Pictures {
     pub(crate) fn flush(&self) {
         self.batch.flush();
     }
+}
+
+/// Writes a record as one line of JSON: long lists of positions are for programs alone.
+fn write_record(batch: &Batch, path: &Path, record: &impl Serialize) -> Result<(), FileError> {
+    batch.write_with(path, |mut out| {
+        serde_json::to_writer(&mut out, record)?;
+        out.write_all(b"\n")
+    })
 }
 
 fn full(frame: &Frame) -> io::Result<Vec<u8>> {
@@ -160,13 +169,23 @@ fn reason(error: FileError) -> io::Error {
     }
 }
 
-/// Removes the pictures of an earlier run: the folders that have a record of a frame.
+/// Removes the pictures of an earlier run: their list, and the folders that have a record of a frame.
 pub(crate) fn clear_pictures(results: &Path) {
-    remove_frames(&results.join(IMAGES), &|_| true);
+    // What cannot be removed is replaced, or is not listed and does no harm.
+    let _ = take_away(&results.join(IMAGES_JSON));
+    keep_frames(results, &|_| false);
 }
 
-/// Removes the folders of frames for which `is_old` holds, wherever they are below a folder. What
-/// somebody else put there stays.
+/// Removes the folders of frames except those for which `is_kept` holds. What somebody else put between
+/// them stays.
+fn keep_frames(results: &Path, is_kept: &dyn Fn(&Path) -> bool) {
+    let images = results.join(IMAGES);
+    remove_frames(&images, &|path| !is_kept(path));
+    // Only an empty folder can be removed this way.
+    let _ = fs::remove_dir(&images);
+}
+
+/// Removes the folders of frames for which `is_old` holds, wherever they are below a folder.
 fn remove_frames(folder: &Path, is_old: &dyn Fn(&Path) -> bool) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
@@ -177,12 +196,10 @@ fn remove_frames(folder: &Path, is_old: &dyn Fn(&Path) -> bool) {
         }
         if path.join("frame.json").is_file() {
             if is_old(&path) {
-                // What cannot be removed is not listed, and does no harm.
                 let _ = fs::remove_dir_all(&path);
             }
         } else {
             remove_frames(&path, is_old);
-            // Only an empty folder can be removed this way.
             let _ = fs::remove_dir(&path);
         }
     }

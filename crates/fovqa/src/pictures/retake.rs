@@ -8,9 +8,10 @@ use std::path::Path;
 use fovqa_engine::{Entry, Events, Findings, FoundInputs, FoundView, Named, Unit};
 use fovqa_metrics::Metric;
 use fovqa_plan::{Experiment, Eye, FrameChoice, MetricChoice, Plan, WantedPictures};
-use fovqa_results::{Batch, FileError, FrameImages, IMAGES, IMAGES_JSON, ImagesRecord, ViewImages};
+use fovqa_results::{Batch, FileError, FrameImages, IMAGES_JSON, ImagesRecord, ViewImages};
 
-use super::{Pictures, chosen::chosen, remove_frames};
+use super::chosen::chosen;
+use super::{Pictures, clear_pictures, keep_frames, write_record};
 
 /// A run whose frames were scored.
 pub(crate) struct Taking<'a> {
@@ -53,12 +54,12 @@ pub(crate) fn take_missing(
         .iter()
         .flat_map(|view| view.frames.iter().map(|frame| folder(results, view, frame.frame)))
         .collect();
-    remove_frames(&results.join(IMAGES), &|path| !folders.contains(path));
-    if record.views.iter().all(|view| view.frames.is_empty()) {
+    if folders.is_empty() {
+        clear_pictures(results);
         return Ok(());
     }
-    let batch = Batch::default();
-    batch.write_json(&results.join(IMAGES_JSON), &record)?;
+    keep_frames(results, &|path| folders.contains(path));
+    write_record(&Batch::default(), &results.join(IMAGES_JSON), &record)?;
     pictures.flush();
     Ok(())
 }

@@ -1,0 +1,203 @@
+//! Pictures of chosen frames in the results folder: which, of what, and that no way to them gives
+//! others.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::fovqa::Folder;
+
+/// Eight frames of the gallery, two methods, one of which filters over time.
+fn sequence(frames: &str) -> String {
+    format!(
+        "name = \"s\"\n[view]\ndisplay = \"htc-vive-pro\"\n[[scene]]\nname = \"walk\"\n\
+         builtin = \"gallery\"\nresolution = \"72x80\"\nframes = 8\nsamples = 1\n\
+         [[method]]\nname = \"RMFR\"\nemulate = {{ model = \"rmfr\", jitter = \"halton\", temporal = true }}\n\
+         [[method]]\nname = \"DEAMP\"\nemulate = {{ model = \"deamp\" }}\n\
+         [metrics]\npsnr = {{}}\nssim = {{}}\nfvvdp = {{}}\n\
+         [report]\nsize = 64\nframes = {frames}\n"
+    )
+}
+
+fn run(folder: &Folder, text: &str, name: &str, more: &[&str]) {
+    folder.write("s.toml", text);
+    folder.run(&[&["run", "s.toml", "--output", name], more].concat()).ok();
+}
+
+fn list(folder: &Folder, name: &str) -> Value {
+    let text = fs::read(folder.path(&format!("{name}/images/images.json"))).unwrap();
+    serde_json::from_slice(&text).unwrap()
+}
+
+/// All files below a folder, by their paths in it.
+fn files(root: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut folders = vec![root.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                let name = path.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
+                found.insert(name, fs::read(path).unwrap());
+            }
+        }
+    }
+    found
+}
+
+/// The PSNR of each frame by method, from the table of all values.
+fn psnr(folder: &Folder, name: &str) -> BTreeMap<i64, Vec<f64>> {
+    let mut of_frames: BTreeMap<i64, Vec<f64>> = BTreeMap::new();
+    let mut rows = csv::Reader::from_path(folder.path(&format!("{name}/results.csv"))).unwrap();
+    for row in rows.records().map(Result::unwrap) {
+        if &row[6] == "psnr" && row[9].is_empty() && !row[4].is_empty() {
+            of_frames.entry(row[4].parse().unwrap()).or_default().push(row[11].parse().unwrap());
+        }
+    }
+    of_frames
+}
+
+#[test]
+fn the_worst_and_the_median_frame_are_those_of_the_scores() {
+    let folder = Folder::new();
+    run(&folder, &sequence("[\"worst\", \"median\", \"first\", 5, 99]"), "out", &[]);
+    let scores = psnr(&folder, "out");
+    let lowest = |of: &[f64]| of.iter().copied().fold(f64::INFINITY, f64::min);
+    let worst = scores.iter().min_by(|a, b| lowest(a.1).total_cmp(&lowest(b.1))).unwrap().0;
+    let mut means: Vec<(f64, i64)> =
+        scores.iter().map(|(frame, of)| (of.iter().sum::<f64>() / 2.0, *frame)).collect();
+    means.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let view = &list(&folder, "out")["views"][0];
+    assert_eq!(view["ranked_by"], "psnr");
+    let chosen: BTreeMap<i64, Vec<String>> = view["frames"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|of| {
+            let why = of["why"].as_array().unwrap().iter();
+            let why = why.map(|word| word.as_str().map_or(word.to_string(), str::to_owned));
+            (of["frame"].as_i64().unwrap(), why.collect())
+        })
+        .collect();
+    let of = |word: &str| {
+        let mut found = chosen.iter().filter(|(_, why)| why.iter().any(|w| w == word));
+        found.next().map(|(frame, _)| *frame)
+    };
+    assert_eq!(of("worst"), Some(*worst));
+    assert_eq!(of("median"), Some(means[3].1), "of eight frames, the worse one in the middle");
+    assert_eq!((of("first"), of("5"), of("99")), (Some(0), Some(5), None));
+    for frame in chosen.keys() {
+        let test = format!("out/images/walk/{frame:04}/methods/DEAMP/test.png");
+        assert!(folder.path(&test).is_file(), "{test}");
+    }
+}
+
+#[test]
+fn pictures_taken_after_scoring_are_those_taken_while_scoring() {
+    let folder = Folder::new();
+    run(&folder, &sequence("[\"worst\", \"median\"]"), "after", &[]);
+    let frames = list(&folder, "after")["views"][0]["frames"].clone();
+    let numbers: Vec<String> =
+        frames.as_array().unwrap().iter().map(|frame| frame["frame"].to_string()).collect();
+    run(&folder, &sequence(&format!("[{}]", numbers.join(", "))), "while", &["--threads", "1"]);
+    let [after, during] =
+        ["after", "while"].map(|name| files(&folder.path(&format!("{name}/images/walk"))));
+    assert!(after.len() >= 2 * (3 + 2 * 5), "{:?}", after.keys());
+    assert_eq!(after.keys().collect::<Vec<_>>(), during.keys().collect::<Vec<_>>());
+    for (name, bytes) in &after {
+        assert!(during[name] == *bytes, "{name}");
+    }
+}
+
+#[test]
+fn a_picture_is_that_of_the_frame_and_its_map_that_of_the_scores() {
+    let folder = Folder::with_pair();
+    folder.write(
+        "s.toml",
+        "name = \"s\"\n[[scene]]\nname = \"a\"\nreference = \"a.png\"\n\
+         [[method]]\nname = \"b\"\ntest = \"b.png\"\n[metrics]\nmse = {}\nssim = {}\n\
+         [output]\nmaps = [\"ssim\"]\n",
+    );
+    folder.run(&["run", "s.toml", "--output", "out"]).ok();
+    let codes = |path: &str| image::open(folder.path(path)).unwrap().to_rgb8().into_raw();
+    assert_eq!(codes("out/images/a/0000/reference.png"), codes("a.png"));
+    assert_eq!(codes("out/images/a/0000/methods/b/test.png"), codes("b.png"));
+    assert!(folder.path("out/images/a/0000/methods/b/mse.png").is_file());
+    // The maps of every frame are those that were asked for.
+    let maps = files(&folder.path("out/maps/a/b"));
+    assert_eq!(maps.keys().collect::<Vec<_>>(), ["ssim-0000.exr", "ssim-0000.png"]);
+}
+
+#[test]
+fn a_lost_picture_is_taken_again_and_those_of_other_frames_go() {
+    let folder = Folder::new();
+    run(&folder, &sequence("[\"worst\", 2]"), "out", &[]);
+    let before = files(&folder.path("out/images"));
+    fs::remove_file(folder.path("out/images/walk/0002/methods/RMFR/ssim.png")).unwrap();
+    fs::write(folder.path("out/images/walk/note.txt"), "mine").unwrap();
+    folder.run(&["run", "s.toml", "--output", "out", "--resume"]).ok().says(&["finished"]);
+    let mut after = files(&folder.path("out/images"));
+    assert_eq!(after.remove("walk/note.txt").as_deref(), Some(&b"mine"[..]));
+    assert!(before == after);
+    run(&folder, &sequence("[2]"), "out", &["--resume"]);
+    let names = files(&folder.path("out/images/walk"));
+    assert!(names.keys().all(|name| name.starts_with("0002/") || name == "note.txt"));
+}
+
+#[test]
+fn no_frames_no_pictures() {
+    let folder = Folder::new();
+    run(&folder, &sequence("[1]"), "out", &[]);
+    assert!(folder.path("out/images/images.json").is_file());
+    run(&folder, &sequence("[]"), "out", &[]);
+    assert!(!folder.path("out/images/images.json").exists());
+    assert!(!folder.path("out").join("images").join("walk").exists());
+}
+
+#[test]
+fn shards_bring_their_pictures_and_the_others_are_named() {
+    let folder = Folder::new();
+    folder.write("s.toml", sequence("[\"first\", \"worst\", 6]"));
+    for shard in ["1", "2"] {
+        let (part, output) = (format!("{shard}/2"), format!("part-{shard}"));
+        folder.run(&["run", "s.toml", "--shard", &part, "--output", &output]).ok();
+    }
+    let merged = folder.run(&["merge", "part-1", "part-2", "--output", "out"]).ok();
+    let whole = folder.run(&["run", "s.toml", "--output", "whole"]).ok();
+    assert!(!whole.stderr.contains("missing"));
+    let chosen = list(&folder, "whole");
+    assert_eq!(list(&folder, "out"), chosen);
+    let known = files(&folder.path("out/images"));
+    let all = files(&folder.path("whole/images"));
+    assert!(known.iter().all(|(name, bytes)| all[name] == *bytes));
+    assert!(known.contains_key("walk/0006/methods/RMFR/test.png"));
+    let is_complete = known.len() == all.len();
+    assert_eq!(merged.stderr.contains("are missing"), !is_complete, "{}", merged.stderr);
+    folder.run(&["run", "s.toml", "--output", "out", "--resume"]).ok();
+    assert!(files(&folder.path("out/images")) == all);
+}
+
+#[test]
+fn mistakes_in_settings_of_pictures_are_underlined() {
+    let cases: [(&str, &[&str]); 6] = [
+        ("[report]\nframes = [\"last\"]\n", &["last", "\"first\", \"worst\", \"median\""]),
+        ("[report]\nframes = [3, 3]\n", &["appears twice"]),
+        ("[report]\nmetric = \"haar\"\n", &["haar has no score of a single frame", "fpsnr"]),
+        ("[report]\nmetric = \"gmsd\"\n", &["gmsd ranks frames, but is not scored", "gmsd = {}"]),
+        ("[report]\nsize = 20\n", &["64 to 4096"]),
+        ("[output]\nmaps = [\"ms_ssim\", \"gmsd\"]\n", &["ms_ssim has no map", "not scored"]),
+    ];
+    let folder = Folder::with_pair();
+    for (keys, words) in cases {
+        let text = format!(
+            "name = \"s\"\n[[scene]]\nname = \"a\"\nreference = \"a.png\"\n\
+             [[method]]\nname = \"b\"\ntest = \"b.png\"\n[metrics]\nmse = {{}}\nms_ssim = {{}}\n{keys}"
+        );
+        folder.write("s.toml", text);
+        folder.run(&["check", "s.toml"]).fails(2, words);
+    }
+}
