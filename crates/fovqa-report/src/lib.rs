@@ -11,6 +11,7 @@ mod figures;
 mod foresee;
 mod foveate_text;
 mod frame_values;
+mod html_table;
 mod index;
 mod latex;
 mod limits;
