@@ -16,6 +16,7 @@ mod library;
 mod many_methods;
 mod parquet;
 mod printed_figures;
+mod report_page;
 mod results_folder;
 pub(crate) mod resume;
 pub(crate) mod shards;
