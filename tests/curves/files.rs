@@ -152,7 +152,7 @@ fn the_whole_format_is_drawn_and_again_the_same() {
         assert!(names.contains(&name), "{name}: {names:?}");
     }
     let page = String::from_utf8(first["index.html"].clone()).unwrap();
-    assert!(page.contains("ahead &amp; aside") && page.contains("table-acuity.csv"));
+    assert!(page.contains("ahead &#38; aside") && page.contains("table-acuity.csv"));
     assert!(page.contains("reconstruction from the text of the paper"));
 
     let marked = String::from_utf8(first["plots/marked.csv"].clone()).unwrap();

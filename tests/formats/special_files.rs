@@ -77,8 +77,15 @@ fn pipes_and_devices_are_not_waited_for() {
 #[cfg(target_os = "linux")]
 #[test]
 fn pipes_in_a_folder_of_results_are_not_waited_for() {
-    let files =
-        ["run.json", "summary.json", "results.csv", "journal.jsonl", "report.json", "index.html"];
+    let files = [
+        "run.json",
+        "summary.json",
+        "results.csv",
+        "journal.jsonl",
+        "report.json",
+        "index.html",
+        "report.html",
+    ];
     for file in files {
         let folder = scored();
         pipe(&folder, &format!("r/{file}"));

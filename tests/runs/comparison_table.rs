@@ -107,7 +107,7 @@ fn methods_scored_on_fewer_frames_are_said_beside_the_table() {
         experiment("").replace("\"room/gt\"", "\"room/gt\"\nallow_missing = true"),
     );
     folder.run(&["run", "e.toml"]).ok();
-    for file in ["table.md", "index.html"] {
+    for file in ["table.md", "report.html"] {
         let text = fs::read_to_string(folder.path(&format!("reports/e/{file}"))).unwrap();
         assert!(
             text.contains("not scored on the same frames") || text.contains("Not all methods"),

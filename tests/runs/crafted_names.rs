@@ -111,6 +111,6 @@ fn names_of_recorded_files_do_not_reach_the_page() {
     record["files"]["results.\"><script>alert(1)</script>"] = "0".into();
     folder.write("out/run.json", record.to_string());
     folder.run(&["report", "out"]).ok();
-    let page = fs::read_to_string(folder.path("out/index.html")).unwrap();
+    let page = fs::read_to_string(folder.path("out/report.html")).unwrap();
     assert!(page.contains("href=\"results.csv\"") && !page.contains("<script>alert"), "{page}");
 }

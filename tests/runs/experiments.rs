@@ -11,7 +11,7 @@ use crate::runs::experiment_folder::{HEAD, experiment, json, rows, two_scenes};
 #[test]
 fn an_experiment_finds_what_score_finds() {
     let folder = two_scenes();
-    let run = folder.run(&["run", "e.toml"]).ok().says(&["reports/e/index.html"]);
+    let run = folder.run(&["run", "e.toml"]).ok().says(&["reports/e/report.html"]);
     assert!(run.stdout.contains("PSNR (dB) ↑"), "{}", run.stdout);
     let rows = rows(&folder, "reports/e");
     let order: Vec<(&str, &str)> =
@@ -96,7 +96,7 @@ fn one_bad_input_costs_its_own_rows_alone() {
     );
     let summary = json(&folder, "reports/e/summary.json");
     assert_eq!(summary["errors"][0]["message"].as_str().unwrap().find("room/a/0001.png"), Some(0));
-    let page = fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    let page = fs::read_to_string(folder.path("reports/e/report.html")).unwrap();
     assert!(page.contains("Not scored"), "{page}");
 }
 
@@ -277,7 +277,7 @@ fn two_eyes_are_scored_and_pooled() {
     let summary = json(&folder, "reports/e/summary.json");
     assert_eq!(summary["comparisons"][1]["view"]["gaze_px"], serde_json::json!([47.0, 40.0]));
     assert_eq!(summary["comparisons"][2]["view"], serde_json::Value::Null, "two views are none");
-    let page = fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    let page = fs::read_to_string(folder.path("reports/e/report.html")).unwrap();
     assert!(
         page.contains("1 scene, 1 method, 2 frames scored"),
         "both are not counted again: {page}"
@@ -308,7 +308,7 @@ fn names_may_be_anything_that_is_a_name() {
         read("table.tex")
             .contains("A, ''quoted'' \\textbar{} \\textless{}b\\textgreater{} \\& *\\_`")
     );
-    assert!(read("index.html").contains("A, &quot;quoted&quot; | &lt;b&gt; &amp; *_`"));
+    assert!(read("report.html").contains("A, &#34;quoted&#34; | &#60;b&#62; &#38; *_`"));
     assert!(read("plots/bars-psnr.svg").contains("&lt;b&gt; &amp;"));
     assert!(folder.path("reports/e/plots/profile-psnr-zimmer-β-1.png").exists());
 }

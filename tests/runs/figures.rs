@@ -136,7 +136,7 @@ fn one_rule_for_means_over_scenes() {
         let wanted = f64::midpoint(of("room", method), of("hall", method));
         assert!((first[2].parse::<f64>().unwrap() - wanted).abs() < 1e-12, "{method}");
     }
-    let page = fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    let page = fs::read_to_string(folder.path("reports/e/report.html")).unwrap();
     assert!(page.contains("mean over 2 scenes that all methods have"));
 }
 
@@ -225,7 +225,7 @@ fn a_sequence_with_default_metrics_has_all_figures_of_them() {
             );
         }
     }
-    let page = fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    let page = fs::read_to_string(folder.path("reports/e/report.html")).unwrap();
     assert!(page.contains("plots/sequence-atd") && page.contains("RMS contrast, test / reference"));
 }
 
@@ -345,7 +345,7 @@ fn differences_are_drawn_frame_by_frame_and_saccades_marked() {
     for (side, series) in [("test", "B"), ("reference", "reference")] {
         assert!((summary[side].as_f64().unwrap() - mean(series)).abs() < 1e-15);
     }
-    let page = |folder: &Folder| fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    let page = |folder: &Folder| fs::read_to_string(folder.path("reports/e/report.html")).unwrap();
     assert!(page(&folder).contains("saccades (over 2° in a frame) marked"));
     let slow = sequence(1.9);
     assert!(!data(&slow, "sequence-atd").iter().any(|row| row[0] == "saccade"));

@@ -134,7 +134,7 @@ fn crops_of_many_methods_are_several_figures() {
     for words in ["methods 7 to 12 of 12", "Reference", "Method 10"] {
         assert!(svg.contains(words), "{words}");
     }
-    let page = fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    let page = fs::read_to_string(folder.path("reports/e/report.html")).unwrap();
     assert!(page.contains("; methods 1 to 6 of 12"));
 }
 
@@ -151,7 +151,7 @@ fn empty_axes_and_settings_without_effect_are_named() {
     let said =
         "profile-psnr-room: the figure is empty: no value is within its axes (x from 80 to 90)";
     folder.run(&["run", "e.toml"]).ok().says(&[said]);
-    let page = fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    let page = fs::read_to_string(folder.path("reports/e/report.html")).unwrap();
     assert!(page.contains("room; the figure is empty: no value is within its axes"));
     folder.write("e.toml", experiment(&format!("{PSNR}[[plot]]\nkind = \"bars\"\n{plots}")));
     let run = folder.run(&["check", "e.toml"]).ok();

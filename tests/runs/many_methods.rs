@@ -57,7 +57,7 @@ fn some_dozens_of_methods_are_split_over_several_figures() {
         assert_eq!(contrast, [methods(first..=last), vec!["reference".to_owned()]].concat());
         let shown = format!("methods {first} to {last} of 45");
         assert!(read(&folder, &format!("plots/{name}.svg")).contains(&shown));
-        assert!(read(&folder, "index.html").contains(&shown));
+        assert!(read(&folder, "report.html").contains(&shown));
     }
     assert!(!folder.path("reports/e/plots/profile-psnr.svg").exists());
     let few = run(20);
@@ -75,13 +75,13 @@ fn of_very_many_methods_a_figure_shows_a_choice_and_the_tables_show_all() {
     wanted.push("reference".to_owned());
     assert_eq!(series(&folder, "profile-rms-contrast"), wanted, "the best by PSNR");
     let shown = "20 of 101 methods: the 10 best by PSNR, and 10 spread evenly over the others down to the worst";
-    let (page, svg) = (read(&folder, "index.html"), read(&folder, "plots/profile-psnr.svg"));
+    let (page, svg) = (read(&folder, "report.html"), read(&folder, "plots/profile-psnr.svg"));
     assert!(page.contains(shown) && svg.contains("20 of 101 methods: the 10 best by PSNR"));
     let header = read(&folder, "table.csv");
     for method in methods(1..=101) {
         assert!(header.contains(&format!("psnr {method},")), "{method}");
         // On the page each method is a row.
-        assert!(page.contains(&format!("<tr><th>{method}</th><td")), "{method}");
+        assert!(page.contains(&format!("<tr><th scope=\"row\">{method}</th><td")), "{method}");
     }
     assert!(page.contains("<a href=\"table.csv\">CSV</a>"));
 }

@@ -17,6 +17,7 @@ mod many_methods;
 mod parquet;
 mod pictures;
 mod printed_figures;
+mod report_page;
 mod results_folder;
 pub(crate) mod resume;
 pub(crate) mod shards;

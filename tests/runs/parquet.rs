@@ -81,7 +81,7 @@ fn stands_in_for_the_csv() {
     let expected = drawn(&csv);
     assert!(expected.len() > 3);
     assert_eq!(drawn(&parquet), expected);
-    let page = fs::read_to_string(parquet.path("out/index.html")).unwrap();
+    let page = fs::read_to_string(parquet.path("out/report.html")).unwrap();
     assert!(page.contains("href=\"results.parquet\"") && !page.contains("results.csv"), "{page}");
     fs::remove_dir_all(parquet.path("out/plots")).unwrap();
     parquet.run(&["report", "out"]).ok();

@@ -36,7 +36,7 @@ fn figures_are_printed_as_the_file_says() {
     assert!(plots.join("bars-psnr.pdf").exists() && !plots.join("bars-psnr.png").exists());
     let svg = fs::read_to_string(plots.join("frames-psnr.svg")).unwrap();
     assert!(svg.contains("dB of each") && !svg.contains("<text"));
-    let page = fs::read_to_string(folder.path("reports/e/index.html")).unwrap();
+    let page = fs::read_to_string(folder.path("reports/e/report.html")).unwrap();
     assert!(page.contains("bars-psnr.pdf\">PDF") && !page.contains("bars-psnr.png"));
     // A report draws the same again, from the results alone.
     let before = fs::read(plots.join("frames-psnr.pdf")).unwrap();

@@ -25,7 +25,7 @@ fn the_same_bytes_for_any_threads_and_again_by_report() {
     assert_eq!(one, bytes(&folder.path("one")));
     fs::remove_dir_all(folder.path("room")).unwrap();
     fs::remove_dir_all(folder.path("eight/plots")).unwrap();
-    for file in ["table.md", "table.csv", "index.html"] {
+    for file in ["table.md", "table.csv", "index.html", "report.html"] {
         fs::remove_file(folder.path(&format!("eight/{file}"))).unwrap();
     }
     folder.run(&["report", "eight"]).ok();
@@ -88,7 +88,9 @@ fn a_folder_that_cannot_be_written_is_found_before_scoring() {
         .run(&["run", "e.toml", "--output", "file"])
         .fails(3, &["file: cannot write results to this folder"]);
     // What is not ours is not replaced: neither results nor drawings, nor by way of a list of files.
-    for file in ["index.html", "table.csv", "journal.jsonl", "run.json", "report.json"] {
+    for file in
+        ["index.html", "report.html", "table.csv", "journal.jsonl", "run.json", "report.json"]
+    {
         let folder_of = format!("own/{file}");
         folder.write(&format!("{folder_of}/{file}"), "{\"files\": [\"thesis.tex\"]}");
         folder.write(&format!("{folder_of}/thesis.tex"), "mine");
@@ -332,7 +334,7 @@ fn a_closed_pipe_is_no_error() {
     drop(child.stdout.take());
     let run = Run::from(child.wait_with_output().unwrap());
     assert_eq!(run.code, 0, "{}", run.stderr);
-    assert!(folder.path("reports/e/index.html").exists());
+    assert!(folder.path("reports/e/report.html").exists());
 }
 
 /// The demo needs nothing but its experiment. The README shows the table that it prints, and

@@ -55,7 +55,7 @@ fn shards_put_together_are_the_run() {
     for name in ["moving", "eyes", "gaze.csv", "e.toml"] {
         fs::rename(folder.path(name), folder.path(&format!("gone-{name}"))).unwrap();
     }
-    merge(&folder, &names("s", 7), "again").ok().says(&["again/index.html"]);
+    merge(&folder, &names("s", 7), "again").ok().says(&["again/report.html"]);
     assert_same(&results(&folder.path("again")), &results(&folder.path("whole")), "again");
     for name in ["moving", "eyes", "gaze.csv", "e.toml"] {
         fs::rename(folder.path(&format!("gone-{name}")), folder.path(name)).unwrap();

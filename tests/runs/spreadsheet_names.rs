@@ -62,7 +62,7 @@ fn names_are_text_in_every_csv_file_and_the_same_when_read_again() {
                 changed += u32::from(found != wanted);
                 assert!(found == wanted || *found == format!("'{wanted}"), "{file}: {found}");
             }
-        } else if !["run.json", "journal.jsonl", "index.html"].contains(&&**file) {
+        } else if !["run.json", "journal.jsonl", "report.html"].contains(&&**file) {
             // Those have the experiment as it was written.
             assert!(*text == plain[file], "{file}");
         }

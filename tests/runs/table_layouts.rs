@@ -37,12 +37,13 @@ fn methods_are_rows_and_metrics_have_the_order_of_the_file() {
     let names = "scene,ssim A,ssim B,ssim best,mse A,mse B,mse best,psnr A,psnr B,psnr best";
     assert_eq!(csv.lines().next(), Some(names));
     // The page and the terminal show the same.
-    let page = read(&folder, "index.html");
-    let head = "<tr><th class=\"corner\">method</th><th>SSIM ↑</th><th>MSE ↓</th><th>PSNR (dB) ↑</th></tr>";
-    assert!(page.contains(head), "{page}");
-    assert!(
-        page.contains("<tr class=\"section\"><th colspan=\"4\">hall</th></tr>\n<tr><th>A</th>")
-    );
+    let page = read(&folder, "report.html");
+    let buttons =
+        page.split("<button").skip(1).filter_map(|button| button.split(['<', '>']).nth(1));
+    let heads = ["method", "SSIM ↑", "MSE ↓", "PSNR (dB) ↑"];
+    assert_eq!(buttons.take(4).collect::<Vec<_>>(), heads);
+    let section = "<th scope=\"rowgroup\" colspan=\"4\"><span>hall</span></th></tr>\n<tr><th scope=\"row\">A</th>";
+    assert!(page.contains(section), "{page}");
     assert!(page.contains("<a href=\"table.tex\">LaTeX</a>"));
     let printed = folder.run(&["report", "reports/e"]).ok().stdout;
     let names: Vec<&str> = printed.lines().filter_map(|l| l.split_whitespace().next()).collect();
@@ -59,7 +60,7 @@ fn figures_have_the_order_of_the_file() {
     let folder = two_scenes();
     folder.write("e.toml", experiment("[metrics]\nssim = {}\npsnr = {}\n"));
     folder.run(&["run", "e.toml"]).ok();
-    let page = read(&folder, "index.html");
+    let page = read(&folder, "report.html");
     let at = |name: &str| page.find(&format!("plots/{name}.svg")).unwrap();
     assert!(at("bars-ssim") < at("bars-psnr") && at("profile-ssim") < at("profile-psnr"));
 }
@@ -198,9 +199,9 @@ fn captions_labels_and_names_are_the_authors() {
     let wanted = "\\caption{50 \\% of\\_all \\textbackslash{} \\{x\\}}\\label{tab:main_1}\n";
     assert!(latex.contains(wanted), "{latex}");
     assert!(read(&folder, "table.tex").contains("\\label{tab:e-table}"));
-    let page = read(&folder, "index.html");
-    assert!(page.contains("<h2>50 % of_all \\ {x}</h2>") && page.contains("<h2>Comparison</h2>"));
-    assert!(page.contains("<figcaption>Bars &lt;of&gt; mine ("), "{page}");
+    let page = read(&folder, "report.html");
+    assert!(page.contains(">50 % of_all \\ {x}</h2>") && page.contains(">Comparison</h2>"));
+    assert!(page.contains("<figcaption>Bars &#60;of&#62; mine ("), "{page}");
     assert!(read(&folder, "ratios-n-atd.tex").contains("\\label{tab:r}"));
     assert!(read(&folder, "ratios-n-rms-contrast.tex").contains("\\label{tab:r-2}"));
     // They are listed, so that the next drawing removes them.

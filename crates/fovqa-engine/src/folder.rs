@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 use fovqa_io::read_head;
 use fovqa_results::{
-    CURVES_CSV, CURVES_JSON, LIMITS_CSV, LIMITS_JSON, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET,
-    RUN_JSON, SUMMARY_JSON, make_folder, sweep, take_away, try_writing,
+    CURVES_CSV, CURVES_JSON, INDEX_HTML, LIMITS_CSV, LIMITS_JSON, REPORT_HTML, REPORT_JSON,
+    RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, SUMMARY_JSON, make_folder, sweep, take_away,
+    try_writing,
 };
 use thiserror::Error;
 
@@ -18,7 +19,7 @@ use crate::journal::JOURNAL;
 const LOCK: &str = ".fovqa.lock";
 
 /// The files that a run writes, and the figures at the top level of its folder.
-const OURS: [&str; 14] = [
+const OURS: [&str; 15] = [
     RESULTS_CSV,
     RESULTS_PARQUET,
     SUMMARY_JSON,
@@ -29,7 +30,8 @@ const OURS: [&str; 14] = [
     CURVES_JSON,
     LIMITS_CSV,
     LIMITS_JSON,
-    "index.html",
+    INDEX_HTML,
+    REPORT_HTML,
     "table.csv",
     "table.md",
     "table.tex",

@@ -47,11 +47,15 @@ pub(crate) fn budgets(source: &Source<'_>, plot: &Plot) -> Option<PlainTable> {
         Column::new("Scene", "scene").repeated(),
         Column::new("Method", "method").repeated(),
         Column::new("Eye", "eye").repeated(),
-        Column::new("Budget", "budget_share"),
-        Column::new("Ideal buffer", "ideal_share"),
-        Column::new("Rounded buffer", "rounded_share"),
-        Column::new("Parameter", "parameter"),
-        Column::new("Value", "value"),
+        Column::new("Budget", "budget_share")
+            .about("The samples that were asked for, as a share of the frame's pixels."),
+        Column::new("Ideal buffer", "ideal_share")
+            .about("The samples of buffers whose sides are not rounded to whole numbers."),
+        Column::new("Rounded buffer", "rounded_share")
+            .about("The samples that the method shades, as a share of the frame's pixels."),
+        Column::new("Parameter", "parameter")
+            .about("The parameter that was solved so that the method meets its budget."),
+        Column::new("Value", "value").about("The value of that parameter, a mean over the frames."),
     ];
     if !has_eyes {
         columns.remove(2);

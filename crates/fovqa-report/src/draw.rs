@@ -13,7 +13,7 @@ use crate::figures::{Source, default_plots, ratio_tables, slug};
 use crate::frame_values::FrameValues;
 use crate::latex::usual_label;
 use crate::overview::Overview;
-use crate::page::page;
+use crate::page::{PageInputs, forward, run_page};
 use crate::plain_table::PlainTable;
 use crate::plot_figures::plot_figures;
 use crate::run_table::RunTable;
@@ -38,8 +38,8 @@ pub struct Drawn {
 pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let mut run: RunRecord =
         read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
-    // The page only counts them, and a long sequence has very many.
-    let inputs = std::mem::take(&mut run.inputs).len();
+    // The page lists only the first, and a long sequence has very many.
+    let inputs = PageInputs::of(&std::mem::take(&mut run.inputs));
     let overview = Overview::read(folder)?;
     let csv_names = CsvNames::from(&run.resolved);
     let values = FrameValues::read(folder, csv_names)?;
@@ -91,7 +91,10 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     let sheet = Sheet {
         tables: tables.iter().map(|(name, table)| files_of(name, table)).collect(),
         figures: drawn,
-        page: Box::new(|figures| page((&run, inputs), &overview, &tables, figures)),
+        page: Box::new(|figures| {
+            run_page((&run, &inputs), (&overview, &values), &tables, figures, None)
+        }),
+        forward: Some(forward(&run.resolved.name)),
         names: csv_names,
     };
     let of_figures = sheet.write(folder)?;

@@ -6,6 +6,9 @@ use std::path::Path;
 use fovqa_metrics::{Image, Key, Metric};
 use fovqa_results::{CsvNames, FileError, GAZE_STEP, TableRow, Value, Which, read_results};
 
+/// The name of the number of pixels that are left out, in the table of results.
+const PIXELS_LEFT_OUT: &str = "pixels_left_out";
+
 /// Values of whole frames by scene, method and eye, in the order of the frames.
 #[derive(Debug, Default)]
 pub(crate) struct FrameValues(BTreeMap<(String, String, String), Comparison>);
@@ -17,6 +20,8 @@ struct Comparison {
     values: BTreeMap<(Metric, Image), Vec<FrameValue>>,
     /// How far the gaze has moved since the previous frame, in degrees.
     gaze_steps: Vec<FrameValue>,
+    /// The smallest and the largest number of pixels that masks leave out of a frame.
+    left_out: Option<(u64, u64)>,
 }
 
 /// A frame's number and a value.
@@ -42,7 +47,8 @@ impl FrameValues {
         if row.band.is_some() || !plain || row.image == Image::Ratio {
             return;
         }
-        if known.is_none() && row.metric != GAZE_STEP {
+        let is_left_out = row.metric == PIXELS_LEFT_OUT;
+        if known.is_none() && row.metric != GAZE_STEP && !is_left_out {
             return;
         }
         let key = (row.scene.to_owned(), row.label(), row.eye.to_owned());
@@ -50,6 +56,10 @@ impl FrameValues {
         match known {
             Some(metric) => {
                 comparison.values.entry((metric, row.image)).or_default().push((frame, value));
+            }
+            None if is_left_out => {
+                let (least, most) = comparison.left_out.unwrap_or((u64::MAX, 0));
+                comparison.left_out = Some((least.min(value as u64), most.max(value as u64)));
             }
             None => comparison.gaze_steps.push((frame, value)),
         }
@@ -64,6 +74,17 @@ impl FrameValues {
                 values.insert((*metric, image), vec![(0, 1.0), (1, 2.0)]);
             }
         }
+    }
+
+    /// The smallest and the largest number of pixels that masks, and values that are not finite,
+    /// leave out of a frame. `eye` is empty if the scene has one image per frame.
+    pub(crate) fn pixels_left_out(
+        &self,
+        scene: &str,
+        method: &str,
+        eye: &str,
+    ) -> Option<(u64, u64)> {
+        self.comparison(scene, method, eye)?.left_out
     }
 
     fn comparison(&self, scene: &str, method: &str, eye: &str) -> Option<&Comparison> {

@@ -1,17 +1,16 @@
 //! A page about several results folders, such as those of all figures of the papers.
 
-use std::fmt::Write;
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+use askama::Template;
 use fovqa_results::{
-    CURVES_JSON, CURVES_SCHEMA, CurvesRecord, FileError, RUN_JSON, RUN_SCHEMA, RunRecord,
-    open_result_file, read_json_file, write_whole,
+    CURVES_JSON, CURVES_SCHEMA, CurvesRecord, FileError, INDEX_HTML, REPORT_HTML, RUN_JSON,
+    RUN_SCHEMA, RunRecord, open_result_file, read_json_file, write_whole,
 };
 
-use crate::escaped::escaped;
-use crate::page::{address, begin, end};
+use crate::page::{Shell, address};
 use crate::sheet::{PLOTS, ReportError, drawn_before};
 
 /// Marks a page as written by fovqa, so that it may be replaced.
@@ -23,8 +22,10 @@ struct Entry {
     folder: String,
     name: String,
     about: String,
-    /// Paths of its figures relative to the page.
-    figures: Vec<String>,
+    /// The page about it, within the folder.
+    page: &'static str,
+    /// Paths of its figures relative to the page, and which ones they are in words.
+    figures: Vec<(String, String)>,
     /// Paths of its tables in Markdown format.
     tables: Vec<String>,
 }
@@ -47,7 +48,7 @@ pub fn draw_index(folder: &Path) -> Result<Option<usize>, ReportError> {
         return Ok(None);
     }
     paths.sort_by_key(|path| sorting(&path.file_name().unwrap_or_default().to_string_lossy()));
-    let page = folder.join("index.html");
+    let page = folder.join(INDEX_HTML);
     if page.symlink_metadata().is_ok() && !is_ours(&page) {
         return Err(ReportError::Foreign { path: page });
     }
@@ -95,61 +96,49 @@ impl Entry {
         };
         let folder = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let drawn = drawn_before(path);
+        // Curves, limits and runs of earlier versions have no other page than their index.
+        let has_report = drawn.iter().any(|file| file == REPORT_HTML);
+        let page = if has_report { REPORT_HTML } else { INDEX_HTML };
         let plots = || drawn.iter().filter(|file| file.starts_with(PLOTS));
         // A figure is shown by its SVG, or by its PNG if it has none.
         let figures = plots().filter(|file| match file.strip_suffix(".png") {
             Some(name) => !drawn.contains(&format!("{name}.svg")),
             None => file.strip_suffix(".svg").is_some(),
         });
-        let figures = figures.map(|file| format!("{folder}/{file}"));
+        let figures = figures.map(|file| {
+            let figure = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
+            (format!("{folder}/{file}"), format!("Figure {figure} of {name}"))
+        });
+        let figures = figures.collect();
         let tables = drawn.iter().filter(|file| file.strip_suffix(".md").is_some());
         let tables = tables.map(|file| format!("{folder}/{file}"));
-        Ok(Self { name, about, figures: figures.collect(), tables: tables.collect(), folder })
+        Ok(Self { about, figures, tables: tables.collect(), page, folder, name })
+    }
+
+    /// The folder as an address.
+    fn address(&self) -> String {
+        address(&self.folder)
     }
 }
 
+#[derive(Template)]
+#[template(path = "folders.html")]
+struct FoldersPage<'a> {
+    shell: Shell,
+    mark: &'static str,
+    entries: &'a [Entry],
+    version: &'static str,
+}
+
 fn html(name: &str, entries: &[Entry]) -> String {
-    let mut text = begin(name).replace("<title>", &format!("{MARK}\n<title>"));
-    text.push_str("<ul>\n");
-    for Entry { folder, name, .. } in entries {
-        let _ = writeln!(text, "<li><a href=\"#{}\">{}</a></li>", address(folder), escaped(name));
-    }
-    text.push_str("</ul>\n");
-    for entry in entries {
-        let folder = address(&entry.folder);
-        let _ = write!(
-            text,
-            "<h2 id=\"{id}\"><a href=\"{folder}/index.html\">{}</a></h2>\n<p>{}</p>\n",
-            escaped(&entry.name),
-            escaped(&entry.about),
-            id = escaped(&entry.folder),
-        );
-        if !entry.figures.is_empty() {
-            text.push_str("<div class=\"figures\">\n");
-            for figure in &entry.figures {
-                let _ = writeln!(
-                    text,
-                    "<a href=\"{folder}/index.html\"><img class=\"small\" src=\"{}\" alt=\"{}\" loading=\"lazy\"></a>",
-                    address(figure),
-                    escaped(figure)
-                );
-            }
-            text.push_str("</div>\n");
-        }
-        if !entry.tables.is_empty() {
-            let links = entry
-                .tables
-                .iter()
-                .map(|table| format!("<a href=\"{}\">{}</a>", address(table), escaped(table)));
-            let _ = writeln!(
-                text,
-                "<p class=\"note\">Tables: {}</p>",
-                links.collect::<Vec<_>>().join(", ")
-            );
-        }
-    }
-    end(&mut text, &format!("fovqa {}", env!("CARGO_PKG_VERSION")));
-    text
+    let page = FoldersPage {
+        shell: Shell::with_files(name),
+        mark: MARK,
+        entries,
+        version: env!("CARGO_PKG_VERSION"),
+    };
+    // Writing to memory does not fail.
+    page.render().unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ mod foresee;
 mod foveate_text;
 mod frame_values;
 mod heat_map;
+mod html_table;
 mod index;
 mod latex;
 mod limits;

@@ -1,8 +1,8 @@
 //! How far methods can foveate: a table of limits, and figures of quality against what was varied.
 
-use std::fmt::Write;
 use std::path::Path;
 
+use askama::Template;
 use fovqa_metrics::{Better, Metric};
 use fovqa_plan::Quantity;
 use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look};
@@ -11,10 +11,9 @@ use fovqa_results::{
 };
 
 use crate::comparison::Measure;
-use crate::escaped::escaped;
 use crate::figures::slug;
 use crate::latex::usual_label;
-use crate::page::{PageFigure, begin, end, figures as figures_html};
+use crate::page::{PageFigure, PageTable, Shell};
 use crate::plain_table::{Cell, Column, PlainTable};
 use crate::sheet::{MakeText, NamedFigure, NamedTable, ReportError, Sheet};
 
@@ -52,6 +51,7 @@ pub fn draw_limits(folder: &Path, record: &LimitsRecord) -> Result<DrawnLimits, 
         tables: vec![NamedTable { name: TABLE, files }],
         figures,
         page: Box::new(|figures| page(record, &table, figures)),
+        forward: None,
         names: CsvNames::Plain,
     };
     let warnings = sheet.write(folder)?;
@@ -110,12 +110,17 @@ fn table(record: &LimitsRecord) -> PlainTable {
         Column::new("Scene", "scene").repeated(),
         Column::new("Method", "method").repeated(),
         Column::new("Eye", "eye").repeated(),
-        Column::new("Limit", "limit"),
-        Column::new("Fails at", "fails_at"),
-        Column::new("Value", "value"),
-        Column::new("Samples", "samples_share"),
+        Column::new("Limit", "limit")
+            .about("The last value of what was varied at which the rule still holds."),
+        Column::new("Fails at", "fails_at")
+            .about("The value beside the limit at which the rule no longer holds."),
+        Column::new("Value", "value").about("The value of the rule's quantity at the limit."),
+        Column::new("Samples", "samples_share")
+            .about("The samples that the method shades at the limit, as a share of the frame's pixels."),
         Column::new("Parameter", "parameter"),
-        Column::new("Monotone", "monotone"),
+        Column::new("Monotone", "monotone").about(
+            "Whether the quantity only falls, or only rises, from one end of the range to the other.",
+        ),
     ];
     let mut rows: Vec<Vec<Cell>> = record.limits.iter().map(|limit| row(record, limit)).collect();
     for (index, wanted) in [(8, is_budget), (3, has_eyes)] {
@@ -299,19 +304,25 @@ fn chart(
     }
 }
 
+#[derive(Template)]
+#[template(path = "limits.html")]
+struct LimitsPage<'a> {
+    shell: Shell,
+    /// The files with all values.
+    files: [&'static str; 2],
+    table: PageTable,
+    figures: &'a [PageFigure<'a>],
+    version: &'a str,
+}
+
 fn page(record: &LimitsRecord, table: &PlainTable, figures: &[PageFigure<'_>]) -> String {
-    let mut text = begin(&format!("{}: limits", record.experiment));
-    let _ = write!(
-        text,
-        "<p class=\"note\">All values: <a href=\"{LIMITS_CSV}\">{LIMITS_CSV}</a>, \
-         <a href=\"{LIMITS_JSON}\">{LIMITS_JSON}</a>.</p>\n<h2>{}</h2>\n<div class=\"wide\">\n{}</div>\n\
-         <p class=\"note\">{} (<a href=\"{TABLE}.md\">Markdown</a>, <a href=\"{TABLE}.tex\">LaTeX</a>, \
-         <a href=\"{TABLE}.csv\">CSV</a>)</p>\n",
-        escaped(&table.caption),
-        table.html(),
-        escaped(&table.notes.join(" ")),
-    );
-    figures_html(&mut text, figures);
-    end(&mut text, &format!("fovqa {}", escaped(&record.version)));
-    text
+    let page = LimitsPage {
+        shell: Shell::new(&format!("{}: limits", record.experiment)),
+        files: [LIMITS_CSV, LIMITS_JSON],
+        table: PageTable::plain(TABLE, table),
+        figures,
+        version: &record.version,
+    };
+    // Writing to memory does not fail.
+    page.render().unwrap_or_default()
 }

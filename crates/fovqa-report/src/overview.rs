@@ -7,7 +7,8 @@ use std::path::Path;
 use fovqa_metrics::{Metric, MetricKind};
 use fovqa_results::{
     AtdSummary, BandStatistics, BudgetSummary, ComparisonSummary, EccentricityShare, ErrorRecord,
-    FileError, GuideSource, HaarRecord, HaarValues, SideValues, Spread, Statistics, read_summary,
+    FileError, GuideSource, HaarRecord, HaarValues, SideValues, Spread, Statistics, ViewRecord,
+    read_summary,
 };
 
 /// The comparisons of a run, and its errors.
@@ -29,8 +30,8 @@ pub(crate) struct Measured {
     pub(crate) is_of_both_eyes: bool,
     /// Number of frames that were scored.
     pub(crate) frames: usize,
-    /// Width and height of the frames; `None` without a view.
-    pub(crate) frame_px: Option<[usize; 2]>,
+    /// The view; `None` if there is none, and for both eyes together.
+    pub(crate) view: Option<ViewRecord>,
     scores: Box<[(Metric, Score)]>,
     pub(crate) bands: Box<[Band]>,
     /// The wavelet statistics by level and band.
@@ -38,6 +39,8 @@ pub(crate) struct Measured {
     pub(crate) atd: Option<AtdSummary>,
     /// JOD of FovVideoVDP.
     pub(crate) jod: Option<f64>,
+    /// Why there is no JOD, if it is known.
+    pub(crate) jod_missing: Option<Box<str>>,
     /// `left`, `right` or `both`; empty if the scene has one image per frame.
     pub(crate) eye: String,
     /// The budget of an emulated method.
@@ -160,7 +163,7 @@ impl Measured {
             is_of_one_eye: false,
             is_of_both_eyes: false,
             frames,
-            frame_px: None,
+            view: None,
             scores: metrics.iter().filter(of_metric).map(score).collect(),
             bands: edges.clone().map(of_band).collect(),
             wavelet: levels.flat_map(level).collect(),
@@ -176,6 +179,7 @@ impl Measured {
                 reason: None,
             }),
             jod: has(Metric::Fvvdp).then_some(9.0),
+            jod_missing: None,
             eye: String::new(),
             budget: None,
             samples_percent: None,
@@ -193,12 +197,13 @@ impl Measured {
             is_of_one_eye: !matches!(comparison.eye.as_str(), "" | "both"),
             is_of_both_eyes: comparison.eye == "both",
             frames: comparison.frames,
-            frame_px: comparison.view.as_ref().map(|view| [view.width, view.height]),
+            view: comparison.view.clone(),
             scores: comparison.metrics.iter().map(score).collect(),
             bands: comparison.bands.iter().map(Band::of).collect(),
             wavelet: comparison.haar.iter().map(WaveletBand::of).collect(),
             atd: comparison.atd.clone(),
             jod: fvvdp.and_then(|fvvdp| fvvdp.jod),
+            jod_missing: fvvdp.and_then(|fvvdp| fvvdp.reason.as_deref()).map(Into::into),
             eye: comparison.eye.clone(),
             budget: comparison.samples.as_ref().and_then(|samples| samples.budget.clone()),
             samples_percent: comparison.samples.as_ref().map(|samples| samples.share * 100.0),
@@ -209,6 +214,11 @@ impl Measured {
                 .map(|share| share * 100.0),
             shares: fvvdp.map(|fvvdp| fvvdp.shares.as_slice().into()).unwrap_or_default(),
         }
+    }
+
+    /// Width and height of the frames; `None` without a view.
+    pub(crate) fn frame_px(&self) -> Option<[usize; 2]> {
+        self.view.as_ref().map(|view| [view.width, view.height])
     }
 
     /// The scores of whole frames.

@@ -1,6 +1,7 @@
 //! A table of a run, of either form.
 
 use crate::comparison::ComparisonTable;
+use crate::html_table::HtmlTable;
 use crate::plain_table::PlainTable;
 
 /// A table of a run.
@@ -18,11 +19,6 @@ pub struct PlainRunTable {
     pub(crate) table: PlainTable,
     pub(crate) label: String,
 }
-
-/// Maximum number of rows that a page shows in full.
-const MOST_ROWS: usize = 40;
-/// Maximum number of rows on a page.
-const MOST_ON_PAGE: usize = 20_000;
 
 impl RunTable {
     pub(crate) fn plain(table: PlainTable) -> Self {
@@ -89,17 +85,23 @@ impl RunTable {
     pub(crate) fn is_long(&self) -> bool {
         match self {
             Self::Comparison(table) => table.is_long(),
-            Self::Plain(plain) => plain.table.rows.len() > MOST_ROWS,
+            Self::Plain(plain) => plain.table.is_long(),
         }
     }
 
-    /// HTML; `None` if it is too large for a page.
-    pub(crate) fn html(&self) -> Option<String> {
+    /// Its layout in HTML; `None` if it is too large for a page.
+    pub(crate) fn html(&self) -> Option<HtmlTable> {
         match self {
             Self::Comparison(table) => table.html(),
-            Self::Plain(plain) => {
-                (plain.table.rows.len() <= MOST_ON_PAGE).then(|| plain.table.html())
-            }
+            Self::Plain(plain) => plain.table.html(),
+        }
+    }
+
+    /// Whether it compares methods by scenes, which is what readers look for first.
+    pub(crate) fn is_of_scenes(&self) -> bool {
+        match self {
+            Self::Comparison(table) => table.is_of_scenes(),
+            Self::Plain(_) => false,
         }
     }
 

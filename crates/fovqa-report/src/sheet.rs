@@ -9,7 +9,8 @@ use fovqa_params::Words;
 use fovqa_plan::{FigureFormat, FigureSettings};
 use fovqa_plot::{Figure, PlotError};
 use fovqa_results::{
-    Batch, CsvNames, FileError, REPORT_JSON, make_folder, read_json_file, take_away,
+    Batch, CsvNames, FileError, INDEX_HTML, REPORT_HTML, REPORT_JSON, make_folder, read_json_file,
+    take_away,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -17,7 +18,7 @@ use thiserror::Error;
 
 use crate::doubts::{missing_in_words, unseen_in_words};
 use crate::long_lines::for_picture;
-use crate::page::PageFigure;
+use crate::page::{PageFigure, data_image, in_words};
 use crate::print::{PNG_DPI, formats, set_axes, style_of};
 
 /// Folder of the figures.
@@ -67,8 +68,11 @@ pub(crate) type MakePage<'a> = Box<dyn Fn(&[PageFigure<'_>]) -> String + 'a>;
 pub(crate) struct Sheet<'a> {
     pub(crate) tables: Vec<NamedTable<'a>>,
     pub(crate) figures: Vec<NamedFigure>,
-    /// Makes the page, `index.html`, from its figures as they were drawn.
+    /// Makes the page from its figures as they were drawn.
     pub(crate) page: MakePage<'a>,
+    /// The text of `index.html`, which forwards to the page, `report.html`. If it is `None`, the page
+    /// itself is `index.html`.
+    pub(crate) forward: Option<String>,
     /// How names are written in CSV files.
     pub(crate) names: CsvNames,
 }
@@ -133,7 +137,8 @@ impl Sheet<'_> {
             figure.endings().map(|ending| format!("{PLOTS}/{}.{ending}", figure.name))
         });
         let mut files: Vec<String> = table_files.chain(figure_files).collect();
-        files.push("index.html".to_owned());
+        files.extend(self.forward.iter().map(|_| REPORT_HTML.to_owned()));
+        files.push(INDEX_HTML.to_owned());
         // The list is written before the files, so that after an interruption the next report knows
         // which files exist.
         let old = drawn_before(folder);
@@ -178,12 +183,24 @@ impl Sheet<'_> {
                 Err(error) => return Err(error),
             }
         }
-        for (figure, WrittenFigure { caption, width_px, .. }) in &drawn {
-            let path = format!("{PLOTS}/{}", figure.name);
-            let endings = figure.endings().collect();
-            on_page.push(PageFigure { path, caption, endings, width_px: *width_px });
+        for (figure, WrittenFigure { caption, width_px, image, .. }) in &mut drawn {
+            on_page.push(PageFigure {
+                path: format!("{PLOTS}/{}", figure.name),
+                caption,
+                alternative: in_words(&figure.figure),
+                endings: figure.endings().collect(),
+                width_px: *width_px,
+                image: image.take(),
+            });
         }
-        batch.write(&folder.join("index.html"), (self.page)(&on_page).as_bytes())?;
+        let page = (self.page)(&on_page);
+        match &self.forward {
+            None => batch.write(&folder.join(INDEX_HTML), page.as_bytes())?,
+            Some(index) => {
+                batch.write(&folder.join(REPORT_HTML), page.as_bytes())?;
+                batch.write(&folder.join(INDEX_HTML), index.as_bytes())?;
+            }
+        }
         remove(folder, old.iter().filter(|old| !files.contains(old)));
         write_manifest(folder, files, &batch)?;
         wrong.map_or_else(|| Ok(warnings(&drawn)), Err)
@@ -226,6 +243,8 @@ struct WrittenFigure {
     caption: String,
     /// The width in pixels that it has on a page.
     width_px: f64,
+    /// The picture on a page, of the first format that a browser shows.
+    image: Option<String>,
     warnings: Vec<String>,
     /// Characters that its PDF or PNG lacks.
     missing: BTreeSet<char>,
@@ -252,18 +271,20 @@ fn write_figure(
     let formats = formats(settings);
     let is_drawn = formats.iter().any(|format| *format != FigureFormat::Svg);
     let missing = if is_drawn { printed.missing_characters() } else { BTreeSet::new() };
+    let mut image = None;
     for format in formats {
         let bytes = match format {
             FigureFormat::Svg => printed.svg().map(String::into_bytes),
             FigureFormat::Pdf => printed.pdf(&caption),
             FigureFormat::Png => printed.png(PNG_DPI),
         };
-        let path = plots.join(format!("{name}.{}", format.word()));
-        batch.write(&path, &bytes.map_err(failed)?)?;
+        let bytes = bytes.map_err(failed)?;
+        batch.write(&plots.join(format!("{name}.{}", format.word())), &bytes)?;
+        image = image.or_else(|| data_image(format.word(), &bytes));
     }
     let data = names.in_csv(figure.csv());
     batch.write(&plots.join(format!("{name}.csv")), data.as_bytes())?;
-    Ok(WrittenFigure { caption, width_px: printed.screen_width_px(), warnings, missing })
+    Ok(WrittenFigure { caption, width_px: printed.screen_width_px(), image, warnings, missing })
 }
 
 /// The files in the last list. Only names that a report could have written are accepted, because
@@ -284,7 +305,7 @@ fn is_drawn(file: &str) -> bool {
         Some((PLOTS, name)) => plain(name) && ends(name, &["svg", "pdf", "png", "csv"]),
         Some(_) => false,
         None => {
-            file == "index.html"
+            [INDEX_HTML, REPORT_HTML].contains(&file)
                 || (["table", "ratios"].iter().any(|name| file.starts_with(name))
                     && plain(file)
                     && ends(file, &["md", "csv", "tex"]))
@@ -324,6 +345,7 @@ mod tests {
     fn a_list_of_files_takes_away_nothing_but_drawings() {
         for ours in [
             "index.html",
+            "report.html",
             "table.md",
             "table-2.csv",
             "table.tex",

@@ -22,6 +22,11 @@ pub const RUN_JSON: &str = "run.json";
 /// The list of figures and tables that were made. A later report uses it to remove files that it
 /// does not make again.
 pub const REPORT_JSON: &str = "report.json";
+/// The page of a run.
+pub const REPORT_HTML: &str = "report.html";
+/// The page of a curves file, of limits, and of several folders; for a run, a page that forwards to
+/// [`REPORT_HTML`].
+pub const INDEX_HTML: &str = "index.html";
 /// All values of a curves file.
 pub const CURVES_CSV: &str = "curves.csv";
 /// The record of a curves file.

@@ -32,8 +32,9 @@ pub use crops::{CROPS, CropRecord, crop_folder};
 pub use csv_names::CsvNames;
 pub use curves::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
-    CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, LIMITS_CSV, LIMITS_JSON, REPORT_JSON,
-    RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, SUMMARY_JSON, open_result_file, read_json_file,
+    CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, INDEX_HTML, LIMITS_CSV, LIMITS_JSON,
+    REPORT_HTML, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, SUMMARY_JSON,
+    open_result_file, read_json_file,
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{

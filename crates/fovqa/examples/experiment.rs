@@ -38,7 +38,7 @@ fn main() -> Result<(), fovqa::Error> {
     if let Some(table) = finished.drawn.as_ref().and_then(|drawn| drawn.table.as_ref()) {
         print!("{}", table.terminal());
     }
-    println!("{} frames; look at {}/index.html", finished.scored, finished.folder.display());
+    println!("{} frames; look at {}/report.html", finished.scored, finished.folder.display());
     let rules = &read_experiment(&file)?.gates;
     if !rules.is_empty() && rules.iter().all(|rule| !rule.needs_baseline()) {
         let verdict = gate_folder(&finished.folder, None)?;

@@ -70,7 +70,7 @@ impl Finished {
         };
         let table = table_file(&self.folder);
         let table = table.file_name().unwrap_or_default().display();
-        format!("{folder}: {table}, summary.json{figures}; look at {folder}/index.html")
+        format!("{folder}: {table}, summary.json{figures}; look at {folder}/report.html")
     }
 
     /// States in words how many items could not be scored; `None` if everything was scored.

@@ -34,5 +34,5 @@ fn an_experiment_is_run() {
     let folder = tempfile::tempdir().unwrap();
     let finished = experiment::run(&file, folder.path().join("out")).unwrap();
     assert!(finished.scored > 0 && finished.errors == 0 && finished.drawn.is_some());
-    assert!(finished.folder.join("index.html").is_file());
+    assert!(finished.folder.join("report.html").is_file());
 }

@@ -22,7 +22,7 @@ The experiment file names scenes, methods and metrics; docs/experiments.md shows
   name = \"RMFR\"
   test = \"renders/{scene}/rmfr.%04d.exr\"
 
-Results: results.csv (every value), summary.json, run.json, table.md, plots/, index.html.
+Results: results.csv (every value), summary.json, run.json, table.md, plots/, report.html.
 
 --resume continues an interrupted run, and --shard divides a run between machines:
 

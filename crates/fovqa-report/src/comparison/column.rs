@@ -19,12 +19,7 @@ pub(super) enum Column {
 impl Column {
     pub(super) fn measure(self) -> Measure {
         match self {
-            // Of temporal differences, the percentage that the papers use.
-            Self::Metric(Metric::Atd) => {
-                let info = Metric::Atd.info();
-                Measure::ratio(info.label.to_owned(), "atd_percent".to_owned(), info.better)
-            }
-            Self::Metric(metric) => Measure::of(metric),
+            Self::Metric(metric) => Measure::of_value(metric),
             Self::Samples => Measure::samples(),
             Self::Quads => Measure::quads(),
         }

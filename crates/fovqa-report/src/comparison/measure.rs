@@ -13,6 +13,8 @@ pub(crate) struct Measure {
     pub(crate) better: Better,
     /// Name in CSV files.
     pub(crate) key: String,
+    /// What it means, in sentences.
+    pub(crate) about: String,
     pub(super) digits: Digits,
 }
 
@@ -41,6 +43,7 @@ impl Measure {
             unit: info.unit,
             better: info.better,
             key: info.key.to_owned(),
+            about: meaning(metric, info.unit, info.better),
             digits,
         }
     }
@@ -51,7 +54,8 @@ impl Measure {
         let info = metric.info();
         match metric {
             Metric::Atd => {
-                Self::ratio(info.label.to_owned(), "atd_percent".to_owned(), info.better)
+                let label = info.label.to_owned();
+                Self::ratio(metric, label, "atd_percent".to_owned(), info.better)
             }
             metric => Self::of(metric),
         }
@@ -64,6 +68,8 @@ impl Measure {
             unit: "% of pixels",
             better: Better::Neither,
             key: "samples_percent".to_owned(),
+            about: "Samples that an emulated method shades, in percent of the frame's pixels."
+                .to_owned(),
             digits: Digits::Percent,
         }
     }
@@ -75,13 +81,19 @@ impl Measure {
             unit: "% of the frame's",
             better: Better::Neither,
             key: "quads_percent".to_owned(),
+            about:
+                "Blocks of 2x2 samples of its buffers that a rasteriser shades, in percent of the \
+                    frame's."
+                    .to_owned(),
             digits: Digits::Percent,
         }
     }
 
-    /// The measure of percentages of the reference's value.
-    pub(crate) fn ratio(label: String, key: String, better: Better) -> Self {
-        Self { label, unit: "% of reference", better, key, digits: Digits::Percent }
+    /// The measure of a metric's percentages of the reference's value.
+    pub(crate) fn ratio(metric: Metric, label: String, key: String, better: Better) -> Self {
+        let unit = "% of reference";
+        let about = meaning(metric, unit, better);
+        Self { label, unit, better, key, about, digits: Digits::Percent }
     }
 
     /// Label, unit, and an arrow for the better direction.
@@ -99,6 +111,20 @@ impl Measure {
     pub(crate) fn shown(&self, value: Option<f64>) -> String {
         self.digits.shown(value)
     }
+}
+
+/// What the values of a metric in a unit mean, in sentences.
+fn meaning(metric: Metric, unit: &str, better: Better) -> String {
+    let info = metric.info();
+    let mut about = info.about.chars();
+    let first = about.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+    let unit = if unit.is_empty() { String::new() } else { format!(" Unit: {unit}.") };
+    let better = match better {
+        Better::Higher => "Higher is better.",
+        Better::Lower => "Lower is better.",
+        Better::Neither => "Neither direction is better: the reference has the right value.",
+    };
+    format!("{first}{}.{unit} {better} Source: {}.", about.as_str(), info.source)
 }
 
 impl Digits {

@@ -63,7 +63,7 @@ impl ComparisonTable {
     }
 
     /// Whether the table is one of scenes, not of eccentricity bands.
-    fn is_of_scenes(&self) -> bool {
+    pub(crate) fn is_of_scenes(&self) -> bool {
         self.values.items_are == values::Items::Scenes
     }
 

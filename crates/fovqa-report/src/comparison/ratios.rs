@@ -123,16 +123,15 @@ impl Ratios<'_> {
 
     fn measures(&self, levels: &[usize]) -> Vec<Measure> {
         let key = self.metric.key();
-        match self.metric {
-            Metric::Haar => levels
-                .iter()
-                .map(|level| {
-                    let key = format!("{key}_{}_{level}_percent", statistic(self.plot));
-                    Measure::ratio(format!("level {level}"), key, Better::Neither)
-                })
-                .collect(),
-            _ => vec![Measure::ratio(self.label(), format!("{key}_percent"), Better::Neither)],
+        if self.metric != Metric::Haar {
+            let key = format!("{key}_percent");
+            return vec![Measure::ratio(self.metric, self.label(), key, Better::Neither)];
         }
+        let level = |level: &usize| {
+            let key = format!("{key}_{}_{level}_percent", statistic(self.plot));
+            Measure::ratio(self.metric, format!("level {level}"), key, Better::Neither)
+        };
+        levels.iter().map(level).collect()
     }
 
     fn in_band(

@@ -77,7 +77,8 @@ pub fn draw_curves(
         NamedTable { name, files }
     });
     let page: MakePage<'_> = Box::new(|figures| page::page(&source, &made, figures));
-    let sheet = Sheet { tables: files.collect(), figures, page, names: CsvNames::Plain };
+    let sheet =
+        Sheet { tables: files.collect(), figures, page, forward: None, names: CsvNames::Plain };
     write_whole(&folder.join(CURVES_CSV), curves_csv(&file.plan, curves).as_bytes())?;
     write_json_file(&folder.join(CURVES_JSON), &CurvesRecord::new(file, curves))?;
     let warnings = sheet.write(folder)?;

@@ -9,6 +9,7 @@ use fovqa_results::{CropRecord, crop_folder};
 use png::{ColorType, Decoder, Transformations};
 
 use super::{NamedFigure, Selection};
+use crate::overview::Measured;
 use crate::print::style;
 
 /// The heading of the column of the reference.
@@ -118,7 +119,7 @@ impl Selection<'_> {
     fn is_expected(&self, region: &CropRegion, scene: &str) -> bool {
         self.all.iter().any(|method| {
             let measured = self.source.overview.of(scene, method);
-            let size = measured.and_then(|measured| measured.frame_px);
+            let size = measured.and_then(Measured::frame_px);
             let has_frame = |frame| self.source.has_frame(scene, method, frame);
             size.is_some_and(|[width, height]| region.corner((width, height)).is_some())
                 && region.frame.is_none_or(has_frame)

@@ -1,11 +1,11 @@
-//! A table of names and numbers, for Markdown, CSV, the page and a terminal.
+//! A table of names and numbers, for Markdown, CSV, a page and a terminal.
 
+mod html;
 mod latex;
 
 use std::fmt::Write;
 
 use crate::comparison::escaped_markdown;
-use crate::escaped::escaped;
 use crate::text_table::{aligned, plain_table, printable};
 
 /// A table. The first cells of each row are names.
@@ -29,16 +29,30 @@ pub(crate) struct Column {
     pub(crate) in_paper: Option<String>,
     /// Whether every part of a table that is divided in LaTeX repeats the column.
     pub(crate) is_repeated: bool,
+    /// What its values mean, in sentences; empty if that is plain.
+    pub(crate) about: &'static str,
 }
 
 impl Column {
     pub(crate) fn new(head: impl Into<String>, key: impl Into<String>) -> Self {
-        Self { head: head.into(), key: key.into(), group: None, in_paper: None, is_repeated: false }
+        Self {
+            head: head.into(),
+            key: key.into(),
+            group: None,
+            in_paper: None,
+            is_repeated: false,
+            about: "",
+        }
     }
 
     /// The column with its headings in LaTeX.
     pub(crate) fn in_paper(self, group: &str, head: &str) -> Self {
         Self { group: Some(group.to_owned()), in_paper: Some(head.to_owned()), ..self }
+    }
+
+    /// The column with what its values mean.
+    pub(crate) fn about(self, about: &'static str) -> Self {
+        Self { about, ..self }
     }
 
     /// The column as one that every part of a divided table repeats.
@@ -126,24 +140,6 @@ impl PlainTable {
             let _ = writer.write_record(row.iter().map(|cell| &cell.value));
         }
         String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
-    }
-
-    pub(crate) fn html(&self) -> String {
-        let mut text = String::from("<table>\n<thead>\n<tr>");
-        for column in &self.columns {
-            let _ = write!(text, "<th>{}</th>", escaped(&column.head));
-        }
-        text.push_str("</tr>\n</thead>\n<tbody>\n");
-        for row in &self.rows {
-            text.push_str("<tr>");
-            for (i, cell) in row.iter().enumerate() {
-                let tag = if i == 0 { "th" } else { "td" };
-                let _ = write!(text, "<{tag}>{}</{tag}>", escaped(&cell.shown));
-            }
-            text.push_str("</tr>\n");
-        }
-        text.push_str("</tbody>\n</table>\n");
-        text
     }
 
     pub(crate) fn terminal(&self) -> String {
