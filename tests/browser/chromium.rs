@@ -211,7 +211,8 @@ impl Page {
 
     /// Addresses that the page has asked for, other than data in it.
     pub(crate) fn requests(&self) -> Vec<String> {
-        let sent = self.events.iter().filter(|event| event["method"] == "Network.requestWillBeSent");
+        let sent =
+            self.events.iter().filter(|event| event["method"] == "Network.requestWillBeSent");
         let urls = sent.filter_map(|event| event["params"]["request"]["url"].as_str());
         urls.filter(|url| !url.starts_with("data:")).map(str::to_owned).collect()
     }

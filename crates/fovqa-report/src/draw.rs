@@ -19,6 +19,7 @@ use crate::plot_figures::plot_figures;
 use crate::run_table::RunTable;
 use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
 use crate::sweep::optima;
+use crate::viewer::Viewer;
 
 /// The tables and figures that were made.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,18 +89,19 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     }
 
     let figures = drawn.len();
+    let viewer = Viewer::read(&source, folder)?;
     let sheet = Sheet {
         tables: tables.iter().map(|(name, table)| files_of(name, table)).collect(),
         figures: drawn,
         page: Box::new(|figures| {
-            run_page((&run, &inputs), (&overview, &values), &tables, figures, None)
+            run_page((&run, &inputs), (&overview, &values), &tables, figures, viewer.json.clone())
         }),
         forward: Some(forward(&run.resolved.name)),
         names: csv_names,
     };
     let of_figures = sheet.write(folder)?;
     drop(sheet);
-    let warnings = warning.into_iter().chain(of_figures).collect();
+    let warnings = warning.into_iter().chain(of_figures).chain(viewer.warnings).collect();
     let table = tables.into_iter().next().map(|(_, table)| table);
     Ok(Drawn { table, figures, warnings })
 }

@@ -105,6 +105,18 @@ impl FrameValues {
         values.map(Vec::as_slice).unwrap_or_default()
     }
 
+    /// The values of a method in a scene, of one eye; `eye` is empty if the scene has one image per
+    /// frame.
+    pub(crate) fn of_eye(
+        &self,
+        (scene, method, eye): (&str, &str, &str),
+        (metric, image): (Metric, Image),
+    ) -> &[FrameValue] {
+        let comparison = self.comparison(scene, method, eye);
+        let values = comparison.and_then(|comparison| comparison.values.get(&(metric, image)));
+        values.map(Vec::as_slice).unwrap_or_default()
+    }
+
     /// Whether there are values of a frame in any eye; `None` if there are none of single frames.
     pub(crate) fn has_frame(&self, scene: &str, method: &str, frame: i64) -> Option<bool> {
         let eyes = ["both", "", "left", "right"].into_iter();

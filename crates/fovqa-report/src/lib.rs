@@ -29,6 +29,7 @@ mod sweep;
 mod terminal;
 mod text_table;
 mod verdict;
+mod viewer;
 
 pub use comparison::ComparisonTable;
 pub use curves::{DrawnCurves, draw_curves, impossible_curves};

@@ -82,11 +82,6 @@ impl Eccentricity {
         self.gaze_px
     }
 
-    /// The definition of eccentricity.
-    pub(crate) fn kind(&self) -> EccentricityKind {
-        self.kind
-    }
-
     /// The radii along x and y, in pixels, of the ellipse around the gaze on which the planar
     /// eccentricity is `deg`; `None` if no point has it.
     pub(crate) fn planar_radii_px(&self, deg: f64) -> Option<[f64; 2]> {

@@ -107,6 +107,17 @@ impl Measure {
         format!("{}{unit}{arrow}", self.label)
     }
 
+    /// Number of digits after the decimal point.
+    pub(crate) fn decimals(&self) -> usize {
+        match self.digits {
+            Digits::Decibels => 2,
+            Digits::Thousandths => 3,
+            Digits::Scientific => 6,
+            Digits::Share => 4,
+            Digits::Percent => 1,
+        }
+    }
+
     /// Formats a value for people.
     pub(crate) fn shown(&self, value: Option<f64>) -> String {
         self.digits.shown(value)

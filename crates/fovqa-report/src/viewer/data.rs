@@ -50,7 +50,7 @@ struct ScaleData {
 }
 
 impl MapData {
-    pub(super) fn of(map: MapInfo) -> Self {
+    pub(super) fn of(map: &MapInfo) -> Self {
         let scale = match map.scale {
             MapScale::Linear { none, most } => ScaleData { kind: "linear", none, most },
             MapScale::Logarithmic { none, most } => ScaleData { kind: "log", none, most },

@@ -51,8 +51,7 @@ impl FrameScores {
     fn take(&mut self, row: &TableRow<'_>) {
         let Some(metric) = Metric::ALL.into_iter().find(|m| m.key() == row.metric) else { return };
         // A measure of each image is shown by its ratio.
-        let image =
-            if metric.is(MetricKind::Fidelity) { Image::Pair } else { Image::Ratio };
+        let image = if metric.is(MetricKind::Fidelity) { Image::Pair } else { Image::Ratio };
         let first = Key::of(metric).statistic().name;
         let is_shown = row.image == image && row.statistic == first && row.level.is_none();
         let (Some(frame), Some(value)) = (row.frame, row.value.map(Value::number)) else { return };

@@ -49,10 +49,9 @@ pub(super) fn frame(
         let found = found.zip(read_record::<TestRecord>(&images.test_record(method)));
         match (found, scored) {
             (Some((picture, TestRecord { borders, maps })), scored) => {
-                let maps = maps.into_iter().map(|blocks| TestMap {
-                    full: link(&beside.map(method, &blocks.map)),
-                    blocks,
-                });
+                let maps = maps
+                    .into_iter()
+                    .map(|blocks| TestMap { full: link(&beside.map(method, &blocks.map)), blocks });
                 tests.push(TestData {
                     method: index,
                     picture,

@@ -35,16 +35,10 @@ pub(super) fn sequence(source: &Source<'_>, view: &ViewImages) -> Option<Sequenc
         let values: BTreeMap<i64, f64> = values.into_iter().collect();
         frames.iter().map(|frame| Number(values.get(frame).copied())).collect()
     };
-    let metrics = metrics.into_iter().map(|(key, methods)| {
-        (key, methods.into_iter().map(along).collect())
-    });
+    let metrics =
+        metrics.into_iter().map(|(key, methods)| (key, methods.into_iter().map(along).collect()));
     let gaze: BTreeMap<i64, [f64; 2]> = view.gaze.iter().copied().collect();
     let at = |frame: &i64| gaze.get(frame).map(|gaze| gaze.map(hundredths));
     let gaze_px = (!gaze.is_empty()).then(|| frames.iter().map(at).collect());
-    Some(SequenceData {
-        metrics: metrics.collect(),
-        loss: view.ranked_by.clone(),
-        gaze_px,
-        frames,
-    })
+    Some(SequenceData { metrics: metrics.collect(), loss: view.ranked_by.clone(), gaze_px, frames })
 }

@@ -23,6 +23,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::kept_frames::copy;
+use crate::map_sheets::MapSheets;
 use blocks::blocks;
 use reduced::reduced;
 
@@ -37,6 +38,7 @@ pub(crate) struct Pictures {
     /// The frame whose reference was written last.
     written: Option<FrameImages>,
     batch: Batch,
+    sheets: MapSheets,
 }
 
 /// A file and what makes its content.
@@ -44,7 +46,13 @@ type Job<'a> = (PathBuf, Box<dyn Fn() -> io::Result<Vec<u8>> + Sync + Send + 'a>
 
 impl Pictures {
     pub(crate) fn new(results: &Path, size: usize) -> Self {
-        Self { results: results.to_owned(), size, written: None, batch: Batch::default() }
+        Self {
+            results: results.to_owned(),
+            size,
+            written: None,
+            batch: Batch::default(),
+            sheets: MapSheets::default(),
+        }
     }
 
     fn images(&self, named: Named<'_>, frame: i64) -> FrameImages {
@@ -108,13 +116,12 @@ impl Pictures {
         jobs.push((images.test(method), Box::new(|| full(test))));
         jobs.push((images.test_on_page(method), Box::new(|| reduced(test, self.size))));
         for map in maps {
-            let picture = move || self.map(map, seen, test);
-            jobs.push((images.map(method, map.name), Box::new(picture)));
+            let picture = move || self.sheets.sheet(map, seen)?.png(map).map_err(io::Error::other);
+            jobs.push((images.map(method, map.info.name), Box::new(picture)));
         }
         jobs.par_iter()
             .try_for_each(|(path, make)| self.batch.write(path, &make()?).map_err(reason))?;
-        let side = test.width().max(test.height());
-        let maps: Vec<_> = maps.par_iter().map(|map| blocks(map, side, self.size)).collect();
+        let maps: Vec<_> = maps.par_iter().map(|map| blocks(map, self.size)).collect();
         let frame = FrameRecord {
             size: self.size,
             frame_px: [test.width(), test.height()],
@@ -124,12 +131,6 @@ impl Pictures {
         // The record is written last: if it exists, all pictures do.
         let test = TestRecord { borders: pictures.borders.clone(), maps };
         write_record(&self.batch, &images.test_record(method), &test).map_err(reason)
-    }
-
-    fn map(&self, map: &Map, _seen: Option<&Seen>, _test: &Frame) -> io::Result<Vec<u8>> {
-        let codes =
-            map.pictures.first().map(|picture| picture.codes.as_slice()).unwrap_or_default();
-        fovqa_io::png_rgb8(map.width, map.height, codes)
     }
 
     /// Makes sure that what was written is on the disk.

@@ -1,0 +1,5 @@
+//! `report.html` in a real browser, where one is installed.
+
+mod chromium;
+mod sequence;
+mod still;
