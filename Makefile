@@ -1,9 +1,15 @@
 # Each line is a plain cargo command, for those without make. All targets except `lint` and `fuzz` share the release profile.
 
-.PHONY: demo figures published-numbers test bench lint fuzz
+.PHONY: demo sample figures published-numbers test bench lint fuzz
 
 demo:
 	cargo run --release --locked --bin fovqa -- run configs/demo.toml
+
+# What is committed of the demo's results, and the pictures of the page in the documentation, for which Chromium is
+# needed.
+sample:
+	cargo run --release --locked --bin fovqa -- run configs/demo.toml --output reports/sample
+	FOVQA_WRITE_PICTURES=1 cargo test --release --locked --workspace --test integration browser::pictures
 
 # The papers' experiments and curves, except those of data that is not in the repository. About 15 CPU minutes.
 figures:

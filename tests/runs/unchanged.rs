@@ -272,7 +272,7 @@ impl Experiment {
     }
 }
 
-/// Those with scenes and renders in files, by name. (The results of the demo are in `reports/demo`.)
+/// Those with scenes and renders in files, by name. (The results of the demo are in `reports/sample`.)
 fn experiments() -> Vec<Experiment> {
     let configs = root().join("configs");
     let folders = [configs.join("papers"), configs.join("ci"), configs];
