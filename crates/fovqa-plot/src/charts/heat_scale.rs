@@ -45,7 +45,7 @@ impl HeatScale {
 pub(crate) struct HeatColours {
     levels: Levels,
     /// The colours, then that of a missing value.
-    palette: Vec<[u8; 3]>,
+    palette: [[u8; 3]; COLOURS + 1],
 }
 
 #[derive(Debug, Clone)]
@@ -76,7 +76,9 @@ impl HeatColours {
         } else {
             Levels::Linear { none, per_value: (COLOURS - 1) as f32 / (most - none) }
         };
-        Self { levels, palette: map_palette().into_iter().chain([MAP_NO_VALUE]).collect() }
+        let mut palette = [MAP_NO_VALUE; COLOURS + 1];
+        palette[..COLOURS].copy_from_slice(&map_palette());
+        Self { levels, palette }
     }
 
     /// Writes the colours of a row of values, each `times` times side by side. Pixels after the last
@@ -100,11 +102,16 @@ impl HeatColours {
 
     fn fill_by(&self, values: &[f32], times: usize, row: &mut [u8], level: impl Fn(f32) -> usize) {
         let (filled, rest) = row.split_at_mut((values.len() * times * 3).min(row.len()));
-        for (pixels, value) in filled.chunks_mut(3 * times).zip(values) {
-            let colour = self.palette[level(*value)];
-            pixels.chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(&colour));
+        if times == 1 {
+            for (pixel, value) in filled.as_chunks_mut::<3>().0.iter_mut().zip(values) {
+                *pixel = self.palette[level(*value)];
+            }
+        } else {
+            for (pixels, value) in filled.chunks_mut(3 * times).zip(values) {
+                pixels.as_chunks_mut::<3>().0.fill(self.palette[level(*value)]);
+            }
         }
-        rest.chunks_exact_mut(3).for_each(|pixel| pixel.copy_from_slice(&MAP_NO_VALUE));
+        rest.as_chunks_mut::<3>().0.fill(MAP_NO_VALUE);
     }
 }
 
