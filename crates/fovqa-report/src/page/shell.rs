@@ -8,9 +8,24 @@ use sha2::{Digest, Sha256};
 const STYLE: &str = include_str!("../../templates/report.css");
 /// The script of all pages, which sorts tables.
 const SCRIPT: &str = include_str!("../../templates/report.js");
-/// Style and script of the viewer of frames.
-const VIEWER: (&str, &str) =
-    (include_str!("../../templates/viewer.css"), include_str!("../../templates/viewer.js"));
+/// The style of the viewer of frames.
+const VIEWER_STYLE: &str = include_str!("../../templates/viewer/viewer.css");
+/// The script of the viewer of frames: one script of several files, each of which uses those before it.
+const VIEWER_SCRIPT: &str = concat!(
+    include_str!("../../templates/viewer/elements.js"),
+    include_str!("../../templates/viewer/numbers.js"),
+    include_str!("../../templates/viewer/state.js"),
+    include_str!("../../templates/viewer/decoding.js"),
+    include_str!("../../templates/viewer/geometry.js"),
+    include_str!("../../templates/viewer/drawing.js"),
+    include_str!("../../templates/viewer/colour-bars.js"),
+    include_str!("../../templates/viewer/readout.js"),
+    include_str!("../../templates/viewer/choices.js"),
+    include_str!("../../templates/viewer/pointer.js"),
+    include_str!("../../templates/viewer/keys.js"),
+    include_str!("../../templates/viewer/sequence.js"),
+    include_str!("../../templates/viewer/start.js"),
+);
 
 /// The frame of a page.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +51,7 @@ impl Shell {
 
     /// The frame of a page with a viewer of frames.
     pub(crate) fn with_viewer(title: &str) -> Self {
-        Self::of(title, "data:", vec![STYLE, VIEWER.0], vec![SCRIPT, VIEWER.1])
+        Self::of(title, "data:", vec![STYLE, VIEWER_STYLE], vec![SCRIPT, VIEWER_SCRIPT])
     }
 
     fn of(
