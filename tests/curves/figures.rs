@@ -113,7 +113,7 @@ fn figures_show_what_they_say() {
     near(at(&shown, 15.0), pixels / 2.0);
     near(at(&series("shown", "Display 1600 × 1600"), 15.0), pixels / 2.0);
     let page = fs::read_to_string(folder.path("reports/f/index.html")).unwrap();
-    assert_eq!(page.matches("the rate is that of the display").count(), 4, "shown and pixels");
+    assert_eq!(page.matches("the rate is that of the display").count(), 2, "shown and pixels");
 
     // Areas are named after the side they lie on.
     let areas =

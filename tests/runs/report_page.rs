@@ -19,7 +19,7 @@ fn between<'a>(text: &'a str, begin: &str, end: &str) -> Vec<&'a str> {
 }
 
 /// Names that would end what they are in, load a picture, or run a script.
-const SCENE: &str = "r</script><img src=x onerror=alert(1)>";
+const SCENE: &str = "r\"><img src=x onerror=alert(1)>";
 const METHOD: &str = "A'\"&<b>😀";
 
 #[test]
@@ -30,14 +30,14 @@ fn names_are_text_and_nothing_is_loaded() {
         .replace("name = \"hall\"", "name = \"hall\"\nfolder = \"hall\"")
         .replace("{scene}", "{folder}")
         .replace("name = \"A\"", &format!("name = '''{METHOD}'''"))
-        .replace("name = \"e\"", "name = \"e\"\nabout = \"<script>alert(2)</script>\"");
+        .replace("name = \"e\"", "name = \"e\"\nabout = \"</script><script>alert(2)</script>\"");
     folder.write("e.toml", text);
     folder.run(&["run", "e.toml"]).ok();
     let page = page(&folder);
     for shown in [
-        "r&#60;/script&#62;&#60;img src=x onerror=alert(1)&#62;",
+        "r&#34;&#62;&#60;img src=x onerror=alert(1)&#62;",
         "A&#39;&#34;&#38;&#60;b&#62;😀",
-        "&#60;script&#62;alert(2)&#60;/script&#62;",
+        "&#60;/script&#62;&#60;script&#62;alert(2)&#60;/script&#62;",
     ] {
         assert!(page.contains(shown), "{shown}");
     }
@@ -144,8 +144,7 @@ fn conditions_are_said_once_unless_they_differ() {
     folder.png("mask.png", 48, 40, &mask);
     let text = experiment("[metrics]\npsnr = {}\natd = {}\n").replace(
         "reference = \"room/gt\"\n",
-        "reference = \"room/gt\"\nframes = \"0\"\nview = { gaze = [10, 20] }\n\
-         signal = { mask = \"mask.png\" }\n",
+        "reference = \"room/gt\"\nframes = \"0..1\"\ngaze = [10, 20]\nmask = \"mask.png\"\n",
     );
     folder.write("e.toml", text);
     folder.run(&["run", "e.toml"]).ok();
@@ -153,7 +152,7 @@ fn conditions_are_said_once_unless_they_differ() {
     let term = |name: &str| between(&page, &format!("<dt>{name}</dt><dd>"), "</dd>");
     assert_eq!(term("Resolution"), ["48 × 40 px"]);
     assert_eq!(term("Gaze"), ["fixed at (10, 20) px", "the centre of the view, at (24, 20) px"]);
-    assert_eq!(term("Frames"), ["1 (of 0)", "3"]);
+    assert_eq!(term("Frames"), ["1 (of 0..1)", "3"]);
     assert_eq!(term("A"), ["read from files"]);
     for left_out in [
         "The mask mask.png leaves out pixels (room).",

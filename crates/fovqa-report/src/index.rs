@@ -171,7 +171,7 @@ mod tests {
         for _ in 0..2 {
             assert_eq!(draw_index(folder.path()).unwrap(), Some(1));
             assert!(
-                fs::read_to_string(&page).unwrap().contains("href=\"a%20%231/index.html\">a&lt;b")
+                fs::read_to_string(&page).unwrap().contains("href=\"a%20%231/index.html\">a&#60;b")
             );
         }
     }
