@@ -16,6 +16,7 @@ pub(crate) mod printed;
 pub(crate) mod setting;
 pub(crate) mod smooth;
 pub(crate) mod svg;
+pub(crate) mod svg_joined;
 pub(crate) mod svg_text;
 pub(crate) mod text;
 pub(crate) mod wrap;

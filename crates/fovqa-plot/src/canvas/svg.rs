@@ -8,6 +8,7 @@ use plotters::style::{RGBColor, ShapeStyle};
 use crate::canvas::colour::{Colour, WHITE};
 use crate::canvas::drawing::{Drawing, Mark, Point, Rect, Stroke};
 use crate::canvas::setting::SetLine;
+use crate::canvas::svg_joined::joined;
 use crate::canvas::svg_text::Outlines;
 use crate::error::PlotError;
 
@@ -88,7 +89,7 @@ fn elements(
     backend.present().map_err(refused)?;
     drop(backend);
     let body = svg.split_once('\n').map_or("", |(_, body)| body);
-    Ok(body.trim_end().strip_suffix(END).unwrap_or(body).to_owned())
+    Ok(joined(body.trim_end().strip_suffix(END).unwrap_or(body)))
 }
 
 /// Writes a picture, which plotters does not support. Both notations for pixels without
