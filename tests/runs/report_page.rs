@@ -152,7 +152,7 @@ fn conditions_are_said_once_unless_they_differ() {
     let term = |name: &str| between(&page, &format!("<dt>{name}</dt><dd>"), "</dd>");
     assert_eq!(term("Resolution"), ["48 × 40 px"]);
     assert_eq!(term("Gaze"), ["fixed at (10, 20) px", "the centre of the view, at (24, 20) px"]);
-    assert_eq!(term("Frames"), ["1 (of 0..1)", "3"]);
+    assert_eq!(term("Frames"), ["1 (of 0..1:1)", "3"]);
     assert_eq!(term("A"), ["read from files"]);
     for left_out in [
         "The mask mask.png leaves out pixels (room).",
