@@ -3,8 +3,13 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::Read;
 use std::path::Path;
 
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use fovqa_frame::Samples;
+use fovqa_io::{ReadOptions, read_frame};
 use serde_json::Value;
 
 use crate::fovqa::Folder;
@@ -200,4 +205,94 @@ fn mistakes_in_settings_of_pictures_are_underlined() {
         folder.write("s.toml", text);
         folder.run(&["check", "s.toml"]).fails(2, words);
     }
+}
+
+/// The data of the viewer on a page.
+fn viewer(folder: &Folder, name: &str) -> Value {
+    let page = fs::read_to_string(folder.path(&format!("{name}/report.html"))).unwrap();
+    let data = page.split("id=\"viewer-data\">").nth(1).unwrap();
+    serde_json::from_str(data.split("</script>").next().unwrap()).unwrap()
+}
+
+#[test]
+fn the_page_holds_the_pictures_maps_and_scores_of_the_files() {
+    let folder = Folder::new();
+    let maps = "[output]\nmaps = [\"ssim\"]\n";
+    run(&folder, &(sequence("[3]") + maps), "out", &[]);
+    let data = viewer(&folder, "out");
+    let eye = &data["scenes"][0]["eyes"][0];
+    assert_eq!(eye["methods"], serde_json::json!(["RMFR", "DEAMP"]));
+    assert_eq!(eye["sequence"]["frames"].as_array().unwrap().len(), 8);
+    let frame = &eye["frames"][0];
+    assert_eq!((&frame["frame"], &frame["why"]), (&3.into(), &serde_json::json!([3])));
+    let test = &frame["tests"][1];
+    let source = test["src"].as_str().unwrap().strip_prefix("data:image/webp;base64,").unwrap();
+    let small = folder.path("out/images/walk/0003/methods/DEAMP/page.webp");
+    assert!(BASE64_STANDARD.decode(source).unwrap() == fs::read(small).unwrap());
+    assert_eq!(test["full"], "images/walk/0003/methods/DEAMP/test.png");
+    assert_eq!(test["borders"].as_array().unwrap().len(), 2, "three layers have two borders");
+
+    // 80 pixels, 64 on the page, 16 blocks: 5 pixels a block.
+    let map = test["maps"].as_array().unwrap().iter().find(|map| map["map"] == "ssim").unwrap();
+    assert_eq!((&map["block"], &map["columns"], &map["rows"]), (&5.into(), &15.into(), &16.into()));
+    let deflated = BASE64_STANDARD.decode(map["values"].as_str().unwrap()).unwrap();
+    let mut bytes = Vec::new();
+    flate2::read::DeflateDecoder::new(deflated.as_slice()).read_to_end(&mut bytes).unwrap();
+    let file = folder.path("out/maps/walk/DEAMP/ssim-0003.exr");
+    let frame = read_frame(&file, &ReadOptions::default()).unwrap().frame;
+    let Samples::F32(values) = frame.samples() else { panic!("32-bit floats") };
+    for (column, row) in [(0, 0), (7, 8), (14, 15)] {
+        let places = (row * 5..(row * 5 + 5).min(80))
+            .flat_map(|y| (column * 5..(column * 5 + 5).min(72)).map(move |x| y * 72 + x));
+        let known: Vec<f64> =
+            places.map(|at| f64::from(values[at])).filter(|value| !value.is_nan()).collect();
+        let at = 2 * (row * 15 + column);
+        let half = half::f16::from_le_bytes([bytes[at], bytes[at + 1]]).to_f64();
+        if known.is_empty() {
+            assert!(half.is_nan());
+            continue;
+        }
+        let mean = known.iter().sum::<f64>() / known.len() as f64;
+        assert!((half - mean).abs() <= mean.abs() / 2048.0, "{column},{row}: {half} {mean}");
+    }
+
+    let mut rows = csv::Reader::from_path(folder.path("out/results.csv")).unwrap();
+    let mut compared = 0;
+    for row in rows.records().map(Result::unwrap) {
+        if &row[1] != "DEAMP" || &row[4] != "3" || &row[6] != "psnr" || &row[5] != "pair" {
+            continue;
+        }
+        let value: f64 = row[11].parse().unwrap();
+        let found = if row[9].is_empty() {
+            test["scores"]["psnr"].as_f64()
+        } else {
+            let from: f64 = row[9].parse().unwrap();
+            let edges = eye["bands_deg"].as_array().unwrap();
+            let band = edges.iter().position(|edge| edge.as_f64() == Some(from)).unwrap();
+            test["bands"][band]["psnr"].as_f64()
+        };
+        assert!((found.unwrap() - value).abs() <= 1e-6 * value, "{row:?}");
+        compared += 1;
+    }
+    assert!(compared > 5, "{compared}");
+    // Drawing again needs no frames, and gives the same page.
+    let before = fs::read(folder.path("out/report.html")).unwrap();
+    fs::remove_file(folder.path("s.toml")).unwrap();
+    folder.run(&["report", "out"]).ok();
+    assert!(fs::read(folder.path("out/report.html")).unwrap() == before);
+    fs::remove_file(folder.path("out/images/walk/0003/methods/DEAMP/page.webp")).unwrap();
+    folder.run(&["report", "out"]).ok().says(&["pictures of walk, frame 3", "--resume"]);
+}
+
+#[test]
+fn of_a_sweep_the_best_point_is_shown() {
+    let folder = Folder::new();
+    let text = "name = \"s\"\n[view]\nfov_vertical_deg = 90\n[[scene]]\nname = \"hall\"\n\
+                builtin = \"gallery\"\nresolution = \"72x80\"\nframes = 1\nsamples = 1\n\
+                [[method]]\nname = \"RMFR\"\nemulate = { model = \"rmfr\" }\n\
+                [[method]]\nname = \"CPS\"\nemulate = { model = \"cps\" }\n\
+                [metrics]\npsnr = {}\n[sweep]\n\"RMFR.sigma\" = [3.0, 1.4, 2.2]\n[report]\nsize = 64\n";
+    run(&folder, text, "out", &[]);
+    let methods = &viewer(&folder, "out")["scenes"][0]["eyes"][0]["methods"];
+    assert_eq!(*methods, serde_json::json!(["RMFR (sigma=1.4)", "CPS"]));
 }

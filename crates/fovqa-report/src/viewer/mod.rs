@@ -25,6 +25,9 @@ use frame_scores::FrameScores;
 use pictures::frame;
 use sequence::sequence;
 
+/// The size in bytes from which a page with pictures opens slowly.
+const MANY_BYTES: usize = 50_000_000;
+
 /// The data of the viewer.
 #[derive(Debug, Default)]
 pub(crate) struct Viewer {
@@ -55,7 +58,7 @@ impl Viewer {
         let warnings = missing.into_iter().map(|what| {
             format!("{what} missing; `fovqa run EXPERIMENT --resume` takes them again")
         });
-        let warnings = warnings.collect();
+        let mut warnings: Vec<String> = warnings.collect();
         if scenes.is_empty() {
             return Ok(Self { json: None, warnings });
         }
@@ -72,6 +75,13 @@ impl Viewer {
             scenes,
         };
         let json = serde_json::to_string(&data).ok();
+        let bytes = json.as_ref().map_or(0, String::len);
+        if bytes > MANY_BYTES {
+            warnings.push(format!(
+                "report.html holds {} MB of pictures; a smaller `size` or fewer `frames` in [report] make it open faster",
+                bytes / 1_000_000
+            ));
+        }
         Ok(Self { json, warnings })
     }
 }
