@@ -91,6 +91,11 @@ impl BandEdges {
         self.0.len() - 1
     }
 
+    /// The edges in degrees, rising: one more than there are bands.
+    pub fn edges_deg(&self) -> &[f64] {
+        &self.0
+    }
+
     /// The `(from_deg, to_deg)` of each band.
     pub fn iter(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.0.windows(2).map(|pair| (pair[0], pair[1]))

@@ -77,6 +77,18 @@ impl Eccentricity {
         self.gaze_px
     }
 
+    /// The definition of eccentricity.
+    pub(crate) fn kind(&self) -> EccentricityKind {
+        self.kind
+    }
+
+    /// The radii along x and y, in pixels, of the ellipse around the gaze on which the planar
+    /// eccentricity is `deg`; `None` if no point has it.
+    pub(crate) fn planar_radii_px(&self, deg: f64) -> Option<[f64; 2]> {
+        let radius_px = self.planar.focal_px * libm::tan(deg.to_radians());
+        (deg > 0.0 && deg < 90.0).then(|| self.planar.step_px.map(|step| radius_px / step))
+    }
+
     /// Eccentricity in degrees of a point in pixels; pixel centres are at +0.5.
     pub fn at_deg(&self, x_px: f64, y_px: f64) -> f64 {
         let radians = match self.kind {

@@ -18,6 +18,7 @@ mod gaze_error;
 mod gaze_table;
 mod gaze_trace;
 mod pixel_scale;
+mod ring;
 mod seen;
 mod view;
 
