@@ -42,11 +42,13 @@ mod scales;
 mod tidy;
 
 pub use axes::axis::Axis;
+pub use canvas::colour_map::{MAP_NO_VALUE, map_palette};
 pub use canvas::look::Look;
 pub use canvas::palette::Palette;
 pub use canvas::photo::Photo;
 pub use canvas::printed::Printed;
 pub use charts::bar::{BarChart, BarSeries};
+pub use charts::heat_scale::HeatScale;
 pub use charts::line::{LineChart, LineSeries};
 pub use charts::montage::{MontageChart, MontageRow};
 pub use charts::panels::PanelChart;

@@ -11,6 +11,18 @@ use crate::canvas::colour::Colour;
 /// The colour of a missing value.
 pub(crate) const NO_VALUE: Colour = Colour(221, 221, 221);
 
+/// The colour of a missing value in a map: its red, green and blue codes.
+pub const MAP_NO_VALUE: [u8; 3] = [NO_VALUE.0, NO_VALUE.1, NO_VALUE.2];
+
+/// The colours of maps, at equal steps from that of the lowest share of the scale to that of the
+/// highest: red, green and blue codes.
+pub fn map_palette() -> [[u8; 3]; 256] {
+    std::array::from_fn(|level| {
+        let Colour(r, g, b) = colour(level as f64 / 255.0);
+        [r, g, b]
+    })
+}
+
 /// The number of colour steps in a picture: one byte holds them and [`NO_VALUE`].
 pub(crate) const LEVELS: u8 = 255;
 
@@ -85,6 +97,16 @@ mod tests {
         for pair in levels.windows(3) {
             assert!(lightness(pair[2]) > lightness(pair[0]), "{pair:?}");
         }
+    }
+
+    #[test]
+    fn maps_have_the_same_colours_in_finer_steps() {
+        let palette = map_palette();
+        let ends = [ANCHORS[0], ANCHORS[15]].map(|Colour(r, g, b)| [r, g, b]);
+        assert_eq!([palette[0], palette[255]], ends);
+        let light = |[r, g, b]: [u8; 3]| lightness(Colour(r, g, b));
+        assert!(palette.windows(3).all(|three| light(three[2]) > light(three[0])));
+        assert!(!palette.contains(&MAP_NO_VALUE));
     }
 
     #[test]
