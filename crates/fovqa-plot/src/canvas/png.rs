@@ -4,7 +4,8 @@
 use png::{
     BitDepth, ColorType, Compression, Encoder, EncodingError, Filter, PixelDimensions, Unit,
 };
-use resvg::tiny_skia::{Color, Pixmap, Transform};
+use rayon::prelude::*;
+use resvg::tiny_skia::{Color, Pixmap, PremultipliedColorU8, Transform};
 use resvg::usvg::{ImageHrefResolver, ImageKind, Options, Tree};
 
 use crate::canvas::setting::fonts;
@@ -27,6 +28,42 @@ pub(crate) fn render(svg: &str, dpi: f32) -> Result<Vec<u8>, PlotError> {
     pixmap.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     encode(&pixmap, dpi).map_err(|error| PlotError::Encode(Box::new(error)))
+}
+
+/// The number of rows that are rendered together.
+const BLOCK_ROWS: u32 = 256;
+
+/// The number of rows above and below them that are rendered too, because the ends of lines that
+/// are cut off at the border of a picture are not exact.
+const BESIDE_ROWS: u32 = 16;
+
+/// Renders an SVG without paper, as a picture of this width and height in pixels, and passes its
+/// rows to `take`. The results, from the top, do not depend on the number of threads.
+pub(crate) fn render_rows<T: Send>(
+    svg: &str,
+    (width, height): (u32, u32),
+    take: impl Fn(&[PremultipliedColorU8]) -> T + Sync,
+) -> Result<Vec<T>, PlotError> {
+    let tree = Tree::from_str(svg, &options()).map_err(|error| PlotError::Svg(Box::new(error)))?;
+    let size = tree.size();
+    let scale = (width as f32 / size.width(), height as f32 / size.height());
+    let block = |first: u32| {
+        let rows = BLOCK_ROWS.min(height - first);
+        let pixmap = Pixmap::new(width, rows + 2 * BESIDE_ROWS);
+        let mut pixmap = pixmap.ok_or_else(|| PlotError::Size {
+            dpi: SVG_DPI,
+            width: width as f32,
+            height: rows as f32,
+        })?;
+        let down = BESIDE_ROWS as f32 - first as f32;
+        let place = Transform::from_row(scale.0, 0.0, 0.0, scale.1, 0.0, down);
+        resvg::render(&tree, place, &mut pixmap.as_mut());
+        let all = pixmap.pixels().chunks_exact(width as usize);
+        Ok(all.skip(BESIDE_ROWS as usize).take(rows as usize).map(&take).collect::<Vec<T>>())
+    };
+    let firsts: Vec<u32> = (0..height).step_by(BLOCK_ROWS as usize).collect();
+    let blocks: Result<Vec<Vec<T>>, PlotError> = firsts.into_par_iter().map(block).collect();
+    Ok(blocks?.into_iter().flatten().collect())
 }
 
 /// The sides in pixels of a picture of a size in inches.

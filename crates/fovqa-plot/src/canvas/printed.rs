@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
+use resvg::tiny_skia::PremultipliedColorU8;
+
 use crate::canvas::drawing::{Drawing, Mark};
 use crate::canvas::setting::SetLine;
 use crate::canvas::{pdf, png, svg};
@@ -10,6 +12,9 @@ use crate::error::PlotError;
 
 /// Points per inch.
 pub(crate) const PT_PER_IN: f64 = 72.0;
+
+/// Points per pixel of a drawing whose pixels are those of an SVG.
+pub(crate) const PT_PER_PX: f64 = 0.75;
 
 /// A figure that was laid out for a size in print.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,6 +80,17 @@ impl Printed {
     /// When a picture in it cannot be encoded.
     pub fn svg(&self) -> Result<String, PlotError> {
         svg::write(&self.drawing, self.lines(), self.pt_per_px)
+    }
+
+    /// The figure without paper as a picture with this width and height in pixels: its rows, as
+    /// `take` returns them.
+    pub(crate) fn rows<T: Send>(
+        &self,
+        size: (u32, u32),
+        take: impl Fn(&[PremultipliedColorU8]) -> T + Sync,
+    ) -> Result<Vec<T>, PlotError> {
+        let svg = svg::write_on(None, &self.drawing, self.lines(), self.pt_per_px)?;
+        png::render_rows(&svg, size, take)
     }
 
     /// The figure as a PDF of one page, with text as text in the bundled font, of which the part

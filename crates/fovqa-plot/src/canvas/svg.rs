@@ -18,18 +18,29 @@ const UNITS: f64 = 10.0;
 /// The end of a document.
 const END: &str = "</svg>";
 
-/// Writes the drawing, with its lines of text as they are set, as a complete SVG document that is
-/// printed with this many points per pixel.
+/// Writes the drawing on white paper, with its lines of text as they are set, as a complete SVG
+/// document that is printed with this many points per pixel.
 pub(crate) fn write(
+    drawing: &Drawing,
+    lines: &[SetLine],
+    pt_per_px: f64,
+) -> Result<String, PlotError> {
+    write_on(Some(WHITE), drawing, lines, pt_per_px)
+}
+
+/// Writes the drawing as [`write`] does, on paper of a colour or on nothing.
+pub(crate) fn write_on(
+    paper: Option<Colour>,
     drawing: &Drawing,
     lines: &[SetLine],
     pt_per_px: f64,
 ) -> Result<String, PlotError> {
     let mut lines = lines.iter();
     let size = (units(drawing.width_px) as u32, units(drawing.height_px) as u32);
-    let paper = (size.0 as i32, size.1 as i32);
-    let mut body = elements(size, |backend| {
-        backend.draw_rect((0, 0), paper, &filled(WHITE), true).map_err(refused)
+    let corner = (size.0 as i32, size.1 as i32);
+    let mut body = elements(size, |backend| match paper {
+        Some(paper) => backend.draw_rect((0, 0), corner, &filled(paper), true).map_err(refused),
+        None => Ok(()),
     })?;
     let mut outlines = Outlines::default();
     for marks in drawing.marks.chunk_by(|a, b| by_plotters(a) == by_plotters(b)) {

@@ -3,7 +3,9 @@
 pub(crate) mod bar;
 pub(crate) mod box_summary;
 pub(crate) mod dodge;
+pub(crate) mod heat_overlay;
 pub(crate) mod heat_scale;
+pub(crate) mod heat_strip;
 pub(crate) mod left_out;
 pub(crate) mod line;
 pub(crate) mod montage;

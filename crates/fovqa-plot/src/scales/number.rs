@@ -90,6 +90,11 @@ impl Format {
     }
 }
 
+/// A power of ten: 10⁻³, or 1.
+pub(crate) fn power_label(exponent: i32) -> String {
+    if exponent == 0 { "1".to_owned() } else { format!("10{}", superscript(exponent)) }
+}
+
 fn plain(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -129,6 +134,11 @@ mod tests {
         assert_eq!(written(0.999_999_2, 0.999_999_8, -7), "0.9999992");
         assert_eq!(written(2e299, 8e299, 299), "2×10²⁹⁹");
         assert_eq!(written(3e-280, 8e-280, -280), "3×10⁻²⁸⁰");
+    }
+
+    #[test]
+    fn powers_of_ten() {
+        assert_eq!([-6, 0, 2].map(power_label), ["10⁻⁶", "1", "10²"]);
     }
 
     #[test]
