@@ -54,6 +54,18 @@ pub enum PlotError {
         /// Height in pixels, rounded up.
         height: f32,
     },
+    /// A frame has no pixels, or too many for a drawing.
+    #[error(
+        "a frame of {width} x {height} pixels cannot be drawn; each side must have 1 to {most}"
+    )]
+    Frame {
+        /// Width in pixels.
+        width: usize,
+        /// Height in pixels.
+        height: usize,
+        /// The longest side in pixels.
+        most: usize,
+    },
     /// The figure does not fit into the width that was asked for.
     #[error(
         "a width of {width_in} in is too narrow: the smallest text would be under {} pt; it needs {least_in} in",

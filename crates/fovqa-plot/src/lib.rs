@@ -48,6 +48,7 @@ pub use canvas::palette::Palette;
 pub use canvas::photo::Photo;
 pub use canvas::printed::Printed;
 pub use charts::bar::{BarChart, BarSeries};
+pub use charts::heat_map::{HeatMap, HeatMapLayout};
 pub use charts::heat_overlay::HeatRing;
 pub use charts::heat_scale::HeatScale;
 pub use charts::line::{LineChart, LineSeries};

@@ -3,6 +3,7 @@
 pub(crate) mod bar;
 pub(crate) mod box_summary;
 pub(crate) mod dodge;
+pub(crate) mod heat_map;
 pub(crate) mod heat_overlay;
 pub(crate) mod heat_scale;
 pub(crate) mod heat_strip;
