@@ -72,7 +72,7 @@ fn ssim_where_the_window_fits() {
     }
     let picture = folder.path("maps/ssim-0000.png");
     let picture = read_frame(&picture, &ReadOptions::default()).unwrap().frame;
-    assert!((picture.sample(0, 0, 0) - 128.0).abs() < 1e-6, "gray where there is no value");
+    assert!((picture.sample(0, 0, 0) - 221.0).abs() < 1e-6, "gray where there is no value");
 }
 
 #[test]
@@ -97,7 +97,50 @@ fn a_mask_leaves_pixels_out_and_equal_pictures_are_dark() {
     assert!(ssim.iter().all(|value| value.is_nan() || alike(value)));
     let picture = folder.path("maps/mse-0000.png");
     let picture = read_frame(&picture, &ReadOptions::default()).unwrap().frame;
-    assert!(picture.sample(0, 0, 0) < 1.0 && picture.sample(2, 0, 0) < 5.0);
+    // The darkest colour of viridis, without any line: there is no view.
+    assert_eq!(picture.width(), SIZE.0);
+    assert!(picture.height() > SIZE.1 + 40, "the colour bar is below");
+    for (x, y) in (0..SIZE.1).flat_map(|y| (0..200).map(move |x| (x, y))) {
+        assert_eq!(
+            [0, 1, 2].map(|c| picture.sample(c, x, y).round() as u8),
+            [68, 1, 84],
+            "{x} {y}"
+        );
+    }
+}
+
+/// With a view, the rings are where the bands change, and a cross is at the gaze.
+#[test]
+fn bands_and_gaze_are_drawn_over_the_colours() {
+    let folder = Folder::new();
+    let (width, height) = (600, 400);
+    folder.png("a.png", width, height, &vec![90; 3 * width * height]);
+    let view = ["--fov-vertical", "60", "--gaze", "150,220", "--bands", "0,10,25,80"];
+    let score = ["a.png", "a.png", "--metrics", "mse,gmsd", "--maps", "maps"];
+    folder.score(&[&score[..], &view].concat()).ok();
+    let focal = 200.0 / 30f64.to_radians().tan();
+    let ray = |x: f64, y: f64| [(x - 300.0) / focal, (y - 200.0) / focal, 1.0];
+    let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let gaze = ray(150.0, 220.0);
+    let deg = |x: usize, y: usize| {
+        let at = ray(x as f64 + 0.5, y as f64 + 0.5);
+        (dot(at, gaze) / (dot(at, at) * dot(gaze, gaze)).sqrt()).acos().to_degrees()
+    };
+    for map in ["mse", "gmsd"] {
+        let path = folder.path(&format!("maps/{map}-0000.png"));
+        let picture = read_frame(&path, &ReadOptions::default()).unwrap().frame;
+        let is_light = |x: usize, y: usize| picture.sample(1, x, y) > 150.0;
+        assert!(is_light(150, 220) && is_light(145, 220) && is_light(150, 226), "the cross");
+        // Along a row above the labels, the light pixels are those where a band begins.
+        let row = 100;
+        for x in 1..width {
+            let near = |edge: f64| (deg(x, row) - edge).abs() * focal.to_radians() < 2.0;
+            let changes =
+                [10.0, 25.0].iter().any(|edge| (deg(x - 1, row) < *edge) != (deg(x, row) < *edge));
+            assert!(!changes || is_light(x, row) || is_light(x - 1, row), "{map}: {x}");
+            assert!(!is_light(x, row) || near(10.0) || near(25.0), "{map}: {x}");
+        }
+    }
 }
 
 /// The same bytes for any number of threads; in a run each comparison has a folder of its own.

@@ -363,8 +363,8 @@ fn maps_are_all_there() {
     let folder = sequence("replicate");
     folder.run(&["run", "e.toml", "--output", "whole", "--maps", "maps"]).ok();
     let wanted = bytes(&folder.path("maps"));
-    // Three of FovVideoVDP, two each of the squared error and SSIM.
-    assert_eq!(wanted.len(), 24 * 7);
+    // Four of FovVideoVDP, two each of the squared error and SSIM.
+    assert_eq!(wanted.len(), 24 * 8);
     let lines = journal(&folder, "whole");
     // All inputs stand in front.
     let cut = lines[..lines.len() * 4 / 5].concat();

@@ -13,7 +13,7 @@
 //! | ATD | luma, 4 n for each of this frame and the one before, for the reference and for each method |
 //! | emulation | 24 n for the picture of the reference and that of a test, and 12 n for each temporal filter |
 //! | reprojection | the decoded frames of the dominant eye, 24 n for its pictures, and 12 n for each temporal filter |
-//! | maps | 7 n for the values and the image of each map; GMSD has a quarter of the pixels |
+//! | maps | 4 n for the values of each map (n for GMSD), and 3 n for a picture of one |
 //! | MS-SSIM | 3 n for the second level of both images |
 //!
 //! Data that is kept row by row, or in bands of rows, is not counted.
@@ -72,8 +72,8 @@ impl Amount<'_> {
         // Metrics with a common map share its memory.
         let maps = self.metrics.iter().filter_map(|metric| metric.info().map);
         let maps: BTreeMap<&str, u64> =
-            maps.map(|map| (map.name, pixels / (map.block * map.block) * 7)).collect();
-        let maps = if self.maps { maps.into_values().sum() } else { 0 };
+            maps.map(|map| (map.name, pixels / (map.block * map.block) as u64 * 4)).collect();
+        let maps = if self.maps { maps.into_values().sum::<u64>() + 3 * pixels } else { 0 };
         let [emulated, filtered] = self.emulated;
         let emulation = if emulated > 0 { planes(6 + 3 * filtered) } else { 0 };
         let [reprojected, filtered] = self.reprojected;
@@ -213,7 +213,7 @@ mod tests {
         assert_eq!(of(&[Metric::Fvvdp, Metric::PuPsnr]), of(&[Metric::Fvvdp]));
         let metrics = [Metric::Mse, Metric::Psnr, Metric::Ssim];
         let maps = Amount { maps: true, ..amount(&metrics) }.needed().bytes() / RETINAL;
-        assert_eq!(maps - of(&metrics), 14, "MSE and PSNR have one map");
+        assert_eq!(maps - of(&metrics), 8 + 3, "MSE and PSNR have one map");
         let crop = Amount { pixels: [RETINAL, 1000], ..amount(&[Metric::Fvvdp]) }.needed();
         assert!(crop.bytes() < RETINAL * 12 + 1_000_000, "{crop}");
         let emulated = Amount { emulated: [5, 1], ..amount(&metrics) }.needed().bytes() / RETINAL;

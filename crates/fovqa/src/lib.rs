@@ -71,6 +71,7 @@ mod gallery;
 mod gate;
 mod kept_frames;
 mod limit;
+mod map_sheets;
 mod maps;
 mod memory;
 mod merge;

@@ -6,7 +6,10 @@ use std::path::{Path, PathBuf};
 use fovqa_engine::{EngineError, Entry, Finished, Named};
 use fovqa_io::{exr_gray, exr_gray_half, png_rgb8};
 use fovqa_metrics::{Map, Metric};
+use fovqa_report::MapSheet;
 use fovqa_results::{FileError, FrameResult, make_folder, write_whole};
+
+use crate::map_sheets::MapSheets;
 
 /// The folder that maps are written to.
 #[derive(Debug)]
@@ -14,11 +17,12 @@ pub(crate) struct MapsFolder {
     folder: PathBuf,
     /// Whether several comparisons write to the folder. Each then has a subfolder.
     several: bool,
+    sheets: MapSheets,
 }
 
 impl MapsFolder {
     pub(crate) fn new(folder: PathBuf, several: bool) -> Self {
-        Self { folder, several }
+        Self { folder, several, sheets: MapSheets::default() }
     }
 
     /// The folder for a comparison.
@@ -43,7 +47,7 @@ impl MapsFolder {
 
     /// Writes the maps of a pair, if there are any.
     pub(crate) fn write(&self, entry: &Entry<'_>) -> Result<(), EngineError> {
-        let Entry::Pair(Finished { named, maps, result: Ok(frame), .. }) = *entry else {
+        let Entry::Pair(Finished { named, maps, seen, result: Ok(frame), .. }) = *entry else {
             return Ok(());
         };
         if maps.is_empty() {
@@ -52,7 +56,12 @@ impl MapsFolder {
         let folder = self.folder(named);
         let at = |path: &Path, error| EngineError::Map { path: path.to_owned(), error };
         make_folder(&folder).map_err(|error| at(&folder, error))?;
-        for (name, bytes) in maps.iter().flat_map(|map| files(map, frame.frame)) {
+        let mut named_files = Vec::new();
+        for map in maps {
+            let sheet = self.sheets.sheet(map, seen).map_err(|error| at(&folder, error))?;
+            named_files.extend(files(map, &sheet, frame.frame));
+        }
+        for (name, bytes) in named_files {
             let path = folder.join(name);
             let bytes = bytes.map_err(|error| at(&path, error))?;
             write_whole(&path, &bytes).map_err(|error| match error {
@@ -81,20 +90,23 @@ pub fn maps_lacking(metrics: &[Metric]) -> Option<String> {
 }
 
 /// The files of a map, with their names.
-fn files(map: &Map, frame: i64) -> Vec<(String, io::Result<Vec<u8>>)> {
-    let Map { name, width, height, values, .. } = map;
-    let values = if map.is_half {
-        exr_gray_half(*width, *height, values)
-    } else {
-        exr_gray(*width, *height, values)
-    };
+fn files(map: &Map, sheet: &MapSheet, frame: i64) -> Vec<(String, io::Result<Vec<u8>>)> {
+    let Map { info, frame_size, values, .. } = map;
+    let (name, (width, height)) = (info.name, info.size(*frame_size));
+    let coloured = sheet.png(map).map_err(io::Error::other);
+    let coloured = (format!("{name}-{}.png", padded(frame)), coloured);
     let pictures = map.pictures.iter().map(|picture| {
-        let name = picture.name.map_or((*name).to_owned(), |of| format!("{name}-{of}"));
-        let bytes = png_rgb8(*width, *height, &picture.codes);
-        (format!("{name}-{}.png", padded(frame)), bytes)
+        let bytes = png_rgb8(frame_size.0, frame_size.1, &picture.codes);
+        (format!("{name}-{}-{}.png", picture.name, padded(frame)), bytes)
     });
+    let values = if map.is_half {
+        exr_gray_half(width, height, values)
+    } else {
+        exr_gray(width, height, values)
+    };
     // The values are written last: if they exist, all files of the map exist.
-    pictures.chain([(values_file(name, frame), values)]).collect()
+    let values = (values_file(name, frame), values);
+    [coloured].into_iter().chain(pictures).chain([values]).collect()
 }
 
 /// The name of the file with the values of a map.

@@ -110,7 +110,8 @@ pub fn score<R: Sample, T: Sample>(
 }
 
 fn array(map: &Map) -> ScoreMap {
-    let values = Array2::from_shape_vec((map.height, map.width), map.values.clone());
+    let (width, height) = map.info.size(map.frame_size);
+    let values = Array2::from_shape_vec((height, width), map.values.clone());
     let values = values.unwrap_or_else(|_| unreachable!("a map has one value a pixel"));
-    ScoreMap { name: map.name, values }
+    ScoreMap { name: map.info.name, values }
 }

@@ -53,8 +53,8 @@ pub(crate) struct RunArgs {
     /// Score only these frames of each scene: from A up to, but not including, B
     #[arg(long, allow_hyphen_values = true, value_name = "A..B:STEP")]
     pub(crate) frames: Option<FrameRange>,
-    /// Write maps of each frame to DIR/SCENE/METHOD, as values (OpenEXR) and as a picture in colours
-    /// (PNG); `fovqa list metrics` shows which metrics have a map
+    /// Write maps of each frame to DIR/SCENE/METHOD, as values (OpenEXR) and as a heat map with a
+    /// colour bar, bands and gaze (PNG); `fovqa list metrics` shows which metrics have a map
     #[arg(long, value_name = "DIR")]
     pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]

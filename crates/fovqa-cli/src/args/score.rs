@@ -67,8 +67,8 @@ pub(crate) struct ScoreArgs {
     /// Skip frames without a partner
     #[arg(long, help_heading = "Sequence")]
     allow_missing: bool,
-    /// Write maps of each frame to DIR, as values (OpenEXR) and as a picture in colours (PNG);
-    /// `fovqa list metrics` shows which metrics have a map
+    /// Write maps of each frame to DIR, as values (OpenEXR) and as a heat map with a colour bar, bands
+    /// and gaze (PNG); `fovqa list metrics` shows which metrics have a map
     #[arg(long, value_name = "DIR")]
     pub(crate) maps: Option<PathBuf>,
     /// Threads to score with [default: all cores, or `RAYON_NUM_THREADS`]

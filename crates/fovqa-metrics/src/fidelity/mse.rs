@@ -14,6 +14,8 @@ use crate::pooling::{Pooling, Statistic};
 /// The squared error of each pixel, as the mean over its channels.
 pub(crate) const MAP: MapInfo = MapInfo {
     name: "mse",
+    label: "Squared error",
+    unit: Some("peak 1"),
     block: 1,
     about: "squared error with peak 1, mean over channels; coloured from 1e-6 (60 dB) to 1",
     scale: MapScale::Logarithmic { none: 1e-6, most: 1.0 },

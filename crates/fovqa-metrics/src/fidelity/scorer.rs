@@ -103,7 +103,7 @@ impl Scorer {
         let size = (pair.width(), pair.height());
         let maps = [(&mse::MAP, maps.squared_error), (&ssim::MAP, maps.ssim)].into_iter();
         let maps = maps.filter(|(_, values)| !values.is_empty());
-        let maps = maps.map(|(map, values)| map.colored(size, values)).collect();
+        let maps = maps.map(|(map, values)| map.with(size, values)).collect();
         Ok(Scored { rows, maps })
     }
 

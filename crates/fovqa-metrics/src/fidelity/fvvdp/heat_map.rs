@@ -19,9 +19,11 @@ use crate::map::{Map, MapInfo, MapPicture, MapScale};
 /// The description of the map.
 pub(crate) const MAP: MapInfo = MapInfo {
     name: "fvvdp",
+    label: "Visible difference",
+    unit: Some("JOD"),
     block: 1,
-    about: "visible difference, in units like JOD; coloured over a gray picture of the frame",
-    scale: MapScale::Own,
+    about: "visible difference, in units like JOD; coloured from 0 to 1, and over a gray picture of the frame",
+    scale: MapScale::Linear { none: 0.0, most: 1.0 },
 };
 
 /// The differences of a frame, level by level.
@@ -63,13 +65,12 @@ impl DifferenceMap {
     pub fn map(self, luminance: &Grid) -> Map {
         let raw = self.raw();
         let picture = |colors: MapColors| MapPicture {
-            name: Some(colors.name()),
+            name: colors.name(),
             codes: colored(&raw, luminance, colors),
         };
         Map {
-            name: MAP.name,
-            width: raw.width(),
-            height: raw.height(),
+            info: &MAP,
+            frame_size: (raw.width(), raw.height()),
             values: (0..raw.height()).flat_map(|y| raw.row(y)).copied().collect(),
             is_half: true,
             pictures: MapColors::ALL.map(picture).into(),

@@ -78,6 +78,8 @@ impl MetricParams for Params {
 /// Gradient magnitude similarity.
 const MAP: MapInfo = MapInfo {
     name: "gmsd",
+    label: "Gradient magnitude similarity",
+    unit: None,
     block: 2,
     about: "gradient magnitude similarity, one value per 2x2 pixels; coloured from 1 (identical) to 0",
     scale: MapScale::Linear { none: 1.0, most: 0.0 },
@@ -140,8 +142,8 @@ fn measure(input: &PairInput<'_>) -> Result<Scored, ScoreError> {
         add(key, of_band, &mut rows);
         rows.count(key.nth(COUNT), of_band.0);
     }
-    let size = (width / 2, height / 2);
-    Ok(Scored { rows, maps: map.map(|values| MAP.colored(size, values)).into_iter().collect() })
+    let map = map.map(|values| MAP.with((width, height), values));
+    Ok(Scored { rows, maps: map.into_iter().collect() })
 }
 
 /// Adds the deviation of a set of blocks, and the mean of their similarity.

@@ -29,6 +29,8 @@ pub(crate) const MAP_PIXELS: &str = "map_pixels";
 /// SSIM around each pixel where the window fits, as the mean over channels.
 pub(crate) const MAP: MapInfo = MapInfo {
     name: "ssim",
+    label: "SSIM",
+    unit: None,
     block: 1,
     about: "SSIM around each pixel, mean over channels; coloured from 1 (identical) to 0",
     scale: MapScale::Linear { none: 1.0, most: 0.0 },
