@@ -16,9 +16,13 @@ use crate::fovqa::Folder;
 
 /// Eight frames of the gallery, two methods, one of which filters over time.
 fn sequence(frames: &str) -> String {
+    of_length(8, frames)
+}
+
+fn of_length(length: usize, frames: &str) -> String {
     format!(
         "name = \"s\"\n[view]\ndisplay = \"htc-vive-pro\"\n[[scene]]\nname = \"walk\"\n\
-         builtin = \"gallery\"\nresolution = \"72x80\"\nframes = 8\nsamples = 1\n\
+         builtin = \"gallery\"\nresolution = \"72x80\"\nframes = {length}\nsamples = 1\n\
          [[method]]\nname = \"RMFR\"\nemulate = {{ model = \"rmfr\", jitter = \"halton\", temporal = true }}\n\
          [[method]]\nname = \"DEAMP\"\nemulate = {{ model = \"deamp\" }}\n\
          [metrics]\npsnr = {{}}\nssim = {{}}\nfvvdp = {{}}\n\
@@ -104,11 +108,17 @@ fn the_worst_and_the_median_frame_are_those_of_the_scores() {
 #[test]
 fn pictures_taken_after_scoring_are_those_taken_while_scoring() {
     let folder = Folder::new();
-    run(&folder, &sequence("[\"worst\", \"median\"]"), "after", &[]);
+    // So many frames that they are not kept until the scores are known.
+    run(&folder, &of_length(26, "[\"worst\", \"median\"]"), "after", &[]);
     let frames = list(&folder, "after")["views"][0]["frames"].clone();
     let numbers: Vec<String> =
         frames.as_array().unwrap().iter().map(|frame| frame["frame"].to_string()).collect();
-    run(&folder, &sequence(&format!("[{}]", numbers.join(", "))), "while", &["--threads", "1"]);
+    run(
+        &folder,
+        &of_length(26, &format!("[{}]", numbers.join(", "))),
+        "while",
+        &["--threads", "1"],
+    );
     let [after, during] =
         ["after", "while"].map(|name| files(&folder.path(&format!("{name}/images/walk"))));
     assert!(after.len() >= 2 * (3 + 2 * 5), "{:?}", after.keys());
@@ -166,7 +176,7 @@ fn no_frames_no_pictures() {
 #[test]
 fn shards_bring_their_pictures_and_the_others_are_named() {
     let folder = Folder::new();
-    folder.write("s.toml", sequence("[\"first\", \"worst\", 6]"));
+    folder.write("s.toml", of_length(26, "[\"first\", \"worst\", 6]"));
     for shard in ["1", "2"] {
         let (part, output) = (format!("{shard}/2"), format!("part-{shard}"));
         folder.run(&["run", "s.toml", "--shard", &part, "--output", &output]).ok();

@@ -27,12 +27,17 @@ pub enum FrameChoice {
 }
 
 impl FrameChoice {
-    /// Whether it is a frame, as far as that is known before the frames are scored: the `nth` of
-    /// `count` frames, from 0, with this number. A frame that stands alone is any choice by score.
+    /// The number of frames of a scene up to which each may turn out to be the worst or the median one,
+    /// and is kept until that is known. To score a frame again takes the frames before it as well, if
+    /// anything is filtered over time, so that it costs more than to keep the pictures of a short scene.
+    pub const FEW_FRAMES: usize = 24;
+
+    /// Whether it may be a frame, as far as that is known before the frames are scored: the `nth` of
+    /// `count` frames, from 0, with this number.
     pub fn is_foreseen(self, (nth, count): (usize, usize), number: i64) -> bool {
         match self {
             Self::Of(FrameWord::First) => nth == 0,
-            Self::Of(FrameWord::Worst | FrameWord::Median) => count == 1,
+            Self::Of(FrameWord::Worst | FrameWord::Median) => count <= Self::FEW_FRAMES,
             Self::Number(chosen) => chosen == number,
         }
     }
@@ -113,10 +118,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_still_is_every_choice_and_a_sequence_is_known_by_place_alone() {
+    fn a_frame_of_few_may_be_any_choice_and_one_of_many_is_known_by_its_place() {
         let [first, worst] = [FrameWord::First, FrameWord::Worst].map(FrameChoice::Of);
         assert!(first.is_foreseen((0, 9), 5) && !first.is_foreseen((1, 9), 6));
-        assert!(worst.is_foreseen((0, 1), 5) && !worst.is_foreseen((0, 2), 5));
+        assert!(worst.is_foreseen((0, 1), 5) && worst.is_foreseen((23, 24), 5));
+        assert!(!worst.is_foreseen((0, 25), 5));
         let seven = FrameChoice::Number(7);
         assert!(seven.is_foreseen((3, 9), 7) && !seven.is_foreseen((7, 9), 8));
     }
