@@ -19,6 +19,8 @@ pub(crate) struct Page {
     socket: WebSocket<TcpStream>,
     session: String,
     calls: u64,
+    /// Whether the button of the pointer is down.
+    is_pressed: bool,
     /// What the browser has reported: requests, messages of the log, exceptions.
     events: Vec<Value>,
     _profile: TempDir,
@@ -67,7 +69,9 @@ impl Page {
         let (socket, _) = client(format!("ws://127.0.0.1:{port}{path}"), stream).unwrap();
         let session = String::new();
         let (calls, events) = (0, Vec::new());
-        let mut page = Self { browser, socket, session, calls, events, _profile: profile };
+        let is_pressed = false;
+        let mut page =
+            Self { browser, socket, session, calls, is_pressed, events, _profile: profile };
         let target = page.call("Target.createTarget", &json!({ "url": "about:blank" }));
         let target = json!({ "targetId": target["targetId"], "flatten": true });
         let attached = page.call("Target.attachToTarget", &target);
@@ -158,7 +162,12 @@ impl Page {
 
     /// Moves the pointer, or presses (`mousePressed`) or releases (`mouseReleased`) its button.
     pub(crate) fn pointer(&mut self, kind: &str, [x, y]: [f64; 2]) {
-        let buttons = i32::from(kind == "mousePressed");
+        self.is_pressed = match kind {
+            "mousePressed" => true,
+            "mouseReleased" => false,
+            _ => self.is_pressed,
+        };
+        let buttons = i32::from(self.is_pressed);
         let event = json!({
             "type": kind, "x": x, "y": y, "buttons": buttons, "clickCount": 1,
             "button": if kind == "mouseMoved" { "none" } else { "left" },

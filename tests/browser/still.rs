@@ -220,9 +220,11 @@ fn the_viewer_works_from_the_keyboard_alone() {
     page.value("document.querySelector('#viewer-stage').focus()");
     page.press("ArrowRight", 8);
     page.press("ArrowDown", 8);
-    let first = [readout(&mut page, "x"), readout(&mut page, "y")];
+    page.until("document.querySelector('#viewer-readout').dataset.x !== ''");
+    let first = readout(&mut page, "x");
     page.press("ArrowRight", 8);
-    assert!(readout(&mut page, "x") > first[0], "the crosshair moves");
+    page.press("ArrowRight", 8);
+    page.until(&format!("document.querySelector('#viewer-readout').dataset.x > {first}"));
     let scores = page.value("document.querySelectorAll('#viewer-scores tbody tr').length");
     assert_eq!(scores, json!(2), "a row of scores for each method");
     page.value("document.querySelector('#viewer-mode-flicker').click()");
@@ -231,6 +233,6 @@ fn the_viewer_works_from_the_keyboard_alone() {
                  getComputedStyle(t).display === 'none' ? '' : t.textContent).join('|')";
     let before = page.text(shown);
     page.press("f", 0);
-    assert_ne!(page.text(shown), before, "F shows the other layer");
+    page.until(&format!("{shown} !== {}", json!(before)));
     assert_eq!(page.complaints(), Vec::<String>::new());
 }

@@ -7,8 +7,6 @@
 
 "use strict";
 
-const SVG = "http://www.w3.org/2000/svg";
-
 /** The element with the id `viewer-NAME`. */
 const byId = (name) => document.getElementById(`viewer-${name}`);
 
@@ -21,7 +19,7 @@ function element(tag, properties = {}, ...children) {
 
 /** Makes an SVG element with attributes and text. */
 function svgElement(tag, attributes = {}, text = "") {
-  const node = document.createElementNS(SVG, tag);
+  const node = document.createElementNS(byId("curve").namespaceURI, tag);
   for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
   node.textContent = text;
   return node;
