@@ -170,7 +170,7 @@ impl Page {
         let buttons = i32::from(self.is_pressed);
         let event = json!({
             "type": kind, "x": x, "y": y, "buttons": buttons, "clickCount": 1,
-            "button": if kind == "mouseMoved" { "none" } else { "left" },
+            "button": if kind == "mouseMoved" && !self.is_pressed { "none" } else { "left" },
         });
         self.call("Input.dispatchMouseEvent", &event);
     }

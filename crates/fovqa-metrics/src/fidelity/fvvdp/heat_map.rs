@@ -22,8 +22,8 @@ pub(crate) const MAP: MapInfo = MapInfo {
     label: "Visible difference",
     unit: Some("JOD"),
     block: 1,
-    about: "visible difference, in units like JOD; coloured from 0 to 1, and over a gray picture of the frame",
-    scale: MapScale::Linear { none: 0.0, most: 1.0 },
+    about: "visible difference, in units like JOD; coloured from 0 to 3, and over a gray picture of the frame",
+    scale: MapScale::Linear { none: 0.0, most: 3.0 },
 };
 
 /// The differences of a frame, level by level.

@@ -81,8 +81,8 @@ const MAP: MapInfo = MapInfo {
     label: "Gradient magnitude similarity",
     unit: None,
     block: 2,
-    about: "gradient magnitude similarity, one value per 2x2 pixels; coloured from 1 (identical) to 0",
-    scale: MapScale::Linear { none: 1.0, most: 0.0 },
+    about: "gradient magnitude similarity, one value per 2x2 pixels; coloured from 1 (identical) to 0.5",
+    scale: MapScale::Linear { none: 1.0, most: 0.5 },
 };
 
 /// The number of blocks of a band and the mean of their similarity, with which its deviation is pooled.
