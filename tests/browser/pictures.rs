@@ -15,8 +15,8 @@ use crate::fovqa::root;
 fn the_committed_page_is_what_the_documentation_shows() {
     let file = root().join("reports/sample/report.html");
     let Some(mut page) = Page::open(&file) else { return };
-    // So high that nothing has to scroll.
-    page.show_as([1280, 4000], "light");
+    page.show_as([1280, 900], "light");
+    page.call("Emulation.setScrollbarsHidden", &json!({ "hidden": true }));
     page.until("document.documentElement.dataset.viewer === 'ready'");
     page.choose("#viewer-b", "map:0:fvvdp");
     page.value("document.querySelector('#viewer-rings').click()");
@@ -26,19 +26,18 @@ fn the_committed_page_is_what_the_documentation_shows() {
     }
     page.until("Number(document.querySelector('#viewer-readout').dataset.value) > 0");
     assert_eq!(page.complaints(), Vec::<String>::new());
-    let mut take = |name: &str, place: &str| {
-        let clip = page.value(&format!(
-            "(() => {{ const r = document.querySelector({}).getBoundingClientRect(); \
-             return {{ x: r.x - 12, y: r.y, width: r.width + 24, height: r.height, scale: 1 }}; }})()",
-            json!(place)
-        ));
-        let params = json!({ "format": "png", "clip": clip });
-        let taken = page.call("Page.captureScreenshot", &params);
-        let bytes = BASE64_STANDARD.decode(taken["data"].as_str().unwrap()).unwrap();
-        assert!(image::load_from_memory(&bytes).unwrap().width() > 600, "{name}");
-        if env::var_os("FOVQA_WRITE_PICTURES").is_some() {
-            std::fs::write(root().join(format!("docs/pictures/{name}.png")), bytes).unwrap();
-        }
-    };
-    take("report-viewer", "#viewer");
+    let clip = page.value(
+        "(() => { const [top, last] = ['#viewer', '#viewer-main'].map(place => \
+         document.querySelector(place).getBoundingClientRect()); \
+         return { x: top.x + scrollX - 12, y: top.y + scrollY, width: top.width + 24, \
+         height: last.bottom - top.y, scale: 1 }; })()",
+    );
+    let params = json!({ "format": "png", "captureBeyondViewport": true, "clip": clip });
+    let taken = page.call("Page.captureScreenshot", &params);
+    let bytes = BASE64_STANDARD.decode(taken["data"].as_str().unwrap()).unwrap();
+    let size = image::load_from_memory(&bytes).unwrap();
+    assert!(size.width() > 1000 && size.height() > 600, "{}x{}", size.width(), size.height());
+    if env::var_os("FOVQA_WRITE_PICTURES").is_some() {
+        std::fs::write(root().join("docs/pictures/report-viewer.png"), bytes).unwrap();
+    }
 }
