@@ -86,7 +86,8 @@ fn write(folder: &Path, method: &str, crop: &CropPair) -> io::Result<()> {
     write_json_file(&CropRecord::file(folder), &record).map_err(reason)
 }
 
-fn reason(error: FileError) -> io::Error {
+/// The reason why a file could not be read or written.
+pub(crate) fn reason(error: FileError) -> io::Error {
     match error {
         FileError::Write { error, .. } | FileError::Read { error, .. } => error,
         FileError::Format { detail, .. } => io::Error::other(detail),

@@ -11,7 +11,8 @@ use fovqa_plan::{Experiment, Eye, FrameChoice, MetricChoice, Plan, WantedPicture
 use fovqa_results::{Batch, FileError, FrameImages, IMAGES_JSON, ImagesRecord, ViewImages};
 
 use super::chosen::chosen;
-use super::{Pictures, clear_pictures, keep_frames, write_record};
+use super::folders::{clear_pictures, keep_frames};
+use super::recorder::{Pictures, write_record};
 
 /// A run whose frames were scored.
 pub(crate) struct Taking<'a> {
