@@ -79,8 +79,12 @@ fn frames_beyond_memory_are_an_error_before_anything_is_scored() {
                 [[scene]]\nname = \"s\"\nreference = \"gt\"\nfps = 90\n\
                 [[method]]\nname = \"A\"\ntest = \"test\"\n[metrics]\nfvvdp = {}\n";
     folder.write("e.toml", text);
-    folder.run(&["check", "e.toml"]).ok().says(&["need at least 7", "score fewer methods"]);
+    folder.run(&["check", "e.toml"]).ok().says(&[
+        "need at least 8",
+        "maps 25.2 GB",
+        "score fewer methods",
+    ]);
     let run = folder.run(&["run", "e.toml"]);
     assert_eq!(run.code, 3);
-    run.says(&["need at least 7", "[metrics]", "crop = [X, Y, W, H]"]);
+    run.says(&["need at least 8", "[metrics]", "crop = [X, Y, W, H]"]);
 }

@@ -142,6 +142,13 @@ fn a_picture_is_that_of_the_frame_and_its_map_that_of_the_scores() {
     assert_eq!(codes("out/images/a/0000/reference.png"), codes("a.png"));
     assert_eq!(codes("out/images/a/0000/methods/b/test.png"), codes("b.png"));
     assert!(folder.path("out/images/a/0000/methods/b/mse.png").is_file());
+    // A crop shows what is scored.
+    let text = fs::read_to_string(folder.path("s.toml")).unwrap();
+    folder.write("s.toml", text + "[signal]\ncrop = [8, 4, 32, 30]\n");
+    folder.run(&["run", "s.toml", "--output", "part"]).ok();
+    let whole = image::open(folder.path("b.png")).unwrap().to_rgb8();
+    let part = image::imageops::crop_imm(&whole, 8, 4, 32, 30).to_image().into_raw();
+    assert_eq!(codes("part/images/a/0000/methods/b/test.png"), part);
     // The maps of every frame are those that were asked for.
     let maps = files(&folder.path("out/maps/a/b"));
     assert_eq!(maps.keys().collect::<Vec<_>>(), ["ssim-0000.exr", "ssim-0000.png"]);

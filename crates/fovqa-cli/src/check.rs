@@ -25,10 +25,12 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
     if matches!(fovqa_config::is_curves(&args.experiment), Ok(true)) {
         return curves(args);
     }
-    let experiment = match experiment::read(&args.experiment) {
+    let mut experiment = match experiment::read(&args.experiment) {
         Ok(experiment) => experiment,
         Err(exit) => return exit,
     };
+    // They need memory in a run.
+    experiment.plan.pictures = experiment.wanted_pictures();
     let found = fovqa::find(&experiment.plan, &Given::default());
     let terminal = Terminal::speaking(Dialect::Experiment);
     // The warnings come after the plan, as they do in a run.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use fovqa_emulate::{Border, Picture};
-use fovqa_frame::{Channels, Frame, Samples, SignalTables, Transfer};
+use fovqa_frame::{Channels, Crop, Frame, Samples, SignalTables, Transfer};
 
 /// The pictures of a pair, as RGB or gray codes of 8 bits for display.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,5 +22,11 @@ pub(crate) fn picture_of(frame: &Frame, tables: &SignalTables) -> Frame {
     let is_shown_as_it_is = matches!(frame.samples(), Samples::U8(_))
         && matches!(frame.channels(), Channels::Rgb | Channels::Gray)
         && tables.params().transfer_of(frame) != Transfer::Linear;
-    if is_shown_as_it_is { frame.clone() } else { Picture::from_frame(frame, tables).to_codes8() }
+    let (width, height) = (frame.width(), frame.height());
+    // A crop keeps the samples around it.
+    let visible = || frame.part(Crop { x: 0, y: 0, width, height });
+    match is_shown_as_it_is.then(visible) {
+        Some(Ok(visible)) => visible,
+        _ => Picture::from_frame(frame, tables).to_codes8(),
+    }
 }

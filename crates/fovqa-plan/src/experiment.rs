@@ -9,7 +9,7 @@ use crate::gates::GateRule;
 use crate::output::OutputSettings;
 use crate::plan::Plan;
 use crate::plots::Plot;
-use crate::report::ReportSettings;
+use crate::report::{ReportSettings, WantedPictures};
 
 /// The content of an experiment file.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -36,4 +36,17 @@ pub struct Experiment {
     pub report: ReportSettings,
     /// The rules of its gate.
     pub gates: Vec<GateRule>,
+}
+
+impl Experiment {
+    /// The pictures that may be needed, as far as that is known before anything is scored. Of a swept
+    /// method, the report shows the best point alone.
+    pub fn wanted_pictures(&self) -> WantedPictures {
+        let plan = &self.plan;
+        let is_swept = |method: &usize| plan.swept(*method).is_some();
+        WantedPictures {
+            frames: self.report.frames.clone(),
+            methods: (0..plan.methods.len()).filter(|method| !is_swept(method)).collect(),
+        }
+    }
 }

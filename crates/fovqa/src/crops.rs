@@ -86,8 +86,7 @@ fn write(folder: &Path, method: &str, crop: &CropPair) -> io::Result<()> {
     write_json_file(&CropRecord::file(folder), &record).map_err(reason)
 }
 
-/// The reason why a file could not be read or written.
-pub(crate) fn reason(error: FileError) -> io::Error {
+fn reason(error: FileError) -> io::Error {
     match error {
         FileError::Write { error, .. } | FileError::Read { error, .. } => error,
         FileError::Format { detail, .. } => io::Error::other(detail),

@@ -8,7 +8,7 @@ use fovqa_engine::{
     Unit, found_regions, results, resume, units, warn_of_regions,
 };
 use fovqa_io::sequence::FrameRange;
-use fovqa_plan::{Experiment, Eye, TableFormat, WantedPictures};
+use fovqa_plan::{Experiment, Eye, TableFormat};
 use fovqa_report::Drawn;
 use fovqa_results::{HAS_PARQUET, table_file};
 
@@ -98,7 +98,7 @@ impl Run {
         let mut experiment = experiment;
         experiment.plan.frames = options.frames;
         experiment.plan.maps = options.maps.is_some() || !experiment.output.maps.is_empty();
-        experiment.plan.pictures = foreseen_pictures(&experiment);
+        experiment.plan.pictures = experiment.wanted_pictures();
         let lacking = maps_lacking(experiment.plan.metrics.metrics());
         if let Some(message) = lacking.filter(|_| options.maps.is_some()) {
             return Err(Error::usage(message, "add one of them to [metrics], such as ssim = {}"));
@@ -264,10 +264,11 @@ impl Run {
         let scored = Journal::begin(folder.path(), header, plan, &known).and_then(|mut journal| {
             let record = &mut |entry: Entry<'_>| {
                 maps.iter().try_for_each(|maps| maps.write(&entry))?;
-                pictures.write(&entry)?;
                 kept.write(&entry)?;
                 crops.write(&entry)?;
-                journal.write(entry)
+                journal.write(entry)?;
+                // Last: what is finished is kept even where there is no space for pictures.
+                pictures.write(&entry)
             };
             let scored =
                 fovqa_engine::score(plan, &self.found, &self.units(), known, events, record)?;
@@ -276,17 +277,6 @@ impl Run {
         });
         events.finish();
         Ok(scored?)
-    }
-}
-
-/// The pictures that are known to be needed before anything is scored. Of a swept method, the report
-/// shows the best point alone.
-fn foreseen_pictures(experiment: &Experiment) -> WantedPictures {
-    let plan = &experiment.plan;
-    let is_swept = |method: &usize| plan.swept(*method).is_some();
-    WantedPictures {
-        frames: experiment.report.frames.clone(),
-        methods: (0..plan.methods.len()).filter(|method| !is_swept(method)).collect(),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Writes pictures of frames, their maps, and what the page holds of them.
 
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -8,7 +9,7 @@ use fovqa_frame::Frame;
 use fovqa_io::{FrameFormat, encode_frame};
 use fovqa_metrics::Map;
 use fovqa_results::{
-    Batch, FileError, FrameImages, FrameRecord, FrameView, TestRecord, make_folder, read_record,
+    FrameImages, FrameRecord, FrameView, TestRecord, make_folder, read_record, take_away,
 };
 use fovqa_vision::Seen;
 use rayon::prelude::*;
@@ -16,7 +17,6 @@ use serde::Serialize;
 
 use super::blocks::blocks;
 use super::reduced::reduced;
-use crate::crops::reason;
 use crate::map_sheets::MapSheets;
 
 /// Writes pictures into a results folder.
@@ -27,7 +27,6 @@ pub(crate) struct Pictures {
     size: usize,
     /// The frame whose reference was written last.
     written: Option<FrameImages>,
-    batch: Batch,
     sheets: MapSheets,
 }
 
@@ -36,13 +35,7 @@ type Job<'a> = (PathBuf, Box<dyn Fn() -> io::Result<Vec<u8>> + Sync + Send + 'a>
 
 impl Pictures {
     pub(crate) fn new(results: &Path, size: usize) -> Self {
-        Self {
-            results: results.to_owned(),
-            size,
-            written: None,
-            batch: Batch::default(),
-            sheets: MapSheets::default(),
-        }
+        Self { results: results.to_owned(), size, written: None, sheets: MapSheets::default() }
     }
 
     fn images(&self, named: Named<'_>, frame: i64) -> FrameImages {
@@ -96,6 +89,8 @@ impl Pictures {
         (pictures, maps, seen): (&PicturePair, &[Map], Option<&Seen>),
     ) -> io::Result<()> {
         make_folder(&images.method(method))?;
+        // Without their record, pictures that are only partly replaced are taken again.
+        take_away(&images.test_record(method))?;
         let (reference, test) = (&*pictures.reference, &pictures.test);
         let mut jobs: Vec<Job<'_>> = Vec::new();
         if self.written.as_ref() != Some(images) {
@@ -109,36 +104,24 @@ impl Pictures {
             let picture = move || self.sheets.sheet(map, seen)?.png(map).map_err(io::Error::other);
             jobs.push((images.map(method, map.info.name), Box::new(picture)));
         }
-        jobs.par_iter()
-            .try_for_each(|(path, make)| self.batch.write(path, &make()?).map_err(reason))?;
+        // There are many, and they can be taken again: nothing waits until they are on the disk.
+        jobs.par_iter().try_for_each(|(path, make)| fs::write(path, make()?))?;
         let maps: Vec<_> = maps.par_iter().map(|map| blocks(map, self.size)).collect();
         let frame = FrameRecord {
             size: self.size,
             frame_px: [test.width(), test.height()],
             view: seen.map(view_of),
         };
-        write_record(&self.batch, &images.record(), &frame).map_err(reason)?;
+        fs::write(images.record(), record_text(&frame)?)?;
         // The record is written last: if it exists, all pictures do.
         let test = TestRecord { borders: pictures.borders.clone(), maps };
-        write_record(&self.batch, &images.test_record(method), &test).map_err(reason)
-    }
-
-    /// Makes sure that what was written is on the disk.
-    pub(crate) fn flush(&self) {
-        self.batch.flush();
+        fs::write(images.test_record(method), record_text(&test)?)
     }
 }
 
-/// Writes a record as one line of JSON: long lists of positions are for programs alone.
-pub(super) fn write_record(
-    batch: &Batch,
-    path: &Path,
-    record: &impl Serialize,
-) -> Result<(), FileError> {
-    batch.write_with(path, |mut out| {
-        serde_json::to_writer(&mut out, record)?;
-        out.write_all(b"\n")
-    })
+/// A record as one line of JSON: long lists of positions are for programs alone.
+pub(super) fn record_text(record: &impl Serialize) -> io::Result<String> {
+    Ok(serde_json::to_string(record)? + "\n")
 }
 
 fn full(frame: &Frame) -> io::Result<Vec<u8>> {

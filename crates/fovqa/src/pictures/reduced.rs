@@ -34,6 +34,9 @@ pub(super) fn reduced(frame: &Frame, size: usize) -> io::Result<Vec<u8>> {
         Channels::Rgb => (PixelType::U16x3, ColorType::Rgb8),
     };
     let from = [frame.width(), frame.height()];
+    if codes.len() != from[0] * from[1] * frame.channels().count() {
+        return Err(io::Error::other("a picture is not cropped"));
+    }
     let to = smaller(from, size);
     let small = if from == to { codes.clone() } else { resized(codes, (from, to), pixels)? };
     let mut file = Vec::new();

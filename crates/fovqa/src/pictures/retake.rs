@@ -8,11 +8,11 @@ use std::path::Path;
 use fovqa_engine::{Entry, Events, Findings, FoundInputs, FoundView, Named, Unit};
 use fovqa_metrics::Metric;
 use fovqa_plan::{Experiment, Eye, FrameChoice, MetricChoice, Plan, WantedPictures};
-use fovqa_results::{Batch, FileError, FrameImages, IMAGES_JSON, ImagesRecord, ViewImages};
+use fovqa_results::{FileError, FrameImages, IMAGES_JSON, ImagesRecord, ViewImages, write_whole};
 
 use super::chosen::chosen;
 use super::folders::{clear_pictures, keep_frames};
-use super::recorder::{Pictures, write_record};
+use super::recorder::{Pictures, record_text};
 
 /// A run whose frames were scored.
 pub(crate) struct Taking<'a> {
@@ -60,9 +60,10 @@ pub(crate) fn take_missing(
         return Ok(());
     }
     keep_frames(results, &|path| folders.contains(path));
-    write_record(&Batch::default(), &results.join(IMAGES_JSON), &record)?;
-    pictures.flush();
-    Ok(())
+    let list = results.join(IMAGES_JSON);
+    let text =
+        record_text(&record).map_err(|error| FileError::Write { path: list.clone(), error })?;
+    write_whole(&list, text.as_bytes())
 }
 
 fn folder(results: &Path, view: &ViewImages, frame: i64) -> std::path::PathBuf {
