@@ -62,6 +62,26 @@ impl Pictures {
                 .all(|path| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0))
     }
 
+    /// Removes the maps of a method's frame except those for which `is_kept` holds.
+    pub(super) fn keep_maps(
+        &self,
+        named: Named<'_>,
+        frame: i64,
+        is_kept: impl Fn(&str) -> bool,
+    ) -> io::Result<()> {
+        let images = self.images(named, frame);
+        let path = images.test_record(named.method);
+        let Some(TestRecord { borders, maps }) = read_record(&path) else { return Ok(()) };
+        let (kept, dropped): (Vec<_>, Vec<_>) = maps.into_iter().partition(|map| is_kept(&map.map));
+        if dropped.is_empty() {
+            return Ok(());
+        }
+        for map in dropped {
+            take_away(&images.map(named.method, &map.map))?;
+        }
+        fs::write(path, record_text(&TestRecord { borders, maps: kept })?)
+    }
+
     /// Writes the pictures of a pair, if the report shows it.
     pub(crate) fn write(&mut self, entry: &Entry<'_>) -> Result<(), EngineError> {
         let Entry::Pair(Finished {

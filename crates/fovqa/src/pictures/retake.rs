@@ -2,6 +2,7 @@
 //! worst is known at the end.
 
 use std::collections::BTreeSet;
+use std::io;
 use std::ops::Range;
 use std::path::Path;
 
@@ -50,6 +51,8 @@ pub(crate) fn take_missing(
              with this folder takes them",
         );
     }
+    drop_unscored(taking, &record, pictures)
+        .map_err(|error| FileError::Write { path: results.join(IMAGES_JSON), error })?;
     let folders: BTreeSet<_> = record
         .views
         .iter()
@@ -64,6 +67,27 @@ pub(crate) fn take_missing(
     let text =
         record_text(&record).map_err(|error| FileError::Write { path: list.clone(), error })?;
     write_whole(&list, text.as_bytes())
+}
+
+/// Drops the maps of metrics without a value. A shard that begins after a gap in a sequence does not know
+/// yet that FovVideoVDP will have none.
+fn drop_unscored(
+    taking: &Taking<'_>,
+    record: &ImagesRecord,
+    pictures: &Pictures,
+) -> io::Result<()> {
+    for (named, frame) in taking.findings.scored(&taking.experiment.plan) {
+        let of_view = |view: &&ViewImages| view.scene == named.scene && view.eye == named.eye;
+        let view = record.views.iter().find(of_view);
+        if view.is_some_and(|view| view.frames.iter().any(|chosen| chosen.frame == frame.frame)) {
+            let is_scored = |map: &str| {
+                let of_map = |metric: &Metric| metric.info().map.is_some_and(|of| of.name == map);
+                Metric::ALL.into_iter().filter(of_map).any(|metric| frame.rows.has(metric))
+            };
+            pictures.keep_maps(named, frame.frame, is_scored)?;
+        }
+    }
+    Ok(())
 }
 
 fn folder(results: &Path, view: &ViewImages, frame: i64) -> std::path::PathBuf {
