@@ -27,7 +27,7 @@ fn frames_are_listed_by_their_loss_and_chosen() {
     let listed = "[...document.querySelectorAll('#viewer-frames-list button')]\
                   .map(b => Number(b.dataset.frame))";
     let listed: Vec<i64> = serde_json::from_value(page.value(listed)).unwrap();
-    let mut sums = vec![(0.0, 0); 9];
+    let mut sums = [(0.0, 0); 9];
     let mut rows = csv::Reader::from_path(folder.path("out/results.csv")).unwrap();
     for row in rows.records().map(Result::unwrap) {
         if &row[6] == "psnr" && row[9].is_empty() && !row[4].is_empty() {

@@ -3,6 +3,7 @@
 use fovqa_metrics::{Metric, MetricKind};
 use fovqa_params::Words;
 use fovqa_plan::{FrameChoice, FrameWord, MetricChoice, ReportSettings};
+use serde_spanned::Spanned;
 use toml::de::DeValue;
 
 use crate::fault::{Fault, Faults};
@@ -16,7 +17,7 @@ pub(super) fn report(root: Node<'_>, chosen: &MetricChoice, faults: &mut Faults)
     if let Some(size) = table.number("size") {
         settings.size = size as usize;
     }
-    if let Some(DeValue::Array(items)) = table.value("frames").map(|value| value.get_ref()) {
+    if let Some(DeValue::Array(items)) = table.value("frames").map(Spanned::get_ref) {
         settings.frames.clear();
         for item in items {
             let word = text(item).and_then(FrameWord::find).map(FrameChoice::Of);

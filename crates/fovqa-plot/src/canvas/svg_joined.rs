@@ -26,7 +26,7 @@ pub(crate) fn joined(elements: &str) -> String {
                 text.push_str(points);
             }
             Some((style, points)) => {
-                close(&mut text, open.take());
+                close(&mut text, open.take().is_some());
                 text.push_str("<path ");
                 text.push_str(style);
                 text.push_str(" d=\"M");
@@ -34,18 +34,18 @@ pub(crate) fn joined(elements: &str) -> String {
                 open = Some(style.to_owned());
             }
             None => {
-                close(&mut text, open.take());
+                close(&mut text, open.take().is_some());
                 text.push_str(&element);
                 text.push('\n');
             }
         }
     }
-    close(&mut text, open);
+    close(&mut text, open.is_some());
     text
 }
 
-fn close(text: &mut String, open: Option<String>) {
-    if open.is_some() {
+fn close(text: &mut String, is_open: bool) {
+    if is_open {
         text.push_str("\"/>\n");
     }
 }

@@ -34,7 +34,7 @@ impl FrameScores {
             .views
             .iter()
             .flat_map(|view| {
-                let eye = view.eye.map(|eye| eye.word()).unwrap_or_default();
+                let eye = view.eye.map(Words::word).unwrap_or_default();
                 view.frames.iter().map(move |chosen| (view.scene.as_str(), eye, chosen.frame))
             })
             .collect();

@@ -64,8 +64,8 @@ impl Viewer {
         }
         let metrics = source.run.resolved.metrics_in_order().into_iter();
         let data = ViewerData {
-            palette: map_palette().iter().map(hex).collect::<Vec<_>>().concat(),
-            no_value: hex(&MAP_NO_VALUE),
+            palette: map_palette().into_iter().map(hex).collect::<Vec<_>>().concat(),
+            no_value: hex(MAP_NO_VALUE),
             maps: Metric::ALL
                 .into_iter()
                 .filter_map(|metric| metric.info().map)
@@ -86,8 +86,7 @@ impl Viewer {
     }
 }
 
-fn hex(rgb: &[u8; 3]) -> String {
-    let [r, g, b] = rgb;
+fn hex([r, g, b]: [u8; 3]) -> String {
     format!("{r:02x}{g:02x}{b:02x}")
 }
 
@@ -126,7 +125,7 @@ fn eye(
     })?;
     let [width, height] = first.frame_px;
     Some(EyeData {
-        eye: view.eye.map(|eye| eye.word()).unwrap_or_default(),
+        eye: view.eye.map(Words::word).unwrap_or_default(),
         width,
         height,
         view: first.view.as_ref().map(|view| ViewData {

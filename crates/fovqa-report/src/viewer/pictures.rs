@@ -40,7 +40,7 @@ pub(super) fn frame(
         lost(missing);
         return None;
     };
-    let eye = view.eye.map(|eye| eye.word()).unwrap_or_default();
+    let eye = view.eye.map(Words::word).unwrap_or_default();
     let bands_deg = record.view.as_ref().map(|view| view.bands_deg.as_slice()).unwrap_or_default();
     let mut tests = Vec::new();
     for (index, method) in view.methods.iter().enumerate() {

@@ -12,7 +12,7 @@ use crate::figures::Source;
 
 /// The values of a view's frames; `None` for a single frame.
 pub(super) fn sequence(source: &Source<'_>, view: &ViewImages) -> Option<SequenceData> {
-    let eye = view.eye.map(|eye| eye.word()).unwrap_or_default();
+    let eye = view.eye.map(Words::word).unwrap_or_default();
     let mut metrics = Vec::new();
     for metric in source.run.resolved.metrics_in_order() {
         // A measure of each image is shown of the test.
