@@ -313,3 +313,36 @@ fn of_a_sweep_the_best_point_is_shown() {
     let methods = &viewer(&folder, "out")["scenes"][0]["eyes"][0]["methods"];
     assert_eq!(*methods, serde_json::json!(["RMFR (sigma=1.4)", "CPS"]));
 }
+
+#[test]
+fn pictures_that_are_lost_cost_no_result() {
+    let folder = Folder::new();
+    folder.write("s.toml", of_length(26, "[\"worst\"]"));
+    for shard in ["1", "2"] {
+        let (part, output) = (format!("{shard}/2"), format!("part-{shard}"));
+        folder.run(&["run", "s.toml", "--shard", &part, "--output", &output]).ok();
+    }
+    // No shard has taken any.
+    let merge = ["merge", "part-1", "part-2", "--output", "out"];
+    folder.run(&merge).ok().says(&["pictures of some frames", "--output out --resume"]);
+    let results = fs::read(folder.path("out/results.csv")).unwrap();
+    let again = ["run", "s.toml", "--output", "out", "--resume"];
+    fs::remove_dir_all(folder.path("out").join("images")).unwrap();
+    fs::write(folder.path("out").join("images"), "mine").unwrap();
+    folder.run(&again).ok().says(&["the page lacks pictures", "--output out --resume"]);
+    assert!(fs::read(folder.path("out/results.csv")).unwrap() == results);
+    fs::remove_file(folder.path("out").join("images")).unwrap();
+    folder.run(&again).ok();
+    // One that was cut off is noticed, and taken again.
+    let frame = list(&folder, "out")["views"][0]["frames"][0]["frame"].as_i64().unwrap();
+    for picture in ["page.webp", "test.png"] {
+        let path = folder.path(&format!("out/images/walk/{frame:04}/methods/DEAMP/{picture}"));
+        let whole = fs::read(&path).unwrap();
+        fs::write(&path, &whole[..40]).unwrap();
+        if picture == "page.webp" {
+            folder.run(&["report", "out"]).ok().says(&["--output out --resume` takes them again"]);
+        }
+        folder.run(&again).ok();
+        assert!(fs::read(&path).unwrap() == whole, "{picture}");
+    }
+}

@@ -61,7 +61,7 @@ pub fn text_hash(text: &str) -> String {
 }
 
 /// The help text for results that cannot be written.
-pub(crate) const NO_SPACE: &str = "free some space, or give another folder with {output}; {resume} continues with the frames that are already scored";
+const NO_SPACE: &str = "free some space, or give another folder with {output}; {resume} continues with the frames that are already scored";
 
 /// The help text for figures that cannot be as the experiment says.
 const FIT: &str =

@@ -7,7 +7,7 @@ use fovqa_plan::Experiment;
 
 use crate::crops::copy_crops;
 use crate::error::Error;
-use crate::finish::{NO_SPACE, clear, finish, in_folder};
+use crate::finish::{clear, finish, in_folder};
 use crate::kept_frames::copy_kept;
 use crate::maps::copy_maps;
 use crate::pictures::{Pictures, Taking, clear_pictures, copy_pictures, take_missing};
@@ -52,8 +52,7 @@ pub fn merge(
     }
     let mut pictures = Pictures::new(folder.path(), experiment.report.size);
     let taking = Taking { experiment: &experiment, found: None, findings: &findings, events };
-    let taken = take_missing(&taking, folder.path(), &mut pictures);
-    taken.map_err(|error| Error::input(error.to_string(), NO_SPACE))?;
+    take_missing(&taking, folder.path(), &mut pictures);
     let results = results(plan, events, findings);
     let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
     let scored = own.map(|comparison| comparison.report.frames.len()).sum();

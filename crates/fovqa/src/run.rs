@@ -14,11 +14,11 @@ use fovqa_results::{HAS_PARQUET, table_file};
 
 use crate::crops::Crops;
 use crate::error::{Complaint, Error};
-use crate::finish::{NO_SPACE, clear, finish, in_folder, say_failures_of_shard};
+use crate::finish::{clear, finish, in_folder, say_failures_of_shard};
 use crate::foreseen_figures::foresee_figures_of_run;
 use crate::kept_frames::{KeptFrames, check_inputs};
 use crate::maps::{MapsFolder, maps_lacking};
-use crate::pictures::{Pictures, Taking, clear_pictures, take_missing};
+use crate::pictures::{Pictures, Taking, clear_pictures, no_pictures, take_missing};
 
 /// How an experiment is run.
 #[derive(Debug, Clone, Default)]
@@ -175,8 +175,7 @@ impl Run {
         }
         let (experiment, found) = (&self.experiment, Some(&self.found));
         let taking = Taking { experiment, found, findings: &findings, events };
-        let taken = take_missing(&taking, folder.path(), &mut pictures);
-        taken.map_err(|error| Error::input(error.to_string(), NO_SPACE))?;
+        take_missing(&taking, folder.path(), &mut pictures);
         // The results name all files that they need, and a long sequence has very many.
         drop(self.found);
         let results = results(plan, events, findings);
@@ -261,14 +260,18 @@ impl Run {
         let plan = &self.experiment.plan;
         let kept = KeptFrames::new(folder.path());
         let crops = Crops::new(folder.path());
+        let mut lost = None;
         let scored = Journal::begin(folder.path(), header, plan, &known).and_then(|mut journal| {
             let record = &mut |entry: Entry<'_>| {
                 maps.iter().try_for_each(|maps| maps.write(&entry))?;
                 kept.write(&entry)?;
                 crops.write(&entry)?;
                 journal.write(entry)?;
-                // Last: what is finished is kept even where there is no space for pictures.
-                pictures.write(&entry)
+                // Last, and no reason to end: a picture that cannot be written costs no result.
+                if let Err(error) = pictures.write(&entry) {
+                    lost.get_or_insert(error);
+                }
+                Ok(())
             };
             let scored =
                 fovqa_engine::score(plan, &self.found, &self.units(), known, events, record)?;
@@ -276,6 +279,9 @@ impl Run {
             Ok(scored)
         });
         events.finish();
+        if let Some(error) = lost {
+            events.warn(&format!("{error}; {}", no_pictures(folder.path())));
+        }
         Ok(scored?)
     }
 }

@@ -56,7 +56,10 @@ impl Viewer {
             }
         }
         let warnings = missing.into_iter().map(|what| {
-            format!("{what} missing; `fovqa run EXPERIMENT --resume` takes them again")
+            format!(
+                "{what} missing; `fovqa run EXPERIMENT --output {} --resume` takes them again",
+                folder.display()
+            )
         });
         let mut warnings: Vec<String> = warnings.collect();
         if scenes.is_empty() {

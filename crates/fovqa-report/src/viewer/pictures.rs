@@ -1,13 +1,15 @@
 //! The pictures and maps of one frame.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use fovqa_params::Words;
 use fovqa_results::{
-    ChosenFrame, FrameImages, FrameRecord, FrameView, TestRecord, ViewImages, read_record,
+    ChosenFrame, FrameImages, FrameRecord, FrameView, TestRecord, ViewImages, open_result_file,
+    read_record,
 };
 use fovqa_vision::{Eccentricity, View};
 
@@ -15,6 +17,9 @@ use super::data::{FrameData, Line, PictureData, RingData, TestData, TestMap};
 use super::frame_scores::{FrameScores, Scores};
 use super::number::{Number, hundredths};
 use crate::page::address;
+
+/// Maximum size of a picture on the page in bytes.
+const MOST_BYTES: u64 = 1 << 30;
 
 /// The pictures of a frame. What is missing is left out and named.
 pub(super) fn frame(
@@ -27,7 +32,7 @@ pub(super) fn frame(
     let images = FrameImages::new(folder, &view.scene, view.eye, chosen.frame);
     let beside = FrameImages::new(Path::new(""), &view.scene, view.eye, chosen.frame);
     let picture = |small: PathBuf, full: PathBuf| {
-        let bytes = std::fs::read(small).ok().filter(|bytes| !bytes.is_empty())?;
+        let bytes = whole_webp(&small)?;
         let src = format!("data:image/webp;base64,{}", BASE64_STANDARD.encode(bytes));
         Some(PictureData { src, full: link(&full) })
     };
@@ -74,6 +79,15 @@ pub(super) fn frame(
         reference,
         tests,
     })
+}
+
+/// The bytes of a WebP file; `None` if it is missing or was not written to its end.
+fn whole_webp(path: &Path) -> Option<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open_result_file(path).ok()?.take(MOST_BYTES).read_to_end(&mut bytes).ok()?;
+    let length =
+        bytes.strip_prefix(b"RIFF")?.first_chunk().map(|size| u32::from_le_bytes(*size))?;
+    (length as usize + 8 == bytes.len()).then_some(bytes)
 }
 
 /// The address of a file beside the page.

@@ -133,7 +133,7 @@ function buildFramesList(metric) {
   const hasPictures = new Set(pictured.map(({ frame }) => frame));
   const ranked = sequence.frames.map((frame, at) => ({ frame, at, mean: meanOverMethods(sequence.metrics[metric], at) }));
   ranked.sort((one, other) => byRank(one.mean * worstFirst, other.mean * worstFirst) || one.at - other.at);
-  byId("frames-heading").textContent = `Frames by ${metricLabel(metric)}, worst first`;
+  byId("frames-heading").textContent = `Frames by ${metricLabel(metric)} (mean of all methods), worst first`;
   byId("frames-list").replaceChildren(...ranked.map(({ frame, mean }) => {
     const mark = element("span", { className: "viewer-mark", textContent: hasPictures.has(frame) ? "▲" : "" });
     mark.setAttribute("aria-hidden", "true");

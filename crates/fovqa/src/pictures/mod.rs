@@ -10,4 +10,4 @@ mod retake;
 
 pub(crate) use folders::{clear_pictures, copy_pictures};
 pub(crate) use recorder::Pictures;
-pub(crate) use retake::{Taking, take_missing};
+pub(crate) use retake::{Taking, no_pictures, take_missing};

@@ -1,7 +1,7 @@
 //! Writes pictures of frames, their maps, and what the page holds of them.
 
 use std::fs;
-use std::io;
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use fovqa_engine::{EngineError, Entry, Finished, Named, PicturePair};
@@ -9,7 +9,8 @@ use fovqa_frame::Frame;
 use fovqa_io::{FrameFormat, encode_frame};
 use fovqa_metrics::Map;
 use fovqa_results::{
-    FrameImages, FrameRecord, FrameView, TestRecord, make_folder, read_record, take_away,
+    FrameImages, FrameRecord, FrameView, TestRecord, make_folder, open_result_file, read_record,
+    take_away,
 };
 use fovqa_vision::Seen;
 use rayon::prelude::*;
@@ -56,10 +57,7 @@ impl Pictures {
             images.test_on_page(named.method),
         ];
         record.size == self.size
-            && files
-                .into_iter()
-                .chain(maps)
-                .all(|path| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0))
+            && files.into_iter().chain(maps).all(|path| is_whole(&path).unwrap_or(false))
     }
 
     /// Removes the maps of a method's frame except those for which `is_kept` holds.
@@ -137,6 +135,22 @@ impl Pictures {
         let test = TestRecord { borders: pictures.borders.clone(), maps };
         fs::write(images.test_record(method), record_text(&test)?)
     }
+}
+
+/// Whether a picture, PNG or WebP, was written to its end.
+fn is_whole(path: &Path) -> io::Result<bool> {
+    const IEND_BYTES: i64 = 8;
+    let mut file = open_result_file(path).map_err(io::Error::other)?;
+    let bytes = file.metadata()?.len();
+    let mut word = [0; 4];
+    file.read_exact(&mut word)?;
+    if &word == b"RIFF" {
+        file.read_exact(&mut word)?;
+        return Ok(u64::from(u32::from_le_bytes(word)) + 8 == bytes);
+    }
+    file.seek(SeekFrom::End(-IEND_BYTES))?;
+    file.read_exact(&mut word)?;
+    Ok(&word == b"IEND")
 }
 
 /// A record as one line of JSON: long lists of positions are for programs alone.

@@ -9,7 +9,9 @@ use std::path::Path;
 use fovqa_engine::{Entry, Events, Findings, FoundInputs, FoundView, Named, Unit};
 use fovqa_metrics::Metric;
 use fovqa_plan::{Experiment, Eye, FrameChoice, MetricChoice, Plan, WantedPictures};
-use fovqa_results::{FileError, FrameImages, IMAGES_JSON, ImagesRecord, ViewImages, write_whole};
+use fovqa_results::{
+    FileError, FrameImages, IMAGES, IMAGES_JSON, ImagesRecord, ViewImages, make_folder, write_whole,
+};
 
 use super::chosen::chosen;
 use super::folders::{clear_pictures, keep_frames};
@@ -25,15 +27,24 @@ pub(crate) struct Taking<'a> {
 }
 
 /// Takes the pictures of the chosen frames that do not exist yet, writes the list of the frames, and
-/// removes the pictures of other frames. Pictures that cannot be taken are reported.
-///
-/// # Errors
-/// If the list cannot be written.
-pub(crate) fn take_missing(
-    taking: &Taking<'_>,
-    results: &Path,
-    pictures: &mut Pictures,
-) -> Result<(), FileError> {
+/// removes the pictures of other frames. What cannot be taken or written is reported: results do not
+/// depend on it.
+pub(crate) fn take_missing(taking: &Taking<'_>, results: &Path, pictures: &mut Pictures) {
+    if let Err(error) = take(taking, results, pictures) {
+        taking.events.warn(&format!("{error}; {}", no_pictures(results)));
+    }
+}
+
+/// What the user can do about pictures that could not be written.
+pub(crate) fn no_pictures(results: &Path) -> String {
+    format!(
+        "the page lacks pictures; mend {}, and `fovqa run EXPERIMENT --output {} --resume` takes them",
+        results.join(IMAGES).display(),
+        results.display()
+    )
+}
+
+fn take(taking: &Taking<'_>, results: &Path, pictures: &mut Pictures) -> Result<(), FileError> {
     let plan = &taking.experiment.plan;
     let record = chosen(plan, &taking.experiment.report, taking.findings);
     let units = taking.found.map(|found| missing(taking, &record, found, pictures));
@@ -42,14 +53,15 @@ pub(crate) fn take_missing(
         let write = &mut |entry: Entry<'_>| pictures.write(&entry);
         let none = Findings::default();
         if let Err(error) = fovqa_engine::score(&again, found, &units, none, &Silent, write) {
-            taking.events.warn(&format!("pictures for the report are missing: {error}"));
+            taking.events.warn(&format!("{error}; {}", no_pictures(results)));
         }
     }
     if taking.found.is_none() && lacks(taking, &record, pictures) {
-        taking.events.note(
-            "pictures of some frames for the report are missing; `fovqa run EXPERIMENT --output DIR --resume` \
-             with this folder takes them",
-        );
+        taking.events.note(&format!(
+            "pictures of some frames for the report are missing; `fovqa run EXPERIMENT --output {} --resume`, \
+             with the options of the shards, takes them",
+            results.display()
+        ));
     }
     drop_unscored(taking, &record, pictures)
         .map_err(|error| FileError::Write { path: results.join(IMAGES_JSON), error })?;
@@ -66,6 +78,8 @@ pub(crate) fn take_missing(
     let list = results.join(IMAGES_JSON);
     let text =
         record_text(&record).map_err(|error| FileError::Write { path: list.clone(), error })?;
+    let failed = |error| FileError::Write { path: list.clone(), error };
+    make_folder(&results.join(IMAGES)).map_err(failed)?;
     write_whole(&list, text.as_bytes())
 }
 
