@@ -164,10 +164,10 @@ fn the_divider_moves_by_drag_and_by_keys() {
     page.pointer("mouseMoved", [from[0] - 60.0, from[1]]);
     page.pointer("mouseReleased", [from[0] - 60.0, from[1]]);
     page.until(&format!("{AT} < {}", moved - 3.0));
-    const ZOOM: &str = "document.querySelector('#viewer-zoom').textContent";
-    let before = page.value(ZOOM);
+    let zoom = "document.querySelector('#viewer-zoom').textContent";
+    let before = page.value(zoom);
     page.click("#viewer-zoom-in");
-    page.until(&format!("{ZOOM} !== {before}"));
+    page.until(&format!("{zoom} !== {before}"));
 }
 
 #[test]
