@@ -31,6 +31,14 @@ fn names(name: &str, of: usize) -> Vec<String> {
 /// The run as a whole, and from so many shards; the exits of the shards.
 #[track_caller]
 pub(crate) fn divided(folder: &Folder, of: usize, code: i32) -> Vec<i32> {
+    let (codes, merged, _) = put_together(folder, of, code);
+    assert_same(&results(&folder.path(&merged)), &results(&folder.path("whole")), &merged);
+    codes
+}
+
+/// Scores an experiment as a whole and in shards, and merges them: the exit codes of the shards, the
+/// merged folder and what was said of it.
+pub(crate) fn put_together(folder: &Folder, of: usize, code: i32) -> (Vec<i32>, String, String) {
     if !folder.path("whole/run.json").exists() {
         assert_eq!(folder.run(&["run", "e.toml", "--output", "whole"]).code, code);
     }
@@ -41,8 +49,7 @@ pub(crate) fn divided(folder: &Folder, of: usize, code: i32) -> Vec<i32> {
     shards.reverse();
     let run = merge(folder, &shards, &merged);
     assert_eq!(run.code, code, "{}", run.stderr);
-    assert_same(&results(&folder.path(&merged)), &results(&folder.path("whole")), &merged);
-    codes
+    (codes, merged, run.stderr)
 }
 
 #[test]

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::{HEAD, METRICS, RMFR, SCENE, folder, number, table};
 use crate::runs::experiment_folder::{bytes, json, rows};
-use crate::runs::interrupted_runs::journal;
+use crate::runs::interrupted_runs::{assert_same, journal, results};
 use crate::runs::resume::{cuts, goes_on};
-use crate::runs::shards::divided;
+use crate::runs::shards::put_together;
 
 const GRID: &str = "[sweep]\n\"R.fx\" = [0.2, 0.4, 0.8]\n\"R.fy\" = [0.3, 0.6]\n";
 
@@ -159,7 +159,12 @@ fn a_sweep_is_the_same_wherever_it_is_divided() {
     let rest = "[[plot]]\nkind = \"optima\"\n[[plot]]\nkind = \"table\"\n";
     let folder = folder(&format!("{HEAD}{SCENE}{RMFR}{METRICS}{GRID}{rest}"));
     for of in [2, 5] {
-        assert_eq!(divided(&folder, of, 0), vec![0; of]);
+        let (codes, merged, said) = put_together(&folder, of, 0);
+        assert_eq!(codes, vec![0; of]);
+        // Which point is the best, and so which the report shows, no shard knows. The frames are needed.
+        assert!(said.contains("pictures of some frames for the report are missing"), "{said}");
+        folder.run(&["run", "e.toml", "--resume", "--output", &merged]).ok();
+        assert_same(&results(&folder.path(&merged)), &results(&folder.path("whole")), &merged);
     }
     goes_on(&folder, 0, &cuts(&journal(&folder, "whole"), "swept"), "2");
     for threads in ["1", "3"] {
