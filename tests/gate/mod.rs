@@ -5,6 +5,8 @@ mod baselines;
 mod calibration;
 pub(crate) mod experiments;
 mod outcomes;
+mod per_frame;
+mod places;
 mod reports;
 mod rules;
 mod values;

@@ -141,7 +141,7 @@ fn parse(xml: &str) -> Element {
 }
 
 #[test]
-fn junit_has_a_test_case_a_rule() {
+fn junit_has_a_test_case_a_check() {
     let folder = folder(false);
     let run = folder.run(&["gate", "e.toml", "--junit", "gate.xml"]);
     assert_eq!(run.code, 1, "{}", run.stderr);
@@ -152,13 +152,13 @@ fn junit_has_a_test_case_a_rule() {
     let counts = ["tests", "failures", "errors"].map(|count| suite.attribute(count).to_owned());
     assert_eq!(counts, ["4", "3", "0"]);
     let cases = suite.all("testcase");
-    assert_eq!(cases[0].attribute("name"), format!("psnr mean of m {NAME}"));
-    assert_eq!(cases[1].attribute("name"), format!("n {NAME}"));
+    let place = format!("s {NAME}, m {NAME}");
+    assert_eq!(cases[0].attribute("name"), format!("psnr mean of m {NAME}: {place}"));
+    assert_eq!(cases[1].attribute("name"), format!("n {NAME}: {place}"));
     assert_eq!(cases.len(), 4);
     assert!(cases[0].all("failure").is_empty() && cases[0].all("error").is_empty());
     let message = cases[1].all("failure")[0].attribute("message");
-    for words in [&format!("s {NAME}, m {NAME}: psnr min is "), ", below 90", "worst frame 1 with "]
-    {
+    for words in [&format!("s {NAME}, m {NAME}: psnr min is "), ", below 90", "; frame 1: psnr "] {
         assert!(message.contains(words), "{words}: {message}");
     }
 }
@@ -170,11 +170,11 @@ fn what_was_not_scored_is_an_error_in_junit() {
     assert_eq!(run.code, 3, "{}", run.stderr);
     let root = parse(&fs::read_to_string(folder.path("gate.xml")).unwrap());
     let suite = root.all("testsuite")[0];
-    // The rules that are of the method that is gone, and the line for the whole.
+    // The checks of the method that is gone, and the line for the whole.
     let errors = suite.all("error");
     assert_eq!((errors.len(), suite.attribute("errors")), (4, "4"));
-    assert_eq!((suite.all("failure").len(), suite.attribute("failures")), (0, "0"));
-    assert_eq!(suite.attribute("tests"), "5");
+    assert_eq!((suite.all("failure").len(), suite.attribute("failures")), (3, "3"));
+    assert_eq!(suite.attribute("tests"), "8");
     assert!(errors.iter().any(|error| error.attribute("message").contains("gone")));
     assert!(suite.all("testcase")[0].all("error").is_empty(), "a rule that holds");
     let text = fs::read_to_string(folder.path("gate.md")).unwrap();
@@ -296,6 +296,7 @@ fn json_has_the_documented_keys() {
             "baseline",
             "eye",
             "limit",
+            "losses",
             "margin",
             "method",
             "reason",

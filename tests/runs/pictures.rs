@@ -181,6 +181,21 @@ fn no_frames_no_pictures() {
 }
 
 #[test]
+fn a_damaged_list_of_pictures_costs_the_viewer_alone() {
+    let folder = Folder::new();
+    run(&folder, &sequence("[1]"), "out", &[]);
+    let before = fs::read(folder.path("out/report.html")).unwrap();
+    let list = fs::read(folder.path("out/images/images.json")).unwrap();
+    folder.write("out/images/images.json", &list[..list.len() / 2]);
+    let words = ["images.json", "the page has no viewer", "--resume"];
+    folder.run(&["report", "out"]).ok().says(&words);
+    let page = fs::read_to_string(folder.path("out/report.html")).unwrap();
+    assert!(!page.contains("viewer-data") && page.contains("id=\"conditions\""));
+    run(&folder, &sequence("[1]"), "out", &["--resume"]);
+    assert!(fs::read(folder.path("out/report.html")).unwrap() == before);
+}
+
+#[test]
 fn shards_bring_their_pictures_and_the_others_are_named() {
     let folder = Folder::new();
     folder.write("s.toml", of_length(26, "[\"first\", \"worst\", 6]"));

@@ -14,13 +14,14 @@ pub(crate) enum Dialect {
 }
 
 /// Setting, option, and key.
-const SETTINGS: [(&str, &str, &str); 23] = [
+const SETTINGS: [(&str, &str, &str); 24] = [
     ("allow_missing", "--allow-missing", "allow_missing = true"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),
     ("alpha=over-black", "--alpha over-black", "alpha = \"over-black\""),
     ("baseline", "--baseline", "--baseline"),
     ("buffer", "--buffer", "--buffer"),
     ("crop", "--crop X,Y,W,H", "crop = [X, Y, W, H]"),
+    ("experiment", "--frames=EXPERIMENT", "--frames=EXPERIMENT"),
     ("fps", "--fps", "fps"),
     ("frames", "--frames A..B", "frames = \"A..B\" (or --frames A..B)"),
     ("gaze", "X,Y", "[X, Y]"),

@@ -36,6 +36,8 @@ pub struct Experiment {
     pub report: ReportSettings,
     /// The rules of its gate.
     pub gates: Vec<GateRule>,
+    /// The baselines of its gate, of which the best match counts.
+    pub baselines: Vec<PathBuf>,
 }
 
 impl Experiment {

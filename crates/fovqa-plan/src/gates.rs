@@ -72,11 +72,22 @@ pub struct Quantity {
     /// Lower and upper edge of the band in degrees; `None` for the whole frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub band_deg: Option<[f64; 2]>,
-    /// How the values of frames become one value; `None` for a value of the whole sequence.
+    /// How the values of frames become one value; `None` for a value of the whole sequence, and for the
+    /// values of single frames.
     pub aggregate: Option<Aggregate>,
+    /// Whether each frame has to keep the rule.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub per_frame: bool,
 }
 
 impl Quantity {
+    /// The statistic of a whole sequence that FovVideoVDP has.
+    pub const JOD: &str = "jod";
+    /// The statistic of FovVideoVDP that single frames have.
+    pub const FRAME_JOD: &str = "frame_jod";
+    /// The statistic of a whole sequence of metrics that pool their frames.
+    pub const POOLED: &str = "pooled";
+
     /// A metric's own value over the frames.
     pub fn of(metric: Metric, aggregate: Aggregate) -> Self {
         Self {
@@ -86,13 +97,29 @@ impl Quantity {
             level: None,
             band_deg: None,
             aggregate: Some(aggregate),
+            per_frame: false,
         }
     }
 
     /// FovVideoVDP of the sequence.
     pub fn jod() -> Self {
         let metric = Metric::Fvvdp;
-        Self { statistic: "jod".to_owned(), aggregate: None, ..Self::of(metric, Aggregate::Mean) }
+        Self {
+            statistic: Self::JOD.to_owned(),
+            aggregate: None,
+            ..Self::of(metric, Aggregate::Mean)
+        }
+    }
+
+    /// The values of single frames that this value describes.
+    pub fn of_frames(&self) -> Self {
+        let statistic = match self.statistic.as_str() {
+            Self::JOD => Self::FRAME_JOD,
+            Self::POOLED => "",
+            statistic => statistic,
+        };
+        let statistic = statistic.to_owned();
+        Self { statistic, aggregate: None, per_frame: true, ..self.clone() }
     }
 
     /// Whether higher or lower values are better.
@@ -122,6 +149,9 @@ impl fmt::Display for Quantity {
         }
         if let Some(aggregate) = self.aggregate {
             write!(f, " {aggregate}")?;
+        }
+        if self.per_frame {
+            f.write_str(" per frame")?;
         }
         if let Some(level) = self.level {
             write!(f, ", level {level}")?;
@@ -263,6 +293,8 @@ mod tests {
         };
         assert_eq!(haar.to_string(), "haar energy ratio p05, level 2");
         assert_eq!(Quantity::jod().to_string(), "fvvdp jod");
+        assert_eq!(Quantity::jod().of_frames().to_string(), "fvvdp frame_jod per frame");
+        assert_eq!(banded.of_frames().to_string(), "psnr per frame, 0° to 7.5°");
         assert_eq!((haar.better(), Quantity::jod().better()), (Better::Neither, Better::Higher));
     }
 }

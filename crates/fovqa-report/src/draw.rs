@@ -4,7 +4,9 @@
 use std::path::Path;
 
 use fovqa_plan::{Plot, PlotKind};
-use fovqa_results::{CsvNames, RUN_JSON, RUN_SCHEMA, RunRecord, check_files, read_json_file};
+use fovqa_results::{
+    CsvNames, RUN_JSON, RUN_SCHEMA, RunRecord, check_files, kept_verdict, read_json_file,
+};
 
 use crate::band_spread::BandSpread;
 use crate::budgets::budgets;
@@ -13,7 +15,7 @@ use crate::figures::{Source, default_plots, ratio_tables, slug};
 use crate::frame_values::FrameValues;
 use crate::latex::usual_label;
 use crate::overview::Overview;
-use crate::page::{PageInputs, forward, run_page};
+use crate::page::{PageInputs, PageVerdict, forward, run_page};
 use crate::plain_table::PlainTable;
 use crate::plot_figures::plot_figures;
 use crate::run_table::RunTable;
@@ -90,18 +92,26 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
 
     let figures = drawn.len();
     let viewer = Viewer::read(&source, folder)?;
+    // The page has everything else if the verdict is damaged.
+    let (verdict, damaged) = match kept_verdict(folder) {
+        Ok(verdict) => (verdict, None),
+        Err(error) => (None, Some(format!("{error}; `fovqa gate` writes the verdict again"))),
+    };
     let sheet = Sheet {
         tables: tables.iter().map(|(name, table)| files_of(name, table)).collect(),
         figures: drawn,
         page: Box::new(|figures| {
-            run_page((&run, &inputs), (&overview, &values), &tables, figures, viewer.json.clone())
+            let verdict = verdict.as_ref().map(|verdict| PageVerdict::of(verdict, folder));
+            let values = (&overview, &values, verdict);
+            run_page((&run, &inputs), values, &tables, figures, viewer.json.clone())
         }),
         forward: Some(forward(&run.resolved.name)),
         names: csv_names,
     };
     let of_figures = sheet.write(folder)?;
     drop(sheet);
-    let warnings = warning.into_iter().chain(of_figures).chain(viewer.warnings).collect();
+    let warnings = warning.into_iter().chain(of_figures).chain(viewer.warnings).chain(damaged);
+    let warnings = warnings.collect();
     let table = tables.into_iter().next().map(|(_, table)| table);
     Ok(Drawn { table, figures, warnings })
 }

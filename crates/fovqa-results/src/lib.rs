@@ -23,7 +23,8 @@ mod summary;
 mod table;
 
 pub use baseline::{
-    BASELINE_SCHEMA, Baseline, BaselineComparison, Difference, InputGroup, MetricRecord,
+    BASELINE_SCHEMA, Baseline, BaselineComparison, Difference, FrameRecords, InputGroup,
+    MetricRecord,
 };
 pub use both_eyes::both_eyes;
 pub use checksums::{Checksums, check_files, checksums};
@@ -38,8 +39,11 @@ pub use files::{
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{
-    Calibration, Check, ComparisonName, FoundValue, GATE_SCHEMA, Lacking, Limit, Outcome, Proposal,
-    RuleVerdict, RunValues, State, Verdict, calibrate, write_verdict_json,
+    BandLoss, BandRecord, Calibration, Check, CheckRecord, Compared, ComparisonName, FoundValue,
+    FrameCheck, FrameCheckRecord, GATE, GATE_SCHEMA, Lacking, Limit, Loss, LossPicture, LossRecord,
+    Outcome, PictureRecord, Place, PlaceRecord, Proposal, RuleRecord, RuleVerdict, RunValues,
+    State, Verdict, VerdictRecord, calibrate, keep_verdict, kept_verdict, verdict_file,
+    write_verdict_json,
 };
 pub use inputs::{Identity, Input, Inputs};
 pub use json::{

@@ -12,12 +12,14 @@ use fovqa_results::{
 };
 
 use crate::error::Error;
+use crate::gate::clear_gate;
 
 /// Removes the results of an earlier run, so that they cannot be mistaken for the results of this
 /// one.
 pub(crate) fn clear(folder: &ResultsFolder) -> Result<(), Error> {
     folder.clear().map_err(|error| in_folder(&error))?;
     fovqa_report::clear(folder.path());
+    clear_gate(folder.path());
     Ok(())
 }
 
@@ -26,6 +28,9 @@ pub(crate) fn in_folder(error: &FolderError) -> Error {
     Error::input(error.to_string(), error.help())
 }
 
+/// What is done with a folder that has its results, before the report is made.
+pub(crate) type Judge<'a> = dyn FnMut(&ResultsFolder) -> Result<(), Error> + 'a;
+
 /// Writes the results and the report. Returns the number of errors and what the report contains.
 /// Reports the items that could not be scored.
 pub(crate) fn finish(
@@ -33,6 +38,7 @@ pub(crate) fn finish(
     results: RunResults,
     folder: &ResultsFolder,
     events: &dyn Events,
+    judge: &mut Judge<'_>,
 ) -> Result<(usize, Drawn), Error> {
     let failures = results.comparisons.iter().flat_map(|comparison| {
         let eye = Some(comparison.eye).filter(|eye| !eye.is_empty());
@@ -44,6 +50,7 @@ pub(crate) fn finish(
     if let Err(error) = write(experiment, results, folder.path()) {
         return Err(Error::input(error.to_string(), NO_SPACE));
     }
+    judge(folder)?;
     let drawn = fovqa_report::draw(folder.path()).map_err(|error| {
         if error.is_of_settings() {
             Error::usage(error.to_string(), FIT)

@@ -1,74 +1,168 @@
-//! A gate checks the values of a run against the rules of an experiment.
+//! A gate checks the values of a run against the rules of an experiment, and shows where it got worse.
+
+mod baselines;
+mod clear;
+mod locate;
+mod places;
+mod sheets;
 
 use std::path::{Path, PathBuf};
 
-use fovqa_engine::{Events, Given};
-use fovqa_plan::{Experiment, GateRule, Resolved};
-use fovqa_results::{Baseline, Calibration, Lacking, Verdict, calibrate as proposals};
+use fovqa_engine::{Events, FoundInputs, Given, Locking, ResultsFolder};
+use fovqa_plan::{Experiment, GateRule, Plan};
+use fovqa_results::{Calibration, Lacking, Verdict, calibrate as proposals, keep_verdict};
 
 use crate::error::Error;
-use crate::finish::text_hash;
+use crate::finish::{in_folder, text_hash};
 use crate::finished_run::FinishedRun;
+use crate::reopened::reopen;
 use crate::run::{Run, RunOptions};
+use baselines::{Baselines, Named};
+use locate::{Site, locate};
 
-/// Scores an experiment and checks the values against its rules and, if one is given, against a
-/// baseline. `file` is the name of the experiment file in the verdict.
+pub(crate) use clear::clear_gate;
+
+/// Scores an experiment and checks the values against its rules and, if there are any, against baselines,
+/// of which the best match counts: `baselines`, or else those that the experiment names. The verdict is
+/// kept in the results folder, with pictures of the frames that failed rules point at, and is the first
+/// part of the page. The name of the experiment file in the verdict is that of the experiment.
 ///
 /// # Errors
-/// If there are no rules, a rule needs a baseline and none is given, the values of the baseline
-/// were computed under other conditions, or the run is not possible. Frames that could not be
-/// scored are reported and are part of the verdict.
+/// If there are no rules, a rule needs a baseline and none is given, the values of no baseline were
+/// computed under the same conditions, or the run is not possible. Frames that could not be scored are
+/// reported and are part of the verdict.
 pub fn gate(
     experiment: Experiment,
     options: RunOptions,
-    baseline: Option<&Path>,
+    baselines: &[PathBuf],
     given: &Given,
     events: &dyn Events,
 ) -> Result<Verdict, Error> {
     let file = experiment.path.clone();
-    check(&experiment.gates, &file, baseline)?;
+    let baselines =
+        if baselines.is_empty() { experiment.baselines.clone() } else { baselines.into() };
+    check(&experiment.gates, &file, &baselines)?;
     let run = Run::new(experiment, options, given)?;
-    // The baseline is checked before anything is scored.
-    let baseline = fitting(baseline, &run.experiment().resolved())?;
-    let scored = run.start(events)?;
+    // The baselines are checked before anything is scored.
+    let baselines = Baselines::read(&baselines, &run.experiment().resolved())?;
+    let plan = run.experiment().plan.clone();
+    let mut verdict = None;
+    let scored = run.start_judged(events, &mut |folder| {
+        let finished = FinishedRun::read(folder.path())?;
+        let (judged, named) = judge(&finished, &file.display().to_string(), &baselines);
+        let found = || Ok((plan.clone(), fovqa_engine::find(&plan, given)));
+        verdict = Some(show(judged, named, folder, found, events));
+        Ok(())
+    })?;
     events.note(&scored.in_words());
     if let Some(errors) = scored.errors_in_words() {
         events.failure(&errors, "");
     }
-    let finished = FinishedRun::read(&scored.folder)?;
-    Ok(judge(&finished, &file.display().to_string(), baseline.as_ref()))
+    verdict.ok_or_else(|| Error::input("the run has no results", "run the experiment again"))
 }
 
-/// Checks the values of a finished run against its rules.
+/// Checks the values of a finished run against its rules, and adds the verdict to its folder as [`gate`]
+/// does. If the folder cannot be written to, the verdict is only returned, and a warning says so. `baselines`
+/// are used, or else those that the experiment file names if it is found as it was.
 ///
 /// # Errors
 /// See [`gate`]. It is also an error if the folder contains no finished run.
-pub fn gate_folder(folder: &Path, baseline: Option<&Path>) -> Result<Verdict, Error> {
+pub fn gate_folder(
+    folder: &Path,
+    baselines: &[PathBuf],
+    locking: Locking,
+    events: &dyn Events,
+) -> Result<Verdict, Error> {
     let finished = FinishedRun::read(folder)?;
     let resolved = &finished.record.resolved;
     let file = folder.join(&finished.record.experiment.file);
-    check(&resolved.gates, &file, baseline)?;
-    let baseline = fitting(baseline, resolved)?;
-    Ok(judge(&finished, &finished.record.experiment.file, baseline.as_ref()))
+    let named = || reopen(folder, &finished.record, None).ok().map(|run| run.experiment.baselines);
+    let baselines = match baselines {
+        [] => named().unwrap_or_default(),
+        given => given.to_vec(),
+    };
+    check(&resolved.gates, &file, &baselines)?;
+    let baselines = Baselines::read(&baselines, resolved)?;
+    let (verdict, named) = judge(&finished, &finished.record.experiment.file, &baselines);
+    let opened = match ResultsFolder::open(folder, locking) {
+        Ok(opened) => opened,
+        Err(error) => {
+            let error = in_folder(&error);
+            events.warn(&format!("the verdict is not added to the page: {error}"));
+            return Ok(verdict);
+        }
+    };
+    let found = || {
+        let run = reopen(folder, &finished.record, None)?;
+        Ok((run.experiment.plan, run.found))
+    };
+    let verdict = show(verdict, named, &opened, found, events);
+    match fovqa_report::draw(folder) {
+        Ok(drawn) => drawn.warnings.iter().for_each(|warning| events.warn(warning)),
+        Err(error) => events.warn(&format!("the verdict is not added to the page: {error}")),
+    }
+    Ok(verdict)
 }
 
-fn judge(finished: &FinishedRun, file: &str, baseline: Option<&Baseline>) -> Verdict {
+fn judge<'a>(
+    finished: &FinishedRun,
+    file: &str,
+    baselines: &'a Baselines,
+) -> (Verdict, Option<&'a Named>) {
     let resolved = &finished.record.resolved;
-    let names = (resolved.name.as_str(), file);
-    let mut verdict = Verdict::of(names, &resolved.gates, &finished.values, baseline);
+    let (mut verdict, named) = baselines.judge(resolved, file, &finished.values);
     verdict.notes.extend(finished.warning.clone());
-    if let Some(baseline) = baseline {
-        let other = baseline.other_inputs(&finished.record, &text_hash).into_iter();
+    if let Some(named) = named {
+        let other = named.baseline.other_inputs(&finished.record, &text_hash).into_iter();
         verdict.notes.extend(other.map(|folder| {
             let folder = if folder.is_empty() { ".".to_owned() } else { folder };
             format!("the inputs in {folder} differ from those of the baseline")
         }));
     }
+    (verdict, named)
+}
+
+/// Looks at the frames that a verdict names, and keeps it with its pictures in the results folder. What
+/// cannot be looked at or written is reported: the verdict does not depend on it.
+fn show(
+    mut verdict: Verdict,
+    named: Option<&Named>,
+    folder: &ResultsFolder,
+    found: impl FnOnce() -> Result<(Plan, FoundInputs), Error>,
+    events: &dyn Events,
+) -> Verdict {
+    clear_gate(folder.path());
+    let checks = verdict.rules.iter().flat_map(|rule| &rule.checks);
+    if checks.flat_map(|check| &check.losses).next().is_some() {
+        let good = named.map_or(Ok(None), Named::frames).unwrap_or_else(|why| {
+            events.warn(&why);
+            None
+        });
+        match found() {
+            Ok((plan, found)) => {
+                let (plan, found, results) = (&plan, &found, folder.path());
+                let site = Site { plan, found, results, good: good.as_ref() };
+                let located = locate(&mut verdict, &site);
+                verdict.shown_in = Some(results.display().to_string());
+                match located {
+                    Ok(true) => {}
+                    Ok(false) => events.note("only the first frames with a loss are looked at"),
+                    Err(error) => {
+                        events.warn(&format!("frames with a loss are not shown: {error}"))
+                    }
+                }
+            }
+            Err(error) => events.warn(&format!("frames with a loss are not shown: {error}")),
+        }
+    }
+    if let Err(error) = keep_verdict(folder.path(), &verdict) {
+        events.warn(&format!("the verdict is not added to the page: {error}"));
+    }
     verdict
 }
 
 /// Checks that there are rules, and that a baseline is given if they need one.
-fn check(rules: &[GateRule], file: &Path, baseline: Option<&Path>) -> Result<(), Error> {
+fn check(rules: &[GateRule], file: &Path, baselines: &[PathBuf]) -> Result<(), Error> {
     let file = file.display();
     if rules.is_empty() {
         let message =
@@ -77,27 +171,14 @@ fn check(rules: &[GateRule], file: &Path, baseline: Option<&Path>) -> Result<(),
         return Err(Error::usage(message, help));
     }
     if let Some(rule) = rules.iter().find(|rule| rule.needs_baseline())
-        && baseline.is_none()
+        && baselines.is_empty()
     {
         let message =
             format!("{file}:{}: the rule for {} needs a baseline", rule.line, rule.quantity);
-        let help = "give one with {baseline}; `fovqa baseline save` makes one";
+        let help = "give one with {baseline}, or name it in the experiment: baseline = \"nightly.baseline.json\"; `fovqa baseline save` makes one";
         return Err(Error::usage(message, help));
     }
     Ok(())
-}
-
-/// Reads the baseline, if one is given, and checks that it fits the run.
-fn fitting(path: Option<&Path>, run: &Resolved) -> Result<Option<Baseline>, Error> {
-    let Some(path) = path else { return Ok(None) };
-    let baseline = Baseline::read(path).map_err(|error| {
-        Error::input(error.to_string(), "`fovqa baseline save` makes a baseline from a run")
-    })?;
-    let Some(why) = baseline.refuses(run) else { return Ok(Some(baseline)) };
-    let file = path.display();
-    let message = format!("{file}: the baseline's values were measured differently: {why}");
-    let help = "run the experiment, look at the results, and update the baseline with `fovqa baseline accept`";
-    Err(Error::input(message, help))
 }
 
 /// Proposes limits for the rules of an experiment, from the variation between repeated runs of one

@@ -77,12 +77,13 @@ mod memory;
 mod merge;
 mod pair;
 mod pictures;
+mod reopened;
 mod report;
 mod run;
 mod samples;
 mod score;
 
-pub use baseline::{Accepted, accept_baseline, read_baseline, save_baseline};
+pub use baseline::{Accepted, Frames, Saved, accept_baseline, read_baseline, save_baseline};
 pub use curves::curves;
 pub use error::{Complaint, Error};
 pub use events::Silent;

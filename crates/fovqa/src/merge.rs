@@ -56,7 +56,7 @@ pub fn merge(
     let results = results(plan, events, findings);
     let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
     let scored = own.map(|comparison| comparison.report.frames.len()).sum();
-    let (errors, drawn) = finish(&experiment, results, &folder, events)?;
+    let (errors, drawn) = finish(&experiment, results, &folder, events, &mut |_| Ok(()))?;
     Ok(Finished { folder: folder.path().to_owned(), scored, errors, drawn: Some(drawn) })
 }
 

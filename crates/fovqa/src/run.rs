@@ -14,7 +14,7 @@ use fovqa_results::{HAS_PARQUET, table_file};
 
 use crate::crops::Crops;
 use crate::error::{Complaint, Error};
-use crate::finish::{clear, finish, in_folder, say_failures_of_shard};
+use crate::finish::{Judge, clear, finish, in_folder, say_failures_of_shard};
 use crate::foreseen_figures::foresee_figures_of_run;
 use crate::kept_frames::{KeptFrames, check_inputs};
 use crate::maps::{MapsFolder, maps_lacking};
@@ -142,6 +142,15 @@ impl Run {
     /// If the results or the figures cannot be written. Items that could not be scored are reported
     /// and counted.
     pub fn start(self, events: &dyn Events) -> Result<Finished, Error> {
+        self.start_judged(events, &mut |_| Ok(()))
+    }
+
+    /// As [`Run::start`]; calls `judge` when the results are written, before the report is made.
+    pub(crate) fn start_judged(
+        self,
+        events: &dyn Events,
+        judge: &mut Judge<'_>,
+    ) -> Result<Finished, Error> {
         foresee_figures_of_run(&self.experiment, &self.found, events)?;
         let folder = self.options.output.clone().unwrap_or_else(|| self.default_folder());
         check_inputs(&self.experiment.plan, &self.found, &folder)?;
@@ -181,7 +190,7 @@ impl Run {
         let results = results(plan, events, findings);
         let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
         let scored = own.map(|comparison| comparison.report.frames.len()).sum();
-        let (errors, drawn) = finish(&self.experiment, results, &folder, events)?;
+        let (errors, drawn) = finish(&self.experiment, results, &folder, events, judge)?;
         Ok(Finished { folder: path, scored, errors, drawn: Some(drawn) })
     }
 

@@ -1,14 +1,16 @@
 //! `fovqa baseline`.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
+use fovqa::Frames;
 
 pub(crate) const EXAMPLES: &str = "\
 A baseline is a small JSON file with the values of a run, meant to be kept in git:
 
   fovqa run nightly.toml
-  fovqa baseline save reports/nightly nightly.baseline.json
+  fovqa baseline save reports/nightly nightly.baseline.json --frames
   fovqa gate nightly.toml --baseline nightly.baseline.json
   fovqa baseline accept reports/nightly nightly.baseline.json --scene bistro";
 
@@ -28,6 +30,28 @@ pub(crate) struct SaveArgs {
     pub(crate) results: PathBuf,
     /// The baseline file to write
     pub(crate) baseline: PathBuf,
+    #[command(flatten)]
+    pub(crate) frames: FramesArg,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FramesArg {
+    /// Also keep reduced pictures and maps of all frames, in a folder beside the baseline: a gate that
+    /// fails then shows what has changed. They are read again, with the experiment file EXPERIMENT
+    /// [default: looked for near the working directory and the results]
+    #[arg(long, value_name = "EXPERIMENT", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    frames: Option<OsString>,
+}
+
+impl FramesArg {
+    pub(crate) fn frames(&self) -> Frames {
+        match &self.frames {
+            None => Frames::None,
+            Some(file) => {
+                Frames::Kept(Some(file).filter(|file| !file.is_empty()).map(PathBuf::from))
+            }
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -43,9 +67,11 @@ pub(crate) struct AcceptArgs {
     /// The baseline file to update
     pub(crate) baseline: PathBuf,
     /// Only the values of this scene; may be given several times [default: all]
-    #[arg(long = "scene", value_name = "NAME")]
+    #[arg(long = "scene", value_name = "NAME", conflicts_with = "frames")]
     pub(crate) scenes: Vec<String>,
     /// Only show what differs
     #[arg(long)]
     pub(crate) dry_run: bool,
+    #[command(flatten)]
+    pub(crate) frames: FramesArg,
 }

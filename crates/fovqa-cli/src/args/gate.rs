@@ -52,10 +52,11 @@ pub(crate) enum Annotations {
 pub(crate) struct GateArgs {
     /// The experiment file, whose frames are then scored, or the folder of a finished run
     pub(crate) target: PathBuf,
-    /// Baseline that max_drop and max_rise compare with
+    /// Baseline that max_drop and max_rise compare with; of several, the best match counts [default:
+    /// those that the experiment names]
     #[arg(long, value_name = "FILE")]
-    pub(crate) baseline: Option<PathBuf>,
-    /// Write the verdict as JUnit XML, with one test case per rule
+    pub(crate) baseline: Vec<PathBuf>,
+    /// Write the verdict as JUnit XML, with one test case per check: rule, scene, method and eye
     #[arg(long, value_name = "FILE")]
     pub(crate) junit: Option<PathBuf>,
     /// Write the verdict as Markdown

@@ -426,7 +426,7 @@ const PLOT: &[Key] = &[
 const ALLOWANCE: Kind = Kind::Either(&[Kind::Number(0.0, 1e12), Kind::Text]);
 const LIMIT: Kind = Kind::Number(-1e12, 1e12);
 
-static GATE_TABLE: [Key; 14] = [
+static GATE_TABLE: [Key; 15] = [
     required("metric", Kind::Metric, "the metric"),
     key("name", Kind::Name, "name of the rule in verdicts"),
     key(
@@ -444,6 +444,11 @@ static GATE_TABLE: [Key; 14] = [
         "aggregate",
         Kind::Text,
         "how frames become one value: mean (the default), min, max, p01 to p99",
+    ),
+    key(
+        "per_frame",
+        Kind::Bool,
+        "hold each frame against the limits, and against the same frame of the baseline; default: false",
     ),
     key("scene", Kind::Name, "only this scene; default: each scene"),
     key("method", Kind::Name, "only this method; default: each method"),
@@ -481,7 +486,7 @@ pub(crate) const SWEEP_RANGE: &[Key] = &[
 
 const FINITE: Kind = Kind::Number(-1e12, 1e12);
 
-static EXPERIMENT_TABLE: [Key; 16] = [
+static EXPERIMENT_TABLE: [Key; 17] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
     required("name", Kind::Name, "name of the experiment, and of its folder below reports/"),
     key("about", Kind::Text, "description of what it shows, for its page"),
@@ -514,6 +519,11 @@ static EXPERIMENT_TABLE: [Key; 16] = [
     ),
     key("figures", Kind::Table(&FIGURES), "how figures are printed"),
     key("gate", Kind::Tables(&GATE_TABLE, 1000), "the rules of `fovqa gate`"),
+    key(
+        "baseline",
+        Kind::Either(&[Kind::Text, Kind::List(&Kind::Text, 1, 100)]),
+        "baseline files of `fovqa gate`, such as one for each machine: the one that the run matches best counts",
+    ),
 ];
 
 /// The top-level keys of the file.

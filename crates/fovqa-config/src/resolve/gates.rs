@@ -1,6 +1,7 @@
 //! `[[gate]]`.
 
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use fovqa_metrics::{Better, Key, Metric, MetricKind, Pooling, Statistic, Subject};
 
@@ -33,6 +34,13 @@ pub(super) fn gates(
         }
     };
     rules.collect::<Vec<_>>().into_iter().flat_map(of_points).collect()
+}
+
+/// The baselines. Their paths are relative to the experiment file.
+pub(super) fn baselines(root: Node<'_>, base: &Path) -> Vec<PathBuf> {
+    let listed = root.names("baseline").unwrap_or_default();
+    let all = root.text("baseline").into_iter().chain(listed.into_iter().map(|(path, _)| path));
+    all.map(|path| base.join(path)).collect()
 }
 
 fn rule(
@@ -94,8 +102,28 @@ fn metric(table: Node<'_>, known: &Known<'_>, faults: &mut Faults) -> Option<Met
 fn quantity(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Faults) -> Quantity {
     let statistic = statistic(table, metric, known, faults);
     let image = image(table, metric, faults);
-    let whole = matches!((metric, statistic.as_str()), (Metric::Fvvdp, "jod") | (_, "pooled"));
+    let per_frame = table.flag("per_frame") == Some(true);
+    let whole = matches!(
+        (metric, statistic.as_str()),
+        (Metric::Fvvdp, Quantity::JOD) | (_, Quantity::POOLED)
+    );
+    if per_frame && whole {
+        let message =
+            format!("{statistic} describes the whole sequence and has no value per frame");
+        let help = if metric == Metric::Fvvdp {
+            "use statistic = \"frame_jod\", or leave out statistic"
+        } else {
+            "leave out statistic"
+        };
+        faults.push(Fault::new(table.span("statistic"), message).help(help));
+    }
     let aggregate = match table.text("aggregate") {
+        Some(word) if per_frame => {
+            let message = format!("with per_frame, each frame is checked, and there is no {word}");
+            let help = "leave out aggregate or per_frame";
+            faults.push(Fault::new(table.span("aggregate"), message).help(help));
+            None
+        }
         Some(word) if whole => {
             let message = format!("{statistic} describes the whole sequence and has no {word}");
             let help = if metric == Metric::Fvvdp {
@@ -115,7 +143,7 @@ fn quantity(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fau
             }
             aggregate
         }
-        None if whole => None,
+        None if whole || per_frame => None,
         // The aggregate of maxima is the maximum. A ratio is already computed from the largest
         // values.
         None if is_maximum(metric, &statistic) && image != "ratio" => Some(Aggregate::Max),
@@ -123,7 +151,15 @@ fn quantity(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fau
     };
     let level = level(table, metric, &statistic, known, faults);
     let band_deg = table.array("band_deg");
-    Quantity { metric: metric.key().to_owned(), statistic, image, level, band_deg, aggregate }
+    Quantity {
+        metric: metric.key().to_owned(),
+        statistic,
+        image,
+        level,
+        band_deg,
+        aggregate,
+        per_frame,
+    }
 }
 
 fn statistic(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Faults) -> String {
@@ -134,7 +170,12 @@ fn statistic(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fa
             let fault = Fault::new(table.span("metric"), "a gate on haar needs a statistic");
             faults.push(fault.help(format!("choose one of {}", quoted(allowed.iter().copied()))));
         }
-        return if metric == Metric::Fvvdp { "jod".to_owned() } else { String::new() };
+        let own = match (metric, table.flag("per_frame")) {
+            (Metric::Fvvdp, Some(true)) => Quantity::FRAME_JOD,
+            (Metric::Fvvdp, _) => Quantity::JOD,
+            _ => "",
+        };
+        return own.to_owned();
     };
     if !allowed.contains(&word) {
         let message = format!("{} has no statistic \"{word}\"", metric.key());
@@ -169,8 +210,8 @@ fn allowed(metric: Metric, orientations: bool) -> Vec<&'static str> {
         named && (orientations || !of_orientation(statistic.name))
     };
     let of_sequence = match metric {
-        Metric::Fvvdp => Some("jod"),
-        metric => metric.pools_frames().then_some("pooled"),
+        Metric::Fvvdp => Some(Quantity::JOD),
+        metric => metric.pools_frames().then_some(Quantity::POOLED),
     };
     let of_frames = metric.info().statistics.iter().filter(shown).map(|statistic| statistic.name);
     of_sequence.into_iter().chain(of_frames).collect()
@@ -299,7 +340,7 @@ fn bands(
         }
     }
     // The pooled value of all frames is computed from the metric's own value.
-    let statistic = if statistic == "pooled" { "" } else { statistic };
+    let statistic = if statistic == Quantity::POOLED { "" } else { statistic };
     let key = Key::named(Subject::Metric(metric), statistic);
     let apart = key.is_some_and(|key| key.statistic().bands == Pooling::None);
     if inside > 1 && apart {

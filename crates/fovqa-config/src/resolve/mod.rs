@@ -60,6 +60,7 @@ pub(crate) fn experiment(
         plots,
         figures,
         gates,
+        baselines: gates::baselines(root, &base),
         plan: Plan {
             base,
             scenes: scenes.into_iter().map(|scene| scene.scene).collect(),

@@ -12,6 +12,7 @@ mod run;
 mod shell;
 mod table;
 mod terms;
+mod verdict;
 
 pub(crate) use address::address;
 pub(crate) use alternative::in_words;
@@ -20,3 +21,4 @@ pub(crate) use forward::forward;
 pub(crate) use run::{PageInputs, run_page};
 pub(crate) use shell::Shell;
 pub(crate) use table::PageTable;
+pub(crate) use verdict::PageVerdict;

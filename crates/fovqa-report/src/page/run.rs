@@ -7,6 +7,7 @@ use super::conditions::Conditions;
 use super::figure::PageFigure;
 use super::shell::Shell;
 use super::table::PageTable;
+use super::verdict::PageVerdict;
 use crate::frame_values::FrameValues;
 use crate::overview::Overview;
 use crate::plain_table::grouped;
@@ -54,6 +55,8 @@ struct RunPage<'a> {
     counts: String,
     /// The files with all values.
     value_files: Vec<&'static str>,
+    /// The verdict of its gate.
+    verdict: Option<PageVerdict>,
     /// The parts of the page: their places and their names.
     parts: Vec<(String, String)>,
     conditions: Conditions,
@@ -73,7 +76,7 @@ struct RunPage<'a> {
 /// Makes the page of a run. `viewer` is the data of the viewer of frames as JSON.
 pub(crate) fn run_page(
     (run, inputs): (&RunRecord, &PageInputs),
-    (overview, values): (&Overview, &FrameValues),
+    (overview, values, verdict): (&Overview, &FrameValues, Option<PageVerdict>),
     tables: &[(String, RunTable)],
     figures: &[PageFigure<'_>],
     viewer: Option<String>,
@@ -93,7 +96,11 @@ pub(crate) fn run_page(
             count(scored, "frame"),
         ),
         value_files: value_files(run),
-        parts: parts(&first, figures, viewer.is_some(), &others),
+        parts: {
+            let verdict = verdict.iter().map(|_| ("verdict".to_owned(), "Verdict".to_owned()));
+            verdict.chain(parts(&first, figures, viewer.is_some(), &others)).collect()
+        },
+        verdict,
         conditions: Conditions::of(run, overview, values),
         errors: PageErrors {
             first: overview.errors.iter().take(MOST_ERRORS).map(in_words).collect(),

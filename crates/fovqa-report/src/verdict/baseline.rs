@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use fovqa_results::{Baseline, Difference};
 
-use super::number;
+use super::digits::number;
 use crate::text_table::{aligned, plain_table, printable};
 
 /// The contents of a baseline.

@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
-use fovqa_results::{State, Verdict};
+use fovqa_results::{Check, Loss, State, Verdict};
 
-use super::{limit, margin, number, outcome, place, worst};
+use super::{margin, outcome, place, value_and_limit, where_lines, worst};
 use crate::comparison::escaped_markdown;
+use crate::page::address;
 
 /// A heading with the outcome, a table of all checks, and the reasons of those that did not pass.
 pub fn markdown(verdict: &Verdict) -> String {
@@ -21,15 +22,13 @@ pub fn markdown(verdict: &Verdict) -> String {
     for rule in &verdict.rules {
         let title = escaped_markdown(&rule.title());
         for check in &rule.checks {
-            let bound = check.limit.as_ref();
+            let [value, limit] = value_and_limit(check);
             let _ = writeln!(
                 text,
-                "| {} | {title} | {} | {} | {} | {} | {} |",
+                "| {} | {title} | {} | {value} | {limit} | {} | {} |",
                 mark(check.outcome.state()),
                 escaped_markdown(&place(&check.place)),
-                check.value.map_or_else(|| "–".to_owned(), number),
-                bound.map(limit).unwrap_or_default(),
-                bound.map(margin).unwrap_or_default(),
+                check.limit.as_ref().map(margin).unwrap_or_default(),
                 worst(check),
             );
         }
@@ -41,16 +40,39 @@ pub fn markdown(verdict: &Verdict) -> String {
     let mut lines = Vec::new();
     for check in verdict.rules.iter().flat_map(|rule| &rule.checks) {
         if let Some(why) = check.outcome.reason() {
-            lines.push(format!("{}: {why}", place(&check.place)));
+            lines.push(escaped_markdown(&format!("{}: {why}", place(&check.place))));
+            let below = where_lines(check).into_iter();
+            lines.extend(below.map(|line| format!("  {}", escaped_markdown(&line))));
+            lines.extend(pictures(verdict, check));
         }
     }
-    lines.extend(verdict.errors.iter().map(|error| format!("not scored: {error}")));
-    lines.extend(verdict.notes.iter().cloned());
+    if let Some(baseline) = &verdict.baseline {
+        let baseline = escaped_markdown(baseline);
+        lines.push(format!("compared with {baseline}, the best match"));
+    }
+    let more = verdict.errors.iter().map(|error| format!("not scored: {error}"));
+    let more = more.chain(verdict.notes.iter().cloned());
+    lines.extend(more.map(|line| escaped_markdown(&line)));
     if !lines.is_empty() {
         text.push('\n');
     }
     for line in lines {
-        let _ = writeln!(text, "- {}", escaped_markdown(&line));
+        let indent = line.len() - line.trim_start().len();
+        let _ = writeln!(text, "{}- {}", &line[..indent], line.trim_start());
     }
     text
+}
+
+/// Links to the pictures of the frames with a loss.
+fn pictures(verdict: &Verdict, check: &Check) -> Vec<String> {
+    let Some(folder) = &verdict.shown_in else { return Vec::new() };
+    let losses = check.losses.iter().filter(|loss| !loss.pictures.is_empty());
+    let line = |loss: &Loss| {
+        let links = loss.pictures.iter().map(|picture| {
+            let address = address(&format!("{folder}/{}", picture.path));
+            format!("[{}]({address})", escaped_markdown(&picture.what))
+        });
+        format!("  frame {}: {}", loss.frame, links.collect::<Vec<_>>().join(", "))
+    };
+    losses.map(line).collect()
 }

@@ -3,7 +3,9 @@
 
 mod annotations;
 mod baseline;
+mod digits;
 mod junit;
+mod losses;
 mod markdown;
 mod terminal;
 
@@ -15,27 +17,35 @@ pub use terminal::verdict_table;
 
 use std::fmt::Write as _;
 
-use fovqa_results::{Check, ComparisonName, Limit, State, Verdict};
+use fovqa_results::{Check, CheckRecord, ComparisonName, Limit, LossRecord, State, Verdict};
 
-/// A value in the short form that verdicts show. The margin shows on which side of a limit the
-/// value is.
-fn number(value: f64) -> String {
-    if value.is_infinite() {
-        return if value > 0.0 { "inf" } else { "-inf" }.to_owned();
+use digits::{beside, number};
+
+pub(crate) use losses::place as place_in_words;
+
+/// Frames with a loss that a text tells about.
+const MOST_LOSSES: usize = 3;
+
+/// The value and the limit of a check, as they are shown; empty where there are none.
+fn value_and_limit(check: &Check) -> [String; 2] {
+    match (check.value, &check.limit) {
+        (Some(value), Some(limit)) => {
+            let sign = if limit.at_least { "≥" } else { "≤" };
+            let [value, limit] = beside(value, limit.value);
+            [value, format!("{sign} {limit}")]
+        }
+        (Some(value), None) => [number(value), String::new()],
+        (None, _) => ["–".to_owned(), String::new()],
     }
-    let short = if value != 0.0 && value.abs() < 0.01 {
-        format!("{value:.3e}")
-    } else {
-        format!("{value:.4}")
-    };
-    if short.parse::<f64>().is_ok_and(|back| back.to_bits() == value.to_bits()) {
-        return value.to_string();
-    }
-    short
 }
 
-fn limit(limit: &Limit) -> String {
-    format!("{} {}", if limit.at_least { "≥" } else { "≤" }, number(limit.value))
+/// A value and a limit as they are shown, as [`value_and_limit`] does for records.
+pub(crate) fn shown(value: Option<f64>, limit: Option<f64>) -> [String; 2] {
+    match (value, limit) {
+        (Some(value), Some(limit)) => beside(value, limit),
+        (Some(value), None) => [number(value), String::new()],
+        (None, _) => ["–".to_owned(), String::new()],
+    }
 }
 
 /// A margin with its sign. A margin that is too small for four digits is shown in full.
@@ -44,12 +54,29 @@ fn margin(limit: &Limit) -> String {
     format!("{sign}{}", number(limit.margin))
 }
 
+/// Where the losses of a check are: a line for each frame, after those that fail.
+fn where_lines(check: &Check) -> Vec<String> {
+    let record = CheckRecord::from(check);
+    let mut lines: Vec<String> = losses::frames(&record).into_iter().collect();
+    lines.extend(record.losses.iter().take(MOST_LOSSES).map(|loss| losses::place(&record, loss)));
+    if record.losses.len() > MOST_LOSSES {
+        lines.push(format!("{} more frames with a loss", record.losses.len() - MOST_LOSSES));
+    }
+    lines.extend(losses::late(&record).map(str::to_owned));
+    lines
+}
+
 fn place((scene, method, eye): &ComparisonName) -> String {
     let parts = [scene, method, eye].into_iter().filter(|part| !part.is_empty());
     parts.map(String::as_str).collect::<Vec<_>>().join(", ")
 }
 
+/// The frame that a reader looks at first: the one with the largest loss, or else the worst one.
 fn worst(check: &Check) -> String {
+    let loss = check.losses.first().filter(|_| check.frames.is_empty());
+    if let Some(loss) = loss.filter(|loss| check.worst.is_none_or(|worst| worst.0 != loss.frame)) {
+        return format!("{} ({} {})", loss.frame, loss.metric, number(loss.value));
+    }
     check.worst.map(|(frame, value)| format!("{frame} ({})", number(value))).unwrap_or_default()
 }
 
@@ -59,12 +86,20 @@ fn sentence(check: &Check) -> String {
     if let Some(reason) = check.outcome.reason() {
         text.push_str(": ");
         text.push_str(reason);
-    } else if let (Some(value), Some(bound)) = (check.value, &check.limit) {
-        let (value, margin) = (number(value), margin(bound));
-        let _ = write!(text, ": {value} {}, margin {margin}", limit(bound));
+    } else if let (Some(_), Some(bound)) = (check.value, &check.limit) {
+        let ([value, limit], margin) = (value_and_limit(check), margin(bound));
+        let _ = write!(text, ": {value} {limit}, margin {margin}");
     }
-    if let Some((frame, value)) = check.worst {
-        let _ = write!(text, "; worst frame {frame} with {}", number(value));
+    match check.losses.first() {
+        Some(loss) => {
+            let record = CheckRecord::from(check);
+            let _ = write!(text, "; {}", losses::place(&record, &LossRecord::from(loss)));
+        }
+        None => {
+            if let Some((frame, value)) = check.worst {
+                let _ = write!(text, "; worst frame {frame} with {}", number(value));
+            }
+        }
     }
     text
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use fovqa_results::Verdict;
 
-use super::{limit, margin, number, outcome, place, worst};
+use super::{margin, outcome, place, value_and_limit, where_lines, worst};
 use crate::text_table::{aligned, plain_table, printable};
 
 /// One row per rule and comparison, followed by the outcome.
@@ -14,13 +14,13 @@ pub fn verdict_table(verdict: &Verdict) -> String {
     for rule in &verdict.rules {
         let title = printable(&rule.title());
         for check in &rule.checks {
-            let bound = check.limit.as_ref();
+            let [value, limit] = value_and_limit(check);
             table.add_row([
                 title.clone(),
                 printable(&place(&check.place)),
-                check.value.map_or_else(|| "–".to_owned(), number),
-                bound.map(limit).unwrap_or_default(),
-                bound.map(margin).unwrap_or_default(),
+                value,
+                limit,
+                check.limit.as_ref().map(margin).unwrap_or_default(),
                 worst(check),
                 check.outcome.state().name().to_owned(),
             ]);
@@ -36,7 +36,16 @@ pub fn verdict_table(verdict: &Verdict) -> String {
         for check in rule.checks.iter().filter(|check| check.outcome.reason().is_some()) {
             let why = check.outcome.reason().unwrap_or_default();
             let _ = writeln!(text, "{}: {}", printable(&place(&check.place)), printable(why));
+            for line in where_lines(check) {
+                let _ = writeln!(text, "  {}", printable(&line));
+            }
         }
+    }
+    if let Some(folder) = &verdict.shown_in {
+        let _ = writeln!(text, "pictures: {}", printable(folder));
+    }
+    if let Some(baseline) = &verdict.baseline {
+        let _ = writeln!(text, "compared with {}, the best match", printable(baseline));
     }
     for error in &verdict.errors {
         let _ = writeln!(text, "not scored: {}", printable(error));

@@ -44,7 +44,20 @@ impl Viewer {
         if !list.is_file() || source.run.resolved.report.frames.is_empty() {
             return Ok(Self::default());
         }
-        let record: ImagesRecord = read_json_file(&list, IMAGES_SCHEMA, "a list of pictures")?;
+        let record: Result<ImagesRecord, _> =
+            read_json_file(&list, IMAGES_SCHEMA, "a list of pictures");
+        let record = match record {
+            Ok(record) => record,
+            // The page has everything else.
+            Err(error) => {
+                let warnings = vec![format!(
+                    "{error}; the page has no viewer, and `fovqa run EXPERIMENT --output {} --resume` \
+                     writes the list again",
+                    folder.display()
+                )];
+                return Ok(Self { json: None, warnings });
+            }
+        };
         let scores = FrameScores::read(folder, source.run, &record)?;
         let mut missing = BTreeSet::new();
         let mut scenes: Vec<SceneData> = Vec::new();

@@ -3,12 +3,22 @@
 
 mod aggregate;
 mod calibrate;
+mod files;
 mod json;
+mod loss;
 mod reading;
+mod series;
 mod values;
 mod verdict;
 
 pub use calibrate::{Calibration, Proposal, calibrate};
-pub use json::{GATE_SCHEMA, write_verdict_json};
+pub use files::{GATE, keep_verdict, kept_verdict, verdict_file};
+pub use json::{
+    BandRecord, CheckRecord, FrameCheckRecord, GATE_SCHEMA, LossRecord, PictureRecord, PlaceRecord,
+    RuleRecord, VerdictRecord, write_verdict_json,
+};
+pub(crate) use loss::own_difference;
+pub use loss::{BandLoss, Compared, Loss, LossPicture, Place};
+pub(crate) use series::Series;
 pub use values::{ComparisonName, FoundValue, Lacking, RunValues};
-pub use verdict::{Check, Limit, Outcome, RuleVerdict, State, Verdict};
+pub use verdict::{Check, FrameCheck, Limit, Outcome, RuleVerdict, State, Verdict};

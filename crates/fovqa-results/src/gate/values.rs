@@ -7,6 +7,7 @@ use fovqa_metrics::{Key, Metric, Parts, Pooling, Statistic, Subject, Weight, poo
 use fovqa_plan::{Aggregate, Quantity};
 
 use super::aggregate::aggregate;
+use super::series::Series;
 use crate::json::ComparisonSummary;
 use crate::samples::SampleSummary;
 
@@ -111,6 +112,47 @@ impl RunValues {
     pub fn of(&self, place: &ComparisonName, quantity: &Quantity) -> Result<FoundValue, Lacking> {
         let nothing = || Lacking::Nothing("there is no such comparison".to_owned());
         self.places.get(place).ok_or_else(nothing)?.of(quantity)
+    }
+}
+
+impl RunValues {
+    /// Whether a comparison has values of a metric's pairs.
+    pub(crate) fn has(&self, place: &ComparisonName, metric: Metric) -> bool {
+        let kind = (metric.key().to_owned(), String::new(), "pair".to_owned(), None);
+        self.places.get(place).is_some_and(|values| values.rows.contains_key(&kind))
+    }
+
+    /// The value of each frame that has one.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub(super) fn frames(
+        &self,
+        place: &ComparisonName,
+        quantity: &Quantity,
+    ) -> Result<Vec<(i64, f64)>, Lacking> {
+        let nothing = || Lacking::Nothing("there is no such comparison".to_owned());
+        self.places.get(place).ok_or_else(nothing)?.frames(quantity)
+    }
+
+    /// The values of single frames, with those of all bands; `None` if there are none.
+    pub(crate) fn series(&self, place: &ComparisonName, quantity: &Quantity) -> Option<Series> {
+        let frames = self.frames(place, quantity).ok()?.into_iter().collect();
+        let mut bands: Vec<([f64; 2], BTreeMap<i64, f64>)> = Vec::new();
+        let rows = self.places.get(place)?.rows.get(&kind(quantity))?;
+        for row in rows {
+            let (Some(frame), Some(band), Some(value)) = (row.frame, row.band, row.value) else {
+                continue;
+            };
+            let same =
+                |(edges, _): &&mut ([f64; 2], _)| edges.map(f64::to_bits) == band.map(f64::to_bits);
+            match bands.iter_mut().find(same) {
+                Some((_, values)) => _ = values.insert(frame, value),
+                None => bands.push((band, BTreeMap::from([(frame, value)]))),
+            }
+        }
+        bands.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]).then(a.0[1].total_cmp(&b.0[1])));
+        Some(Series { frames, bands, digits: None })
     }
 }
 

@@ -1,10 +1,11 @@
 //! Checks the rules of a gate against the values of a run.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use fovqa_metrics::Better;
-use fovqa_plan::{Allowance, GateRule};
+use fovqa_plan::{Allowance, GateRule, Resolved};
 
+use super::loss::{Loss, Search};
 use super::values::{ComparisonName, FoundValue, Lacking, RunValues};
 use crate::baseline::Baseline;
 
@@ -19,6 +20,10 @@ pub struct Verdict {
     pub rules: Vec<RuleVerdict>,
     /// The items that could not be scored.
     pub errors: Vec<String>,
+    /// The baseline that the run was compared with, of several.
+    pub baseline: Option<String>,
+    /// The results folder that has pictures of the frames with a loss.
+    pub shown_in: Option<String>,
     /// Additional remarks.
     pub notes: Vec<String>,
 }
@@ -47,8 +52,25 @@ pub struct Check {
     pub worst: Option<(i64, f64)>,
     /// The value of the baseline, if the rule uses it.
     pub baseline: Option<f64>,
+    /// Of a rule per frame, the frames that violate it, the worst first.
+    pub frames: Vec<FrameCheck>,
+    /// If the rule is violated, the frames with the largest loss and where it is, the worst first.
+    pub losses: Vec<Loss>,
     /// The result of the check.
     pub outcome: Outcome,
+}
+
+/// The check of a rule in one frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrameCheck {
+    /// The number of the frame.
+    pub frame: i64,
+    /// The value.
+    pub value: f64,
+    /// The value of the baseline, if the rule uses it.
+    pub baseline: Option<f64>,
+    /// The limit with the smallest margin, or with the largest violation.
+    pub limit: Limit,
 }
 
 /// A limit and the margin of a value.
@@ -60,6 +82,13 @@ pub struct Limit {
     pub value: f64,
     /// Distance of the value from the limit; negative if the limit is violated.
     pub margin: f64,
+}
+
+impl Limit {
+    /// Whether the value keeps it. The test is `>=` rather than a negated `<`, so that NaN never does.
+    pub fn holds(&self) -> bool {
+        self.margin >= 0.0
+    }
 }
 
 /// The result of a check.
@@ -145,17 +174,20 @@ impl RuleVerdict {
 }
 
 impl Verdict {
-    /// Checks the values of a run against rules and, if the rules use it, against a baseline.
+    /// Checks the values of a run against the rules of its experiment and, if the rules use it, against a
+    /// baseline. `file` is the name of the experiment file.
     pub fn of(
-        (experiment, file): (&str, &str),
-        rules: &[GateRule],
+        experiment: &Resolved,
+        file: &str,
         run: &RunValues,
         baseline: Option<&Baseline>,
     ) -> Self {
-        let rules = rules.iter().map(|rule| judged(rule, run, baseline)).collect();
+        let rules = experiment.gates.iter();
+        let rules = rules.map(|rule| judged(rule, experiment, run, baseline)).collect();
         let notes = baseline.map(|baseline| strangers(run, baseline)).unwrap_or_default();
-        let (experiment, file) = (experiment.to_owned(), file.to_owned());
-        Self { experiment, file, rules, errors: run.errors.clone(), notes }
+        let (experiment, file) = (experiment.name.clone(), file.to_owned());
+        let errors = run.errors.clone();
+        Self { experiment, file, rules, errors, baseline: None, shown_in: None, notes }
     }
 
     /// The state of the whole gate.
@@ -184,9 +216,24 @@ pub(super) fn is_of(rule: &GateRule, (scene, method, eye): &ComparisonName) -> b
     of_eye && wanted(&rule.scene, scene) && wanted(&rule.method, method)
 }
 
-fn judged(rule: &GateRule, run: &RunValues, baseline: Option<&Baseline>) -> RuleVerdict {
+fn judged(
+    rule: &GateRule,
+    experiment: &Resolved,
+    run: &RunValues,
+    baseline: Option<&Baseline>,
+) -> RuleVerdict {
     let places = run.places().filter(|place| is_of(rule, place));
-    let checks: Vec<Check> = places.map(|place| check(rule, run, place, baseline)).collect();
+    let check = |place: &ComparisonName| {
+        let mut check = check(rule, run, place, baseline);
+        if matches!(check.outcome, Outcome::Failed(_)) && check.value.is_some() {
+            let scene = experiment.scenes.iter().find(|scene| scene.name == place.0);
+            let search = Search { run, baseline, fps: scene.and_then(|scene| scene.fps) };
+            let failing: Vec<i64> = check.frames.iter().map(|frame| frame.frame).collect();
+            check.losses = search.losses(rule, place, &failing);
+        }
+        check
+    };
+    let checks: Vec<Check> = places.map(check).collect();
     let nothing =
         checks.is_empty().then(|| "the rule applies to no comparison of the run".to_owned());
     // If a comparison that the rule applies to no longer exists, the rule does not pass either.
@@ -200,62 +247,43 @@ fn judged(rule: &GateRule, run: &RunValues, baseline: Option<&Baseline>) -> Rule
     RuleVerdict { rule: rule.clone(), checks, failure: nothing.or(lost) }
 }
 
+/// A check without a result yet.
+fn unchecked(place: &ComparisonName) -> Check {
+    Check {
+        place: place.clone(),
+        value: None,
+        limit: None,
+        worst: None,
+        baseline: None,
+        frames: Vec::new(),
+        losses: Vec::new(),
+        outcome: Outcome::Passed,
+    }
+}
+
+impl From<Lacking> for Outcome {
+    fn from(lacking: Lacking) -> Self {
+        match lacking {
+            Lacking::Band(why) => Self::Wrong(why),
+            Lacking::NotScored(why) => Self::NotScored(why),
+            Lacking::Nothing(why) => Self::Failed(why),
+        }
+    }
+}
+
 fn check(
     rule: &GateRule,
     run: &RunValues,
     place: &ComparisonName,
     baseline: Option<&Baseline>,
 ) -> Check {
-    let mut check = Check {
-        place: place.clone(),
-        value: None,
-        limit: None,
-        worst: None,
-        baseline: None,
-        outcome: Outcome::Passed,
+    let mut check = unchecked(place);
+    let checked = if rule.quantity.per_frame {
+        check_frames(&mut check, rule, run, baseline)
+    } else {
+        check_value(&mut check, rule, run, baseline)
     };
-    let found = match run.of(place, &rule.quantity) {
-        Ok(found) => found,
-        Err(lacking) => {
-            check.outcome = match lacking {
-                Lacking::Band(why) => Outcome::Wrong(why),
-                Lacking::NotScored(why) => Outcome::NotScored(why),
-                Lacking::Nothing(why) => Outcome::Failed(why),
-            };
-            return check;
-        }
-    };
-    check.value = Some(found.value);
-    let before = rule.needs_baseline().then(|| match baseline {
-        None => Err("there is no baseline".to_owned()),
-        Some(baseline) => baseline.value(place, &rule.quantity),
-    });
-    let before = match before.transpose() {
-        Ok(before) => before,
-        Err(why) => {
-            check.outcome = Outcome::Failed(why);
-            return check;
-        }
-    };
-    check.baseline = before;
-    let frames = run.frames_of(place);
-    if let Some(was) = baseline.filter(|_| before.is_some()).and_then(|b| b.frames_of(place))
-        && was != frames
-    {
-        let why = format!("the baseline has {was} frames, but the run has {frames}");
-        check.outcome = Outcome::NotScored(why);
-        return check;
-    }
-    let limits = limits(rule, found.value, before);
-    let tightest = limits.into_iter().reduce(|a, b| if b.margin < a.margin { b } else { a });
-    check.worst = worst(&found, rule, tightest);
-    check.limit = tightest;
-    check.outcome = match tightest {
-        // The test is `>=` rather than a negated `<`, so that NaN never passes.
-        Some(limit) if limit.margin >= 0.0 => Outcome::Passed,
-        Some(limit) => Outcome::Failed(broken(rule, limit, found.value, before)),
-        None => Outcome::Failed("the rule has no limit".to_owned()),
-    };
+    check.outcome = checked.err().unwrap_or(Outcome::Passed);
     if run.errors_of(place) > 0 && check.outcome == Outcome::Passed {
         let errors = run.errors_of(place);
         let why = format!("{errors} of its frames could not be scored");
@@ -264,10 +292,101 @@ fn check(
     check
 }
 
+/// Checks the value of a comparison. The error is the outcome of a check that does not pass.
+fn check_value(
+    check: &mut Check,
+    rule: &GateRule,
+    run: &RunValues,
+    baseline: Option<&Baseline>,
+) -> Result<(), Outcome> {
+    let place = &check.place;
+    let found = run.of(place, &rule.quantity)?;
+    check.value = Some(found.value);
+    let before = rule.needs_baseline().then(|| match baseline {
+        None => Err(NO_BASELINE.to_owned()),
+        Some(baseline) => baseline.value(place, &rule.quantity),
+    });
+    check.baseline = before.transpose().map_err(Outcome::Failed)?;
+    let frames = run.frames_of(place);
+    if let Some(was) =
+        baseline.filter(|_| check.baseline.is_some()).and_then(|b| b.frames_of(place))
+        && was != frames
+    {
+        let why = format!("the baseline has {was} frames, but the run has {frames}");
+        return Err(Outcome::NotScored(why));
+    }
+    check.limit = tightest(rule, found.value, check.baseline);
+    check.worst = worst(&found, rule, check.limit);
+    match check.limit {
+        Some(limit) if limit.holds() => Ok(()),
+        Some(limit) => Err(Outcome::Failed(broken(rule, limit, found.value, check.baseline))),
+        None => Err(Outcome::Failed(NO_LIMIT.to_owned())),
+    }
+}
+
+/// Checks each frame of a comparison. The value of the check is that of the frame with the smallest
+/// margin.
+fn check_frames(
+    check: &mut Check,
+    rule: &GateRule,
+    run: &RunValues,
+    baseline: Option<&Baseline>,
+) -> Result<(), Outcome> {
+    let place = &check.place;
+    let frames = run.frames(place, &rule.quantity)?;
+    let mut before = BTreeMap::new();
+    if rule.needs_baseline() {
+        let baseline = baseline.ok_or_else(|| Outcome::Failed(NO_BASELINE.to_owned()))?;
+        before = baseline.frames(place, &rule.quantity).map_err(Outcome::Failed)?;
+        let numbers: BTreeSet<i64> = frames.iter().map(|(frame, _)| *frame).collect();
+        let known: BTreeSet<i64> = before.keys().copied().collect();
+        if let Some(frame) = known.symmetric_difference(&numbers).min() {
+            let (has, lacks) =
+                if numbers.contains(frame) { ("run", "baseline") } else { ("baseline", "run") };
+            let quantity = &rule.quantity;
+            return Err(Outcome::NotScored(format!(
+                "the {has} has {quantity} of frame {frame}, but the {lacks} does not"
+            )));
+        }
+    }
+    let mut checks = Vec::with_capacity(frames.len());
+    for (frame, value) in frames {
+        let baseline = before.get(&frame).copied();
+        let limit = tightest(rule, value, baseline);
+        let limit = limit.ok_or_else(|| Outcome::Failed(NO_LIMIT.to_owned()))?;
+        checks.push(FrameCheck { frame, value, baseline, limit });
+    }
+    checks.sort_by(|a, b| a.limit.margin.total_cmp(&b.limit.margin).then(a.frame.cmp(&b.frame)));
+    let Some(worst) = checks.first().copied() else { return Ok(()) };
+    let of = checks.len();
+    check.value = Some(worst.value);
+    check.baseline = worst.baseline;
+    check.limit = Some(worst.limit);
+    check.worst = Some((worst.frame, worst.value));
+    check.frames = checks.into_iter().filter(|check| !check.limit.holds()).collect();
+    match check.frames.len() {
+        0 => Ok(()),
+        failing => {
+            let broken = broken(rule, worst.limit, worst.value, worst.baseline);
+            let why =
+                format!("{failing} of {of} frames fail, worst is frame {}: {broken}", worst.frame);
+            Err(Outcome::Failed(why))
+        }
+    }
+}
+
+const NO_BASELINE: &str = "there is no baseline";
+const NO_LIMIT: &str = "the rule has no limit";
+
 fn broken(rule: &GateRule, limit: Limit, value: f64, before: Option<f64>) -> String {
     let side = if limit.at_least { "below" } else { "above" };
     let baseline = before.map(|before| format!(" (baseline {before})")).unwrap_or_default();
     format!("{} is {value}, {side} {}{baseline}", rule.quantity, limit.value)
+}
+
+/// The limit with the smallest margin.
+fn tightest(rule: &GateRule, value: f64, before: Option<f64>) -> Option<Limit> {
+    limits(rule, value, before).into_iter().reduce(|a, b| if b.margin < a.margin { b } else { a })
 }
 
 /// The limits of a rule, given the value and the value of the baseline.

@@ -6,6 +6,7 @@ use fovqa_metrics::Map;
 use fovqa_results::MapBlocks;
 use half::f16;
 use miniz_oxide::deflate::compress_to_vec;
+use miniz_oxide::inflate::decompress_to_vec_with_limit;
 
 /// Pixels of the page's picture on a side of a block, about: a map needs fewer values than a picture.
 const PICTURE_PIXELS: usize = 4;
@@ -13,7 +14,7 @@ const PICTURE_PIXELS: usize = 4;
 const LEVEL: u8 = 6;
 
 /// The means of a map for a page whose pictures have at most `size` pixels on the longer side.
-pub(super) fn blocks(map: &Map, size: usize) -> MapBlocks {
+pub(crate) fn blocks(map: &Map, size: usize) -> MapBlocks {
     // A value of the map may stand for several pixels.
     let step = map.info.block;
     let side = map.frame_size.0.max(map.frame_size.1);
@@ -30,6 +31,15 @@ pub(super) fn blocks(map: &Map, size: usize) -> MapBlocks {
         rows,
         values: BASE64_STANDARD.encode(compress_to_vec(&bytes, LEVEL)),
     }
+}
+
+/// The means of blocks row by row, NaN where there is no value; `None` if the record is damaged.
+pub(crate) fn means(blocks: &MapBlocks) -> Option<Vec<f64>> {
+    let count = blocks.columns.checked_mul(blocks.rows)?;
+    let packed = BASE64_STANDARD.decode(&blocks.values).ok()?;
+    let bytes = decompress_to_vec_with_limit(&packed, count.checked_mul(2)?).ok()?;
+    let values = bytes.chunks_exact(2).map(|pair| f16::from_le_bytes([pair[0], pair[1]]).to_f64());
+    Some(values.collect()).filter(|values: &Vec<f64>| values.len() == count)
 }
 
 /// The mean of the values in a block; NaN if it has none.
@@ -52,7 +62,6 @@ fn mean(map: &Map, block: usize, column: usize, row: usize) -> f64 {
 mod tests {
     use super::*;
     use fovqa_metrics::Metric;
-    use miniz_oxide::inflate::decompress_to_vec;
 
     fn map(metric: Metric, frame_size: (usize, usize), values: Vec<f32>) -> Map {
         let info = metric.info().map.unwrap();
@@ -60,8 +69,7 @@ mod tests {
     }
 
     fn halves(blocks: &MapBlocks) -> Vec<f64> {
-        let bytes = decompress_to_vec(&BASE64_STANDARD.decode(&blocks.values).unwrap()).unwrap();
-        bytes.chunks(2).map(|pair| f16::from_le_bytes([pair[0], pair[1]]).to_f64()).collect()
+        means(blocks).unwrap()
     }
 
     #[test]
@@ -92,6 +100,20 @@ mod tests {
         ];
         for (found, mean) in found.iter().zip(means) {
             assert!((found - mean).abs() <= mean / 2048.0, "{found} {mean}");
+        }
+    }
+
+    #[test]
+    fn a_damaged_record_has_no_means() {
+        let good = blocks(&map(Metric::Ssim, (10, 6), vec![0.5; 60]), 8);
+        assert!(means(&good).is_some());
+        for bad in [
+            MapBlocks { rows: 3, ..good.clone() },
+            MapBlocks { rows: usize::MAX, ..good.clone() },
+            MapBlocks { values: good.values[..4].to_owned(), ..good.clone() },
+            MapBlocks { values: "?".to_owned(), ..good },
+        ] {
+            assert_eq!(means(&bad), None);
         }
     }
 

@@ -7,7 +7,7 @@ use fast_image_resize::images::Image;
 use fast_image_resize::{FilterType, PixelType, ResizeAlg, ResizeOptions, Resizer};
 use fovqa_frame::transfer::srgb;
 use fovqa_frame::{Channels, Frame, Samples};
-use image_webp::{ColorType, WebPEncoder};
+use image_webp::{ColorType, WebPDecoder, WebPEncoder};
 
 /// Linear light of each 8-bit code, in 1/65535. Integers, because a sum of integers does not depend on
 /// its order: the picture is the same on every machine.
@@ -21,29 +21,81 @@ static CODES: LazyLock<Vec<u8>> = LazyLock::new(|| {
     (0..=65535).map(code).collect()
 });
 
+/// A reduced picture of 8-bit codes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Small {
+    /// Width and height in pixels.
+    pub(crate) size: [usize; 2],
+    pub(crate) channels: Channels,
+    /// The codes, interleaved.
+    pub(crate) codes: Vec<u8>,
+}
+
+impl Small {
+    /// The picture as lossless WebP.
+    ///
+    /// # Errors
+    /// If it is too large for the format.
+    pub(crate) fn webp(&self) -> io::Result<Vec<u8>> {
+        let color = match self.channels {
+            Channels::Gray => ColorType::L8,
+            Channels::Rgb => ColorType::Rgb8,
+        };
+        let [width, height] = self.size.map(|side| side as u32);
+        let mut file = Vec::new();
+        let encoder = WebPEncoder::new(&mut file);
+        encoder.encode(&self.codes, width, height, color).map_err(io::Error::other)?;
+        Ok(file)
+    }
+
+    /// Reads what [`Small::webp`] has written.
+    ///
+    /// # Errors
+    /// If it is damaged, or has more than `most` pixels on a side.
+    pub(crate) fn read(file: &[u8], most: usize) -> io::Result<Self> {
+        let mut decoder = WebPDecoder::new(io::Cursor::new(file)).map_err(io::Error::other)?;
+        let (width, height) = decoder.dimensions();
+        let size = [width as usize, height as usize];
+        let bytes =
+            decoder.output_buffer_size().filter(|_| size.into_iter().all(|side| side <= most));
+        let mut codes = vec![0; bytes.ok_or_else(|| io::Error::other("it is too large"))?];
+        decoder.read_image(&mut codes).map_err(io::Error::other)?;
+        // The format has no gray: every picture comes back with three channels or four.
+        if decoder.has_alpha() {
+            let opaque = codes.chunks_exact(4).flat_map(|pixel| pixel[..3].to_vec());
+            codes = opaque.collect();
+        }
+        Ok(Self { size, channels: Channels::Rgb, codes })
+    }
+}
+
 /// A picture of 8-bit codes as lossless WebP whose longer side has at most `size` pixels.
 ///
 /// # Errors
 /// If the frame does not hold 8-bit codes, or is too large for the format.
 pub(super) fn reduced(frame: &Frame, size: usize) -> io::Result<Vec<u8>> {
+    small(frame, size)?.webp()
+}
+
+/// A picture of 8-bit codes whose longer side has at most `size` pixels.
+///
+/// # Errors
+/// If the frame does not hold 8-bit codes.
+pub(crate) fn small(frame: &Frame, size: usize) -> io::Result<Small> {
     let Samples::U8(codes) = frame.samples() else {
         return Err(io::Error::other("a picture holds codes of 8 bits"));
     };
-    let (pixels, color) = match frame.channels() {
-        Channels::Gray => (PixelType::U16, ColorType::L8),
-        Channels::Rgb => (PixelType::U16x3, ColorType::Rgb8),
+    let pixels = match frame.channels() {
+        Channels::Gray => PixelType::U16,
+        Channels::Rgb => PixelType::U16x3,
     };
     let from = [frame.width(), frame.height()];
     if codes.len() != from[0] * from[1] * frame.channels().count() {
         return Err(io::Error::other("a picture is not cropped"));
     }
     let to = smaller(from, size);
-    let small = if from == to { codes.clone() } else { resized(codes, (from, to), pixels)? };
-    let mut file = Vec::new();
-    WebPEncoder::new(&mut file)
-        .encode(&small, to[0] as u32, to[1] as u32, color)
-        .map_err(io::Error::other)?;
-    Ok(file)
+    let codes = if from == to { codes.clone() } else { resized(codes, (from, to), pixels)? };
+    Ok(Small { size: to, channels: frame.channels(), codes })
 }
 
 /// Width and height with a longer side of at most `size`.

@@ -3,16 +3,16 @@
 
 use std::collections::BTreeSet;
 use std::io;
-use std::ops::Range;
 use std::path::Path;
 
-use fovqa_engine::{Entry, Events, Findings, FoundInputs, FoundView, Named, Unit};
+use fovqa_engine::{Events, Findings, FoundInputs, Named};
 use fovqa_metrics::Metric;
-use fovqa_plan::{Experiment, Eye, FrameChoice, MetricChoice, Plan, WantedPictures};
+use fovqa_plan::{Experiment, Plan};
 use fovqa_results::{
     FileError, FrameImages, IMAGES, IMAGES_JSON, ImagesRecord, ViewImages, make_folder, write_whole,
 };
 
+use super::again::Again;
 use super::chosen::chosen;
 use super::folders::{clear_pictures, keep_frames};
 use super::recorder::{Pictures, record_text};
@@ -47,12 +47,25 @@ pub(crate) fn no_pictures(results: &Path) -> String {
 fn take(taking: &Taking<'_>, results: &Path, pictures: &mut Pictures) -> Result<(), FileError> {
     let plan = &taking.experiment.plan;
     let record = chosen(plan, &taking.experiment.report, taking.findings);
-    let units = taking.found.map(|found| missing(taking, &record, found, pictures));
-    if let Some((found, units)) = taking.found.zip(units.filter(|units| !units.is_empty())) {
-        let again = again(plan, &record, taking.findings);
-        let write = &mut |entry: Entry<'_>| pictures.write(&entry);
-        let none = Findings::default();
-        if let Err(error) = fovqa_engine::score(&again, found, &units, none, &Silent, write) {
+    if let Some(found) = taking.found {
+        let scored: BTreeSet<_> = taking
+            .findings
+            .scored(plan)
+            .map(|(named, frame)| (named.scene, named.eye, named.method, frame.frame))
+            .collect();
+        let missing: BTreeSet<_> = scored
+            .into_iter()
+            .filter(|(scene, eye, method, frame)| {
+                let named = Named { scene, method, eye: *eye };
+                is_chosen(&record, named, *frame) && !pictures.has(named, *frame)
+            })
+            .collect();
+        let is_missing = |named: Named<'_>, frame: i64| {
+            missing.contains(&(named.scene, named.eye, named.method, frame))
+        };
+        let mapped = mapped(plan, taking.findings);
+        let again = Again { plan, found, mapped: &mapped, hash_inputs: false };
+        if let Err(error) = again.score(&is_missing, &mut |entry| pictures.write(&entry)) {
             taking.events.warn(&format!("{error}; {}", no_pictures(results)));
         }
     }
@@ -108,104 +121,29 @@ fn folder(results: &Path, view: &ViewImages, frame: i64) -> std::path::PathBuf {
     FrameImages::new(results, &view.scene, view.eye, frame).folder().to_owned()
 }
 
+/// Whether the report shows a method's frame.
+fn is_chosen(record: &ImagesRecord, named: Named<'_>, frame: i64) -> bool {
+    let of_view = |view: &&ViewImages| view.scene == named.scene && view.eye == named.eye;
+    record.views.iter().find(of_view).is_some_and(|view| {
+        view.frames.iter().any(|chosen| chosen.frame == frame)
+            && view.methods.iter().any(|shown| shown == named.method)
+    })
+}
+
 /// Whether any chosen picture is missing.
 fn lacks(taking: &Taking<'_>, record: &ImagesRecord, pictures: &Pictures) -> bool {
     let mut scored = taking.findings.scored(&taking.experiment.plan);
     scored.any(|(named, frame)| {
-        let of_view = |view: &&ViewImages| view.scene == named.scene && view.eye == named.eye;
-        record.views.iter().find(of_view).is_some_and(|view| {
-            view.frames.iter().any(|chosen| chosen.frame == frame.frame)
-                && view.methods.iter().any(|shown| shown == named.method)
-                && !pictures.has(named, frame.frame)
-        })
+        is_chosen(record, named, frame.frame) && !pictures.has(named, frame.frame)
     })
 }
 
-/// The pairs whose pictures are missing, as units of work.
-fn missing(
-    taking: &Taking<'_>,
-    record: &ImagesRecord,
-    found: &FoundInputs,
-    pictures: &Pictures,
-) -> Vec<Unit> {
-    let plan = &taking.experiment.plan;
-    let scored: BTreeSet<(&str, Option<Eye>, &str, i64)> = taking
-        .findings
-        .scored(plan)
-        .map(|(named, frame)| (named.scene, named.eye, named.method, frame.frame))
-        .collect();
-    let mut units = Vec::new();
-    for view in &found.views {
-        let scene = &plan.scenes[view.scene];
-        let eye = scene.eyes[view.eye].eye;
-        let of_view = |of: &&ViewImages| of.scene == scene.name && of.eye == eye;
-        let Some(of_view) = record.views.iter().find(of_view) else { continue };
-        let is_missing = |frame: i64, method: usize| {
-            let method = plan.methods[method].as_str();
-            let named = Named { scene: &scene.name, method, eye };
-            of_view.frames.iter().any(|chosen| chosen.frame == frame)
-                && of_view.methods.iter().any(|shown| shown == method)
-                && scored.contains(&(named.scene, eye, method, frame))
-                && !pictures.has(named, frame)
-        };
-        let ranges = ranges(view, is_missing).into_iter();
-        units.extend(ranges.map(|pairs| Unit { scene: view.scene, eye: view.eye, pairs }));
-    }
-    units
-}
-
-/// The ranges of the pairs of a view for which `is_wanted` holds. A range does not go beyond a frame.
-fn ranges(view: &FoundView, is_wanted: impl Fn(i64, usize) -> bool) -> Vec<Range<usize>> {
-    let mut ranges: Vec<Range<usize>> = Vec::new();
-    let mut pair = 0;
-    for frame in &view.frames {
-        let first = pair;
-        for (method, _) in &frame.tests {
-            if is_wanted(frame.number, *method) {
-                match ranges.last_mut() {
-                    Some(range) if range.end == pair && range.start >= first => range.end += 1,
-                    _ => ranges.push(pair..pair + 1),
-                }
-            }
-            pair += 1;
-        }
-    }
-    ranges
-}
-
-/// The plan for scoring frames again for their pictures: only metrics that have maps.
-fn again(plan: &Plan, record: &ImagesRecord, findings: &Findings) -> Plan {
+/// The metrics that have maps, of those that were scored.
+fn mapped(plan: &Plan, findings: &Findings) -> Vec<Metric> {
     let mut mapped: Vec<Metric> = plan.metrics.metrics().to_vec();
     mapped.retain(|metric| {
         let is_scored = || findings.scored(plan).any(|(_, frame)| frame.rows.has(*metric));
         metric.info().map.is_some() && is_scored()
     });
-    let frames: BTreeSet<i64> =
-        record.views.iter().flat_map(|view| &view.frames).map(|frame| frame.frame).collect();
-    let metrics = if mapped.is_empty() {
-        // Something has to be scored; without maps, it is the cheapest.
-        MetricChoice::Named(vec![Metric::Mse])
-    } else {
-        MetricChoice::Named(mapped)
-    };
-    Plan {
-        metrics,
-        maps: false,
-        hash_inputs: false,
-        crops: Vec::new(),
-        pictures: WantedPictures {
-            frames: frames.into_iter().map(FrameChoice::Number).collect(),
-            methods: (0..plan.methods.len()).collect(),
-        },
-        ..plan.clone()
-    }
-}
-
-/// Reports nothing: everything was reported while the frames were scored.
-struct Silent;
-
-impl Events for Silent {
-    fn warn(&self, _message: &str) {}
-
-    fn progress(&self, _done: usize, _total: usize) {}
+    mapped
 }

@@ -1,6 +1,11 @@
 //! A baseline contains the values of a run that later runs are compared with. It is a small text
 //! file that can be kept in git.
 
+mod frames;
+
+pub use frames::FrameRecords;
+pub(crate) use frames::rounded;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -10,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::files::{FileError, read_json_file};
-use crate::gate::{ComparisonName, RunValues};
+use crate::gate::{ComparisonName, RunValues, Series, own_difference};
 use crate::inputs::{Input, Inputs};
 use crate::json::{Number, RunRecord};
 
@@ -67,6 +72,9 @@ pub struct BaselineComparison {
     pub frames: usize,
     /// Values by their names.
     pub(crate) values: BTreeMap<String, Number>,
+    /// The values of single frames that the rules use; `None` in a baseline of an earlier version.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) per_frame: Option<FrameRecords>,
 }
 
 impl BaselineComparison {
@@ -102,7 +110,8 @@ pub struct Difference {
 
 impl Baseline {
     /// Makes the baseline of a run. It contains the values that the rules use and, for each metric
-    /// with a better direction, the mean and the worst frame. `hash` returns the hash of a text.
+    /// with a better direction, the mean and the worst frame. Of the rules and of what tells in which frame
+    /// a loss is, it also contains the values of single frames and bands. `hash` returns the hash of a text.
     pub fn of(
         run: &RunRecord,
         values: &RunValues,
@@ -120,7 +129,22 @@ impl Baseline {
             .filter_map(|key| Metric::find(key))
             .flat_map(usual)
             .collect();
-        quantities.extend(rules.iter().map(|rule| rule.quantity.clone()));
+        quantities
+            .extend(rules.iter().map(|rule| &rule.quantity).filter(|q| !q.per_frame).cloned());
+        let of_frames = |place: &ComparisonName| {
+            let mut of_rules: Vec<Quantity> = Vec::new();
+            let own = own_difference(|metric| values.has(place, metric));
+            for quantity in rules.iter().map(|rule| rule.quantity.of_frames()).chain(own) {
+                if !of_rules.contains(&quantity) {
+                    of_rules.push(quantity);
+                }
+            }
+            let series = of_rules.into_iter().filter_map(|quantity| {
+                let series = values.series(place, &quantity)?;
+                Some((quantity, series))
+            });
+            FrameRecords::of(&series.collect::<Vec<_>>())
+        };
         let comparisons = values.places().map(|place| {
             let found = quantities.iter().filter_map(|quantity| {
                 let found = values.of(place, quantity).ok()?;
@@ -128,7 +152,8 @@ impl Baseline {
             });
             let (scene, method, eye) = place.clone();
             let frames = values.frames_of(place);
-            BaselineComparison { scene, method, eye, frames, values: found.collect() }
+            let per_frame = of_frames(place);
+            BaselineComparison { scene, method, eye, frames, values: found.collect(), per_frame }
         });
         Self {
             schema: BASELINE_SCHEMA.to_owned(),
@@ -150,14 +175,23 @@ impl Baseline {
         let expected = "a baseline";
         let baseline: Self = read_json_file(path, BASELINE_SCHEMA, expected)?;
         let mut places = BTreeSet::new();
-        let twice = baseline.comparisons.iter().find(|one| !places.insert(one.place()));
-        match twice {
-            None => Ok(baseline),
-            Some(one) => {
-                let detail = format!("the comparison {} appears twice", one.named());
-                Err(FileError::Format { path: path.to_owned(), expected, detail })
+        let wrong = baseline.comparisons.iter().find_map(|one| {
+            let is_sound = one.per_frame.as_ref().is_none_or(FrameRecords::is_sound);
+            if !places.insert(one.place()) {
+                return Some(format!("the comparison {} appears twice", one.named()));
             }
+            (!is_sound).then(|| format!("its frames of {} do not have a value each", one.named()))
+        });
+        match wrong {
+            None => Ok(baseline),
+            Some(detail) => Err(FileError::Format { path: path.to_owned(), expected, detail }),
         }
+    }
+
+    /// The values of single frames; `None` if there are none.
+    pub(crate) fn series(&self, place: &ComparisonName, quantity: &Quantity) -> Option<Series> {
+        let comparison = self.comparisons.iter().find(|c| c.place() == *place)?;
+        comparison.per_frame.as_ref()?.series(quantity)
     }
 
     /// Number of frames of a comparison; `None` if there is no such comparison.
@@ -167,19 +201,38 @@ impl Baseline {
 
     /// The value of a comparison.
     pub(crate) fn value(&self, place: &ComparisonName, quantity: &Quantity) -> Result<f64, String> {
+        let comparison = self.comparison(place)?;
+        let value = comparison.values.get(&quantity.to_string());
+        value.map(|number| number.0).ok_or_else(|| lacks(comparison, quantity))
+    }
+
+    fn comparison(&self, place: &ComparisonName) -> Result<&BaselineComparison, String> {
         let found = self.comparisons.iter().find(|c| c.place() == *place);
-        let Some(comparison) = found else {
+        found.ok_or_else(|| {
             let (scene, method, eye) = place;
             if !self.comparisons.iter().any(|c| c.scene == *scene) {
-                return Err(format!("the baseline has no scene {scene}"));
+                return format!("the baseline has no scene {scene}");
             }
             let eye = if eye.is_empty() { String::new() } else { format!(", {eye}") };
-            return Err(format!("the baseline has no {method}{eye} in scene {scene}"));
+            format!("the baseline has no {method}{eye} in scene {scene}")
+        })
+    }
+
+    /// The value of each frame of a comparison.
+    pub(crate) fn frames(
+        &self,
+        place: &ComparisonName,
+        quantity: &Quantity,
+    ) -> Result<BTreeMap<i64, f64>, String> {
+        let comparison = self.comparison(place)?;
+        let Some(records) = &comparison.per_frame else {
+            return Err(format!(
+                "the baseline has no values of single frames of {}; `fovqa baseline accept` adds them",
+                comparison.named()
+            ));
         };
-        let value = comparison.values.get(&quantity.to_string());
-        value
-            .map(|number| number.0)
-            .ok_or_else(|| format!("the baseline has no {quantity} of {}", comparison.named()))
+        let series = records.series(quantity);
+        series.map(|series| series.frames).ok_or_else(|| lacks(comparison, quantity))
     }
 
     /// Why a run cannot be compared with this baseline: metrics of another version, or computed
@@ -296,6 +349,10 @@ impl Baseline {
             paths.any(|path| path == folder || parent(path))
         })
     }
+}
+
+fn lacks(comparison: &BaselineComparison, quantity: &Quantity) -> String {
+    format!("the baseline has no {quantity} of {}", comparison.named())
 }
 
 /// The values of a metric that are stored whatever the rules are.
