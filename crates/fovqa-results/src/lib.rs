@@ -38,8 +38,9 @@ pub use files::{
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{
-    Calibration, Check, ComparisonName, FoundValue, GATE_SCHEMA, Lacking, Limit, Outcome, Proposal,
-    RuleVerdict, RunValues, State, Verdict, calibrate, write_verdict_json,
+    Calibration, Check, ComparisonName, FALSE_ALARMS, FoundValue, GATE_SCHEMA, Lacking, Limit,
+    Outcome, Proposal, ProposedLimit, RuleVerdict, RunValues, State, Verdict, calibrate,
+    write_verdict_json,
 };
 pub use inputs::{Identity, Input, Inputs};
 pub use json::{

@@ -3,12 +3,15 @@
 
 mod aggregate;
 mod calibrate;
+mod calibration_toml;
 mod json;
+mod noise;
 mod reading;
+mod student_t;
 mod values;
 mod verdict;
 
-pub use calibrate::{Calibration, Proposal, calibrate};
+pub use calibrate::{Calibration, FALSE_ALARMS, Proposal, ProposedLimit, calibrate};
 pub use json::{GATE_SCHEMA, write_verdict_json};
 pub use values::{ComparisonName, FoundValue, Lacking, RunValues};
 pub use verdict::{Check, Limit, Outcome, RuleVerdict, State, Verdict};
