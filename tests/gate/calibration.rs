@@ -58,10 +58,9 @@ const ALL: [&str; 6] = ["gate", "e.toml", "--calibrate", "runs/0", "runs/1", "ru
 fn proposed_limits_hold_for_the_runs_they_come_from() {
     let folder = runs([1, 2, 3]);
     let limits = folder.run(&ALL).ok().stdout;
-    assert!(limits.starts_with("# Limits from 3 repeated runs"), "{limits}");
+    assert!(limits.starts_with("# Limits from 3 repeated runs of one build."), "{limits}");
     assert_eq!(limits.matches("[[gate]]").count(), 4, "{limits}");
-    for words in ["in 3 runs (spread ", "standard deviation ", "max_drop = ", "aggregate = \"p05\""]
-    {
+    for words in ["in 3 runs (mean ", "standard deviation ", "max_drop = ", "aggregate = \"p05\""] {
         assert!(limits.contains(words), "{words}: {limits}");
     }
     let own = text().replace(RULES, "");
@@ -91,56 +90,175 @@ fn limits(toml: &str, key: &str) -> Vec<Option<f64>> {
     gates.map(|gate| gate.get(key).and_then(toml::Value::as_float)).collect()
 }
 
+/// The value of each rule in the three runs that `runs` makes of seeds 1 to 3.
+fn values(folder: &Folder) -> Vec<[f64; 3]> {
+    // Without the rule that needs a baseline.
+    folder.write("e.toml", text().replace("max_drop = 0", "at_least = 0"));
+    let again = |run: u64| {
+        for (frame, noise) in NOISE.iter().enumerate() {
+            let reference = codes(SIZE.0, SIZE.1, 3, frame as u64);
+            let test = disturbed(&reference, noise + 5.0, run);
+            folder.png(&format!("test/{frame:04}.png"), SIZE.0, SIZE.1, &test);
+        }
+        let json = folder.run(&["gate", "e.toml", "--format", "json"]).json();
+        let rules = json["rules"].as_array().unwrap().clone();
+        rules.iter().map(|r| r["checks"][0]["value"].as_f64().unwrap()).collect::<Vec<f64>>()
+    };
+    let [a, b, c] = [again(1), again(2), again(3)];
+    folder.write("e.toml", text());
+    a.iter().zip(&b).zip(&c).map(|((a, b), c)| [*a, *b, *c]).collect()
+}
+
+/// The quantile of Student's t distribution with two degrees of freedom, in closed form.
+fn student_t2(share: f64) -> f64 {
+    (1.0 - 2.0 * share) / (2.0 * share * (1.0 - share)).sqrt()
+}
+
 #[test]
-fn limits_lie_as_far_beyond_the_worst_as_the_runs_lie_apart() {
+fn limits_have_the_stated_rate_of_false_alarms() {
+    let folder = runs([1, 2, 3]);
+    let values = values(&folder);
+    for (options, rate) in [(&[][..], 0.01), (&["--false-alarms", "0.2"][..], 0.2)] {
+        let run = folder.run(&[&ALL[..], options].concat()).ok();
+        let words = format!("at most {rate} for all 5 limits together");
+        let proposed = run.says(&["3 repeated runs", &words]).stdout;
+        // The rule of the wavelet has two limits, so there are five.
+        let t = student_t2(rate / 5.0);
+        let moments = |rule: usize| {
+            let mean = values[rule].iter().sum::<f64>() / 3.0;
+            let squares = values[rule].iter().map(|value| (value - mean).powi(2)).sum::<f64>();
+            (mean, (squares / 2.0).sqrt())
+        };
+        // Rounded outwards by at most a tenth of the margin.
+        let outward = |found: Option<f64>, mean: f64, margin: f64, sign: f64| {
+            let beyond = sign * (found.unwrap() - mean) - margin;
+            assert!(
+                beyond >= -1e-9 * margin && beyond <= 0.101 * margin,
+                "{found:?} {mean} {margin}"
+            );
+        };
+        let (at_least, at_most) = (limits(&proposed, "at_least"), limits(&proposed, "at_most"));
+        let new_run = t * (4.0f64 / 3.0).sqrt();
+        let (mean, deviation) = moments(0);
+        outward(at_least[0], mean, new_run * deviation, -1.0);
+        let (mean, deviation) = moments(1);
+        outward(at_most[1], mean, new_run * deviation, 1.0);
+        assert_eq!((at_least[1], at_most[0]), (None, None));
+        let (_, deviation) = moments(2);
+        outward(limits(&proposed, "max_drop")[2], 0.0, t * deviation * 2.0f64.sqrt(), 1.0);
+        let (mean, deviation) = moments(3);
+        outward(at_least[3], mean, new_run * deviation, -1.0);
+        outward(at_most[3], mean, new_run * deviation, 1.0);
+    }
+}
+
+#[test]
+fn the_rate_of_false_alarms_is_a_probability_and_needs_runs() {
+    let folder = runs([1, 2, 3]);
+    for rate in ["0", "0.51", "-0.1", "nan", "inf", "x"] {
+        let option = format!("--false-alarms={rate}");
+        let words = ["above 0 and at most 0.5"];
+        folder.run(&[&ALL[..], &[option.as_str()]].concat()).fails(2, &words);
+    }
+    folder.run(&["gate", "e.toml", "--false-alarms", "0.1"]).fails(2, &["--calibrate"]);
+    folder.run(&["gate", "e.toml", "--write"]).fails(2, &["--calibrate"]);
+}
+
+#[test]
+fn two_runs_say_little() {
+    let folder = runs([1, 2, 3]);
+    let run = folder.run(&["gate", "e.toml", "--calibrate", "runs/0", "runs/1"]).ok();
+    let run = run.says(&[
+        "2 repeated runs",
+        "2 runs say little about the noise",
+        "at most twice as wide",
+    ]);
+    let comment: Vec<&str> = run.stdout.lines().take_while(|line| line.starts_with("# ")).collect();
+    assert!(comment.join(" ").replace("# ", "").contains("2 runs say little"), "{}", run.stdout);
+}
+
+#[test]
+fn nearly_identical_runs_leave_room_for_rounding_noise() {
+    let folder = runs([1, 1, 1]);
+    let proposed = folder.run(&ALL).ok().stdout;
+    let values = values(&folder);
+    let allowed = |value: f64, noise: f64, limit: Option<f64>| {
+        let room = (value - limit.unwrap()).abs();
+        assert!(room >= 0.999 * noise && room <= 1.2 * noise, "{value} {room} {noise}");
+    };
+    allowed(values[0][0], 1e-3, limits(&proposed, "at_least")[0]);
+    allowed(values[1][0], 1e-5 * values[1][0], limits(&proposed, "at_most")[1]);
+    allowed(0.0, 1e-5 * values[2][0], limits(&proposed, "max_drop")[2]);
+}
+
+fn read(folder: &Folder, file: &str) -> String {
+    fs::read_to_string(folder.path(file)).unwrap()
+}
+
+const BEGIN: &str = "# fovqa gate --calibrate: begin";
+const END: &str = "# fovqa gate --calibrate: end";
+
+#[test]
+fn limits_are_written_between_two_markers() {
     let folder = runs([1, 2, 3]);
     let proposed = folder.run(&ALL).ok().stdout;
-    let values: Vec<[f64; 3]> = {
-        let of = |run: usize| {
-            let folder = folder.run(&["gate", &format!("runs/{run}"), "--format", "json"]);
-            let text = folder.stderr;
-            assert!(text.contains("needs a baseline"), "{text}");
-        };
-        (0..3).for_each(of);
-        // Without the rule that needs a baseline.
-        folder.write("e.toml", text().replace("max_drop = 0", "at_least = 0"));
-        let again = |run: u64| {
-            for (frame, noise) in NOISE.iter().enumerate() {
-                let reference = codes(SIZE.0, SIZE.1, 3, frame as u64);
-                let test = disturbed(&reference, noise + 5.0, run);
-                folder.png(&format!("test/{frame:04}.png"), SIZE.0, SIZE.1, &test);
-            }
-            let json = folder.run(&["gate", "e.toml", "--format", "json"]).json();
-            let rules = json["rules"].as_array().unwrap().clone();
-            rules.iter().map(|r| r["checks"][0]["value"].as_f64().unwrap()).collect::<Vec<f64>>()
-        };
-        let [a, b, c] = [again(1), again(2), again(3)];
-        a.iter().zip(&b).zip(&c).map(|((a, b), c)| [*a, *b, *c]).collect()
-    };
-    let spread = |rule: usize| {
-        let (min, max) = (
-            values[rule].iter().copied().fold(f64::INFINITY, f64::min),
-            values[rule].iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        );
-        (min, max, max - min)
-    };
-    // Rounded outwards by at most a tenth of the spread.
-    let outward = |found: Option<f64>, want: f64, spread: f64, sign: f64| {
-        let beyond = sign * (found.unwrap() - want);
-        assert!(beyond >= -1e-9 * spread && beyond <= 0.11 * spread, "{found:?} {want} {spread}");
-    };
-    let at_least = limits(&proposed, "at_least");
-    let at_most = limits(&proposed, "at_most");
-    let (min, _, apart) = spread(0);
-    outward(at_least[0], min - apart, apart, -1.0);
-    let (_, max, apart) = spread(1);
-    outward(at_most[1], max + apart, apart, 1.0);
-    assert_eq!((at_least[1], at_most[0]), (None, None));
-    let (_, _, apart) = spread(2);
-    outward(limits(&proposed, "max_drop")[2], 2.0 * apart, apart, 1.0);
-    let (min, max, apart) = spread(3);
-    outward(at_least[3], min - apart, apart, -1.0);
-    outward(at_most[3], max + apart, apart, 1.0);
+    let write = [&ALL[..], &["--write"]].concat();
+    let run = folder.run(&write).ok();
+    assert_eq!(run.stdout, "");
+    run.says(&["e.toml: limits written: 5"]);
+    let written = read(&folder, "e.toml");
+    assert_eq!(written, format!("{}\n{BEGIN}\n{proposed}{END}\n", text()));
+    folder.run(&["check", "e.toml"]).ok();
+    // Again, with the block elsewhere, other line ends and another rate. The rules in the block get
+    // no limits of their own.
+    let moved = format!("{written}# the end").replace('\n', "\r\n");
+    folder.write("e.toml", &moved);
+    folder.run(&[&write[..], &["--false-alarms", "0.1"]].concat()).ok();
+    let again = read(&folder, "e.toml");
+    let limits = folder.run(&[&ALL[..], &["--false-alarms", "0.1"]].concat()).ok().stdout;
+    let block = format!("{BEGIN}\n{limits}{END}\n# the end").replace('\n', "\r\n");
+    assert_eq!(again, format!("{}\r\n{block}", text().replace('\n', "\r\n")));
+    // Without other rules, those of the block are calibrated.
+    folder.write("e.toml", written.replace(RULES, ""));
+    folder.run(&write).ok();
+    assert_eq!(read(&folder, "e.toml"), written.replace(RULES, ""));
+}
+
+#[test]
+fn markers_without_their_partner_are_mistakes() {
+    let folder = runs([1, 2, 3]);
+    let write = [&ALL[..], &["--write"]].concat();
+    let lines = text().matches('\n').count();
+    for (behind, line, words) in [
+        (format!("{BEGIN}\n"), 1, "there is no line \"# fovqa gate --calibrate: end\""),
+        (format!("{END}\n"), 1, "there is no line \"# fovqa gate --calibrate: begin\""),
+        (format!("{BEGIN}\n{END}\n{BEGIN}\n{END}\n"), 3, "appears twice"),
+    ] {
+        let broken = format!("{}{behind}", text());
+        folder.write("e.toml", &broken);
+        folder.run(&write).fails(2, &[&format!("e.toml:{}: ", lines + line), words]);
+        assert_eq!(read(&folder, "e.toml"), broken);
+    }
+    // Where the rules are an array in one line, no table can be added.
+    let inline = text().replace(RULES, "").replacen(
+        "name = \"e\"\n",
+        "name = \"e\"\ngate = [{ metric = \"mse\", at_most = 1 }]\n",
+        1,
+    );
+    folder.write("e.toml", &inline);
+    folder.run(&write).fails(2, &["the limits do not fit in this file", "without --write"]);
+    assert_eq!(read(&folder, "e.toml"), inline);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_the_experiment_stays() {
+    let folder = runs([1, 2, 3]);
+    fs::rename(folder.path("e.toml"), folder.path("real.toml")).unwrap();
+    std::os::unix::fs::symlink("real.toml", folder.path("e.toml")).unwrap();
+    folder.run(&[&ALL[..], &["--write"]].concat()).ok();
+    assert!(folder.path("e.toml").is_symlink());
+    assert!(read(&folder, "real.toml").contains(BEGIN));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fovqa::{Given, RunOptions, Verdict, text_hash};
+use fovqa::{FALSE_ALARMS, Given, RunOptions, Verdict, text_hash};
 use fovqa_report::{
     github_annotations, gitlab_report, junit, markdown, verdict_table, without_commands,
 };
@@ -110,17 +110,25 @@ fn print(args: &GateArgs, verdict: &Verdict) -> Exit {
     }
 }
 
-/// Prints proposed limits from repeated runs.
+/// Proposes limits from repeated runs, and prints them or writes them into the experiment file.
 fn propose(args: &GateArgs) -> Result<Exit, Exit> {
+    let failed = |error: fovqa::Error| experiment::failed(&error);
     let mut experiment = experiment::read(&args.target)?;
     experiment.plan.frames = args.frames;
-    let calibration = fovqa::calibrate(&experiment, &args.calibrate)
-        .map_err(|error| experiment::failed(&error))?;
-    if calibration.proposals.iter().all(|proposal| proposal.spread() == 0.0) {
+    let rate = args.false_alarms.unwrap_or(FALSE_ALARMS);
+    let calibration = fovqa::calibrate(&experiment, &args.calibrate, rate).map_err(failed)?;
+    if calibration.proposals.iter().all(|proposal| proposal.range == 0.0) {
         diagnostic::warning(
             "the runs are identical to the last digit and do not show how values vary: calibrate with renders \
              that use other seeds",
         );
     }
-    Ok(output::write(|out| out.write_all(calibration.toml().as_bytes())))
+    diagnostic::note(&format!("limits from {}", calibration.in_words()));
+    if !args.write {
+        return Ok(output::write(|out| out.write_all(calibration.toml().as_bytes())));
+    }
+    fovqa::write_limits(&experiment, &calibration).map_err(failed)?;
+    let (file, limits) = (args.target.display(), calibration.limits());
+    diagnostic::note(&format!("{file}: limits written: {limits}"));
+    Ok(Exit::Done)
 }

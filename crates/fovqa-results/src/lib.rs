@@ -39,11 +39,11 @@ pub use files::{
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{
-    BandLoss, BandRecord, Calibration, Check, CheckRecord, Compared, ComparisonName, FoundValue,
-    FrameCheck, FrameCheckRecord, GATE, GATE_SCHEMA, Lacking, Limit, Loss, LossPicture, LossRecord,
-    Outcome, PictureRecord, Place, PlaceRecord, Proposal, RuleRecord, RuleVerdict, RunValues,
-    State, Verdict, VerdictRecord, calibrate, keep_verdict, kept_verdict, verdict_file,
-    write_verdict_json,
+    BandLoss, BandRecord, Calibration, Check, CheckRecord, Compared, ComparisonName, FALSE_ALARMS,
+    FoundValue, FrameCheck, FrameCheckRecord, GATE, GATE_SCHEMA, Lacking, Limit, Loss, LossPicture,
+    LossRecord, Outcome, PictureRecord, Place, PlaceRecord, Proposal, ProposedLimit, RuleRecord,
+    RuleVerdict, RunValues, State, Verdict, VerdictRecord, calibrate, keep_verdict, kept_verdict,
+    verdict_file, write_verdict_json,
 };
 pub use inputs::{Identity, Input, Inputs};
 pub use json::{

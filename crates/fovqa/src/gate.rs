@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use fovqa_engine::{Events, FoundInputs, Given, Locking, ResultsFolder};
 use fovqa_plan::{Experiment, GateRule, Plan};
-use fovqa_results::{Calibration, Lacking, Verdict, calibrate as proposals, keep_verdict};
+use fovqa_results::{Verdict, keep_verdict};
 
 use crate::error::Error;
 use crate::finish::{in_folder, text_hash};
@@ -179,46 +179,4 @@ fn check(rules: &[GateRule], file: &Path, baselines: &[PathBuf]) -> Result<(), E
         return Err(Error::usage(message, help));
     }
     Ok(())
-}
-
-/// Proposes limits for the rules of an experiment, from the variation between repeated runs of one
-/// build.
-///
-/// # Errors
-/// If there are fewer than two runs, or they belong to another experiment, or contain no values
-/// that the rules apply to.
-pub fn calibrate(experiment: &Experiment, folders: &[PathBuf]) -> Result<Calibration, Error> {
-    if experiment.gates.is_empty() {
-        let message = format!("{}: it has no [[gate]] rule", experiment.path.display());
-        let help = "add a [[gate]] rule with a metric and any limit";
-        return Err(Error::usage(message, help));
-    }
-    if folders.len() < 2 {
-        let message = "a single run does not show how values vary";
-        return Err(Error::usage(message, "give the folders of several runs of one build"));
-    }
-    let resolved = experiment.resolved();
-    let mut runs = Vec::new();
-    for folder in folders {
-        let run = FinishedRun::read(folder)?;
-        let other = run.record.resolved.differs(&resolved);
-        if let Some(why) = other.or_else(|| run.values.errors.first().cloned()) {
-            let message = format!("{}: this run gives no limits: {why}", folder.display());
-            return Err(Error::input(message, "run the experiment again"));
-        }
-        runs.push((folder.display().to_string(), run.values));
-    }
-    let calibration = proposals(&experiment.gates, &runs).map_err(|lacking| {
-        let (message, help) =
-            (lacking.to_string(), "correct the rule, or run the experiment again");
-        if matches!(lacking, Lacking::Band(_)) {
-            Error::usage(message, help)
-        } else {
-            Error::input(message, help)
-        }
-    })?;
-    if calibration.proposals.is_empty() {
-        return Err(Error::input("the rules apply to nothing in these runs", "check the rules"));
-    }
-    Ok(calibration)
 }

@@ -58,6 +58,8 @@
 //! and the findings of all tasks are merged again ([`TaskFindings::merge`], [`results`]).
 
 mod baseline;
+mod calibrate;
+mod calibrated_rules;
 mod crops;
 mod curves;
 mod error;
@@ -84,6 +86,8 @@ mod samples;
 mod score;
 
 pub use baseline::{Accepted, Frames, Saved, accept_baseline, read_baseline, save_baseline};
+pub use calibrate::calibrate;
+pub use calibrated_rules::write_limits;
 pub use curves::curves;
 pub use error::{Complaint, Error};
 pub use events::Silent;
@@ -93,7 +97,7 @@ pub use finished_run::FinishedRun;
 pub use foreseen_figures::{check_curves, foresee_figures};
 pub use foveate::{FoveateOutputs, Foveated, foveate_files};
 pub use gallery::{GalleryRequest, write_gallery};
-pub use gate::{calibrate, gate, gate_folder};
+pub use gate::{gate, gate_folder};
 pub use limit::{FoundLimits, LimitOptions, find_limits};
 pub use maps::maps_lacking;
 pub use merge::merge;
@@ -120,6 +124,7 @@ pub use fovqa_plan::{
     Scene, Settings, SourceSpec,
 };
 pub use fovqa_results::{
-    Baseline, Failure, FoveateRecord, RunResults, ScoreReport, Verdict, write_csv, write_json,
+    Baseline, Calibration, FALSE_ALARMS, Failure, FoveateRecord, RunResults, ScoreReport, Verdict,
+    write_csv, write_json,
 };
 pub use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec};

@@ -25,6 +25,7 @@ Examples:
   fovqa gate nightly.toml --baseline nightly.baseline.json --annotations github
   fovqa gate reports/nightly --format json
   fovqa gate nightly.toml --calibrate runs/1 runs/2 runs/3 > limits.toml
+  fovqa gate nightly.toml --calibrate runs/* --false-alarms 0.001 --write
 
 Exit codes: 0 every rule holds; 1 a rule fails; 2 the command line, the experiment file or a rule is
 wrong; 3 something could not be scored or read, which is never a pass; 70 a bug in fovqa; 130
@@ -71,6 +72,14 @@ pub(crate) struct GateArgs {
     /// Print limits for the rules as TOML, proposed from the spread of repeated runs of one build
     #[arg(long, value_name = "RESULTS_DIR", num_args = 1.., conflicts_with_all = ["baseline", "junit", "markdown", "annotations", "format", "output", "maps", "threads"])]
     pub(crate) calibrate: Vec<PathBuf>,
+    /// With --calibrate: the probability that a new run of the same build fails the gate, all limits
+    /// together, above 0 and at most 0.5 [default: 0.01]
+    #[arg(long, value_name = "RATE", requires = "calibrate", value_parser = rate)]
+    pub(crate) false_alarms: Option<f64>,
+    /// With --calibrate: write the limits into the experiment file instead of printing them, and
+    /// replace those that were written before
+    #[arg(long, requires = "calibrate")]
+    pub(crate) write: bool,
     /// Folder for the results of an experiment [default: reports/NAME, with the experiment's
     /// name]
     #[arg(long, value_name = "DIR")]
@@ -89,4 +98,11 @@ pub(crate) struct GateArgs {
     pub(crate) threads: Option<u16>,
     #[command(flatten)]
     pub(crate) lock: LockArgs,
+}
+
+/// A rate of false alarms.
+fn rate(text: &str) -> Result<f64, String> {
+    let rate: Option<f64> = text.parse().ok();
+    rate.filter(|rate| *rate > 0.0 && *rate <= 0.5)
+        .ok_or_else(|| "write a number above 0 and at most 0.5".to_owned())
 }

@@ -1,19 +1,24 @@
 //! Proposes limits from repeated renders of one build. The natural variation of a value determines
-//! how far the limit must be from it.
-
-use std::fmt::Write as _;
+//! how far the limit must be from it, for a stated rate of false alarms.
 
 use fovqa_metrics::Better;
 use fovqa_plan::{GateRule, Quantity};
 
+use super::noise::{Spread, enough_runs, rounding_noise, widening};
 use super::values::{ComparisonName, Lacking, RunValues};
 use super::verdict::is_of;
+
+/// The rate of false alarms if none is given.
+pub const FALSE_ALARMS: f64 = 0.01;
 
 /// Proposed limits for a gate, from repeated runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
-    /// Number of runs.
+    /// Number of runs, at least 2.
     pub runs: usize,
+    /// The probability that a new run of an unchanged build fails any of the limits, if the values
+    /// of runs are normally distributed.
+    pub false_alarms: f64,
     /// One proposal per rule and comparison.
     pub proposals: Vec<Proposal>,
 }
@@ -31,99 +36,240 @@ pub struct Proposal {
     pub min: f64,
     /// Largest value among the runs.
     pub max: f64,
+    /// The observed range: the largest value minus the smallest; of a rule per frame, the largest range of
+    /// a frame.
+    pub range: f64,
+    /// Mean of the values.
+    pub mean: f64,
     /// Standard deviation over the runs (divisor n - 1).
     pub deviation: f64,
+    /// The limits. There are none if a value is infinite, because it has no distance from other
+    /// values.
+    pub limits: Vec<ProposedLimit>,
 }
 
-/// Proposes limits for rules from the values of repeated runs. Each run has a name.
+/// A limit of a proposal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ProposedLimit {
+    /// The smallest allowed value.
+    AtLeast(f64),
+    /// The largest allowed value.
+    AtMost(f64),
+    /// How far the value may fall below that of the baseline.
+    MaxDrop(f64),
+    /// How far the value may rise above that of the baseline.
+    MaxRise(f64),
+}
+
+/// Proposes limits for rules from the values of repeated runs. Each run has a name. `false_alarms` is
+/// the probability, above 0 and at most 0.5, that a new run of the same build fails any of the limits.
 ///
 /// # Errors
 /// If a run lacks a value.
-pub fn calibrate(rules: &[GateRule], runs: &[(String, RunValues)]) -> Result<Calibration, Lacking> {
-    let mut proposals: Vec<Proposal> = Vec::new();
-    let Some((_, first)) = runs.first() else { return Ok(Calibration { runs: 0, proposals }) };
+pub fn calibrate(
+    rules: &[GateRule],
+    runs: &[(String, RunValues)],
+    false_alarms: f64,
+) -> Result<Calibration, Lacking> {
+    let mut proposals: Vec<(Proposal, Samples)> = Vec::new();
+    let places = runs.first().map(|(_, first)| first.places()).into_iter().flatten();
+    let places: Vec<&ComparisonName> = places.collect();
     for rule in rules {
-        for place in first.places().filter(|place| is_of(rule, place)) {
-            let value = |(name, run): &(String, RunValues)| {
-                let found = run.of(place, &rule.quantity).map(|found| found.value);
+        for place in places.iter().filter(|place| is_of(rule, place)) {
+            let row = |(name, run): &(String, RunValues)| {
+                let found = row(run, place, &rule.quantity);
                 found.map_err(|lacking| lacking.within(&format!("{name}: {}", named(place))))
             };
-            let values: Vec<f64> = runs.iter().map(value).collect::<Result<_, _>>()?;
-            let proposal = Proposal::new(rule, place, &values);
-            if !proposals.contains(&proposal) {
-                proposals.push(proposal);
+            let samples = Samples::of(runs.iter().map(row).collect::<Result<_, _>>()?);
+            let proposal = Proposal::new(rule, place, &samples);
+            if !proposals.iter().any(|(known, _)| *known == proposal) {
+                proposals.push((proposal, samples));
             }
         }
     }
-    Ok(Calibration { runs: runs.len(), proposals })
+    let proposals = with_limits(proposals, false_alarms);
+    Ok(Calibration { runs: runs.len(), false_alarms, proposals })
 }
 
-fn named((scene, method, eye): &ComparisonName) -> String {
+/// The value of a run, or the values of its frames.
+fn row(run: &RunValues, place: &ComparisonName, quantity: &Quantity) -> Result<Vec<f64>, Lacking> {
+    if quantity.per_frame {
+        let frames = run.frames(place, quantity)?;
+        return Ok(frames.into_iter().map(|(_, value)| value).collect());
+    }
+    Ok(vec![run.of(place, quantity)?.value])
+}
+
+/// Adds the limits. The rate of false alarms is divided equally among all of them (Bonferroni).
+fn with_limits(proposals: Vec<(Proposal, Samples)>, false_alarms: f64) -> Vec<Proposal> {
+    let count: usize = proposals.iter().map(|(proposal, samples)| proposal.count(samples)).sum();
+    let share = false_alarms / count.max(1) as f64;
+    let with_limits = |(proposal, samples): (Proposal, Samples)| Proposal {
+        limits: proposal.limits(&samples, share),
+        ..proposal
+    };
+    proposals.into_iter().map(with_limits).collect()
+}
+
+/// Scene, method and eye in words.
+pub(super) fn named((scene, method, eye): &ComparisonName) -> String {
     let eye = if eye.is_empty() { String::new() } else { format!(", {eye}") };
     format!("{scene}, {method}{eye}")
 }
 
-impl Proposal {
-    fn new(rule: &GateRule, place: &ComparisonName, values: &[f64]) -> Self {
-        let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
-        let squared: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
-        Self {
-            place: place.clone(),
-            quantity: rule.quantity.clone(),
-            relative: rule.needs_baseline(),
-            min: values.iter().copied().fold(f64::INFINITY, f64::min),
-            max: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-            deviation: if values.len() > 1 { (squared / (count - 1.0)).sqrt() } else { 0.0 },
-        }
-    }
+/// The values of all runs, a row for each.
+struct Samples {
+    min: f64,
+    max: f64,
+    mean: f64,
+    /// The lowest and the highest mean of a frame over the runs.
+    means: [f64; 2],
+    /// The largest range of a frame over the runs.
+    range: f64,
+    /// `None` if a value is infinite, or there is a single run, or the runs have different frames.
+    spread: Option<Spread>,
+}
 
-    /// The observed range: the largest value minus the smallest.
-    pub fn spread(&self) -> f64 {
-        if self.min.to_bits() == self.max.to_bits() { 0.0 } else { self.max - self.min }
-    }
-
-    /// The smallest value to allow: the smallest observed value, minus the observed range as a
-    /// margin.
-    fn at_least(&self) -> f64 {
-        rounded(self.min - self.spread(), self.spread(), f64::floor)
-    }
-
-    fn at_most(&self) -> f64 {
-        rounded(self.max + self.spread(), self.spread(), f64::ceil)
-    }
-
-    /// The allowed difference between two renders: twice the observed range.
-    fn allowance(&self) -> f64 {
-        rounded(2.0 * self.spread(), self.spread(), f64::ceil)
-    }
-
-    /// The lines with the limits. There are none if a value is infinite, because it has no distance
-    /// from other values.
-    fn limits(&self) -> Vec<String> {
-        if !self.min.is_finite() || !self.max.is_finite() {
-            return Vec::new();
-        }
-        let number = |key: &str, value: f64| format!("{key} = {value:?}");
-        match (self.quantity.better(), self.relative) {
-            (Better::Higher, false) => vec![number("at_least", self.at_least())],
-            (Better::Lower, false) => vec![number("at_most", self.at_most())],
-            (Better::Higher, true) => vec![number("max_drop", self.allowance())],
-            (Better::Lower, true) => vec![number("max_rise", self.allowance())],
-            (Better::Neither, _) => {
-                vec![number("at_least", self.at_least()), number("at_most", self.at_most())]
+impl Samples {
+    fn of(mut rows: Vec<Vec<f64>>) -> Self {
+        let frames = rows.first().map_or(0, Vec::len);
+        if frames > 1 && rows.iter().all(|row| row.len() == frames) {
+            // A frame that is identical to its reference in every run does not vary.
+            let is_kept: Vec<bool> = (0..frames)
+                .map(|frame| rows.iter().any(|row| row[frame] < f64::INFINITY))
+                .collect();
+            for row in &mut rows {
+                let mut kept = is_kept.iter();
+                row.retain(|_| kept.next() == Some(&true));
             }
+        }
+        let spread = Spread::of_frames(&rows);
+        let ends = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[min, max], value| {
+                [min.min(value), max.max(value)]
+            })
+        };
+        let count = rows.first().map_or(0, Vec::len);
+        let of_frame = |frame: usize| rows.iter().filter_map(move |row| row.get(frame).copied());
+        let mean_of = |frame| of_frame(frame).sum::<f64>() / rows.len() as f64;
+        let range_of = |frame| {
+            let [min, max] = ends(&mut of_frame(frame));
+            if min.to_bits() == max.to_bits() { 0.0 } else { max - min }
+        };
+        let [min, max] = ends(&mut rows.iter().flatten().copied());
+        Self {
+            min,
+            max,
+            mean: (0..count).map(mean_of).sum::<f64>() / count.max(1) as f64,
+            means: ends(&mut (0..count).map(mean_of)),
+            range: (0..count).map(range_of).fold(0.0, f64::max),
+            spread,
         }
     }
 }
 
-/// Rounds a value to the second significant digit of its range. A value with zero range is not
-/// rounded.
-fn rounded(value: f64, spread: f64, round: impl Fn(f64) -> f64) -> f64 {
-    if spread == 0.0 || !value.is_finite() {
+impl Proposal {
+    fn new(rule: &GateRule, place: &ComparisonName, samples: &Samples) -> Self {
+        Self {
+            place: place.clone(),
+            quantity: rule.quantity.clone(),
+            relative: rule.needs_baseline(),
+            min: samples.min,
+            max: samples.max,
+            range: samples.range,
+            mean: samples.mean,
+            deviation: samples.spread.map_or(0.0, |spread| spread.deviation),
+            limits: Vec::new(),
+        }
+    }
+
+    /// The number of limits.
+    fn count(&self, samples: &Samples) -> usize {
+        match (samples.spread, self.quantity.better()) {
+            (None, _) => 0,
+            (Some(_), Better::Neither) => 2,
+            (Some(_), Better::Higher | Better::Lower) => 1,
+        }
+    }
+
+    /// The limits, each of which a new run fails with a probability of `share`. No limit is stricter
+    /// than any of the runs, and differences within rounding noise never fail.
+    fn limits(&self, samples: &Samples, share: f64) -> Vec<ProposedLimit> {
+        let Some(spread) = samples.spread else { return Vec::new() };
+        let noise = rounding_noise(&self.quantity, self.min.abs().max(self.max.abs()));
+        let margin = spread.of_new_run(share);
+        let at_least = || {
+            let [lowest, _] = samples.means;
+            let limit = (lowest - margin).min(self.min - noise);
+            ProposedLimit::AtLeast(rounded(limit, lowest - limit, f64::floor))
+        };
+        let at_most = || {
+            let [_, highest] = samples.means;
+            let limit = (highest + margin).max(self.max + noise);
+            ProposedLimit::AtMost(rounded(limit, limit - highest, f64::ceil))
+        };
+        let allowance = || {
+            let allowance = spread.of_two_new_runs(share).max(samples.range + noise);
+            rounded(allowance, allowance, f64::ceil)
+        };
+        match (self.quantity.better(), self.relative) {
+            (Better::Higher, false) => vec![at_least()],
+            (Better::Lower, false) => vec![at_most()],
+            (Better::Higher, true) => vec![ProposedLimit::MaxDrop(allowance())],
+            (Better::Lower, true) => vec![ProposedLimit::MaxRise(allowance())],
+            (Better::Neither, _) => vec![at_least(), at_most()],
+        }
+    }
+}
+
+impl Calibration {
+    /// The number of limits.
+    pub fn limits(&self) -> usize {
+        self.proposals.iter().map(|proposal| proposal.limits.len()).sum()
+    }
+
+    /// Describes the number of runs, the rate of false alarms and, if there are few runs, how wide
+    /// that makes the limits.
+    pub fn in_words(&self) -> String {
+        let (runs, rate, limits) = (self.runs, self.false_alarms, self.limits());
+        let all = if limits == 1 {
+            "its limit".to_owned()
+        } else {
+            format!("all {limits} limits together")
+        };
+        let text = format!(
+            "{runs} repeated runs of one build. A new run of that build fails with a probability of at most {rate} \
+             for {all}, if values are normally distributed"
+        );
+        match self.few_runs() {
+            None => text,
+            Some(few) => format!("{text}. {few}"),
+        }
+    }
+
+    /// How wide few runs make the limits, and how many runs are enough; `None` if they are.
+    fn few_runs(&self) -> Option<String> {
+        let (runs, limits) = (self.runs, self.limits());
+        let share = self.false_alarms / limits.max(1) as f64;
+        let enough = enough_runs(share);
+        if runs < 2 || runs >= enough || limits == 0 {
+            return None;
+        }
+        let times = widening(runs, share);
+        let times = if times < 10.0 { format!("{times:.1}") } else { format!("{times:.0}") };
+        Some(format!(
+            "{runs} runs say little about the noise, so the limits are {times} times as wide as very many runs \
+             would make them; from {enough} runs they would be at most twice as wide"
+        ))
+    }
+}
+
+/// Rounds a value to the second significant digit of its margin, which must be above 0.
+fn rounded(value: f64, margin: f64, round: impl Fn(f64) -> f64) -> f64 {
+    if !value.is_finite() || !margin.is_finite() || margin <= 0.0 {
         return value;
     }
-    let digits = 1 - libm::floor(libm::log10(spread)) as i32;
+    let digits = 1 - libm::floor(libm::log10(margin)) as i32;
     // Dividing by a power of ten above one gives quotients that print with few digits.
     let power = libm::pow(10.0, f64::from(digits.abs()));
     if power.is_infinite() {
@@ -137,96 +283,5 @@ fn rounded(value: f64, spread: f64, round: impl Fn(f64) -> f64) -> f64 {
     if digits >= 0 { round(value * power) / power } else { round(value / power) * power }
 }
 
-impl Calibration {
-    /// The limits as tables of an experiment file, each with a comment that states its source.
-    pub fn toml(&self) -> String {
-        let runs = self.runs;
-        let mut text = format!(
-            "# Limits from {runs} repeated runs: the worst value, with the observed range as a margin.\n"
-        );
-        for proposal in &self.proposals {
-            let Proposal { place, quantity, min, max, deviation, .. } = proposal;
-            let limits = proposal.limits();
-            if limits.is_empty() {
-                let place = comment(&named(place));
-                let _ = write!(
-                    text,
-                    "\n# {place}: {quantity} {min} to {max} in {runs} runs: an infinite value gives no limit\n"
-                );
-                continue;
-            }
-            let _ = write!(
-                text,
-                "\n# {}: {quantity} {min} to {max} in {runs} runs (spread {}, standard deviation {deviation:.2e})\n",
-                comment(&named(place)),
-                proposal.spread(),
-            );
-            let (scene, method, eye) = place;
-            let _ = writeln!(text, "[[gate]]\nmetric = {}", quoted(&quantity.metric));
-            let mut key = |key: &str, value: &str| {
-                let _ = writeln!(text, "{key} = {value}");
-            };
-            key("scene", &quoted(scene));
-            key("method", &quoted(method));
-            if !eye.is_empty() {
-                key("eye", &quoted(eye));
-            }
-            if !quantity.statistic.is_empty() {
-                key("statistic", &quoted(&quantity.statistic));
-            }
-            if quantity.image != "pair" {
-                key("image", &quoted(&quantity.image));
-            }
-            if let Some(level) = quantity.level {
-                key("level", &level.to_string());
-            }
-            if let Some([from, to]) = quantity.band_deg {
-                key("band_deg", &format!("[{from}, {to}]"));
-            }
-            if let Some(aggregate) = quantity.aggregate {
-                key("aggregate", &quoted(&aggregate.to_string()));
-            }
-            for limit in limits {
-                let _ = writeln!(text, "{limit}");
-            }
-        }
-        text
-    }
-}
-
-/// A text in TOML quotes.
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
-}
-
-/// A name for use in a comment: it must not contain a line break.
-fn comment(text: &str) -> String {
-    text.replace(char::is_control, " ")
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn limits_keep_as_far_as_values_spread() {
-        let proposal = Proposal {
-            place: ("s".to_owned(), "m".to_owned(), String::new()),
-            quantity: Quantity::of(fovqa_metrics::Metric::Psnr, fovqa_plan::Aggregate::Min),
-            relative: false,
-            min: 28.613,
-            max: 28.702,
-            deviation: 0.03,
-        };
-        assert!((proposal.at_least() - 28.524).abs() < 1e-9, "{}", proposal.at_least());
-        assert!((proposal.at_most() - 28.791).abs() < 1e-9);
-        assert!((proposal.allowance() - 0.178).abs() < 1e-9);
-        assert_eq!(proposal.limits(), ["at_least = 28.524"]);
-        let relative = Proposal { relative: true, ..proposal.clone() };
-        assert_eq!(relative.limits(), ["max_drop = 0.178"]);
-        let same = Proposal { max: 28.613, ..proposal };
-        assert_eq!(same.limits(), ["at_least = 28.613"]);
-        assert!((rounded(123_456.0, 5000.0, f64::floor) - 123_400.0).abs() < 1e-9);
-        assert!((rounded(1e-310, 1e-320, f64::floor) - 1e-310).abs() < 1e-315, "no power of ten");
-    }
-}
+mod tests;

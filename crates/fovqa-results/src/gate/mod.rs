@@ -3,15 +3,18 @@
 
 mod aggregate;
 mod calibrate;
+mod calibration_toml;
 mod files;
 mod json;
 mod loss;
+mod noise;
 mod reading;
 mod series;
+mod student_t;
 mod values;
 mod verdict;
 
-pub use calibrate::{Calibration, Proposal, calibrate};
+pub use calibrate::{Calibration, FALSE_ALARMS, Proposal, ProposedLimit, calibrate};
 pub use files::{GATE, keep_verdict, kept_verdict, verdict_file};
 pub use json::{
     BandRecord, CheckRecord, FrameCheckRecord, GATE_SCHEMA, LossRecord, PictureRecord, PlaceRecord,
