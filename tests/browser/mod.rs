@@ -1,6 +1,7 @@
 //! `report.html` in a real browser, where one is installed.
 
 mod chromium;
+mod gate;
 mod pictures;
 mod sequence;
 mod still;
