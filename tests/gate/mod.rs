@@ -7,4 +7,5 @@ pub(crate) mod experiments;
 mod outcomes;
 mod reports;
 mod rules;
+mod spread;
 mod values;

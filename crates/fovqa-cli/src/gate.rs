@@ -47,7 +47,7 @@ fn of_folder(args: &GateArgs) -> Result<Verdict, Exit> {
         diagnostic::error(&message, "leave it out, or give the experiment file");
         return Err(Exit::Usage);
     }
-    fovqa::gate_folder(&args.target, args.baseline.as_deref())
+    fovqa::gate_folder(&args.target, args.baseline.as_deref(), &args.repeats)
         .map_err(|error| experiment::failed(&error))
 }
 
@@ -65,7 +65,7 @@ fn of_experiment(args: &GateArgs) -> Result<Verdict, Exit> {
     };
     let terminal = Terminal::speaking(Dialect::Experiment);
     let baseline = args.baseline.as_deref();
-    fovqa::gate(experiment, options, baseline, &Given::default(), &terminal)
+    fovqa::gate(experiment, options, baseline, &args.repeats, &Given::default(), &terminal)
         .map_err(|error| experiment::failed(&error))
 }
 

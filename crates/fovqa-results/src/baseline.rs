@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::files::{FileError, read_json_file};
-use crate::gate::{ComparisonName, RunValues};
+use crate::gate::{ComparisonName, RunValues, tested_quantities};
 use crate::inputs::{Input, Inputs};
 use crate::json::{Number, RunRecord};
 
@@ -67,6 +67,9 @@ pub struct BaselineComparison {
     pub frames: usize,
     /// Values by their names.
     pub(crate) values: BTreeMap<String, Number>,
+    /// Values of all repeated runs, by their names, for rules that test the spread of repeated runs.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub(crate) repeats: BTreeMap<String, Vec<Number>>,
 }
 
 impl BaselineComparison {
@@ -128,7 +131,8 @@ impl Baseline {
             });
             let (scene, method, eye) = place.clone();
             let frames = values.frames_of(place);
-            BaselineComparison { scene, method, eye, frames, values: found.collect() }
+            let repeats = repeated(values, rules, place);
+            BaselineComparison { scene, method, eye, frames, values: found.collect(), repeats }
         });
         Self {
             schema: BASELINE_SCHEMA.to_owned(),
@@ -167,19 +171,33 @@ impl Baseline {
 
     /// The value of a comparison.
     pub(crate) fn value(&self, place: &ComparisonName, quantity: &Quantity) -> Result<f64, String> {
-        let found = self.comparisons.iter().find(|c| c.place() == *place);
-        let Some(comparison) = found else {
-            let (scene, method, eye) = place;
-            if !self.comparisons.iter().any(|c| c.scene == *scene) {
-                return Err(format!("the baseline has no scene {scene}"));
-            }
-            let eye = if eye.is_empty() { String::new() } else { format!(", {eye}") };
-            return Err(format!("the baseline has no {method}{eye} in scene {scene}"));
-        };
+        let comparison = self.comparison(place)?;
         let value = comparison.values.get(&quantity.to_string());
         value
             .map(|number| number.0)
             .ok_or_else(|| format!("the baseline has no {quantity} of {}", comparison.named()))
+    }
+
+    /// The values of the repeated runs of a comparison; empty if the baseline has none.
+    pub(crate) fn repeats(
+        &self,
+        place: &ComparisonName,
+        quantity: &Quantity,
+    ) -> Result<Vec<f64>, String> {
+        let values = self.comparison(place)?.repeats.get(&quantity.to_string());
+        Ok(values.into_iter().flatten().map(|number| number.0).collect())
+    }
+
+    fn comparison(&self, place: &ComparisonName) -> Result<&BaselineComparison, String> {
+        let found = self.comparisons.iter().find(|c| c.place() == *place);
+        found.ok_or_else(|| {
+            let (scene, method, eye) = place;
+            if !self.comparisons.iter().any(|c| c.scene == *scene) {
+                return format!("the baseline has no scene {scene}");
+            }
+            let eye = if eye.is_empty() { String::new() } else { format!(", {eye}") };
+            format!("the baseline has no {method}{eye} in scene {scene}")
+        })
     }
 
     /// Why a run cannot be compared with this baseline: metrics of another version, or computed
@@ -296,6 +314,22 @@ impl Baseline {
             paths.any(|path| path == folder || parent(path))
         })
     }
+}
+
+/// The values of all repeated runs that the rules of a comparison test; empty if the run is not
+/// repeated.
+fn repeated(
+    values: &RunValues,
+    rules: &[GateRule],
+    place: &ComparisonName,
+) -> BTreeMap<String, Vec<Number>> {
+    let rules = rules.iter().filter(|rule| rule.spread.is_some() && !values.repeats.is_empty());
+    let quantities = rules.flat_map(|rule| tested_quantities(rule, values, place));
+    let of_all = |quantity: Quantity| {
+        let found = values.of_all_runs(place, &quantity).ok()?;
+        Some((quantity.to_string(), found.into_iter().map(Number).collect()))
+    };
+    quantities.filter_map(of_all).collect()
 }
 
 /// The values of a metric that are stored whatever the rules are.

@@ -41,7 +41,7 @@ fn main() -> Result<(), fovqa::Error> {
     println!("{} frames; look at {}/report.html", finished.scored, finished.folder.display());
     let rules = &read_experiment(&file)?.gates;
     if !rules.is_empty() && rules.iter().all(|rule| !rule.needs_baseline()) {
-        let verdict = gate_folder(&finished.folder, None)?;
+        let verdict = gate_folder(&finished.folder, None, &[])?;
         println!("its gate: {:?}", verdict.state());
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! A gate checks the values of a run against the rules of an experiment.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use fovqa_engine::{Events, Given};
 use fovqa_plan::{Experiment, GateRule, Resolved};
@@ -9,10 +9,12 @@ use fovqa_results::{Baseline, Verdict};
 use crate::error::Error;
 use crate::finish::text_hash;
 use crate::finished_run::FinishedRun;
+use crate::repeats::Repeats;
 use crate::run::{Run, RunOptions};
 
 /// Scores an experiment and checks the values against its rules and, if one is given, against a
-/// baseline. `file` is the name of the experiment file in the verdict.
+/// baseline. `repeats` are the folders of further runs of the same build, for rules that test the spread
+/// of repeated runs.
 ///
 /// # Errors
 /// If there are no rules, a rule needs a baseline and none is given, the values of the baseline
@@ -22,6 +24,7 @@ pub fn gate(
     experiment: Experiment,
     options: RunOptions,
     baseline: Option<&Path>,
+    repeats: &[PathBuf],
     given: &Given,
     events: &dyn Events,
 ) -> Result<Verdict, Error> {
@@ -29,13 +32,16 @@ pub fn gate(
     check(&experiment.gates, &file, baseline)?;
     let run = Run::new(experiment, options, given)?;
     // The baseline is checked before anything is scored.
-    let baseline = fitting(baseline, &run.experiment().resolved())?;
+    let resolved = run.experiment().resolved();
+    let baseline = fitting(baseline, &resolved)?;
+    let repeats = Repeats::read(&run.folder(), repeats, &resolved, &resolved.gates)?;
     let scored = run.start(events)?;
     events.note(&scored.in_words());
     if let Some(errors) = scored.errors_in_words() {
         events.failure(&errors, "");
     }
-    let finished = FinishedRun::read(&scored.folder)?;
+    let mut finished = FinishedRun::read(&scored.folder)?;
+    repeats.add_to(&mut finished.values)?;
     Ok(judge(&finished, &file.display().to_string(), baseline.as_ref()))
 }
 
@@ -43,12 +49,18 @@ pub fn gate(
 ///
 /// # Errors
 /// See [`gate`]. It is also an error if the folder contains no finished run.
-pub fn gate_folder(folder: &Path, baseline: Option<&Path>) -> Result<Verdict, Error> {
-    let finished = FinishedRun::read(folder)?;
+pub fn gate_folder(
+    folder: &Path,
+    baseline: Option<&Path>,
+    repeats: &[PathBuf],
+) -> Result<Verdict, Error> {
+    let mut finished = FinishedRun::read(folder)?;
     let resolved = &finished.record.resolved;
     let file = folder.join(&finished.record.experiment.file);
     check(&resolved.gates, &file, baseline)?;
     let baseline = fitting(baseline, resolved)?;
+    let repeats = Repeats::read(folder, repeats, resolved, &resolved.gates)?;
+    repeats.add_to(&mut finished.values)?;
     Ok(judge(&finished, &finished.record.experiment.file, baseline.as_ref()))
 }
 

@@ -79,6 +79,7 @@ mod memory;
 mod merge;
 mod pair;
 mod pictures;
+mod repeats;
 mod report;
 mod run;
 mod samples;

@@ -10,7 +10,8 @@ A baseline is a small JSON file with the values of a run, meant to be kept in gi
   fovqa run nightly.toml
   fovqa baseline save reports/nightly nightly.baseline.json
   fovqa gate nightly.toml --baseline nightly.baseline.json
-  fovqa baseline accept reports/nightly nightly.baseline.json --scene bistro";
+  fovqa baseline accept reports/nightly nightly.baseline.json --scene bistro
+  fovqa baseline save runs/1 nightly.baseline.json --repeats runs/2 runs/3 runs/4";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum BaselineCommand {
@@ -28,6 +29,9 @@ pub(crate) struct SaveArgs {
     pub(crate) results: PathBuf,
     /// The baseline file to write
     pub(crate) baseline: PathBuf,
+    /// Further runs of the same build, for rules with alpha
+    #[arg(long, value_name = "RESULTS_DIR", num_args = 1..)]
+    pub(crate) repeats: Vec<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -45,6 +49,9 @@ pub(crate) struct AcceptArgs {
     /// Only the values of this scene; may be given several times [default: all]
     #[arg(long = "scene", value_name = "NAME")]
     pub(crate) scenes: Vec<String>,
+    /// Further runs of the same build, for rules with alpha
+    #[arg(long, value_name = "RESULTS_DIR", num_args = 1..)]
+    pub(crate) repeats: Vec<PathBuf>,
     /// Only show what differs
     #[arg(long)]
     pub(crate) dry_run: bool,

@@ -18,7 +18,7 @@ mod signal;
 mod values;
 mod view;
 
-pub(crate) use baseline::BaselineCommand;
+pub(crate) use baseline::{AcceptArgs, BaselineCommand, SaveArgs};
 pub(crate) use curves::CurvesArgs;
 pub(crate) use foveate::{FoveateArgs, FoveateFormat};
 pub(crate) use gallery::GalleryArgs;

@@ -26,7 +26,7 @@ pub fn markdown(verdict: &Verdict) -> String {
                 text,
                 "| {} | {title} | {} | {} | {} | {} | {} |",
                 mark(check.outcome.state()),
-                escaped_markdown(&place(&check.place)),
+                escaped_markdown(&place(check)),
                 check.value.map_or_else(|| "–".to_owned(), number),
                 bound.map(limit).unwrap_or_default(),
                 bound.map(margin).unwrap_or_default(),
@@ -41,7 +41,7 @@ pub fn markdown(verdict: &Verdict) -> String {
     let mut lines = Vec::new();
     for check in verdict.rules.iter().flat_map(|rule| &rule.checks) {
         if let Some(why) = check.outcome.reason() {
-            lines.push(format!("{}: {why}", place(&check.place)));
+            lines.push(format!("{}: {why}", place(check)));
         }
     }
     lines.extend(verdict.errors.iter().map(|error| format!("not scored: {error}")));

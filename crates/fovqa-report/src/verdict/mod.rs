@@ -15,7 +15,7 @@ pub use terminal::verdict_table;
 
 use std::fmt::Write as _;
 
-use fovqa_results::{Check, ComparisonName, Limit, State, Verdict};
+use fovqa_results::{Check, Limit, State, Verdict};
 
 /// A value in the short form that verdicts show. The margin shows on which side of a limit the
 /// value is.
@@ -44,9 +44,12 @@ fn margin(limit: &Limit) -> String {
     format!("{sign}{}", number(limit.margin))
 }
 
-fn place((scene, method, eye): &ComparisonName) -> String {
+/// Scene, method, eye and band of a check.
+fn place(check: &Check) -> String {
+    let (scene, method, eye) = &check.place;
     let parts = [scene, method, eye].into_iter().filter(|part| !part.is_empty());
-    parts.map(String::as_str).collect::<Vec<_>>().join(", ")
+    let band = check.band.map(|[from, to]| format!("{from}° to {to}°"));
+    parts.cloned().chain(band).collect::<Vec<_>>().join(", ")
 }
 
 fn worst(check: &Check) -> String {
@@ -55,13 +58,16 @@ fn worst(check: &Check) -> String {
 
 /// Describes a check in one sentence.
 fn sentence(check: &Check) -> String {
-    let mut text = place(&check.place);
+    let mut text = place(check);
     if let Some(reason) = check.outcome.reason() {
         text.push_str(": ");
         text.push_str(reason);
     } else if let (Some(value), Some(bound)) = (check.value, &check.limit) {
         let (value, margin) = (number(value), margin(bound));
         let _ = write!(text, ": {value} {}, margin {margin}", limit(bound));
+        if let Some(p) = check.p {
+            let _ = write!(text, ", p = {}", number(p));
+        }
     }
     if let Some((frame, value)) = check.worst {
         let _ = write!(text, "; worst frame {frame} with {}", number(value));

@@ -47,6 +47,10 @@ struct CheckRecord<'a> {
     margin: Option<Number>,
     worst_frame: Option<i64>,
     worst_value: Option<Number>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    band_deg: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    p: Option<f64>,
 }
 
 impl<'a> CheckRecord<'a> {
@@ -63,6 +67,8 @@ impl<'a> CheckRecord<'a> {
             margin: check.limit.map(|limit| Number(limit.margin)),
             worst_frame: check.worst.map(|worst| worst.0),
             worst_value: check.worst.map(|worst| Number(worst.1)),
+            band_deg: check.band,
+            p: check.p,
         }
     }
 }

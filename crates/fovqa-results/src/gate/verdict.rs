@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use fovqa_metrics::Better;
 use fovqa_plan::{Allowance, GateRule};
 
+use super::spread_rule;
 use super::values::{ComparisonName, FoundValue, Lacking, RunValues};
 use crate::baseline::Baseline;
 
@@ -39,6 +40,11 @@ pub struct RuleVerdict {
 pub struct Check {
     /// Scene, method and eye.
     pub place: ComparisonName,
+    /// The band in degrees, if the rule tests each band. The value of a test is the mean of this build's
+    /// runs, and the baseline's value the mean of its runs.
+    pub band: Option<[f64; 2]>,
+    /// The p-value of a test against the spread of repeated runs, after the correction for several tests.
+    pub p: Option<f64>,
     /// The value, if there is one.
     pub value: Option<f64>,
     /// The limit with the smallest margin, or with the largest violation.
@@ -120,6 +126,15 @@ impl Outcome {
     }
 }
 
+impl Check {
+    /// A check without a value, which passed.
+    pub(super) fn of(place: &ComparisonName) -> Self {
+        let place = place.clone();
+        let (band, p, value, limit, worst, baseline) = (None, None, None, None, None, None);
+        Self { place, band, p, value, limit, worst, baseline, outcome: Outcome::Passed }
+    }
+}
+
 impl RuleVerdict {
     /// The worst state among the checks.
     pub fn state(&self) -> State {
@@ -186,7 +201,10 @@ pub(super) fn is_of(rule: &GateRule, (scene, method, eye): &ComparisonName) -> b
 
 fn judged(rule: &GateRule, run: &RunValues, baseline: Option<&Baseline>) -> RuleVerdict {
     let places = run.places().filter(|place| is_of(rule, place));
-    let checks: Vec<Check> = places.map(|place| check(rule, run, place, baseline)).collect();
+    let checks: Vec<Check> = match rule.spread {
+        Some(test) => spread_rule::checks(rule, test, run, baseline),
+        None => places.map(|place| check(rule, run, place, baseline)).collect(),
+    };
     let nothing =
         checks.is_empty().then(|| "the rule applies to no comparison of the run".to_owned());
     // If a comparison that the rule applies to no longer exists, the rule does not pass either.
@@ -206,14 +224,7 @@ fn check(
     place: &ComparisonName,
     baseline: Option<&Baseline>,
 ) -> Check {
-    let mut check = Check {
-        place: place.clone(),
-        value: None,
-        limit: None,
-        worst: None,
-        baseline: None,
-        outcome: Outcome::Passed,
-    };
+    let mut check = Check::of(place);
     let found = match run.of(place, &rule.quantity) {
         Ok(found) => found,
         Err(lacking) => {
