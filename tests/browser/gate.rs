@@ -30,10 +30,13 @@ const RADIUS: f64 = 10.0;
 fn a_blurred_patch_in_a_walk_is_shown_first() {
     let folder = Folder::new();
     let size = ["--resolution", "320x320", "--fov-vertical", "100"];
-    let gallery = ["gallery", "--output", "hall", "--frames", "16", "--fps", "60", "--samples", "4"];
+    let gallery =
+        ["gallery", "--output", "hall", "--frames", "16", "--fps", "60", "--samples", "4"];
     folder.run(&[&gallery[..], &size].concat()).ok();
     let foveate = ["foveate", "hall/png", "renders", "--method", "rmfr", "--set", "sigma=1.6"];
-    folder.run(&[&foveate[..], &["--fov-vertical", "100", "--gaze-trace", "hall/gaze.csv"]].concat()).ok();
+    folder
+        .run(&[&foveate[..], &["--fov-vertical", "100", "--gaze-trace", "hall/gaze.csv"]].concat())
+        .ok();
     folder.write("nightly.toml", EXPERIMENT);
     folder.run(&["run", "nightly.toml", "--output", "good"]).ok();
     folder.run(&["baseline", "save", "good", "good.json", "--frames"]).ok();
@@ -66,7 +69,8 @@ fn a_blurred_patch_in_a_walk_is_shown_first() {
     assert_eq!(page.complaints(), Vec::<String>::new());
     let first = page.value("document.querySelector('main h2').textContent");
     assert_eq!(first, "The gate fails: 1 of 2 rules");
-    let broken = "[...document.querySelectorAll('.verdict img')].filter(i => !i.naturalWidth).length";
+    let broken =
+        "[...document.querySelectorAll('.verdict img')].filter(i => !i.naturalWidth).length";
     assert_eq!(page.value(broken), 0);
     for size in [[1440, 900], [390, 800]] {
         page.show_as(size, "dark");

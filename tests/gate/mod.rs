@@ -9,4 +9,5 @@ mod per_frame;
 mod places;
 mod reports;
 mod rules;
+mod spread;
 mod values;

@@ -19,7 +19,8 @@ pub(crate) fn run(command: &BaselineCommand) -> Exit {
 }
 
 fn save(args: &SaveArgs) -> Result<Exit, fovqa::Error> {
-    let saved = fovqa::save_baseline(&args.results, &args.baseline, &args.frames.frames())?;
+    let saved =
+        fovqa::save_baseline(&args.results, &args.baseline, &args.repeats, &args.frames.frames())?;
     let baseline = &saved.baseline;
     let values: usize = baseline.comparisons.iter().map(|c| c.values().count()).sum();
     let file = args.baseline.display();
@@ -46,7 +47,7 @@ fn say_frames(saved: &Saved) {
 
 fn accept(args: &AcceptArgs) -> Result<Exit, fovqa::Error> {
     let path = &args.baseline;
-    let accepted = fovqa::accept_baseline(&args.results, path, &args.scenes)?;
+    let accepted = fovqa::accept_baseline(&args.results, path, &args.scenes, &args.repeats)?;
     if let Some(why) = &accepted.taken_otherwise {
         diagnostic::warning(&format!("the values were measured differently: {why}"));
     }

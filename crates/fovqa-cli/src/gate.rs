@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fovqa::{FALSE_ALARMS, Given, RunOptions, Verdict, text_hash};
+use fovqa::{Against, FALSE_ALARMS, Given, RunOptions, Verdict, text_hash};
 use fovqa_report::{
     github_annotations, gitlab_report, junit, markdown, verdict_table, without_commands,
 };
@@ -32,6 +32,11 @@ fn gate(args: &GateArgs) -> Result<Exit, Exit> {
     Ok(judged.or_worse(printed).or_worse(written))
 }
 
+/// What the run is compared with.
+fn against(args: &GateArgs) -> Against {
+    Against { baselines: args.baseline.clone(), repeats: args.repeats.clone() }
+}
+
 /// The verdict for a finished run.
 fn of_folder(args: &GateArgs) -> Result<Verdict, Exit> {
     let options = [
@@ -48,7 +53,7 @@ fn of_folder(args: &GateArgs) -> Result<Verdict, Exit> {
         return Err(Exit::Usage);
     }
     let terminal = Terminal::speaking(Dialect::Experiment);
-    fovqa::gate_folder(&args.target, &args.baseline, args.lock.locking(), &terminal)
+    fovqa::gate_folder(&args.target, &against(args), args.lock.locking(), &terminal)
         .map_err(|error| experiment::failed(&error))
 }
 
@@ -65,7 +70,7 @@ fn of_experiment(args: &GateArgs) -> Result<Verdict, Exit> {
         locking: args.lock.locking(),
     };
     let terminal = Terminal::speaking(Dialect::Experiment);
-    fovqa::gate(experiment, options, &args.baseline, &Given::default(), &terminal)
+    fovqa::gate(experiment, options, &against(args), &Given::default(), &terminal)
         .map_err(|error| experiment::failed(&error))
 }
 

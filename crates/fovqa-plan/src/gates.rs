@@ -5,6 +5,8 @@ use std::fmt;
 use fovqa_metrics::{Better, Key, Metric, Subject};
 use serde::{Deserialize, Serialize};
 
+use crate::spread_test::SpreadTest;
+
 /// One rule. It passes if it passes in every comparison that it applies to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GateRule {
@@ -36,12 +38,15 @@ pub struct GateRule {
     /// How far the value may rise above that of the baseline.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_rise: Option<Allowance>,
+    /// The test against the spread of repeated runs. A rule with a test has no limits.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread: Option<SpreadTest>,
 }
 
 impl GateRule {
     /// Whether the rule compares values with a baseline.
     pub fn needs_baseline(&self) -> bool {
-        self.max_drop.is_some() || self.max_rise.is_some()
+        self.max_drop.is_some() || self.max_rise.is_some() || self.spread.is_some()
     }
 
     /// The limits in words.
@@ -51,6 +56,7 @@ impl GateRule {
             self.at_most.map(|limit| format!("at most {limit}")),
             self.max_drop.map(|drop| format!("at most {drop} below the baseline")),
             self.max_rise.map(|rise| format!("at most {rise} above the baseline")),
+            self.spread.map(|test| test.to_string()),
         ];
         limits.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }

@@ -25,6 +25,7 @@ mod resolved;
 mod settings;
 mod source;
 mod spacing;
+mod spread_test;
 mod sweep;
 
 pub use builtin::BuiltinFrames;
@@ -51,4 +52,5 @@ pub use resolved::{Resolved, ResolvedEye, ResolvedScene, other_parameter};
 pub use settings::{Gaze, Nonfinite, Settings};
 pub use source::SourceSpec;
 pub use spacing::spaced;
+pub use spread_test::{Adjust, SpreadTest};
 pub use sweep::{Sweep, SweptKey, shown as shown_value, swept_label};

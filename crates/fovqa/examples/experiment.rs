@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use fovqa::{Events, Finished, Given, Locking, Run, RunOptions, gate_folder, read_experiment};
+use fovqa::{
+    Against, Events, Finished, Given, Locking, Run, RunOptions, gate_folder, read_experiment,
+};
 
 /// Says what a run says on the way.
 struct Printed;
@@ -41,7 +43,8 @@ fn main() -> Result<(), fovqa::Error> {
     println!("{} frames; look at {}/report.html", finished.scored, finished.folder.display());
     let rules = &read_experiment(&file)?.gates;
     if !rules.is_empty() && rules.iter().all(|rule| !rule.needs_baseline()) {
-        let verdict = gate_folder(&finished.folder, &[], Locking::Locked, &Printed)?;
+        let verdict =
+            gate_folder(&finished.folder, &Against::default(), Locking::Locked, &Printed)?;
         println!("its gate: {:?}", verdict.state());
     }
     Ok(())

@@ -16,14 +16,24 @@ use crate::error::Error;
 use crate::finish::{in_folder, text_hash};
 use crate::finished_run::FinishedRun;
 use crate::reopened::reopen;
+use crate::repeats::Repeats;
 use crate::run::{Run, RunOptions};
 use baselines::{Baselines, Named};
 use locate::{Site, locate};
 
 pub(crate) use clear::clear_gate;
 
-/// Scores an experiment and checks the values against its rules and, if there are any, against baselines,
-/// of which the best match counts: `baselines`, or else those that the experiment names. The verdict is
+/// What a gate compares a run with.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Against {
+    /// The baselines, of which the best match counts; if there are none, those that the experiment names.
+    pub baselines: Vec<PathBuf>,
+    /// The folders of further runs of the same build, for rules that test the spread of repeated runs.
+    pub repeats: Vec<PathBuf>,
+}
+
+/// Scores an experiment and checks the values against its rules and, if there are any, against baselines.
+/// The verdict is
 /// kept in the results folder, with pictures of the frames that failed rules point at, and is the first
 /// part of the page. The name of the experiment file in the verdict is that of the experiment.
 ///
@@ -34,21 +44,29 @@ pub(crate) use clear::clear_gate;
 pub fn gate(
     experiment: Experiment,
     options: RunOptions,
-    baselines: &[PathBuf],
+    against: &Against,
     given: &Given,
     events: &dyn Events,
 ) -> Result<Verdict, Error> {
     let file = experiment.path.clone();
-    let baselines =
-        if baselines.is_empty() { experiment.baselines.clone() } else { baselines.into() };
+    let baselines = match against.baselines.as_slice() {
+        [] => experiment.baselines.clone(),
+        given => given.to_vec(),
+    };
     check(&experiment.gates, &file, &baselines)?;
     let run = Run::new(experiment, options, given)?;
     // The baselines are checked before anything is scored.
-    let baselines = Baselines::read(&baselines, &run.experiment().resolved())?;
+    let resolved = run.experiment().resolved();
+    let baselines = Baselines::read(&baselines, &resolved)?;
+    let repeats = Repeats::read(&run.folder(), &against.repeats, &resolved, &resolved.gates)?;
+    let mut repeats = Some(repeats);
     let plan = run.experiment().plan.clone();
     let mut verdict = None;
     let scored = run.start_judged(events, &mut |folder| {
-        let finished = FinishedRun::read(folder.path())?;
+        let mut finished = FinishedRun::read(folder.path())?;
+        if let Some(repeats) = repeats.take() {
+            repeats.add_to(&mut finished.values)?;
+        }
         let (judged, named) = judge(&finished, &file.display().to_string(), &baselines);
         let found = || Ok((plan.clone(), fovqa_engine::find(&plan, given)));
         verdict = Some(show(judged, named, folder, found, events));
@@ -62,27 +80,29 @@ pub fn gate(
 }
 
 /// Checks the values of a finished run against its rules, and adds the verdict to its folder as [`gate`]
-/// does. If the folder cannot be written to, the verdict is only returned, and a warning says so. `baselines`
-/// are used, or else those that the experiment file names if it is found as it was.
+/// does. If the folder cannot be written to, the verdict is only returned, and a warning says so. The baselines
+/// that the experiment names are only known if its file is found as it was.
 ///
 /// # Errors
 /// See [`gate`]. It is also an error if the folder contains no finished run.
 pub fn gate_folder(
     folder: &Path,
-    baselines: &[PathBuf],
+    against: &Against,
     locking: Locking,
     events: &dyn Events,
 ) -> Result<Verdict, Error> {
-    let finished = FinishedRun::read(folder)?;
+    let mut finished = FinishedRun::read(folder)?;
     let resolved = &finished.record.resolved;
     let file = folder.join(&finished.record.experiment.file);
     let named = || reopen(folder, &finished.record, None).ok().map(|run| run.experiment.baselines);
-    let baselines = match baselines {
+    let baselines = match against.baselines.as_slice() {
         [] => named().unwrap_or_default(),
         given => given.to_vec(),
     };
     check(&resolved.gates, &file, &baselines)?;
     let baselines = Baselines::read(&baselines, resolved)?;
+    let repeats = Repeats::read(folder, &against.repeats, resolved, &resolved.gates)?;
+    repeats.add_to(&mut finished.values)?;
     let (verdict, named) = judge(&finished, &finished.record.experiment.file, &baselines);
     let opened = match ResultsFolder::open(folder, locking) {
         Ok(opened) => opened,

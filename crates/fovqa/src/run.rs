@@ -121,6 +121,11 @@ impl Run {
         &self.experiment
     }
 
+    /// The folder that the results will be written to.
+    pub fn folder(&self) -> PathBuf {
+        self.options.output.clone().unwrap_or_else(|| self.default_folder())
+    }
+
     /// The frames that were found.
     pub fn found(&self) -> &FoundInputs {
         &self.found
@@ -152,7 +157,7 @@ impl Run {
         judge: &mut Judge<'_>,
     ) -> Result<Finished, Error> {
         foresee_figures_of_run(&self.experiment, &self.found, events)?;
-        let folder = self.options.output.clone().unwrap_or_else(|| self.default_folder());
+        let folder = self.folder();
         check_inputs(&self.experiment.plan, &self.found, &folder)?;
         // The folder is opened before anything is scored, so that a folder that cannot be written
         // to is noticed at once.

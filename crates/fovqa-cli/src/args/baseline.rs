@@ -12,7 +12,8 @@ A baseline is a small JSON file with the values of a run, meant to be kept in gi
   fovqa run nightly.toml
   fovqa baseline save reports/nightly nightly.baseline.json --frames
   fovqa gate nightly.toml --baseline nightly.baseline.json
-  fovqa baseline accept reports/nightly nightly.baseline.json --scene bistro";
+  fovqa baseline accept reports/nightly nightly.baseline.json --scene bistro
+  fovqa baseline save runs/1 nightly.baseline.json --repeats runs/2 runs/3 runs/4";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum BaselineCommand {
@@ -30,6 +31,9 @@ pub(crate) struct SaveArgs {
     pub(crate) results: PathBuf,
     /// The baseline file to write
     pub(crate) baseline: PathBuf,
+    /// Further runs of the same build, for rules with alpha
+    #[arg(long, value_name = "RESULTS_DIR", num_args = 1..)]
+    pub(crate) repeats: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) frames: FramesArg,
 }
@@ -69,6 +73,9 @@ pub(crate) struct AcceptArgs {
     /// Only the values of this scene; may be given several times [default: all]
     #[arg(long = "scene", value_name = "NAME", conflicts_with = "frames")]
     pub(crate) scenes: Vec<String>,
+    /// Further runs of the same build, for rules with alpha
+    #[arg(long, value_name = "RESULTS_DIR", num_args = 1..)]
+    pub(crate) repeats: Vec<PathBuf>,
     /// Only show what differs
     #[arg(long)]
     pub(crate) dry_run: bool,

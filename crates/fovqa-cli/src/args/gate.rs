@@ -24,6 +24,7 @@ Examples:
   fovqa gate nightly.toml --junit gate.xml --markdown gate.md
   fovqa gate nightly.toml --baseline nightly.baseline.json --annotations github
   fovqa gate reports/nightly --format json
+  fovqa gate runs/6 --repeats runs/7 runs/8 --baseline nightly.baseline.json
   fovqa gate nightly.toml --calibrate runs/1 runs/2 runs/3 > limits.toml
   fovqa gate nightly.toml --calibrate runs/* --false-alarms 0.001 --write
 
@@ -57,6 +58,9 @@ pub(crate) struct GateArgs {
     /// those that the experiment names]
     #[arg(long, value_name = "FILE")]
     pub(crate) baseline: Vec<PathBuf>,
+    /// Further runs of the same build, for rules with alpha
+    #[arg(long, value_name = "RESULTS_DIR", num_args = 1.., conflicts_with = "calibrate")]
+    pub(crate) repeats: Vec<PathBuf>,
     /// Write the verdict as JUnit XML, with one test case per check: rule, scene, method and eye
     #[arg(long, value_name = "FILE")]
     pub(crate) junit: Option<PathBuf>,

@@ -14,7 +14,7 @@ use super::tables::{METRICS, TABLE_KEYS};
 use super::{Key, Kind};
 use fovqa_plan::Nonfinite;
 use fovqa_plan::TableFormat;
-use fovqa_plan::{ErrorBars, FrameWord, PlotKind, SpreadShape};
+use fovqa_plan::{Adjust, ErrorBars, FrameWord, PlotKind, SpreadShape};
 
 /// A full angle of view in degrees.
 const FOV: Kind = Kind::Above(0.0, 179.999);
@@ -426,7 +426,7 @@ const PLOT: &[Key] = &[
 const ALLOWANCE: Kind = Kind::Either(&[Kind::Number(0.0, 1e12), Kind::Text]);
 const LIMIT: Kind = Kind::Number(-1e12, 1e12);
 
-static GATE_TABLE: [Key; 15] = [
+static GATE_TABLE: [Key; 17] = [
     required("metric", Kind::Metric, "the metric"),
     key("name", Kind::Name, "name of the rule in verdicts"),
     key(
@@ -473,6 +473,16 @@ static GATE_TABLE: [Key; 15] = [
         "max_rise",
         ALLOWANCE,
         "largest allowed rise above the baseline's value: a number, or \"2%\"",
+    ),
+    key(
+        "alpha",
+        Kind::Above(0.0, 0.5),
+        "instead of limits: repeated runs are compared with those of the baseline (Welch's t-test), and an unchanged build fails with this probability",
+    ),
+    key(
+        "adjust",
+        Kind::Words(words_of::<Adjust>),
+        "with alpha: correction for the number of tests of the rule; default: holm",
     ),
 ];
 

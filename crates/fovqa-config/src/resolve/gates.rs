@@ -12,7 +12,7 @@ use crate::fault::{Fault, Faults};
 use crate::grammar::quoted;
 use crate::nearest::nearest;
 use crate::node::Node;
-use fovqa_plan::{Aggregate, Allowance, GateRule, Quantity, better};
+use fovqa_plan::{Aggregate, Allowance, GateRule, Quantity, SpreadTest, better};
 
 const ORIENTATIONS: [&str; 3] = ["lh", "hl", "hh"];
 
@@ -78,6 +78,7 @@ fn rule(
         at_most: table.number("at_most"),
         max_drop: allowance(table, "max_drop", faults),
         max_rise: allowance(table, "max_rise", faults),
+        spread: spread_test(table, faults),
     };
     if faults.count() == before {
         direction(table, span, &rule, faults);
@@ -285,6 +286,10 @@ fn bands(
 ) {
     let span = table.span("band_deg");
     let Some([from, to]) = table.array::<2>("band_deg") else {
+        // A test against the spread of repeated runs checks every band.
+        if table.has("alpha") {
+            return;
+        }
         let of_bands = metric.is(MetricKind::Profile)
             || (metric == Metric::Fvvdp && table.text("statistic") == Some("share"));
         if of_bands {
@@ -382,14 +387,40 @@ fn allowance(table: Node<'_>, key: &str, faults: &mut Faults) -> Option<Allowanc
     percent
 }
 
+/// The test against the spread of repeated runs, if the rule has one.
+fn spread_test(table: Node<'_>, faults: &mut Faults) -> Option<SpreadTest> {
+    let Some(alpha) = table.number("alpha") else {
+        if table.has("adjust") {
+            let message = "adjust has no effect without alpha";
+            let help = "add alpha = 0.01, or leave out adjust";
+            faults.push(Fault::new(table.span("adjust"), message).help(help));
+        }
+        return None;
+    };
+    Some(SpreadTest { alpha, adjust: table.word("adjust").unwrap_or_default() })
+}
+
 /// Checks that a rule has limits, and that they have the same direction as its metric.
 fn direction(table: Node<'_>, span: Range<usize>, rule: &GateRule, faults: &mut Faults) {
     let Quantity { metric, statistic, image, .. } = &rule.quantity;
     let what = if statistic.is_empty() { metric.clone() } else { format!("{metric} {statistic}") };
     let keys = ["at_least", "at_most", "max_drop", "max_rise"];
+    if rule.spread.is_some() {
+        for key in keys.iter().filter(|key| table.has(key)) {
+            let message = format!("a rule with alpha has no {key}");
+            let help = "write a rule of its own for each";
+            faults.push(Fault::new(table.span(key), message).help(help));
+        }
+        if rule.quantity.per_frame {
+            let message = "a rule with alpha tests whole runs, and has no per_frame";
+            let help = "leave out per_frame: the bands of each run are tested";
+            faults.push(Fault::new(table.span("per_frame"), message).help(help));
+        }
+        return;
+    }
     if !keys.iter().any(|key| table.has(key)) {
         let fault = Fault::new(span, format!("the gate on {what} has no limit"));
-        faults.push(fault.help("add at_least, at_most, max_drop or max_rise"));
+        faults.push(fault.help("add at_least, at_most, max_drop, max_rise or alpha"));
         return;
     }
     let (wrong, why): (&[&str], &str) = match better(Metric::find(metric), statistic, image) {

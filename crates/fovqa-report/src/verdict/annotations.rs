@@ -81,7 +81,7 @@ fn messages(verdict: &Verdict) -> Vec<Message<'_>> {
         let broken = rule.checks.iter().filter(|check| check.outcome.reason().is_some());
         messages.extend(broken.map(|check| Message {
             rule,
-            of: place(&check.place),
+            of: place(check),
             text: sentence(check),
         }));
         let whole = rule.failure.iter();

@@ -39,7 +39,7 @@ fn cases(verdict: &Verdict, rule: &RuleVerdict) -> Vec<TestCase> {
     };
     let mut cases: Vec<TestCase> = Vec::new();
     for check in &rule.checks {
-        let name = format!("{}: {}", rule.title(), place(&check.place));
+        let name = format!("{}: {}", rule.title(), place(check));
         let mut lines = vec![sentence(check)];
         lines.extend(where_lines(check));
         lines.extend(pictures(verdict, check));

@@ -27,7 +27,7 @@ pub fn markdown(verdict: &Verdict) -> String {
                 text,
                 "| {} | {title} | {} | {value} | {limit} | {} | {} |",
                 mark(check.outcome.state()),
-                escaped_markdown(&place(&check.place)),
+                escaped_markdown(&place(check)),
                 check.limit.as_ref().map(margin).unwrap_or_default(),
                 worst(check),
             );
@@ -40,7 +40,7 @@ pub fn markdown(verdict: &Verdict) -> String {
     let mut lines = Vec::new();
     for check in verdict.rules.iter().flat_map(|rule| &rule.checks) {
         if let Some(why) = check.outcome.reason() {
-            lines.push(escaped_markdown(&format!("{}: {why}", place(&check.place))));
+            lines.push(escaped_markdown(&format!("{}: {why}", place(check))));
             let below = where_lines(check).into_iter();
             lines.extend(below.map(|line| format!("  {}", escaped_markdown(&line))));
             lines.extend(pictures(verdict, check));

@@ -17,7 +17,7 @@ pub use terminal::verdict_table;
 
 use std::fmt::Write as _;
 
-use fovqa_results::{Check, CheckRecord, ComparisonName, Limit, LossRecord, State, Verdict};
+use fovqa_results::{Check, CheckRecord, Limit, LossRecord, State, Verdict};
 
 use digits::{beside, number};
 
@@ -66,9 +66,12 @@ fn where_lines(check: &Check) -> Vec<String> {
     lines
 }
 
-fn place((scene, method, eye): &ComparisonName) -> String {
+/// Scene, method, eye and band of a check.
+fn place(check: &Check) -> String {
+    let (scene, method, eye) = &check.place;
     let parts = [scene, method, eye].into_iter().filter(|part| !part.is_empty());
-    parts.map(String::as_str).collect::<Vec<_>>().join(", ")
+    let band = check.band.map(|[from, to]| format!("{from}° to {to}°"));
+    parts.cloned().chain(band).collect::<Vec<_>>().join(", ")
 }
 
 /// The frame that a reader looks at first: the one with the largest loss, or else the worst one.
@@ -82,13 +85,16 @@ fn worst(check: &Check) -> String {
 
 /// Describes a check in one sentence.
 fn sentence(check: &Check) -> String {
-    let mut text = place(&check.place);
+    let mut text = place(check);
     if let Some(reason) = check.outcome.reason() {
         text.push_str(": ");
         text.push_str(reason);
     } else if let (Some(_), Some(bound)) = (check.value, &check.limit) {
         let ([value, limit], margin) = (value_and_limit(check), margin(bound));
         let _ = write!(text, ": {value} {limit}, margin {margin}");
+        if let Some(p) = check.p {
+            let _ = write!(text, ", p = {}", number(p));
+        }
     }
     match check.losses.first() {
         Some(loss) => {

@@ -17,7 +17,7 @@ pub fn verdict_table(verdict: &Verdict) -> String {
             let [value, limit] = value_and_limit(check);
             table.add_row([
                 title.clone(),
-                printable(&place(&check.place)),
+                printable(&place(check)),
                 value,
                 limit,
                 check.limit.as_ref().map(margin).unwrap_or_default(),
@@ -35,7 +35,7 @@ pub fn verdict_table(verdict: &Verdict) -> String {
     for rule in &verdict.rules {
         for check in rule.checks.iter().filter(|check| check.outcome.reason().is_some()) {
             let why = check.outcome.reason().unwrap_or_default();
-            let _ = writeln!(text, "{}: {}", printable(&place(&check.place)), printable(why));
+            let _ = writeln!(text, "{}: {}", printable(&place(check)), printable(why));
             for line in where_lines(check) {
                 let _ = writeln!(text, "  {}", printable(&line));
             }

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::files::{FileError, read_json_file};
-use crate::gate::{ComparisonName, RunValues, Series, own_difference};
+use crate::gate::{ComparisonName, RunValues, Series, own_difference, tested_quantities};
 use crate::inputs::{Input, Inputs};
 use crate::json::{Number, RunRecord};
 
@@ -75,6 +75,9 @@ pub struct BaselineComparison {
     /// The values of single frames that the rules use; `None` in a baseline of an earlier version.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) per_frame: Option<FrameRecords>,
+    /// Values of all repeated runs, by their names, for rules that test the spread of repeated runs.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub(crate) repeats: BTreeMap<String, Vec<Number>>,
 }
 
 impl BaselineComparison {
@@ -153,7 +156,9 @@ impl Baseline {
             let (scene, method, eye) = place.clone();
             let frames = values.frames_of(place);
             let per_frame = of_frames(place);
-            BaselineComparison { scene, method, eye, frames, values: found.collect(), per_frame }
+            let repeats = repeated(values, rules, place);
+            let values = found.collect();
+            BaselineComparison { scene, method, eye, frames, values, per_frame, repeats }
         });
         Self {
             schema: BASELINE_SCHEMA.to_owned(),
@@ -206,18 +211,6 @@ impl Baseline {
         value.map(|number| number.0).ok_or_else(|| lacks(comparison, quantity))
     }
 
-    fn comparison(&self, place: &ComparisonName) -> Result<&BaselineComparison, String> {
-        let found = self.comparisons.iter().find(|c| c.place() == *place);
-        found.ok_or_else(|| {
-            let (scene, method, eye) = place;
-            if !self.comparisons.iter().any(|c| c.scene == *scene) {
-                return format!("the baseline has no scene {scene}");
-            }
-            let eye = if eye.is_empty() { String::new() } else { format!(", {eye}") };
-            format!("the baseline has no {method}{eye} in scene {scene}")
-        })
-    }
-
     /// The value of each frame of a comparison.
     pub(crate) fn frames(
         &self,
@@ -233,6 +226,28 @@ impl Baseline {
         };
         let series = records.series(quantity);
         series.map(|series| series.frames).ok_or_else(|| lacks(comparison, quantity))
+    }
+
+    /// The values of the repeated runs of a comparison; empty if the baseline has none.
+    pub(crate) fn repeats(
+        &self,
+        place: &ComparisonName,
+        quantity: &Quantity,
+    ) -> Result<Vec<f64>, String> {
+        let values = self.comparison(place)?.repeats.get(&quantity.to_string());
+        Ok(values.into_iter().flatten().map(|number| number.0).collect())
+    }
+
+    fn comparison(&self, place: &ComparisonName) -> Result<&BaselineComparison, String> {
+        let found = self.comparisons.iter().find(|c| c.place() == *place);
+        found.ok_or_else(|| {
+            let (scene, method, eye) = place;
+            if !self.comparisons.iter().any(|c| c.scene == *scene) {
+                return format!("the baseline has no scene {scene}");
+            }
+            let eye = if eye.is_empty() { String::new() } else { format!(", {eye}") };
+            format!("the baseline has no {method}{eye} in scene {scene}")
+        })
     }
 
     /// Why a run cannot be compared with this baseline: metrics of another version, or computed
@@ -353,6 +368,22 @@ impl Baseline {
 
 fn lacks(comparison: &BaselineComparison, quantity: &Quantity) -> String {
     format!("the baseline has no {quantity} of {}", comparison.named())
+}
+
+/// The values of all repeated runs that the rules of a comparison test; empty if the run is not
+/// repeated.
+fn repeated(
+    values: &RunValues,
+    rules: &[GateRule],
+    place: &ComparisonName,
+) -> BTreeMap<String, Vec<Number>> {
+    let rules = rules.iter().filter(|rule| rule.spread.is_some() && !values.repeats.is_empty());
+    let quantities = rules.flat_map(|rule| tested_quantities(rule, values, place));
+    let of_all = |quantity: Quantity| {
+        let found = values.of_all_runs(place, &quantity).ok()?;
+        Some((quantity.to_string(), found.into_iter().map(Number).collect()))
+    };
+    quantities.filter_map(of_all).collect()
 }
 
 /// The values of a metric that are stored whatever the rules are.

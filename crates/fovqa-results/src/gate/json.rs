@@ -79,6 +79,12 @@ pub struct CheckRecord {
     pub worst_frame: Option<i64>,
     /// Its value.
     pub worst_value: Option<Number>,
+    /// The band in degrees that a test of repeated runs is of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub band_deg: Option<[f64; 2]>,
+    /// The p-value of a test of repeated runs, adjusted for all tests of the rule.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub p: Option<f64>,
     /// The frames that violate a rule per frame, the worst first.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub frames: Vec<FrameCheckRecord>,
@@ -224,6 +230,8 @@ impl From<&Check> for CheckRecord {
             margin: check.limit.map(|limit| Number(limit.margin)),
             worst_frame: check.worst.map(|worst| worst.0),
             worst_value: check.worst.map(|worst| Number(worst.1)),
+            band_deg: check.band,
+            p: check.p,
             frames: check.frames.iter().map(FrameCheckRecord::from).collect(),
             losses: check.losses.iter().map(LossRecord::from).collect(),
         }

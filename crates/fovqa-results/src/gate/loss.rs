@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use fovqa_metrics::Metric;
-use fovqa_plan::{GateRule, Quantity};
+use fovqa_plan::Quantity;
 
 use super::series::{Series, amount, growth};
 use super::values::{ComparisonName, RunValues};
@@ -139,12 +139,12 @@ struct Named {
 }
 
 impl Search<'_> {
-    /// The frames that a rule points at, the one with the largest loss first. `failing` are the frames
-    /// that break the rule, the worst first; if it is not a rule per frame, there are none. A frame in
+    /// The frames that a rule for a quantity points at, the one with the largest loss first. `failing` are the
+    /// frames that break the rule, the worst first; if it is not a rule per frame, there are none. A frame in
     /// which FovVideoVDP breaks the rule may only be shortly after the one with the loss.
     pub(super) fn losses(
         &self,
-        rule: &GateRule,
+        of: &Quantity,
         place: &ComparisonName,
         failing: &[i64],
     ) -> Vec<Loss> {
@@ -157,7 +157,7 @@ impl Search<'_> {
         };
         let mut losses: Vec<(f64, Loss)> = Vec::new();
         for place in &of_eyes {
-            for (growth, loss) in self.of_eye(rule, place, failing) {
+            for (growth, loss) in self.of_eye(of, place, failing) {
                 match losses.iter_mut().find(|(_, known)| known.frame == loss.frame) {
                     Some(known) if known.0 < growth => *known = (growth, loss),
                     Some(_) => {}
@@ -165,7 +165,7 @@ impl Search<'_> {
                 }
             }
         }
-        let is_late = rule.quantity.metric == Metric::Fvvdp.key();
+        let is_late = of.metric == Metric::Fvvdp.key();
         if is_late || failing.is_empty() {
             losses.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.frame.cmp(&b.1.frame)));
         } else {
@@ -175,12 +175,11 @@ impl Search<'_> {
         losses.into_iter().map(|(_, loss)| loss).collect()
     }
 
-    fn of_eye(&self, rule: &GateRule, place: &ComparisonName, failing: &[i64]) -> Vec<(f64, Loss)> {
-        let is_late = rule.quantity.metric == Metric::Fvvdp.key();
+    fn of_eye(&self, of: &Quantity, place: &ComparisonName, failing: &[i64]) -> Vec<(f64, Loss)> {
+        let is_late = of.metric == Metric::Fvvdp.key();
         let own = || self.own_difference(place);
         let pair = if is_late { own() } else { None };
-        let Some(pair) = pair.or_else(|| self.pair(place, rule.quantity.of_frames())).or_else(own)
-        else {
+        let Some(pair) = pair.or_else(|| self.pair(place, of.of_frames())).or_else(own) else {
             return Vec::new();
         };
         let named: Vec<Named> = if failing.is_empty() {
@@ -199,8 +198,8 @@ impl Search<'_> {
         } else {
             failing.iter().filter_map(|frame| pair.named(*frame)).collect()
         };
-        let of = |named: Named| {
-            let band = self.band(rule, place, named.frame);
+        let loss = |named: Named| {
+            let band = self.band(of, place, named.frame);
             let loss = Loss {
                 eye: place.2.clone(),
                 frame: named.frame,
@@ -214,7 +213,7 @@ impl Search<'_> {
             };
             (named.growth, loss)
         };
-        named.into_iter().map(of).collect()
+        named.into_iter().map(loss).collect()
     }
 
     fn own_difference(&self, place: &ComparisonName) -> Option<Pair> {
@@ -230,12 +229,12 @@ impl Search<'_> {
 
     /// The band with the largest loss of a frame: of the rule's metric if it has bands, and within the
     /// rule's band.
-    fn band(&self, rule: &GateRule, place: &ComparisonName, frame: i64) -> Option<BandLoss> {
+    fn band(&self, of: &Quantity, place: &ComparisonName, frame: i64) -> Option<BandLoss> {
         let has_bands = |pair: &Pair| !pair.now.bands.is_empty();
-        let pair = self.pair(place, rule.quantity.of_frames()).filter(has_bands);
+        let pair = self.pair(place, of.of_frames()).filter(has_bands);
         let pair = pair.or_else(|| self.own_difference(place).filter(has_bands))?;
         let inside = |[from, to]: [f64; 2]| {
-            rule.quantity.band_deg.is_none_or(|[least, most]| least <= from && to <= most)
+            of.band_deg.is_none_or(|[least, most]| least <= from && to <= most)
         };
         let bands = pair.now.bands.iter().filter(|(edges, _)| inside(*edges));
         let losses = bands.filter_map(|(edges, now)| {

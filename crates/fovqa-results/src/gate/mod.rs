@@ -1,6 +1,7 @@
 //! The gate checks the values of a finished run against rules, and proposes limits from repeated
 //! runs.
 
+mod adjust;
 mod aggregate;
 mod calibrate;
 mod calibration_toml;
@@ -8,9 +9,13 @@ mod files;
 mod json;
 mod loss;
 mod noise;
+#[cfg(test)]
+mod random;
 mod reading;
 mod series;
+mod spread_rule;
 mod student_t;
+mod t_test;
 mod values;
 mod verdict;
 
@@ -23,5 +28,6 @@ pub use json::{
 pub(crate) use loss::own_difference;
 pub use loss::{BandLoss, Compared, Loss, LossPicture, Place};
 pub(crate) use series::Series;
+pub(crate) use spread_rule::tested_quantities;
 pub use values::{ComparisonName, FoundValue, Lacking, RunValues};
 pub use verdict::{Check, FrameCheck, Limit, Outcome, RuleVerdict, State, Verdict};

@@ -66,7 +66,7 @@ impl Spread {
 }
 
 /// The variance with divisor n - 1.
-fn variance(values: impl Iterator<Item = f64> + Clone, count: usize) -> f64 {
+pub(super) fn variance(values: impl Iterator<Item = f64> + Clone, count: usize) -> f64 {
     let mean = values.clone().sum::<f64>() / count as f64;
     values.map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count as f64 - 1.0)
 }

@@ -20,6 +20,8 @@ pub struct RunValues {
     pub(super) places: BTreeMap<ComparisonName, Values>,
     /// The items that could not be scored, in words.
     pub errors: Vec<String>,
+    /// The values of further runs of the same build, for rules that test the spread of repeated runs.
+    pub repeats: Vec<Self>,
 }
 
 /// The values of a comparison.

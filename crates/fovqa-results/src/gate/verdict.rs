@@ -3,9 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use fovqa_metrics::Better;
-use fovqa_plan::{Allowance, GateRule, Resolved};
+use fovqa_plan::{Allowance, GateRule, Quantity, Resolved};
 
 use super::loss::{Loss, Search};
+use super::spread_rule;
 use super::values::{ComparisonName, FoundValue, Lacking, RunValues};
 use crate::baseline::Baseline;
 
@@ -44,6 +45,11 @@ pub struct RuleVerdict {
 pub struct Check {
     /// Scene, method and eye.
     pub place: ComparisonName,
+    /// The band in degrees, if the rule tests each band. The value of a test is the mean of this build's
+    /// runs, and the baseline's value the mean of its runs.
+    pub band: Option<[f64; 2]>,
+    /// The p-value of a test against the spread of repeated runs, after the correction for several tests.
+    pub p: Option<f64>,
     /// The value, if there is one.
     pub value: Option<f64>,
     /// The limit with the smallest margin, or with the largest violation.
@@ -149,6 +155,25 @@ impl Outcome {
     }
 }
 
+impl Check {
+    /// A check without a value, which passed.
+    pub(super) fn of(place: &ComparisonName) -> Self {
+        let place = place.clone();
+        Self {
+            place,
+            band: None,
+            p: None,
+            value: None,
+            limit: None,
+            worst: None,
+            baseline: None,
+            frames: Vec::new(),
+            losses: Vec::new(),
+            outcome: Outcome::Passed,
+        }
+    }
+}
+
 impl RuleVerdict {
     /// The worst state among the checks.
     pub fn state(&self) -> State {
@@ -223,17 +248,20 @@ fn judged(
     baseline: Option<&Baseline>,
 ) -> RuleVerdict {
     let places = run.places().filter(|place| is_of(rule, place));
-    let check = |place: &ComparisonName| {
-        let mut check = check(rule, run, place, baseline);
+    let mut checks: Vec<Check> = match rule.spread {
+        Some(test) => spread_rule::checks(rule, test, run, baseline),
+        None => places.map(|place| check(rule, run, place, baseline)).collect(),
+    };
+    for check in &mut checks {
         if matches!(check.outcome, Outcome::Failed(_)) && check.value.is_some() {
-            let scene = experiment.scenes.iter().find(|scene| scene.name == place.0);
+            let scene = experiment.scenes.iter().find(|scene| scene.name == check.place.0);
             let search = Search { run, baseline, fps: scene.and_then(|scene| scene.fps) };
             let failing: Vec<i64> = check.frames.iter().map(|frame| frame.frame).collect();
-            check.losses = search.losses(rule, place, &failing);
+            let band_deg = check.band.or(rule.quantity.band_deg);
+            let quantity = Quantity { band_deg, ..rule.quantity.clone() };
+            check.losses = search.losses(&quantity, &check.place, &failing);
         }
-        check
-    };
-    let checks: Vec<Check> = places.map(check).collect();
+    }
     let nothing =
         checks.is_empty().then(|| "the rule applies to no comparison of the run".to_owned());
     // If a comparison that the rule applies to no longer exists, the rule does not pass either.
@@ -245,20 +273,6 @@ fn judged(
         gone.map(|c| format!("the baseline has {}, but the run does not", c.named()))
     });
     RuleVerdict { rule: rule.clone(), checks, failure: nothing.or(lost) }
-}
-
-/// A check without a result yet.
-fn unchecked(place: &ComparisonName) -> Check {
-    Check {
-        place: place.clone(),
-        value: None,
-        limit: None,
-        worst: None,
-        baseline: None,
-        frames: Vec::new(),
-        losses: Vec::new(),
-        outcome: Outcome::Passed,
-    }
 }
 
 impl From<Lacking> for Outcome {
@@ -277,7 +291,7 @@ fn check(
     place: &ComparisonName,
     baseline: Option<&Baseline>,
 ) -> Check {
-    let mut check = unchecked(place);
+    let mut check = Check::of(place);
     let checked = if rule.quantity.per_frame {
         check_frames(&mut check, rule, run, baseline)
     } else {

@@ -12,6 +12,7 @@ use crate::error::Error;
 use crate::finish::text_hash;
 use crate::finished_run::FinishedRun;
 use crate::reopened::{KnownInputs, reopen};
+use crate::repeats::Repeats;
 
 /// Reads a baseline.
 ///
@@ -46,14 +47,21 @@ pub struct Saved {
     pub removed: bool,
 }
 
-/// Makes the baseline of a run. Everything in the run must have been scored.
-fn of_run(finished: &FinishedRun, results: &Path) -> Result<Baseline, Error> {
+/// Makes the baseline of a run and of further runs of the same build. Everything in the runs must have
+/// been scored.
+fn of_run(
+    finished: &mut FinishedRun,
+    results: &Path,
+    repeats: &[PathBuf],
+) -> Result<Baseline, Error> {
     if let Some(error) = finished.values.errors.first() {
         let message = format!("{}: not everything was scored: {error}", results.display());
         let help = "a baseline needs a complete run: correct the inputs and run again";
         return Err(Error::input(message, help));
     }
-    let rules = &finished.record.resolved.gates;
+    let resolved = &finished.record.resolved;
+    let rules = &resolved.gates;
+    Repeats::read(results, repeats, resolved, rules)?.add_to(&mut finished.values)?;
     Ok(Baseline::of(&finished.record, &finished.values, rules, &text_hash))
 }
 
@@ -83,18 +91,24 @@ fn write(
     Ok(Saved { baseline, frames, removed: false })
 }
 
-/// Saves the values of a run as a baseline in a new file.
+/// Saves the values of a run as a baseline in a new file. `repeats` are the folders of further runs of the
+/// same build, for rules that test the spread of repeated runs.
 ///
 /// # Errors
 /// If the file exists already, or not everything was scored, or the frames to keep are not there.
-pub fn save_baseline(results: &Path, path: &Path, frames: &Frames) -> Result<Saved, Error> {
+pub fn save_baseline(
+    results: &Path,
+    path: &Path,
+    repeats: &[PathBuf],
+    frames: &Frames,
+) -> Result<Saved, Error> {
     if replaces(path) {
         let message = format!("{}: the file already exists", path.display());
         let help = "`fovqa baseline accept` shows what differs and updates it";
         return Err(Error::input(message, help));
     }
-    let finished = FinishedRun::read(results)?;
-    let baseline = of_run(&finished, results)?;
+    let mut finished = FinishedRun::read(results)?;
+    let baseline = of_run(&mut finished, results, repeats)?;
     write(baseline, path, (&finished, results), frames)
 }
 
@@ -110,14 +124,20 @@ pub struct Accepted {
     pub taken_otherwise: Option<String>,
 }
 
-/// Updates a baseline with the values of a run, for all scenes or only for some.
+/// Updates a baseline with the values of a run, for all scenes or only for some. For `repeats`, see
+/// [`save_baseline`].
 ///
 /// # Errors
 /// If the run or the baseline cannot be read, or they do not fit together.
-pub fn accept_baseline(results: &Path, path: &Path, scenes: &[String]) -> Result<Accepted, Error> {
+pub fn accept_baseline(
+    results: &Path,
+    path: &Path,
+    scenes: &[String],
+    repeats: &[PathBuf],
+) -> Result<Accepted, Error> {
     let before = read_baseline(path)?;
-    let finished = FinishedRun::read(results)?;
-    let new = of_run(&finished, results)?;
+    let mut finished = FinishedRun::read(results)?;
+    let new = of_run(&mut finished, results, repeats)?;
     let baseline = before.accepting(&new, scenes).map_err(|why| {
         let message = format!("{}: {why}", path.display());
         Error::input(message, "accept the complete run, without --scene")

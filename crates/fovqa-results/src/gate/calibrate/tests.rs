@@ -1,6 +1,7 @@
 use fovqa_metrics::Metric;
 use fovqa_plan::{Aggregate, Allowance};
 
+use super::super::random::Noise;
 use super::super::student_t::upper_quantile;
 use super::*;
 
@@ -22,6 +23,7 @@ fn rule(metric: Metric, relative: bool) -> GateRule {
         at_most: None,
         max_drop: allowance,
         max_rise: None,
+        spread: None,
     }
 }
 
@@ -133,25 +135,6 @@ fn few_runs_are_named() {
         assert!(two.contains(words), "{words}: {two}");
     }
     assert!(of(3).contains("3 runs say little") && !of(5).contains("say little"));
-}
-
-/// Normally distributed numbers: SplitMix64 (Steele, Lea, Flood 2014) and Box and Muller 1958.
-struct Noise(u64);
-
-impl Noise {
-    /// Uniform in (0, 1].
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64 + 0.5f64.powi(54)
-    }
-
-    fn normal(&mut self) -> f64 {
-        let radius = libm::sqrt(-2.0 * libm::log(self.uniform()));
-        radius * libm::cos(std::f64::consts::TAU * self.uniform())
-    }
 }
 
 /// Six values of one build: their metrics, and their means and standard deviations.
