@@ -35,7 +35,7 @@ fn a_blurred_patch_in_a_walk_is_shown_first() {
     folder.run(&[&gallery[..], &size].concat()).ok();
     let foveate = ["foveate", "hall/png", "renders", "--method", "rmfr", "--set", "sigma=1.6"];
     folder
-        .run(&[&foveate[..], &["--fov-vertical", "100", "--gaze-trace", "hall/gaze.csv"]].concat())
+        .run(&[&foveate[..], &["--fov-vertical", "100", "--gaze", "hall/gaze.csv"]].concat())
         .ok();
     folder.write("nightly.toml", EXPERIMENT);
     folder.run(&["run", "nightly.toml", "--output", "good"]).ok();

@@ -18,7 +18,10 @@ fn text(rule: &str) -> String {
 /// The value of each frame in the table.
 fn values(folder: &Folder, metric: &str, band: &str) -> Vec<f64> {
     let rows = rows(folder, "reports/e").into_iter();
-    let of = rows.filter(|row| row["metric"] == metric && row["from_deg"] == band);
+    let of = rows.filter(|row| {
+        let from: Option<f64> = row["from_deg"].parse().ok();
+        row["metric"] == metric && from == band.parse().ok()
+    });
     of.map(|row| row["value"].parse().unwrap()).collect()
 }
 

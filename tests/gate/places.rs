@@ -13,9 +13,9 @@ const FRAMES: usize = 16;
 /// Pixels in a degree at the centre of a picture 240 pixels and 60° high.
 const PIXELS_PER_DEG: f64 = 3.6;
 
-const RULES: &str = "[[gate]]\nmetric = \"psnr\"\nper_frame = true\nmax_drop = 0.05\n\
-                     [[gate]]\nmetric = \"ssim\"\nper_frame = true\nmax_drop = 0.0005\n\
-                     [[gate]]\nmetric = \"fvvdp\"\nper_frame = true\nmax_drop = 0.01\n";
+const RULES: &str = "[[gate]]\nmetric = \"psnr\"\nper_frame = true\nmax_drop = 0.005\n\
+                     [[gate]]\nmetric = \"ssim\"\nper_frame = true\nmax_drop = 0.0001\n\
+                     [[gate]]\nmetric = \"fvvdp\"\nper_frame = true\nmax_drop = 0.001\n";
 
 fn experiment(rules: &str) -> String {
     format!(

@@ -51,7 +51,8 @@ impl Baselines {
     }
 
     /// The verdict against the baseline that the run matches best: with the fewest checks that do not pass,
-    /// then with the largest of its smallest margins, in units of the distance between limit and baseline.
+    /// then with the smallest of the largest distances between a value and the baseline's, in units of the
+    /// distance that the rule allows.
     pub(super) fn judge(
         &self,
         run: &Resolved,
@@ -80,12 +81,15 @@ fn rank(verdict: &Verdict) -> (usize, Distance) {
     let checks = || verdict.rules.iter().flat_map(|rule| &rule.checks);
     let broken = checks().filter(|check| check.outcome != Outcome::Passed).count()
         + verdict.rules.iter().filter(|rule| rule.failure.is_some()).count();
-    let margins = checks().filter_map(|check| {
-        let (limit, baseline) = (check.limit?, check.baseline?);
+    let distances = checks().filter_map(|check| {
+        let (value, limit, baseline) = (check.value?, check.limit?, check.baseline?);
+        let apart = (value - baseline).abs();
+        // What is equal, infinite too, is not apart, whatever the rule allows.
+        let is_same = value.to_bits() == baseline.to_bits();
         let allowed = (limit.value - baseline).abs().max(f64::MIN_POSITIVE);
-        Some(limit.margin / allowed)
+        Some(if is_same { 0.0 } else { apart / allowed })
     });
-    (broken, Distance(-margins.fold(f64::INFINITY, f64::min)))
+    (broken, Distance(distances.fold(0.0, f64::max)))
 }
 
 /// A number with a total order.
