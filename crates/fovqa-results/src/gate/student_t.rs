@@ -3,7 +3,8 @@
 //! The tail is P(T > t) = I_x(ν/2, 1/2) / 2 with x = ν / (ν + t²) for t ≥ 0 (Abramowitz and Stegun
 //! 1964, equations 26.5.27 and 26.7.1), where I is the regularised incomplete beta function of the
 //! crate statrs. It uses `ln` and `exp` of the platform, so that the last digits of a result may
-//! differ between machines. Limits are rounded to two digits of their margin, which hides this.
+//! differ between machines. Limits are rounded to two digits of their margin, which hides this; p-values
+//! are not.
 
 use statrs::function::beta::beta_reg;
 use statrs::function::erf::erfc_inv;
