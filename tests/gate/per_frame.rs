@@ -39,7 +39,7 @@ fn each_frame_is_held_against_a_limit() {
     // Between the second worst frame and the third.
     let mut sorted = psnr.clone();
     sorted.sort_by(f64::total_cmp);
-    let limit = (sorted[1] + sorted[2]) / 2.0;
+    let limit = f64::midpoint(sorted[1], sorted[2]);
     let rule = format!("[[gate]]\nmetric = \"psnr\"\nper_frame = true\nat_least = {limit}\n");
     let (run, verdict) = gate(&folder, &text(&rule), &[]);
     assert_eq!(run.code, 1, "{}", run.stderr);

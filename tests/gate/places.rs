@@ -15,7 +15,7 @@ const PIXELS_PER_DEG: f64 = 3.6;
 
 const RULES: &str = "[[gate]]\nmetric = \"psnr\"\nper_frame = true\nmax_drop = 0.005\n\
                      [[gate]]\nmetric = \"ssim\"\nper_frame = true\nmax_drop = 0.0001\n\
-                     [[gate]]\nmetric = \"fvvdp\"\nper_frame = true\nmax_drop = 0.001\n";
+                     [[gate]]\nmetric = \"fvvdp\"\nper_frame = true\nmax_drop = 0.0001\n";
 
 fn experiment(rules: &str) -> String {
     format!(

@@ -212,7 +212,11 @@ fn markdown_keeps_its_table() {
         "{}",
         rows[3]
     );
-    // No HTML, no entity, no emphasis comes of a name.
+    // No HTML, no entity, no emphasis comes of a name. Where a link leads is no text.
+    let mut parts = text.split("](");
+    let first = parts.next().unwrap().to_owned();
+    let behind = parts.map(|part| part.split_once(')').unwrap().1);
+    let text = behind.fold(first, |text, part| text + part);
     for raw in ["<i", "&amp", "*y", "_z"] {
         let raw_at = text.match_indices(raw).all(|(at, _)| text[..at].ends_with('\\'));
         assert!(raw_at, "{raw}: {text}");

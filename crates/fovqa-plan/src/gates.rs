@@ -118,6 +118,7 @@ impl Quantity {
     }
 
     /// The values of single frames that this value describes.
+    #[must_use]
     pub fn of_frames(&self) -> Self {
         let statistic = match self.statistic.as_str() {
             Self::JOD => Self::FRAME_JOD,

@@ -168,7 +168,7 @@ fn show(
                     Ok(true) => {}
                     Ok(false) => events.note("only the first frames with a loss are looked at"),
                     Err(error) => {
-                        events.warn(&format!("frames with a loss are not shown: {error}"))
+                        events.warn(&format!("frames with a loss are not shown: {error}"));
                     }
                 }
             }

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use fovqa::{FinishedRun, Locking, Silent, gate_folder, merge, report};
+use fovqa::{Against, FinishedRun, Locking, Silent, gate_folder, merge, report};
 use fovqa_fuzz::abort_on_escaping_panics;
 use libfuzzer_sys::fuzz_target;
 use tempfile::TempDir;
@@ -49,7 +49,7 @@ fn fresh(folder: &Path) {
 fn run(folder: &Path, file: &str, bytes: &[u8]) {
     fs::write(folder.join(file), bytes).expect("a file");
     let read = FinishedRun::read(folder);
-    let verdict = gate_folder(folder, None, &[]);
+    let verdict = gate_folder(folder, &Against::default(), Locking::Unlocked, &Silent);
     if read.is_err() {
         assert!(verdict.is_err(), "a run that cannot be read has no verdict");
         return;

@@ -113,7 +113,8 @@ fn heading(verdict: &VerdictRecord) -> String {
 fn of(check: &CheckRecord) -> String {
     let parts = [&check.scene, &check.method, &check.eye];
     let parts = parts.into_iter().filter(|part| !part.is_empty());
-    parts.map(String::as_str).collect::<Vec<_>>().join(", ")
+    let band = check.band_deg.map(|[from, to]| format!("{from}° to {to}°"));
+    parts.cloned().chain(band).collect::<Vec<_>>().join(", ")
 }
 
 fn row((rule, check): (&RuleRecord, &CheckRecord)) -> PageCheck {

@@ -1,4 +1,4 @@
-//! The values of single frames in a baseline: compact text, about one line of a commit for ten frames.
+//! The values of single frames in a baseline: compact text, one line of a commit for forty frames.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::gate::Series;
 
 /// Number of values on a line.
-const LINE: usize = 10;
+const LINE: usize = 40;
 /// Number of values up to which those of bands have six significant digits. More have four: they say where
 /// a loss is, and no rule is checked against them.
 const MOST_IN_FULL: usize = 20_000;
@@ -168,7 +168,10 @@ mod tests {
         Quantity::of(metric, Aggregate::Mean).of_frames()
     }
 
-    fn series(frames: &[(i64, f64)], bands: &[([f64; 2], &[(i64, f64)])]) -> Series {
+    /// A band's edges and its values by frames.
+    type Band<'a> = ([f64; 2], &'a [(i64, f64)]);
+
+    fn series(frames: &[(i64, f64)], bands: &[Band<'_>]) -> Series {
         let of = |values: &[(i64, f64)]| values.iter().copied().collect();
         let bands = bands.iter().map(|(edges, values)| (*edges, of(values))).collect();
         Series { frames: of(frames), bands, digits: None }
@@ -177,7 +180,7 @@ mod tests {
     #[test]
     fn values_come_back_as_they_were_and_those_of_bands_rounded() {
         let psnr = [(-1, 31.204_567_890_123_4), (0, f64::INFINITY), (7, 0.1 + 0.2)];
-        let bands: [([f64; 2], &[(i64, f64)]); 2] =
+        let bands: [Band<'_>; 2] =
             [([0.0, 2.5], &[(-1, 40.123_456_789), (7, 1e-7)]), ([2.5, 60.0], &[(0, 30.0)])];
         let records = FrameRecords::of(&[
             (quantity(Metric::Psnr), series(&psnr, &bands)),
@@ -189,7 +192,7 @@ mod tests {
         let found = records.series(&quantity(Metric::Psnr)).unwrap();
         assert_eq!(found.frames, series(&psnr, &[]).frames);
         assert_eq!(found.bands[0].1[&-1].to_bits(), 40.1235_f64.to_bits());
-        assert_eq!(found.bands[1].0, [2.5, 60.0]);
+        assert_eq!(found.bands[1].0.map(f64::to_bits), [2.5, 60.0].map(f64::to_bits));
         assert_eq!(found.bands[1].1.len(), 1);
         assert_eq!(records.series(&quantity(Metric::Ssim)).unwrap().frames.len(), 1);
         assert_eq!(records.series(&quantity(Metric::Mse)), None);
@@ -197,16 +200,26 @@ mod tests {
 
     #[test]
     fn six_hundred_frames_of_five_rules_stay_small() {
-        let values =
-            |seed: usize| (0..600).map(move |i| (i, libm::sin((seed + i as usize) as f64)));
-        let bands =
-            (0..6).map(|b| ([f64::from(b), f64::from(b + 1)], values(b as usize).collect()));
-        let series = Series { frames: values(9).collect(), bands: bands.collect(), digits: None };
+        // Values between 0.9 and 1, and decibels, in the default bands of a view of 110°.
+        let values = |seed: usize, scale: f64| {
+            (0..600)
+                .map(move |i| (i, scale * (0.95 + 0.05 * libm::sin((seed + i as usize) as f64))))
+        };
         let metrics = [Metric::Psnr, Metric::Ssim, Metric::Fpsnr, Metric::Gmsd, Metric::Mse];
-        let all: Vec<_> = metrics.map(|metric| (quantity(metric), series.clone())).into();
+        let all: Vec<_> = metrics
+            .iter()
+            .map(|metric| {
+                let scale = if metric.is_decibel() { 40.0 } else { 1.0 };
+                let band =
+                    |b: usize| ([5.0 * b as f64, 5.0 * (b + 1) as f64], values(b, scale).collect());
+                let frames = values(9, scale).collect();
+                let series = Series { frames, bands: (0..11).map(band).collect(), digits: None };
+                (quantity(*metric), series)
+            })
+            .collect();
         let records = FrameRecords::of(&all).unwrap();
         let text = serde_json::to_string_pretty(&records).unwrap();
-        assert!(text.len() < 270_000, "{}", text.len());
+        assert!(text.len() < 290_000, "{}", text.len());
     }
 
     #[test]

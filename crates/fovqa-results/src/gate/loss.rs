@@ -301,15 +301,11 @@ impl NamedFrames for Quantity {
         let around = now.range(frame.saturating_sub(BESIDE)..=frame.saturating_add(BESIDE));
         let around = around.filter(|(number, _)| **number != frame).map(|(_, value)| *value);
         let best = around.reduce(|a, b| if amount(self, b) < amount(self, a) { b } else { a });
-        Some(match best {
-            Some(best) => {
-                let growth = growth(self, value, best);
-                Named { frame, value, before: Some(best), compared: Compared::Neighbours, growth }
-            }
-            None => {
-                let growth = amount(self, value);
-                Named { frame, value, before: None, compared: Compared::Nothing, growth }
-            }
-        })
+        let before = best;
+        let (compared, growth) = match before {
+            Some(best) => (Compared::Neighbours, growth(self, value, best)),
+            None => (Compared::Nothing, amount(self, value)),
+        };
+        Some(Named { frame, value, before, compared, growth })
     }
 }

@@ -138,25 +138,18 @@ impl Sheets<'_> {
             this.ring(place);
         }
         let mut sheets = vec![("this-build", "this build".to_owned(), this.png()?)];
-        match self.good.map(Canvas::of) {
-            Some(good) => {
-                let now = shown(self.test, good.width.max(good.height))?;
-                let difference = now.difference(&good);
-                sheets.push(("last-good", "the last good build".to_owned(), reduced(good)?.png()?));
-                if let Some(difference) = difference {
-                    let what = format!("their difference, {BRIGHTER} times as bright");
-                    sheets.push(("difference", what, reduced(difference)?.png()?));
-                }
-            }
-            None => {
-                let [reference, now] = [shown(self.reference, SIDE)?, shown(self.test, SIDE)?];
-                let difference = now.difference(&reference);
-                sheets.push(("reference", "the reference".to_owned(), reference.png()?));
-                if let Some(difference) = difference {
-                    let what = format!("their difference, {BRIGHTER} times as bright");
-                    sheets.push(("difference", what, difference.png()?));
-                }
-            }
+        let (name, shown_as, other, now) = if let Some(good) = self.good {
+            let now = shown(self.test, good.size[0].max(good.size[1]))?;
+            ("last-good", "the last good build", Canvas::of(good), now)
+        } else {
+            let [reference, now] = [shown(self.reference, SIDE)?, shown(self.test, SIDE)?];
+            ("reference", "the reference", reference, now)
+        };
+        let difference = now.difference(&other);
+        sheets.push((name, shown_as.to_owned(), reduced(other)?.png()?));
+        if let Some(difference) = difference {
+            let what = format!("their difference, {BRIGHTER} times as bright");
+            sheets.push(("difference", what, reduced(difference)?.png()?));
         }
         if let Some(place) = place {
             sheets.push(self.crop(place, size)?);
