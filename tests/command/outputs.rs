@@ -51,6 +51,9 @@ fn links_are_followed_and_devices_written_to() {
     // Files of a run that were moved elsewhere are renewed there.
     fs::rename(folder.path("r/results.csv"), folder.path("real/results.csv")).unwrap();
     symlink("../real/results.csv", folder.path("r/results.csv")).unwrap();
+    // A run has no verdict yet.
+    fs::remove_dir_all(folder.path("r/gate")).unwrap();
+    folder.run(&["report", "r"]).ok();
     let before = bytes(&folder.path("r"));
     folder.run(&["run", "x.toml", "--output", "r"]).ok();
     assert!(fs::symlink_metadata(folder.path("r/results.csv")).unwrap().is_symlink());

@@ -15,7 +15,7 @@ use fovqa_results::{Verdict, keep_verdict};
 use crate::error::Error;
 use crate::finish::{in_folder, text_hash};
 use crate::finished_run::FinishedRun;
-use crate::reopened::reopen;
+use crate::reopened::{ExperimentFile, reopen};
 use crate::repeats::Repeats;
 use crate::run::{Run, RunOptions};
 use baselines::{Baselines, Named};
@@ -94,7 +94,8 @@ pub fn gate_folder(
     let mut finished = FinishedRun::read(folder)?;
     let resolved = &finished.record.resolved;
     let file = folder.join(&finished.record.experiment.file);
-    let named = || reopen(folder, &finished.record, None).ok().map(|run| run.experiment.baselines);
+    let again = |beside| reopen(folder, &finished.record, ExperimentFile::Beside(beside));
+    let named = || again(&[]).ok().map(|run| run.experiment.baselines);
     let baselines = match against.baselines.as_slice() {
         [] => named().unwrap_or_default(),
         given => given.to_vec(),
@@ -113,7 +114,7 @@ pub fn gate_folder(
         }
     };
     let found = || {
-        let run = reopen(folder, &finished.record, None)?;
+        let run = again(&against.baselines)?;
         Ok((run.experiment.plan, run.found))
     };
     let verdict = show(verdict, named, &opened, found, events);

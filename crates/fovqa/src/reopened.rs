@@ -17,15 +17,24 @@ pub(crate) struct Reopened {
     pub(crate) found: FoundInputs,
 }
 
-/// Finds the experiment file of a run and its frames again. `file` is the experiment file; without it,
-/// the file is looked for in the working directory and its `configs`, and around the results folder.
+/// Where the experiment file of a run is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum ExperimentFile<'a> {
+    /// It was given.
+    At(&'a Path),
+    /// It is looked for beside these files, in the working directory and its `configs`, and around the
+    /// results folder.
+    Beside(&'a [PathBuf]),
+}
+
+/// Finds the experiment file of a run and its frames again.
 ///
 /// # Errors
 /// If there is no such file with the same text, or its frames are not found.
 pub(crate) fn reopen(
     folder: &Path,
     run: &RunRecord,
-    file: Option<&Path>,
+    file: ExperimentFile<'_>,
 ) -> Result<Reopened, Error> {
     let recorded = &run.experiment;
     let is_same = |path: &Path| {
@@ -33,8 +42,8 @@ pub(crate) fn reopen(
         text.is_ok_and(|text| text_hash(&text) == recorded.sha256)
     };
     let path = match file {
-        Some(file) if is_same(file) => Some(file.to_owned()),
-        Some(file) => {
+        ExperimentFile::At(file) if is_same(file) => Some(file.to_owned()),
+        ExperimentFile::At(file) => {
             let message = format!(
                 "{}: this is not the experiment file that {} was scored with",
                 file.display(),
@@ -45,7 +54,9 @@ pub(crate) fn reopen(
                 "run the experiment again, or give its file as it was",
             ));
         }
-        None => candidates(folder, &recorded.file).into_iter().find(|path| is_same(path)),
+        ExperimentFile::Beside(files) => {
+            candidates(folder, &recorded.file, files).into_iter().find(|path| is_same(path))
+        }
     };
     let Some(path) = path else {
         let message = format!(
@@ -74,10 +85,12 @@ pub(crate) fn reopen(
     }
 }
 
-fn candidates(folder: &Path, file: &str) -> Vec<PathBuf> {
+fn candidates(folder: &Path, file: &str, beside: &[PathBuf]) -> Vec<PathBuf> {
     // A record may be written by hand, and its name is looked for, wherever it points.
     let Some(name) = Path::new(file).file_name() else { return Vec::new() };
-    let mut folders = vec![PathBuf::new(), PathBuf::from("configs")];
+    let beside = beside.iter().filter_map(|path| path.parent().map(Path::to_owned));
+    let mut folders: Vec<PathBuf> = beside.collect();
+    folders.extend([PathBuf::new(), PathBuf::from("configs")]);
     let around = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     folders.extend(around.ancestors().map(Path::to_owned));
     folders.into_iter().map(|folder| folder.join(name)).collect()

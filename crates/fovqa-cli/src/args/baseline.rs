@@ -42,7 +42,7 @@ pub(crate) struct SaveArgs {
 pub(crate) struct FramesArg {
     /// Also keep reduced pictures and maps of all frames, in a folder beside the baseline: a gate that
     /// fails then shows what has changed. They are read again, with the experiment file EXPERIMENT
-    /// [default: looked for near the working directory and the results]
+    /// [default: looked for beside the baseline, and near the working directory and the results]
     #[arg(long, value_name = "EXPERIMENT", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     frames: Option<OsString>,
 }

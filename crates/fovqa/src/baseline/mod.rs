@@ -11,7 +11,7 @@ use fovqa_results::{Baseline, Difference, replaces, write_json_output};
 use crate::error::Error;
 use crate::finish::text_hash;
 use crate::finished_run::FinishedRun;
-use crate::reopened::{KnownInputs, reopen};
+use crate::reopened::{ExperimentFile, KnownInputs, reopen};
 use crate::repeats::Repeats;
 
 /// Reads a baseline.
@@ -31,8 +31,8 @@ pub enum Frames {
     #[default]
     None,
     /// It keeps reduced pictures and maps of all frames in a folder beside its file. They are read again,
-    /// with this experiment file, or with one of the recorded name and text that is found near the
-    /// working directory or the results.
+    /// with this experiment file, or with one of the recorded name and text that is found beside the
+    /// baseline, near the working directory or around the results.
     Kept(Option<PathBuf>),
 }
 
@@ -74,7 +74,14 @@ fn write(
 ) -> Result<Saved, Error> {
     let reopened = match frames {
         Frames::None => None,
-        Frames::Kept(file) => Some(reopen(results, &finished.record, file.as_deref())?),
+        Frames::Kept(file) => {
+            let beside = [path.to_owned()];
+            let file = match file {
+                Some(file) => ExperimentFile::At(file),
+                None => ExperimentFile::Beside(&beside),
+            };
+            Some(reopen(results, &finished.record, file)?)
+        }
     };
     write_json_output(path, &baseline)
         .map_err(|error| Error::input(error.to_string(), "give another file"))?;
