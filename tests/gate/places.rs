@@ -271,10 +271,100 @@ fn frames_of_another_baseline_are_not_shown() {
     assert!(!folder.path("kept.frames").exists());
     folder.run(&["baseline", "accept", "bad", "kept.json", "--frames"]).ok().says(&["16 frames"]);
     // A file that has changed since is not what was scored.
+    let before = fs::read(folder.path("kept.json")).unwrap();
     folder.png("test/0002.png", WIDTH, HEIGHT, &good_test);
-    folder
-        .run(&["baseline", "accept", "bad", "kept.json", "--frames"])
-        .fails(3, &["test/0002.png: the file has changed since it was scored"]);
+    folder.run(&["baseline", "accept", "bad", "kept.json", "--frames"]).fails(
+        3,
+        &["test/0002.png: the file has changed since it was scored", "nothing was changed"],
+    );
+    assert_eq!(fs::read(folder.path("kept.json")).unwrap(), before);
+    assert!(folder.path("kept.frames/frames.json").is_file());
+    assert!(!folder.path("kept.frames-new").exists());
+}
+
+/// A fixed limit can be broken although nothing was lost: the worst frame and place are told, and are not
+/// called a loss against the baseline.
+#[test]
+fn without_a_loss_the_worst_frame_is_told() {
+    let (folder, _) = good("[[gate]]\nmetric = \"psnr\"\nat_least = 90\n");
+    let verdict = verdict(&folder, "kept.json");
+    let check = &verdict["rules"][0]["checks"][0];
+    let loss = &check["losses"][0];
+    assert_eq!(loss["frame"], check["worst_frame"]);
+    assert_ne!(loss["compared"], "baseline");
+    assert_ne!(loss["band"]["compared"], "baseline");
+    assert_eq!(loss["place"]["compared"], "nothing");
+}
+
+/// What is kept of the last good build may be damaged: then the frames beside it are compared.
+#[test]
+fn damaged_frames_of_a_baseline_cost_their_pictures_alone() {
+    let (folder, pictures) = good(RULES);
+    let mut bad = pictures;
+    blur_patch(&mut bad[7][1], [172.0, 110.0], 2.5);
+    write(&folder, &bad);
+    let kept = |name: &str| format!("kept.frames/images/s/0007/methods/A/{name}");
+    let maps = fs::read_to_string(folder.path(&kept("test.json"))).unwrap();
+    fs::remove_file(folder.path(&kept("page.webp"))).unwrap();
+    for damaged in [
+        maps.replace("\"block\":", "\"block\":1"),
+        maps.replace("\"rows\":", "\"rows\":9999999999"),
+        maps[..maps.len() / 2].to_owned(),
+    ] {
+        folder.write(&kept("test.json"), damaged);
+        names(&verdict(&folder, "kept.json"), &[7], Some([172.0, 110.0]), "neighbours");
+        assert!(!folder.path("bad/gate/s/A/0007/last-good.png").exists());
+    }
+}
+
+/// Each rule shows the place of its own map and band.
+#[test]
+fn rules_that_point_elsewhere_in_a_frame_have_pictures_of_their_own() {
+    let rule = |band: &str| {
+        format!("[[gate]]\nmetric = \"ssim\"\nper_frame = true\n{band}max_drop = 0.0001\n")
+    };
+    let rules = format!("{}{}", rule("band_deg = [0, 5]\n"), rule("band_deg = [20, 50]\n"));
+    let (folder, pictures) = good(&rules);
+    let mut bad = pictures;
+    let places = [[166.0, 114.0], [40.0, 40.0]];
+    for place in places {
+        blur_patch(&mut bad[7][1], place, 3.0);
+    }
+    write(&folder, &bad);
+    let verdict = verdict(&folder, "kept.json");
+    for (rule, (place, name)) in places.into_iter().zip(["crop.png", "crop-2.png"]).enumerate() {
+        let loss = &verdict["rules"][rule]["checks"][0]["losses"][0];
+        assert!(degrees_from(loss, place) <= 5.0, "{loss:#}");
+        let pictures = loss["pictures"].as_array().unwrap();
+        assert_eq!(pictures.last().unwrap()["path"], format!("gate/s/A/0007/{name}"));
+    }
+}
+
+/// A gate that is not possible leaves no file that says that it holds.
+#[test]
+fn files_of_an_earlier_gate_do_not_stay() {
+    let (folder, _) = good(RULES);
+    let gate = |baseline: &str| {
+        folder.run(&[
+            "gate",
+            "e.toml",
+            "--output",
+            "out",
+            "--baseline",
+            baseline,
+            "--junit",
+            "g.xml",
+            "--markdown",
+            "g.md",
+        ])
+    };
+    gate("kept.json").ok();
+    assert!(fs::read_to_string(folder.path("g.md")).unwrap().contains("the gate holds"));
+    gate("gone.json").fails(3, &["gone.json"]);
+    let junit = fs::read_to_string(folder.path("g.xml")).unwrap();
+    assert!(junit.contains("errors=\"1\"") && !junit.contains("the gate holds"), "{junit}");
+    let markdown = fs::read_to_string(folder.path("g.md")).unwrap();
+    assert!(!markdown.contains("holds") && markdown.contains("the gate was not possible"));
 }
 
 #[test]

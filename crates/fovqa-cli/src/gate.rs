@@ -1,6 +1,7 @@
 //! `fovqa gate`: scores an experiment, or uses the results of a finished run, and checks the rules.
 
-use std::path::Path;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 use fovqa::{Against, FALSE_ALARMS, Given, RunOptions, Verdict, text_hash};
 use fovqa_report::{
@@ -20,7 +21,16 @@ pub(crate) fn run(args: &GateArgs) -> Exit {
 }
 
 fn gate(args: &GateArgs) -> Result<Exit, Exit> {
-    let verdict = if args.target.is_dir() { of_folder(args)? } else { of_experiment(args)? };
+    let judged = if args.target.is_dir() { of_folder(args) } else { of_experiment(args) };
+    let verdict = match judged {
+        Ok(verdict) => verdict,
+        Err(exit) => {
+            // Files of an earlier gate would say that it holds.
+            let why = "the gate was not possible; its messages say why";
+            let verdict = Verdict::none(&args.target.display().to_string(), why);
+            return Err(exit.or_worse(write_files(args, &verdict)));
+        }
+    };
     let printed = print(args, &verdict);
     let written = write_files(args, &verdict);
     let judged = match verdict.state() {
@@ -121,6 +131,14 @@ fn propose(args: &GateArgs) -> Result<Exit, Exit> {
     let mut experiment = experiment::read(&args.target)?;
     experiment.plan.frames = args.frames;
     let rate = args.false_alarms.unwrap_or(FALSE_ALARMS);
+    let mut seen = BTreeSet::new();
+    let twice = |folder: &&PathBuf| folder.canonicalize().is_ok_and(|real| !seen.insert(real));
+    if let Some(folder) = args.calibrate.iter().find(twice) {
+        diagnostic::warning(&format!(
+            "{}: this run is given twice, and a copy of a run looks like less noise",
+            folder.display()
+        ));
+    }
     let calibration = fovqa::calibrate(&experiment, &args.calibrate, rate).map_err(failed)?;
     if calibration.proposals.iter().all(|proposal| proposal.range == 0.0) {
         diagnostic::warning(

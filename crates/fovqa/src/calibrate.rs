@@ -37,7 +37,8 @@ pub fn calibrate(
         let message = format!("the rate of false alarms cannot be {false_alarms}");
         return Err(Error::usage(message, "give a number above 0 and at most 0.5"));
     }
-    let rules = templates(experiment)?;
+    let rules: Vec<GateRule> =
+        templates(experiment)?.into_iter().filter(|rule| rule.spread.is_none()).collect();
     let resolved = experiment.resolved();
     let mut runs = Vec::new();
     for folder in folders {

@@ -10,12 +10,12 @@ use std::path::{Path, PathBuf};
 
 use fovqa_engine::{Events, FoundInputs, Given, Locking, ResultsFolder};
 use fovqa_plan::{Experiment, GateRule, Plan};
-use fovqa_results::{Verdict, keep_verdict};
+use fovqa_results::{CheckRecord, GATE, Verdict, VerdictRecord, keep_verdict, kept_verdict};
 
 use crate::error::Error;
 use crate::finish::{in_folder, text_hash};
 use crate::finished_run::FinishedRun;
-use crate::reopened::{ExperimentFile, reopen};
+use crate::reopened::{ExperimentFile, KnownInputs, reopen};
 use crate::repeats::Repeats;
 use crate::run::{Run, RunOptions};
 use baselines::{Baselines, Named};
@@ -68,7 +68,7 @@ pub fn gate(
             repeats.add_to(&mut finished.values)?;
         }
         let (judged, named) = judge(&finished, &file.display().to_string(), &baselines);
-        let found = || Ok((plan.clone(), fovqa_engine::find(&plan, given)));
+        let found = || Ok((plan.clone(), fovqa_engine::find(&plan, given), None));
         verdict = Some(show(judged, named, folder, found, events));
         Ok(())
     })?;
@@ -115,7 +115,7 @@ pub fn gate_folder(
     };
     let found = || {
         let run = again(&against.baselines)?;
-        Ok((run.experiment.plan, run.found))
+        Ok((run.experiment.plan, run.found, Some(KnownInputs::of(&finished.record))))
     };
     let verdict = show(verdict, named, &opened, found, events);
     match fovqa_report::draw(folder) {
@@ -143,26 +143,39 @@ fn judge<'a>(
     (verdict, named)
 }
 
+/// The plan of a run, its frames and, if it was scored before, its inputs as they were.
+type Inputs = (Plan, FoundInputs, Option<KnownInputs>);
+
 /// Looks at the frames that a verdict names, and keeps it with its pictures in the results folder. What
-/// cannot be looked at or written is reported: the verdict does not depend on it.
+/// cannot be looked at or written is reported: the verdict does not depend on it. Pictures of an earlier
+/// verdict that names the same frames stay if the frames cannot be read again.
 fn show(
     mut verdict: Verdict,
     named: Option<&Named>,
     folder: &ResultsFolder,
-    found: impl FnOnce() -> Result<(Plan, FoundInputs), Error>,
+    found: impl FnOnce() -> Result<Inputs, Error>,
     events: &dyn Events,
 ) -> Verdict {
-    clear_gate(folder.path());
+    let results = folder.path();
+    if results.join(GATE).is_symlink() {
+        let message = "it is a link, and nothing is written through it";
+        events.warn(&format!("{}: {message}", results.join(GATE).display()));
+        return verdict;
+    }
+    let earlier = kept_verdict(results).ok().flatten();
     let checks = verdict.rules.iter().flat_map(|rule| &rule.checks);
-    if checks.flat_map(|check| &check.losses).next().is_some() {
+    if checks.flat_map(|check| &check.losses).next().is_none() {
+        clear_gate(results);
+    } else {
         let good = named.map_or(Ok(None), Named::frames).unwrap_or_else(|why| {
             events.warn(&why);
             None
         });
         match found() {
-            Ok((plan, found)) => {
-                let (plan, found, results) = (&plan, &found, folder.path());
-                let site = Site { plan, found, results, good: good.as_ref() };
+            Ok((plan, found, known)) => {
+                clear_gate(results);
+                let (plan, found, known) = (&plan, &found, known.as_ref());
+                let site = Site { plan, found, results, good: good.as_ref(), known };
                 let located = locate(&mut verdict, &site);
                 verdict.shown_in = Some(results.display().to_string());
                 match located {
@@ -173,13 +186,47 @@ fn show(
                     }
                 }
             }
-            Err(error) => events.warn(&format!("frames with a loss are not shown: {error}")),
+            Err(error) => {
+                events.warn(&format!("frames with a loss are not looked at again: {error}"));
+                let restored = earlier.is_some_and(|earlier| restore(&mut verdict, &earlier));
+                if restored {
+                    verdict.shown_in = Some(results.display().to_string());
+                } else {
+                    clear_gate(results);
+                }
+            }
         }
     }
-    if let Err(error) = keep_verdict(folder.path(), &verdict) {
+    if let Err(error) = keep_verdict(results, &verdict) {
         events.warn(&format!("the verdict is not added to the page: {error}"));
     }
     verdict
+}
+
+/// Takes places and pictures from an earlier verdict of the same values. Whether there were any.
+fn restore(verdict: &mut Verdict, earlier: &VerdictRecord) -> bool {
+    let mut restored = false;
+    for rule in &mut verdict.rules {
+        let title = rule.title();
+        for check in &mut rule.checks {
+            let now = CheckRecord::from(&*check);
+            let of_rule = earlier.rules.iter().filter(|rule| rule.title == title);
+            let same = of_rule.flat_map(|rule| &rule.checks).find(|was| {
+                (&was.scene, &was.method, &was.eye) == (&now.scene, &now.method, &now.eye)
+                    && (was.value, was.limit, was.band_deg.map(|band| band.map(f64::to_bits)))
+                        == (now.value, now.limit, now.band_deg.map(|band| band.map(f64::to_bits)))
+            });
+            for loss in &mut check.losses {
+                let was = same.and_then(|was| {
+                    was.losses.iter().find(|was| was.frame == loss.frame && was.eye == loss.eye)
+                });
+                if let Some(was) = was {
+                    restored |= loss.restore(was);
+                }
+            }
+        }
+    }
+    restored
 }
 
 /// Checks that there are rules, and that a baseline is given if they need one.

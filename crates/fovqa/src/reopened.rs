@@ -43,6 +43,10 @@ pub(crate) fn reopen(
     };
     let path = match file {
         ExperimentFile::At(file) if is_same(file) => Some(file.to_owned()),
+        ExperimentFile::At(file) if !file.is_file() => {
+            let message = format!("{}: there is no such file", file.display());
+            return Err(Error::input(message, "give the experiment file with {experiment}"));
+        }
         ExperimentFile::At(file) => {
             let message = format!(
                 "{}: this is not the experiment file that {} was scored with",

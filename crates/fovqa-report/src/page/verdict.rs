@@ -11,6 +11,8 @@ use crate::verdict::{place_in_words, shown};
 
 /// Frames with a loss whose pictures the page holds. Those of others are in the folder of the results.
 const MOST_WITH_PICTURES: usize = 6;
+/// Bytes of a picture; one of ours is much smaller.
+const MOST_BYTES: u64 = 4 << 20;
 /// Checks in the table. A gate may have many thousands.
 const MOST_CHECKS: usize = 500;
 
@@ -48,6 +50,13 @@ pub(super) struct PageFailure {
 pub(super) struct PageLoss {
     pub(super) text: String,
     pub(super) pictures: Vec<PagePicture>,
+}
+
+impl PageLoss {
+    /// Whether the page holds a picture of it.
+    pub(super) fn has_images(&self) -> bool {
+        self.pictures.iter().any(|picture| picture.image.is_some())
+    }
 }
 
 /// A picture of it.
@@ -140,6 +149,7 @@ fn pictures<'a>(loss: &'a LossRecord, folder: &Path, shown: &mut Vec<&'a str>) -
     // Rules that point at the same frame share its pictures: they are shown once.
     let Some(first) = loss.pictures.first() else { return Vec::new() };
     let is_new = !shown.contains(&first.path.as_str());
+    // Their addresses are shown below each check that they belong to.
     let has_room = shown.len() < MOST_WITH_PICTURES;
     if is_new && has_room {
         shown.push(&first.path);
@@ -149,7 +159,9 @@ fn pictures<'a>(loss: &'a LossRecord, folder: &Path, shown: &mut Vec<&'a str>) -
     let pictures = loss.pictures.iter().filter(|picture| is_inside(&picture.path));
     let picture = |what: &str, path: &str| {
         let file = folder.join(path);
-        let bytes = if is_new && has_room { fs::read(file).ok() } else { None };
+        let is_small =
+            || file.metadata().is_ok_and(|file| file.is_file() && file.len() < MOST_BYTES);
+        let bytes = if is_new && has_room && is_small() { fs::read(&file).ok() } else { None };
         PagePicture {
             what: what.to_owned(),
             address: address(path),

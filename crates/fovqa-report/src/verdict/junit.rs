@@ -24,6 +24,9 @@ pub fn junit(verdict: &Verdict) -> Result<String, String> {
         case.set_classname(visible(&verdict.experiment));
         suite.add_test_case(case);
     }
+    if let Some(baseline) = &verdict.baseline {
+        suite.add_property(("baseline", visible(baseline).as_str()));
+    }
     let mut report = Report::new(visible(&outcome(verdict)));
     report.add_test_suite(suite);
     report.to_string().map_err(|error| error.to_string())

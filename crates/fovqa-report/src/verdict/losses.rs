@@ -34,10 +34,10 @@ pub(crate) fn place(check: &CheckRecord, loss: &LossRecord) -> String {
     let before = loss.before.map(|before| before.0);
     let _ = write!(text, ": {} {}", loss.metric, compared(loss.value.0, before, &loss.compared));
     if let Some(band) = &loss.band {
-        let _ = write!(text, "; most in {}", in_band(band, &loss.compared));
+        let _ = write!(text, "; of the bands, most is lost in {}", in_band(band));
     }
     if let Some(place) = &loss.place {
-        let _ = write!(text, "; worst at {:.0}, {:.0} px", place.x_px, place.y_px);
+        let _ = write!(text, "; the worst place is {:.0}, {:.0} px", place.x_px, place.y_px);
         if let Some(degrees) = place.eccentricity_deg {
             let _ = write!(text, ", {degrees:.1}° from the gaze");
         }
@@ -48,17 +48,20 @@ pub(crate) fn place(check: &CheckRecord, loss: &LossRecord) -> String {
 
 /// Whether the frame with a loss is named by another metric than that of the rule, and why.
 pub(super) fn late(check: &CheckRecord) -> Option<&'static str> {
-    let is_late = |loss: &LossRecord| loss.metric != "fvvdp";
     let of_fvvdp = check.reason.as_deref().is_some_and(|reason| reason.contains("fvvdp"));
-    (of_fvvdp && check.losses.iter().any(is_late)).then_some(
+    let first = check.losses.first().filter(|_| of_fvvdp)?;
+    Some(if first.metric == "fvvdp" {
+        "FovVideoVDP shows a loss up to a quarter of a second late: the loss may be in an earlier frame; \
+         score psnr or ssim too, which tell the frame"
+    } else {
         "FovVideoVDP shows a loss up to a quarter of a second late: the frame is the one whose own \
-         difference from the reference grew most",
-    )
+         difference from the reference grew most"
+    })
 }
 
-fn in_band(band: &BandRecord, how: &str) -> String {
+fn in_band(band: &BandRecord) -> String {
     let before = band.before.map(|before| before.0);
-    let value = compared(band.value.0, before, how);
+    let value = compared(band.value.0, before, &band.compared);
     format!("{}° to {}° ({} {value})", band.from_deg, band.to_deg, band.metric)
 }
 
@@ -76,6 +79,6 @@ fn against(compared: &str) -> &'static str {
     match compared {
         "baseline" => ", compared with the baseline",
         "neighbours" => ", compared with the frames beside it",
-        _ => "",
+        _ => " of this build alone",
     }
 }

@@ -42,7 +42,7 @@ pub fn verdict_table(verdict: &Verdict) -> String {
         }
     }
     if let Some(folder) = &verdict.shown_in {
-        let _ = writeln!(text, "pictures: {}", printable(folder));
+        let _ = writeln!(text, "pictures: {}/gate", printable(folder));
     }
     if let Some(baseline) = &verdict.baseline {
         let _ = writeln!(text, "compared with {}, the best match", printable(baseline));

@@ -70,6 +70,31 @@ impl FrameRecords {
         })
     }
 
+    /// For each quantity that both have, the frame that differs most from an earlier record, with its number
+    /// and how many differ, and the earlier and the new value.
+    pub(super) fn differences(&self, before: &Self) -> Vec<(String, [f64; 2])> {
+        let of = |records: &Self, name: &str| {
+            let numbers = numbers(&records.frames)?;
+            values(&numbers, records.values.get(name)?)
+        };
+        let difference = |name: &String| {
+            let (was, is) = of(before, name).zip(of(self, name))?;
+            let pairs = is.iter().filter_map(|(frame, is)| Some((*frame, *was.get(frame)?, *is)));
+            let changed: Vec<(i64, f64, f64)> =
+                pairs.filter(|(_, was, is)| was.to_bits() != is.to_bits()).collect();
+            let apart = |(_, was, is): &(i64, f64, f64)| (is - was).abs();
+            let most = changed.iter().copied();
+            let (frame, was, is) = most.reduce(|a, b| if apart(&b) > apart(&a) { b } else { a })?;
+            let more = match changed.len() - 1 {
+                0 => String::new(),
+                1 => " (and 1 more)".to_owned(),
+                more => format!(" (and {more} more)"),
+            };
+            Some((format!("{name}, frame {frame}{more}"), [was, is]))
+        };
+        self.values.keys().filter_map(difference).collect()
+    }
+
     /// Whether every list has a value for each frame.
     pub(super) fn is_sound(&self) -> bool {
         // A range may claim more frames than any list has values for.

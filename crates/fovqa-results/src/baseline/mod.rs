@@ -225,7 +225,10 @@ impl Baseline {
             ));
         };
         let series = records.series(quantity);
-        series.map(|series| series.frames).ok_or_else(|| lacks(comparison, quantity))
+        series.map(|series| series.frames).ok_or_else(|| {
+            let lacks = lacks(comparison, quantity);
+            format!("{lacks}; `fovqa baseline accept` adds it")
+        })
     }
 
     /// The values of the repeated runs of a comparison; empty if the baseline has none.
@@ -280,7 +283,8 @@ impl Baseline {
         self.inputs.iter().filter_map(other).collect()
     }
 
-    /// The old and the new value wherever the two differ.
+    /// The old and the new value wherever the two differ. Of the values of single frames, those with the
+    /// largest difference.
     pub fn differences(&self, new: &Self, scenes: &[String]) -> Vec<Difference> {
         let wanted = |c: &&BaselineComparison| scenes.is_empty() || scenes.contains(&c.scene);
         let mut differences = Vec::new();
@@ -292,6 +296,12 @@ impl Baseline {
         };
         for comparison in new.comparisons.iter().filter(wanted) {
             let before = self.comparisons.iter().find(|c| c.place() == comparison.place());
+            let frames = |of: &BaselineComparison| of.per_frame.clone();
+            if let Some((was, is)) = before.and_then(frames).zip(frames(comparison)) {
+                for (quantity, [before, after]) in is.differences(&was) {
+                    add(&comparison.named(), &quantity, Some(before), Some(after));
+                }
+            }
             for (quantity, after) in comparison.values() {
                 let before = before.and_then(|before| before.values.get(quantity)).map(|n| n.0);
                 add(&comparison.named(), quantity, before, Some(after));

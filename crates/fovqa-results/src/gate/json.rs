@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::{Deserialize, Serialize};
 
-use super::loss::Loss;
+use super::loss::{Compared, Loss, LossPicture, Place};
 use super::verdict::{Check, FrameCheck, RuleVerdict, Verdict};
 use crate::baseline::rounded;
 use crate::json::Number;
@@ -146,6 +146,8 @@ pub struct BandRecord {
     pub metric: String,
     /// The value in the band.
     pub value: Number,
+    /// What it is compared with: `baseline`, `neighbours` or `nothing`.
+    pub compared: String,
     /// The value that it is compared with.
     pub before: Option<Number>,
 }
@@ -193,6 +195,7 @@ impl From<&Loss> for LossRecord {
             to_deg: band.band_deg[1],
             metric: band.metric.clone(),
             value: Number(band.value),
+            compared: band.compared.name().to_owned(),
             before: band.before.map(Number),
         });
         let place = loss.place.as_ref().map(|place| PlaceRecord {
@@ -217,6 +220,29 @@ impl From<&Loss> for LossRecord {
             place,
             pictures: pictures.collect(),
         }
+    }
+}
+
+impl Loss {
+    /// Takes place and pictures from an earlier record of the same loss. Whether there were any.
+    pub fn restore(&mut self, was: &LossRecord) -> bool {
+        let place = was.place.as_ref().and_then(|place| {
+            let all = [Compared::Baseline, Compared::Neighbours, Compared::Nothing];
+            let compared = all.into_iter().find(|compared| compared.name() == place.compared)?;
+            Some(Place {
+                px: [place.x_px, place.y_px],
+                eccentricity_deg: place.eccentricity_deg,
+                map: place.map.clone(),
+                compared,
+            })
+        });
+        let pictures = was
+            .pictures
+            .iter()
+            .map(|picture| LossPicture { what: picture.what.clone(), path: picture.path.clone() });
+        self.place = place;
+        self.pictures = pictures.collect();
+        self.place.is_some() || !self.pictures.is_empty()
     }
 }
 

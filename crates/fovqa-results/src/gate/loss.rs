@@ -49,6 +49,8 @@ pub struct BandLoss {
     pub metric: String,
     /// The value in the band.
     pub value: f64,
+    /// What it is compared with.
+    pub compared: Compared,
     /// The value that it is compared with.
     pub before: Option<f64>,
 }
@@ -127,6 +129,8 @@ struct Pair {
     quantity: Quantity,
     now: Series,
     before: Option<Series>,
+    /// Significant digits of the baseline's values of frames, if they are rounded.
+    digits: Option<usize>,
 }
 
 /// A frame, and how much was lost in it.
@@ -164,6 +168,10 @@ impl Search<'_> {
                     None => losses.push((growth, loss)),
                 }
             }
+        }
+        // Of two eyes, only one may have lost something.
+        if losses.iter().any(|(growth, _)| *growth > 0.0) {
+            losses.retain(|(growth, _)| *growth > 0.0);
         }
         let is_late = of.metric == Metric::Fvvdp.key();
         if is_late || failing.is_empty() {
@@ -223,8 +231,13 @@ impl Search<'_> {
 
     fn pair(&self, place: &ComparisonName, quantity: Quantity) -> Option<Pair> {
         let now = self.run.series(place, &quantity)?;
-        let before = self.baseline.and_then(|baseline| baseline.series(place, &quantity));
-        Some(Pair { quantity, now, before })
+        let before = self.baseline.and_then(|baseline| {
+            let own = baseline.series(place, &quantity).map(|series| (series, None));
+            own.or_else(|| in_band(baseline, place, &quantity))
+        });
+        let (before, digits) =
+            before.map_or((None, None), |(series, digits)| (Some(series), digits));
+        Some(Pair { quantity, now, before, digits })
     }
 
     /// The band with the largest loss of a frame: of the rule's metric if it has bands, and within the
@@ -237,35 +250,71 @@ impl Search<'_> {
             of.band_deg.is_none_or(|[least, most]| least <= from && to <= most)
         };
         let bands = pair.now.bands.iter().filter(|(edges, _)| inside(*edges));
-        let losses = bands.filter_map(|(edges, now)| {
-            let earlier = pair.before.as_ref();
-            let before = earlier.and_then(|before| {
-                let same =
-                    |[from, to]: [f64; 2]| [from, to].map(f64::to_bits) == edges.map(f64::to_bits);
-                Some(&before.bands.iter().find(|(edges, _)| same(*edges))?.1)
+        let bands: Vec<_> = bands.collect();
+        let most = |is_compared: bool| {
+            let losses = bands.iter().filter_map(|(edges, now)| {
+                let earlier = pair.before.as_ref().filter(|_| is_compared);
+                let before = earlier.and_then(|before| before.band(*edges));
+                let digits = earlier.and_then(|before| before.digits);
+                let named = pair.quantity.named(frame, (now, before), digits)?;
+                Some((*edges, named))
             });
-            let digits = earlier.and_then(|before| before.digits);
-            let named = pair.quantity.named(frame, (now, before), digits)?;
-            Some((named.growth, *edges, named))
-        });
-        let (_, band_deg, named) =
-            losses.reduce(|best, one| if one.0 > best.0 { one } else { best })?;
+            losses.reduce(|best, one| if one.1.growth > best.1.growth { one } else { best })
+        };
+        // If no band has lost anything against the baseline, the worst one is told.
+        let compared = most(true)?;
+        let (band_deg, named) = if compared.1.has_lost() { compared } else { most(false)? };
         let (metric, before) = (pair.quantity.metric.clone(), named.before);
-        Some(BandLoss { band_deg, metric, value: named.value, before })
+        let compared = named.compared;
+        Some(BandLoss { band_deg, metric, value: named.value, compared, before })
     }
 }
 
 impl Pair {
+    /// A frame with its loss. If it has lost nothing against the baseline, it is not compared with it.
     fn named(&self, frame: i64) -> Option<Named> {
         let before = self.before.as_ref().map(|before| &before.frames);
-        self.quantity.named(frame, (&self.now.frames, before), None)
+        let named = self.quantity.named(frame, (&self.now.frames, before), self.digits)?;
+        if named.has_lost() { Some(named) } else { self.alone(frame) }
     }
 
-    /// The frame with the largest loss.
-    fn largest(&self, frames: impl Iterator<Item = i64>) -> Option<Named> {
-        let named = frames.filter_map(|frame| self.named(frame));
-        named.reduce(|best, one| if one.growth > best.growth { one } else { best })
+    fn alone(&self, frame: i64) -> Option<Named> {
+        self.quantity.named(frame, (&self.now.frames, None), None)
     }
+
+    /// The frame with the largest loss against the baseline. If there is none, the frame with the worst
+    /// value: a rule with a fixed limit may fail although nothing was lost.
+    fn largest(&self, frames: impl Iterator<Item = i64> + Clone) -> Option<Named> {
+        let named: Vec<Named> = frames.clone().filter_map(|frame| self.named(frame)).collect();
+        let lost = named.into_iter().filter(|named| named.compared == Compared::Baseline);
+        let most = lost.reduce(|best, one| if one.growth > best.growth { one } else { best });
+        most.or_else(|| {
+            let alone = frames.filter_map(|frame| self.alone(frame));
+            let amount = |named: &Named| amount(&self.quantity, named.value);
+            alone.reduce(|worst, one| if amount(&one) > amount(&worst) { one } else { worst })
+        })
+    }
+}
+
+impl Named {
+    /// Whether something was lost, if it is compared with the baseline.
+    fn has_lost(&self) -> bool {
+        self.compared != Compared::Baseline || self.growth > 0.0
+    }
+}
+
+/// The values of frames in a band, from those of all bands.
+fn in_band(
+    baseline: &Baseline,
+    place: &ComparisonName,
+    quantity: &Quantity,
+) -> Option<(Series, Option<usize>)> {
+    let edges = quantity.band_deg?;
+    let whole = Quantity { band_deg: None, ..quantity.clone() };
+    let series = baseline.series(place, &whole)?;
+    let frames = series.band(edges)?.clone();
+    let digits = series.digits;
+    Some((Series { frames, ..series }, digits))
 }
 
 trait NamedFrames {

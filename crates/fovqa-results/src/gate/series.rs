@@ -16,6 +16,14 @@ pub(crate) struct Series {
     pub(crate) digits: Option<usize>,
 }
 
+impl Series {
+    /// The values in a band.
+    pub(super) fn band(&self, edges: [f64; 2]) -> Option<&BTreeMap<i64, f64>> {
+        let is_same = |other: &[f64; 2]| other.map(f64::to_bits) == edges.map(f64::to_bits);
+        self.bands.iter().find(|(edges, _)| is_same(edges)).map(|(_, values)| values)
+    }
+}
+
 /// How much is lost at a value: larger is worse. The losses of decibels are squared errors, so that a
 /// change of what was almost identical is not a large loss.
 pub(super) fn amount(quantity: &Quantity, value: f64) -> f64 {

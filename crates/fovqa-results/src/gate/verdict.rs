@@ -215,6 +215,19 @@ impl Verdict {
         Self { experiment, file, rules, errors, baseline: None, shown_in: None, notes }
     }
 
+    /// A verdict about nothing, because the gate was not possible.
+    pub fn none(file: &str, why: &str) -> Self {
+        Self {
+            experiment: file.to_owned(),
+            file: file.to_owned(),
+            rules: Vec::new(),
+            errors: vec![why.to_owned()],
+            baseline: None,
+            shown_in: None,
+            notes: Vec::new(),
+        }
+    }
+
     /// The state of the whole gate.
     pub fn state(&self) -> State {
         let errors = (!self.errors.is_empty()).then_some(State::NotScored);
@@ -253,7 +266,8 @@ fn judged(
         None => places.map(|place| check(rule, run, place, baseline)).collect(),
     };
     for check in &mut checks {
-        if matches!(check.outcome, Outcome::Failed(_)) && check.value.is_some() {
+        let is_failed = matches!(check.outcome, Outcome::Failed(_)) || !check.frames.is_empty();
+        if is_failed && check.value.is_some() {
             let scene = experiment.scenes.iter().find(|scene| scene.name == check.place.0);
             let search = Search { run, baseline, fps: scene.and_then(|scene| scene.fps) };
             let failing: Vec<i64> = check.frames.iter().map(|frame| frame.frame).collect();
@@ -349,44 +363,54 @@ fn check_frames(
     let place = &check.place;
     let frames = run.frames(place, &rule.quantity)?;
     let mut before = BTreeMap::new();
+    let mut lacking = None;
     if rule.needs_baseline() {
         let baseline = baseline.ok_or_else(|| Outcome::Failed(NO_BASELINE.to_owned()))?;
         before = baseline.frames(place, &rule.quantity).map_err(Outcome::Failed)?;
         let numbers: BTreeSet<i64> = frames.iter().map(|(frame, _)| *frame).collect();
         let known: BTreeSet<i64> = before.keys().copied().collect();
-        if let Some(frame) = known.symmetric_difference(&numbers).min() {
+        lacking = known.symmetric_difference(&numbers).min().map(|frame| {
             let (has, lacks) =
                 if numbers.contains(frame) { ("run", "baseline") } else { ("baseline", "run") };
             let quantity = &rule.quantity;
-            return Err(Outcome::NotScored(format!(
-                "the {has} has {quantity} of frame {frame}, but the {lacks} does not"
-            )));
-        }
+            format!("the {has} has {quantity} of frame {frame}, but the {lacks} does not")
+        });
     }
     let mut checks = Vec::with_capacity(frames.len());
     for (frame, value) in frames {
         let baseline = before.get(&frame).copied();
+        if rule.needs_baseline() && baseline.is_none() {
+            continue;
+        }
         let limit = tightest(rule, value, baseline);
         let limit = limit.ok_or_else(|| Outcome::Failed(NO_LIMIT.to_owned()))?;
         checks.push(FrameCheck { frame, value, baseline, limit });
     }
     checks.sort_by(|a, b| a.limit.margin.total_cmp(&b.limit.margin).then(a.frame.cmp(&b.frame)));
-    let Some(worst) = checks.first().copied() else { return Ok(()) };
+    let nothing = |why: Option<String>| why.map_or(Ok(()), |why| Err(Outcome::NotScored(why)));
+    let Some(worst) = checks.first().copied() else { return nothing(lacking) };
     let of = checks.len();
     check.value = Some(worst.value);
     check.baseline = worst.baseline;
     check.limit = Some(worst.limit);
     check.worst = Some((worst.frame, worst.value));
     check.frames = checks.into_iter().filter(|check| !check.limit.holds()).collect();
-    match check.frames.len() {
-        0 => Ok(()),
-        failing => {
-            let broken = broken(rule, worst.limit, worst.value, worst.baseline);
-            let why =
-                format!("{failing} of {of} frames fail, worst is frame {}: {broken}", worst.frame);
-            Err(Outcome::Failed(why))
-        }
+    if check.frames.is_empty() {
+        return nothing(lacking);
     }
+    let failing = check.frames.len();
+    let broken = broken(rule, worst.limit, worst.value, worst.baseline);
+    let why = if of == 1 {
+        format!("frame {} fails: {broken}", worst.frame)
+    } else {
+        let verb = if failing == 1 { "fails" } else { "fail" };
+        format!("{failing} of {of} frames {verb}, worst is frame {}: {broken}", worst.frame)
+    };
+    // What fails is told although there is no verdict.
+    Err(match lacking {
+        Some(lacking) => Outcome::NotScored(format!("{lacking}; {why}")),
+        None => Outcome::Failed(why),
+    })
 }
 
 const NO_BASELINE: &str = "there is no baseline";

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use fovqa_engine::{EngineError, Entry, Finished, Named};
 use fovqa_frame::Frame;
+use fovqa_io::read_small_file;
 use fovqa_metrics::Metric;
 use fovqa_results::{
     Baseline, FileError, FrameImages, MapBlocks, TestRecord, make_folder, read_json_file,
@@ -26,6 +27,8 @@ const RECORD: &str = "frames.json";
 const SIDES: [usize; 5] = [512, 448, 384, 320, 256];
 /// Bytes that a picture may have.
 const MOST_BYTES: usize = 200_000;
+/// Bytes of a picture that is read: an uncompressed one is not larger.
+const MOST_PICTURE_BYTES: u64 = 4 << 20;
 
 /// The record of the folder.
 #[derive(Debug, Serialize, Deserialize)]
@@ -76,7 +79,8 @@ impl BaselineFrames {
     /// The picture of a method's frame; `None` if it is not kept, or damaged.
     pub(crate) fn picture(&self, named: Named<'_>, frame: i64) -> Option<Small> {
         let path = self.images(named, frame).test_on_page(named.method);
-        Small::read(&fs::read(path).ok()?, SIDES[0]).ok()
+        // Only regular files, and only as large as such a picture can be.
+        Small::read(&read_small_file(&path, MOST_PICTURE_BYTES).ok()?, SIDES[0]).ok()
     }
 
     /// The map of a method's frame; `None` if it is not kept, or damaged.
@@ -85,53 +89,87 @@ impl BaselineFrames {
         record.maps.into_iter().find(|blocks| blocks.map == map)
     }
 
-    /// Keeps the frames of a run, and returns their number. Earlier frames are replaced.
+    /// Reads the frames of a run again into a folder beside the one of a baseline, and returns their number.
+    /// [`BaselineFrames::accept`] puts them in its place when the values are written.
     ///
     /// # Errors
-    /// If an input has changed since it was scored, or a file cannot be read or written.
-    pub(crate) fn save(
+    /// If an input has changed since it was scored, a file cannot be read or written, or the folder of the
+    /// baseline's frames has other files.
+    pub(crate) fn prepare(
         path: &Path,
         baseline: &Baseline,
         run: &Reopened,
         known: &KnownInputs,
     ) -> Result<usize, Error> {
-        let frames = Self { folder: Self::folder_of(path) };
+        let folder = Self::folder_of(path);
         let failed = |error: &dyn std::fmt::Display| {
             Error::input(
                 error.to_string(),
-                "the baseline is written; correct this, and use `fovqa baseline accept --frames`",
+                "nothing was changed; correct this, or leave out --frames",
             )
         };
-        // Without its record, a folder that is only partly written is not used.
-        frames.clear().map_err(|error| failed(&format!("{}: {error}", frames.folder.display())))?;
+        if is_foreign(&folder) {
+            let message = "this folder is not one of a baseline's frames";
+            return Err(failed(&format!("{}: {message}", folder.display())));
+        }
+        let frames = Self { folder: Self::prepared(path) };
+        let _ = fs::remove_dir_all(&frames.folder);
+        let kept = frames.keep(baseline, run, known);
+        if kept.is_err() {
+            let _ = fs::remove_dir_all(&frames.folder);
+        }
+        kept.map_err(|error| failed(&error))
+    }
+
+    /// The folder in which frames are prepared.
+    fn prepared(path: &Path) -> PathBuf {
+        path.with_extension("frames-new")
+    }
+
+    fn keep(
+        &self,
+        baseline: &Baseline,
+        run: &Reopened,
+        known: &KnownInputs,
+    ) -> Result<usize, String> {
         let plan = &run.experiment.plan;
         let mapped = Self::mapped(plan.metrics.metrics());
         let again = Again { plan, found: &run.found, mapped: &mapped, hash_inputs: true };
-        let (mut count, mut changed, mut lost) = (0, None, None);
+        let (mut count, mut lost) = (0, None);
         let scored = again.score(&|_, _| true, &mut |entry| {
             match &entry {
                 Entry::Input(input) if !known.is_same(input) => {
-                    changed.get_or_insert_with(|| input.path.clone());
+                    lost.get_or_insert_with(|| {
+                        format!("{}: the file has changed since it was scored", input.path)
+                    });
                 }
                 Entry::Pair(Finished { named, result: Err(failure), .. }) => {
                     lost.get_or_insert_with(|| {
                         format!("{}, {}: {}", named.scene, named.method, failure.message)
                     });
                 }
-                _ => count += usize::from(frames.write(&entry)?),
+                _ => count += usize::from(self.write(&entry)?),
             }
             Ok(())
         });
-        scored.map_err(|error| failed(&error))?;
-        if let Some(path) = changed {
-            return Err(failed(&format!("{path}: the file has changed since it was scored")));
-        }
+        scored.map_err(|error| error.to_string())?;
         if let Some(lost) = lost {
-            return Err(failed(&lost));
+            return Err(lost);
         }
         let record = Record { schema: SCHEMA.to_owned(), baseline: id(baseline) };
-        write_json_file(&frames.folder.join(RECORD), &record).map_err(|error| failed(&error))?;
+        write_json_file(&self.folder.join(RECORD), &record).map_err(|error| error.to_string())?;
         Ok(count)
+    }
+
+    /// Puts prepared frames in the place of earlier ones.
+    pub(crate) fn accept(path: &Path) -> io::Result<()> {
+        Self::remove(path)?;
+        fs::rename(Self::prepared(path), Self::folder_of(path))
+    }
+
+    /// Removes prepared frames.
+    pub(crate) fn forget(path: &Path) {
+        let _ = fs::remove_dir_all(Self::prepared(path));
     }
 
     /// The metrics whose maps are kept: those in which a place can be looked for.
@@ -187,6 +225,12 @@ impl BaselineFrames {
             .map_err(|error| EngineError::Picture { path: images.folder().to_owned(), error })?;
         Ok(true)
     }
+}
+
+/// Whether a folder exists that has something, but no frames of a baseline.
+fn is_foreign(folder: &Path) -> bool {
+    let has_entries = fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some());
+    (has_entries || folder.is_file()) && !folder.join(RECORD).is_file()
 }
 
 /// The metric in whose map the place of a loss is looked for; `None` if it has to be another metric's.

@@ -83,18 +83,34 @@ fn write(
             Some(reopen(results, &finished.record, file)?)
         }
     };
-    write_json_output(path, &baseline)
-        .map_err(|error| Error::input(error.to_string(), "give another file"))?;
-    let Some(reopened) = reopened else {
+    if reopened.is_some() && path.exists() && !path.is_file() {
+        let message =
+            format!("{}: frames are kept beside a file, and this is none", path.display());
+        return Err(Error::usage(message, "give a file, or leave out --frames"));
+    }
+    let known = KnownInputs::of(&finished.record);
+    let frames = match &reopened {
+        Some(reopened) => BaselineFrames::prepare(path, &baseline, reopened, &known)?,
+        None => 0,
+    };
+    write_json_output(path, &baseline).map_err(|error| {
+        BaselineFrames::forget(path);
+        Error::input(error.to_string(), "give another file")
+    })?;
+    if reopened.is_none() {
         let folder = BaselineFrames::folder_of(path);
         let removed = BaselineFrames::remove(path).map_err(|error| {
             let message = format!("{}: {error}", folder.display());
             Error::input(message, "remove the folder: its frames are of earlier values")
         })?;
-        return Ok(Saved { baseline, frames: 0, removed });
-    };
-    let known = KnownInputs::of(&finished.record);
-    let frames = BaselineFrames::save(path, &baseline, &reopened, &known)?;
+        return Ok(Saved { baseline, frames, removed });
+    }
+    BaselineFrames::accept(path).map_err(|error| {
+        let folder = BaselineFrames::folder_of(path);
+        let help =
+            "the values are written; free the folder, and use `fovqa baseline accept --frames`";
+        Error::input(format!("{}: {error}", folder.display()), help)
+    })?;
     Ok(Saved { baseline, frames, removed: false })
 }
 

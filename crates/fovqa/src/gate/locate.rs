@@ -18,6 +18,7 @@ use super::places::Losses;
 use super::sheets::Sheets;
 use crate::baseline::{BaselineFrames, place_metric};
 use crate::pictures::{Again, blocks};
+use crate::reopened::KnownInputs;
 
 /// Frames of a check that are looked at.
 const MOST_OF_CHECK: usize = 3;
@@ -34,6 +35,8 @@ pub(super) struct Site<'a> {
     pub(super) found: &'a FoundInputs,
     pub(super) results: &'a Path,
     pub(super) good: Option<&'a BaselineFrames>,
+    /// The inputs as they were scored, if they were scored before.
+    pub(super) known: Option<&'a KnownInputs>,
 }
 
 /// A frame that is looked at: scene, eye, method and number.
@@ -97,41 +100,59 @@ impl Site<'_> {
     ) -> Result<(), EngineError> {
         let (scene, eye, method, frame) = target;
         let named = Named { scene, method, eye: *eye };
+        let searches: Vec<(Metric, Option<[f64; 2]>)> = indices
+            .iter()
+            .map(|[r, c, l]| {
+                let rule = &verdict.rules[*r];
+                let check = &rule.checks[*c];
+                let band = check.band.or(rule.rule.quantity.band_deg);
+                (map_of(&rule.rule, &check.losses[*l]), band)
+            })
+            .collect();
         let mut mapped: Vec<Metric> = Vec::new();
-        for [r, c, l] in indices {
-            let rule = &verdict.rules[*r];
-            let metric = map_of(&rule.rule, &rule.checks[*c].losses[*l]);
-            if !mapped.contains(&metric) {
-                mapped.push(metric);
+        for (metric, _) in &searches {
+            if !mapped.contains(metric) {
+                mapped.push(*metric);
             }
         }
-        let is_good = |metric: &Metric| self.good_map(named, *frame, *metric).is_some();
-        let beside = if mapped.iter().all(is_good) { 0 } else { BESIDE };
-        let mut looked = self.scored(named, (*frame, beside), &mapped)?;
+        let mut looked = self.scored(named, (*frame, 0), &mapped)?;
+        // Without good frames to compare with, those beside it are needed.
+        let has_good = looked.get(frame).is_some_and(|this| {
+            mapped.iter().all(|metric| {
+                let good = self.good_losses(named, *frame, *metric);
+                let this = losses(this, *metric);
+                good.zip(this).is_some_and(|(good, this)| this.is_like(&good))
+            })
+        });
+        if !has_good {
+            looked = self.scored(named, (*frame, BESIDE), &mapped)?;
+        }
         // Without the frame, which may have gone since, there is nothing to see.
         let Some(this) = looked.remove(frame) else { return Ok(()) };
-        let mut first = None;
-        for [r, c, l] in indices {
-            let rule = &verdict.rules[*r].rule;
-            let metric = map_of(rule, &verdict.rules[*r].checks[*c].losses[*l]);
-            let good = self.good_map(named, *frame, metric);
-            let place = place(&this, &looked, good.as_ref(), (metric, rule.quantity.band_deg));
-            first = first.or(place.as_ref().map(|place| place.px));
-            verdict.rules[*r].checks[*c].losses[*l].place = place;
-        }
-        let pictures = self.pictures(named, *frame, &this, first);
-        let pictures = pictures.map_err(|error| {
-            let path = self.results.join(GATE);
-            EngineError::Picture { path, error }
-        })?;
-        for [r, c, l] in indices {
-            verdict.rules[*r].checks[*c].losses[*l].pictures.clone_from(&pictures);
+        let mut pictures: Vec<(Option<[f64; 2]>, Vec<LossPicture>)> = Vec::new();
+        for ([r, c, l], (metric, band)) in indices.iter().zip(searches) {
+            let good = self.good_losses(named, *frame, metric);
+            let place = place(&this, &looked, good.as_ref(), (metric, band));
+            let px = place.as_ref().map(|place| place.px);
+            let known = pictures.iter().position(|(known, _)| *known == px);
+            let nth = known.unwrap_or(pictures.len());
+            if known.is_none() {
+                let made = self.pictures(named, *frame, &this, (px, nth));
+                let path = || self.results.join(GATE);
+                let made = made.map_err(|error| EngineError::Picture { path: path(), error })?;
+                pictures.push((px, made));
+            }
+            let loss = &mut verdict.rules[*r].checks[*c].losses[*l];
+            loss.place = place;
+            loss.pictures.clone_from(&pictures[nth].1);
         }
         Ok(())
     }
 
-    fn good_map(&self, named: Named<'_>, frame: i64, metric: Metric) -> Option<MapBlocks> {
-        self.good?.map(named, frame, metric.info().map?.name)
+    /// The losses of a frame in the last good build; `None` if they are not kept, or damaged.
+    fn good_losses(&self, named: Named<'_>, frame: i64, metric: Metric) -> Option<Losses> {
+        let info = metric.info().map?;
+        Losses::of(&self.good?.map(named, frame, info.name)?, info)
     }
 
     /// A frame and those beside it, scored again.
@@ -141,14 +162,21 @@ impl Site<'_> {
         (frame, beside): (i64, i64),
         mapped: &[Metric],
     ) -> Result<BTreeMap<i64, Looked>, EngineError> {
-        let again = Again { plan: self.plan, found: self.found, mapped, hash_inputs: false };
+        let hash_inputs = self.known.is_some();
+        let again = Again { plan: self.plan, found: self.found, mapped, hash_inputs };
         let around = frame.saturating_sub(beside)..=frame.saturating_add(beside);
         let is_wanted = |of: Named<'_>, number: i64| {
             (of.scene, of.method, of.eye) == (named.scene, named.method, named.eye)
                 && around.contains(&number)
         };
         let mut looked = BTreeMap::new();
+        let mut changed = None;
         again.score(&is_wanted, &mut |entry| {
+            if let (Entry::Input(input), Some(known)) = (&entry, self.known)
+                && !known.is_same(input)
+            {
+                changed.get_or_insert_with(|| input.path.clone());
+            }
             if let Entry::Pair(Finished { maps, seen, pictures, result: Ok(result), .. }) = entry {
                 let pictures = pictures.filter(|_| result.frame == frame);
                 let one = Looked {
@@ -160,6 +188,11 @@ impl Site<'_> {
             }
             Ok(())
         })?;
+        if let Some(path) = changed {
+            let error =
+                io::Error::other(format!("{path}: the file has changed since it was scored"));
+            return Err(EngineError::Picture { path: self.results.join(GATE), error });
+        }
         Ok(looked)
     }
 
@@ -168,7 +201,7 @@ impl Site<'_> {
         named: Named<'_>,
         frame: i64,
         looked: &Looked,
-        place: Option<[f64; 2]>,
+        (place, nth): (Option<[f64; 2]>, usize),
     ) -> io::Result<Vec<LossPicture>> {
         let Some((reference, test)) = &looked.pictures else { return Ok(Vec::new()) };
         let good = self.good.and_then(|good| good.picture(named, frame));
@@ -182,7 +215,9 @@ impl Site<'_> {
         make_folder(&self.results.join(&folder))?;
         let mut pictures = Vec::new();
         for (name, what, bytes) in sheets {
-            let path = format!("{folder}/{name}.png");
+            // Rules that point at another place of the frame have pictures of their own.
+            let ending = if nth == 0 { String::new() } else { format!("-{}", nth + 1) };
+            let path = format!("{folder}/{name}{ending}.png");
             write_whole(&self.results.join(&path), &bytes).map_err(io::Error::other)?;
             pictures.push(LossPicture { what, path });
         }
@@ -190,24 +225,26 @@ impl Site<'_> {
     }
 }
 
+/// The losses in the map of a frame.
+fn losses(looked: &Looked, metric: Metric) -> Option<Losses> {
+    let info = metric.info().map?;
+    Losses::of(looked.maps.iter().find(|blocks| blocks.map == info.name)?, info)
+}
+
 /// The place of a loss in a map, within a band if the rule has one.
 fn place(
     this: &Looked,
     beside: &BTreeMap<i64, Looked>,
-    good: Option<&MapBlocks>,
+    good: Option<&Losses>,
     (metric, band): (Metric, Option<[f64; 2]>),
 ) -> Option<Place> {
     let info = metric.info().map?;
-    let losses = |looked: &Looked| {
-        Losses::of(looked.maps.iter().find(|blocks| blocks.map == info.name)?, info)
-    };
-    let beside: Vec<Losses> = beside.values().filter_map(losses).collect();
-    let good = good.and_then(|good| Losses::of(good, info));
+    let beside: Vec<Losses> = beside.values().filter_map(|looked| losses(looked, metric)).collect();
     let degrees = |[x, y]: [f64; 2]| Some(this.seen.as_ref()?.eccentricity.at_deg(x, y));
     let is_allowed = |px: [f64; 2]| match (band, degrees(px)) {
         (Some([from, to]), Some(degrees)) => (from..to).contains(&degrees),
         _ => true,
     };
-    let (px, compared) = losses(this)?.worst(good.as_ref(), &beside, is_allowed)?;
+    let (px, compared) = losses(this, metric)?.worst(good, &beside, is_allowed)?;
     Some(Place { px, eccentricity_deg: degrees(px), map: info.name.to_owned(), compared })
 }

@@ -26,7 +26,8 @@ impl Losses {
         is_sound.then_some(Self { columns, rows, block, values })
     }
 
-    fn is_like(&self, other: &Self) -> bool {
+    /// Whether the blocks of two frames are the same.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
         (self.columns, self.rows, self.block) == (other.columns, other.rows, other.block)
     }
 
@@ -36,7 +37,7 @@ impl Losses {
         &self,
         good: Option<&Self>,
         beside: &[Self],
-        is_allowed: impl Fn([f64; 2]) -> bool,
+        is_allowed: impl Fn([f64; 2]) -> bool + Copy,
     ) -> Option<([f64; 2], Compared)> {
         let good = good.filter(|good| self.is_like(good));
         let beside: Vec<&Self> = beside.iter().filter(|one| self.is_like(one)).collect();
@@ -66,9 +67,14 @@ impl Losses {
                 worst = Some((around, place));
             }
         }
-        // What is nowhere worse than before has no worst place.
-        let worst = worst.filter(|(most, _)| compared == Compared::Nothing || *most > 0.0);
-        worst.map(|(_, place)| (place, compared))
+        match worst {
+            Some((most, place)) if compared == Compared::Nothing || most > 0.0 => {
+                Some((place, compared))
+            }
+            // What is nowhere worse than before is worst where it is worst by itself.
+            Some(_) => self.worst(None, &[], is_allowed),
+            None => None,
+        }
     }
 
     /// The mean over 3 x 3 blocks: a single block may be an edge that has moved.
@@ -111,9 +117,10 @@ mod tests {
         assert_eq!(place.unwrap().1, Compared::Neighbours);
         let (place, compared) = losses(&now).worst(None, &[], |_| true).unwrap();
         assert!(place[0] < 20.0 && place[1] < 20.0 && compared == Compared::Nothing);
-        assert_eq!(losses(&before).worst(Some(&good), &beside, |_| true), None, "nothing is worse");
-        let left = losses(&now).worst(Some(&good), &[], |[x, _]| x < 30.0);
-        assert_eq!(left, None, "only elsewhere");
+        let (place, compared) = losses(&before).worst(Some(&good), &beside, |_| true).unwrap();
+        assert!(place[0] < 20.0 && compared == Compared::Nothing, "nothing is worse than before");
+        let (place, compared) = losses(&now).worst(Some(&good), &[], |[x, _]| x < 30.0).unwrap();
+        assert!(place[0] < 30.0 && compared == Compared::Nothing, "only elsewhere");
     }
 
     #[test]
