@@ -1,0 +1,84 @@
+//! `fovqa study`: statistics of user studies.
+
+use std::fs;
+use std::path::Path;
+
+use fovqa_results::write_json_output;
+use fovqa_study::input::{Data, Selection, Table};
+use fovqa_study::{Analysis, StudyError};
+
+use crate::args::{InputArgs, SettingsArgs, StudyCommand, StudyFormat};
+use crate::exit::Exit;
+use crate::{diagnostic, output, threads};
+
+pub(crate) fn run(command: &StudyCommand) -> Exit {
+    analysed(command).unwrap_or_else(|exit| exit)
+}
+
+fn analysed(command: &StudyCommand) -> Result<Exit, Exit> {
+    match command {
+        _ => {
+            diagnostic::error("this analysis is not available yet", "");
+            Err(Exit::Usage)
+        }
+    }
+}
+
+/// Reads the table, computes the result of its selected rows, and shows it.
+fn of_table(
+    input: &InputArgs,
+    settings: &SettingsArgs,
+    compute: impl FnOnce(&Data) -> Result<Analysis, StudyError>,
+) -> Result<Exit, Exit> {
+    threads::started(settings.threads)?;
+    let table = read(&input.file)?;
+    let selection: Selection = input.selection();
+    let analysis = Data::new(&table, &selection).and_then(|data| compute(&data));
+    show(&analysis.map_err(|error| wrong(&error))?, settings)
+}
+
+/// Reads a CSV table.
+fn read(path: &Path) -> Result<Table, Exit> {
+    let file = path.display().to_string();
+    let bytes = fs::read(path).map_err(|error| {
+        let help = "check the path; `fovqa study --help` shows what the file has to contain";
+        diagnostic::error(&format!("{file} cannot be read: {error}"), help);
+        Exit::Input
+    })?;
+    Table::read(&file, &bytes).map_err(|error| wrong(&error))
+}
+
+fn wrong(error: &StudyError) -> Exit {
+    diagnostic::error(&error.to_string(), &diagnostic::shown(&error.help()));
+    Exit::Input
+}
+
+/// Prints a result, and writes it to the folder of `--output`.
+fn show(analysis: &Analysis, settings: &SettingsArgs) -> Result<Exit, Exit> {
+    if let Some(folder) = &settings.output {
+        write(analysis, folder)?;
+    }
+    Ok(match settings.format {
+        StudyFormat::Json => output::write(|out| {
+            serde_json::to_writer_pretty(&mut *out, analysis)?;
+            out.write_all(b"\n")
+        }),
+        StudyFormat::Text => {
+            let text = fovqa_report::study_text(analysis);
+            output::write(|out| out.write_all(text.as_bytes()))
+        }
+    })
+}
+
+fn write(analysis: &Analysis, folder: &Path) -> Result<(), Exit> {
+    let help = "choose another folder with --output";
+    fs::create_dir_all(folder).map_err(|error| {
+        let message = format!("{} cannot be created: {error}", folder.display());
+        diagnostic::error(&message, help);
+        Exit::Input
+    })?;
+    write_json_output(&folder.join("study.json"), analysis).map_err(|error| {
+        diagnostic::error(&error.to_string(), help);
+        Exit::Input
+    })
+}
