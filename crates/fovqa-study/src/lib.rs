@@ -14,9 +14,14 @@ pub mod input;
 pub mod json;
 pub mod moments;
 pub mod options;
+pub mod plan;
+pub mod psychometric;
 pub mod quantile;
 pub mod random;
+pub mod ratings;
 mod settings;
+mod simplex;
+pub mod staircase;
 
 pub use analysis::Analysis;
 pub use error::StudyError;
