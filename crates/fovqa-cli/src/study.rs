@@ -5,7 +5,7 @@ use std::path::Path;
 
 use fovqa_results::write_json_output;
 use fovqa_study::input::{Data, Selection, Table};
-use fovqa_study::{Analysis, StudyError};
+use fovqa_study::{Analysis, Settings, StudyError, anova, pairs, ranks};
 
 use crate::args::{InputArgs, SettingsArgs, StudyCommand, StudyFormat};
 use crate::exit::Exit;
@@ -17,6 +17,27 @@ pub(crate) fn run(command: &StudyCommand) -> Exit {
 
 fn analysed(command: &StudyCommand) -> Result<Exit, Exit> {
     match command {
+        StudyCommand::Pairs(args) => of_table(&args.input, &args.settings, |data, settings| {
+            let options = pairs::Options {
+                ties: args.ties,
+                order: args.order.clone(),
+                reference: args.reference.clone(),
+                pseudo_votes: args.pseudo_votes,
+            };
+            pairs::pairs(data, &options, settings).map(Analysis::Pairs)
+        }),
+        StudyCommand::Ranks(args) => of_table(&args.input, &args.settings, |data, settings| {
+            let options = ranks::Options {
+                unit: args.unit.clone(),
+                pairwise: args.pairwise,
+                ties: args.ties,
+                order: args.order.clone(),
+            };
+            ranks::ranks(data, &options, settings).map(Analysis::Ranks)
+        }),
+        StudyCommand::Anova(args) => of_table(&args.input, &args.settings, |data, settings| {
+            anova::anova(data, &args.within, settings).map(Analysis::Anova)
+        }),
         _ => {
             diagnostic::error("this analysis is not available yet", "");
             Err(Exit::Usage)
@@ -28,12 +49,13 @@ fn analysed(command: &StudyCommand) -> Result<Exit, Exit> {
 fn of_table(
     input: &InputArgs,
     settings: &SettingsArgs,
-    compute: impl FnOnce(&Data) -> Result<Analysis, StudyError>,
+    compute: impl FnOnce(&Data, &Settings) -> Result<Analysis, StudyError>,
 ) -> Result<Exit, Exit> {
     threads::started(settings.threads)?;
     let table = read(&input.file)?;
     let selection: Selection = input.selection();
-    let analysis = Data::new(&table, &selection).and_then(|data| compute(&data));
+    let analysis =
+        Data::new(&table, &selection).and_then(|data| compute(&data, &settings.settings()));
     show(&analysis.map_err(|error| wrong(&error))?, settings)
 }
 

@@ -7,6 +7,7 @@
 
 pub mod adjust;
 mod analysis;
+pub mod anova;
 pub mod bootstrap;
 pub mod distributions;
 mod error;
@@ -14,8 +15,10 @@ pub mod input;
 pub mod json;
 pub mod moments;
 pub mod options;
+pub mod pairs;
 pub mod quantile;
 pub mod random;
+pub mod ranks;
 mod settings;
 
 pub use analysis::Analysis;

@@ -1,8 +1,8 @@
 //! `fovqa study`.
 
 mod anova;
-mod common;
 mod metrics;
+mod options;
 mod pairs;
 mod plan;
 mod psychometric;
@@ -11,8 +11,8 @@ mod ratings;
 mod staircase;
 
 pub(crate) use anova::AnovaArgs;
-pub(crate) use common::{InputArgs, SettingsArgs, StudyFormat};
 pub(crate) use metrics::MetricsArgs;
+pub(crate) use options::{InputArgs, SettingsArgs, StudyFormat};
 pub(crate) use pairs::PairsArgs;
 pub(crate) use plan::{PlanCommand, PlanPairsArgs, PlanStaircaseArgs};
 pub(crate) use psychometric::{PsychometricArgs, ShapeArgs};

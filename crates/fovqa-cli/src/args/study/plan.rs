@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 use fovqa_params::Words;
 use fovqa_study::options::Alternative;
 
-use super::common::{not_negative, rate, share};
+use super::options::{not_negative, rate, share};
 use super::{SettingsArgs, ShapeArgs, ThresholdArgs};
 use crate::args::values::{finite, positive, words};
 

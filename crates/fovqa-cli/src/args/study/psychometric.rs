@@ -4,7 +4,7 @@ use clap::{Args, ValueEnum};
 use fovqa_params::Words;
 use fovqa_study::options::{Direction, Sigmoid};
 
-use super::common::{rate, share};
+use super::options::{rate, share};
 use super::{InputArgs, SettingsArgs};
 use crate::args::values::words;
 
