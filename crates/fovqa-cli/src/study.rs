@@ -5,9 +5,12 @@ use std::path::Path;
 
 use fovqa_results::write_json_output;
 use fovqa_study::input::{Data, Selection, Table};
-use fovqa_study::{Analysis, StudyError};
+use fovqa_study::{
+    Analysis, Settings, StudyError, anova, metrics, pairs, plan, psychometric, ranks, ratings,
+    staircase,
+};
 
-use crate::args::{InputArgs, SettingsArgs, StudyCommand, StudyFormat};
+use crate::args::{InputArgs, PlanCommand, SettingsArgs, StudyCommand, StudyFormat};
 use crate::exit::Exit;
 use crate::{diagnostic, output, threads};
 
@@ -17,23 +20,75 @@ pub(crate) fn run(command: &StudyCommand) -> Exit {
 
 fn analysed(command: &StudyCommand) -> Result<Exit, Exit> {
     match command {
-        _ => {
-            diagnostic::error("this analysis is not available yet", "");
-            Err(Exit::Usage)
+        StudyCommand::Pairs(args) => of_table(&args.input, &args.settings, |data, settings| {
+            let options = pairs::Options {
+                ties: args.ties,
+                order: args.order.clone(),
+                reference: args.reference.clone(),
+                pseudo_votes: args.pseudo_votes,
+            };
+            pairs::pairs(data, &options, settings).map(Analysis::Pairs)
+        }),
+        StudyCommand::Ranks(args) => of_table(&args.input, &args.settings, |data, settings| {
+            let options = ranks::Options {
+                unit: args.unit.clone(),
+                pairwise: args.pairwise,
+                ties: args.ties,
+                order: args.order.clone(),
+            };
+            ranks::ranks(data, &options, settings).map(Analysis::Ranks)
+        }),
+        StudyCommand::Anova(args) => of_table(&args.input, &args.settings, |data, settings| {
+            anova::anova(data, &args.within, settings).map(Analysis::Anova)
+        }),
+        StudyCommand::Psychometric(args) => {
+            of_table(&args.input, &args.settings, |data, settings| {
+                let options = args.options();
+                psychometric::psychometric(data, &options, settings).map(Analysis::Psychometric)
+            })
         }
+        StudyCommand::Staircase(args) => of_table(&args.input, &args.settings, |data, settings| {
+            let options = args.threshold.options();
+            staircase::staircase(data, &options, settings).map(Analysis::Staircase)
+        }),
+        StudyCommand::Ratings(args) => of_table(&args.input, &args.settings, |data, settings| {
+            ratings::ratings(data, &args.options(), settings).map(Analysis::Ratings)
+        }),
+        StudyCommand::Metrics(args) => {
+            let scores = read(&args.scores)?;
+            of_table(&args.input, &args.settings, |data, settings| {
+                metrics::metrics(data, &scores, &args.options(), settings).map(Analysis::Metrics)
+            })
+        }
+        StudyCommand::Plan(PlanCommand::Pairs(args)) => planned(&args.settings, |settings| {
+            Ok(Analysis::PlanPairs(plan::plan_pairs(&args.options(), settings)))
+        }),
+        StudyCommand::Plan(PlanCommand::Staircase(args)) => planned(&args.settings, |settings| {
+            plan::plan_staircase(&args.options(), settings).map(Analysis::PlanStaircase)
+        }),
     }
+}
+
+/// Computes a plan, which needs no table, and shows it.
+fn planned(
+    settings: &SettingsArgs,
+    compute: impl FnOnce(&Settings) -> Result<Analysis, StudyError>,
+) -> Result<Exit, Exit> {
+    threads::started(settings.threads)?;
+    show(&compute(&settings.settings()).map_err(|error| wrong(&error))?, settings)
 }
 
 /// Reads the table, computes the result of its selected rows, and shows it.
 fn of_table(
     input: &InputArgs,
     settings: &SettingsArgs,
-    compute: impl FnOnce(&Data) -> Result<Analysis, StudyError>,
+    compute: impl FnOnce(&Data, &Settings) -> Result<Analysis, StudyError>,
 ) -> Result<Exit, Exit> {
     threads::started(settings.threads)?;
     let table = read(&input.file)?;
     let selection: Selection = input.selection();
-    let analysis = Data::new(&table, &selection).and_then(|data| compute(&data));
+    let analysis =
+        Data::new(&table, &selection).and_then(|data| compute(&data, &settings.settings()));
     show(&analysis.map_err(|error| wrong(&error))?, settings)
 }
 

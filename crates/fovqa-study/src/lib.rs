@@ -7,17 +7,21 @@
 
 pub mod adjust;
 mod analysis;
+pub mod anova;
 pub mod bootstrap;
 pub mod distributions;
 mod error;
 pub mod input;
 pub mod json;
+pub mod metrics;
 pub mod moments;
 pub mod options;
+pub mod pairs;
 pub mod plan;
 pub mod psychometric;
 pub mod quantile;
 pub mod random;
+pub mod ranks;
 pub mod ratings;
 mod settings;
 mod simplex;

@@ -261,31 +261,30 @@ fn methods(
     options: &Options,
     settings: &Settings,
 ) -> Vec<MethodThreshold> {
-    let mut names: Vec<&Option<String>> = Vec::new();
-    let mut participants: Vec<&str> = Vec::new();
-    let mut indices: HashMap<&str, usize> = HashMap::new();
-    let mut rows = Vec::new();
+    let mut indices: HashMap<&Option<String>, usize> = HashMap::new();
+    let mut methods: Vec<Vec<&Staircase>> = Vec::new();
     for staircase in staircases {
-        let method = names.iter().position(|name| **name == staircase.method);
-        let method = method.unwrap_or_else(|| {
-            names.push(&staircase.method);
-            names.len() - 1
-        });
-        let participant = *indices.entry(&staircase.participant).or_insert_with(|| {
-            participants.push(&staircase.participant);
-            participants.len() - 1
-        });
-        rows.push((method, participant, staircase.threshold.threshold));
+        let index = *indices.entry(&staircase.method).or_insert(methods.len());
+        if index == methods.len() {
+            methods.push(Vec::new());
+        }
+        methods[index].push(staircase);
     }
-    let one = |method: usize| {
-        let mut values: Vec<Vec<f64>> = vec![Vec::new(); participants.len()];
-        for (_, participant, threshold) in rows.iter().filter(|row| row.0 == method) {
-            values[*participant].extend(threshold.map(|threshold| options.mean.scale(threshold)));
+    let one = |staircases: Vec<&Staircase>| {
+        let mut indices: HashMap<&str, usize> = HashMap::new();
+        let mut values: Vec<Vec<f64>> = Vec::new();
+        for staircase in &staircases {
+            let index = *indices.entry(&staircase.participant).or_insert(values.len());
+            if index == values.len() {
+                values.push(Vec::new());
+            }
+            let threshold = staircase.threshold.threshold;
+            values[index].extend(threshold.map(|threshold| options.mean.scale(threshold)));
         }
         let means: Vec<f64> = values.iter().filter_map(|values| mean(values)).collect();
-        method_threshold(names[method].clone(), &means, options, settings)
+        method_threshold(staircases[0].method.clone(), &means, options, settings)
     };
-    (0..names.len()).map(one).collect()
+    methods.into_iter().map(one).collect()
 }
 
 fn method_threshold(
@@ -320,8 +319,8 @@ mod tests {
         // Down, repeat, down, up, repeat, down, up.
         let levels = [4.0, 3.0, 3.0, 2.0, 3.0, 3.0, 2.0, 3.0];
         assert_eq!(reversals(&levels), [3, 5, 6]);
-        assert_eq!(reversals(&[1.0]), []);
-        assert_eq!(reversals(&[]), []);
+        assert!(reversals(&[1.0]).is_empty());
+        assert!(reversals(&[]).is_empty());
     }
 
     #[test]

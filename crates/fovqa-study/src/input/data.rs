@@ -110,16 +110,16 @@ impl<'t> Data<'t> {
         })
     }
 
-    /// The whole number of 0 or more in a cell, at most 10¹⁵.
+    /// The whole number of 0 or more in a cell, at most 10⁹.
     ///
     /// # Errors
     ///
     /// If the cell holds something else.
     pub fn count(&self, column: &Column, row: usize) -> Result<u64, StudyError> {
-        let whole = |number: &f64| number.fract() == 0.0 && (0.0..=1e15).contains(number);
+        let whole = |number: &f64| number.fract() == 0.0 && (0.0..=1e9).contains(number);
         column.number(row).filter(whole).map(|number| number as u64).ok_or_else(|| {
             let help = "write how many trials the row stands for";
-            self.wrong_cell(column, row, "a whole number from 0 to 1e15", help)
+            self.wrong_cell(column, row, "a whole number from 0 to 1e9", help)
         })
     }
 

@@ -4,6 +4,9 @@ use serde::Serialize;
 
 use crate::options::Sigmoid;
 
+/// The fewest parts of the span in which levels are condensed.
+const FEWEST_PARTS: usize = 40;
+
 /// The trials at one level.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Level {
@@ -45,6 +48,8 @@ pub(crate) struct Trials {
     pub(crate) correct: Vec<f64>,
     /// Trials at each x.
     pub(crate) trials: Vec<f64>,
+    /// How many levels of the table each x stands for: 1, but for condensed trials.
+    pub(crate) repeats: Vec<f64>,
 }
 
 impl Trials {
@@ -54,7 +59,49 @@ impl Trials {
             x: levels.iter().map(|level| sigmoid.scale(level.level)).collect(),
             correct: levels.iter().map(|level| level.correct as f64).collect(),
             trials: levels.iter().map(|level| level.trials as f64).collect(),
+            repeats: vec![1.0; levels.len()],
         }
+    }
+
+    /// The part of the span to which each level belongs, if there are more than `most` levels. The span
+    /// has `most` parts of equal width.
+    pub(crate) fn parts(&self, most: usize) -> Option<Vec<usize>> {
+        let span = self.span().filter(|_| self.x.len() > most)?;
+        let part = |x: &f64| {
+            let share = (x - span.first) / span.range;
+            ((share * most as f64) as usize).min(most - 1)
+        };
+        Some(self.x.iter().map(part).collect())
+    }
+
+    /// The same with at most `most` levels, or little more. Levels with equal counts that lie near to
+    /// each other become one level at their mean, which is repeated: the blocks of trials remain.
+    pub(crate) fn condensed(&self, most: usize) -> Self {
+        let mut parts = most;
+        while let Some(of) = self.parts(parts).filter(|_| self.x.len() > most) {
+            let condensed = self.pooled_by_counts(&of);
+            if condensed.x.len() <= most || parts <= FEWEST_PARTS {
+                return condensed;
+            }
+            parts = (parts / 2).max(FEWEST_PARTS);
+        }
+        self.clone()
+    }
+
+    fn pooled_by_counts(&self, parts: &[usize]) -> Self {
+        let mut order: Vec<usize> = (0..self.x.len()).collect();
+        let key = |i: usize| (parts[i], self.trials[i] as u64, self.correct[i] as u64);
+        order.sort_by_key(|&i| key(i));
+        let mut out =
+            Self { x: Vec::new(), correct: Vec::new(), trials: Vec::new(), repeats: Vec::new() };
+        for run in order.chunk_by(|&a, &b| key(a) == key(b)) {
+            let count = run.len() as f64;
+            out.x.push(run.iter().map(|&i| self.x[i] / count).sum());
+            out.correct.push(self.correct[run[0]]);
+            out.trials.push(self.trials[run[0]]);
+            out.repeats.push(count);
+        }
+        out
     }
 
     /// x, correct answers and trials of each level.
@@ -98,6 +145,18 @@ mod tests {
         let pooled = pool([row(2.0, 1, 1), row(-0.0, 0, 1), row(2.0, 0, 1), row(0.0, 1, 3)]);
         assert_eq!(pooled, [row(0.0, 1, 4), row(2.0, 1, 2)]);
         assert_eq!(pool([row(1.0, 0, 0)]), []);
+    }
+
+    #[test]
+    fn many_levels_are_condensed_without_losing_trials() {
+        let level =
+            |i: u32| Level { level: f64::from(i) * 0.01, correct: u64::from(i % 2), trials: 1 };
+        let levels: Vec<Level> = (0..1000).map(level).collect();
+        let trials = Trials::new(&levels, Sigmoid::Logistic);
+        let condensed = trials.condensed(160);
+        assert!((100..=160).contains(&condensed.x.len()), "{}", condensed.x.len());
+        assert!((condensed.repeats.iter().sum::<f64>() - 1000.0).abs() < 1e-9);
+        assert_eq!(trials.condensed(1000), trials);
     }
 
     #[test]

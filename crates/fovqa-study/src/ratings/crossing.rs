@@ -6,7 +6,6 @@ use super::scores::Scores;
 use crate::Settings;
 use crate::bootstrap::{Interval, interval, replicates};
 use crate::json::finite;
-use crate::moments::mean;
 
 /// Means that are below the threshold by rounding alone count as equal to it.
 const ROUNDING: f64 = 1e-12;
@@ -69,12 +68,19 @@ fn crossing(
     threshold: f64,
 ) -> (Option<f64>, Option<f64>) {
     let least = threshold - ROUNDING * threshold.abs().max(1.0);
+    let mut sums = vec![(0.0, 0.0); scores.conditions.len()];
+    for (condition, mean) in participants.iter().flat_map(|&p| &scores.means[p]) {
+        let (sum, count) = &mut sums[*condition];
+        *sum += mean;
+        *count += 1.0;
+    }
     let mut last: Option<(f64, f64)> = None;
     let mut has_scores = false;
-    for (index, &[level]) in scores.conditions.iter().enumerate() {
-        let values: Vec<f64> =
-            participants.iter().filter_map(|&p| scores.means[p][index]).collect();
-        let Some(score) = mean(&values) else { continue };
+    for (&[level], (sum, count)) in scores.conditions.iter().zip(sums) {
+        if count == 0.0 {
+            continue;
+        }
+        let score = sum / count;
         has_scores = true;
         if score >= least {
             last = Some((level, score));
@@ -94,7 +100,10 @@ mod tests {
     fn scores(means: &[&[f64]]) -> Scores<1> {
         Scores {
             conditions: vec![[1.0], [2.0], [4.0]],
-            means: means.iter().map(|means| means.iter().map(|&m| finite(m)).collect()).collect(),
+            means: means
+                .iter()
+                .map(|m| m.iter().copied().enumerate().filter(|(_, m)| m.is_finite()).collect())
+                .collect(),
         }
     }
 

@@ -60,11 +60,11 @@ pub(super) fn grid(
     smoothing: Smoothing,
 ) -> Result<GridRatings, StudyError> {
     let scores = Scores::read(data, [&columns[0], &columns[1]])?;
-    let cell = |(index, &[fx, fy]): (usize, &[f64; 2])| {
-        let values = scores.of(index);
-        mean(&values).map(|mean| Cell { fx, fy, n: values.len(), mean, smoothed: None })
+    let values = scores.by_condition();
+    let cell = |(&[fx, fy], values): (&[f64; 2], &Vec<f64>)| {
+        mean(values).map(|mean| Cell { fx, fy, n: values.len(), mean, smoothed: None })
     };
-    let mut grid: Vec<Cell> = scores.conditions.iter().enumerate().filter_map(cell).collect();
+    let mut grid: Vec<Cell> = scores.conditions.iter().zip(&values).filter_map(cell).collect();
     if smoothing == Smoothing::Binomial {
         let smoothed = smooth(&grid);
         for (cell, smoothed) in grid.iter_mut().zip(smoothed) {

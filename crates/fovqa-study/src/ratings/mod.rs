@@ -91,10 +91,14 @@ pub fn ratings(
 
 fn levels(data: &Data, options: &Options, settings: &Settings) -> Result<LevelRatings, StudyError> {
     let scores = Scores::read(data, ["level"])?;
-    let levels = (0..scores.conditions.len())
-        .map(|condition| LevelRating {
-            level: scores.conditions[condition][0],
-            moments: Moments::of(&scores.of(condition), settings.confidence),
+    let values = scores.by_condition();
+    let levels = scores
+        .conditions
+        .iter()
+        .zip(&values)
+        .map(|(&[level], values)| LevelRating {
+            level,
+            moments: Moments::of(values, settings.confidence),
         })
         .collect();
     let acceptable = options.threshold.map(|threshold| acceptable(&scores, threshold, settings));

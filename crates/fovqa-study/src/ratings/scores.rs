@@ -8,8 +8,8 @@ use crate::input::Data;
 pub(super) struct Scores<const N: usize> {
     /// The conditions, ascending by the first column, then the next.
     pub(super) conditions: Vec<[f64; N]>,
-    /// Per participant, by first appearance, and condition: the mean; `None` without rows.
-    pub(super) means: Vec<Vec<Option<f64>>>,
+    /// Per participant, by first appearance: the conditions with scores, ascending, and the means.
+    pub(super) means: Vec<Vec<(usize, f64)>>,
 }
 
 impl<const N: usize> Scores<N> {
@@ -35,22 +35,31 @@ impl<const N: usize> Scores<N> {
         let mut conditions: Vec<[f64; N]> = rows.iter().map(|row| row.1).collect();
         conditions.sort_by(compare);
         conditions.dedup_by(|a, b| compare(a, b).is_eq());
-        let mut sums = vec![vec![(0.0, 0_u32); conditions.len()]; participants.len()];
+        let mut scores = vec![Vec::new(); participants.len()];
         for (participant, condition, score) in rows {
             let index = conditions.partition_point(|other| compare(other, &condition).is_lt());
-            let (sum, count) = &mut sums[participant][index];
-            *sum += score;
-            *count += 1;
+            scores[participant].push((index, score));
         }
-        let mean = |(sum, count): (f64, u32)| (count > 0).then(|| sum / f64::from(count));
-        let means = sums.into_iter().map(|sums| sums.into_iter().map(mean).collect()).collect();
+        let means = scores.into_iter().map(means_by_condition).collect();
         Ok(Self { conditions, means })
     }
 
-    /// The means of the participants who have scores of a condition.
-    pub(super) fn of(&self, condition: usize) -> Vec<f64> {
-        self.means.iter().filter_map(|means| means[condition]).collect()
+    /// Per condition: the means of the participants who have scores of it.
+    pub(super) fn by_condition(&self) -> Vec<Vec<f64>> {
+        let mut values = vec![Vec::new(); self.conditions.len()];
+        for (condition, mean) in self.means.iter().flatten() {
+            values[*condition].push(*mean);
+        }
+        values
     }
+}
+
+/// The mean score of each condition.
+fn means_by_condition(mut scores: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+    scores.sort_by_key(|(condition, _)| *condition);
+    let runs = scores.chunk_by(|a, b| a.0 == b.0);
+    runs.map(|run| (run[0].0, run.iter().map(|(_, score)| score).sum::<f64>() / run.len() as f64))
+        .collect()
 }
 
 fn compare<const N: usize>(a: &[f64; N], b: &[f64; N]) -> std::cmp::Ordering {
@@ -73,7 +82,7 @@ mod tests {
         let selection = Selection::default();
         let scores = Scores::read(&Data::new(&table, &selection).unwrap(), ["level"]).unwrap();
         assert_eq!(scores.conditions, [[0.5], [1.0]]);
-        assert_eq!(scores.means, [[None, Some(3.0)], [Some(1.0), Some(5.0)]]);
-        assert_eq!(scores.of(0), [1.0]);
+        assert_eq!(scores.means, [vec![(1, 3.0)], vec![(0, 1.0), (1, 5.0)]]);
+        assert_eq!(scores.by_condition(), [vec![1.0], vec![3.0, 5.0]]);
     }
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use fovqa_study::metrics::Options;
 
 use super::{InputArgs, SettingsArgs};
 
@@ -22,10 +23,17 @@ pub(crate) struct MetricsArgs {
     pub(crate) scores: PathBuf,
     /// Metrics to compare [default: all in the file]
     #[arg(long, value_name = "METRIC,…", value_delimiter = ',')]
-    pub(crate) metrics: Vec<String>,
+    metrics: Vec<String>,
     /// Metrics whose lower scores are better
     #[arg(long, value_name = "METRIC,…", value_delimiter = ',')]
-    pub(crate) lower_is_better: Vec<String>,
+    lower_is_better: Vec<String>,
     #[command(flatten)]
     pub(crate) settings: SettingsArgs,
+}
+
+impl MetricsArgs {
+    /// The options of the library.
+    pub(crate) fn options(&self) -> Options {
+        Options { metrics: self.metrics.clone(), lower_is_better: self.lower_is_better.clone() }
+    }
 }

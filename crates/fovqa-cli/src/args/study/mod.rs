@@ -1,8 +1,8 @@
 //! `fovqa study`.
 
 mod anova;
-mod common;
 mod metrics;
+mod options;
 mod pairs;
 mod plan;
 mod psychometric;
@@ -11,10 +11,10 @@ mod ratings;
 mod staircase;
 
 pub(crate) use anova::AnovaArgs;
-pub(crate) use common::{InputArgs, SettingsArgs, StudyFormat};
 pub(crate) use metrics::MetricsArgs;
+pub(crate) use options::{InputArgs, SettingsArgs, StudyFormat};
 pub(crate) use pairs::PairsArgs;
-pub(crate) use plan::{PlanCommand, PlanPairsArgs, PlanStaircaseArgs};
+pub(crate) use plan::PlanCommand;
 pub(crate) use psychometric::{PsychometricArgs, ShapeArgs};
 pub(crate) use ranks::RanksArgs;
 pub(crate) use ratings::RatingsArgs;

@@ -4,7 +4,7 @@ use clap::Args;
 use fovqa_params::Words;
 use fovqa_study::options::Ties;
 
-use super::common::not_negative;
+use super::options::not_negative;
 use super::{InputArgs, SettingsArgs};
 use crate::args::values::words;
 

@@ -3,6 +3,7 @@
 use clap::Args;
 use fovqa_params::Words;
 use fovqa_study::options::LevelMean;
+use fovqa_study::staircase::Options;
 
 use super::{InputArgs, SettingsArgs};
 use crate::args::values::words;
@@ -18,10 +19,10 @@ Example:
 pub(crate) struct ThresholdArgs {
     /// First reversals that are left out
     #[arg(long, value_name = "COUNT", default_value = "2", value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
-    pub(crate) drop_reversals: u32,
+    drop_reversals: u32,
     /// Mean of the levels at the other reversals
     #[arg(long, value_name = "MEAN", default_value = LevelMean::default().word(), value_parser = words::<LevelMean>())]
-    pub(crate) mean: LevelMean,
+    mean: LevelMean,
 }
 
 #[derive(Debug, Args)]
@@ -32,4 +33,11 @@ pub(crate) struct StaircaseArgs {
     pub(crate) threshold: ThresholdArgs,
     #[command(flatten)]
     pub(crate) settings: SettingsArgs,
+}
+
+impl ThresholdArgs {
+    /// The options of the library.
+    pub(crate) fn options(&self) -> Options {
+        Options { drop_reversals: self.drop_reversals as usize, mean: self.mean }
+    }
 }

@@ -15,6 +15,8 @@ const WIDTHS: usize = 41;
 const LAPSES: usize = 7;
 /// λ of one position and width, padded to whole vectors.
 const LANES: usize = 8;
+/// Levels in excess of this many are pooled for the grid; the maximum is polished with all of them.
+const MOST_LEVELS: usize = 100;
 /// How many of the highest local maxima are polished.
 const STARTS: usize = 3;
 
@@ -24,6 +26,10 @@ pub(super) struct Grid {
     positions: Vec<f64>,
     widths: Vec<f64>,
     lapses: Vec<f64>,
+    /// Per level of the table: the level of the grid, if there are too many for the grid.
+    parts: Option<Vec<usize>>,
+    /// The number of levels of the grid.
+    levels: usize,
     /// Per cell (position, width), level and lapse: ln ψ - ln(1-ψ).
     log_odds: Vec<[f64; LANES]>,
     /// Per cell and lapse: Σ n ln(1-ψ).
@@ -52,6 +58,9 @@ impl Grid {
             *last = bounds.width[1];
         }
         let lapses = spaced(bounds.lapse, LAPSES);
+        let parts = trials.parts(MOST_LEVELS);
+        let pooled = parts.as_ref().map(|parts| pooled(trials, parts));
+        let trials = pooled.as_ref().unwrap_or(trials);
         let cells = positions.len() * widths.len();
         let mut log_odds = Vec::with_capacity(cells * trials.x.len());
         let mut all_wrong = Vec::with_capacity(cells);
@@ -72,11 +81,14 @@ impl Grid {
                 all_wrong.push(none);
             }
         }
-        Self { positions, widths, lapses, log_odds, all_wrong }
+        let levels = trials.x.len();
+        Self { positions, widths, lapses, parts, levels, log_odds, all_wrong }
     }
 
     /// The highest local maxima of the grid for these numbers of correct answers, best first.
     pub(super) fn best(&self, correct: &[f64]) -> Vec<Curve> {
+        let summed = self.parts.as_ref().map(|parts| sums(correct, parts, self.levels));
+        let correct = summed.as_deref().unwrap_or(correct);
         let profile: Vec<(f64, usize)> = (0..self.all_wrong.len())
             .map(|cell| {
                 let mut sums = self.all_wrong[cell];
@@ -108,6 +120,28 @@ impl Grid {
         rows.flat_map(|r| columns.clone().map(move |c| r * self.widths.len() + c))
             .all(|other| profile[other].0 <= profile[cell].0)
     }
+}
+
+/// The trials of each part of the span, at the mean of its levels. Parts without levels have none.
+fn pooled(trials: &Trials, parts: &[usize]) -> Trials {
+    let of = |values: &[f64]| sums(values, parts, MOST_LEVELS);
+    let counts = of(&vec![1.0; parts.len()]);
+    let mean = |(sum, count): (f64, &f64)| if *count > 0.0 { sum / count } else { trials.x[0] };
+    Trials {
+        x: of(&trials.x).into_iter().zip(&counts).map(mean).collect(),
+        correct: of(&trials.correct),
+        trials: of(&trials.trials),
+        repeats: vec![1.0; MOST_LEVELS],
+    }
+}
+
+/// The sums of the values of each part.
+fn sums(values: &[f64], parts: &[usize], count: usize) -> Vec<f64> {
+    let mut sums = vec![0.0; count];
+    for (value, &part) in values.iter().zip(parts) {
+        sums[part] += value;
+    }
+    sums
 }
 
 /// The largest value and its index, the first of equal ones.

@@ -25,6 +25,8 @@ use super::model::Curve;
 use crate::bootstrap::Interval;
 use crate::json::finite;
 
+/// Levels in excess of this many are condensed.
+const MOST_LEVELS: usize = 160;
 /// The starts of the search for the mode: shares η of overdispersion.
 const STARTS: [f64; 3] = [0.0, 0.1, 0.3];
 
@@ -91,9 +93,10 @@ pub(super) fn fit(
     start: &Curve,
     confidence: f64,
 ) -> Option<Posterior> {
+    let condensed = trials.condensed(MOST_LEVELS);
     let target = Target {
         model: &options.model,
-        trials,
+        trials: &condensed,
         span,
         lapse: options.lapse,
         overdispersion: options.overdispersion,

@@ -49,7 +49,10 @@ impl Tables {
         let levels = target
             .trials
             .iter()
-            .map(|level| Table::new(target, region, nuisance, level, &mut offsets))
+            .zip(&target.trials.repeats)
+            .map(|(level, &repeats)| {
+                Table::new(target, region, nuisance, (level, repeats), &mut offsets)
+            })
             .collect();
         let row = nuisance.lapses.len() * nuisance.etas.len();
         Self { levels, sign, row, offsets }
@@ -84,7 +87,7 @@ impl Table {
         target: &Target<'_>,
         region: &Region,
         nuisance: &Nuisance,
-        (x, correct, trials): (f64, f64, f64),
+        ((x, correct, trials), repeats): ((f64, f64, f64), f64),
         offsets: &mut [f64],
     ) -> Self {
         let model = target.model;
@@ -98,7 +101,7 @@ impl Table {
         let (low, high) = all
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)));
         let span = (high - low).max(1e-9);
-        let distance = libm::sqrt(libm::sqrt(ERROR / (3.0 * trials)));
+        let distance = libm::sqrt(libm::sqrt(ERROR / (3.0 * trials * repeats)));
         let points = (span / distance).ceil().clamp(POINTS[0], POINTS[1]) as usize;
         let points_per_z = (points - 1) as f64 / span;
         let deltas: Vec<f64> = nuisance.etas.iter().map(|&eta| dispersion(eta)).collect();
@@ -107,7 +110,8 @@ impl Table {
             let point = model.sigmoid.at(low + index as f64 / points_per_z);
             for &lapse in &nuisance.lapses {
                 let (right, wrong) = model.outcomes(point, lapse);
-                exact.extend(deltas.iter().map(|&d| level(correct, trials, right, wrong, d)));
+                let of = |&delta: &f64| level(correct, trials, right, wrong, delta);
+                exact.extend(deltas.iter().map(|delta| repeats * of(delta)));
             }
         }
         let mut highest = vec![f64::NEG_INFINITY; deltas.len()];
@@ -115,7 +119,7 @@ impl Table {
             highest.iter_mut().zip(row).for_each(|(high, value)| *high = high.max(*value));
         }
         for ((offset, high), &delta) in offsets.iter_mut().zip(&highest).zip(&deltas) {
-            *offset += high - normaliser(trials, delta);
+            *offset += high - repeats * normaliser(trials, delta);
         }
         let relative = exact.iter().zip(highest.iter().cycle());
         let values = relative.map(|(value, high)| (value - high) as f32).collect();

@@ -25,7 +25,7 @@ pub(super) struct Parameters {
 pub(super) struct Target<'a> {
     /// The kind of function.
     pub(super) model: &'a Model,
-    /// The answers.
+    /// The answers, condensed.
     pub(super) trials: &'a Trials,
     /// The span of their levels.
     pub(super) span: &'a Span,
@@ -85,7 +85,8 @@ impl Target<'_> {
             let (right, wrong) = self.model.outcomes(point, lapse);
             level(correct, count, right, wrong, delta) - normaliser(count, delta)
         };
-        prior + self.trials.iter().map(term).sum::<f64>()
+        let repeats = &self.trials.repeats;
+        prior + self.trials.iter().zip(repeats).map(|(level, n)| n * term(level)).sum::<f64>()
     }
 
     /// The joint mode, from the best of some starts, and the logarithm of its density.
@@ -117,7 +118,8 @@ impl Target<'_> {
         let Curve { position, width, lapse } = start.curve;
         let start = [position, libm::log(width), lapse, start.eta];
         // The first simplex is as large as the standard error of a threshold may be.
-        let trials: f64 = self.trials.trials.iter().sum();
+        let counts = self.trials.trials.iter().zip(&self.trials.repeats);
+        let trials: f64 = counts.map(|(trials, repeats)| trials * repeats).sum();
         let small = 1.0 / libm::sqrt(trials.max(4.0));
         let steps = [width * small, 2.0 * small, 0.03, 0.1];
         let limits = [region.position, region.width.map(libm::log), region.lapse, region.eta];
