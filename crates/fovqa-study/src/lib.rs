@@ -22,5 +22,5 @@ pub mod ranks;
 mod settings;
 
 pub use analysis::Analysis;
-pub use error::StudyError;
+pub use error::{StudyError, WrongCell};
 pub use settings::Settings;

@@ -87,7 +87,7 @@ pub(super) fn scaling(votes: &Votes, options: &Options, settings: &Settings) -> 
         let scores = shifted(model.scores(&all, methods), zero);
         let of_model = drawn.iter().map(|scores| scores.as_ref().map(|scores| &scores[index]));
         let (limits, failed, mut reasons) =
-            limits(of_model.collect(), methods, everyone.len(), settings);
+            limits(&of_model.collect::<Vec<_>>(), methods, everyone.len(), settings);
         if is_absent {
             reasons.push("the reference has no votes here, so the mean score is 0".to_owned());
         }
@@ -121,7 +121,7 @@ fn shifted(scores: Vec<f64>, zero: Option<usize>) -> Vec<f64> {
 
 /// Bootstrap limits of all scores, the number of failed replicates, and why there are no limits.
 fn limits(
-    replicates: Vec<Option<&Vec<f64>>>,
+    replicates: &[Option<&Vec<f64>>],
     methods: usize,
     participants: usize,
     settings: &Settings,
