@@ -71,6 +71,9 @@ pub struct Method {
     pub mean: Option<f64>,
     /// Their median.
     pub median: Option<f64>,
+    /// Why a value is undefined.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
 }
 
 /// Computes the analysis of all groups. The value of a unit and method is the mean of its rows; for
@@ -109,6 +112,7 @@ fn of_units(units: &Units, options: &Options, settings: &Settings) -> Ranks {
         n: values.len(),
         mean: mean(values),
         median: median(values),
+        reason: values.is_empty().then(|| "all votes of the method are left out".to_owned()),
     });
     let slices: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
     Ranks {
