@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::{Column, Levels, Selection, Table};
+use super::levels::Levels;
+use super::selection::Selection;
+use super::table::{Column, Table};
 use crate::json::By;
 use crate::{StudyError, WrongCell};
 

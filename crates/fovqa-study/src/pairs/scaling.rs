@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::linked::is_linked;
 use super::newton::{Model, cells};
-use super::votes::wins;
-use super::{Options, Votes};
+use super::options::Options;
+use super::votes::{Votes, wins};
 use crate::Settings;
 use crate::bootstrap::{Interval, interval, replicates};
 use crate::distributions::chi_squared_upper;

@@ -3,12 +3,14 @@
 mod friedman;
 mod kruskal;
 mod mid_ranks;
+mod options;
 mod pairwise;
 mod signed_rank;
 mod units;
 
 pub use friedman::Friedman;
 pub use kruskal::Kruskal;
+pub use options::Options;
 pub use pairwise::Pairwise;
 
 use serde::Serialize;
@@ -16,34 +18,10 @@ use serde::Serialize;
 use crate::input::Data;
 use crate::json::{Document, Group};
 use crate::moments::mean;
-use crate::options::{PairwiseTest, Ties};
+use crate::options::PairwiseTest;
 use crate::quantile::median;
 use crate::{Settings, StudyError};
 use units::Units;
-
-/// Options of the analysis.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// The columns that make up a unit.
-    pub unit: Vec<String>,
-    /// The test of each pair of methods.
-    pub pairwise: PairwiseTest,
-    /// How ties count in pairwise comparisons.
-    pub ties: Ties,
-    /// The first methods in their order; the others follow by first appearance.
-    pub order: Vec<String>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            unit: vec!["participant".to_owned()],
-            pairwise: PairwiseTest::default(),
-            ties: Ties::default(),
-            order: Vec::new(),
-        }
-    }
-}
 
 /// The result of one group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
