@@ -44,21 +44,8 @@ pub enum StudyError {
         column: String,
     },
     /// A cell has a value that the analysis does not know.
-    #[error("{file}, line {line}, column {column:?}: {cell:?} is not {wanted}")]
-    Cell {
-        /// The file.
-        file: String,
-        /// The line, from 1.
-        line: u64,
-        /// The name of the column in the file.
-        column: String,
-        /// The cell's text.
-        cell: String,
-        /// What is allowed there, such as `a number`.
-        wanted: String,
-        /// How to correct it.
-        help: String,
-    },
+    #[error(transparent)]
+    Cell(Box<WrongCell>),
     /// A setting does not fit the table.
     #[error("{message}")]
     Setting {
@@ -67,6 +54,24 @@ pub enum StudyError {
         /// How to correct it.
         help: String,
     },
+}
+
+/// A cell with a value that the analysis does not know.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{file}, line {line}, column {column:?}: {cell:?} is not {wanted}")]
+pub struct WrongCell {
+    /// The file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: u64,
+    /// The name of the column in the file.
+    pub column: String,
+    /// The cell's text.
+    pub cell: String,
+    /// What is allowed there, such as `a number`.
+    pub wanted: String,
+    /// How to correct it.
+    pub help: String,
 }
 
 fn at(line: Option<u64>) -> String {
@@ -94,7 +99,8 @@ impl StudyError {
                 present.join(", ")
             ),
             StudyError::DuplicateColumn { .. } => "rename one of the columns".to_owned(),
-            StudyError::Cell { help, .. } | StudyError::Setting { help, .. } => help.clone(),
+            StudyError::Cell(cell) => cell.help.clone(),
+            StudyError::Setting { help, .. } => help.clone(),
         }
     }
 }

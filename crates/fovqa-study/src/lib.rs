@@ -28,5 +28,5 @@ mod simplex;
 pub mod staircase;
 
 pub use analysis::Analysis;
-pub use error::StudyError;
+pub use error::{StudyError, WrongCell};
 pub use settings::Settings;

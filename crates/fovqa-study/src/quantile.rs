@@ -9,7 +9,7 @@ pub fn quantile(sorted: &[f64], p: f64) -> Option<f64> {
     let (low, high) = (sorted[below], sorted[(below + 1).min(last)]);
     let share = h - below as f64;
     // Without the test, an infinite neighbour with weight 0 would give NaN.
-    let value = if share == 0.0 || low == high { low } else { low + share * (high - low) };
+    let value = if share == 0.0 { low } else { low + share * (high - low) };
     value.is_finite().then_some(value)
 }
 

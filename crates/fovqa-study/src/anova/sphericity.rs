@@ -126,6 +126,7 @@ fn log_w(error: &Matrix) -> Option<f64> {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
 mod tests {
     use super::*;
 

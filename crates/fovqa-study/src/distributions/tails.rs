@@ -2,7 +2,7 @@
 
 use statrs::function::gamma::checked_gamma_ur;
 
-use super::incomplete_beta;
+use super::incomplete_beta::incomplete_beta;
 use super::normal::normal_quantile;
 
 /// P(χ² ≥ x) with `df` degrees of freedom, which need not be whole. `None` if `df` is not above 0, or

@@ -2,9 +2,11 @@
 
 use std::collections::HashMap;
 
-use super::{Column, Levels, Selection, Table};
-use crate::StudyError;
+use super::levels::Levels;
+use super::selection::Selection;
+use super::table::{Column, Table};
 use crate::json::By;
+use crate::{StudyError, WrongCell};
 
 /// Selected rows of a table.
 #[derive(Debug, Clone)]
@@ -141,14 +143,14 @@ impl<'t> Data<'t> {
 
     /// The error of a cell.
     pub fn wrong_cell(&self, column: &Column, row: usize, wanted: &str, help: &str) -> StudyError {
-        StudyError::Cell {
+        StudyError::Cell(Box::new(WrongCell {
             file: self.table.file().to_owned(),
             line: self.table.line(row),
             column: column.name().to_owned(),
             cell: column.text(row).chars().take(80).collect(),
             wanted: wanted.to_owned(),
             help: help.to_owned(),
-        }
+        }))
     }
 
     /// The groups of `--by`, by first appearance; one group of all rows without the option.

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::Column;
+use super::table::Column;
 
 /// Numbered names: participants, methods, or levels of a factor.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

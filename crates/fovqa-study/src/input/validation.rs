@@ -1,6 +1,6 @@
 //! Validation trials: trials with a known answer, which show whether a participant paid attention.
 
-use super::Data;
+use super::data::Data;
 use crate::StudyError;
 
 /// The options `--validation-expected` and `--max-errors`.

@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use super::Votes;
-use super::votes::JudgeName;
+use super::votes::{JudgeName, Votes};
 use crate::distributions::chi_squared_upper;
 use crate::json::{finite, votes as whole};
 

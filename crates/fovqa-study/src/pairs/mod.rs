@@ -4,11 +4,13 @@
 mod consistency;
 mod linked;
 mod newton;
+mod options;
 mod scaling;
 mod table;
 mod votes;
 
 pub use consistency::{Agreement, Consistency, Judge};
+pub use options::Options;
 pub use scaling::{Scaled, Scaling, Score};
 pub use table::Pair;
 pub(crate) use votes::methods;
@@ -18,21 +20,7 @@ use serde::Serialize;
 
 use crate::input::Data;
 use crate::json::{Document, Group};
-use crate::options::Ties;
 use crate::{Settings, StudyError};
-
-/// Options of the analysis.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Options {
-    /// How ties count.
-    pub ties: Ties,
-    /// The first methods in their order; the others follow by first appearance.
-    pub order: Vec<String>,
-    /// The method whose score is 0, instead of the mean of all scores.
-    pub reference: Option<String>,
-    /// Votes that are added to both sides of each pair with votes, for the scores; 0 or more.
-    pub pseudo_votes: f64,
-}
 
 /// The result of one group.
 #[derive(Debug, Clone, PartialEq, Serialize)]

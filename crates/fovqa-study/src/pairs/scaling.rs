@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::linked::is_linked;
 use super::newton::{Model, cells};
-use super::votes::wins;
-use super::{Options, Votes};
+use super::options::Options;
+use super::votes::{Votes, wins};
 use crate::Settings;
-use crate::bootstrap::{interval, replicates};
+use crate::bootstrap::{Interval, interval, replicates};
 use crate::distributions::chi_squared_upper;
 
 /// The share of failed replicates above which there are no intervals.
@@ -54,6 +54,9 @@ pub struct Score {
     pub lo: Option<f64>,
     /// The upper limit of the bootstrap interval.
     pub hi: Option<f64>,
+    /// Why a value is undefined.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
 }
 
 /// The scores of a group in both models.
@@ -86,12 +89,10 @@ pub(super) fn scaling(votes: &Votes, options: &Options, settings: &Settings) -> 
         let model = models[index];
         let scores = shifted(model.scores(&all, methods), zero);
         let of_model = drawn.iter().map(|scores| scores.as_ref().map(|scores| &scores[index]));
-        let (limits, failed, mut reasons) =
-            limits(of_model.collect(), methods, everyone.len(), settings);
-        if is_absent {
-            reasons.push("the reference has no votes here, so the mean score is 0".to_owned());
-        }
-        Scaled::new(votes, model, &all, &scores, &limits, failed, reasons)
+        let of_model: Vec<_> = of_model.collect();
+        let limits = Limits::new(&of_model, methods, everyone.len(), settings);
+        let absent = "the reference has no votes here, so the mean score is 0";
+        Scaled::new(votes, model, &all, &scores, &limits, is_absent.then_some(absent))
     });
     Scaling { bradley_terry, thurstone }
 }
@@ -119,30 +120,39 @@ fn shifted(scores: Vec<f64>, zero: Option<usize>) -> Vec<f64> {
     scores.into_iter().map(|score| score - origin).collect()
 }
 
-/// Bootstrap limits of all scores, the number of failed replicates, and why there are no limits.
-fn limits(
-    replicates: Vec<Option<&Vec<f64>>>,
-    methods: usize,
-    participants: usize,
-    settings: &Settings,
-) -> (Vec<[Option<f64>; 2]>, usize, Vec<String>) {
-    let drawn: Vec<&Vec<f64>> = replicates.iter().copied().flatten().collect();
-    let failed = replicates.len() - drawn.len();
-    let why = if participants < 2 {
-        "one participant cannot be resampled".to_owned()
-    } else if settings.bootstrap == 0 {
-        "there are no bootstrap replicates".to_owned()
-    } else if failed as f64 > MOST_FAILED * settings.bootstrap as f64 {
-        format!(
-            "{failed} of {} bootstrap replicates have no finite scores, so there are no intervals",
-            settings.bootstrap
-        )
-    } else {
-        let of = |i: usize| drawn.iter().map(|scores| scores[i]).collect();
-        let limits = |i| interval(of(i), settings.confidence).unwrap_or_default();
-        return ((0..methods).map(limits).collect(), failed, Vec::new());
-    };
-    (vec![[None; 2]; methods], failed, vec![why])
+/// Bootstrap intervals of all scores.
+struct Limits {
+    of: Vec<Interval>,
+    failed: usize,
+    /// Why there are no intervals.
+    reason: Option<String>,
+}
+
+impl Limits {
+    fn new(
+        replicates: &[Option<&Vec<f64>>],
+        methods: usize,
+        participants: usize,
+        settings: &Settings,
+    ) -> Self {
+        let drawn: Vec<&Vec<f64>> = replicates.iter().copied().flatten().collect();
+        let failed = replicates.len() - drawn.len();
+        let why = if participants < 2 {
+            "one participant cannot be resampled".to_owned()
+        } else if settings.bootstrap == 0 {
+            "there are no bootstrap replicates".to_owned()
+        } else if failed as f64 > MOST_FAILED * settings.bootstrap as f64 {
+            format!(
+                "{failed} of {} bootstrap replicates have no finite scores, so there are no intervals",
+                settings.bootstrap
+            )
+        } else {
+            let of = |i: usize| drawn.iter().map(|scores| scores[i]).collect();
+            let limits = |i| interval(of(i), settings.confidence).unwrap_or_default();
+            return Self { of: (0..methods).map(limits).collect(), failed, reason: None };
+        };
+        Self { of: vec![[None; 2]; methods], failed, reason: Some(why) }
+    }
 }
 
 impl Scaled {
@@ -163,10 +173,11 @@ impl Scaled {
         model: Model,
         wins: &[f64],
         scores: &[f64],
-        limits: &[[Option<f64>; 2]],
-        failed: usize,
-        mut reasons: Vec<String>,
+        limits: &Limits,
+        absent: Option<&str>,
     ) -> Self {
+        let mut reasons: Vec<String> = limits.reason.iter().cloned().collect();
+        reasons.extend(absent.map(str::to_owned));
         let methods = scores.len();
         let of_pair = |i: usize, j: usize| wins[i * methods + j] + wins[j * methods + i];
         let saturated: f64 =
@@ -181,16 +192,21 @@ impl Scaled {
             reasons
                 .push("there are as many scores as pairs, so the deviance has no test".to_owned());
         }
-        let scores = votes.methods.names().iter().zip(scores).zip(limits);
-        let scores =
-            scores.map(|((method, &jod), &[lo, hi])| Score { method: method.clone(), jod, lo, hi });
+        let scores = votes.methods.names().iter().zip(scores).zip(&limits.of);
+        let scores = scores.map(|((method, &jod), &[lo, hi])| Score {
+            method: method.clone(),
+            jod,
+            lo,
+            hi,
+            reason: limits.reason.clone(),
+        });
         Self {
             scores: Some(scores.collect()),
             log_likelihood: Some(log_likelihood),
             deviance: Some(deviance),
             df: Some(df),
             p: chi_squared_upper(deviance, df as f64),
-            failed_replicates: Some(failed),
+            failed_replicates: Some(limits.failed),
             reason: (!reasons.is_empty()).then(|| reasons.join("; ")),
         }
     }

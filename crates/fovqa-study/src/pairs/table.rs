@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use super::Votes;
-use super::votes::{Outcome, wins};
+use super::votes::{Outcome, Votes, wins};
 use crate::Settings;
 use crate::adjust::adjusted;
 use crate::bootstrap::{Interval, interval, replicates};

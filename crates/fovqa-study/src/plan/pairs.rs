@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::Plan;
+use super::document::Plan;
 use crate::Settings;
 use crate::distributions::{
     binomial_at_least, binomial_at_most, clopper_pearson, half_two_sided, normal_quantile,

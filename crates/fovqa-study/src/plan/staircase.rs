@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::Plan;
+use super::document::Plan;
 use crate::bootstrap::{Interval, interval};
 use crate::json::finite;
 use crate::moments::{Moments, mean, sd};
@@ -222,6 +222,7 @@ impl StaircaseOptions {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
 mod tests {
     use super::*;
     use crate::options::Direction;

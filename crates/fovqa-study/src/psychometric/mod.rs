@@ -4,6 +4,7 @@
 mod levels;
 mod ml;
 mod model;
+mod options;
 mod posterior;
 mod read;
 mod sigmoid;
@@ -13,6 +14,7 @@ use serde::Serialize;
 pub use self::levels::{Level, pool};
 pub use self::ml::{LevelAt, MaximumLikelihood};
 pub use self::model::Model;
+pub use self::options::Options;
 pub use self::posterior::{Estimate, Intervals, Posterior, Threshold};
 
 pub(crate) use self::model::Curve;
@@ -22,33 +24,6 @@ use self::read::read;
 use crate::input::Data;
 use crate::json::{Document, Group};
 use crate::{Settings, StudyError};
-
-/// Options of the fits.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// The kind of function.
-    pub model: Model,
-    /// λ, if it is fixed: from 0 up to but not 1 - γ.
-    pub lapse: Option<f64>,
-    /// The largest λ of the maximum-likelihood fit.
-    pub lapse_max: f64,
-    /// The performances ψ whose levels are reported.
-    pub performance: Vec<f64>,
-    /// True if the posterior has overdispersion η.
-    pub overdispersion: bool,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            model: Model::default(),
-            lapse: None,
-            lapse_max: 0.06,
-            performance: vec![0.75, std::f64::consts::FRAC_1_SQRT_2],
-            overdispersion: true,
-        }
-    }
-}
 
 /// A psychometric function.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -82,23 +57,6 @@ pub fn psychometric(
         groups.push(Group { by, result: fit(levels, options, settings) });
     }
     Ok(Document::new("psychometric", groups))
-}
-
-impl Options {
-    fn check(&self) -> Result<(), StudyError> {
-        let guess = self.model.guess;
-        let (option, lapse) = match self.lapse {
-            Some(lapse) => ("--lapse", lapse),
-            None => ("--lapse-max", self.lapse_max),
-        };
-        if guess + lapse < 1.0 {
-            return Ok(());
-        }
-        Err(StudyError::Setting {
-            message: format!("--guess {guess} and {option} {lapse} add up to 1 or more"),
-            help: "the function needs a range between them: choose smaller rates".to_owned(),
-        })
-    }
 }
 
 /// Fits the function to pooled levels. For `weibull`, all levels have to be above 0.

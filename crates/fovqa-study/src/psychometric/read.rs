@@ -1,6 +1,6 @@
 //! The trials of a psychometric function in a table.
 
-use super::Level;
+use super::levels::Level;
 use crate::StudyError;
 use crate::input::Data;
 use crate::options::Sigmoid;

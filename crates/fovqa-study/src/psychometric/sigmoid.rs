@@ -102,6 +102,7 @@ impl Sigmoid {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
 mod tests {
     use super::*;
 

@@ -1,5 +1,7 @@
 //! Ranks with ties.
 
+use std::cmp::Ordering;
+
 /// Ranks of values.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Ranked {
@@ -19,10 +21,9 @@ pub(crate) fn mid_ranks(values: &[f64]) -> Ranked {
     let mut tie_sum = 0.0;
     let mut start = 0;
     while start < order.len() {
-        let value = values[order[start]];
-        let length = order[start..].iter().take_while(|&&index| values[index] == value).count();
+        let is_equal = |index: &&usize| is_tied(values[**index], values[order[start]]);
         // A NaN equals nothing, not even itself.
-        let length = length.max(1);
+        let length = order[start..].iter().take_while(is_equal).count().max(1);
         let rank = start as f64 + 0.5 * (length as f64 + 1.0);
         for &index in &order[start..start + length] {
             ranks[index] = rank;
@@ -31,8 +32,13 @@ pub(crate) fn mid_ranks(values: &[f64]) -> Ranked {
         tie_sum += t * t * t - t;
         start += length;
     }
-    let is_all_tied = values.iter().all(|value| *value == values[0]);
+    let is_all_tied = values.iter().all(|value| is_tied(*value, values[0]));
     Ranked { ranks, tie_sum, is_all_tied }
+}
+
+/// Whether two values are equal; 0 and -0 are.
+fn is_tied(a: f64, b: f64) -> bool {
+    a.partial_cmp(&b) == Some(Ordering::Equal)
 }
 
 #[cfg(test)]

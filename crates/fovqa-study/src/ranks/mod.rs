@@ -3,6 +3,7 @@
 mod friedman;
 mod kruskal;
 mod mid_ranks;
+mod options;
 mod pairwise;
 mod signed_rank;
 mod units;
@@ -10,6 +11,7 @@ mod units;
 pub use friedman::Friedman;
 pub use kruskal::Kruskal;
 pub(crate) use mid_ranks::mid_ranks;
+pub use options::Options;
 pub use pairwise::Pairwise;
 
 use serde::Serialize;
@@ -17,34 +19,10 @@ use serde::Serialize;
 use crate::input::Data;
 use crate::json::{Document, Group};
 use crate::moments::mean;
-use crate::options::{PairwiseTest, Ties};
+use crate::options::PairwiseTest;
 use crate::quantile::median;
 use crate::{Settings, StudyError};
 use units::Units;
-
-/// Options of the analysis.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Options {
-    /// The columns that make up a unit.
-    pub unit: Vec<String>,
-    /// The test of each pair of methods.
-    pub pairwise: PairwiseTest,
-    /// How ties count in pairwise comparisons.
-    pub ties: Ties,
-    /// The first methods in their order; the others follow by first appearance.
-    pub order: Vec<String>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            unit: vec!["participant".to_owned()],
-            pairwise: PairwiseTest::default(),
-            ties: Ties::default(),
-            order: Vec::new(),
-        }
-    }
-}
 
 /// The result of one group.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -72,6 +50,9 @@ pub struct Method {
     pub mean: Option<f64>,
     /// Their median.
     pub median: Option<f64>,
+    /// Why a value is undefined.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
 }
 
 /// Computes the analysis of all groups. The value of a unit and method is the mean of its rows; for
@@ -110,6 +91,7 @@ fn of_units(units: &Units, options: &Options, settings: &Settings) -> Ranks {
         n: values.len(),
         mean: mean(values),
         median: median(values),
+        reason: values.is_empty().then(|| "all votes of the method are left out".to_owned()),
     });
     let slices: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();
     Ranks {

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::Options;
+use super::options::Options;
 use crate::StudyError;
 use crate::input::{Column, Data, Levels};
 use crate::options::Ties;

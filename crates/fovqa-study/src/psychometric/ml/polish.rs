@@ -161,6 +161,7 @@ fn solve(matrix: &[[f64; 3]; 3], right: &[f64; 3], indices: &[usize]) -> Option<
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
 mod tests {
     use super::*;
 

@@ -19,9 +19,9 @@ use serde::Serialize;
 use self::integral::Integral;
 use self::region::region;
 use self::target::{Parameters, Target};
-use super::Options;
 use super::levels::{Span, Trials};
 use super::model::Curve;
+use super::options::Options;
 use crate::bootstrap::Interval;
 use crate::json::finite;
 
