@@ -15,4 +15,5 @@ mod gate;
 mod metrics;
 mod published;
 mod runs;
+mod study;
 mod sweeps;

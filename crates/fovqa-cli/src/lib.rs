@@ -21,6 +21,7 @@ mod report;
 mod run;
 mod schema;
 mod score;
+mod study;
 mod threads;
 
 use std::process::ExitCode;
@@ -57,6 +58,7 @@ fn dispatch(cli: Cli) -> Exit {
         Command::Check(args) => check::run(&args),
         Command::Curves(args) => curves::run(&args),
         Command::Foveate(args) => foveate::run(*args),
+        Command::Study(command) => study::run(&command),
         Command::Schema { what } => schema::run(what),
         Command::List { what } => list::run(what),
         Command::Completions { shell } => output::write(|out| {

@@ -25,6 +25,7 @@ mod plot_figures;
 mod print;
 mod run_table;
 mod sheet;
+mod study;
 mod sweep;
 mod terminal;
 mod text_table;
@@ -41,6 +42,7 @@ pub use index::draw_index;
 pub use limits::{DrawnLimits, draw_limits};
 pub use run_table::{PlainRunTable, RunTable};
 pub use sheet::{ReportError, clear};
+pub use study::study_text;
 pub use terminal::score_table;
 pub use verdict::{
     baseline_table, difference_table, github_annotations, gitlab_report, junit, markdown,

@@ -15,6 +15,7 @@ mod no_such;
 mod run;
 mod score;
 mod signal;
+mod study;
 mod values;
 mod view;
 
@@ -26,6 +27,7 @@ pub(crate) use gate::{Annotations, GateArgs, GateFormat};
 pub(crate) use limit::LimitArgs;
 pub(crate) use run::{CheckArgs, MergeArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
+pub(crate) use study::{InputArgs, PlanCommand, SettingsArgs, StudyCommand, StudyFormat};
 
 use clap::{Parser, Subcommand, ValueEnum};
 
@@ -88,6 +90,9 @@ pub(crate) enum Command {
     /// Show what a foveation method would have shown of finished frames, and write it to files.
     #[command(after_help = foveate::EXAMPLES)]
     Foveate(Box<FoveateArgs>),
+    /// Statistics of user studies: pairwise comparisons, ranks, ANOVA, thresholds, ratings.
+    #[command(subcommand, after_help = study::EXAMPLES)]
+    Study(StudyCommand),
     /// List metrics, foveation methods and acuity models, or display presets.
     List {
         /// What to list.

@@ -1,0 +1,22 @@
+//! `fovqa study anova`.
+
+use clap::Args;
+
+use super::{InputArgs, SettingsArgs};
+
+pub(super) const EXAMPLES: &str = "\
+Columns: participant, value, and those of the factors.
+
+Example:
+  fovqa study anova slider.csv --within method,eye";
+
+#[derive(Debug, Args)]
+pub(crate) struct AnovaArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// One or two columns: the factors within participants
+    #[arg(long, value_name = "FACTOR,…", required = true, value_delimiter = ',')]
+    pub(crate) within: Vec<String>,
+    #[command(flatten)]
+    pub(crate) settings: SettingsArgs,
+}

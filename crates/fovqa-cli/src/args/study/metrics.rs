@@ -1,0 +1,39 @@
+//! `fovqa study metrics`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use fovqa_study::metrics::Options;
+
+use super::{InputArgs, SettingsArgs};
+
+pub(super) const EXAMPLES: &str = "\
+Columns: scene, method, value (the mean opinion score); optional: se (its standard error).
+The scores are results.csv of `fovqa run`.
+
+Example:
+  fovqa study metrics mos.csv --scores reports/demo/results.csv --lower-is-better mse";
+
+#[derive(Debug, Args)]
+pub(crate) struct MetricsArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Scores of the metrics: results.csv of a run
+    #[arg(long, value_name = "results.csv")]
+    pub(crate) scores: PathBuf,
+    /// Metrics to compare [default: all in the file]
+    #[arg(long, value_name = "METRIC,…", value_delimiter = ',')]
+    metrics: Vec<String>,
+    /// Metrics whose lower scores are better
+    #[arg(long, value_name = "METRIC,…", value_delimiter = ',')]
+    lower_is_better: Vec<String>,
+    #[command(flatten)]
+    pub(crate) settings: SettingsArgs,
+}
+
+impl MetricsArgs {
+    /// The options of the library.
+    pub(crate) fn options(&self) -> Options {
+        Options { metrics: self.metrics.clone(), lower_is_better: self.lower_is_better.clone() }
+    }
+}
