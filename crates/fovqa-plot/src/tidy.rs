@@ -33,8 +33,8 @@ fn row(csv: &mut String, fields: &[String]) {
 }
 
 pub(crate) fn line(chart: &LineChart) -> String {
-    let errors = has_errors(chart);
-    let mut csv = format!("series,x,y{}\n", error_column(errors));
+    let errors = ErrorColumns::of(std::slice::from_ref(chart));
+    let mut csv = format!("series,x,y{}\n", errors.heading());
     for fields in line_rows(chart, errors) {
         row(&mut csv, &fields);
     }
@@ -42,8 +42,8 @@ pub(crate) fn line(chart: &LineChart) -> String {
 }
 
 pub(crate) fn panels(chart: &PanelChart) -> String {
-    let errors = chart.panels.iter().any(has_errors);
-    let mut csv = format!("panel,series,x,y{}\n", error_column(errors));
+    let errors = ErrorColumns::of(&chart.panels);
+    let mut csv = format!("panel,series,x,y{}\n", errors.heading());
     for panel in &chart.panels {
         let title = name(panel.title.as_deref().unwrap_or_default());
         for fields in line_rows(panel, errors) {
@@ -53,21 +53,54 @@ pub(crate) fn panels(chart: &PanelChart) -> String {
     csv
 }
 
-fn has_errors(chart: &LineChart) -> bool {
-    chart.series.iter().any(|series| !series.errors.is_empty())
+/// The columns of error bars.
+#[derive(Clone, Copy)]
+struct ErrorColumns {
+    /// Half their lengths.
+    errors: bool,
+    /// Their ends.
+    intervals: bool,
 }
 
-/// The heading of the column with half the lengths of error bars.
-fn error_column(errors: bool) -> &'static str {
-    if errors { ",error" } else { "" }
+impl ErrorColumns {
+    fn of(charts: &[LineChart]) -> Self {
+        let mut series = charts.iter().flat_map(|chart| &chart.series);
+        Self {
+            errors: series.clone().any(|series| !series.errors.is_empty()),
+            intervals: series.any(|series| !series.intervals.is_empty()),
+        }
+    }
+
+    fn heading(self) -> &'static str {
+        match (self.errors, self.intervals) {
+            (false, false) => "",
+            (true, false) => ",error",
+            (false, true) => ",low,high",
+            (true, true) => ",error,low,high",
+        }
+    }
+
+    fn fields(
+        self,
+        errors: &[Option<f64>],
+        intervals: &[Option<[f64; 2]>],
+        index: usize,
+    ) -> impl Iterator<Item = String> {
+        let error = errors.get(index).copied().flatten();
+        let ends = intervals.get(index).copied().flatten();
+        let [low, high] = [0, 1].map(|end| ends.map(|ends| ends[end]));
+        let error = self.errors.then(|| optional(error)).into_iter();
+        let ends = self.intervals.then(|| [optional(low), optional(high)]);
+        error.chain(ends.into_iter().flatten())
+    }
 }
 
 /// The points of the curves, then the two ends of each span, which have no value.
-fn line_rows(chart: &LineChart, errors: bool) -> impl Iterator<Item = Vec<String>> {
+fn line_rows(chart: &LineChart, errors: ErrorColumns) -> impl Iterator<Item = Vec<String>> {
     let points = chart.series.iter().flat_map(move |series| {
         let fields = move |(i, (x, y)): (usize, &(f64, Option<f64>))| {
             let mut fields = vec![name(&series.name), optional(Some(*x)), optional(*y)];
-            fields.extend(errors.then(|| optional(series.errors.get(i).copied().flatten())));
+            fields.extend(errors.fields(&series.errors, &series.intervals, i));
             fields
         };
         series.points.iter().enumerate().map(fields)
@@ -75,7 +108,7 @@ fn line_rows(chart: &LineChart, errors: bool) -> impl Iterator<Item = Vec<String
     let ends = chart.spans.iter().flat_map(move |span| {
         [span.from, span.to].map(|x| {
             let mut fields = vec![name(&span.name), optional(Some(x)), String::new()];
-            fields.extend(errors.then(String::new));
+            fields.extend(errors.fields(&[], &[], 0));
             fields
         })
     });
@@ -83,12 +116,15 @@ fn line_rows(chart: &LineChart, errors: bool) -> impl Iterator<Item = Vec<String
 }
 
 pub(crate) fn bar(chart: &BarChart) -> String {
-    let errors = chart.series.iter().any(|series| !series.errors.is_empty());
-    let mut csv = format!("group,series,value{}\n", error_column(errors));
+    let errors = ErrorColumns {
+        errors: chart.series.iter().any(|series| !series.errors.is_empty()),
+        intervals: chart.series.iter().any(|series| !series.intervals.is_empty()),
+    };
+    let mut csv = format!("group,series,value{}\n", errors.heading());
     for series in &chart.series {
         for (i, (group, value)) in chart.groups.iter().zip(&series.values).enumerate() {
             let mut fields = vec![name(group), name(&series.name), optional(*value)];
-            fields.extend(errors.then(|| optional(series.errors.get(i).copied().flatten())));
+            fields.extend(errors.fields(&series.errors, &series.intervals, i));
             row(&mut csv, &fields);
         }
     }

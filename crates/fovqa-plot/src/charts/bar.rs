@@ -7,6 +7,7 @@ use crate::canvas::colour::INK;
 use crate::canvas::drawing::{Drawing, Rect};
 use crate::canvas::look::Look;
 use crate::error::PlotError;
+use crate::marks::bracket;
 use crate::marks::error_bar;
 use crate::marks::infinity;
 use crate::marks::legend::Key;
@@ -45,6 +46,17 @@ pub struct BarChart {
     /// is read by position (a dot plot, Cleveland and McGill 1984) and cannot be mistaken for a
     /// bar. The same holds for a logarithmic axis, and for one that was set to begin above 0.
     pub from_zero: bool,
+    /// Brackets above the plot area, which connect bars that are compared.
+    pub brackets: Vec<Bracket>,
+}
+
+/// A bracket between two bars.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Bracket {
+    /// The bars that it connects, each by the indices of its group and its series.
+    pub ends: [[usize; 2]; 2],
+    /// The text above it, such as stars of significance.
+    pub label: String,
 }
 
 /// The bars of one series.
@@ -56,6 +68,11 @@ pub struct BarSeries {
     pub look: Look,
     /// Half the length of the error bar of each value; empty for none.
     pub errors: Vec<Option<f64>>,
+    /// The lower and the upper end of the interval of each value, in place of
+    /// [`errors`](Self::errors); empty for none.
+    pub intervals: Vec<Option<[f64; 2]>>,
+    /// A text behind the label of each value, such as stars of significance; empty for none.
+    pub notes: Vec<String>,
     /// A value for each group. `None` and NaN have an "n/a" instead of a bar. An infinite value has
     /// a bar as high as the plot area, with an "∞" above it.
     pub values: Vec<Option<f64>>,
@@ -69,6 +86,7 @@ impl Default for BarChart {
             groups: Vec::new(),
             series: Vec::new(),
             from_zero: true,
+            brackets: Vec::new(),
         }
     }
 }
@@ -90,8 +108,10 @@ impl BarChart {
         let height_px = paper.plot_height_px;
         for series in &self.series {
             PlotError::check_groups(&series.name, series.values.len(), self.groups.len())?;
-            if !series.errors.is_empty() {
-                PlotError::check_groups(&series.name, series.errors.len(), self.groups.len())?;
+            for count in [series.errors.len(), series.intervals.len(), series.notes.len()] {
+                if count > 0 {
+                    PlotError::check_groups(&series.name, count, self.groups.len())?;
+                }
             }
         }
         let scale = self.scale();
@@ -100,7 +120,7 @@ impl BarChart {
         let groups = GroupAxis::new(&self.groups, self.series.len(), beside_px, paper);
         let finite = || self.places().filter_map(AxisPlace::finite);
         let format = Format::of_values(finite());
-        let labels: Vec<String> = finite().map(|value| format.label(value)).collect();
+        let labels: Vec<String> = self.labels(format).collect();
         let label_px = widest_px(labels.iter().map(String::as_str));
         let values = Orientation::of(label_px, groups.pitch_px());
         let missing = Orientation::of(widest_px([MISSING]), groups.pitch_px());
@@ -113,6 +133,8 @@ impl BarChart {
         let (above, below) = infinity::strips_px(self.places());
         // Under an end that was set, labels have no room in the plot area.
         let above = if self.y.max.is_some() { above.max(reach_px) } else { above };
+        let brackets = bracket::Levels::of(&self.brackets, self.series.len());
+        let above = above + brackets.height_px();
         let sides = Sides {
             left: axis.left_px(),
             right: MARGIN_PX,
@@ -135,6 +157,10 @@ impl BarChart {
                 Frame { axis: &axis, groups: &groups, plot, format, values, labelled, missing };
             self.draw_series(&mut drawing, &frame);
         }
+        let strip_px = above - brackets.height_px();
+        brackets.draw(&mut drawing, plot.top - strip_px, |[group, series]| {
+            groups.x(plot, group, series)
+        });
         axis.draw(&mut drawing, plot, 0.0);
         let base = if self.has_bars() { axis.y(plot, 0.0) } else { plot.bottom };
         drawing.line(&[(plot.left, base), (plot.right, base)], AXIS_STROKE);
@@ -156,9 +182,22 @@ impl BarChart {
 
     /// The ends of all error bars.
     fn error_ends(&self) -> impl Iterator<Item = f64> {
-        let all = self.series.iter().flat_map(|series| series.values.iter().zip(&series.errors));
-        let ends = all.filter_map(|(value, error)| error_ends(*value, *error));
-        ends.flat_map(<[f64; 2]>::from).filter(|end| self.y.has(*end))
+        let of = |series: &BarSeries| {
+            let ends: Vec<_> = (0..series.values.len()).filter_map(|g| series.ends(g)).collect();
+            ends
+        };
+        let ends = self.series.iter().flat_map(of).flat_map(<[f64; 2]>::from);
+        ends.filter(|end| self.y.has(*end))
+    }
+
+    /// The labels of all finite values.
+    fn labels(&self, format: Format) -> impl Iterator<Item = String> {
+        self.series.iter().flat_map(move |series| {
+            let value = |(g, value): (usize, &Option<f64>)| {
+                Some(series.label(g, self.place(*value)?.finite()?, format))
+            };
+            series.values.iter().enumerate().filter_map(value).collect::<Vec<_>>()
+        })
     }
 
     /// The place of a value, if the axis has one for it.
@@ -214,9 +253,9 @@ impl BarChart {
                 match place {
                     None => self.draw_missing(drawing, frame, x),
                     Some(place) => {
-                        let error = series.errors.get(g).copied().flatten();
-                        let ends = error_ends(*value, error);
-                        self.draw_value(drawing, frame, (x, place, ends), series.look);
+                        let note = series.notes.get(g).map_or("", String::as_str);
+                        let at = (x, place, series.ends(g));
+                        self.draw_value(drawing, frame, at, (series.look, note));
                     }
                 }
                 for (beyond, _, xs) in &mut infinite {
@@ -236,7 +275,7 @@ impl BarChart {
         drawing: &mut Drawing,
         frame: &Frame<'_>,
         (x, place, ends): (f64, AxisPlace, Option<(f64, f64)>),
-        look: Look,
+        (look, note): (Look, &str),
     ) {
         let plot = frame.plot;
         let outside = |value: f64| !(0.0..=1.0).contains(&frame.axis.share(value));
@@ -275,7 +314,7 @@ impl BarChart {
                 (Some((low, _)), Side::Below) => low.max(end - off),
                 (None, _) => end - off,
             };
-            frame.values.draw(drawing, &frame.format.label(value), (x, end), side);
+            frame.values.draw(drawing, &with_note(frame.format.label(value), note), (x, end), side);
         }
     }
 
@@ -287,6 +326,27 @@ impl BarChart {
         let side = if room_above { Side::Above } else { Side::Below };
         frame.missing.draw(drawing, MISSING, (x, base), side);
     }
+}
+
+impl BarSeries {
+    /// The ends of the error bar of the value of a group.
+    fn ends(&self, group: usize) -> Option<(f64, f64)> {
+        let value = self.values.get(group).copied().flatten();
+        if let Some([low, high]) = self.intervals.get(group).copied().flatten() {
+            let is_shown = value.is_some() && low.is_finite() && high.is_finite();
+            return Some((low, high)).filter(|_| is_shown);
+        }
+        error_ends(value, self.errors.get(group).copied().flatten())
+    }
+
+    fn label(&self, group: usize, value: f64, format: Format) -> String {
+        let note = self.notes.get(group).map_or("", String::as_str);
+        with_note(format.label(value), note)
+    }
+}
+
+fn with_note(label: String, note: &str) -> String {
+    if note.is_empty() { label } else { format!("{label} {note}") }
 }
 
 /// The ends of the error bar of a value.

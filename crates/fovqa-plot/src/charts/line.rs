@@ -84,6 +84,9 @@ pub struct LineSeries {
     /// without a finite one has no error bar. Where the error bars of several series are at one
     /// position, the series are drawn a few pixels apart.
     pub errors: Vec<Option<f64>>,
+    /// The lower and the upper end of the interval of each point, in their order, in place of
+    /// [`errors`](Self::errors); empty for none. An infinite end is drawn to the border.
+    pub intervals: Vec<Option<[f64; 2]>>,
     /// Whether its points are small dots without a line, such as positions of samples.
     pub dots: bool,
     /// Whether its points are rings without a line, which point out points of a curve that follows.
@@ -111,7 +114,12 @@ impl LineSeries {
             let (x, y, error) = (finite(x)?, finite(y?)?, finite((*error)?)?);
             Some((x, finite(y - error.abs())?, finite(y + error.abs())?))
         };
-        self.points.iter().zip(&self.errors).filter_map(ends)
+        let of_interval = |(&(x, _), interval): (&(f64, Option<f64>), &Option<[f64; 2]>)| {
+            let [low, high] = (*interval)?;
+            Some((finite(x)?, low, high)).filter(|_| low <= high)
+        };
+        let intervals = self.points.iter().zip(&self.intervals).filter_map(of_interval);
+        self.points.iter().zip(&self.errors).filter_map(ends).chain(intervals)
     }
 
     fn stroke(&self) -> Stroke {
@@ -240,8 +248,10 @@ impl LineChart {
     ) {
         for (x, low, high) in series.error_bars().filter(|(x, ..)| self.x.has(*x)) {
             if (0.0..=1.0).contains(&frame.x.share(x)) && self.y.has(high) {
-                let low = if self.y.has(low) { frame.y.y(plot, low) } else { plot.bottom };
-                let ends = (low, frame.y.y(plot, high));
+                let is_low = low.is_finite() && self.y.has(low);
+                let low = if is_low { frame.y.y(plot, low) } else { plot.bottom };
+                let high = if high.is_finite() { frame.y.y(plot, high) } else { plot.top };
+                let ends = (low, high);
                 let x = frame.x.x(plot, x) + shift_px;
                 error_bar::draw(drawing, x, ends, series.stroke().colour);
             }
@@ -283,7 +293,7 @@ impl LineChart {
         let values = || {
             let bars = series.error_bars().flat_map(|(_, low, high)| [low, high]);
             let values = self.places(series).filter_map(|(_, place)| finite(place));
-            values.chain(bars.filter(|y| self.y.has(*y)))
+            values.chain(bars.filter(|y| y.is_finite() && self.y.has(*y)))
         };
         let has_ends = self.x.min.is_some() || self.x.max.is_some();
         let Some(scale) = self.x_scale().filter(|_| has_ends) else { return values().collect() };
@@ -296,7 +306,8 @@ impl LineChart {
         let alone = alone.filter(|(x, _)| (0.0..=1.0).contains(x)).copied();
         let lines = runs.iter().flat_map(|run| clip::upright(run)).flatten();
         let bars = series.error_bars().filter(|(x, ..)| (0.0..=1.0).contains(&share(*x)));
-        let bars = bars.flat_map(|(_, low, high)| [low, high]).filter(|y| self.y.has(*y));
+        let bars = bars.flat_map(|(_, low, high)| [low, high]);
+        let bars = bars.filter(|y| y.is_finite() && self.y.has(*y));
         alone.chain(lines).map(|(_, y)| y).chain(bars).collect()
     }
 

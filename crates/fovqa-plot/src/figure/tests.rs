@@ -73,7 +73,14 @@ fn bars(values: Vec<Vec<Option<f64>>>, from_zero: bool) -> Figure {
         ..BarSeries::default()
     });
     let y = Axis::new("SSIM");
-    Figure::Bar(BarChart { title: Some(name(1)), y, groups, series: series.collect(), from_zero })
+    Figure::Bar(BarChart {
+        title: Some(name(1)),
+        y,
+        groups,
+        series: series.collect(),
+        from_zero,
+        ..BarChart::default()
+    })
 }
 
 fn spread(values: Vec<Vec<Vec<f64>>>) -> Figure {

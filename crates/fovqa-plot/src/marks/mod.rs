@@ -1,5 +1,6 @@
 //! The marks in a plot: markers, swatches, areas, labels, and the legend that explains them.
 
+pub(crate) mod bracket;
 pub(crate) mod error_bar;
 pub(crate) mod fill;
 pub(crate) mod fill_kind;

@@ -1,6 +1,7 @@
 //! Marks and labels: bars, boxes, gaps, and infinite or missing values.
 
 use super::*;
+use crate::Bracket;
 
 #[test]
 fn infinite_and_missing_values_are_shown() {
@@ -183,6 +184,46 @@ fn error_bars_of_curves_have_their_length_and_widen_the_axis() {
         assert!(((from - to).abs() - 2.0 * error * unit).abs() < 1e-6, "{from} {to}");
     }
     assert!(Figure::Line(chart).csv().starts_with("series,x,y,error\n,0.0,10.0,2.0\n"));
+}
+
+#[test]
+fn intervals_need_not_be_even_and_may_be_open() {
+    let points = vec![(0.0, Some(10.0)), (1.0, Some(20.0)), (2.0, Some(15.0))];
+    let intervals = vec![Some([9.0, 14.0]), None, Some([12.0, f64::INFINITY])];
+    let series = vec![LineSeries { intervals, points, ..LineSeries::default() }];
+    let chart = LineChart { series, ..LineChart::default() };
+    check(&Figure::Line(chart.clone()));
+    let scale = chart.y_scale().unwrap();
+    assert!(scale.low < 9.0 && scale.high < 30.0, "an open end does not widen the axis");
+    let drawing = chart.draw(&Paper::wide());
+    let bars = upright(&drawing, Look::new(0).colour());
+    let unit = Paper::wide().plot_height_px / (scale.high - scale.low);
+    assert_eq!(bars.len(), 2);
+    assert!(((bars[0].0 - bars[0].1).abs() - 5.0 * unit).abs() < 1e-6);
+    let csv = Figure::Line(chart).csv();
+    assert!(csv.starts_with("series,x,y,low,high\n,0.0,10.0,9.0,14.0\n,1.0,20.0,,\n"), "{csv}");
+}
+
+#[test]
+fn bars_have_intervals_stars_and_brackets() {
+    let Figure::Bar(mut chart) = bars(vec![vec![Some(0.6), Some(0.8)]; 2], true) else {
+        unreachable!()
+    };
+    let before = chart.draw(&Paper::wide()).unwrap();
+    chart.series[0].intervals = vec![Some([0.5, 0.75]), Some([0.7, 0.95])];
+    chart.series[0].notes = vec![String::new(), "**".to_owned()];
+    let bracket = |label: &str, ends| Bracket { ends, label: label.to_owned() };
+    chart.brackets = vec![bracket("*", [[0, 0], [0, 1]]), bracket("***", [[0, 1], [1, 1]])];
+    check(&Figure::Bar(chart.clone()));
+    let drawing = chart.draw(&Paper::wide()).unwrap();
+    let texts = drawing.texts();
+    let at = |line: &str| texts.iter().find(|text| text.line == line).unwrap().at;
+    let is_noted = |line: &str| line.starts_with("0.8") && line.ends_with(" **");
+    assert_eq!(texts.iter().filter(|text| is_noted(&text.line)).count(), 1);
+    assert!(at("***").1 < at("*").1, "they meet at a bar, and the longer one is above");
+    assert_eq!(upright(&drawing, INK).len(), 2);
+    assert!(drawing.height_px > before.height_px, "brackets have room of their own");
+    assert!(Figure::Bar(chart).csv().starts_with("group,series,value,low,high\n"));
 }
 
 #[test]
