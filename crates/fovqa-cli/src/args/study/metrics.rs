@@ -8,8 +8,8 @@ use fovqa_study::metrics::Options;
 use super::{InputArgs, SettingsArgs};
 
 pub(super) const EXAMPLES: &str = "\
-Columns: scene, method, value (the mean opinion score); optional: se (its standard error). The scores
-are results.csv of `fovqa run`.
+Columns: scene, method, value (the mean opinion score); optional: se (its standard error).
+The scores are results.csv of `fovqa run`.
 
 Example:
   fovqa study metrics mos.csv --scores reports/demo/results.csv --lower-is-better mse";
