@@ -1,5 +1,6 @@
 //! `fovqa study`: golden values, mistakes, unusual tables.
 
+mod fits;
 mod golden;
 mod mistakes;
 mod unusual;

@@ -42,7 +42,7 @@ fn huge_equal_and_single_values_have_reasons() {
 }
 
 /// An object with an undefined value says why.
-fn assert_null_values_have_reasons(value: &Value, place: &str) {
+pub(super) fn assert_null_values_have_reasons(value: &Value, place: &str) {
     match value {
         Value::Object(object) => {
             let has_null = object.values().any(Value::is_null);

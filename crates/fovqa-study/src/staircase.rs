@@ -80,6 +80,7 @@ pub struct Threshold {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MethodThreshold {
     /// The method, if the table has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<String>,
     /// The participants with a threshold.
     pub participants: usize,

@@ -52,7 +52,6 @@ fn parameters(function: &Psychometric, report: &mut Report) {
     row("lapse", of_ml(|ml| ml.lapse), of(|e| e.lapse).zip(limits.map(|l| l.lapse)));
     row("eta", number(None), of(|e| e.eta).zip(limits.map(|l| l.eta)));
     report.table("Parameters: maximum likelihood (ML), and posterior with its interval", table);
-    report.reasons([("ML".to_owned(), ml.and_then(|ml| ml.reason.clone()))]);
 }
 
 fn goodness(ml: &MaximumLikelihood, report: &mut Report) {
@@ -67,7 +66,7 @@ fn goodness(ml: &MaximumLikelihood, report: &mut Report) {
         ml.at_bound.map_or_else(|| number(None), |count| count.to_string()),
     ]);
     report.table("Goodness of the maximum-likelihood fit", table);
-    report.reasons([("p".to_owned(), ml.p_reason.clone())]);
+    report.reasons([("ML".to_owned(), ml.reason.clone())]);
 }
 
 fn thresholds(function: &Psychometric, report: &mut Report) {

@@ -230,13 +230,13 @@ impl Matched {
             kendall: kendall(x, y),
             kendall_bootstrap,
             fit: fit(x, y, &self.errors),
-            reason: reason(x, y, pearson_bootstrap.is_none()),
+            reason: reason(x, y, pearson, pearson_bootstrap.is_none()),
         }
     }
 }
 
 /// Why values of a metric are undefined.
-fn reason(x: &[f64], y: &[f64], has_no_bootstrap: bool) -> Option<String> {
+fn reason(x: &[f64], y: &[f64], r: Option<f64>, has_no_bootstrap: bool) -> Option<String> {
     let mut reasons = Vec::new();
     if x.len() < 2 {
         reasons.push("a correlation needs 2 or more conditions".to_owned());
@@ -246,6 +246,13 @@ fn reason(x: &[f64], y: &[f64], has_no_bootstrap: bool) -> Option<String> {
         reasons.push("the mean opinion scores are constant".to_owned());
     } else if has_no_bootstrap {
         reasons.push("there are no bootstrap replicates".to_owned());
+    }
+    if x.len() < 4 {
+        reasons
+            .push("fewer than 4 conditions have no interval by Fisher's transformation".to_owned());
+    } else if r.is_some_and(|r| r.abs() >= 1.0) {
+        reasons
+            .push("a correlation of 1 or -1 has no interval by Fisher's transformation".to_owned());
     }
     if x.len() < LEAST_CONDITIONS {
         reasons.push(format!("a fit needs {LEAST_CONDITIONS} or more conditions"));

@@ -27,7 +27,7 @@ pub(super) fn conditions(data: &Data) -> Result<Vec<Condition>, StudyError> {
     for &row in data.rows() {
         let score = data.number(value, row)?;
         let error = match error.filter(|error| !error.text(row).is_empty()) {
-            Some(error) => Some(data.number(error, row)?),
+            Some(error) => Some(standard_error(data, error, row)?),
             None => None,
         };
         let index = *known.entry((scene.code(row), method.code(row))).or_insert(found.len());
@@ -52,6 +52,15 @@ pub(super) fn conditions(data: &Data) -> Result<Vec<Condition>, StudyError> {
         condition
     };
     Ok(found.into_iter().map(mean).collect())
+}
+
+fn standard_error(data: &Data, column: &Column, row: usize) -> Result<f64, StudyError> {
+    let error = data.number(column, row)?;
+    if error < 0.0 {
+        let help = "write the standard error of the mean opinion score, or leave the cell empty";
+        return Err(data.wrong_cell(column, row, "0 or more", help));
+    }
+    Ok(error)
 }
 
 /// The scores of metrics by scene and method.
@@ -97,7 +106,15 @@ impl Scores {
             };
             !value.text(row).is_empty() && whole.iter().all(belongs)
         };
-        let rows = data.rows().iter().copied().filter(|&row| is_whole(row)).collect();
+        let rows: Vec<usize> = data.rows().iter().copied().filter(|&row| is_whole(row)).collect();
+        if rows.is_empty() {
+            return Err(StudyError::Setting {
+                message: format!("{} has no scores of whole images", table.file()),
+                help: "use results.csv of `fovqa run`; its rows of parameters, levels, bands and \
+                       single eyes are left out"
+                    .to_owned(),
+            });
+        }
         let data = data.with_rows(rows)?;
         let (scene, method) = (data.column("scene")?, data.column("method")?);
         let metrics = data.levels("metric")?;

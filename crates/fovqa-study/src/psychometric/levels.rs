@@ -117,7 +117,7 @@ impl Trials {
         let range = last - first;
         let gaps = self.x.windows(2).map(|pair| pair[1] - pair[0]);
         let gap = gaps.fold(f64::INFINITY, f64::min);
-        let usable = range.is_finite() && gap > 0.0 && gap >= range * 1e-9 && range > 1e-150;
+        let usable = range.is_finite() && gap > 0.0 && gap >= range * 1e-12 && range > 1e-150;
         (self.x.len() > 1 && usable).then_some(Span { first, last, range, gap })
     }
 }
@@ -167,7 +167,7 @@ mod tests {
         };
         assert_eq!(of(&[1.0]), None);
         assert_eq!(of(&[-1e308, 1e308]), None);
-        assert_eq!(of(&[0.0, 1e-12, 1.0]), None);
+        assert_eq!(of(&[0.0, 1e-13, 1.0]), None);
         assert_eq!(
             of(&[1.0, 2.0, 4.0]),
             Some(Span { first: 1.0, last: 4.0, range: 3.0, gap: 1.0 })

@@ -1,7 +1,7 @@
 //! Mean scores of each participant and condition.
 
 use crate::StudyError;
-use crate::input::Data;
+use crate::input::{Column, Data};
 
 /// Means by participant and condition. A condition is the numbers in one or more columns.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,12 +22,14 @@ impl<const N: usize> Scores<N> {
         let participants = data.levels("participant")?;
         let participant = data.column("participant")?;
         let value = data.column("value")?;
+        let columns: Vec<&Column> =
+            columns.iter().map(|role| data.column(role)).collect::<Result<_, _>>()?;
         let mut rows = Vec::with_capacity(data.rows().len());
         for &row in data.rows() {
             let mut condition = [0.0; N];
-            for (number, role) in condition.iter_mut().zip(columns) {
+            for (number, column) in condition.iter_mut().zip(&columns) {
                 // Zero has one sign only.
-                *number = data.number(data.column(role)?, row)? + 0.0;
+                *number = data.number(column, row)? + 0.0;
             }
             let score = data.number(value, row)?;
             rows.push((participants.of_row(participant, row), condition, score));

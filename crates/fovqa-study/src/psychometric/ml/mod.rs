@@ -30,7 +30,7 @@ pub struct MaximumLikelihood {
     pub width: Option<f64>,
     /// The rate λ of lapses.
     pub lapse: Option<f64>,
-    /// Why the parameters are undefined.
+    /// Why a value is undefined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// The log-likelihood, without binomial coefficients.
@@ -43,9 +43,6 @@ pub struct MaximumLikelihood {
     pub p_chi2: Option<f64>,
     /// The share of simulated deviances that are at least as large.
     pub p_bootstrap: Option<f64>,
-    /// Why a p-value is undefined.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub p_reason: Option<String>,
     /// The number of bootstrap fits with a parameter at a bound.
     pub at_bound: Option<usize>,
     /// The levels at which the requested performance is reached.
@@ -123,17 +120,12 @@ pub(super) fn fit(
         threshold: shown(options.model.sigmoid.level(best.curve.position)),
         width: shown(best.curve.width),
         lapse: shown(best.curve.lapse),
-        reason: undetermined.then(|| {
-            "the likelihood is highest at a bound of threshold or width: the answers do not \
-             determine the curve"
-                .to_owned()
-        }),
+        reason: reason(undetermined, df, refits.is_empty()),
         log_likelihood: best.log_likelihood,
         deviance,
         df,
         p_chi2: chi_squared_upper(deviance, df as f64),
         p_bootstrap,
-        p_reason: p_reason(df, refits.is_empty()),
         at_bound: (!refits.is_empty())
             .then(|| refits.iter().filter(|refit| refit.at_bound).count()),
         thresholds: thresholds(&fitter, &best, &refits, settings.confidence),
@@ -141,13 +133,22 @@ pub(super) fn fit(
     Some((fit, best.curve))
 }
 
-fn p_reason(df: i64, no_replicates: bool) -> Option<String> {
-    match (df <= 0, no_replicates) {
-        (true, true) => Some(format!("{df} degrees of freedom and no bootstrap replicates")),
-        (true, false) => Some(format!("{df} degrees of freedom leave no p_chi2")),
-        (false, true) => Some("no bootstrap replicates, so no p_bootstrap".to_owned()),
-        (false, false) => None,
+fn reason(undetermined: bool, df: i64, no_replicates: bool) -> Option<String> {
+    let mut reasons = Vec::new();
+    if undetermined {
+        reasons.push(
+            "the likelihood is highest at a bound of threshold or width: the answers do not \
+             determine the curve"
+                .to_owned(),
+        );
     }
+    if df <= 0 {
+        reasons.push(format!("{df} degrees of freedom leave no p_chi2"));
+    }
+    if no_replicates {
+        reasons.push("there are no bootstrap replicates".to_owned());
+    }
+    (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 
 /// Draws the trials of the fitted function, levels ascending, and fits them again.
@@ -195,6 +196,8 @@ fn thresholds(
             Some("the answers do not determine the curve")
         } else if level.is_none() {
             Some("the fitted function does not reach the performance")
+        } else if refits.is_empty() {
+            Some("there are no bootstrap replicates")
         } else {
             None
         };
