@@ -45,7 +45,8 @@ fn many_different_levels_are_fitted_in_a_few_seconds() {
         let level = f64::from(i) / 1000.0;
         let chance = 0.5 + 0.5 / (1.0 + f64::exp(-6.0 * (level - 1.5)));
         let digit = f64::from(i.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24);
-        csv += &format!("{level},{}\n", u8::from(digit < chance));
+        csv += &[level.to_string(), ",".to_owned(), u8::from(digit < chance).to_string()].concat();
+        csv.push('\n');
     }
     let result = json(&csv, &["psychometric", "--bootstrap", "20"]);
     let group = &result["groups"][0];

@@ -23,6 +23,7 @@ pub(crate) fn for_picture(figure: &Figure) -> Cow<'_, Figure> {
         reference: series.reference,
         smooth: series.smooth,
         errors: if is_long(series) { Vec::new() } else { series.errors.clone() },
+        intervals: if is_long(series) { Vec::new() } else { series.intervals.clone() },
         dots: series.dots,
         rings: series.rings,
         unlisted: series.unlisted,

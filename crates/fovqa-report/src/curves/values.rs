@@ -16,6 +16,7 @@ pub(super) fn figure(plot: &CurvePlot) -> Option<NamedFigure> {
         values: sums(values),
         // How the errors of the parts depend on each other is not known.
         errors: Vec::new(),
+        ..BarSeries::default()
     });
     let has_errors = values.series.iter().any(|series| !series.errors.is_empty());
     let series = series.chain(sum).collect();
@@ -37,6 +38,7 @@ fn bars(index: usize, series: &GivenSeries) -> BarSeries {
         look: Look::new(index),
         errors: series.errors.iter().copied().map(Some).collect(),
         values: series.values.iter().copied().map(Some).collect(),
+        ..BarSeries::default()
     }
 }
 

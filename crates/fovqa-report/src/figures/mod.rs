@@ -225,7 +225,7 @@ impl<'a> Selection<'a> {
             let errors = error_bars.map_or_else(Vec::new, |kind| {
                 self.scenes.iter().map(|scene| error(scene, kind)).collect()
             });
-            BarSeries { name: method.to_owned(), look, errors, values }
+            BarSeries { name: method.to_owned(), look, errors, values, ..BarSeries::default() }
         });
         let mut series: Vec<BarSeries> = series.collect();
         let mut groups: Vec<String> = self.scenes.iter().map(|&scene| scene.to_owned()).collect();

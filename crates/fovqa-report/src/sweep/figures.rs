@@ -302,7 +302,7 @@ impl Of<'_> {
                 .iter()
                 .map(|group| points.iter().find(|of| shown_value(of.0) == *group)?.1)
                 .collect(),
-            errors: Vec::new(),
+            ..BarSeries::default()
         });
         let series = series.collect();
         Figure::Bar(BarChart {
