@@ -47,7 +47,8 @@ fn many_different_levels_are_fitted_in_a_few_seconds() {
         let digit = f64::from(i.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24);
         csv += &format!("{level},{}\n", u8::from(digit < chance));
     }
-    let result = json(&csv, &["psychometric", "--bootstrap", "20"]);
+    let result = json(&csv, &["psychometric", "--bootstrap", "20", "--threads", "1"]);
+    assert_eq!(result, json(&csv, &["psychometric", "--bootstrap", "20", "--threads", "2"]));
     let group = &result["groups"][0];
     for threshold in [&group["ml"]["threshold"], &group["posterior"]["median"]["threshold"]] {
         assert!((threshold.as_f64().unwrap() - 1.5).abs() < 0.1, "{threshold}");
