@@ -1,5 +1,7 @@
 //! Unusual tables of psychometric functions, staircases, ratings and metrics, and plans.
 
+use std::fmt::Write as _;
+
 use serde_json::Value;
 
 use super::unusual::assert_null_values_have_reasons;
@@ -45,7 +47,7 @@ fn many_different_levels_are_fitted_in_a_few_seconds() {
         let level = f64::from(i) / 1000.0;
         let chance = 0.5 + 0.5 / (1.0 + f64::exp(-6.0 * (level - 1.5)));
         let digit = f64::from(i.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24);
-        csv += &format!("{level},{}\n", u8::from(digit < chance));
+        let _ = writeln!(csv, "{level},{}", u8::from(digit < chance));
     }
     let result = json(&csv, &["psychometric", "--bootstrap", "20", "--threads", "1"]);
     assert_eq!(result, json(&csv, &["psychometric", "--bootstrap", "20", "--threads", "2"]));
