@@ -1,5 +1,7 @@
 //! Unusual tables of psychometric functions, staircases, ratings and metrics, and plans.
 
+use std::fmt::Write as _;
+
 use serde_json::Value;
 
 use super::unusual::assert_null_values_have_reasons;
@@ -45,10 +47,10 @@ fn many_different_levels_are_fitted_in_a_few_seconds() {
         let level = f64::from(i) / 1000.0;
         let chance = 0.5 + 0.5 / (1.0 + f64::exp(-6.0 * (level - 1.5)));
         let digit = f64::from(i.wrapping_mul(2_654_435_761) >> 8) / f64::from(1 << 24);
-        csv += &[level.to_string(), ",".to_owned(), u8::from(digit < chance).to_string()].concat();
-        csv.push('\n');
+        let _ = writeln!(csv, "{level},{}", u8::from(digit < chance));
     }
-    let result = json(&csv, &["psychometric", "--bootstrap", "20"]);
+    let result = json(&csv, &["psychometric", "--bootstrap", "20", "--threads", "1"]);
+    assert_eq!(result, json(&csv, &["psychometric", "--bootstrap", "20", "--threads", "2"]));
     let group = &result["groups"][0];
     for threshold in [&group["ml"]["threshold"], &group["posterior"]["median"]["threshold"]] {
         assert!((threshold.as_f64().unwrap() - 1.5).abs() < 0.1, "{threshold}");

@@ -78,3 +78,64 @@ pub fn fit(levels: Vec<Level>, options: &Options, settings: &Settings) -> Psycho
         .then(|| "the likelihood of the answers is not finite".to_owned());
     Psychometric { levels, ml: ml.map(|(ml, _)| ml), posterior, reason }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn levels(correct: &[u64], trials: u64) -> Vec<Level> {
+        let level = |(i, &correct): (usize, &u64)| Level { level: 1.0 + i as f64, correct, trials };
+        correct.iter().enumerate().map(level).collect()
+    }
+
+    fn settings(bootstrap: usize) -> Settings {
+        Settings { bootstrap, ..Settings::default() }
+    }
+
+    #[test]
+    fn the_fit_to_counts_of_a_function_is_that_function() {
+        // 10 000 trials per level of m = 3, w = 2, λ = 0.02.
+        let model = Model::default();
+        let curve = self::model::Curve { position: 3.0, width: 2.0, lapse: 0.02 };
+        let count = |i: u32| (model.performance(&curve, f64::from(i)) * 10_000.0).round() as u64;
+        let correct: Vec<u64> = (1..=6).map(count).collect();
+        let options = Options::default();
+        let result = fit(levels(&correct, 10_000), &options, &settings(20));
+        let ml = result.ml.unwrap();
+        assert!((ml.threshold.unwrap() - 3.0).abs() < 1e-3);
+        assert!((ml.width.unwrap() - 2.0).abs() < 5e-3);
+        assert!((ml.lapse.unwrap() - 0.02).abs() < 1e-3);
+        assert!(ml.deviance < 1e-3 && ml.df == 3 && ml.p_bootstrap.unwrap() > 0.9);
+        let level = &ml.thresholds[0];
+        let [low, high] = level.ci.unwrap().map(Option::unwrap);
+        assert!(low < level.level.unwrap() && level.level.unwrap() < high && high - low < 0.2);
+        let posterior = result.posterior.unwrap();
+        assert!((posterior.median.threshold - 3.0).abs() < 0.02);
+    }
+
+    #[test]
+    fn a_step_chance_and_one_level_are_not_determined() {
+        for correct in [&[10, 10, 20, 20, 20][..], &[11, 9, 10, 10], &[20, 20, 20, 20]] {
+            let result = fit(levels(correct, 20), &Options::default(), &settings(0));
+            let ml = result.ml.unwrap();
+            assert!(ml.threshold.is_none() && ml.lapse.is_none() && ml.reason.is_some());
+            assert!(ml.thresholds.iter().all(|threshold| threshold.level.is_none()));
+            assert!(result.posterior.is_some());
+        }
+        let one = fit(levels(&[15], 20), &Options::default(), &settings(0));
+        assert!(one.ml.is_none() && one.posterior.is_none() && one.reason.is_some());
+    }
+
+    #[test]
+    fn a_falling_function_is_the_mirror_image() {
+        let rising = [11, 13, 17, 19, 20];
+        let falling: Vec<u64> = rising.iter().rev().copied().collect();
+        let mirrored =
+            Model { direction: crate::options::Direction::Decreasing, ..Model::default() };
+        let options = Options { model: mirrored, ..Options::default() };
+        let rises = fit(levels(&rising, 20), &Options::default(), &settings(0)).ml.unwrap();
+        let falls = fit(levels(&falling, 20), &options, &settings(0)).ml.unwrap();
+        assert!((rises.threshold.unwrap() + falls.threshold.unwrap() - 6.0).abs() < 1e-6);
+        assert!((rises.deviance - falls.deviance).abs() < 1e-9);
+    }
+}

@@ -18,13 +18,18 @@ Example:
   fovqa study plan staircase --participants 12 --trials 80 --threshold 1.3 --width 1.2 \\
     --start 4 --steps 0.5,0.25,0.125 --between-sd 0.2";
 
+/// In two lines, since it is longer than one.
+const STAIRCASE_USAGE: &str = "\
+fovqa study plan staircase --participants <COUNT> --trials <COUNT> --threshold <LEVEL>
+         --width <LEVELS> --start <LEVEL> --steps <LEVELS,…> [OPTIONS]";
+
 #[derive(Debug, Subcommand)]
 pub(crate) enum PlanCommand {
     /// The trials that a binomial test of pairwise comparisons needs.
     #[command(after_help = EXAMPLES)]
     Pairs(Box<PlanPairsArgs>),
     /// Simulated staircases: how precise the threshold of a study will be.
-    #[command(after_help = STAIRCASE_EXAMPLES)]
+    #[command(after_help = STAIRCASE_EXAMPLES, override_usage = STAIRCASE_USAGE)]
     Staircase(Box<PlanStaircaseArgs>),
 }
 

@@ -205,3 +205,7 @@ fn threshold(
         .then(|| "too often, the function does not reach the performance".to_owned());
     Threshold { performance, median, ci: Some([low, high]), reason }
 }
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "what is fixed comes back exactly")]
+mod tests;
