@@ -240,14 +240,19 @@ fn a_finished_run_is_looked_at_again() {
     assert!(markdown.contains("(bad/gate/s/A/0003/crop.png)"), "{markdown}");
     let junit = fs::read_to_string(folder.path("gate.xml")).unwrap();
     assert!(
-        junit.contains("; most in ") && junit.contains("bad/gate/s/A/0003/crop.png"),
+        junit.contains("most is lost in ") && junit.contains("bad/gate/s/A/0003/crop.png"),
         "{junit}"
     );
     fs::rename(folder.path("gt"), folder.path("gone")).unwrap();
     let run = folder.run(&gate);
     assert_eq!(run.code, 1, "{}", run.stderr);
     assert!(run.stdout.contains("frame 3: psnr "), "{}", run.stdout);
-    run.says(&["frames with a loss are not shown"]);
+    run.says(&["frames with a loss are not looked at again"]);
+    // What an earlier gate has found out about the same values stays.
+    page_shows(&folder, 3);
+    fs::rename(folder.path("gone"), folder.path("gt")).unwrap();
+    folder.png("test/0003.png", WIDTH, HEIGHT, &blurred(&bad[3][1], 1.5));
+    folder.run(&gate).says(&["test/0003.png: the file has changed since it was scored"]);
 }
 
 #[test]
