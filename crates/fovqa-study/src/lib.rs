@@ -23,10 +23,12 @@ pub mod quantile;
 pub mod random;
 pub mod ranks;
 pub mod ratings;
+mod request;
 mod settings;
 mod simplex;
 pub mod staircase;
 
 pub use analysis::Analysis;
 pub use error::{StudyError, WrongCell};
+pub use request::{Inputs, Request};
 pub use settings::Settings;

@@ -10,6 +10,7 @@ use serde::Serialize;
 
 pub use self::comparisons::Comparison;
 pub use self::fit::Fit;
+pub(crate) use self::scores::mean_scores;
 
 use self::comparisons::{Correlations, adjust, compare};
 use self::correlation::{fisher_interval, is_constant, kendall, p_value, pearson, spearman};
@@ -119,6 +120,24 @@ pub fn metrics(
         groups.push(Group { by, result });
     }
     Ok(Document::new("metrics", groups))
+}
+
+/// Checks that rows are mean opinion scores: each has a scene, a method and a number.
+///
+/// # Errors
+///
+/// If a column is missing, or a cell cannot be used.
+pub fn check_opinions(data: &Data) -> Result<(), StudyError> {
+    conditions(&data.without_empty("value")?).map(|_| ())
+}
+
+/// The metrics with scores of whole images in the table of a run (results.csv), by first appearance.
+///
+/// # Errors
+///
+/// If the table has no such scores.
+pub fn scored(scores: &Table) -> Result<Vec<String>, StudyError> {
+    Ok(Scores::read(scores)?.metrics)
 }
 
 /// The scores of a group's conditions.

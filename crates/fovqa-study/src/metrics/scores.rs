@@ -137,10 +137,14 @@ impl Scores {
 
     /// The scores of these metrics for a condition, if all of them are finite.
     pub(super) fn of(&self, condition: &Condition, metrics: &[usize]) -> Option<Vec<f64>> {
-        let scene = *self.scenes.get(&condition.scene)?;
-        let method = *self.methods.get(&condition.method)?;
-        let mean = |&metric: &usize| self.means.get(&(scene, method, metric)).copied();
+        let mean = |metric: &usize| self.mean(&condition.scene, &condition.method, *metric);
         metrics.iter().map(|metric| mean(metric).filter(|mean| mean.is_finite())).collect()
+    }
+
+    /// The mean of a metric for a scene and a method; `None` if there is none.
+    fn mean(&self, scene: &str, method: &str, metric: usize) -> Option<f64> {
+        let key = (*self.scenes.get(scene)?, *self.methods.get(method)?, metric);
+        self.means.get(&key).copied()
     }
 
     /// The names of the metrics, for a message.
@@ -149,6 +153,52 @@ impl Scores {
         let dots = if self.metrics.len() > shown.len() { ", …" } else { "" };
         format!("{}{dots}", shown.join(", "))
     }
+}
+
+/// The mean scores of one metric by scene and method.
+#[derive(Debug, Clone)]
+pub(crate) struct MeanScores {
+    /// The scenes, by first appearance.
+    pub(crate) scenes: Vec<String>,
+    /// The methods, by first appearance.
+    pub(crate) methods: Vec<String>,
+    metric: usize,
+    scores: Scores,
+}
+
+impl MeanScores {
+    /// The mean score, which need not be finite.
+    pub(crate) fn of(&self, scene: &str, method: &str) -> Option<f64> {
+        self.scores.mean(scene, method, self.metric)
+    }
+}
+
+/// The mean scores of a metric in the table of a run (results.csv), with the scenes and methods that have
+/// one.
+///
+/// # Errors
+///
+/// If the table has no such scores.
+pub(crate) fn mean_scores(table: &Table, metric: &str) -> Result<MeanScores, StudyError> {
+    let scores = Scores::read(table)?;
+    let index = scores.metrics.iter().position(|known| known == metric);
+    let index = index.ok_or_else(|| StudyError::Setting {
+        message: format!("{} has no scores of {metric}", table.file()),
+        help: format!("score this metric in the run; the table has {}", scores.names()),
+    })?;
+    let scored = |of: &HashMap<String, u32>, code_of: fn(&(u32, u32, usize)) -> u32| {
+        let is_scored =
+            |code: u32| scores.means.keys().any(|key| key.2 == index && code_of(key) == code);
+        let mut names: Vec<(u32, String)> =
+            of.iter().map(|(name, code)| (*code, name.clone())).collect();
+        names.retain(|(code, _)| is_scored(*code));
+        // Codes are given by first appearance.
+        names.sort();
+        names.into_iter().map(|(_, name)| name).collect()
+    };
+    let scenes = scored(&scores.scenes, |key| key.0);
+    let methods = scored(&scores.methods, |key| key.1);
+    Ok(MeanScores { scenes, methods, metric: index, scores })
 }
 
 /// A score, which may be infinite: PSNR is, for equal frames.

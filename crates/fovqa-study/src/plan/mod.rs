@@ -2,8 +2,10 @@
 
 mod document;
 mod pairs;
+mod predicted;
 mod staircase;
 
 pub use self::document::Plan;
 pub use self::pairs::{PairsOptions, PairsPlan, plan_pairs};
+pub use self::predicted::{PredictedOptions, PredictedPair, PredictedPlan, plan_predicted};
 pub use self::staircase::{First, StaircaseOptions, StaircasePlan, plan_staircase};
