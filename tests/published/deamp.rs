@@ -3,10 +3,10 @@
 use fovqa_methods::deamp::{Deamp, Params, Projection};
 
 use super::frame::{centred, possible};
-use super::printed::{Printed, Verdict};
 use super::row::{Cell, PageRow, Paper};
 use super::statistics::f_tail;
 use super::tables::{DEAMP_TABLE, Table};
+use fovqa_report::{Printed, PrintedVerdict as Verdict};
 
 /// The paper's display, per eye: 90° x 90°.
 const FRAME: [usize; 2] = [1600, 1600];

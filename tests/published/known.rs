@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use super::page::page;
-use super::printed::Verdict;
-use super::printed::Verdict::{Close, NotChecked, NotIndependent, NotReproduced, Reproduced};
 use super::row::{PageRow, Paper};
 use super::rows;
 use super::tables::{DEAMP_TABLE, Format, RMFR_TABLE, Table, Tables};
+use fovqa_report::PrintedVerdict as Verdict;
+use fovqa_report::PrintedVerdict::{Close, NotChecked, NotIndependent, NotReproduced, Reproduced};
 
 const KNOWN: [(Paper, &str, &str, Verdict); 51] = [
     (Paper::Vafr, "what the Pimax Crystal shows", "17.5 cpd", Reproduced),

@@ -1,7 +1,7 @@
 //! The numbers that papers print, beside what the models compute: `docs/published-numbers.md`.
 //!
 //! One paper per file, each a function that returns its rows. Printed numbers are typed in as they are
-//! printed; computed numbers never are. A verdict follows from both ([`printed::Printed::verdict`]). The
+//! printed; computed numbers never are. A verdict follows from both ([`fovqa_report::Printed::verdict`]). The
 //! papers' larger tables are read from a folder; without it, the rows that need them are not checked.
 
 mod committed_page;
@@ -10,7 +10,6 @@ mod frame;
 mod known;
 mod page;
 mod patney;
-mod printed;
 mod rmfr;
 mod row;
 mod statistics;

@@ -2,8 +2,8 @@
 
 use fovqa_vision::find_display;
 
-use super::printed::Printed;
 use super::row::{Cell, PageRow, Paper};
+use fovqa_report::Printed;
 
 /// Table 1, in per cent of the frame's quads: Guenter's, and the paper's.
 const GUENTER_QUADS: [f64; 3] = [48.4, 49.9, 50.7];

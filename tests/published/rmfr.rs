@@ -3,10 +3,10 @@
 use fovqa_methods::{Foveation, Method, Setting, guenter, linear, rmfr};
 
 use super::frame::{centred, possible};
-use super::printed::{Printed, Verdict};
 use super::row::{Cell, PageRow, Paper};
 use super::statistics::{at_least, two_sided, whole_votes};
 use super::tables::{RMFR_TABLE, Table};
+use fovqa_report::{Printed, PrintedVerdict as Verdict};
 
 /// The display of the study, per eye, and its field.
 const FRAME: [usize; 2] = [1440, 1600];

@@ -1,6 +1,6 @@
 //! One line of the page: what a paper prints at a place, and what is computed.
 
-use super::printed::{Printed, Verdict};
+use fovqa_report::{Printed, PrintedVerdict as Verdict};
 
 /// A paper whose numbers are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, FisherSnedecor};
 
-use super::printed::{Printed, Verdict};
+use fovqa_report::{Printed, PrintedVerdict as Verdict};
 
 /// One-sided binomial test: the chance of at least `votes` of `trials`, each as likely as not.
 pub(super) fn at_least(votes: u64, trials: u64) -> f64 {

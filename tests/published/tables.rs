@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::printed::Printed;
+use fovqa_report::Printed;
 
 /// What a table's file holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

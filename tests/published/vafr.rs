@@ -9,8 +9,8 @@ use fovqa_vision::acuity::{AcuityModel, PiecewiseParams};
 use fovqa_vision::find_display;
 
 use super::frame::{centred, possible};
-use super::printed::Printed;
 use super::row::{Cell, PageRow, Paper};
+use fovqa_report::Printed;
 
 /// Table 1's resolutions with their names.
 const RESOLUTIONS: [(&str, [usize; 2]); 5] = [

@@ -25,6 +25,9 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
     if matches!(fovqa_config::is_curves(&args.experiment), Ok(true)) {
         return curves(args);
     }
+    if matches!(fovqa_config::is_study(&args.experiment), Ok(true)) {
+        return study(args);
+    }
     let mut experiment = match experiment::read(&args.experiment) {
         Ok(experiment) => experiment,
         Err(exit) => return exit,
@@ -40,6 +43,9 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
         Err(error) => return experiment::failed(&error.into()),
     };
     if let Err(error) = fovqa::foresee_figures(&experiment, &found, &metrics, &warnings) {
+        return experiment::failed(&error);
+    }
+    if let Err(error) = fovqa::check_study_of(&experiment) {
         return experiment::failed(&error);
     }
     let text = plan(&experiment, &metrics, &found);
@@ -111,6 +117,29 @@ fn curves(args: &CheckArgs) -> Exit {
     printed
 }
 
+/// Checks a study file with its tables, and shows its analyses.
+fn study(args: &CheckArgs) -> Exit {
+    let file = match experiment::read_study(&args.experiment) {
+        Ok(file) => file,
+        Err(exit) => return exit,
+    };
+    if let Err(error) = fovqa::check_study(&file) {
+        return experiment::failed(&error);
+    }
+    let mut text = format!("{}: {}\n", file.name, several(file.analyses.len()));
+    for of in &file.analyses {
+        let table = of.table.as_ref().or(of.scores.as_ref());
+        let table = table.map(|table| format!(" of {}", table.display())).unwrap_or_default();
+        let _ = writeln!(text, "  {}: {}{table}", of.name, of.request.kind());
+    }
+    let _ = writeln!(text, "\noutput: reports/{}", file.name);
+    output::write(|out| out.write_all(text.as_bytes()))
+}
+
+fn several(analyses: usize) -> String {
+    if analyses == 1 { "1 analysis".to_owned() } else { format!("{analyses} analyses") }
+}
+
 /// Checks that every mask exists and can be read.
 fn masks(experiment: &Experiment) -> bool {
     let eyes = experiment.plan.scenes.iter().flat_map(|scene| &scene.eyes);
@@ -168,6 +197,9 @@ fn plan(experiment: &Experiment, metrics: &[Metric], found: &FoundInputs) -> Str
         let of = of.map(String::as_str).collect::<Vec<_>>().join(", ");
         let of = if of.is_empty() { of } else { format!(" of {of}") };
         let _ = writeln!(text, "  line {}: {}{of}: {}", rule.line, rule.quantity, rule.limits());
+    }
+    if let Some(study) = &experiment.study {
+        let _ = writeln!(text, "\nmean opinion scores: {}", study.file);
     }
     let tests: usize =
         found.views.iter().flat_map(|view| &view.frames).map(|f| f.tests.len()).sum();

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use fovqa::{Complaint, CurvesFile, Experiment, ExperimentError, Fault};
+use fovqa::{Complaint, CurvesFile, Experiment, ExperimentError, Fault, StudyFile};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
 };
@@ -27,6 +27,11 @@ pub(crate) fn read(path: &Path) -> Result<Experiment, Exit> {
 /// Reads a curves file. Errors are reported before this returns.
 pub(crate) fn read_curves(path: &Path) -> Result<CurvesFile, Exit> {
     fovqa::read_curves(path).map_err(|error| failed(&error))
+}
+
+/// Reads a study file. Errors are reported before this returns.
+pub(crate) fn read_study(path: &Path) -> Result<StudyFile, Exit> {
+    fovqa::read_study(path).map_err(|error| failed(&error))
 }
 
 /// Reports an error to a user who writes experiment files.

@@ -58,7 +58,7 @@ fn dispatch(cli: Cli) -> Exit {
         Command::Check(args) => check::run(&args),
         Command::Curves(args) => curves::run(&args),
         Command::Foveate(args) => foveate::run(*args),
-        Command::Study(command) => study::run(&command),
+        Command::Study(args) => study::run(&args),
         Command::Schema { what } => schema::run(what),
         Command::List { what } => list::run(what),
         Command::Completions { shell } => output::write(|out| {

@@ -8,6 +8,7 @@ pub(crate) fn run(what: SchemaOf) -> Exit {
     let schema = match what {
         SchemaOf::Experiment => fovqa_config::schema(),
         SchemaOf::Curves => fovqa_config::curves_schema(),
+        SchemaOf::Study => fovqa_config::study_schema(),
     };
     output::write(|out| {
         serde_json::to_writer_pretty(&mut *out, &schema)?;

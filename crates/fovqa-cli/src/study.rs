@@ -1,111 +1,96 @@
-//! `fovqa study`: statistics of user studies.
+//! `fovqa study`: statistics of user studies, of one table by options or of all of a study file.
 
 use std::fs;
 use std::path::Path;
 
-use fovqa_results::write_json_output;
-use fovqa_study::input::{Data, Selection, Table};
-use fovqa_study::{
-    Analysis, Settings, StudyError, anova, metrics, pairs, plan, psychometric, ranks, ratings,
-    staircase,
-};
+use fovqa::StudyFile;
+use fovqa_results::{STUDY_JSON, write_json_output};
+use fovqa_study::input::{Selection, Table};
+use fovqa_study::{Analysis, Inputs};
 
-use crate::args::{InputArgs, PlanCommand, SettingsArgs, StudyCommand, StudyFormat};
+use crate::args::{Asked, SettingsArgs, StudyArgs, StudyCommand, StudyFormat};
+use crate::dialect::Dialect;
 use crate::exit::Exit;
-use crate::{diagnostic, output, threads};
+use crate::progress::Terminal;
+use crate::{diagnostic, experiment, output, threads};
 
-pub(crate) fn run(command: &StudyCommand) -> Exit {
-    analysed(command).unwrap_or_else(|exit| exit)
+pub(crate) fn run(args: &StudyArgs) -> Exit {
+    let outcome = match &args.command {
+        Some(command) => one(command),
+        None => files(args),
+    };
+    outcome.unwrap_or_else(|exit| exit)
 }
 
-fn analysed(command: &StudyCommand) -> Result<Exit, Exit> {
-    match command {
-        StudyCommand::Pairs(args) => of_table(&args.input, &args.settings, |data, settings| {
-            let options = pairs::Options {
-                ties: args.ties,
-                order: args.order.clone(),
-                reference: args.reference.clone(),
-                pseudo_votes: args.pseudo_votes,
-            };
-            pairs::pairs(data, &options, settings).map(Analysis::Pairs)
-        }),
-        StudyCommand::Ranks(args) => of_table(&args.input, &args.settings, |data, settings| {
-            let options = ranks::Options {
-                unit: args.unit.clone(),
-                pairwise: args.pairwise,
-                ties: args.ties,
-                order: args.order.clone(),
-            };
-            ranks::ranks(data, &options, settings).map(Analysis::Ranks)
-        }),
-        StudyCommand::Anova(args) => of_table(&args.input, &args.settings, |data, settings| {
-            anova::anova(data, &args.within, settings).map(Analysis::Anova)
-        }),
-        StudyCommand::Psychometric(args) => {
-            of_table(&args.input, &args.settings, |data, settings| {
-                let options = args.options();
-                psychometric::psychometric(data, &options, settings).map(Analysis::Psychometric)
-            })
+/// Carries out study files. If one of them contains a mistake, nothing is done.
+fn files(args: &StudyArgs) -> Result<Exit, Exit> {
+    let read: Vec<Result<StudyFile, Exit>> =
+        args.files.iter().map(|path| experiment::read_study(path)).collect();
+    let files = read.into_iter().collect::<Result<Vec<StudyFile>, Exit>>()?;
+    for (index, file) in files.iter().enumerate() {
+        if let Some(other) = files[..index].iter().find(|other| other.name == file.name) {
+            let (a, b) = (other.path.display(), file.path.display());
+            let name = &file.name;
+            let message =
+                format!("{a} and {b} have the same name, {name:?}, and would share a folder");
+            diagnostic::error(&message, "give each file its own name");
+            return Err(Exit::Usage);
         }
-        StudyCommand::Staircase(args) => of_table(&args.input, &args.settings, |data, settings| {
-            let options = args.threshold.options();
-            staircase::staircase(data, &options, settings).map(Analysis::Staircase)
-        }),
-        StudyCommand::Ratings(args) => of_table(&args.input, &args.settings, |data, settings| {
-            ratings::ratings(data, &args.options(), settings).map(Analysis::Ratings)
-        }),
-        StudyCommand::Metrics(args) => {
-            let scores = read(&args.scores)?;
-            of_table(&args.input, &args.settings, |data, settings| {
-                metrics::metrics(data, &scores, &args.options(), settings).map(Analysis::Metrics)
-            })
-        }
-        StudyCommand::Plan(PlanCommand::Pairs(args)) => planned(&args.settings, |settings| {
-            Ok(Analysis::PlanPairs(plan::plan_pairs(&args.options(), settings)))
-        }),
-        StudyCommand::Plan(PlanCommand::Staircase(args)) => planned(&args.settings, |settings| {
-            plan::plan_staircase(&args.options(), settings).map(Analysis::PlanStaircase)
-        }),
     }
+    threads::started(args.threads)?;
+    let mut outcome = Exit::Done;
+    for file in &files {
+        let folder = args.output.as_ref();
+        let folder = folder.map(|folder| match files.as_slice() {
+            [_] => folder.clone(),
+            _ => folder.join(&file.name),
+        });
+        // An error in one file does not prevent the others.
+        match carried_out(args, file, folder.as_deref()) {
+            Ok(Exit::Done) => {}
+            Ok(exit) | Err(exit) => outcome = exit,
+        }
+    }
+    Ok(outcome)
 }
 
-/// Computes a plan, which needs no table, and shows it.
-fn planned(
-    settings: &SettingsArgs,
-    compute: impl FnOnce(&Settings) -> Result<Analysis, StudyError>,
-) -> Result<Exit, Exit> {
-    threads::started(settings.threads)?;
-    show(&compute(&settings.settings()).map_err(|error| wrong(&error))?, settings)
+/// Carries out all analyses of a study file.
+fn carried_out(args: &StudyArgs, file: &StudyFile, folder: Option<&Path>) -> Result<Exit, Exit> {
+    let terminal = Terminal::speaking(Dialect::Options);
+    let finished = fovqa::study(file, folder, args.lock.locking(), &terminal)
+        .map_err(|error| experiment::said(&error, Dialect::Options))?;
+    let text = match args.format {
+        StudyFormat::Text => &finished.drawn.text,
+        StudyFormat::Json => &finished.json,
+    };
+    let printed = output::write(|out| out.write_all(text.as_bytes()));
+    let figures = match finished.drawn.figures {
+        1 => "1 figure".to_owned(),
+        count => format!("{count} figures"),
+    };
+    let shown = finished.folder.display();
+    diagnostic::note(&format!("{shown}: {STUDY_JSON}, {figures}; look at {shown}/index.html"));
+    Ok(printed)
 }
 
-/// Reads the table, computes the result of its selected rows, and shows it.
-fn of_table(
-    input: &InputArgs,
-    settings: &SettingsArgs,
-    compute: impl FnOnce(&Data, &Settings) -> Result<Analysis, StudyError>,
-) -> Result<Exit, Exit> {
+/// Carries out one analysis, and shows it.
+fn one(command: &StudyCommand) -> Result<Exit, Exit> {
+    let Asked { request, input, scores, settings } = command.asked();
     threads::started(settings.threads)?;
-    let table = read(&input.file)?;
-    let selection: Selection = input.selection();
-    let analysis =
-        Data::new(&table, &selection).and_then(|data| compute(&data, &settings.settings()));
-    show(&analysis.map_err(|error| wrong(&error))?, settings)
+    let table = input.map(|input| read(&input.file)).transpose()?;
+    let scores = scores.map(|path| read(&path)).transpose()?;
+    let selection = input.map_or_else(Selection::default, |input| input.selection());
+    let inputs = Inputs { table: table.as_ref(), scores: scores.as_ref() };
+    let analysis = request.answer(inputs, &selection, &settings.settings()).map_err(|error| {
+        diagnostic::error(&error.to_string(), &diagnostic::shown(&error.help()));
+        Exit::Input
+    })?;
+    show(&analysis, settings)
 }
 
 /// Reads a CSV table.
 fn read(path: &Path) -> Result<Table, Exit> {
-    let file = path.display().to_string();
-    let bytes = fs::read(path).map_err(|error| {
-        let help = "check the path; `fovqa study --help` shows what the file has to contain";
-        diagnostic::error(&format!("{file} cannot be read: {error}"), help);
-        Exit::Input
-    })?;
-    Table::read(&file, &bytes).map_err(|error| wrong(&error))
-}
-
-fn wrong(error: &StudyError) -> Exit {
-    diagnostic::error(&error.to_string(), &diagnostic::shown(&error.help()));
-    Exit::Input
+    fovqa::read_table(path).map_err(|error| experiment::said(&error, Dialect::Options))
 }
 
 /// Prints a result, and writes it to the folder of `--output`.
@@ -132,7 +117,7 @@ fn write(analysis: &Analysis, folder: &Path) -> Result<(), Exit> {
         diagnostic::error(&message, help);
         Exit::Input
     })?;
-    write_json_output(&folder.join("study.json"), analysis).map_err(|error| {
+    write_json_output(&folder.join(STUDY_JSON), analysis).map_err(|error| {
         diagnostic::error(&error.to_string(), help);
         Exit::Input
     })

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use fovqa_io::read_head;
 use fovqa_results::{
-    CURVES_CSV, CURVES_JSON, INDEX_HTML, LIMITS_CSV, LIMITS_JSON, REPORT_HTML, REPORT_JSON,
-    RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, SUMMARY_JSON, make_folder, sweep, take_away,
-    try_writing,
+    CURVES_CSV, CURVES_JSON, INDEX_HTML, LIMITS_CSV, LIMITS_JSON, OPINIONS_CSV, REPORT_HTML,
+    REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, STUDY_JSON, SUMMARY_JSON, make_folder,
+    sweep, take_away, try_writing,
 };
 use thiserror::Error;
 
@@ -19,7 +19,7 @@ use crate::journal::JOURNAL;
 const LOCK: &str = ".fovqa.lock";
 
 /// The files that a run writes, and the figures at the top level of its folder.
-const OURS: [&str; 15] = [
+const OURS: [&str; 17] = [
     RESULTS_CSV,
     RESULTS_PARQUET,
     SUMMARY_JSON,
@@ -30,6 +30,8 @@ const OURS: [&str; 15] = [
     CURVES_JSON,
     LIMITS_CSV,
     LIMITS_JSON,
+    STUDY_JSON,
+    OPINIONS_CSV,
     INDEX_HTML,
     REPORT_HTML,
     "table.csv",
@@ -45,7 +47,12 @@ fn is_ours(path: &Path) -> bool {
         || begins(path, REPORT_JSON, "fovqa.report")
         || begins(path, CURVES_JSON, "fovqa.curves")
         || begins(path, LIMITS_JSON, "fovqa.limits")
+        || begins(path, STUDY_JSON, STUDIES)
 }
+
+/// The schema of the results of a study file. `fovqa study` writes those of a single analysis, which have
+/// another schema, into any folder.
+const STUDIES: &str = "fovqa.studies";
 
 /// Whose results a folder holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,15 +60,17 @@ enum Kind {
     Run,
     Curves,
     Limits,
+    Study,
 }
 
 /// The files that tell whose results a folder holds, with the beginning of their schemas and the
 /// command that writes them.
-const KINDS: [(Kind, &str, &str, &str); 4] = [
+const KINDS: [(Kind, &str, &str, &str); 5] = [
     (Kind::Run, RUN_JSON, "fovqa.run", "`fovqa run`"),
     (Kind::Run, JOURNAL, "fovqa.journal", "`fovqa run`"),
     (Kind::Curves, CURVES_JSON, "fovqa.curves", "`fovqa curves`"),
     (Kind::Limits, LIMITS_JSON, "fovqa.limits", "`fovqa limit`"),
+    (Kind::Study, STUDY_JSON, STUDIES, "`fovqa study`"),
 ];
 
 /// Whether a file in a folder begins like a file with the given schema.
@@ -117,7 +126,7 @@ pub enum FolderError {
     /// Another process writes to it.
     #[error("{}: another run is writing to this folder", .0.display())]
     Busy(PathBuf),
-    /// It contains results of another kind: of a run, of curves, or of a search for limits.
+    /// It contains results of another kind: of a run, of curves, of a search for limits, or of a study.
     #[error("{}: the folder contains the results of {of}", path.display())]
     Other {
         /// The folder.
@@ -205,6 +214,15 @@ impl ResultsFolder {
         Self::of_one(path, Kind::Limits, locking)
     }
 
+    /// Creates the folder of a study file and locks it.
+    ///
+    /// # Errors
+    /// If the folder cannot be created or written to, another process uses it, or its files do not
+    /// belong to a study.
+    pub fn open_for_study(path: &Path, locking: Locking) -> Result<Self, FolderError> {
+        Self::of_one(path, Kind::Study, locking)
+    }
+
     fn of_one(path: &Path, kind: Kind, locking: Locking) -> Result<Self, FolderError> {
         let other = KINDS.into_iter().filter(|(other, ..)| *other != kind);
         let mut other = other.filter(|(_, file, schema, _)| begins(path, file, schema));
@@ -255,6 +273,8 @@ impl ResultsFolder {
             CURVES_JSON,
             LIMITS_CSV,
             LIMITS_JSON,
+            STUDY_JSON,
+            OPINIONS_CSV,
         ];
         for file in files {
             take_away(&self.path.join(file))

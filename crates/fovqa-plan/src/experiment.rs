@@ -10,6 +10,7 @@ use crate::output::OutputSettings;
 use crate::plan::Plan;
 use crate::plots::Plot;
 use crate::report::{ReportSettings, WantedPictures};
+use crate::study::OpinionScores;
 
 /// The content of an experiment file.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -34,6 +35,8 @@ pub struct Experiment {
     pub figures: FigureSettings,
     /// What the report shows of the frames.
     pub report: ReportSettings,
+    /// Mean opinion scores that its metrics are compared with.
+    pub study: Option<OpinionScores>,
     /// The rules of its gate.
     pub gates: Vec<GateRule>,
     /// The baselines of its gate, of which the best match counts.

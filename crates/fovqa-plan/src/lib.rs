@@ -26,6 +26,7 @@ mod settings;
 mod source;
 mod spacing;
 mod spread_test;
+mod study;
 mod sweep;
 
 pub use builtin::BuiltinFrames;
@@ -53,4 +54,5 @@ pub use settings::{Gaze, Nonfinite, Settings};
 pub use source::SourceSpec;
 pub use spacing::spaced;
 pub use spread_test::{Adjust, SpreadTest};
+pub use study::{OpinionScores, PrintedNumber, StudyAnalysis, StudyFile};
 pub use sweep::{Sweep, SweptKey, shown as shown_value, swept_label};

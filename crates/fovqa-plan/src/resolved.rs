@@ -20,6 +20,7 @@ use crate::plots::Plot;
 use crate::report::ReportSettings;
 use crate::settings::{Gaze, Settings};
 use crate::source::SourceSpec;
+use crate::study::OpinionScores;
 use crate::sweep::Sweep;
 
 /// A resolved experiment. Paths are relative to the folder of its file if they are inside it.
@@ -54,6 +55,9 @@ pub struct Resolved {
     /// The rules of the gate.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gates: Vec<GateRule>,
+    /// Mean opinion scores that the metrics are compared with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub study: Option<OpinionScores>,
     /// Whether names in CSV files are protected so that a spreadsheet does not read them as
     /// formulas.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -247,6 +251,7 @@ impl Experiment {
             plots: self.plots.clone(),
             figures: self.figures.clone(),
             gates: self.gates.clone(),
+            study: self.study.clone(),
             spreadsheet_safe: self.output.spreadsheet_safe,
             report: self.report.clone(),
             maps: self.output.maps.iter().map(|metric| metric.key().to_owned()).collect(),

@@ -20,6 +20,7 @@ use crate::plain_table::PlainTable;
 use crate::plot_figures::plot_figures;
 use crate::run_table::RunTable;
 use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
+use crate::study::study_of_run;
 use crate::sweep::optima;
 use crate::viewer::Viewer;
 
@@ -90,6 +91,16 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
         }
     }
 
+    let study = study_of_run(folder, &run.resolved)?;
+    for (name, table) in study.tables {
+        let name = names.free(&name);
+        let label = usual_label(&slug(&run.resolved.name), &name);
+        tables.push((name, RunTable::plain(table).labelled(label)));
+    }
+    for figure in study.figures {
+        drawn.push(NamedFigure { name: names.free(&figure.name), ..figure });
+    }
+
     let figures = drawn.len();
     let viewer = Viewer::read(&source, folder)?;
     // The page has everything else if the verdict is damaged.
@@ -110,7 +121,8 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
     };
     let of_figures = sheet.write(folder)?;
     drop(sheet);
-    let warnings = warning.into_iter().chain(of_figures).chain(viewer.warnings).chain(damaged);
+    let warnings = warning.into_iter().chain(study.warning).chain(of_figures);
+    let warnings = warnings.chain(viewer.warnings).chain(damaged);
     let warnings = warnings.collect();
     let table = tables.into_iter().next().map(|(_, table)| table);
     Ok(Drawn { table, figures, warnings })

@@ -7,14 +7,30 @@ use std::path::{Path, PathBuf};
 use askama::Template;
 use fovqa_results::{
     CURVES_JSON, CURVES_SCHEMA, CurvesRecord, FileError, INDEX_HTML, REPORT_HTML, RUN_JSON,
-    RUN_SCHEMA, RunRecord, open_result_file, read_json_file, write_whole,
+    RUN_SCHEMA, RunRecord, STUDIES_SCHEMA, STUDY_JSON, open_result_file, read_json_file,
+    write_whole,
 };
+use serde::Deserialize;
 
 use crate::page::{Shell, address};
 use crate::sheet::{PLOTS, ReportError, drawn_before};
 
 /// Marks a page as written by fovqa, so that it may be replaced.
 const MARK: &str = "<meta name=\"generator\" content=\"fovqa report\">";
+
+/// What the page says of a study.
+#[derive(Default, Deserialize)]
+struct StudyRecord {
+    name: String,
+    about: String,
+}
+
+/// Whether a folder has the results of a study file. Those of a single analysis have no page.
+fn is_study(folder: &Path) -> bool {
+    let record: Result<StudyRecord, FileError> =
+        read_json_file(&folder.join(STUDY_JSON), STUDIES_SCHEMA, "the record of a study");
+    record.is_ok()
+}
 
 /// A folder of results.
 struct Entry {
@@ -40,7 +56,7 @@ pub fn draw_index(folder: &Path) -> Result<Option<usize>, ReportError> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for item in fs::read_dir(folder).map_err(unreadable)? {
         let path = item.map_err(unreadable)?.path();
-        if path.join(RUN_JSON).is_file() || path.join(CURVES_JSON).is_file() {
+        if [RUN_JSON, CURVES_JSON].iter().any(|file| path.join(file).is_file()) || is_study(&path) {
             paths.push(path);
         }
     }
@@ -88,6 +104,10 @@ impl Entry {
         let (name, about) = if path.join(CURVES_JSON).is_file() {
             let record: CurvesRecord =
                 read_json_file(&path.join(CURVES_JSON), CURVES_SCHEMA, "a record of curves")?;
+            (record.name, record.about)
+        } else if !path.join(RUN_JSON).is_file() {
+            let record: StudyRecord =
+                read_json_file(&path.join(STUDY_JSON), STUDIES_SCHEMA, "the record of a study")?;
             (record.name, record.about)
         } else {
             let record: RunRecord =

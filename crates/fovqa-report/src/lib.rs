@@ -23,6 +23,7 @@ mod page;
 mod plain_table;
 mod plot_figures;
 mod print;
+mod printed;
 mod run_table;
 mod sheet;
 mod study;
@@ -40,9 +41,13 @@ pub use foveate_text::foveate_text;
 pub use heat_map::MapSheet;
 pub use index::draw_index;
 pub use limits::{DrawnLimits, draw_limits};
+pub use printed::{Printed, PrintedVerdict};
 pub use run_table::{PlainRunTable, RunTable};
 pub use sheet::{ReportError, clear};
-pub use study::study_text;
+pub use study::{
+    AnsweredAnalysis, DrawnStudy, ResultOfPrinted, draw_study, printed_results, study_json,
+    study_text,
+};
 pub use terminal::score_table;
 pub use verdict::{
     baseline_table, difference_table, github_annotations, gitlab_report, junit, markdown,

@@ -35,6 +35,12 @@ pub const CURVES_JSON: &str = "curves.json";
 pub const LIMITS_CSV: &str = "limits.csv";
 /// The record of a search for limits.
 pub const LIMITS_JSON: &str = "limits.json";
+/// The results of analyses of user studies.
+pub const STUDY_JSON: &str = "study.json";
+/// Schema of [`STUDY_JSON`] of a study file. That of a single analysis is `fovqa.study/1`.
+pub const STUDIES_SCHEMA: &str = "fovqa.studies/1";
+/// Mean opinion scores that a run compares its metrics with.
+pub const OPINIONS_CSV: &str = "opinions.csv";
 /// Name and version of the format of [`CURVES_JSON`].
 pub const CURVES_SCHEMA: &str = "fovqa.curves/1";
 

@@ -34,8 +34,8 @@ pub use csv_names::CsvNames;
 pub use curves::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
     CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, INDEX_HTML, LIMITS_CSV, LIMITS_JSON,
-    REPORT_HTML, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, SUMMARY_JSON,
-    open_result_file, read_json_file,
+    OPINIONS_CSV, REPORT_HTML, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, STUDIES_SCHEMA,
+    STUDY_JSON, SUMMARY_JSON, open_result_file, read_json_file,
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{

@@ -77,6 +77,7 @@ mod map_sheets;
 mod maps;
 mod memory;
 mod merge;
+mod opinions;
 mod pair;
 mod pictures;
 mod reopened;
@@ -85,6 +86,7 @@ mod report;
 mod run;
 mod samples;
 mod score;
+mod study;
 
 pub use baseline::{Accepted, Frames, Saved, accept_baseline, read_baseline, save_baseline};
 pub use calibrate::calibrate;
@@ -92,7 +94,7 @@ pub use calibrated_rules::write_limits;
 pub use curves::curves;
 pub use error::{Complaint, Error};
 pub use events::Silent;
-pub use experiment::{read_curves, read_experiment};
+pub use experiment::{read_curves, read_experiment, read_study};
 pub use finish::text_hash;
 pub use finished_run::FinishedRun;
 pub use foreseen_figures::{check_curves, foresee_figures};
@@ -102,11 +104,13 @@ pub use gate::{Against, gate, gate_folder};
 pub use limit::{FoundLimits, LimitOptions, find_limits};
 pub use maps::maps_lacking;
 pub use merge::merge;
+pub use opinions::check_study_of;
 pub use pair::{PairScores, ScoreMap, ScoreOptions, score};
 pub use report::{Report, report};
 pub use run::{Finished, Run, RunOptions, problems};
 pub use samples::Sample;
 pub use score::score_files;
+pub use study::{FinishedStudy, check_study, read_table, study};
 
 pub use fovqa_config::{ExperimentError, Fault};
 pub use fovqa_emulate::{Budget, EmulationSpec, FilterChoice, Sampling, Space};
@@ -122,7 +126,7 @@ pub use fovqa_metrics::{Metric, ParamSet, ReadBackError};
 pub use fovqa_params::ParamValue;
 pub use fovqa_plan::{
     CurvesFile, Emulation, Experiment, Eye, EyeView, GateRule, Gaze, MetricChoice, Nonfinite, Plan,
-    Scene, Settings, SourceSpec,
+    Scene, Settings, SourceSpec, StudyFile,
 };
 pub use fovqa_results::{
     Baseline, Calibration, FALSE_ALARMS, Failure, FoveateRecord, RunResults, ScoreReport, Verdict,

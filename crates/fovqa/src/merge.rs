@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::finish::{clear, finish, in_folder};
 use crate::kept_frames::copy_kept;
 use crate::maps::copy_maps;
+use crate::opinions::copy_opinions;
 use crate::pictures::{Pictures, Taking, clear_pictures, copy_pictures, take_missing};
 use crate::run::Finished;
 
@@ -44,9 +45,9 @@ pub fn merge(
     clear_pictures(folder.path());
     Journal::begin(folder.path(), header, plan, &findings)?;
     for shard in shards {
-        let copies = [copy_kept, copy_crops, copy_maps, copy_pictures];
+        let copies = [copy_kept, copy_crops, copy_maps, copy_pictures, copy_opinions];
         copies.into_iter().try_for_each(|copy| copy(shard, folder.path())).map_err(|error| {
-            let message = format!("{}: its pictures cannot be copied: {error}", shard.display());
+            let message = format!("{}: its files cannot be copied: {error}", shard.display());
             Error::input(message, "free some space, or give another folder with {output}")
         })?;
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use fovqa_engine::{Locking, ResultsFolder, shard_in};
 use fovqa_report::{Drawn, DrawnLimits};
 use fovqa_results::{
-    CURVES_JSON, LIMITS_JSON, LIMITS_SCHEMA, LimitsRecord, RUN_JSON, read_json_file,
+    CURVES_JSON, LIMITS_JSON, LIMITS_SCHEMA, LimitsRecord, RUN_JSON, STUDY_JSON, read_json_file,
 };
 
 use crate::error::Error;
@@ -32,6 +32,11 @@ pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
     if folder.join(CURVES_JSON).is_file() {
         let message = format!("{shown}: the folder contains curves");
         let help = "draw them again with `fovqa curves`, from their file";
+        return Err(Error::input(message, help));
+    }
+    if folder.join(STUDY_JSON).is_file() && !folder.join(RUN_JSON).is_file() {
+        let message = format!("{shown}: the folder contains a study");
+        let help = "carry it out again with `fovqa study`, from its file";
         return Err(Error::input(message, help));
     }
     if folder.join(LIMITS_JSON).is_file() {

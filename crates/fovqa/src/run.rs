@@ -18,6 +18,7 @@ use crate::finish::{Judge, clear, finish, in_folder, say_failures_of_shard};
 use crate::foreseen_figures::foresee_figures_of_run;
 use crate::kept_frames::{KeptFrames, check_inputs};
 use crate::maps::{MapsFolder, maps_lacking};
+use crate::opinions::Opinions;
 use crate::pictures::{Pictures, Taking, clear_pictures, no_pictures, take_missing};
 
 /// How an experiment is run.
@@ -159,6 +160,7 @@ impl Run {
         foresee_figures_of_run(&self.experiment, &self.found, events)?;
         let folder = self.folder();
         check_inputs(&self.experiment.plan, &self.found, &folder)?;
+        let opinions = Opinions::read(&self.experiment)?;
         // The folder is opened before anything is scored, so that a folder that cannot be written
         // to is noticed at once.
         let folder = ResultsFolder::open(&folder, self.options.locking)
@@ -174,6 +176,9 @@ impl Run {
         warn_of_regions(&self.experiment.plan, &self.found, events);
         let mut pictures = Pictures::new(folder.path(), self.experiment.report.size);
         let findings = self.score(&folder, (&header, known), (&maps, &mut pictures), events)?;
+        if let Some(opinions) = opinions {
+            opinions.write(folder.path())?;
+        }
         let plan = &self.experiment.plan;
         let path = folder.path().to_owned();
         if self.options.shard.is_some() {

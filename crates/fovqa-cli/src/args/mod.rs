@@ -27,7 +27,7 @@ pub(crate) use gate::{Annotations, GateArgs, GateFormat};
 pub(crate) use limit::LimitArgs;
 pub(crate) use run::{CheckArgs, MergeArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
-pub(crate) use study::{InputArgs, PlanCommand, SettingsArgs, StudyCommand, StudyFormat};
+pub(crate) use study::{Asked, SettingsArgs, StudyArgs, StudyCommand, StudyFormat};
 
 use clap::{Parser, Subcommand, ValueEnum};
 
@@ -91,8 +91,8 @@ pub(crate) enum Command {
     #[command(after_help = foveate::EXAMPLES)]
     Foveate(Box<FoveateArgs>),
     /// Statistics of user studies: pairwise comparisons, ranks, ANOVA, thresholds, ratings.
-    #[command(subcommand, after_help = study::EXAMPLES)]
-    Study(StudyCommand),
+    #[command(after_help = study::EXAMPLES)]
+    Study(Box<StudyArgs>),
     /// List metrics, foveation methods and acuity models, or display presets.
     List {
         /// What to list.
@@ -112,6 +112,8 @@ pub(crate) enum SchemaOf {
     Experiment,
     /// The curve file of `fovqa curves`.
     Curves,
+    /// The study file of `fovqa study`.
+    Study,
 }
 
 /// What can be listed.

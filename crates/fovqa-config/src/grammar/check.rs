@@ -270,6 +270,14 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
             }
         }
         (Kind::Table(keys), DeValue::Table(table)) => check(keys, table, place, span, faults),
+        (Kind::Texts, DeValue::Table(table)) => {
+            for (name, value) in table {
+                let is_text = matches!(value.get_ref(), DeValue::String(_));
+                if !is_text {
+                    wrong_type(&Kind::Text, value, &inside(place, name.get_ref()), faults);
+                }
+            }
+        }
         (Kind::Tables(_, most), DeValue::Array(items)) if items.len() > *most => {
             out_of_range(&format!("an array of {}", items.len()));
         }
@@ -359,7 +367,12 @@ fn is_of(kind: &Kind, value: &Spanned<DeValue<'_>>) -> bool {
         DeValue::Table(_) => {
             matches!(
                 kind,
-                Kind::Table(_) | Kind::Metrics | Kind::Method | Kind::Acuity | Kind::Emulation
+                Kind::Table(_)
+                    | Kind::Texts
+                    | Kind::Metrics
+                    | Kind::Method
+                    | Kind::Acuity
+                    | Kind::Emulation
             )
         }
         DeValue::Datetime(_) => false,

@@ -10,6 +10,7 @@ use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
 use super::emulate::{BUDGET, SHARE};
 use super::figures::FIGURES;
 use super::keys::{joined, key, required};
+use super::study::OPINIONS;
 use super::tables::{METRICS, TABLE_KEYS};
 use super::{Key, Kind};
 use fovqa_plan::Nonfinite;
@@ -496,7 +497,7 @@ pub(crate) const SWEEP_RANGE: &[Key] = &[
 
 const FINITE: Kind = Kind::Number(-1e12, 1e12);
 
-static EXPERIMENT_TABLE: [Key; 17] = [
+static EXPERIMENT_TABLE: [Key; 18] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
     required("name", Kind::Name, "name of the experiment, and of its folder below reports/"),
     key("about", Kind::Text, "description of what it shows, for its page"),
@@ -528,6 +529,11 @@ static EXPERIMENT_TABLE: [Key; 17] = [
         "tables and figures; if none is given, all that fit",
     ),
     key("figures", Kind::Table(&FIGURES), "how figures are printed"),
+    key(
+        "study",
+        Kind::Table(&OPINIONS),
+        "mean opinion scores, which the scores of the metrics are compared with",
+    ),
     key("gate", Kind::Tables(&GATE_TABLE, 1000), "the rules of `fovqa gate`"),
     key(
         "baseline",

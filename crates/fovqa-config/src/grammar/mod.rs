@@ -8,13 +8,15 @@ mod experiment;
 mod figures;
 mod keys;
 mod schema;
+mod study;
 mod tables;
 
 pub(crate) use check::{check, number};
 pub(crate) use curves::{CURVES, MOST_CURVES};
 pub(crate) use emulate::{BUDGET, OTHER_EYE, REPROJECT};
 pub(crate) use experiment::{EXPERIMENT, SWEEP_RANGE};
-pub use schema::{curves_schema, schema};
+pub use schema::{curves_schema, schema, study_schema};
+pub(crate) use study::{ANALYSES, STUDY};
 
 use fovqa_methods::Method;
 use fovqa_params::{ParamInfo, ParamValues};
@@ -73,6 +75,8 @@ pub(crate) enum Kind {
     List(&'static Kind, usize, usize),
     /// A table.
     Table(&'static [Key]),
+    /// A table with keys of its own, whose values are texts.
+    Texts,
     /// An array of tables, with the maximum number of tables.
     Tables(&'static [Key], usize),
     /// A table whose keys are metrics and whose values are tables of parameters.
@@ -124,6 +128,7 @@ impl Kind {
                 let names = keys.iter().map(|key| format!("{} = …", key.name));
                 format!("a table {{ {} }}", names.collect::<Vec<_>>().join(", "))
             }
+            Kind::Texts => "a table such as { scene = \"hall\" }, with values in quotes".to_owned(),
             Kind::Tables(_, most) => format!("an array of at most {most} tables"),
             Kind::Metrics => "a table of metrics".to_owned(),
             Kind::Sweep => "a table such as { \"RMFR.fx\" = [0.1, 0.2] }".to_owned(),

@@ -8,7 +8,7 @@ use fovqa_vision::displays;
 use serde_json::{Map, Value, json};
 
 use super::emulate;
-use super::{CURVES, EXPERIMENT, Key, Kind, LONGEST_TEXT, Model, SWEEP_RANGE, parameter};
+use super::{CURVES, EXPERIMENT, Key, Kind, LONGEST_TEXT, Model, STUDY, SWEEP_RANGE, parameter};
 
 /// Whole numbers from 1 on, as regular expressions.
 const TO_100000: &str = "([1-9][0-9]{0,4}|100000)";
@@ -26,6 +26,12 @@ pub fn curves_schema() -> Value {
     let about =
         "Foveation methods compared with acuity: curves, figures and tables of fovqa (TOML)";
     headed(table(CURVES), "fovqa curves", about)
+}
+
+/// The JSON Schema of a study file.
+pub fn study_schema() -> Value {
+    let about = "Analyses of user studies of fovqa (TOML)";
+    headed(table(STUDY), "fovqa study", about)
 }
 
 fn headed(mut schema: Value, title: &str, description: &str) -> Value {
@@ -112,6 +118,7 @@ fn kind(kind: &Kind) -> Value {
             json!({ "type": "array", "items": self::kind(of), "minItems": min, "maxItems": max })
         }
         Kind::Table(keys) => table(keys),
+        Kind::Texts => json!({ "type": "object", "additionalProperties": { "type": "string" } }),
         Kind::Tables(keys, most) => {
             json!({ "type": "array", "items": table(keys), "minItems": 1, "maxItems": most })
         }

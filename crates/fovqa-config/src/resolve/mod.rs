@@ -17,11 +17,13 @@ mod report;
 mod reproject;
 mod scenes;
 mod settings;
+mod study;
 mod sweep;
 mod tables;
 mod view;
 
 pub(crate) use curves::curves;
+pub(crate) use study::study;
 
 use std::path::Path;
 
@@ -49,12 +51,14 @@ pub(crate) fn experiment(
     let plots = plots::plots(root, &known, &figures, faults);
     let crops = regions::of_all(root, &plots, faults);
     let gates = gates::gates(root, text, &known, faults);
+    let output = output::output(root, &choice, faults);
     Experiment {
         name: root.text("name").unwrap_or_default().to_owned(),
         about: root.text("about").map(str::to_owned),
         path: path.to_owned(),
         text: String::new(),
-        output: output::output(root, &choice, faults),
+        study: study::opinions(root, (&choice, &output), faults),
+        output,
         report: report::report(root, &choice, faults),
         metric_order: order,
         plots,

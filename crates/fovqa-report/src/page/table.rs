@@ -13,6 +13,8 @@ pub(crate) struct PageTable {
     /// The name of its files without ending, which is also its place on the page.
     pub(crate) name: String,
     pub(crate) caption: String,
+    /// The level of its heading: 2, or 3 below a heading of its own.
+    level: u8,
     /// `None` if it is too large for a page.
     table: Option<HtmlTable>,
     notes: String,
@@ -26,6 +28,7 @@ impl PageTable {
         Self {
             name: name.to_owned(),
             caption: table.caption().to_owned(),
+            level: 2,
             table: table.html(),
             notes: notes.join(" "),
         }
@@ -36,8 +39,16 @@ impl PageTable {
         Self {
             name: name.to_owned(),
             caption: table.caption.clone(),
+            level: 2,
             table: table.html(),
             notes: table.notes.join(" "),
         }
+    }
+
+    /// A plain table in a section that has a heading.
+    pub(crate) fn in_section(name: &str, table: &PlainTable) -> Self {
+        // Notes are parts of sentences.
+        let notes = table.notes.join("; ");
+        Self { level: 3, notes, ..Self::plain(name, table) }
     }
 }

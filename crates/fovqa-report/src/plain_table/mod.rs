@@ -143,8 +143,9 @@ impl PlainTable {
     }
 
     pub(crate) fn terminal(&self) -> String {
-        let heads: Vec<&str> = self.columns.iter().map(|column| column.head.as_str()).collect();
-        let mut table = plain_table(&heads);
+        let heads: Vec<String> =
+            self.columns.iter().map(|column| printable(&column.head)).collect();
+        let mut table = plain_table(&heads.iter().map(String::as_str).collect::<Vec<_>>());
         for row in &self.rows {
             table.add_row(row.iter().map(|cell| printable(&cell.shown)));
         }

@@ -1,36 +1,22 @@
-//! Pairwise comparisons as text.
+//! Tables of pairwise comparisons.
 
-use fovqa_study::adjust::stars;
 use fovqa_study::pairs::{Consistency, Pairs, Scaled};
 
-use super::Report;
-use super::numbers::{half_open, interval, number, p_value};
-use crate::text_table::{plain_table, printable};
+use super::cells::{half_open, interval, number, p_value, stars, whole, whole_or};
+use super::parts::Parts;
+use crate::plain_table::Cell;
 
-pub(super) fn text(pairs: &Pairs, report: &mut Report) {
-    shares(pairs, report);
-    scores(pairs, report);
-    consistency(&pairs.consistency, report);
+pub(super) fn parts(pairs: &Pairs, parts: &mut Parts) {
+    shares(pairs, parts);
+    scores(pairs, parts);
+    consistency(&pairs.consistency, parts);
 }
 
-fn shares(pairs: &Pairs, report: &mut Report) {
-    let mut table = plain_table(&[
-        "pair",
-        "wins",
-        "losses",
-        "ties",
-        "share",
-        "Clopper-Pearson",
-        "Wilson",
-        "by participants",
-        "p",
-        "p adjusted",
-        "",
-    ]);
+fn shares(pairs: &Pairs, parts: &mut Parts) {
     let name = |method: &str, opponent: &str| format!("{method} – {opponent}");
-    for pair in &pairs.pairs {
-        table.add_row([
-            printable(&name(&pair.method, &pair.opponent)),
+    let row = |pair: &fovqa_study::pairs::Pair| {
+        vec![
+            Cell::text(name(&pair.method, &pair.opponent)),
             number(pair.wins),
             number(pair.losses),
             number(pair.ties),
@@ -40,68 +26,106 @@ fn shares(pairs: &Pairs, report: &mut Report) {
             half_open(pair.cluster),
             p_value(pair.p_two_sided),
             p_value(pair.p_adjusted),
-            stars(pair.p_adjusted).to_owned(),
-        ]);
-    }
-    let title =
-        format!("Shares of votes; {} participants; two-sided binomial tests", pairs.participants);
-    report.table(&title, table);
-    report.reasons(
+            stars(pair.p_adjusted),
+        ]
+    };
+    let columns = [
+        ("pair", "pair"),
+        ("wins", "wins"),
+        ("losses", "losses"),
+        ("ties", "ties"),
+        ("share", "share"),
+        ("Clopper-Pearson", "clopper_pearson"),
+        ("Wilson", "wilson"),
+        ("by participants", "cluster"),
+        ("p", "p_two_sided"),
+        ("p adjusted", "p_adjusted"),
+        ("", "stars"),
+    ];
+    let caption = "Shares of votes, with two-sided binomial tests";
+    parts.table(("shares", caption), &columns, pairs.pairs.iter().map(row).collect());
+    parts.detail(participants(pairs.participants));
+    parts.reasons(
         pairs.pairs.iter().map(|pair| (name(&pair.method, &pair.opponent), pair.reason.clone())),
     );
 }
 
-fn scores(pairs: &Pairs, report: &mut Report) {
+/// A number of participants in words.
+pub(super) fn participants(count: usize) -> String {
+    if count == 1 { "1 participant".to_owned() } else { format!("{count} participants") }
+}
+
+fn scores(pairs: &Pairs, parts: &mut Parts) {
     let models = [&pairs.scaling.bradley_terry, &pairs.scaling.thurstone];
     let names = ["Bradley-Terry", "Thurstone V"];
     if let [Some(first), Some(second)] = models.map(|model| model.scores.as_ref()) {
-        let mut table = plain_table(&["method", names[0], "interval", names[1], "interval"]);
-        for (a, b) in first.iter().zip(second) {
-            table.add_row([
-                printable(&a.method),
+        let rows = first.iter().zip(second).map(|(a, b)| {
+            vec![
+                Cell::text(&a.method),
                 number(a.jod),
                 half_open(Some([a.lo, a.hi])),
                 number(b.jod),
                 half_open(Some([b.lo, b.hi])),
-            ]);
-        }
-        report.table("Scores in JOD; 1 JOD is a share of 75 %", table);
-        let mut fit = plain_table(&["fit", "deviance", "df", "p", "failed replicates"]);
-        for (name, model) in names.iter().zip(models) {
-            fit.add_row([
-                (*name).to_owned(),
+            ]
+        });
+        let columns = [
+            ("method", "method"),
+            (names[0], "bradley_terry"),
+            ("interval", "bradley_terry_interval"),
+            (names[1], "thurstone"),
+            ("interval", "thurstone_interval"),
+        ];
+        let caption = "Scores in JOD; 1 JOD is a share of 75 %";
+        parts.table(("scores", caption), &columns, rows.collect());
+        let fit = names.iter().zip(models).map(|(name, model)| {
+            vec![
+                Cell::text(*name),
                 number(model.deviance),
-                whole(model.df),
+                whole_or(model.df),
                 p_value(model.p),
-                whole(model.failed_replicates),
-            ]);
-        }
-        report.table("How well the scores explain the votes", fit);
+                whole_or(model.failed_replicates),
+            ]
+        });
+        let columns = [
+            ("fit", "fit"),
+            ("deviance", "deviance"),
+            ("df", "df"),
+            ("p", "p"),
+            ("failed replicates", "failed_replicates"),
+        ];
+        let caption = "How well the scores explain the votes";
+        parts.table(("fit", caption), &columns, fit.collect());
     } else {
-        report.line("Scores in JOD");
+        parts.remark("Scores in JOD are undefined");
     }
     let reason = |(name, model): (&&str, &Scaled)| ((*name).to_owned(), model.reason.clone());
-    report.reasons(names.iter().zip(models).map(reason));
+    parts.reasons(names.iter().zip(models).map(reason));
 }
 
-fn consistency(consistency: &Consistency, report: &mut Report) {
-    let mut table = plain_table(&["judges", "complete", "mean ζ", "u", "least u", "χ²", "df", "p"]);
+fn consistency(consistency: &Consistency, parts: &mut Parts) {
     let agreement = consistency.agreement.as_ref();
     let test = agreement.and_then(|agreement| agreement.test.as_ref());
-    table.add_row([
-        consistency.judges.len().to_string(),
-        consistency.judges_complete.to_string(),
+    let row = vec![
+        whole(consistency.judges.len()),
+        whole(consistency.judges_complete),
         number(consistency.mean_zeta),
         number(agreement.map(|agreement| agreement.u)),
         number(agreement.map(|agreement| agreement.u_min)),
         number(test.map(|test| test.chi2)),
         number(test.map(|test| test.df)),
         p_value(test.and_then(|test| test.p)),
-    ]);
-    report.table("Consistency of judges (ζ) and their agreement (u)", table);
-    report.reasons([("ζ".to_owned(), consistency.reason.clone())]);
-}
-
-fn whole(value: Option<usize>) -> String {
-    value.map_or_else(|| "–".to_owned(), |value| value.to_string())
+    ];
+    let columns = [
+        ("judges", "judges"),
+        ("complete", "judges_complete"),
+        ("mean ζ", "mean_zeta"),
+        ("u", "u"),
+        ("least u", "u_min"),
+        ("χ²", "chi2"),
+        ("df", "df"),
+        ("p", "p"),
+    ];
+    let caption = "Consistency of judges (ζ) and their agreement (u)";
+    parts.table(("consistency", caption), &columns, vec![row]);
+    parts.reasons([("ζ".to_owned(), consistency.reason.clone())]);
 }

@@ -1,31 +1,70 @@
-//! Plans of studies as text.
+//! Tables of plans.
 
-use fovqa_study::plan::{PairsPlan, StaircasePlan};
+use fovqa_study::plan::{PairsPlan, PredictedPlan, StaircasePlan};
 
-use super::Report;
-use super::numbers::{half_open, number};
-use crate::text_table::plain_table;
+use super::cells::{half_open, number, whole, whole_or};
+use super::parts::Parts;
+use crate::plain_table::Cell;
 
-pub(super) fn pairs(plan: &PairsPlan, report: &mut Report) {
-    let count = |count: Option<u64>| count.map_or_else(|| number(None), |count| count.to_string());
-    let mut table = plain_table(&["quantity", "value"]);
-    table.add_row(["trials per pair".to_owned(), count(plan.trials)]);
-    table.add_row(["power with these trials".to_owned(), number(plan.power)]);
-    table.add_row(["power with --trials".to_owned(), number(plan.power_at_trials)]);
-    table.add_row(["trials for --width".to_owned(), count(plan.trials_for_width)]);
-    report.table("Trials that a binomial test of one pair needs", table);
-    report.reasons([("plan".to_owned(), plan.reason.clone())]);
+const COLUMNS: [(&str, &str); 2] = [("quantity", "quantity"), ("value", "value")];
+
+pub(super) fn pairs(plan: &PairsPlan, parts: &mut Parts) {
+    let rows = vec![
+        vec![Cell::text("trials per pair"), whole_or(plan.trials)],
+        vec![Cell::text("power with these trials"), number(plan.power)],
+        vec![Cell::text("power with --trials"), number(plan.power_at_trials)],
+        vec![Cell::text("trials for --width"), whole_or(plan.trials_for_width)],
+    ];
+    let caption = "Trials that a binomial test of one pair needs";
+    parts.table(("plan", caption), &COLUMNS, rows);
+    parts.reasons([("plan".to_owned(), plan.reason.clone())]);
 }
 
-pub(super) fn staircase(plan: &StaircasePlan, report: &mut Report) {
-    let mut table = plain_table(&["quantity", "value"]);
-    table.add_row(["target performance".to_owned(), number(plan.target_performance)]);
-    table.add_row(["target level".to_owned(), number(plan.target_level)]);
-    table.add_row(["mean threshold of a study".to_owned(), number(plan.mean)]);
-    table.add_row(["standard deviation".to_owned(), number(plan.sd)]);
-    table.add_row(["interval".to_owned(), half_open(plan.interval)]);
-    table.add_row(["mean half width of t intervals".to_owned(), number(plan.mean_half_width)]);
-    table.add_row(["studies without a threshold".to_owned(), plan.failed.to_string()]);
-    report.table("Thresholds of simulated studies", table);
-    report.reasons([("plan".to_owned(), plan.reason.clone())]);
+pub(super) fn predicted(plan: &PredictedPlan, parts: &mut Parts) {
+    parts.remark(&plan.prediction);
+    let scenes = if plan.scenes.len() == 1 { "scene" } else { "scenes" };
+    parts.remark(format!("{scenes}: {}", plan.scenes.join(", ")));
+    let rows = plan.pairs.iter().map(|pair| {
+        vec![
+            Cell::text(format!("{} – {}", pair.method, pair.opponent)),
+            number(pair.jod),
+            number(pair.opponent_jod),
+            number(pair.share),
+            whole_or(pair.plan.trials),
+            number(pair.plan.power),
+            number(pair.plan.power_at_trials),
+            whole_or(pair.plan.trials_for_width),
+        ]
+    });
+    let columns = [
+        ("pair", "pair"),
+        ("JOD", "jod"),
+        ("JOD of the other", "opponent_jod"),
+        ("share", "share"),
+        ("trials", "trials"),
+        ("power", "power"),
+        ("power with --trials", "power_at_trials"),
+        ("trials for --width", "trials_for_width"),
+    ];
+    let caption = "Trials that binomial tests of predicted shares need";
+    parts.table(("plan", caption), &columns, rows.collect());
+    parts.reasons(
+        plan.pairs
+            .iter()
+            .map(|pair| (format!("{} – {}", pair.method, pair.opponent), pair.plan.reason.clone())),
+    );
+}
+
+pub(super) fn staircase(plan: &StaircasePlan, parts: &mut Parts) {
+    let rows = vec![
+        vec![Cell::text("target performance"), number(plan.target_performance)],
+        vec![Cell::text("target level"), number(plan.target_level)],
+        vec![Cell::text("mean threshold of a study"), number(plan.mean)],
+        vec![Cell::text("standard deviation"), number(plan.sd)],
+        vec![Cell::text("interval"), half_open(plan.interval)],
+        vec![Cell::text("mean half width of t intervals"), number(plan.mean_half_width)],
+        vec![Cell::text("studies without a threshold"), whole(plan.failed)],
+    ];
+    parts.table(("plan", "Thresholds of simulated studies"), &COLUMNS, rows);
+    parts.reasons([("plan".to_owned(), plan.reason.clone())]);
 }

@@ -1,75 +1,84 @@
-//! Ratings as text.
+//! Tables of ratings.
 
 use fovqa_study::ratings::{GridRatings, LevelRatings, Ratings};
 
-use super::Report;
-use super::numbers::{half_open, interval, number};
-use crate::text_table::{plain_table, printable};
+use super::cells::{half_open, interval, number, shown, whole};
+use super::pairs::participants;
+use super::parts::Parts;
+use crate::plain_table::Cell;
 
-pub(super) fn text(ratings: &Ratings, report: &mut Report) {
+pub(super) fn parts(ratings: &Ratings, parts: &mut Parts) {
     match ratings {
-        Ratings::Levels(levels) => by_level(levels, report),
-        Ratings::Grid(grid) => over_grid(grid, report),
+        Ratings::Levels(levels) => by_level(levels, parts),
+        Ratings::Grid(grid) => over_grid(grid, parts),
     }
 }
 
-fn by_level(ratings: &LevelRatings, report: &mut Report) {
-    let mut table = plain_table(&["level", "n", "mean", "SD", "standard error", "interval"]);
-    for level in &ratings.levels {
-        table.add_row([
+fn by_level(ratings: &LevelRatings, parts: &mut Parts) {
+    let rows = ratings.levels.iter().map(|level| {
+        let moments = &level.moments;
+        vec![
             number(level.level),
-            level.moments.n.to_string(),
-            number(level.moments.mean),
-            number(level.moments.sd),
-            number(level.moments.se),
-            interval(level.moments.ci),
-        ]);
-    }
-    report.table(&format!("Mean scores of {} participants", ratings.participants), table);
-    report.reasons(
+            whole(moments.n),
+            number(moments.mean),
+            number(moments.sd),
+            number(moments.se),
+            interval(moments.ci),
+        ]
+    });
+    let columns = [
+        ("level", "level"),
+        ("n", "n"),
+        ("mean", "mean"),
+        ("SD", "sd"),
+        ("standard error", "se"),
+        ("interval", "ci"),
+    ];
+    parts.table(("levels", "Mean scores"), &columns, rows.collect());
+    parts.detail(participants(ratings.participants));
+    parts.reasons(
         ratings
             .levels
             .iter()
-            .map(|level| (format!("level {}", number(level.level)), level.moments.reason.clone())),
+            .map(|level| (format!("level {}", shown(level.level)), level.moments.reason.clone())),
     );
     let Some(acceptable) = &ratings.acceptable else { return };
-    let mut table = plain_table(&["largest level", "crossing", "interval"]);
-    table.add_row([
+    let row = vec![
         number(acceptable.largest_level),
         number(acceptable.crossing),
         half_open(acceptable.crossing_ci),
-    ]);
-    report.table("The largest acceptable level, and where the threshold is crossed", table);
-    report.reasons([("crossing".to_owned(), acceptable.reason.clone())]);
+    ];
+    let columns =
+        [("largest level", "largest_level"), ("crossing", "crossing"), ("interval", "crossing_ci")];
+    let caption = "The largest acceptable level, and where the threshold is crossed";
+    parts.table(("acceptable", caption), &columns, vec![row]);
+    parts.reasons([("crossing".to_owned(), acceptable.reason.clone())]);
 }
 
-fn over_grid(ratings: &GridRatings, report: &mut Report) {
+fn over_grid(ratings: &GridRatings, parts: &mut Parts) {
     let [x, y] = &ratings.columns;
     let is_smoothed = ratings.grid.iter().any(|cell| cell.smoothed.is_some());
-    let mut columns = vec![printable(x), printable(y), "n".to_owned(), "mean".to_owned()];
-    if is_smoothed {
-        columns.push("smoothed".to_owned());
-    }
-    let mut table = plain_table(&columns.iter().map(String::as_str).collect::<Vec<_>>());
-    for cell in &ratings.grid {
-        let mut row = vec![number(cell.fx), number(cell.fy), cell.n.to_string(), number(cell.mean)];
-        if is_smoothed {
-            row.push(number(cell.smoothed));
-        }
-        table.add_row(row);
-    }
-    report.table(&format!("Mean scores of {} participants", ratings.participants), table);
+    let mut columns = vec![(x.as_str(), x.as_str()), (y, y), ("n", "n"), ("mean", "mean")];
+    columns.extend(is_smoothed.then_some(("smoothed", "smoothed")));
+    let rows = ratings.grid.iter().map(|cell| {
+        let mut row: Vec<Cell> =
+            vec![number(cell.fx), number(cell.fy), whole(cell.n), number(cell.mean)];
+        row.extend(is_smoothed.then(|| number(cell.smoothed)));
+        row
+    });
+    parts.table(("grid", "Mean scores"), &columns, rows.collect());
+    parts.detail(participants(ratings.participants));
     if let Some(best) = &ratings.best {
         let ties = if best.ties > 1 {
             format!("; {} cells have this score", best.ties)
         } else {
             String::new()
         };
-        report.line(&format!(
+        parts.remark(format!(
             "best: {x} = {}, {y} = {}, score {}{ties}",
-            number(best.fx),
-            number(best.fy),
-            number(best.mean)
+            shown(best.fx),
+            shown(best.fy),
+            shown(best.mean)
         ));
     }
 }

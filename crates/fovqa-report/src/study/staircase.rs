@@ -1,46 +1,58 @@
-//! Thresholds of staircases as text.
+//! Tables of staircases.
 
-use fovqa_study::staircase::{Staircase, Staircases};
+use fovqa_study::staircase::{MethodThreshold, Staircase, Staircases};
 
-use super::Report;
-use super::numbers::{interval, number};
-use crate::text_table::{plain_table, printable};
+use super::cells::{interval, number, whole};
+use super::parts::Parts;
+use crate::plain_table::Cell;
 
-pub(super) fn text(staircases: &Staircases, report: &mut Report) {
-    let mut methods =
-        plain_table(&["method", "participants", "threshold", "standard error", "interval"]);
-    for method in &staircases.methods {
-        methods.add_row([
-            printable(method.method.as_deref().unwrap_or("all")),
-            method.participants.to_string(),
+pub(super) fn parts(staircases: &Staircases, parts: &mut Parts) {
+    let name = |method: &MethodThreshold| method.method.clone().unwrap_or_else(|| "all".to_owned());
+    let methods = staircases.methods.iter().map(|method| {
+        vec![
+            Cell::text(name(method)),
+            whole(method.participants),
             number(method.threshold),
             number(method.se),
             interval(method.ci),
-        ]);
-    }
-    report.table("Thresholds of the methods", methods);
-    report.reasons(staircases.methods.iter().map(|method| {
-        (method.method.clone().unwrap_or_else(|| "all".to_owned()), method.reason.clone())
-    }));
-    let mut table =
-        plain_table(&["staircase", "trials", "correct", "reversals", "used", "threshold", "SD"]);
-    for staircase in &staircases.staircases {
-        table.add_row([
-            printable(&name(staircase)),
-            staircase.trials.to_string(),
+        ]
+    });
+    let columns = [
+        ("method", "method"),
+        ("participants", "participants"),
+        ("threshold", "threshold"),
+        ("standard error", "se"),
+        ("interval", "ci"),
+    ];
+    parts.table(("thresholds", "Thresholds of the methods"), &columns, methods.collect());
+    parts.reasons(staircases.methods.iter().map(|method| (name(method), method.reason.clone())));
+    tracks(&staircases.staircases, parts);
+}
+
+fn tracks(staircases: &[Staircase], parts: &mut Parts) {
+    let row = |staircase: &Staircase| {
+        vec![
+            Cell::text(name(staircase)),
+            whole(staircase.trials),
             number(staircase.share_correct),
-            staircase.reversals.to_string(),
-            staircase.threshold.used.to_string(),
+            whole(staircase.reversals),
+            whole(staircase.threshold.used),
             number(staircase.threshold.threshold),
             number(staircase.threshold.sd),
-        ]);
-    }
-    report.table("Staircases", table);
-    report.reasons(
-        staircases
-            .staircases
-            .iter()
-            .map(|staircase| (name(staircase), staircase.threshold.reason.clone())),
+        ]
+    };
+    let columns = [
+        ("staircase", "staircase"),
+        ("trials", "trials"),
+        ("correct", "share_correct"),
+        ("reversals", "reversals"),
+        ("used", "used"),
+        ("threshold", "threshold"),
+        ("SD", "sd"),
+    ];
+    parts.table(("staircases", "Staircases"), &columns, staircases.iter().map(row).collect());
+    parts.reasons(
+        staircases.iter().map(|staircase| (name(staircase), staircase.threshold.reason.clone())),
     );
 }
 

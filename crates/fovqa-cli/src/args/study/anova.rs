@@ -13,10 +13,10 @@ Example:
 #[derive(Debug, Args)]
 pub(crate) struct AnovaArgs {
     #[command(flatten)]
-    pub(crate) input: InputArgs,
+    pub(super) input: InputArgs,
     /// One or two columns: the factors within participants
     #[arg(long, value_name = "FACTOR,…", required = true, value_delimiter = ',')]
-    pub(crate) within: Vec<String>,
+    pub(super) within: Vec<String>,
     #[command(flatten)]
-    pub(crate) settings: SettingsArgs,
+    pub(super) settings: SettingsArgs,
 }

@@ -17,10 +17,10 @@ Example:
 #[derive(Debug, Args)]
 pub(crate) struct MetricsArgs {
     #[command(flatten)]
-    pub(crate) input: InputArgs,
+    pub(super) input: InputArgs,
     /// Scores of the metrics: results.csv of a run
     #[arg(long, value_name = "results.csv")]
-    pub(crate) scores: PathBuf,
+    pub(super) scores: PathBuf,
     /// Metrics to compare [default: all in the file]
     #[arg(long, value_name = "METRIC,…", value_delimiter = ',')]
     metrics: Vec<String>,
@@ -28,12 +28,12 @@ pub(crate) struct MetricsArgs {
     #[arg(long, value_name = "METRIC,…", value_delimiter = ',')]
     lower_is_better: Vec<String>,
     #[command(flatten)]
-    pub(crate) settings: SettingsArgs,
+    pub(super) settings: SettingsArgs,
 }
 
 impl MetricsArgs {
     /// The options of the library.
-    pub(crate) fn options(&self) -> Options {
+    pub(super) fn options(&self) -> Options {
         Options { metrics: self.metrics.clone(), lower_is_better: self.lower_is_better.clone() }
     }
 }

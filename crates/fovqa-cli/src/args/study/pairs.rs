@@ -3,6 +3,7 @@
 use clap::Args;
 use fovqa_params::Words;
 use fovqa_study::options::Ties;
+use fovqa_study::pairs::Options;
 
 use super::options::not_negative;
 use super::{InputArgs, SettingsArgs};
@@ -18,19 +19,31 @@ Example:
 #[derive(Debug, Args)]
 pub(crate) struct PairsArgs {
     #[command(flatten)]
-    pub(crate) input: InputArgs,
+    pub(super) input: InputArgs,
     /// How ties count
     #[arg(long, value_name = "RULE", default_value = Ties::default().word(), value_parser = words::<Ties>())]
-    pub(crate) ties: Ties,
+    ties: Ties,
     /// Order of the methods [default: by first appearance]
     #[arg(long, value_name = "METHOD,…", value_delimiter = ',')]
-    pub(crate) order: Vec<String>,
+    order: Vec<String>,
     /// The method whose score is 0 [default: the mean score is 0]
     #[arg(long, value_name = "METHOD")]
-    pub(crate) reference: Option<String>,
+    reference: Option<String>,
     /// Votes added to both sides of each pair with votes, for the scores
     #[arg(long, value_name = "VOTES", default_value = "0", value_parser = not_negative)]
-    pub(crate) pseudo_votes: f64,
+    pseudo_votes: f64,
     #[command(flatten)]
-    pub(crate) settings: SettingsArgs,
+    pub(super) settings: SettingsArgs,
+}
+
+impl PairsArgs {
+    /// The options of the library.
+    pub(super) fn options(&self) -> Options {
+        Options {
+            ties: self.ties,
+            order: self.order.clone(),
+            reference: self.reference.clone(),
+            pseudo_votes: self.pseudo_votes,
+        }
+    }
 }

@@ -1,9 +1,13 @@
 //! `fovqa study plan`.
 
+use std::path::PathBuf;
+
 use clap::{Args, Subcommand};
 use fovqa_params::Words;
+use fovqa_results::RESULTS_CSV;
+use fovqa_study::Request;
 use fovqa_study::options::Alternative;
-use fovqa_study::plan::{PairsOptions, StaircaseOptions};
+use fovqa_study::plan::{PairsOptions, PredictedOptions, StaircaseOptions};
 
 use super::options::{not_negative, rate, share};
 use super::{SettingsArgs, ShapeArgs, ThresholdArgs};
@@ -11,7 +15,8 @@ use crate::args::values::{finite, positive, words};
 
 pub(super) const EXAMPLES: &str = "\
 Example:
-  fovqa study plan pairs --share 0.65 --power 0.9 --width 0.2";
+  fovqa study plan pairs --share 0.65 --power 0.9 --width 0.2
+  fovqa study plan pairs --results reports/demo --methods A,B";
 
 const STAIRCASE_EXAMPLES: &str = "\
 Example:
@@ -36,15 +41,24 @@ pub(crate) enum PlanCommand {
 #[derive(Debug, Args)]
 pub(crate) struct PlanPairsArgs {
     /// The true share of votes
-    #[arg(long, value_name = "SHARE", value_parser = share)]
-    share: f64,
+    #[arg(long, value_name = "SHARE", value_parser = share, required_unless_present = "results", conflicts_with = "results")]
+    share: Option<f64>,
+    /// Predict the share of each pair of methods from the FovVideoVDP scores of a run (1 JOD = 75 %)
+    #[arg(long, value_name = "DIR")]
+    results: Option<PathBuf>,
+    /// Only these methods of the run
+    #[arg(long, value_name = "METHOD,…", value_delimiter = ',', requires = "results")]
+    methods: Vec<String>,
+    /// Only this scene of the run [default: the mean over all scenes]
+    #[arg(long, value_name = "SCENE", requires = "results")]
+    scene: Option<String>,
     /// Level of significance
     #[arg(long, value_name = "SHARE", default_value = "0.05", value_parser = share)]
     alpha: f64,
     /// Power that the study must have
     #[arg(long, value_name = "SHARE", default_value = "0.8", value_parser = share)]
     power: f64,
-    /// The alternative hypothesis
+    /// What the test looks for
     #[arg(long, value_name = "SIDE", default_value = Alternative::default().word(), value_parser = words::<Alternative>())]
     alternative: Alternative,
     /// Also report the power with this number of trials
@@ -54,7 +68,7 @@ pub(crate) struct PlanPairsArgs {
     #[arg(long, value_name = "SHARE", value_parser = share)]
     width: Option<f64>,
     #[command(flatten)]
-    pub(crate) settings: SettingsArgs,
+    pub(super) settings: SettingsArgs,
 }
 
 #[derive(Debug, Args)]
@@ -100,14 +114,28 @@ pub(crate) struct PlanStaircaseArgs {
     #[command(flatten)]
     reversals: ThresholdArgs,
     #[command(flatten)]
-    pub(crate) settings: SettingsArgs,
+    pub(super) settings: SettingsArgs,
 }
 
 impl PlanPairsArgs {
-    /// The options of the library.
-    pub(crate) fn options(&self) -> PairsOptions {
+    /// The plan of one pair, or of each pair of a run.
+    pub(super) fn request(&self) -> Request {
+        let pair = self.options();
+        if self.results.is_none() {
+            return Request::PlanPairs(pair);
+        }
+        let (methods, scene) = (self.methods.clone(), self.scene.clone());
+        Request::PlanPredicted(PredictedOptions { pair, methods, scene })
+    }
+
+    /// The scores of the run.
+    pub(super) fn scores(&self) -> Option<PathBuf> {
+        self.results.as_ref().map(|folder| folder.join(RESULTS_CSV))
+    }
+
+    fn options(&self) -> PairsOptions {
         PairsOptions {
-            share: self.share,
+            share: self.share.unwrap_or(0.5),
             alpha: self.alpha,
             power: self.power,
             alternative: self.alternative,
@@ -119,7 +147,7 @@ impl PlanPairsArgs {
 
 impl PlanStaircaseArgs {
     /// The options of the library.
-    pub(crate) fn options(&self) -> StaircaseOptions {
+    pub(super) fn options(&self) -> StaircaseOptions {
         StaircaseOptions {
             participants: self.participants as usize,
             trials: self.trials as usize,

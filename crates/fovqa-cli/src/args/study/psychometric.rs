@@ -41,7 +41,7 @@ pub(crate) struct ShapeArgs {
 #[derive(Debug, Args)]
 pub(crate) struct PsychometricArgs {
     #[command(flatten)]
-    pub(crate) input: InputArgs,
+    pub(super) input: InputArgs,
     #[command(flatten)]
     shape: ShapeArgs,
     /// Performances at which thresholds are reported
@@ -57,7 +57,7 @@ pub(crate) struct PsychometricArgs {
     #[arg(long, value_name = "SWITCH", default_value = "on")]
     overdispersion: Overdispersion,
     #[command(flatten)]
-    pub(crate) settings: SettingsArgs,
+    pub(super) settings: SettingsArgs,
 }
 
 impl ShapeArgs {
@@ -69,7 +69,7 @@ impl ShapeArgs {
 
 impl PsychometricArgs {
     /// The options of the library.
-    pub(crate) fn options(&self) -> Options {
+    pub(super) fn options(&self) -> Options {
         Options {
             model: self.shape.model(),
             lapse: self.lapse,

@@ -3,6 +3,7 @@
 use clap::Args;
 use fovqa_params::Words;
 use fovqa_study::options::{PairwiseTest, Ties};
+use fovqa_study::ranks::Options;
 
 use super::{InputArgs, SettingsArgs};
 use crate::args::values::words;
@@ -17,19 +18,31 @@ Example:
 #[derive(Debug, Args)]
 pub(crate) struct RanksArgs {
     #[command(flatten)]
-    pub(crate) input: InputArgs,
+    pub(super) input: InputArgs,
     /// Columns that make up a unit; rows of a unit and method are averaged
     #[arg(long, value_name = "COLUMN,…", default_value = "participant", value_delimiter = ',')]
-    pub(crate) unit: Vec<String>,
+    unit: Vec<String>,
     /// The test of each pair of methods
     #[arg(long, value_name = "TEST", default_value = PairwiseTest::default().word(), value_parser = words::<PairwiseTest>())]
-    pub(crate) pairwise: PairwiseTest,
+    pairwise: PairwiseTest,
     /// How ties count in pairwise comparisons
     #[arg(long, value_name = "RULE", default_value = Ties::default().word(), value_parser = words::<Ties>())]
-    pub(crate) ties: Ties,
+    ties: Ties,
     /// Order of the methods [default: by first appearance]
     #[arg(long, value_name = "METHOD,…", value_delimiter = ',')]
-    pub(crate) order: Vec<String>,
+    order: Vec<String>,
     #[command(flatten)]
-    pub(crate) settings: SettingsArgs,
+    pub(super) settings: SettingsArgs,
+}
+
+impl RanksArgs {
+    /// The options of the library.
+    pub(super) fn options(&self) -> Options {
+        Options {
+            unit: self.unit.clone(),
+            pairwise: self.pairwise,
+            ties: self.ties,
+            order: self.order.clone(),
+        }
+    }
 }

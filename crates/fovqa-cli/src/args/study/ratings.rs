@@ -19,7 +19,7 @@ Example:
 #[derive(Debug, Args)]
 pub(crate) struct RatingsArgs {
     #[command(flatten)]
-    pub(crate) input: InputArgs,
+    pub(super) input: InputArgs,
     /// Mean score of an acceptable level, for the largest such level
     #[arg(long, value_name = "SCORE", value_parser = finite, allow_negative_numbers = true)]
     threshold: Option<f64>,
@@ -36,12 +36,12 @@ pub(crate) struct RatingsArgs {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..), requires = "validation_expected")]
     max_errors: Option<u32>,
     #[command(flatten)]
-    pub(crate) settings: SettingsArgs,
+    pub(super) settings: SettingsArgs,
 }
 
 impl RatingsArgs {
     /// The options of the library.
-    pub(crate) fn options(&self) -> Options {
+    pub(super) fn options(&self) -> Options {
         let rule = self.validation_expected.zip(self.max_errors);
         Options {
             threshold: self.threshold,

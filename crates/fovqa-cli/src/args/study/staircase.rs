@@ -28,16 +28,16 @@ pub(crate) struct ThresholdArgs {
 #[derive(Debug, Args)]
 pub(crate) struct StaircaseArgs {
     #[command(flatten)]
-    pub(crate) input: InputArgs,
+    pub(super) input: InputArgs,
     #[command(flatten)]
-    pub(crate) threshold: ThresholdArgs,
+    pub(super) threshold: ThresholdArgs,
     #[command(flatten)]
-    pub(crate) settings: SettingsArgs,
+    pub(super) settings: SettingsArgs,
 }
 
 impl ThresholdArgs {
     /// The options of the library.
-    pub(crate) fn options(&self) -> Options {
+    pub(super) fn options(&self) -> Options {
         Options { drop_reversals: self.drop_reversals as usize, mean: self.mean }
     }
 }

@@ -4,17 +4,14 @@
 //! since they may be rounded either way; a
 //! fraction counts as its hundredths: "3/4" is 0.75. "Up to" and "over" are bounds.
 
-/// How far from a printed number a computed one may be, relative to it, to be called close.
-pub(super) const CLOSE: f64 = 1e-3;
-
 /// What is to be said of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Verdict {
+pub enum PrintedVerdict {
     /// The computed number gives the printed digits.
     Reproduced,
     /// It gives them, but something that went into it was read off them.
     NotIndependent,
-    /// It does not, but is within [`CLOSE`].
+    /// It does not, but is within [`Printed::CLOSE`].
     Close,
     /// It is not.
     NotReproduced,
@@ -22,9 +19,9 @@ pub(super) enum Verdict {
     NotChecked,
 }
 
-impl Verdict {
+impl PrintedVerdict {
     /// The verdict in words.
-    pub(super) fn words(self) -> &'static str {
+    pub fn words(self) -> &'static str {
         match self {
             Self::Reproduced => "reproduced",
             Self::NotIndependent => "not independent",
@@ -46,7 +43,7 @@ enum Sense {
 
 /// A number as it is printed.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Printed {
+pub struct Printed {
     text: String,
     /// NaN when the text is no number: nothing gives its digits then.
     value: f64,
@@ -57,9 +54,12 @@ pub(super) struct Printed {
 }
 
 impl Printed {
+    /// The largest relative error of a computed number that is called close.
+    pub const CLOSE: f64 = 1e-3;
+
     /// A number that was rounded: "1,061,735", "14.8 %", "3/4"; or a bound: "< .01", "> .05",
     /// "up to 50 %", "over 50 %".
-    pub(super) fn new(text: &str) -> Self {
+    pub fn new(text: &str) -> Self {
         let bounds = [
             ("< ", Sense::Below),
             ("up to ", Sense::UpTo),
@@ -78,32 +78,32 @@ impl Printed {
     }
 
     /// A number whose further digits were cut off.
-    pub(super) fn truncated(text: &str) -> Self {
+    pub fn truncated(text: &str) -> Self {
         Self { sense: Sense::Truncated, ..Self::new(text) }
     }
 
     /// A number that is said in words.
-    pub(super) fn in_words(words: &str, number: &str) -> Self {
+    pub fn in_words(words: &str, number: &str) -> Self {
         Self { text: words.to_owned(), ..Self::new(number) }
     }
 
     /// As it is printed.
-    pub(super) fn text(&self) -> &str {
+    pub fn text(&self) -> &str {
         &self.text
     }
 
     /// Its value, in its unit. NaN when it is no number.
-    pub(super) fn value(&self) -> f64 {
+    pub fn value(&self) -> f64 {
         self.value
     }
 
     /// What stands behind the digits, with its space: " %", "°".
-    pub(super) fn unit(&self) -> &str {
+    pub fn unit(&self) -> &str {
         &self.unit
     }
 
     /// What a number in the same unit is beside it.
-    pub(super) fn verdict(&self, computed: f64) -> Verdict {
+    pub fn verdict(&self, computed: f64) -> PrintedVerdict {
         // Less than a number is off by its own computation.
         let slack = 1e-9 * self.value.abs().max(self.step);
         let above = computed - self.value;
@@ -114,16 +114,16 @@ impl Printed {
             Sense::UpTo => computed <= self.value + slack,
             Sense::Above => computed > self.value,
         };
-        let close = self.relative_error(computed).is_some_and(|error| error.abs() <= CLOSE);
+        let close = self.relative_error(computed).is_some_and(|error| error.abs() <= Self::CLOSE);
         match (holds, close) {
-            (true, _) => Verdict::Reproduced,
-            (false, true) => Verdict::Close,
-            (false, false) => Verdict::NotReproduced,
+            (true, _) => PrintedVerdict::Reproduced,
+            (false, true) => PrintedVerdict::Close,
+            (false, false) => PrintedVerdict::NotReproduced,
         }
     }
 
     /// How far a number in the same unit is above it, relative to it. A bound has no such error.
-    pub(super) fn relative_error(&self, computed: f64) -> Option<f64> {
+    pub fn relative_error(&self, computed: f64) -> Option<f64> {
         let number = matches!(self.sense, Sense::Rounded | Sense::Truncated);
         number.then(|| computed / self.value - 1.0)
     }
@@ -145,14 +145,18 @@ mod tests {
 
     fn held(printed: &Printed, computed: &[f64]) {
         for computed in computed {
-            assert_eq!(printed.verdict(*computed), Verdict::Reproduced, "{printed:?} {computed}");
+            assert_eq!(
+                printed.verdict(*computed),
+                PrintedVerdict::Reproduced,
+                "{printed:?} {computed}"
+            );
         }
     }
 
     fn refused(printed: &Printed, computed: &[f64]) {
         for computed in computed {
             let verdict = printed.verdict(*computed);
-            assert_eq!(verdict, Verdict::NotReproduced, "{printed:?} {computed}");
+            assert_eq!(verdict, PrintedVerdict::NotReproduced, "{printed:?} {computed}");
         }
     }
 
@@ -191,7 +195,7 @@ mod tests {
     fn truncated_digits_take_a_step_above() {
         // 2559.999… is 2560 to the computer.
         held(&Printed::truncated("2560"), &[2560.0, 2560.999, 2_559.999_999_999_9]);
-        assert_eq!(Printed::truncated("2560").verdict(2559.9), Verdict::Close);
+        assert_eq!(Printed::truncated("2560").verdict(2559.9), PrintedVerdict::Close);
         refused(&Printed::truncated("761"), &[760.0, 762.0, 761.999_999_999_99]);
     }
 
@@ -211,9 +215,9 @@ mod tests {
     #[test]
     fn close_is_a_thousandth() {
         let printed = Printed::new("1,061,735");
-        assert_eq!(printed.verdict(1_061_733.7), Verdict::Close);
-        assert_eq!(printed.verdict(1_061_735.0 * 1.000_99), Verdict::Close);
-        assert_eq!(printed.verdict(1_061_735.0 * 0.998_9), Verdict::NotReproduced);
+        assert_eq!(printed.verdict(1_061_733.7), PrintedVerdict::Close);
+        assert_eq!(printed.verdict(1_061_735.0 * 1.000_99), PrintedVerdict::Close);
+        assert_eq!(printed.verdict(1_061_735.0 * 0.998_9), PrintedVerdict::NotReproduced);
         assert_eq!(printed.relative_error(2.0 * 1_061_735.0), Some(1.0));
     }
 }

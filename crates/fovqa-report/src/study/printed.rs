@@ -1,0 +1,182 @@
+//! A paper's numbers beside the results of an analysis.
+
+use fovqa_plan::PrintedNumber;
+use fovqa_study::Analysis;
+use serde::Serialize;
+use serde_json::Value;
+
+use super::cells::{number, shown};
+use super::parts::Part;
+use crate::plain_table::{Cell, Column, PlainTable};
+use crate::printed::Printed;
+
+/// A printed number and the result that it is compared with.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResultOfPrinted {
+    /// What it is.
+    pub quantity: String,
+    /// Where it is printed; may be empty.
+    pub place: String,
+    /// As it is printed.
+    pub printed: String,
+    /// The place of the result in the JSON of the analysis.
+    pub at: String,
+    /// The result in the unit of the printed number; `None` if it is undefined.
+    pub computed: Option<f64>,
+    /// What is to be said of it.
+    pub verdict: &'static str,
+    /// Why they differ; may be empty.
+    pub note: String,
+}
+
+/// The results that printed numbers are compared with.
+///
+/// # Errors
+/// The first number whose place in the JSON of the analysis has no number, and why.
+pub fn printed_results(
+    analysis: &Analysis,
+    printed: &[PrintedNumber],
+) -> Result<Vec<ResultOfPrinted>, (PrintedNumber, String)> {
+    if printed.is_empty() {
+        return Ok(Vec::new());
+    }
+    let json = serde_json::to_value(analysis).unwrap_or_default();
+    let result = |number: &PrintedNumber| {
+        let computed = match json.pointer(&number.at) {
+            None => Err("there is nothing".to_owned()),
+            Some(Value::Null) => Ok(None),
+            Some(value) => value.as_f64().map(Some).ok_or_else(|| {
+                let kind = if value.is_string() { "a text" } else { "no number" };
+                format!("there is {kind}")
+            }),
+        };
+        let computed = computed.map_err(|why| (number.clone(), why))?;
+        let printed = Printed::new(&number.value);
+        // Shares are printed in percent.
+        let is_percent = printed.unit().trim() == "%";
+        let computed = computed.map(|value| if is_percent { 100.0 * value } else { value });
+        let verdict = computed.map_or("not reproduced", |value| printed.verdict(value).words());
+        Ok(ResultOfPrinted {
+            quantity: number.quantity.clone(),
+            place: number.place.clone(),
+            printed: number.value.clone(),
+            at: number.at.clone(),
+            computed,
+            verdict,
+            note: number.note.clone(),
+        })
+    };
+    printed.iter().map(result).collect()
+}
+
+/// The table of printed numbers; `None` if there is none.
+pub(super) fn part(results: &[ResultOfPrinted]) -> Option<Part> {
+    if results.is_empty() {
+        return None;
+    }
+    let error = |result: &ResultOfPrinted| {
+        let relative = Printed::new(&result.printed).relative_error(result.computed?)?;
+        Some(100.0 * relative).filter(|error| error.is_finite())
+    };
+    let row = |result: &ResultOfPrinted| {
+        let error = error(result).map_or_else(
+            || Cell { shown: "–".to_owned(), value: String::new(), is_number: true },
+            |error| Cell::number(format!("{} %", shown(error)), error / 100.0),
+        );
+        vec![
+            Cell::text(&result.place),
+            Cell::text(&result.quantity),
+            Cell::text(&result.printed),
+            number(result.computed),
+            error,
+            Cell::text(result.verdict),
+            Cell::text(&result.note),
+        ]
+    };
+    let mut columns = vec![
+        Column::new("Place", "place"),
+        Column::new("Quantity", "quantity"),
+        Column::new("Printed", "printed"),
+        Column::new("Computed", "computed"),
+        Column::new("Relative error", "relative_error"),
+        Column::new("Verdict", "verdict"),
+        Column::new("Why", "note"),
+    ];
+    let mut rows: Vec<Vec<Cell>> = results.iter().map(row).collect();
+    for (index, is_empty) in [
+        (6, results.iter().all(|result| result.note.is_empty())),
+        (0, results.iter().all(|result| result.place.is_empty())),
+    ] {
+        if is_empty {
+            columns.remove(index);
+            for row in &mut rows {
+                row.remove(index);
+            }
+        }
+    }
+    let notes = vec![
+        "Reproduced: the computed number, rounded, gives the printed digits, or keeps the printed bound. \
+         Close: it is within 0.1 %."
+            .to_owned(),
+    ];
+    let table = PlainTable { caption: "Printed numbers".to_owned(), columns, rows, notes };
+    Some(Part::Table { name: "printed", detail: String::new(), table })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fovqa_study::options::Alternative;
+    use fovqa_study::plan::{PairsOptions, plan_pairs};
+
+    fn compared(value: &str, at: &str) -> Result<Vec<ResultOfPrinted>, (PrintedNumber, String)> {
+        let options = PairsOptions {
+            share: 0.65,
+            alpha: 0.05,
+            power: 0.8,
+            alternative: Alternative::TwoSided,
+            trials: Some(72),
+            width: None,
+        };
+        let plan = Analysis::PlanPairs(plan_pairs(&options, &fovqa_study::Settings::default()));
+        let number = PrintedNumber {
+            quantity: "trials".to_owned(),
+            place: String::new(),
+            value: value.to_owned(),
+            at: at.to_owned(),
+            note: String::new(),
+        };
+        printed_results(&plan, &[number])
+    }
+
+    #[test]
+    fn results_are_found_by_their_place() {
+        // docs/studies.md: 90 trials, and a power of 0.7178 with 72.
+        let found = |value: &str, at: &str| compared(value, at).unwrap()[0].clone();
+        assert_eq!(found("90", "/trials").verdict, "reproduced");
+        assert_eq!(found("91", "/trials").verdict, "not reproduced");
+        assert_eq!(found("< 91", "/trials").verdict, "reproduced");
+        let percent = found("71.8 %", "/power_at_trials");
+        assert_eq!(percent.verdict, "reproduced");
+        assert!((percent.computed.unwrap() - 71.78).abs() < 0.01);
+        let undefined = found("1", "/trials_for_width");
+        assert_eq!((undefined.verdict, undefined.computed), ("not reproduced", None));
+    }
+
+    #[test]
+    fn places_without_a_number_are_errors() {
+        assert_eq!(compared("1", "/nothing").unwrap_err().1, "there is nothing");
+        assert_eq!(compared("1", "/plan").unwrap_err().1, "there is a text");
+        assert_eq!(compared("1", "/excluded").unwrap_err().1, "there is no number");
+    }
+
+    #[test]
+    fn empty_columns_are_left_out() {
+        let results = compared("90", "/trials").unwrap();
+        let Some(Part::Table { table, .. }) = part(&results) else { panic!() };
+        let expected =
+            "quantity,printed,computed,relative_error,verdict\ntrials,90,90.0,0.0,reproduced\n";
+        assert_eq!(table.csv(), expected);
+        assert_eq!(part(&[]), None);
+    }
+}

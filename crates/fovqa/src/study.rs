@@ -1,0 +1,148 @@
+//! Carries out the analyses of study files.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fovqa_engine::{Events, Locking, ResultsFolder};
+use fovqa_plan::{StudyAnalysis, StudyFile};
+use fovqa_report::{AnsweredAnalysis, DrawnStudy, draw_study, printed_results, study_json};
+use fovqa_study::input::Table;
+use fovqa_study::{Inputs, StudyError};
+
+use crate::error::Error;
+use crate::finish::in_folder;
+use crate::foreseen_figures::CHANGE;
+
+/// What was made of a study file.
+#[derive(Debug)]
+pub struct FinishedStudy {
+    /// The folder.
+    pub folder: PathBuf,
+    /// The tables, and the number of figures.
+    pub drawn: DrawnStudy,
+    /// The results as JSON.
+    pub json: String,
+}
+
+/// Carries out all analyses of a file, and writes results, figures, tables and a page into a folder. The
+/// folder is `output`, or `reports/NAME` in the working directory, where NAME is the name in the file.
+///
+/// # Errors
+/// If a table is missing or does not fit, a printed number has no result, or the folder cannot be written
+/// to. Earlier results then stay as they are.
+pub fn study(
+    file: &StudyFile,
+    output: Option<&Path>,
+    locking: Locking,
+    events: &dyn Events,
+) -> Result<FinishedStudy, Error> {
+    let answers = answers(file)?;
+    let folder = output.map_or_else(|| Path::new("reports").join(&file.name), Path::to_owned);
+    let folder =
+        ResultsFolder::open_for_study(&folder, locking).map_err(|error| in_folder(&error))?;
+    folder.clear().map_err(|error| in_folder(&error))?;
+    let drawn = draw_study(folder.path(), file, &answers).map_err(|error| {
+        if error.is_of_settings() {
+            Error::usage(error.to_string(), CHANGE)
+        } else {
+            Error::input(error.to_string(), "free some space, or give another folder with {output}")
+        }
+    })?;
+    drawn.warnings.iter().for_each(|warning| events.warn(warning));
+    let json = study_json(file, &answers);
+    Ok(FinishedStudy { folder: folder.path().to_owned(), drawn, json })
+}
+
+/// Checks a study file with its tables: all analyses are carried out, and nothing is written.
+///
+/// # Errors
+/// As [`study`], without those of the folder.
+pub fn check_study(file: &StudyFile) -> Result<(), Error> {
+    answers(file).map(|_| ())
+}
+
+fn answers(file: &StudyFile) -> Result<Vec<AnsweredAnalysis<'_>>, Error> {
+    // Several analyses often have the same table.
+    let mut tables: Vec<(&Path, Table)> = Vec::new();
+    for path in file.analyses.iter().flat_map(|of| [&of.table, &of.scores]).flatten() {
+        if !tables.iter().any(|(known, _)| known == path) {
+            tables.push((path, read_table(path)?));
+        }
+    }
+    let table = |path: Option<&Path>| {
+        let known = tables.iter().find(|(known, _)| Some(*known) == path);
+        known.map(|(_, table)| table)
+    };
+    let mut answers = Vec::with_capacity(file.analyses.len());
+    for of in &file.analyses {
+        let inputs =
+            Inputs { table: table(of.table.as_deref()), scores: table(of.scores.as_deref()) };
+        let result = of
+            .request
+            .answer(inputs, &of.selection, &of.settings)
+            .map_err(|error| of_analysis(file, of, &error))?;
+        let printed = printed_results(&result, &of.printed).map_err(|(number, why)| {
+            let message = format!(
+                "{}: analysis {:?}: the printed number {:?} has at = {:?}, where {why}",
+                file.path.display(),
+                of.name,
+                number.quantity,
+                number.at
+            );
+            let help = "the place is that in `result` of study.json: `fovqa study … --format json` \
+                        prints it for one analysis";
+            Error::usage(message, help)
+        })?;
+        answers.push(AnsweredAnalysis { of, result, printed });
+    }
+    Ok(answers)
+}
+
+/// Reads a CSV table of a study.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn read_table(path: &Path) -> Result<Table, Error> {
+    let file = path.display().to_string();
+    let bytes = fs::read(path).map_err(|error| {
+        let help = "check the path; `fovqa study --help` shows what the file has to contain";
+        Error::input(format!("{file} cannot be read: {error}"), help)
+    })?;
+    Table::read(&file, &bytes)
+        .map_err(|error| Error::input(error.to_string(), escaped(&error.help())))
+}
+
+fn of_analysis(file: &StudyFile, of: &StudyAnalysis, error: &StudyError) -> Error {
+    let place = format!("{}: analysis {:?}", file.path.display(), of.name);
+    let message = format!("{place}: {}", as_keys(&error.to_string()));
+    Error::input(message, escaped(&as_keys(&error.help())))
+}
+
+/// A help text in which braces stand for themselves.
+fn escaped(help: &str) -> String {
+    help.replace('{', "(").replace('}', ")")
+}
+
+/// Options of the command line as keys of a file: `--max-errors` is `max_errors`.
+fn as_keys(text: &str) -> String {
+    let mut words = text.split(' ').map(|word| match word.strip_prefix("--") {
+        Some(option) => option.replace('-', "_"),
+        None => word.to_owned(),
+    });
+    let first = words.next().unwrap_or_default();
+    words.fold(first, |text, word| text + " " + &word)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_become_keys() {
+        assert_eq!(
+            as_keys("--max-errors needs --validation-expected: a-b"),
+            "max_errors needs validation_expected: a-b"
+        );
+        assert_eq!(as_keys("--by"), "by");
+    }
+}
