@@ -9,6 +9,7 @@
 mod analyses;
 mod anova;
 mod coverage;
+mod examples;
 mod metrics;
 mod observers;
 mod pairs;
