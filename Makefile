@@ -26,7 +26,7 @@ published-numbers:
 test:
 	cargo test --release --locked --workspace
 
-# How often the intervals of simulated studies contain the truth, as a table. About 3 CPU minutes.
+# How often the intervals of simulated studies contain the truth, as a table. About 5 CPU minutes.
 recovery:
 	cargo test --quiet --release --locked -p fovqa-study --test recovery -- --ignored --nocapture --test-threads=1
 

@@ -24,7 +24,7 @@ impl Impressions {
     pub(crate) fn of(self, jod: f64, random: &mut Replicate) -> f64 {
         match self {
             // The difference of two Gumbel numbers is logistic, and 1/(1 + e^(-ln 3)) = 0.75.
-            Self::Gumbel => jod * 3.0_f64.ln() - libm::log(-libm::log(positive(random))),
+            Self::Gumbel => jod * libm::log(3.0) - libm::log(-libm::log(positive(random))),
             // The difference of two normal numbers has the variance 2.
             Self::Normal => jod * PROBIT_75 * std::f64::consts::SQRT_2 + random.normal(),
         }

@@ -1,8 +1,8 @@
 //! Psychometric functions: thresholds of both fits.
 
-use fovqa_study::Settings;
 use std::f64::consts::PI;
 
+use fovqa_study::Settings;
 use fovqa_study::options::{Direction, Sigmoid};
 use fovqa_study::psychometric::{Level, Model, Options, fit};
 use fovqa_study::random::Replicate;
@@ -67,8 +67,8 @@ fn observers_of_the_prior() {
         .map(|quantity| format!("psychometric: observers of the prior, posterior {quantity}"));
     check(quantities.each_ref().map(String::as_str), |repetition| {
         let mut random = Replicate::new(207, repetition);
-        let lapse = draw(0.0, 0.5, &mut random, |lapse| (1.0 - lapse).powi(9));
-        let eta = draw(0.0, 1.0, &mut random, |eta| (1.0 - eta).powi(9));
+        let lapse = draw(0.0, 0.5, &mut random, |lapse| libm::pow(1.0 - lapse, 9.0));
+        let eta = draw(0.0, 1.0, &mut random, |eta| libm::pow(1.0 - eta, 9.0));
         let threshold = draw(-1.5, 8.5, &mut random, prior_of_position);
         let width = draw(GAP, 3.0 * RANGE, &mut random, prior_of_width);
         let observer = Observer { threshold, width, lapse, ..prior };
@@ -106,17 +106,17 @@ fn draw(low: f64, high: f64, random: &mut Replicate, density: impl Fn(f64) -> f6
 /// psignifit's prior of m: 1 over the levels, and a cosine to half a range outside.
 fn prior_of_position(position: f64) -> f64 {
     let distance = (LEVELS[0] - position).max(position - LEVELS[LEVELS.len() - 1]).max(0.0);
-    0.5 * (1.0 + (2.0 * PI * distance / RANGE).cos())
+    0.5 * (1.0 + libm::cos(2.0 * PI * distance / RANGE))
 }
 
 /// psignifit's prior of w: 1 from twice the least gap of levels to their range.
 fn prior_of_width(width: f64) -> f64 {
     if width < 2.0 * GAP {
-        0.5 * (1.0 - (PI * (width - GAP) / GAP).cos())
+        0.5 * (1.0 - libm::cos(PI * (width - GAP) / GAP))
     } else if width <= RANGE {
         1.0
     } else {
-        0.5 * (1.0 + (PI * (width - RANGE) / (2.0 * RANGE)).cos())
+        0.5 * (1.0 + libm::cos(PI * (width - RANGE) / (2.0 * RANGE)))
     }
 }
 

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 
 use fovqa_study::random::Replicate;
 
-/// The names of 20 participants or fewer, with their random numbers.
+/// The names of participants, with their random numbers.
 fn participants(count: u64, seed: u64) -> impl Iterator<Item = (String, Replicate)> {
     (0..count).map(move |index| (format!("P{:02}", index + 1), Replicate::new(seed, index)))
 }
