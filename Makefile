@@ -1,6 +1,6 @@
 # Each line is a plain cargo command, for those without make. All targets except `lint` and `fuzz` share the release profile.
 
-.PHONY: demo sample figures published-numbers test bench lint fuzz
+.PHONY: demo sample figures published-numbers test recovery bench lint fuzz
 
 demo:
 	cargo run --release --locked --bin fovqa -- run configs/demo.toml
@@ -25,6 +25,10 @@ published-numbers:
 
 test:
 	cargo test --release --locked --workspace
+
+# How often the intervals of simulated studies contain the truth, as a table. About 5 CPU minutes.
+recovery:
+	cargo test --quiet --release --locked -p fovqa-study --test recovery -- --ignored --nocapture --test-threads=1
 
 bench:
 	cargo bench --locked -p fovqa-tests --bench speed
