@@ -1,6 +1,7 @@
 //! The results of a user study as text.
 
 mod anova;
+pub(crate) mod figures;
 mod metrics;
 mod numbers;
 mod pairs;
