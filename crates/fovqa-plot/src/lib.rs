@@ -47,7 +47,7 @@ pub use canvas::look::Look;
 pub use canvas::palette::Palette;
 pub use canvas::photo::Photo;
 pub use canvas::printed::Printed;
-pub use charts::bar::{BarChart, BarSeries, Bracket};
+pub use charts::bar::{BarChart, BarSeries, Bracket, ReferenceLine};
 pub use charts::heat_map::{HeatMap, HeatMapLayout};
 pub use charts::heat_overlay::HeatRing;
 pub use charts::heat_scale::HeatScale;

@@ -25,6 +25,8 @@ pub(crate) fn for_picture(figure: &Figure) -> Cow<'_, Figure> {
         errors: if is_long(series) { Vec::new() } else { series.errors.clone() },
         intervals: if is_long(series) { Vec::new() } else { series.intervals.clone() },
         dots: series.dots,
+        scatter: series.scatter,
+        unmarked: series.unmarked,
         rings: series.rings,
         unlisted: series.unlisted,
         points: if is_long(series) { shortened(&series.points) } else { series.points.clone() },

@@ -32,6 +32,9 @@ pub struct Staircases {
     pub staircases: Vec<Staircase>,
     /// The thresholds of the methods, by first appearance.
     pub methods: Vec<MethodThreshold>,
+    /// The mean of the levels at reversals, for figures.
+    #[serde(skip)]
+    pub mean: LevelMean,
 }
 
 /// One staircase.
@@ -60,6 +63,22 @@ pub struct Staircase {
     /// The threshold.
     #[serde(flatten)]
     pub threshold: Threshold,
+    /// The trials in their order, for figures.
+    #[serde(skip)]
+    pub track: Vec<TrackTrial>,
+}
+
+/// A trial of a staircase.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrackTrial {
+    /// The number of the trial, from the table.
+    pub trial: f64,
+    /// The level.
+    pub level: f64,
+    /// Whether the answer was correct.
+    pub is_correct: bool,
+    /// Whether the trial is a reversal that enters the threshold.
+    pub is_used: bool,
 }
 
 /// The threshold of a staircase.
@@ -123,7 +142,8 @@ pub fn staircase(
         let staircases: Vec<Staircase> =
             read(&data, options)?.into_iter().map(|rows| rows.finish(options)).collect();
         let methods = methods(&staircases, options, settings);
-        groups.push(Group { by, result: Staircases { staircases, methods } });
+        let result = Staircases { staircases, methods, mean: options.mean };
+        groups.push(Group { by, result });
     }
     Ok(Document::new("staircase", groups))
 }
@@ -189,6 +209,15 @@ impl Trials {
         let levels: Vec<f64> = self.trials.iter().map(|trial| trial.level).collect();
         let reversals = reversals(&levels);
         let correct = self.trials.iter().filter(|trial| trial.is_correct).count();
+        let threshold = threshold(&levels, &reversals, options);
+        let used = &reversals[reversals.len() - threshold.used..];
+        let track = self.trials.iter().enumerate().map(|(index, trial)| TrackTrial {
+            trial: trial.number,
+            level: trial.level,
+            is_correct: trial.is_correct,
+            is_used: used.binary_search(&index).is_ok(),
+        });
+        let track = track.collect();
         Staircase {
             participant: self.participant,
             method: self.method,
@@ -198,7 +227,8 @@ impl Trials {
             share_correct: correct as f64 / self.trials.len() as f64,
             reversals: reversals.len(),
             reversal_trials: reversals.iter().map(|&index| self.trials[index].number).collect(),
-            threshold: threshold(&levels, &reversals, options),
+            threshold,
+            track,
         }
     }
 }
@@ -350,6 +380,11 @@ mod tests {
         let group = &result.groups[0].result;
         assert_eq!(group.staircases[0].reversal_trials, [2.0, 3.0, 4.0]);
         assert_eq!(group.staircases[0].threshold.threshold, Some(1.5));
+        // Of three reversals, the first one is left out.
+        let track = &group.staircases[0].track;
+        let used: Vec<f64> = track.iter().filter(|trial| trial.is_used).map(|t| t.trial).collect();
+        assert_eq!((track.len(), used), (5, vec![3.0, 4.0]));
+        assert_eq!((track[2].level, track[2].is_correct), (2.0, false));
         assert_eq!((group.methods[0].participants, group.methods[0].threshold), (1, Some(1.5)));
         assert!(group.methods[0].ci.is_none() && group.methods[0].reason.is_some());
     }

@@ -3,14 +3,14 @@
 use crate::axes::axis::{AXIS_STROKE, Axis};
 use crate::axes::group_axis::GroupAxis;
 use crate::axes::value_axis::ValueAxis;
-use crate::canvas::colour::INK;
-use crate::canvas::drawing::{Drawing, Rect};
+use crate::canvas::colour::{INK, REFERENCE};
+use crate::canvas::drawing::{Drawing, Rect, Stroke};
 use crate::canvas::look::Look;
 use crate::error::PlotError;
 use crate::marks::bracket;
 use crate::marks::error_bar;
 use crate::marks::infinity;
-use crate::marks::legend::Key;
+use crate::marks::legend::{Key, REFERENCE_PX};
 use crate::marks::marker;
 use crate::marks::swatch;
 use crate::marks::value_label::{Orientation, Side, widest_px};
@@ -48,6 +48,20 @@ pub struct BarChart {
     pub from_zero: bool,
     /// Brackets above the plot area, which connect bars that are compared.
     pub brackets: Vec<Bracket>,
+    /// Level lines with which values are compared, such as chance. The axis includes them. They are
+    /// gray and dashed.
+    pub references: Vec<ReferenceLine>,
+    /// Whether each value has a label, which is the default. Notes are written in any case.
+    pub labels: bool,
+}
+
+/// A level line over all groups.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ReferenceLine {
+    /// Its name in the legend; empty for none.
+    pub name: String,
+    /// Its value. A line that is not finite, or beyond an end of the axis that was set, is not drawn.
+    pub value: f64,
 }
 
 /// A bracket between two bars.
@@ -69,7 +83,7 @@ pub struct BarSeries {
     /// Half the length of the error bar of each value; empty for none.
     pub errors: Vec<Option<f64>>,
     /// The lower and the upper end of the interval of each value, in place of
-    /// [`errors`](Self::errors); empty for none.
+    /// [`errors`](Self::errors); empty for none. An infinite end is drawn to the border.
     pub intervals: Vec<Option<[f64; 2]>>,
     /// A text behind the label of each value, such as stars of significance; empty for none.
     pub notes: Vec<String>,
@@ -87,6 +101,8 @@ impl Default for BarChart {
             series: Vec::new(),
             from_zero: true,
             brackets: Vec::new(),
+            references: Vec::new(),
+            labels: true,
         }
     }
 }
@@ -141,8 +157,7 @@ impl BarChart {
             above: above.max(MARGIN_PX),
             below: below + groups.below_px(),
         };
-        let keys: Vec<_> =
-            self.series.iter().map(|s| (s.name.as_str(), self.key(s.look))).collect();
+        let keys: Vec<_> = self.keys().collect();
         let (mut drawing, plot) =
             layout::begin(self.title.as_deref(), &keys, sides, (groups.plot_width_px(), height_px));
         axis.draw_grid(&mut drawing, plot);
@@ -155,6 +170,7 @@ impl BarChart {
         } else {
             let frame =
                 Frame { axis: &axis, groups: &groups, plot, format, values, labelled, missing };
+            self.draw_references(&mut drawing, &frame);
             self.draw_series(&mut drawing, &frame);
         }
         let strip_px = above - brackets.height_px();
@@ -176,25 +192,35 @@ impl BarChart {
         if self.has_bars() { Key::Bar(look) } else { Key::Marker(look) }
     }
 
+    /// The keys of the series, then those of the reference lines.
+    fn keys(&self) -> impl Iterator<Item = (&str, Key)> {
+        let series = self.series.iter().map(|series| (series.name.as_str(), self.key(series.look)));
+        let references = self.references.iter().enumerate();
+        let references = references
+            .map(|(i, reference)| (reference.name.as_str(), Key::Reference(Look::new(i))));
+        series.chain(references)
+    }
+
     pub(crate) fn places(&self) -> impl Iterator<Item = AxisPlace> {
         self.series.iter().flat_map(|series| &series.values).filter_map(|value| self.place(*value))
     }
 
-    /// The ends of all error bars.
+    /// The ends of all error bars, and the reference lines.
     fn error_ends(&self) -> impl Iterator<Item = f64> {
         let of = |series: &BarSeries| {
             let ends: Vec<_> = (0..series.values.len()).filter_map(|g| series.ends(g)).collect();
             ends
         };
         let ends = self.series.iter().flat_map(of).flat_map(<[f64; 2]>::from);
-        ends.filter(|end| self.y.has(*end))
+        let references = self.references.iter().map(|reference| reference.value);
+        ends.chain(references).filter(|end| end.is_finite() && self.y.has(*end))
     }
 
     /// The labels of all finite values.
     fn labels(&self, format: Format) -> impl Iterator<Item = String> {
         self.series.iter().flat_map(move |series| {
             let value = |(g, value): (usize, &Option<f64>)| {
-                Some(series.label(g, self.place(*value)?.finite()?, format))
+                Some(self.label(series, g, self.place(*value)?.finite()?, format))
             };
             series.values.iter().enumerate().filter_map(value).collect::<Vec<_>>()
         })
@@ -253,9 +279,9 @@ impl BarChart {
                 match place {
                     None => self.draw_missing(drawing, frame, x),
                     Some(place) => {
-                        let note = series.notes.get(g).map_or("", String::as_str);
+                        let label = place.finite().map(|v| self.label(series, g, v, frame.format));
                         let at = (x, place, series.ends(g));
-                        self.draw_value(drawing, frame, at, (series.look, note));
+                        self.draw_value(drawing, frame, at, (series.look, label));
                     }
                 }
                 for (beyond, _, xs) in &mut infinite {
@@ -270,12 +296,32 @@ impl BarChart {
         }
     }
 
+    /// Draws the reference lines that are between the ends of the axis.
+    fn draw_references(&self, drawing: &mut Drawing, frame: &Frame<'_>) {
+        let plot = frame.plot;
+        let stroke = Stroke { colour: REFERENCE, width_px: REFERENCE_PX };
+        for (i, reference) in self.references.iter().enumerate() {
+            let is_on_axis = reference.value.is_finite() && self.y.has(reference.value);
+            if is_on_axis && (0.0..=1.0).contains(&frame.axis.share(reference.value)) {
+                let y = frame.axis.y(plot, reference.value);
+                let line = [(plot.left, y), (plot.right, y)];
+                drawing.dashed(&line, stroke, Look::new(i).reference_dash_px());
+            }
+        }
+    }
+
+    /// The label of a value, with its note.
+    fn label(&self, series: &BarSeries, group: usize, value: f64, format: Format) -> String {
+        let note = series.notes.get(group).map_or("", String::as_str);
+        if self.labels { with_note(format.label(value), note) } else { note.to_owned() }
+    }
+
     fn draw_value(
         &self,
         drawing: &mut Drawing,
         frame: &Frame<'_>,
         (x, place, ends): (f64, AxisPlace, Option<(f64, f64)>),
-        (look, note): (Look, &str),
+        (look, label): (Look, Option<String>),
     ) {
         let plot = frame.plot;
         let outside = |value: f64| !(0.0..=1.0).contains(&frame.axis.share(value));
@@ -298,13 +344,14 @@ impl BarChart {
             marker::draw(drawing, (x, end), look, radius_px, look.colour());
         }
         let ends = ends.map(|(low, high)| {
-            let low = if self.y.has(low) { frame.axis.y(plot, low) } else { plot.bottom };
-            (low, frame.axis.y(plot, high))
+            let is_low = low.is_finite() && self.y.has(low);
+            let low = if is_low { frame.axis.y(plot, low) } else { plot.bottom };
+            (low, if high.is_finite() { frame.axis.y(plot, high) } else { plot.top })
         });
         if let Some(ends) = ends {
             error_bar::draw(drawing, x, ends, INK);
         }
-        if let Some(value) = place.finite().filter(|_| frame.labelled) {
+        if let Some((value, label)) = place.finite().zip(label).filter(|_| frame.labelled) {
             let downwards = self.has_bars() && value < 0.0;
             let side = if downwards { Side::Below } else { Side::Above };
             let off = if self.has_bars() { 0.0 } else { marker::RADIUS_PX };
@@ -314,7 +361,9 @@ impl BarChart {
                 (Some((low, _)), Side::Below) => low.max(end - off),
                 (None, _) => end - off,
             };
-            frame.values.draw(drawing, &with_note(frame.format.label(value), note), (x, end), side);
+            if !label.is_empty() {
+                frame.values.draw(drawing, &label, (x, end), side);
+            }
         }
     }
 
@@ -333,15 +382,9 @@ impl BarSeries {
     fn ends(&self, group: usize) -> Option<(f64, f64)> {
         let value = self.values.get(group).copied().flatten();
         if let Some([low, high]) = self.intervals.get(group).copied().flatten() {
-            let is_shown = value.is_some() && low.is_finite() && high.is_finite();
-            return Some((low, high)).filter(|_| is_shown);
+            return Some((low, high)).filter(|_| value.is_some() && low <= high);
         }
         error_ends(value, self.errors.get(group).copied().flatten())
-    }
-
-    fn label(&self, group: usize, value: f64, format: Format) -> String {
-        let note = self.notes.get(group).map_or("", String::as_str);
-        with_note(format.label(value), note)
     }
 }
 

@@ -89,6 +89,12 @@ pub struct LineSeries {
     pub intervals: Vec<Option<[f64; 2]>>,
     /// Whether its points are small dots without a line, such as positions of samples.
     pub dots: bool,
+    /// Whether its points are markers without a line, such as single measured values. They stay at
+    /// their positions, even if error bars of several series meet.
+    pub scatter: bool,
+    /// Whether its line has no markers, for example because markers would be mistaken for values.
+    /// Points between two gaps keep theirs.
+    pub unmarked: bool,
     /// Whether its points are rings without a line, which point out points of a curve that follows.
     pub rings: bool,
     /// Whether the legend leaves it out, because it belongs to another series or area.
@@ -100,7 +106,12 @@ pub struct LineSeries {
 
 impl LineSeries {
     fn key(&self) -> Key {
-        if self.reference { Key::Reference(self.look) } else { Key::Curve(self.look) }
+        match self {
+            Self { reference: true, .. } => Key::Reference(self.look),
+            Self { scatter: true, .. } => Key::Marker(self.look),
+            Self { unmarked: true, .. } => Key::Line(self.look),
+            _ => Key::Curve(self.look),
+        }
     }
 
     fn places(&self) -> impl Iterator<Item = (f64, Option<AxisPlace>)> {
@@ -233,7 +244,10 @@ impl LineChart {
             let seen = self.x.has(position) && (0.0..=1.0).contains(&x.share(position));
             seen.then(|| x.x(plot, position) - plot.left)
         };
-        let bars = |series: &LineSeries| series.error_bars().filter_map(at).collect();
+        let bars = |series: &LineSeries| match series.scatter {
+            true => Vec::new(),
+            false => series.error_bars().filter_map(at).collect(),
+        };
         let curves: Vec<Vec<f64>> = self.series.iter().map(bars).collect();
         dodge::shifts_px(&curves, plot.width())
     }
@@ -424,6 +438,13 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
         }
         return;
     }
+    let colour = series.stroke().colour;
+    if series.scatter {
+        for at in runs.iter().flatten().filter(inside).map(px) {
+            marker::draw(drawing, at, series.look, marker::RADIUS_PX, colour);
+        }
+        return;
+    }
     let pieces: Vec<Vec<Point>> = runs
         .iter()
         .flat_map(|run| clip::upright(run))
@@ -436,7 +457,7 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
     for piece in &pieces {
         drawing.dashed(piece, stroke, dash);
     }
-    let marked = !series.reference && series.look.has_markers();
+    let marked = !series.reference && !series.unmarked && series.look.has_markers();
     let on_points = marked && !series.smooth;
     let mut markers: Vec<Point> = Vec::new();
     for run in &runs {
@@ -453,6 +474,6 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
         markers.extend(pieces.iter().flat_map(along));
     }
     for at in markers {
-        marker::draw(drawing, at, series.look, marker::RADIUS_PX, stroke.colour);
+        marker::draw(drawing, at, series.look, marker::RADIUS_PX, colour);
     }
 }

@@ -77,7 +77,10 @@ fn is_seen(chart: &LineChart, series: &LineSeries, x: Scale, y: Scale) -> bool {
     let runs = points.split(Option::is_none);
     let runs = runs.map(|run| run.iter().copied().flatten().collect::<Vec<Point>>());
     let mut pieces = runs.flat_map(|run| clip::upright(&run));
-    !series.dots && !series.rings && pieces.any(|run| !clip::level(&run).is_empty())
+    !series.dots
+        && !series.scatter
+        && !series.rings
+        && pieces.any(|run| !clip::level(&run).is_empty())
 }
 
 /// The same for bars.

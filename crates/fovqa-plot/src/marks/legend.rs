@@ -37,6 +37,8 @@ pub(crate) const REFERENCE_PX: f64 = 1.4;
 pub(crate) enum Key {
     /// A curve with markers.
     Curve(Look),
+    /// A curve without markers.
+    Line(Look),
     /// A dashed reference curve.
     Reference(Look),
     /// Filled bars.
@@ -116,6 +118,10 @@ impl Key {
                 if look.has_markers() {
                     marker::draw(drawing, middle, look, marker::RADIUS_PX, look.colour());
                 }
+            }
+            Self::Line(look) => {
+                let stroke = Stroke { colour: look.colour(), width_px: CURVE_PX };
+                drawing.dashed(&line, stroke, look.dash_px());
             }
             Self::Reference(look) => {
                 let stroke = Stroke { colour: REFERENCE, width_px: REFERENCE_PX };

@@ -9,7 +9,7 @@ mod sphericity;
 
 pub use cells::Cell;
 pub use effects::Effect;
-pub use posthoc::PairedTest;
+pub use posthoc::{LevelMean, PairedTest};
 pub use sphericity::{Corrected, Mauchly};
 
 use serde::Serialize;
@@ -32,6 +32,9 @@ pub struct Anova {
     pub posthoc: Option<Vec<PairedTest>>,
     /// The cells, the last factor fastest.
     pub cells: Vec<Cell>,
+    /// The levels of each factor, averaged over the other factor, for figures.
+    #[serde(skip)]
+    pub levels: Vec<LevelMean>,
     /// Why a value is undefined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -69,6 +72,7 @@ fn of_cells(cells: &Cells, settings: &Settings) -> Anova {
         effects: reason.is_none().then(|| effects::effects(cells)),
         posthoc: reason.is_none().then(|| posthoc::posthoc(cells, settings)),
         cells: cells.table(settings.confidence),
+        levels: posthoc::levels(cells, settings.confidence),
         reason,
     }
 }

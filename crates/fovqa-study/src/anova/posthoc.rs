@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
-use super::cells::Cells;
+use super::cells::{Cells, Factor};
 use crate::Settings;
 use crate::adjust::adjusted;
 use crate::distributions::{t_quantile, t_two_sided};
+use crate::moments::Moments;
 
 /// A paired t test of two levels, averaged over the levels of the other factor.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,6 +34,31 @@ pub struct PairedTest {
     /// Why a value is undefined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+}
+
+/// The mean of a level of a factor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LevelMean {
+    /// The factor.
+    pub factor: String,
+    /// The level.
+    pub level: String,
+    /// Moments of the participants' means over the levels of the other factor.
+    pub moments: Moments,
+}
+
+/// The means of the levels of all factors.
+pub(super) fn levels(cells: &Cells, confidence: f64) -> Vec<LevelMean> {
+    let of_factor = |(index, factor): (usize, &Factor)| {
+        let values = level_means(cells, index);
+        let level = |(level, values): (&String, Vec<f64>)| LevelMean {
+            factor: factor.name.clone(),
+            level: level.clone(),
+            moments: Moments::of(&values, confidence),
+        };
+        factor.levels.names().iter().zip(values).map(level).collect::<Vec<LevelMean>>()
+    };
+    cells.factors.iter().enumerate().flat_map(of_factor).collect()
 }
 
 /// The tests of all factors; there are at least two participants.
@@ -106,6 +132,7 @@ impl PairedTest {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::{Data, Selection, Table};
 
     #[test]
     fn differences_are_tested() {
@@ -116,5 +143,21 @@ mod tests {
         assert_eq!((test.mean_difference, test.df), (2.0, 2));
         let equal = PairedTest::of(&[0.1, 0.2], &[0.3, 0.4], 0.95);
         assert!(equal.t.is_none() && equal.p.is_none() && equal.reason.is_some());
+    }
+
+    #[test]
+    fn levels_are_averaged_over_the_other_factor() {
+        let csv = b"participant,a,b,value\nP,x,u,1\nP,x,v,2\nP,y,u,3\nP,y,v,4\n\
+            Q,x,u,3\nQ,x,v,4\nQ,y,u,9\nQ,y,v,8\n";
+        let table = Table::read("c.csv", csv).unwrap();
+        let selection = Selection::default();
+        let data = Data::new(&table, &selection).unwrap();
+        let cells = Cells::read(&data, &["a".to_owned(), "b".to_owned()]).unwrap();
+        let levels = levels(&cells, 0.95);
+        let found: Vec<_> = levels.iter().map(|l| (l.level.as_str(), l.moments.mean)).collect();
+        let expected = [2.5, 6.0, 4.0, 4.5].map(Some);
+        assert_eq!(found, ["x", "y", "u", "v"].into_iter().zip(expected).collect::<Vec<_>>());
+        // The means of P and Q at x are 1.5 and 3.5.
+        assert_eq!((levels[0].factor.as_str(), levels[0].moments.se), ("a", Some(1.0)));
     }
 }

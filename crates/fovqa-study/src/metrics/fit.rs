@@ -38,6 +38,14 @@ pub struct Fit {
     pub reason: Option<String>,
 }
 
+impl Fit {
+    /// The fitted mean opinion score at a score of the metric.
+    pub fn at(&self, score: f64) -> f64 {
+        let [upper, lower, position, scale] = self.beta;
+        lower + (upper - lower) / (1.0 + libm::exp(-(score - position) / scale))
+    }
+}
+
 /// Fits the function to scores `x` and mean opinion scores `y` with standard errors. `None` with fewer
 /// than 5 conditions, or equal scores.
 pub(super) fn fit(x: &[f64], y: &[f64], errors: &[Option<f64>]) -> Option<Fit> {

@@ -10,12 +10,13 @@ use serde::Serialize;
 
 pub use self::comparisons::Comparison;
 pub use self::fit::Fit;
+pub use self::scores::Condition;
 pub(crate) use self::scores::mean_scores;
 
 use self::comparisons::{Correlations, adjust, compare};
 use self::correlation::{fisher_interval, is_constant, kendall, p_value, pearson, spearman};
 use self::fit::{LEAST_CONDITIONS, fit};
-use self::scores::{Condition, Scores, conditions};
+use self::scores::{Scores, conditions};
 use crate::bootstrap::{Interval, interval, replicates};
 use crate::input::{Data, Table};
 use crate::json::{Document, Group};
@@ -44,6 +45,9 @@ pub struct Metrics {
     pub metrics: Vec<Metric>,
     /// All pairs of metrics.
     pub comparisons: Vec<Comparison>,
+    /// The conditions with scores, for figures.
+    #[serde(skip)]
+    pub conditions: Vec<Condition>,
 }
 
 /// How well one metric predicts the scores.
@@ -75,6 +79,9 @@ pub struct Metric {
     pub kendall_bootstrap: Option<Interval>,
     /// The logistic fit.
     pub fit: Option<Fit>,
+    /// The score of each condition, for figures. Higher scores are better.
+    #[serde(skip)]
+    pub scores: Vec<f64>,
     /// Why a value is undefined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -145,6 +152,7 @@ struct Matched {
     unmatched: Vec<String>,
     names: Vec<String>,
     is_lower_better: Vec<bool>,
+    conditions: Vec<Condition>,
     /// The mean opinion scores.
     values: Vec<f64>,
     /// Their standard errors.
@@ -168,6 +176,7 @@ impl Matched {
                 .iter()
                 .map(|name| options.lower_is_better.contains(name))
                 .collect(),
+            conditions: Vec::new(),
             values: Vec::new(),
             errors: Vec::new(),
             scores: vec![Vec::new(); names.len()],
@@ -180,6 +189,7 @@ impl Matched {
             };
             matched.values.push(condition.value);
             matched.errors.push(condition.error);
+            matched.conditions.push(condition);
             let parts = matched.scores.iter_mut().zip(found).zip(&matched.is_lower_better);
             for ((scores, score), &is_lower_better) in parts {
                 scores.push(if is_lower_better { -score } else { score });
@@ -206,7 +216,13 @@ impl Matched {
             }
         }
         adjust(&mut comparisons, settings.adjust);
-        Metrics { n: self.values.len(), unmatched: self.unmatched, metrics, comparisons }
+        Metrics {
+            n: self.values.len(),
+            unmatched: self.unmatched,
+            metrics,
+            comparisons,
+            conditions: self.conditions,
+        }
     }
 
     /// Per replicate and metric: the correlations of resampled conditions.
@@ -249,6 +265,7 @@ impl Matched {
             kendall: kendall(x, y),
             kendall_bootstrap,
             fit: fit(x, y, &self.errors),
+            scores: x.clone(),
             reason: reason(x, y, pearson, pearson_bootstrap.is_none()),
         }
     }

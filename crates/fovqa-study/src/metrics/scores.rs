@@ -7,15 +7,15 @@ use crate::input::{Column, Data, Table};
 
 /// A scene with a method, and its mean opinion score.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Condition {
+pub struct Condition {
     /// The scene.
-    pub(super) scene: String,
+    pub scene: String,
     /// The method.
-    pub(super) method: String,
+    pub method: String,
     /// The mean opinion score; the mean if there are several rows.
-    pub(super) value: f64,
+    pub value: f64,
     /// Its standard error, if there is one.
-    pub(super) error: Option<f64>,
+    pub error: Option<f64>,
 }
 
 /// The conditions of a group, by first appearance.

@@ -18,6 +18,10 @@ const ROUNDING: f64 = 1e-12;
 const EXHAUSTIVE: f64 = 2000.0;
 /// That share.
 const START: f64 = 0.9;
+/// The most numbers of trials in a curve of the power.
+const MOST_POINTS: u64 = 300;
+/// The trials of a curve if no number of trials has the wanted power.
+const LEAST_SHOWN: u64 = 200;
 
 /// What a pairwise comparison is planned for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +52,15 @@ pub struct PairsPlan {
     /// The least number of trials with an interval (Clopper and Pearson) that is no wider than
     /// requested.
     pub trials_for_width: Option<u64>,
+    /// The power that was asked for, for figures.
+    #[serde(skip)]
+    pub required: f64,
+    /// Numbers of trials and their power, for figures: up to half as many again as are needed.
+    #[serde(skip)]
+    pub curve: Vec<(u64, f64)>,
+    /// The requested number of trials, for figures.
+    #[serde(skip)]
+    pub requested: Option<u64>,
     /// Why a value is undefined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -77,9 +90,25 @@ pub fn plan_pairs(options: &PairsOptions, settings: &Settings) -> Plan<PairsPlan
         power: found.map(|(_, power)| power),
         power_at_trials: options.trials.map(|trials| power(options, trials, None).0),
         trials_for_width,
+        required: options.power,
+        curve: curve(options, found.map(|(trials, _)| trials)),
+        requested: options.trials,
         reason: (!reasons.is_empty()).then(|| reasons.join("; ")),
     };
     Plan::new("pairs", result)
+}
+
+/// The power with numbers of trials from 1: up to half as many again as are needed, and as are
+/// requested. With many trials, they are equally spaced.
+fn curve(options: &PairsOptions, needed: Option<u64>) -> Vec<(u64, f64)> {
+    let most = needed.unwrap_or(LEAST_SHOWN).max(options.trials.unwrap_or(0)).max(LEAST_SHOWN / 10);
+    let last = (most.saturating_mul(3) / 2).min(MOST_TRIALS);
+    let step = last.div_ceil(MOST_POINTS).max(1);
+    let all = (1..=last).step_by(step as usize).chain(needed);
+    let mut trials: Vec<u64> = all.collect();
+    trials.sort_unstable();
+    trials.dedup();
+    trials.into_iter().map(|n| (n, power(options, n, None).0)).collect()
 }
 
 /// The power with n trials, and the least k that is significant on the upper side (n + 1 if none is).
@@ -201,6 +230,19 @@ mod tests {
         let plan =
             plan_pairs(&options(0.5, 0.05, 0.8, Alternative::TwoSided), &Settings::default());
         assert!(plan.result.trials.is_none() && plan.result.reason.is_some());
+    }
+
+    #[test]
+    fn the_curve_of_the_power_crosses_the_wanted_one_where_it_says() {
+        let plan =
+            plan_pairs(&options(0.7, 0.05, 0.8, Alternative::TwoSided), &Settings::default());
+        let PairsPlan { curve, trials, required, .. } = plan.result;
+        let first = curve.iter().find(|(_, power)| *power >= required).unwrap();
+        assert_eq!(Some(first.0), trials);
+        let small = options(0.51, 0.05, 0.8, Alternative::TwoSided);
+        assert!(plan_pairs(&small, &Settings::default()).result.curve.len() <= 302);
+        let never = options(0.5, 0.05, 0.8, Alternative::TwoSided);
+        assert!(plan_pairs(&never, &Settings::default()).result.curve.len() >= 200);
     }
 
     #[test]

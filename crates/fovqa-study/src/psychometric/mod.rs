@@ -1,6 +1,7 @@
 //! Psychometric functions: the probability of a correct answer as a function of the level of a
 //! stimulus, fitted by maximum likelihood and by Bayesian inference.
 
+mod drawn;
 mod levels;
 mod ml;
 mod model;
@@ -11,6 +12,7 @@ mod sigmoid;
 
 use serde::Serialize;
 
+pub use self::drawn::{CurvePoint, DrawnCurve};
 pub use self::levels::{Level, pool};
 pub use self::ml::{LevelAt, MaximumLikelihood};
 pub use self::model::Model;
@@ -34,6 +36,10 @@ pub struct Psychometric {
     pub ml: Option<MaximumLikelihood>,
     /// The posterior.
     pub posterior: Option<Posterior>,
+    /// The fitted function, for figures: of maximum likelihood, or of the posterior's mode if the
+    /// answers do not determine that.
+    #[serde(skip)]
+    pub drawn: Option<DrawnCurve>,
     /// Why a fit is undefined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -68,15 +74,24 @@ pub fn fit(levels: Vec<Level>, options: &Options, settings: &Settings) -> Psycho
         } else {
             "the levels are too far apart, or too near to each other, for a fit"
         };
-        return Psychometric { levels, ml: None, posterior: None, reason: Some(reason.to_owned()) };
+        let reason = Some(reason.to_owned());
+        return Psychometric { levels, ml: None, posterior: None, drawn: None, reason };
     };
     let ml = ml::fit(options, &trials, &span, settings);
-    let start = ml.as_ref().map(|(_, curve)| *curve);
+    let start = ml.as_ref().map(|fit| fit.best);
     let posterior = start
         .and_then(|curve| posterior::fit(options, &trials, &span, &curve, settings.confidence));
     let reason = (ml.is_none() || posterior.is_none())
         .then(|| "the likelihood of the answers is not finite".to_owned());
-    Psychometric { levels, ml: ml.map(|(ml, _)| ml), posterior, reason }
+    let model = &options.model;
+    let drawn = match (&ml, &posterior) {
+        (Some(ml), _) if ml.result.threshold.is_some() => {
+            Some(DrawnCurve::with_band(model, &span, (&ml.best, &ml.refits), settings.confidence))
+        }
+        (_, Some(posterior)) => Some(DrawnCurve::of_mode(model, &span, &posterior.map)),
+        _ => None,
+    };
+    Psychometric { levels, ml: ml.map(|ml| ml.result), posterior, drawn, reason }
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ use serde::Serialize;
 
 use crate::input::Data;
 use crate::json::{Document, Group};
-use crate::moments::mean;
+use crate::moments::{mean, sd};
 use crate::options::PairwiseTest;
 use crate::quantile::median;
 use crate::{Settings, StudyError};
@@ -50,6 +50,9 @@ pub struct Method {
     pub mean: Option<f64>,
     /// Their median.
     pub median: Option<f64>,
+    /// The standard error of the mean, for figures.
+    #[serde(skip)]
+    pub se: Option<f64>,
     /// Why a value is undefined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -91,6 +94,7 @@ fn of_units(units: &Units, options: &Options, settings: &Settings) -> Ranks {
         n: values.len(),
         mean: mean(values),
         median: median(values),
+        se: sd(values).map(|sd| sd / libm::sqrt(values.len() as f64)),
         reason: values.is_empty().then(|| "all votes of the method are left out".to_owned()),
     });
     let slices: Vec<&[f64]> = values.iter().map(Vec::as_slice).collect();

@@ -13,6 +13,9 @@ const ROUNDING: f64 = 1e-12;
 /// The largest acceptable level.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Acceptable {
+    /// The mean score that an acceptable level has at least, for figures.
+    #[serde(skip)]
+    pub threshold: f64,
     /// The last of the leading levels whose mean score reaches the threshold. Levels above the first
     /// one that does not reach it are not acceptable, even if their scores are.
     pub largest_level: Option<f64>,
@@ -53,6 +56,7 @@ pub(super) fn acceptable(scores: &Scores<1>, threshold: f64, settings: &Settings
         Some(_) => {}
     }
     Acceptable {
+        threshold,
         largest_level,
         crossing: finite(exact),
         crossing_ci,

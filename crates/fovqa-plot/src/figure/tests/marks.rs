@@ -1,7 +1,7 @@
 //! Marks and labels: bars, boxes, gaps, and infinite or missing values.
 
 use super::*;
-use crate::Bracket;
+use crate::{Bracket, ReferenceLine};
 
 #[test]
 fn infinite_and_missing_values_are_shown() {
@@ -280,4 +280,69 @@ fn markers_beyond_the_ends_of_the_axis_are_not_drawn() {
     let figure = Figure::Bar(chart);
     check(&figure);
     assert_eq!((count(&figure, "19.8"), count(&figure, "35.0")), (0, 1));
+}
+
+#[test]
+fn points_without_a_line_and_lines_without_markers() {
+    let points: Vec<_> = (0..5).map(|i| (f64::from(i), Some(f64::from(i * i)))).collect();
+    let drawn = |series: LineSeries| {
+        let series = vec![LineSeries { points: points.clone(), ..series }];
+        let figure = Figure::Line(LineChart { series, ..LineChart::default() });
+        check(&figure);
+        let (lines, discs) = lines_and_discs(&figure, Look::new(0).colour());
+        (lines.len(), discs)
+    };
+    let named = || LineSeries { name: "A".to_owned(), ..LineSeries::default() };
+    // Each count includes the key in the legend.
+    assert_eq!(drawn(LineSeries { scatter: true, ..named() }), (0, 6));
+    assert_eq!(drawn(LineSeries { unmarked: true, ..named() }), (2, 0));
+    assert_eq!(drawn(LineSeries { unmarked: true, smooth: true, ..named() }), (2, 0));
+}
+
+/// Dots with a reference line at a value.
+fn compared_with(value: f64, y: Axis) -> Figure {
+    let series = vec![BarSeries {
+        values: vec![Some(60.0), Some(80.0)],
+        intervals: vec![Some([55.0, 65.0]), Some([f64::NEG_INFINITY, f64::INFINITY])],
+        notes: vec![String::new(), "*".to_owned()],
+        ..BarSeries::default()
+    }];
+    Figure::Bar(BarChart {
+        y,
+        groups: vec!["A".to_owned(), "B".to_owned()],
+        series,
+        from_zero: false,
+        references: vec![ReferenceLine { name: "chance".to_owned(), value }],
+        labels: false,
+        ..BarChart::default()
+    })
+}
+
+#[test]
+fn values_are_compared_with_a_reference_line() {
+    // Dashes, of which some are the key in the legend.
+    let dashes = |value: f64, y: Axis| lines_and_discs(&compared_with(value, y), REFERENCE).0;
+    let key = dashes(f64::NAN, Axis::default()).len();
+    let lines = dashes(50.0, Axis::new("Share (%)"));
+    assert!(lines.len() > key + 10, "the axis includes it");
+    let height = |line: &Vec<(f64, f64)>| line[0].1;
+    assert!(lines[key..].iter().all(|line| height(line).total_cmp(&line[1].1).is_eq()));
+    check(&compared_with(50.0, Axis::new("Share (%)")));
+    let from_55 = Axis { min: Some(55.0), ..Axis::new("Share (%)") };
+    assert_eq!(dashes(50.0, from_55).len(), key);
+}
+
+#[test]
+fn notes_are_written_without_the_values() {
+    let figure = compared_with(50.0, Axis::new("Share (%)"));
+    assert_eq!((count(&figure, "*"), count(&figure, "60.0")), (1, 0));
+}
+
+#[test]
+fn an_interval_without_ends_is_drawn_to_the_borders() {
+    let figure = compared_with(50.0, Axis { min: Some(0.0), max: Some(90.0), ..Axis::default() });
+    let (lines, _) = lines_and_discs(&figure, INK);
+    let height = |line: &Vec<(f64, f64)>| (line[0].1 - line[1].1).abs();
+    let longest = lines.iter().map(height).fold(0.0, f64::max);
+    assert!((longest - Paper::wide().plot_height_px).abs() < 1e-6, "{longest}");
 }

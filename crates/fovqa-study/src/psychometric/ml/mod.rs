@@ -90,18 +90,28 @@ impl Fitter<'_> {
 
 /// The fit of one bootstrap replicate.
 struct Refit {
+    curve: Curve,
     deviance: f64,
     at_bound: bool,
     levels: Vec<Option<f64>>,
 }
 
-/// The fit to trials at two or more levels, and its curve, even where it is not determined.
+/// The fit, and the curves behind it.
+pub(super) struct Fit {
+    pub(super) result: MaximumLikelihood,
+    /// The fitted curve, even where it is not determined.
+    pub(super) best: Curve,
+    /// The curves of the bootstrap replicates.
+    pub(super) refits: Vec<Curve>,
+}
+
+/// The fit to trials at two or more levels.
 pub(super) fn fit(
     options: &Options,
     trials: &Trials,
     span: &Span,
     settings: &Settings,
-) -> Option<(MaximumLikelihood, Curve)> {
+) -> Option<Fit> {
     let lapse = options.lapse.map_or([0.0, options.lapse_max], |lapse| [lapse, lapse]);
     let bounds = Bounds::new(span, lapse);
     let grid = Grid::new(&options.model, trials, &bounds);
@@ -116,7 +126,7 @@ pub(super) fn fit(
         let as_large = refits.iter().filter(|refit| refit.deviance >= deviance).count();
         (1 + as_large) as f64 / (refits.len() + 1) as f64
     });
-    let fit = MaximumLikelihood {
+    let result = MaximumLikelihood {
         threshold: shown(options.model.sigmoid.level(best.curve.position)),
         width: shown(best.curve.width),
         lapse: shown(best.curve.lapse),
@@ -130,7 +140,7 @@ pub(super) fn fit(
             .then(|| refits.iter().filter(|refit| refit.at_bound).count()),
         thresholds: thresholds(&fitter, &best, &refits, settings.confidence),
     };
-    Some((fit, best.curve))
+    Some(Fit { result, best: best.curve, refits: refits.iter().map(|refit| refit.curve).collect() })
 }
 
 fn reason(undetermined: bool, df: i64, no_replicates: bool) -> Option<String> {
@@ -171,6 +181,7 @@ fn bootstrap(
         let fit = fitter.fit(&drawn)?;
         let level = |&performance: &f64| fitter.level(&fit, performance);
         Some(Refit {
+            curve: fit.curve,
             deviance: deviance(&drawn, fit.log_likelihood),
             at_bound: fitter.at_bound(&fit),
             levels: fitter.options.performance.iter().map(level).collect(),
