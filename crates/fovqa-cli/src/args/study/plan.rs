@@ -44,7 +44,7 @@ pub(crate) struct PlanPairsArgs {
     /// Power that the study must have
     #[arg(long, value_name = "SHARE", default_value = "0.8", value_parser = share)]
     power: f64,
-    /// The alternative hypothesis
+    /// What the test looks for
     #[arg(long, value_name = "SIDE", default_value = Alternative::default().word(), value_parser = words::<Alternative>())]
     alternative: Alternative,
     /// Also report the power with this number of trials
