@@ -275,6 +275,11 @@ fn frames_of_another_baseline_are_not_shown() {
     run.says(&["the frames of the earlier values were removed"]);
     assert!(!folder.path("kept.frames").exists());
     folder.run(&["baseline", "accept", "bad", "kept.json", "--frames"]).ok().says(&["16 frames"]);
+    // Frames are prepared in a folder of our own: one of the user's beside the baseline stays.
+    folder.write("kept.frames-new/notes.txt", "mine");
+    folder.run(&["baseline", "accept", "bad", "kept.json", "--frames"]).ok().says(&["16 frames"]);
+    assert!(folder.path("kept.frames-new/notes.txt").exists());
+    assert!(!folder.path(".fovqa-kept.frames").exists());
     // A file that has changed since is not what was scored.
     let before = fs::read(folder.path("kept.json")).unwrap();
     folder.png("test/0002.png", WIDTH, HEIGHT, &good_test);
@@ -284,7 +289,7 @@ fn frames_of_another_baseline_are_not_shown() {
     );
     assert_eq!(fs::read(folder.path("kept.json")).unwrap(), before);
     assert!(folder.path("kept.frames/frames.json").is_file());
-    assert!(!folder.path("kept.frames-new").exists());
+    assert!(!folder.path(".fovqa-kept.frames").exists());
 }
 
 /// A fixed limit can be broken although nothing was lost: the worst frame and place are told, and are not

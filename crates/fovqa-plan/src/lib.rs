@@ -53,6 +53,6 @@ pub use resolved::{Resolved, ResolvedEye, ResolvedScene, other_parameter};
 pub use settings::{Gaze, Nonfinite, Settings};
 pub use source::SourceSpec;
 pub use spacing::spaced;
-pub use spread_test::{Adjust, SpreadTest};
+pub use spread_test::SpreadTest;
 pub use study::{OpinionScores, PrintedNumber, StudyAnalysis, StudyFile};
 pub use sweep::{Sweep, SweptKey, shown as shown_value, swept_label};

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use fovqa_params::{Words, words};
+use fovqa_params::Words;
+use fovqa_statistics::adjust::Adjustment;
 use serde::{Deserialize, Serialize};
 
 /// Compares the repeated runs of a build with those of a baseline: a rule fails if its values are worse
@@ -13,28 +14,14 @@ pub struct SpreadTest {
     pub alpha: f64,
     /// How the probability is corrected for the number of tests of the rule.
     #[serde(default)]
-    pub adjust: Adjust,
-}
-
-words! {
-    /// The correction for several tests.
-    #[derive(Default)]
-    pub enum Adjust {
-        /// Holm's step-down correction.
-        #[default]
-        Holm "holm" "Holm's step-down correction";
-        /// Bonferroni's correction: each p-value is multiplied by the number of tests.
-        Bonferroni "bonferroni" "Bonferroni's correction: each p-value times the number of tests";
-        /// No correction: each test has the probability `alpha` of a false alarm.
-        None "none" "No correction: each test has the probability alpha of a false alarm";
-    }
+    pub adjust: Adjustment,
 }
 
 impl fmt::Display for SpreadTest {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "not worse than the repeated runs of the baseline at alpha {}", self.alpha)?;
         match self.adjust {
-            Adjust::None => Ok(()),
+            Adjustment::None => Ok(()),
             adjust => write!(f, ", {}", adjust.word()),
         }
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use fovqa_study::adjust::Adjustment;
+use fovqa_statistics::adjust::Adjustment;
 use fovqa_study::input::Selection;
 use fovqa_study::{Request, Settings};
 use serde::{Deserialize, Serialize};

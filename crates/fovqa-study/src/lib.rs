@@ -5,11 +5,9 @@
 //! depend on the number of threads. An undefined value is `None` (`null` in JSON), and a `reason`
 //! in the same object says why.
 
-pub mod adjust;
 mod analysis;
 pub mod anova;
 pub mod bootstrap;
-pub mod distributions;
 mod error;
 pub mod input;
 pub mod json;
@@ -30,5 +28,6 @@ pub mod staircase;
 
 pub use analysis::Analysis;
 pub use error::{StudyError, WrongCell};
+pub use fovqa_statistics::{adjust, distributions};
 pub use request::{Inputs, Request};
 pub use settings::Settings;

@@ -69,7 +69,7 @@ words! {
 }
 
 words! {
-    /// The alternative hypothesis of a binomial test.
+    /// What a binomial test looks for.
     #[derive(Default)]
     pub enum Alternative {
         /// The share differs from ½.

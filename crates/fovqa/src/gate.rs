@@ -33,9 +33,8 @@ pub struct Against {
 }
 
 /// Scores an experiment and checks the values against its rules and, if there are any, against baselines.
-/// The verdict is
-/// kept in the results folder, with pictures of the frames that failed rules point at, and is the first
-/// part of the page. The name of the experiment file in the verdict is that of the experiment.
+/// The verdict is kept in the results folder, with pictures of the frames that failed rules point at, and
+/// is the first part of the page. The name of the experiment file in the verdict is that of the experiment.
 ///
 /// # Errors
 /// If there are no rules, a rule needs a baseline and none is given, the values of no baseline were

@@ -5,6 +5,7 @@ use fovqa_gallery::BuiltinSpec;
 use fovqa_io::{AlphaPolicy, CodeRange, ColourMatrix, GuidePreset, MotionUnit};
 use fovqa_methods::BudgetSamples;
 use fovqa_params::words_of;
+use fovqa_statistics::adjust::Adjustment;
 use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
 
 use super::emulate::{BUDGET, SHARE};
@@ -15,7 +16,7 @@ use super::tables::{METRICS, TABLE_KEYS};
 use super::{Key, Kind};
 use fovqa_plan::Nonfinite;
 use fovqa_plan::TableFormat;
-use fovqa_plan::{Adjust, ErrorBars, FrameWord, PlotKind, SpreadShape};
+use fovqa_plan::{ErrorBars, FrameWord, PlotKind, SpreadShape};
 
 /// A full angle of view in degrees.
 const FOV: Kind = Kind::Above(0.0, 179.999);
@@ -482,7 +483,7 @@ static GATE_TABLE: [Key; 17] = [
     ),
     key(
         "adjust",
-        Kind::Words(words_of::<Adjust>),
+        Kind::Words(words_of::<Adjustment>),
         "with alpha: correction for the number of tests of the rule; default: holm",
     ),
 ];

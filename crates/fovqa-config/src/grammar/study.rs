@@ -1,7 +1,7 @@
 //! The keys of a study file.
 
 use fovqa_params::words_of;
-use fovqa_study::adjust::Adjustment;
+use fovqa_statistics::adjust::Adjustment;
 use fovqa_study::options::{
     Alternative, Direction, LevelMean, PairwiseTest, Sigmoid, Smoothing, Ties,
 };

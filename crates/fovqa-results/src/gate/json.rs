@@ -6,14 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use super::loss::{Compared, Loss, LossPicture, Place};
 use super::verdict::{Check, FrameCheck, RuleVerdict, Verdict};
-use crate::baseline::rounded;
 use crate::json::Number;
 
 /// Name and version of the format.
 pub const GATE_SCHEMA: &str = "fovqa.gate/1";
-
-/// Significant digits of p-values.
-const P_DIGITS: usize = 6;
 
 /// The verdict as it is written and read.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -261,8 +257,7 @@ impl From<&Check> for CheckRecord {
             worst_frame: check.worst.map(|worst| worst.0),
             worst_value: check.worst.map(|worst| Number(worst.1)),
             band_deg: check.band,
-            // The platform's logarithm may differ in the last digits.
-            p: check.p.map(|p| rounded(p, P_DIGITS)),
+            p: check.p,
             frames: check.frames.iter().map(FrameCheckRecord::from).collect(),
             losses: check.losses.iter().map(LossRecord::from).collect(),
         }

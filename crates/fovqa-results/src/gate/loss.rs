@@ -195,9 +195,8 @@ impl Search<'_> {
         } else if is_late {
             let before = (LATE_S * self.fps.unwrap_or(USUAL_FPS)).ceil() as i64;
             let window = |frame: &i64| {
-                pair.largest(
-                    pair.now.frames.range(frame - before..=*frame).map(|(frame, _)| *frame),
-                )
+                let frames = pair.now.frames.range(frame.saturating_sub(before)..=*frame);
+                pair.largest(frames.map(|(frame, _)| *frame))
             };
             let mut named: Vec<Named> = failing.iter().filter_map(window).collect();
             named.sort_by_key(|named| named.frame);
@@ -350,11 +349,32 @@ impl NamedFrames for Quantity {
         let around = now.range(frame.saturating_sub(BESIDE)..=frame.saturating_add(BESIDE));
         let around = around.filter(|(number, _)| **number != frame).map(|(_, value)| *value);
         let best = around.reduce(|a, b| if amount(self, b) < amount(self, a) { b } else { a });
-        let before = best;
-        let (compared, growth) = match before {
+        let (compared, growth) = match best {
             Some(best) => (Compared::Neighbours, growth(self, value, best)),
             None => (Compared::Nothing, amount(self, value)),
         };
-        Some(Named { frame, value, before, compared, growth })
+        Some(Named { frame, value, before: best, compared, growth })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::values::{ValueRow, Values};
+    use super::*;
+
+    /// FovVideoVDP looks back from a failing frame, but no number is before the first one.
+    #[test]
+    fn the_first_possible_frame_number_has_a_loss() {
+        let row = |frame, value| ValueRow { frame: Some(frame), band: None, value: Some(value) };
+        let kind = (Metric::Mse.key().to_owned(), String::new(), "pair".to_owned(), None);
+        let rows = vec![row(i64::MIN, 0.2), row(i64::MIN + 1, 0.1)];
+        let values = Values { rows: BTreeMap::from([(kind, rows)]), ..Values::default() };
+        let place = ("s".to_owned(), "m".to_owned(), String::new());
+        let places = BTreeMap::from([(place.clone(), values)]);
+        let run = RunValues { places, ..RunValues::default() };
+        let search = Search { run: &run, baseline: None, fps: None };
+        let losses = search.losses(&Quantity::jod(), &place, &[i64::MIN, i64::MIN + 1]);
+        let frames: Vec<i64> = losses.iter().map(|loss| loss.frame).collect();
+        assert_eq!(frames, [i64::MIN]);
     }
 }

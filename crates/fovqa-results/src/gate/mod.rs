@@ -1,7 +1,6 @@
 //! The gate checks the values of a finished run against rules, and proposes limits from repeated
 //! runs.
 
-mod adjust;
 mod aggregate;
 mod calibrate;
 mod calibration_toml;
@@ -14,7 +13,6 @@ mod random;
 mod reading;
 mod series;
 mod spread_rule;
-mod student_t;
 mod t_test;
 mod values;
 mod verdict;

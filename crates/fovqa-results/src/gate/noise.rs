@@ -8,8 +8,7 @@
 
 use fovqa_metrics::Metric;
 use fovqa_plan::Quantity;
-
-use super::student_t::{normal_quantile, upper_quantile};
+use fovqa_statistics::distributions::{normal_quantile, t_upper_quantile};
 
 /// The variation of a value, or of the values of several frames, between repeated runs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,7 +60,7 @@ impl Spread {
     }
 
     fn quantile(&self, share: f64) -> f64 {
-        upper_quantile(share / self.frames as f64, self.freedom as f64)
+        t_upper_quantile(share / self.frames as f64, self.freedom as f64)
     }
 }
 
@@ -84,7 +83,8 @@ pub(super) fn rounding_noise(quantity: &Quantity, magnitude: f64) -> f64 {
 /// How many times as wide as from very many runs a margin is.
 pub(super) fn widening(runs: usize, share: f64) -> f64 {
     let runs = runs as f64;
-    upper_quantile(share, runs - 1.0) * (1.0 + 1.0 / runs).sqrt() / normal_quantile(share)
+    let very_many = -normal_quantile(share);
+    t_upper_quantile(share, runs - 1.0) * (1.0 + 1.0 / runs).sqrt() / very_many
 }
 
 /// The smallest number of runs whose margins are at most twice as wide as those from very many runs.
@@ -116,7 +116,7 @@ mod tests {
         assert_eq!((spread.frames, spread.freedom), (2, 2));
         assert!((spread.deviation - 8.0f64.sqrt()).abs() < 1e-12);
         // The share is divided between both frames.
-        let margin = upper_quantile(0.005, 2.0) * 12.0f64.sqrt();
+        let margin = t_upper_quantile(0.005, 2.0) * 12.0f64.sqrt();
         assert!((spread.of_new_run(0.01) - margin).abs() < 1e-9);
         let alike = Spread::of_frames(&[vec![0.0; 50], vec![2.0; 50]]).unwrap();
         assert!((alike.deviation - 2.0f64.sqrt()).abs() < 1e-12);

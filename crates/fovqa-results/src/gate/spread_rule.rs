@@ -1,9 +1,9 @@
 //! Checks a rule against the spread of repeated runs: each scored band of each comparison is one test.
 
 use fovqa_metrics::{Metric, Subject};
-use fovqa_plan::{Adjust, GateRule, Quantity, SpreadTest};
+use fovqa_plan::{GateRule, Quantity, SpreadTest};
+use fovqa_statistics::adjust::{Adjustment, adjusted, shares};
 
-use super::adjust::{adjusted, shares};
 use super::noise::rounding_noise;
 use super::t_test::TTest;
 use super::values::{ComparisonName, Lacking, RunValues};
@@ -85,8 +85,8 @@ pub(super) fn checks(
         }
     }
     let p: Vec<f64> = tests.iter().map(|(_, _, test)| test.p()).collect();
-    let adjusted = adjusted(test.adjust, &p);
-    let shares = shares(test.adjust, test.alpha, &p);
+    let adjusted = adjusted(&p, test.adjust);
+    let shares = shares(test.alpha, &p, test.adjust);
     for (((index, quantity, found), p), share) in tests.iter().zip(adjusted).zip(shares) {
         let check = &mut checks[*index];
         let (limit, at_least) = found.limit(share);
@@ -173,9 +173,9 @@ fn reason(test: SpreadTest, quantity: &Quantity, found: &TTest, p: f64) -> Strin
         format!("{name} = {}, {freedom} degrees of freedom", digits(found.t(), 2))
     };
     let after = match test.adjust {
-        Adjust::Holm => " after Holm",
-        Adjust::Bonferroni => " after Bonferroni",
-        Adjust::None => "",
+        Adjustment::Holm => " after Holm",
+        Adjustment::Bonferroni => " after Bonferroni",
+        Adjustment::None => "",
     };
     let p = digits(p, 2);
     format!(

@@ -7,9 +7,9 @@
 //! they do.
 
 use fovqa_metrics::Better;
+use fovqa_statistics::distributions::{t_upper, t_upper_quantile};
 
 use super::noise::variance;
-use super::student_t::{upper_quantile, upper_tail};
 
 /// The comparison of two samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,9 +77,9 @@ impl TTest {
         }
         // Without any spread, t is infinite, and p is 0 or 1.
         match self.better {
-            Better::Higher => upper_tail(-self.t(), self.freedom),
-            Better::Lower => upper_tail(self.t(), self.freedom),
-            Better::Neither => (2.0 * upper_tail(self.t().abs(), self.freedom)).min(1.0),
+            Better::Higher => t_upper(-self.t(), self.freedom),
+            Better::Lower => t_upper(self.t(), self.freedom),
+            Better::Neither => (2.0 * t_upper(self.t().abs(), self.freedom)).min(1.0),
         }
     }
 
@@ -92,7 +92,7 @@ impl TTest {
             Better::Neither => self.difference() < 0.0,
         };
         let one_sided = if self.better == Better::Neither { 0.5 * share } else { share };
-        let margin = (upper_quantile(one_sided, self.freedom) * self.error).max(self.noise);
+        let margin = (t_upper_quantile(one_sided, self.freedom) * self.error).max(self.noise);
         let sign = if is_minimum { -1.0 } else { 1.0 };
         (self.baseline + sign * margin, is_minimum)
     }

@@ -40,7 +40,7 @@ pub struct Anova {
     pub reason: Option<String>,
 }
 
-/// Computes the analysis of all groups. `within` has one or two factors.
+/// Computes the analysis of variance for each group. `within` has one or two factors.
 ///
 /// # Errors
 ///

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::cells::{Cells, Factor};
 use crate::Settings;
-use crate::adjust::adjusted;
+use crate::adjust::adjusted_where_defined;
 use crate::distributions::{t_quantile, t_two_sided};
 use crate::moments::Moments;
 
@@ -78,7 +78,7 @@ pub(super) fn posthoc(cells: &Cells, settings: &Settings) -> Vec<PairedTest> {
             }
         }
         let p: Vec<Option<f64>> = tests.iter().map(|test| test.p).collect();
-        for (test, p) in tests.iter_mut().zip(adjusted(&p, settings.adjust)) {
+        for (test, p) in tests.iter_mut().zip(adjusted_where_defined(&p, settings.adjust)) {
             test.p_adjusted = p;
         }
         all.extend(tests);

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use crate::adjust::{Adjustment, adjusted};
+use crate::adjust::{Adjustment, adjusted_where_defined};
 use crate::distributions::{normal_two_sided, t_two_sided};
 
 /// Metrics whose correlation is nearer to 1 are equal.
@@ -89,7 +89,7 @@ pub(super) fn compare(names: [&str; 2], of: Correlations, n: usize) -> Compariso
 /// Adjusts the p-values of all comparisons.
 pub(super) fn adjust(comparisons: &mut [Comparison], adjustment: Adjustment) {
     let p: Vec<Option<f64>> = comparisons.iter().map(|comparison| comparison.meng_p).collect();
-    for (comparison, p) in comparisons.iter_mut().zip(adjusted(&p, adjustment)) {
+    for (comparison, p) in comparisons.iter_mut().zip(adjusted_where_defined(&p, adjustment)) {
         comparison.meng_p_adjusted = p;
     }
 }

@@ -35,7 +35,7 @@ pub struct Pairs {
     pub consistency: Consistency,
 }
 
-/// Computes the analysis of all groups.
+/// Computes shares, scores and consistency for each group.
 ///
 /// # Errors
 ///

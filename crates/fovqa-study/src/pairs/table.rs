@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::votes::{Outcome, Votes, wins};
 use crate::Settings;
-use crate::adjust::adjusted;
+use crate::adjust::adjusted_where_defined;
 use crate::bootstrap::{Interval, interval, replicates};
 use crate::distributions::{
     binomial_at_least, binomial_at_most, clopper_pearson, half_two_sided, wilson,
@@ -92,7 +92,7 @@ pub(super) fn table(votes: &Votes, settings: &Settings) -> Vec<Pair> {
         pairs.push(pair);
     }
     let p: Vec<Option<f64>> = pairs.iter().map(|pair| pair.p_two_sided).collect();
-    for (pair, p) in pairs.iter_mut().zip(adjusted(&p, settings.adjust)) {
+    for (pair, p) in pairs.iter_mut().zip(adjusted_where_defined(&p, settings.adjust)) {
         pair.p_adjusted = p;
     }
     pairs

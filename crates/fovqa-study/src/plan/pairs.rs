@@ -32,7 +32,7 @@ pub struct PairsOptions {
     pub alpha: f64,
     /// The power that the study must have, between 0 and 1.
     pub power: f64,
-    /// The alternative hypothesis.
+    /// What the test looks for.
     pub alternative: Alternative,
     /// A number of trials whose power is reported.
     pub trials: Option<u64>,

@@ -58,7 +58,7 @@ pub struct Method {
     pub reason: Option<String>,
 }
 
-/// Computes the analysis of all groups. The value of a unit and method is the mean of its rows; for
+/// Computes the tests for each group. The value of a unit and method is the mean of its rows; for
 /// pairwise comparisons (a table without the column `value`), it is the number of votes won.
 ///
 /// # Errors

@@ -6,7 +6,7 @@ use super::kruskal::kruskal;
 use super::mid_ranks::mid_ranks;
 use super::signed_rank::signed_rank;
 use super::units::Units;
-use crate::adjust::{Adjustment, adjusted};
+use crate::adjust::{Adjustment, adjusted_where_defined};
 use crate::distributions::normal_two_sided;
 use crate::options::PairwiseTest;
 
@@ -75,7 +75,7 @@ pub(super) fn pairwise(units: &Units, test: PairwiseTest, adjust: Adjustment) ->
         }
     }
     let p: Vec<Option<f64>> = tests.iter().map(|test| test.p).collect();
-    for (test, p) in tests.iter_mut().zip(adjusted(&p, adjust)) {
+    for (test, p) in tests.iter_mut().zip(adjusted_where_defined(&p, adjust)) {
         test.p_adjusted = p;
     }
     tests

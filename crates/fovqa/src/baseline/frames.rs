@@ -1,6 +1,7 @@
 //! The frames of the last accepted build that a baseline keeps: reduced pictures and maps in a folder
 //! beside its file. With them, a gate shows what has changed, and where.
 
+use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -121,9 +122,13 @@ impl BaselineFrames {
         kept.map_err(|error| failed(&error))
     }
 
-    /// The folder in which frames are prepared.
+    /// The folder in which frames are prepared: `.fovqa-nightly.baseline.frames` for
+    /// `nightly.baseline.json`. What is left of an earlier one is removed, so nobody else may use its name.
     fn prepared(path: &Path) -> PathBuf {
-        path.with_extension("frames-new")
+        let mut name = OsString::from(".fovqa-");
+        name.push(path.file_stem().unwrap_or_default());
+        name.push(".frames");
+        path.with_file_name(name)
     }
 
     fn keep(

@@ -1,8 +1,8 @@
 use fovqa_metrics::Metric;
 use fovqa_plan::{Aggregate, Allowance};
+use fovqa_statistics::distributions::t_upper_quantile;
 
 use super::super::random::Noise;
-use super::super::student_t::upper_quantile;
 use super::*;
 
 /// A rule with the direction of its metric. The limit in it does not matter.
@@ -190,7 +190,7 @@ fn an_unchanged_build_fails_as_seldom_as_stated() {
         assert!(found >= 0.3 * rate, "{what}: the limits are too wide");
         // RMS contrast has two limits, so there are seven.
         let factor = if relative { 2.0 } else { 1.0 + 1.0 / f64::from(runs) };
-        let exact = upper_quantile(rate / 7.0, f64::from(runs) - 1.0) * f64::sqrt(factor);
+        let exact = t_upper_quantile(rate / 7.0, f64::from(runs) - 1.0) * f64::sqrt(factor);
         let ratio = margins / deviation / exact;
         assert!((0.999..1.06).contains(&ratio), "{what}: margins are {ratio} times the exact one");
     }

@@ -25,20 +25,20 @@ fn an_unchanged_build_fails_as_seldom_as_alpha_says() {
     let mut noise = Noise(3);
     for runs in [(1, 5), (3, 3), (4, 6)] {
         for alpha in [0.01, 0.05] {
-            let failed = |adjust: Adjust, noise: &mut Noise| {
+            let failed = |adjust: Adjustment, noise: &mut Noise| {
                 let fails = |_: &usize| {
-                    let p = adjusted(adjust, &p_values(noise, 6, runs, 0.0));
+                    let p = adjusted(&p_values(noise, 6, runs, 0.0), adjust);
                     p.iter().any(|p| *p <= alpha)
                 };
                 (0..TRIALS).filter(fails).count() as f64 / TRIALS as f64
             };
             let sigma = (alpha * (1.0 - alpha) / TRIALS as f64).sqrt();
-            let holm = failed(Adjust::Holm, &mut noise);
+            let holm = failed(Adjustment::Holm, &mut noise);
             assert!(holm <= alpha + 3.0 * sigma, "{runs:?} {alpha}: {holm}");
             // Welch's test with few runs is conservative, but not by much.
             assert!(holm >= 0.1 * alpha, "{runs:?} {alpha}: {holm}");
             // Without a correction, six tests fail more often.
-            let without = failed(Adjust::None, &mut noise);
+            let without = failed(Adjustment::None, &mut noise);
             assert!(without > alpha + 3.0 * sigma, "{runs:?} {alpha}: {without}");
         }
     }
@@ -48,7 +48,7 @@ fn an_unchanged_build_fails_as_seldom_as_alpha_says() {
 fn a_large_change_is_found() {
     let mut noise = Noise(4);
     let found = (0..200).filter(|_| {
-        let p = adjusted(Adjust::Holm, &p_values(&mut noise, 3, (4, 6), 10.0));
+        let p = adjusted(&p_values(&mut noise, 3, (4, 6), 10.0), Adjustment::Holm);
         p.iter().all(|p| *p <= 0.01)
     });
     let found = found.count();
@@ -64,13 +64,13 @@ fn the_reason_names_value_baseline_and_test() {
     let test = |adjust| SpreadTest { alpha: 0.01, adjust };
     let found = TTest::new(&[0.912], &[0.925, 0.926, 0.924], Better::Higher, |_| 0.0).unwrap();
     assert_eq!(
-        reason(test(Adjust::Holm), &quantity, &found, 0.004_04),
+        reason(test(Adjustment::Holm), &quantity, &found, 0.004_04),
         "ssim mean, 0° to 5° is 0.912, lower than the baseline's 0.925 (one run: t = -11, 2 degrees of freedom, \
          p = 0.004 after Holm, alpha 0.01)"
     );
     let found = TTest::new(&[0.9; 2], &[0.925; 2], Better::Neither, |_| 0.0).unwrap();
     assert_eq!(
-        reason(test(Adjust::None), &quantity, &found, 0.0),
+        reason(test(Adjustment::None), &quantity, &found, 0.0),
         "ssim mean, 0° to 5° is 0.9, lower than the baseline's 0.925 (the repeated runs do not vary, p = 0, \
          alpha 0.01)"
     );

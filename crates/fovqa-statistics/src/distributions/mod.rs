@@ -15,4 +15,4 @@ pub use binomial::{
 };
 pub use incomplete_beta::incomplete_beta;
 pub use normal::{normal_cdf, normal_density, normal_log_cdf, normal_quantile, normal_two_sided};
-pub use tails::{chi_squared_upper, f_upper, t_quantile, t_two_sided};
+pub use tails::{chi_squared_upper, f_upper, t_quantile, t_two_sided, t_upper, t_upper_quantile};
