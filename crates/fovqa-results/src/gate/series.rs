@@ -44,3 +44,22 @@ pub(super) fn growth(quantity: &Quantity, value: f64, before: f64) -> f64 {
         Better::Higher | Better::Lower => growth,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fovqa_plan::Aggregate;
+
+    #[test]
+    fn a_worse_value_is_a_larger_loss() {
+        let growth =
+            |metric, value, before| growth(&Quantity::of(metric, Aggregate::Mean), value, before);
+        for (metric, worse, better) in
+            [(Metric::Psnr, 30.0, 40.0), (Metric::Ssim, 0.8, 0.9), (Metric::Mse, 0.02, 0.01)]
+        {
+            assert!(growth(metric, worse, better) > 0.0, "{metric:?}");
+            assert!(growth(metric, better, worse) < 0.0, "{metric:?}");
+        }
+        assert!(growth(Metric::Mse, f64::NAN, 0.01).abs() < 1e-300);
+    }
+}
