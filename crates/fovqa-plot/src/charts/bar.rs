@@ -143,7 +143,7 @@ impl BarChart {
         // Labels that leave too little room for the bars are left out: the axis tells the values.
         let reach_px = values.reach_px(label_px);
         let labelled = 2.0 * reach_px <= MOST_LABELS * height_px;
-        let reach_px = if labelled { reach_px } else { 0.0 };
+        let reach_px = if labelled && label_px > 0.0 { reach_px } else { 0.0 };
         let axis = self.axis_with_room(scale, reach_px, height_px);
 
         let (above, below) = infinity::strips_px(self.places());
@@ -333,23 +333,24 @@ impl BarChart {
             AxisPlace::Above => plot.top,
             AxisPlace::Below => plot.bottom,
         };
+        let ends = ends.map(|(low, high)| {
+            let is_low = low.is_finite() && self.y.has(low);
+            let low = if is_low { frame.axis.y(plot, low) } else { plot.bottom };
+            (low, if high.is_finite() { frame.axis.y(plot, high) } else { plot.top })
+        });
         if self.has_bars() {
             let base = frame.axis.y(plot, 0.0);
             let half = frame.groups.pitch_px() * FILLED / 2.0;
             let (top, bottom) = (end.min(base), end.max(base));
             let rect = Rect { left: x - half, right: x + half, top, bottom };
             swatch::draw(drawing, rect, look, look.colour());
-        } else {
-            let radius_px = marker::RADIUS_PX.min(frame.groups.pitch_px() / 2.0);
-            marker::draw(drawing, (x, end), look, radius_px, look.colour());
         }
-        let ends = ends.map(|(low, high)| {
-            let is_low = low.is_finite() && self.y.has(low);
-            let low = if is_low { frame.axis.y(plot, low) } else { plot.bottom };
-            (low, if high.is_finite() { frame.axis.y(plot, high) } else { plot.top })
-        });
         if let Some(ends) = ends {
             error_bar::draw(drawing, x, ends, INK);
+        }
+        if !self.has_bars() {
+            let radius_px = marker::RADIUS_PX.min(frame.groups.pitch_px() / 2.0);
+            marker::draw(drawing, (x, end), look, radius_px, look.colour());
         }
         if let Some((value, label)) = place.finite().zip(label).filter(|_| frame.labelled) {
             let downwards = self.has_bars() && value < 0.0;

@@ -6,7 +6,7 @@ use crate::axes::axis::Axis;
 use crate::axes::position_axis::PositionAxis;
 use crate::axes::value_axis::ValueAxis;
 use crate::canvas::clip;
-use crate::canvas::colour::{REFERENCE, WHITE};
+use crate::canvas::colour::REFERENCE;
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
 use crate::canvas::look::Look;
 use crate::canvas::smooth;
@@ -32,10 +32,10 @@ const SIDE_AIR: f64 = 0.02;
 const MARKER_PITCH_PX: f64 = 12.0;
 /// The smallest number of given ticks on an axis whose ends were set.
 const FEWEST_TICKS: usize = 4;
-/// The outer and the inner radius of a ring.
-const RING_PX: (f64, f64) = (7.2, 6.0);
+/// The outer and the inner radius of a ring, and of a small one.
+const RING_PX: [(f64, f64); 2] = [(7.2, 6.0), (5.2, 4.2)];
 /// The radius of a dot.
-const DOT_PX: f64 = 2.2;
+pub(crate) const DOT_PX: f64 = 2.2;
 /// Distance between the markers of infinite values of two series at the same position.
 const BESIDE_PX: f64 = 9.0;
 
@@ -96,6 +96,7 @@ pub struct LineSeries {
     /// Points between two gaps keep theirs.
     pub unmarked: bool,
     /// Whether its points are rings without a line, which point out points of a curve that follows.
+    /// With [`dots`](Self::dots), the rings are small, as dots are.
     pub rings: bool,
     /// Whether the legend leaves it out, because it belongs to another series or area.
     pub unlisted: bool,
@@ -108,6 +109,8 @@ impl LineSeries {
     fn key(&self) -> Key {
         match self {
             Self { reference: true, .. } => Key::Reference(self.look),
+            Self { rings: true, dots, .. } => Key::Ring(self.look, ring_px(*dots)),
+            Self { dots: true, .. } => Key::Dot(self.look),
             Self { scatter: true, .. } => Key::Marker(self.look),
             Self { unmarked: true, .. } => Key::Line(self.look),
             _ => Key::Curve(self.look),
@@ -244,9 +247,9 @@ impl LineChart {
             let seen = self.x.has(position) && (0.0..=1.0).contains(&x.share(position));
             seen.then(|| x.x(plot, position) - plot.left)
         };
-        let bars = |series: &LineSeries| match series.scatter {
-            true => Vec::new(),
-            false => series.error_bars().filter_map(at).collect(),
+        let bars = |series: &LineSeries| {
+            let bars = series.error_bars().filter(|_| !series.scatter);
+            bars.filter_map(at).collect()
         };
         let curves: Vec<Vec<f64>> = self.series.iter().map(bars).collect();
         dodge::shifts_px(&curves, plot.width())
@@ -405,6 +408,11 @@ impl LineChart {
     }
 }
 
+/// The radii of rings.
+fn ring_px(is_small: bool) -> (f64, f64) {
+    RING_PX[usize::from(is_small)]
+}
+
 fn finite(x: f64) -> Option<f64> {
     AxisPlace::of(x).and_then(AxisPlace::finite)
 }
@@ -427,8 +435,7 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
     let inside = |(x, y): &&Point| (0.0..=1.0).contains(x) && (0.0..=1.0).contains(y);
     if series.rings {
         for at in runs.iter().flatten().filter(inside).map(px) {
-            drawing.disc(at, RING_PX.0, series.stroke().colour);
-            drawing.disc(at, RING_PX.1, WHITE);
+            marker::draw_ring(drawing, at, ring_px(series.dots), series.stroke().colour);
         }
         return;
     }

@@ -7,6 +7,7 @@ use crate::canvas::drawing::{Anchor, Drawing, Point, Rect, Stroke, Text};
 use crate::canvas::look::Look;
 use crate::canvas::text::{CAPITAL, LINE_PITCH, TICK_PX};
 use crate::canvas::wrap::{widest_px, wrap};
+use crate::charts::line::DOT_PX;
 use crate::marks::fill_kind::FillKind;
 use crate::marks::marker;
 use crate::marks::swatch;
@@ -33,7 +34,7 @@ pub(crate) const CURVE_PX: f64 = 1.6;
 pub(crate) const REFERENCE_PX: f64 = 1.4;
 
 /// The way in which a series, area or span is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Key {
     /// A curve with markers.
     Curve(Look),
@@ -47,6 +48,10 @@ pub(crate) enum Key {
     Box(Look),
     /// Markers only.
     Marker(Look),
+    /// Small dots.
+    Dot(Look),
+    /// Rings with an outer and an inner radius.
+    Ring(Look, (f64, f64)),
     /// An area between two curves.
     Fill(FillKind),
     /// A shaded span.
@@ -131,6 +136,10 @@ impl Key {
             Self::Box(look) => swatch::draw(drawing, rect, look, look.colour().tint(swatch::TINT)),
             Self::Marker(look) => {
                 marker::draw(drawing, middle, look, marker::RADIUS_PX, look.colour());
+            }
+            Self::Dot(look) => drawing.disc(middle, DOT_PX, look.colour()),
+            Self::Ring(look, radii_px) => {
+                marker::draw_ring(drawing, middle, radii_px, look.colour());
             }
             Self::Fill(kind) => kind.draw_key(drawing, rect),
             Self::Span => {

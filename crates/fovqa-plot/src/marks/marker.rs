@@ -65,6 +65,17 @@ pub(crate) fn draw(drawing: &mut Drawing, at: Point, look: Look, radius_px: f64,
     }
 }
 
+/// Draws a ring with an outer and an inner radius. It hides what is inside.
+pub(crate) fn draw_ring(
+    drawing: &mut Drawing,
+    at: Point,
+    (outer_px, inner_px): (f64, f64),
+    colour: Colour,
+) {
+    drawing.disc(at, outer_px, colour);
+    drawing.disc(at, inner_px, WHITE);
+}
+
 fn shape(drawing: &mut Drawing, (x, y): Point, marker: Marker, radius_px: f64, colour: Colour) {
     let corner = |(dx, dy): &Point| (x + dx * radius_px, y + dy * radius_px);
     let corners: Vec<Point> = marker.corners().iter().map(corner).collect();

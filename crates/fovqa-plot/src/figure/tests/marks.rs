@@ -296,6 +296,9 @@ fn points_without_a_line_and_lines_without_markers() {
     // Each count includes the key in the legend.
     assert_eq!(drawn(LineSeries { scatter: true, ..named() }), (0, 6));
     assert_eq!(drawn(LineSeries { unmarked: true, ..named() }), (2, 0));
+    assert_eq!(drawn(LineSeries { dots: true, ..named() }), (0, 6));
+    assert_eq!(drawn(LineSeries { rings: true, ..named() }), (0, 6));
+    assert_eq!(drawn(LineSeries { rings: true, dots: true, ..named() }), (0, 6));
     assert_eq!(drawn(LineSeries { unmarked: true, smooth: true, ..named() }), (2, 0));
 }
 

@@ -2,7 +2,7 @@
 
 use fovqa_plot::{Axis, BarChart, BarSeries, Bracket, Figure, Look};
 use fovqa_study::adjust::stars;
-use fovqa_study::anova::{Anova, LevelMean, PairedTest};
+use fovqa_study::anova::{Anova, LevelMean};
 use fovqa_study::json::{Document, Group};
 use fovqa_study::moments::Moments;
 
@@ -33,7 +33,7 @@ impl Bar {
 pub(super) fn bars(
     y: Axis,
     groups: Vec<String>,
-    rows: Vec<(String, Vec<Bar>)>,
+    rows: &[(String, Vec<Bar>)],
     brackets: Vec<Bracket>,
 ) -> Option<BarChart> {
     let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
@@ -96,17 +96,14 @@ impl Of<'_> {
         let shown = &all[..all.len().min(MOST_GROUPS)];
         let names: Vec<&str> = shown.iter().map(|level| level.level.as_str()).collect();
         let tests = anova.posthoc.iter().flatten().filter(|test| test.factor == factor);
-        let compared = |test: &'_ PairedTest| test.p_adjusted;
         let tests = tests.map(|test| Compared {
             names: [test.a.as_str(), test.b.as_str()],
-            p_adjusted: compared(test),
+            p_adjusted: test.p_adjusted,
         });
         let (brackets, brackets_left) = brackets(&names, tests);
         let averaged = if is_averaged { ", averaged over the other factor" } else { "" };
-        let stars = match brackets.is_empty() {
-            true => String::new(),
-            false => self.context.stars(&format!("paired t test of two levels{averaged}")),
-        };
+        let test = format!("paired t test of two levels{averaged}");
+        let stars = if brackets.is_empty() { String::new() } else { self.context.stars(&test) };
         let text = caption(&[
             &format!("Means by {}{averaged}", short(factor)),
             &group_in_words(&self.group.by),
@@ -118,7 +115,7 @@ impl Of<'_> {
         ]);
         let groups = names.iter().map(|&name| name.to_owned()).collect();
         let rows = shown.iter().map(|level| Bar::of(&level.moments)).collect();
-        let chart = bars(Axis::new("Mean value"), groups, vec![(String::new(), rows)], brackets)?;
+        let chart = bars(Axis::new("Mean value"), groups, &[(String::new(), rows)], brackets)?;
         Some(self.figure("factor", factor, (text, Figure::Bar(chart))))
     }
 
@@ -140,7 +137,7 @@ impl Of<'_> {
         let row = |(of, name): (usize, &&str)| {
             ((*name).to_owned(), (0..shown.len()).map(|group| bar(group, of)).collect())
         };
-        let rows = series.iter().enumerate().take(MOST_SERIES).map(row).collect();
+        let rows: Vec<_> = series.iter().enumerate().take(MOST_SERIES).map(row).collect();
         let has_errors = anova.cells.iter().any(|cell| cell.moments.se.is_some());
         let text = caption(&[
             &format!("Means by {} and {}", short(first), short(second)),
@@ -155,7 +152,7 @@ impl Of<'_> {
             self.groups_left,
         ]);
         let names = shown.iter().map(|&name| name.to_owned()).collect();
-        let chart = bars(Axis::new("Mean value"), names, rows, Vec::new())?;
+        let chart = bars(Axis::new("Mean value"), names, &rows, Vec::new())?;
         Some(self.figure("cells", "", (text, Figure::Bar(chart))))
     }
 

@@ -59,6 +59,11 @@ impl Context {
     }
 }
 
+/// A share as percent with one decimal: `70.7 %`.
+pub(super) fn percent(share: f64) -> String {
+    format!("{} %", (1000.0 * share).round() / 10.0)
+}
+
 /// A number with up to six digits.
 pub(super) fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)

@@ -14,6 +14,8 @@ use crate::sheet::NamedFigure;
 
 /// The most methods with looks of their own.
 const MOST_METHODS: usize = 8;
+/// Space beside the scores, as a share of their range.
+const BESIDE: f64 = 0.05;
 /// The points of a fitted curve.
 const POINTS: usize = 101;
 /// The most figures of a group.
@@ -31,10 +33,18 @@ pub(super) fn figures(document: &Document<Metrics>, context: &Context) -> Vec<Na
     parts.into_iter().flatten().flat_map(of).collect()
 }
 
-/// How a metric is called.
+/// What a metric is called.
 fn label(metric: &str) -> String {
     KnownMetric::find(metric)
         .map_or_else(|| metric.to_owned(), |known| known.info().label.to_owned())
+}
+
+/// The unit of a metric, behind its name.
+fn unit(metric: &str) -> String {
+    match KnownMetric::find(metric).map_or("", |known| known.info().unit) {
+        "" => String::new(),
+        unit => format!(" in {unit}"),
+    }
 }
 
 fn scatter(
@@ -59,7 +69,7 @@ fn scatter(
     ]);
     let figure = |part: &[&Metric]| {
         let panels = part.iter().map(|metric| panel(metric, &group.result, methods)).collect();
-        context.figure("scores", &group_name(&group.by), (text.clone(), panel_figure(panels)))
+        context.figure("scores", &group_name(&group.by), (text.clone(), panel_figure(panels, 3)))
     };
     parts.into_iter().map(figure).collect()
 }
@@ -106,9 +116,17 @@ fn panel(metric: &Metric, result: &Metrics, methods: &[&str]) -> LineChart {
     };
     let (r, rho) = (number("r", metric.pearson), number("ρ", metric.spearman));
     let better = if metric.lower_is_better { " (lower is better)" } else { "" };
+    // Markers do not stand on the axis.
+    let beside = BESIDE * (high - low);
+    let ends = [sign * (low - beside), sign * (high + beside)];
+    let (min, max) = (Some(ends[0].min(ends[1])), Some(ends[0].max(ends[1])));
     LineChart {
         title: Some(format!("{r}, {rho}")),
-        x: Axis::new(format!("{}{better}", label(&metric.metric))),
+        x: Axis {
+            min,
+            max,
+            ..Axis::new(format!("{}{}{better}", label(&metric.metric), unit(&metric.metric)))
+        },
         y: Axis::new("Mean opinion score"),
         series,
         ..LineChart::default()
@@ -158,6 +176,7 @@ fn correlations(
         "Size of the correlation of each metric with the mean opinion scores",
         &group_in_words(&group.by),
         &interval,
+        if is_above_0 { "" } else { "an interval below 0 reaches the opposite sign" },
         &left_out(all.len(), metrics.len(), "metrics"),
         groups_left,
     ]);

@@ -11,6 +11,8 @@ mod psychometric;
 mod ranks;
 mod ratings;
 mod staircase;
+#[cfg(test)]
+mod tests;
 mod thresholds;
 
 use fovqa_study::{Analysis, Settings};

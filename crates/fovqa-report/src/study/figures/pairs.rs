@@ -59,10 +59,12 @@ fn shares(document: &Document<Pairs>, context: &Context) -> Vec<NamedFigure> {
     let interval = if is_exact { "Clopper-Pearson" } else { "bootstrap (participants resampled)" };
     let has_interval = is_exact || every().any(|pair| pair.cluster.is_some());
     let intervals = format!("intervals: {} {interval}", context.coverage());
+    let has_tests = every().any(|pair| pair.p_adjusted.is_some());
+    let stars = context.stars("two-sided binomial test against 50 %");
     let text = caption(&[
         "Share of votes for the first method of each pair",
         if has_interval { &intervals } else { "" },
-        &context.stars("two-sided binomial test against 50 %"),
+        if has_tests { &stars } else { "" },
         &left_out(all.len(), pairs.len(), "pairs"),
         &groups_left,
     ]);

@@ -3,7 +3,7 @@
 use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look};
 use fovqa_study::plan::{PairsPlan, StaircasePlan};
 
-use super::context::{Context, caption, rounded};
+use super::context::{Context, caption, percent, rounded};
 use super::staircase::{Step, track};
 use crate::sheet::NamedFigure;
 
@@ -68,7 +68,7 @@ pub(super) fn staircase(plan: &StaircasePlan, context: &Context) -> Vec<NamedFig
     if steps.is_empty() {
         return Vec::new();
     }
-    let name = format!("true level of {} % correct", rounded(100.0 * plan.target_performance));
+    let name = format!("true level of {} correct", percent(plan.target_performance));
     let name = name.as_str();
     let chart = track(&steps, plan.target_level.map(|level| (name, level)), false);
     let dashed = match plan.target_level {

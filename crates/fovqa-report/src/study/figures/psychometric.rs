@@ -4,7 +4,7 @@ use fovqa_plot::{Axis, Figure, Fill, FillKind, LineChart, LineSeries, Look, Pane
 use fovqa_study::json::{Document, Group};
 use fovqa_study::psychometric::{DrawnCurve, Psychometric};
 
-use super::context::{Context, caption, group_name, parts, rounded};
+use super::context::{Context, caption, group_name, parts, percent};
 use super::thresholds::{Threshold, threshold};
 use crate::sheet::NamedFigure;
 
@@ -23,21 +23,18 @@ pub(super) fn figures(document: &Document<Psychometric>, context: &Context) -> V
     let figure = |part: &[&Group<Psychometric>]| {
         let panels: Vec<LineChart> = part.iter().map(|group| panel(group, &y, context)).collect();
         let text = text(part, context, &left);
-        context.figure("functions", "", (text, panel_figure(panels)))
+        context.figure("functions", "", (text, panel_figure(panels, 3)))
     };
     parts.into_iter().map(figure).collect()
 }
 
-/// Panels side by side, or one chart.
-pub(super) fn panel_figure(mut panels: Vec<LineChart>) -> Figure {
+/// Panels side by side, or one chart. Up to four panels are in two columns.
+pub(super) fn panel_figure(mut panels: Vec<LineChart>, columns: usize) -> Figure {
     match panels.len() {
         0 => Figure::Line(LineChart::default()),
         1 => Figure::Line(panels.remove(0)),
-        count => Figure::Panels(PanelChart {
-            title: None,
-            panels,
-            columns: if count < 5 { 2 } else { 3 },
-        }),
+        2..=4 => Figure::Panels(PanelChart { title: None, panels, columns: 2 }),
+        _ => Figure::Panels(PanelChart { title: None, panels, columns }),
     }
 }
 
@@ -81,7 +78,7 @@ fn text(part: &[&Group<Psychometric>], context: &Context, left: &str) -> String 
         } else {
             String::new()
         };
-        format!("dashed: threshold of {} %{shaded}", rounded(100.0 * performance))
+        format!("dashed: threshold of {}{shaded}", percent(performance))
     });
     caption(&[
         &format!("Psychometric functions {what}"),

@@ -43,7 +43,7 @@ fn means(group: &Group<Ranks>, context: &Context, groups_left: &str) -> Option<N
         groups_left,
     ]);
     let groups = names.iter().map(|&name| name.to_owned()).collect();
-    let rows = vec![(String::new(), methods.iter().map(bar).collect())];
-    let chart = bars(Axis::new("Mean value"), groups, rows, brackets)?;
+    let rows = [(String::new(), methods.iter().map(bar).collect())];
+    let chart = bars(Axis::new("Mean value"), groups, &rows, brackets)?;
     Some(context.figure("means", &group_name(&group.by), (text, Figure::Bar(chart))))
 }

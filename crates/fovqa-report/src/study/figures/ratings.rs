@@ -5,38 +5,103 @@ use fovqa_study::json::Document;
 use fovqa_study::ratings::{Acceptable, GridRatings, LevelRatings, Ratings};
 
 use super::context::{Context, caption, ends, group_name, parts, rounded, short};
-use super::psychometric::{MOST_FIGURES, MOST_PANELS};
+use super::psychometric::{MOST_FIGURES, MOST_PANELS, panel_figure};
 use crate::sheet::NamedFigure;
 
-/// The most groups of a figure.
-const MOST_SERIES: usize = 8;
+/// The most groups of one chart; more groups have a panel each.
+const MOST_SERIES: usize = 3;
+/// Space above and below the scores of panels, as a share of their range.
+const AIR: f64 = 0.06;
 
 pub(super) fn figures(document: &Document<Ratings>, context: &Context) -> Vec<NamedFigure> {
     let (mut levels, mut grids) = (Vec::new(), Vec::new());
     for (index, group) in document.groups.iter().enumerate() {
         match &group.result {
-            Ratings::Levels(of) => levels.push((index, group_name(&group.by), of)),
+            Ratings::Levels(of) => {
+                levels.push(Levels { look: index, name: group_name(&group.by), ratings: of });
+            }
             Ratings::Grid(of) => grids.push((group_name(&group.by), of)),
         }
     }
-    levels
-        .retain(|(_, _, ratings)| ratings.levels.iter().any(|level| level.moments.mean.is_some()));
-    let (parts, left) = parts(&levels, MOST_SERIES, MOST_FIGURES, "groups");
-    let mut figures: Vec<NamedFigure> =
-        parts.into_iter().map(|part| by_level(part, context, &left)).collect();
+    levels.retain(|of| of.ratings.levels.iter().any(|level| level.moments.mean.is_some()));
+    let per_figure = if levels.len() > MOST_SERIES { MOST_PANELS } else { MOST_SERIES };
+    let has_panels = levels.len() > MOST_SERIES;
+    let (parts, left) = parts(&levels, per_figure, MOST_FIGURES, "groups");
+    let by_level = |part: &[Levels<'_>]| by_level(part, has_panels, context, &left);
+    let mut figures: Vec<NamedFigure> = parts.into_iter().map(by_level).collect();
     figures.extend(over_grid(&grids, context));
     figures
 }
 
-/// The index of a group's look, its name, and its scores.
-type Levels<'a> = (usize, String, &'a LevelRatings);
+/// The scores of a group.
+#[derive(Clone)]
+struct Levels<'a> {
+    /// The index of its look.
+    look: usize,
+    name: String,
+    ratings: &'a LevelRatings,
+}
 
-fn by_level(part: &[Levels<'_>], context: &Context, left: &str) -> NamedFigure {
+impl Levels<'_> {
+    fn acceptable(&self) -> Option<&Acceptable> {
+        self.ratings.acceptable.as_ref()
+    }
+}
+
+fn by_level(part: &[Levels<'_>], has_panels: bool, context: &Context, left: &str) -> NamedFigure {
     let coverage = context.coverage();
-    let acceptable = || part.iter().filter_map(|(_, _, of)| of.acceptable.as_ref());
-    let all_levels = || part.iter().flat_map(|(_, _, of)| of.levels.iter().map(|of| of.level));
-    let first = all_levels().fold(f64::INFINITY, f64::min);
-    let last = all_levels().fold(f64::NEG_INFINITY, f64::max);
+    let figure = if has_panels {
+        let y = common_axis(part);
+        let panel = |of: &Levels<'_>| {
+            let one = Levels { look: 0, name: String::new(), ratings: of.ratings };
+            LineChart { title: Some(of.name.clone()), y: y.clone(), ..chart(&[one], &coverage) }
+        };
+        panel_figure(part.iter().map(panel).collect(), 3)
+    } else {
+        Figure::Line(chart(part, &coverage))
+    };
+    let acceptable = || part.iter().filter_map(Levels::acceptable);
+    let has_interval =
+        part.iter().any(|of| of.ratings.levels.iter().any(|l| l.moments.ci.is_some()));
+    let has_crossing = acceptable().any(|of| of.crossing.is_some());
+    let has_span = acceptable().any(|of| ends(of.crossing_ci).is_some());
+    let is_shaded = has_span && (has_panels || part.len() == 1);
+    let text = caption(&[
+        "Mean score by level over the participants' means",
+        &if has_interval { format!("intervals: {coverage} t intervals") } else { String::new() },
+        if has_crossing { "rings: where the mean falls below the threshold" } else { "" },
+        &if is_shaded {
+            format!(
+                "shaded: {coverage} bootstrap interval of the crossing (participants resampled)"
+            )
+        } else {
+            crossings_in_words(part, &coverage)
+        },
+        left,
+    ]);
+    context.figure("levels", "", (text, figure))
+}
+
+/// The axis of all panels, which has room for their scores, intervals and thresholds.
+fn common_axis(part: &[Levels<'_>]) -> Axis {
+    let of = |of: &Levels<'_>| {
+        let levels = of.ratings.levels.iter().map(|level| &level.moments);
+        let values = levels.flat_map(|of| of.ci.into_iter().flatten().chain(of.mean));
+        values.chain(of.acceptable().map(|of| of.threshold)).collect::<Vec<f64>>()
+    };
+    let values = || part.iter().flat_map(of).filter(|value| value.is_finite());
+    let low = values().fold(f64::INFINITY, f64::min);
+    let high = values().fold(f64::NEG_INFINITY, f64::max);
+    let air = AIR * (high - low);
+    Axis { min: Some(low - air), max: Some(high + air), ..Axis::new("Mean score") }
+}
+
+/// The scores of up to three groups.
+fn chart(part: &[Levels<'_>], coverage: &str) -> LineChart {
+    let levels = || part.iter().flat_map(|of| of.ratings.levels.iter().map(|of| of.level));
+    let first = levels().fold(f64::INFINITY, f64::min);
+    let last = levels().fold(f64::NEG_INFINITY, f64::max);
+    let acceptable = || part.iter().filter_map(Levels::acceptable);
     let mut series = Vec::new();
     series.extend(acceptable().next().map(|acceptable| LineSeries {
         name: format!("threshold, {}", rounded(acceptable.threshold)),
@@ -44,11 +109,11 @@ fn by_level(part: &[Levels<'_>], context: &Context, left: &str) -> NamedFigure {
         points: vec![(first, Some(acceptable.threshold)), (last, Some(acceptable.threshold))],
         ..LineSeries::default()
     }));
-    let ring = |&(look, _, of): &Levels<'_>| {
-        let acceptable = of.acceptable.as_ref()?;
+    let ring = |of: &Levels<'_>| {
+        let acceptable = of.acceptable()?;
         Some(LineSeries {
             name: "crossing".to_owned(),
-            look: Look::new(look),
+            look: Look::new(of.look),
             rings: true,
             unlisted: true,
             points: vec![(acceptable.crossing?, Some(acceptable.threshold))],
@@ -56,50 +121,28 @@ fn by_level(part: &[Levels<'_>], context: &Context, left: &str) -> NamedFigure {
         })
     };
     series.extend(part.iter().filter_map(ring));
-    series.extend(part.iter().map(|(look, name, of)| scores(*look, name, of)));
-    let is_one = part.len() == 1;
+    series.extend(part.iter().map(scores));
     let span = |acceptable: &Acceptable| {
         let [low, high] = ends(acceptable.crossing_ci)?;
-        Some(Span {
-            name: format!("{coverage} interval of the crossing"),
-            from: low.max(first),
-            to: high.min(last),
-        })
+        let name = format!("{coverage} interval of the crossing");
+        Some(Span { name, from: low.max(first), to: high.min(last) })
     };
-    let spans: Vec<Span> = acceptable().filter(|_| is_one).filter_map(span).collect();
-    let has_interval =
-        part.iter().any(|(_, _, of)| of.levels.iter().any(|l| l.moments.ci.is_some()));
-    let text = caption(&[
-        "Mean score by level over the participants' means",
-        &if has_interval { format!("intervals: {coverage} t intervals") } else { String::new() },
-        if acceptable().any(|of| of.crossing.is_some()) {
-            "rings: where the mean falls below the threshold"
-        } else {
-            ""
-        },
-        &if spans.is_empty() {
-            String::new()
-        } else {
-            format!("shaded: its {coverage} bootstrap interval (participants resampled)")
-        },
-        &if is_one { String::new() } else { crossings_in_words(part, &coverage) },
-        left,
-    ]);
-    let chart = LineChart {
+    // Spans of several groups would hide each other.
+    let spans = acceptable().filter(|_| part.len() == 1).filter_map(span);
+    LineChart {
         x: Axis::new("Level"),
         y: Axis::new("Mean score"),
+        spans: spans.collect(),
         series,
-        spans,
         ..LineChart::default()
-    };
-    context.figure("levels", "", (text, Figure::Line(chart)))
+    }
 }
 
-fn scores(look: usize, name: &str, ratings: &LevelRatings) -> LineSeries {
-    let levels = || ratings.levels.iter().filter(|level| level.level.is_finite());
+fn scores(of: &Levels<'_>) -> LineSeries {
+    let levels = || of.ratings.levels.iter().filter(|level| level.level.is_finite());
     LineSeries {
-        name: name.to_owned(),
-        look: Look::new(look),
+        name: of.name.clone(),
+        look: Look::new(of.look),
         points: levels().map(|level| (level.level, level.moments.mean)).collect(),
         intervals: levels().map(|level| level.moments.ci).collect(),
         ..LineSeries::default()
@@ -111,15 +154,16 @@ fn crossings_in_words(part: &[Levels<'_>], coverage: &str) -> String {
     let limit = |limit: f64| match limit {
         limit if limit == f64::INFINITY => "∞".to_owned(),
         limit if limit == f64::NEG_INFINITY => "−∞".to_owned(),
-        limit => format!("{:.3}", limit),
+        limit => format!("{limit:.3}"),
     };
-    let of = |(_, name, of): &Levels<'_>| {
-        let acceptable = of.acceptable.as_ref()?;
+    let crossing = |of: &Levels<'_>| {
+        let acceptable = of.acceptable()?;
         let interval = ends(acceptable.crossing_ci)
             .map(|[low, high]| format!(" [{}, {}]", limit(low), limit(high)));
-        Some(format!("{} {:.3}{}", short(name), acceptable.crossing?, interval.unwrap_or_default()))
+        let interval = interval.unwrap_or_default();
+        Some(format!("{} {:.3}{interval}", short(&of.name), acceptable.crossing?))
     };
-    let all: Vec<String> = part.iter().filter_map(of).collect();
+    let all: Vec<String> = part.iter().filter(|_| part.len() > 1).filter_map(crossing).collect();
     match all.as_slice() {
         [] => String::new(),
         all => format!("crossings with {coverage} bootstrap intervals: {}", all.join(", ")),

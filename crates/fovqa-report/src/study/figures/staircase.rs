@@ -10,6 +10,10 @@ use super::dots::{Dot, MOST_GROUPS, Row, chart, distinct};
 use super::psychometric::{MOST_FIGURES, MOST_PANELS, panel_figure};
 use crate::sheet::NamedFigure;
 
+/// The most trials of a track in one of three columns.
+const MOST_IN_3_COLUMNS: usize = 60;
+/// The most panels with longer tracks.
+const MOST_LONG: usize = 8;
 /// The most series of the thresholds.
 const MOST_SERIES: usize = 8;
 
@@ -32,6 +36,7 @@ pub(super) fn track(steps: &[Step], level: Option<(&str, f64)>, is_log: bool) ->
     let named = |name: &str| LineSeries { name: name.to_owned(), look, ..LineSeries::default() };
     let mut series = vec![LineSeries {
         rings: true,
+        dots: true,
         points: points(&|step| step.is_used),
         ..named("reversal that counts")
     }];
@@ -45,7 +50,7 @@ pub(super) fn track(steps: &[Step], level: Option<(&str, f64)>, is_log: bool) ->
     let line = named("level");
     series.push(LineSeries { unmarked: true, unlisted: true, points: points(&|_| true), ..line });
     let right = points(&|step| step.is_correct);
-    series.push(LineSeries { scatter: true, points: right, ..named("right answer") });
+    series.push(LineSeries { dots: true, points: right, ..named("right answer") });
     series.push(LineSeries {
         scatter: true,
         look: Look::new(1),
@@ -73,19 +78,28 @@ fn tracks(document: &Document<Staircases>, context: &Context) -> Vec<NamedFigure
         })
         .filter(|(_, staircase)| !staircase.track.is_empty())
         .collect();
-    let (parts, left) = parts(&all, MOST_PANELS, MOST_FIGURES, "staircases");
+    // Long tracks need room.
+    let is_long = all.iter().any(|(_, staircase)| staircase.track.len() > MOST_IN_3_COLUMNS);
+    let (columns, panels) = if is_long { (2, MOST_LONG) } else { (3, MOST_PANELS) };
+    let (parts, left) = parts(&all, panels, MOST_FIGURES, "staircases");
     let figure = |part: &[(LevelMean, &Staircase)]| {
         let panels: Vec<LineChart> = part.iter().map(|(mean, of)| panel(of, *mean)).collect();
         let is_geometric = part.iter().any(|(mean, _)| *mean == LevelMean::Geometric);
         let mean = if is_geometric { "geometric mean" } else { "mean" };
+        let mut trials = part.iter().flat_map(|(_, of)| &of.track);
+        let has_rings = trials.any(|trial| trial.is_used);
+        let has_threshold = part.iter().any(|(_, of)| of.threshold.threshold.is_some());
         let text = caption(&[
             "Levels of the staircases by trial",
-            &format!(
-                "rings: reversals that enter the threshold; dashed: threshold, the {mean} of their levels"
-            ),
+            if has_rings { "rings: reversals that enter the threshold" } else { "" },
+            &if has_threshold {
+                format!("dashed: threshold, the {mean} of their levels")
+            } else {
+                String::new()
+            },
             &left,
         ]);
-        context.figure("tracks", "", (text, panel_figure(panels)))
+        context.figure("tracks", "", (text, panel_figure(panels, columns)))
     };
     parts.into_iter().map(figure).collect()
 }
@@ -120,12 +134,11 @@ fn methods(document: &Document<Staircases>, context: &Context) -> Option<NamedFi
         Some(Dot { value: found.threshold, interval: found.ci })
     };
     let names: Vec<String> = document.groups.iter().map(|group| group_name(&group.by)).collect();
-    let all: Vec<String> = match has_methods {
-        true => {
-            let methods = thresholds().filter_map(|threshold| threshold.method.as_deref());
-            distinct(methods).into_iter().map(str::to_owned).collect()
-        }
-        false => names.clone(),
+    let all: Vec<String> = if has_methods {
+        let methods = thresholds().filter_map(|threshold| threshold.method.as_deref());
+        distinct(methods).into_iter().map(str::to_owned).collect()
+    } else {
+        names.clone()
     };
     let places = &all[..all.len().min(MOST_GROUPS)];
     let series = if has_methods { names.len() } else { 1 };

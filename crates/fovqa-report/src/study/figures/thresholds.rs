@@ -4,7 +4,7 @@ use fovqa_plot::{Axis, Figure};
 use fovqa_study::json::{Document, Group};
 use fovqa_study::psychometric::Psychometric;
 
-use super::context::{Context, caption, ends, group_name, left_out, rounded, short};
+use super::context::{Context, caption, ends, group_name, left_out, percent, short};
 use super::dots::{Dot, MOST_GROUPS, Row, chart, distinct};
 use crate::sheet::NamedFigure;
 
@@ -70,15 +70,17 @@ fn thresholds(document: &Document<Psychometric>, context: &Context) -> Option<Na
             _ => {
                 placed.extend(performances.iter().enumerate().map(|(index, performance)| Placed {
                     place: group_name(&group.by),
-                    series: format!("{} % correct", rounded(100.0 * performance)),
+                    series: format!("{} correct", percent(*performance)),
                     threshold: threshold(&group.result, index),
                     group,
-                }))
+                }));
             }
         }
     }
     let shown = || placed.iter().filter_map(|placed| placed.threshold);
     let has_interval = shown().any(|threshold| threshold.dot.interval.is_some());
+    let ends = || shown().filter_map(|threshold| threshold.dot.interval).flatten();
+    let has_open = ends().any(f64::is_infinite);
     let groups = distinct(placed.iter().map(|placed| placed.place.as_str()));
     if shown().next().is_none() || (document.groups.len() < 2 && !has_interval) {
         return None;
@@ -105,16 +107,17 @@ fn thresholds(document: &Document<Psychometric>, context: &Context) -> Option<Na
     let axis = Axis { log: is_log, ..Axis::new("Threshold (level)") };
     let names = groups_shown.iter().map(|&group| group.to_owned()).collect();
     let chart = chart(axis, names, rows)?;
-    let performance = performances.first().map(|performance| rounded(100.0 * performance));
+    let performance = performances.first().copied().map(percent);
     let at = match performance {
         Some(performance) if has_two_columns || performances.len() == 1 => {
-            format!("Levels with {performance} % correct answers")
+            format!("Levels with {performance} correct answers")
         }
         _ => "Levels with these shares of correct answers".to_owned(),
     };
     let text = caption(&[
         &at,
         &if has_interval { methods_in_words(&placed, context) } else { String::new() },
+        if has_open { "an interval that ends at the border has no limit there" } else { "" },
         &left_out(groups.len(), groups_shown.len(), "groups"),
         &left_out(series.len(), series_shown.len(), "series"),
     ]);
