@@ -8,7 +8,7 @@ use fovqa_results::{STUDY_JSON, write_json_output};
 use fovqa_study::input::{Selection, Table};
 use fovqa_study::{Analysis, Inputs};
 
-use crate::args::{Asked, SettingsArgs, StudyArgs, StudyCommand, StudyFormat};
+use crate::args::{Asked, InputArgs, SettingsArgs, StudyArgs, StudyCommand, StudyFormat};
 use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
@@ -79,7 +79,7 @@ fn one(command: &StudyCommand) -> Result<Exit, Exit> {
     threads::started(settings.threads)?;
     let table = input.map(|input| read(&input.file)).transpose()?;
     let scores = scores.map(|path| read(&path)).transpose()?;
-    let selection = input.map_or_else(Selection::default, |input| input.selection());
+    let selection = input.map_or_else(Selection::default, InputArgs::selection);
     let inputs = Inputs { table: table.as_ref(), scores: scores.as_ref() };
     let analysis = request.answer(inputs, &selection, &settings.settings()).map_err(|error| {
         diagnostic::error(&error.to_string(), &diagnostic::shown(&error.help()));

@@ -59,6 +59,8 @@ pub struct PrintedNumber {
     pub at: String,
     /// Why they differ, or what is known about it; may be empty.
     pub note: String,
+    /// Whether the data do not depend on the number.
+    pub independent: bool,
 }
 
 /// `[study]` of an experiment: mean opinion scores, which the scores of the run's metrics are compared

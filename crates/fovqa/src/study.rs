@@ -81,17 +81,10 @@ fn answers(file: &StudyFile) -> Result<Vec<AnsweredAnalysis<'_>>, Error> {
             .request
             .answer(inputs, &of.selection, &of.settings)
             .map_err(|error| of_analysis(file, of, &error))?;
-        let printed = printed_results(&result, &of.printed).map_err(|(number, why)| {
-            let message = format!(
-                "{}: analysis {:?}: the printed number {:?} has at = {:?}, where {why}",
-                file.path.display(),
-                of.name,
-                number.quantity,
-                number.at
-            );
-            let help = "the place is that in `result` of study.json: `fovqa study … --format json` \
-                        prints it for one analysis";
-            Error::usage(message, help)
+        let printed = printed_results(&result, &of.printed).map_err(|error| {
+            let help = "the place is that in the JSON of the analysis: `fovqa study … --format json` \
+                        prints it, and study.json has it as result";
+            Error::usage(format!("{}: analysis {:?}: {error}", file.path.display(), of.name), help)
         })?;
         answers.push(AnsweredAnalysis { of, result, printed });
     }

@@ -27,7 +27,7 @@ pub(crate) use gate::{Annotations, GateArgs, GateFormat};
 pub(crate) use limit::LimitArgs;
 pub(crate) use run::{CheckArgs, MergeArgs, ReportArgs, RunArgs};
 pub(crate) use score::{Format, ScoreArgs};
-pub(crate) use study::{Asked, SettingsArgs, StudyArgs, StudyCommand, StudyFormat};
+pub(crate) use study::{Asked, InputArgs, SettingsArgs, StudyArgs, StudyCommand, StudyFormat};
 
 use clap::{Parser, Subcommand, ValueEnum};
 

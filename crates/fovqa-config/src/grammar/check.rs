@@ -270,14 +270,7 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
             }
         }
         (Kind::Table(keys), DeValue::Table(table)) => check(keys, table, place, span, faults),
-        (Kind::Texts, DeValue::Table(table)) => {
-            for (name, value) in table {
-                let is_text = matches!(value.get_ref(), DeValue::String(_));
-                if !is_text {
-                    wrong_type(&Kind::Text, value, &inside(place, name.get_ref()), faults);
-                }
-            }
-        }
+        (Kind::Texts, DeValue::Table(table)) => check_texts(table, place, faults),
         (Kind::Tables(_, most), DeValue::Array(items)) if items.len() > *most => {
             out_of_range(&format!("an array of {}", items.len()));
         }
@@ -301,6 +294,15 @@ fn check_value(kind: &Kind, value: &Spanned<DeValue<'_>>, place: &str, faults: &
             None => wrong_type(kind, value, place, faults),
         },
         _ => wrong_type(kind, value, place, faults),
+    }
+}
+
+/// Checks that all values of a table are texts.
+fn check_texts(table: &DeTable<'_>, place: &str, faults: &mut Faults) {
+    for (name, value) in table {
+        if !matches!(value.get_ref(), DeValue::String(_)) {
+            wrong_type(&Kind::Text, value, &inside(place, name.get_ref()), faults);
+        }
     }
 }
 

@@ -33,7 +33,7 @@ const SHARES: Kind = Kind::Either(&[Kind::List(&SHARE, 1, 100), SHARE]);
 const STEPS: Kind = Kind::Either(&[Kind::List(&POSITIVE, 1, 1000), POSITIVE]);
 
 /// A printed number.
-static PRINTED: [Key; 5] = [
+static PRINTED: [Key; 6] = [
     required("quantity", Kind::Text, "what the number is"),
     required("value", Kind::Text, "the number as it is printed: \".637\", \"< .01\", \"14.8 %\""),
     required(
@@ -43,6 +43,11 @@ static PRINTED: [Key; 5] = [
     ),
     key("place", Kind::Text, "where it is printed, such as \"Table 2\""),
     key("note", Kind::Text, "why the numbers differ"),
+    key(
+        "independent",
+        Kind::Bool,
+        "false if the data were made from this number, which then proves nothing; default: true",
+    ),
 ];
 
 static ANALYSIS: [Key; 55] = [

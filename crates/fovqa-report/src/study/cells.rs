@@ -38,13 +38,13 @@ pub(super) fn number(value: impl Into<Option<f64>>) -> Cell {
 }
 
 /// A whole number.
-pub(super) fn whole(count: impl ToString) -> Cell {
+pub(super) fn whole(count: impl ToString + Copy) -> Cell {
     let text = count.to_string();
     Cell { shown: text.clone(), value: text, is_number: true }
 }
 
 /// A whole number that may be undefined.
-pub(super) fn whole_or(count: Option<impl ToString>) -> Cell {
+pub(super) fn whole_or(count: Option<impl ToString + Copy>) -> Cell {
     count.map_or_else(undefined, whole)
 }
 

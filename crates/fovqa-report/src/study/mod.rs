@@ -17,7 +17,7 @@ mod staircase;
 mod text;
 
 pub(crate) use of_run::study_of_run;
-pub use printed::{ResultOfPrinted, printed_results};
+pub use printed::{NoResult, ResultOfPrinted, printed_results};
 pub use sheet::{AnsweredAnalysis, DrawnStudy, draw_study, study_json};
 pub use text::study_text;
 

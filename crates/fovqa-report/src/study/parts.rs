@@ -153,12 +153,13 @@ fn add(joined: &mut Vec<(Part, Vec<String>)>, part: Part, by: &By, of: &str) {
 mod tests {
     use super::*;
 
-    fn group(scene: &str, value: f64) -> Group<f64> {
-        Group { by: By(vec![("scene".to_owned(), scene.to_owned())]), result: value }
+    fn group(scene: &str, value: f64) -> Group<Vec<f64>> {
+        Group { by: By(vec![("scene".to_owned(), scene.to_owned())]), result: vec![value] }
     }
 
-    fn parts(value: &f64, parts: &mut Parts) {
-        let row = vec![Cell::text("A"), Cell::number(value.to_string(), *value)];
+    fn parts(values: &Vec<f64>, parts: &mut Parts) {
+        let value = values[0];
+        let row = vec![Cell::text("A"), Cell::number(value.to_string(), value)];
         parts.table(("scores", "Scores"), &[("method", "method"), ("mean", "mean")], vec![row]);
         parts.detail(format!("{value} participants"));
         parts.reasons((0..5).map(|n| (format!("M{n}"), Some("no votes".to_owned()))));

@@ -4,11 +4,12 @@ use fovqa_plan::PrintedNumber;
 use fovqa_study::Analysis;
 use serde::Serialize;
 use serde_json::Value;
+use thiserror::Error;
 
-use super::cells::{number, shown};
+use super::cells::number;
 use super::parts::Part;
 use crate::plain_table::{Cell, Column, PlainTable};
-use crate::printed::Printed;
+use crate::printed::{Printed, PrintedVerdict};
 
 /// A printed number and the result that it is compared with.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -29,40 +30,62 @@ pub struct ResultOfPrinted {
     pub note: String,
 }
 
+/// A printed number without a result.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("the printed number {quantity:?} has at = {at:?}, where there is {found}")]
+pub struct NoResult {
+    /// What the number is.
+    pub quantity: String,
+    /// Its place in the JSON of the analysis.
+    pub at: String,
+    /// What is there.
+    pub found: &'static str,
+}
+
 /// The results that printed numbers are compared with.
 ///
 /// # Errors
-/// The first number whose place in the JSON of the analysis has no number, and why.
+/// The first number whose place in the JSON of the analysis has no number.
 pub fn printed_results(
     analysis: &Analysis,
     printed: &[PrintedNumber],
-) -> Result<Vec<ResultOfPrinted>, (PrintedNumber, String)> {
+) -> Result<Vec<ResultOfPrinted>, NoResult> {
     if printed.is_empty() {
         return Ok(Vec::new());
     }
     let json = serde_json::to_value(analysis).unwrap_or_default();
     let result = |number: &PrintedNumber| {
         let computed = match json.pointer(&number.at) {
-            None => Err("there is nothing".to_owned()),
+            None => Err("nothing"),
             Some(Value::Null) => Ok(None),
-            Some(value) => value.as_f64().map(Some).ok_or_else(|| {
-                let kind = if value.is_string() { "a text" } else { "no number" };
-                format!("there is {kind}")
+            Some(value) => value.as_f64().map(Some).ok_or(match value {
+                Value::String(_) => "a text",
+                _ => "no number",
             }),
         };
-        let computed = computed.map_err(|why| (number.clone(), why))?;
+        let computed = computed.map_err(|found| NoResult {
+            quantity: number.quantity.clone(),
+            at: number.at.clone(),
+            found,
+        })?;
         let printed = Printed::new(&number.value);
         // Shares are printed in percent.
         let is_percent = printed.unit().trim() == "%";
         let computed = computed.map(|value| if is_percent { 100.0 * value } else { value });
-        let verdict = computed.map_or("not reproduced", |value| printed.verdict(value).words());
+        let verdict = match computed.map(|value| printed.verdict(value)) {
+            Some(PrintedVerdict::Reproduced) if !number.independent => {
+                PrintedVerdict::NotIndependent
+            }
+            Some(verdict) => verdict,
+            None => PrintedVerdict::NotReproduced,
+        };
         Ok(ResultOfPrinted {
             quantity: number.quantity.clone(),
             place: number.place.clone(),
             printed: number.value.clone(),
             at: number.at.clone(),
             computed,
-            verdict,
+            verdict: verdict.words(),
             note: number.note.clone(),
         })
     };
@@ -81,7 +104,7 @@ pub(super) fn part(results: &[ResultOfPrinted]) -> Option<Part> {
     let row = |result: &ResultOfPrinted| {
         let error = error(result).map_or_else(
             || Cell { shown: "–".to_owned(), value: String::new(), is_number: true },
-            |error| Cell::number(format!("{} %", shown(error)), error / 100.0),
+            |error| Cell::number(percent(error), error / 100.0),
         );
         vec![
             Cell::text(&result.place),
@@ -116,11 +139,22 @@ pub(super) fn part(results: &[ResultOfPrinted]) -> Option<Part> {
     }
     let notes = vec![
         "Reproduced: the computed number, rounded, gives the printed digits, or keeps the printed bound. \
-         Close: it is within 0.1 %."
+         Close: it is within 0.1 %. Not independent: it gives them, but the data were made from them."
             .to_owned(),
     ];
     let table = PlainTable { caption: "Printed numbers".to_owned(), columns, rows, notes };
     Some(Part::Table { name: "printed", detail: String::new(), table })
+}
+
+/// A relative error with two digits.
+fn percent(error: f64) -> String {
+    // Less than this is the rounding of the computation.
+    const NOTHING: f64 = 1e-6;
+    if error.abs() < NOTHING {
+        return "0 %".to_owned();
+    }
+    let decimals = (1.0 - error.abs().log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{error:+.decimals$} %")
 }
 
 #[cfg(test)]
@@ -129,7 +163,7 @@ mod tests {
     use fovqa_study::options::Alternative;
     use fovqa_study::plan::{PairsOptions, plan_pairs};
 
-    fn compared(value: &str, at: &str) -> Result<Vec<ResultOfPrinted>, (PrintedNumber, String)> {
+    fn compared(value: &str, at: &str) -> Result<Vec<ResultOfPrinted>, NoResult> {
         let options = PairsOptions {
             share: 0.65,
             alpha: 0.05,
@@ -145,6 +179,7 @@ mod tests {
             value: value.to_owned(),
             at: at.to_owned(),
             note: String::new(),
+            independent: value != "90.0",
         };
         printed_results(&plan, &[number])
     }
@@ -154,6 +189,7 @@ mod tests {
         // docs/studies.md: 90 trials, and a power of 0.7178 with 72.
         let found = |value: &str, at: &str| compared(value, at).unwrap()[0].clone();
         assert_eq!(found("90", "/trials").verdict, "reproduced");
+        assert_eq!(found("90.0", "/trials").verdict, "not independent");
         assert_eq!(found("91", "/trials").verdict, "not reproduced");
         assert_eq!(found("< 91", "/trials").verdict, "reproduced");
         let percent = found("71.8 %", "/power_at_trials");
@@ -165,9 +201,15 @@ mod tests {
 
     #[test]
     fn places_without_a_number_are_errors() {
-        assert_eq!(compared("1", "/nothing").unwrap_err().1, "there is nothing");
-        assert_eq!(compared("1", "/plan").unwrap_err().1, "there is a text");
-        assert_eq!(compared("1", "/excluded").unwrap_err().1, "there is no number");
+        assert_eq!(compared("1", "/nothing").unwrap_err().found, "nothing");
+        assert_eq!(compared("1", "/plan").unwrap_err().found, "a text");
+        assert_eq!(compared("1", "/excluded").unwrap_err().found, "no number");
+    }
+
+    #[test]
+    fn errors_have_two_digits() {
+        let shown = [4.6e-12, 0.6071, -14.3, 0.065_26, -0.000_13].map(percent);
+        assert_eq!(shown, ["0 %", "+0.61 %", "-14 %", "+0.065 %", "-0.00013 %"]);
     }
 
     #[test]

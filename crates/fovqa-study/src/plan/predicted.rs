@@ -70,11 +70,7 @@ pub fn plan_predicted(
     settings: &Settings,
 ) -> Result<Plan<PredictedPlan>, StudyError> {
     let known = mean_scores(scores, METRIC)?;
-    let scenes = chosen(
-        (scores.file(), "scene"),
-        &known.scenes,
-        options.scene.as_ref().map(std::slice::from_ref).unwrap_or_default(),
-    )?;
+    let scenes = chosen((scores.file(), "scene"), &known.scenes, options.scene.as_slice())?;
     let methods = chosen((scores.file(), "method"), &known.methods, &options.methods)?;
     // A method that lacks a scene cannot be compared with the others.
     let mean = |method: &String| {

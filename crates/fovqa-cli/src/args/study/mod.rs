@@ -78,7 +78,7 @@ fn study_file(text: &str) -> Result<PathBuf, String> {
     if is_toml || path.is_file() {
         return Ok(path.to_owned());
     }
-    let guess = nearest(text, ANALYSES.into_iter());
+    let guess = nearest(text, ANALYSES);
     let guess = guess.map(|near| format!(" (did you mean {near}?)")).unwrap_or_default();
     let known = ANALYSES.join(", ");
     Err(format!(

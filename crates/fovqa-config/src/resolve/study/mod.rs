@@ -106,6 +106,7 @@ fn printed(table: Node<'_>, faults: &mut Faults) -> Vec<PrintedNumber> {
             value: text("value"),
             at: text("at"),
             note: text("note"),
+            independent: table.flag("independent").unwrap_or(true),
         }
     };
     table.tables("printed").into_iter().map(one).collect()

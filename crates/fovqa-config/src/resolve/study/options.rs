@@ -108,12 +108,11 @@ pub(super) fn assignments(
     }
     let mut found = Vec::new();
     for (text, span) in table.names(key).unwrap_or_default() {
-        match text.split_once('=') {
-            Some((name, value)) => found.push((name.trim().to_owned(), value.trim().to_owned())),
-            None => {
-                let fault = Fault::new(span, format!("\"{text}\" assigns nothing"));
-                faults.push(fault.help("write \"NAME=VALUE\", or a table { NAME = \"VALUE\" }"));
-            }
+        if let Some((name, value)) = text.split_once('=') {
+            found.push((name.trim().to_owned(), value.trim().to_owned()));
+        } else {
+            let fault = Fault::new(span, format!("\"{text}\" assigns nothing"));
+            faults.push(fault.help("write \"NAME=VALUE\", or a table { NAME = \"VALUE\" }"));
         }
     }
     found
