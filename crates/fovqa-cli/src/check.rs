@@ -45,7 +45,7 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
     if let Err(error) = fovqa::foresee_figures(&experiment, &found, &metrics, &warnings) {
         return experiment::failed(&error);
     }
-    if let Err(error) = fovqa::check_study_of(&experiment) {
+    if let Err(error) = fovqa::check_study_of(&experiment, &warnings) {
         return experiment::failed(&error);
     }
     let text = plan(&experiment, &metrics, &found);

@@ -85,6 +85,9 @@ fn one(command: &StudyCommand) -> Result<Exit, Exit> {
         diagnostic::error(&error.to_string(), &diagnostic::shown(&error.help()));
         Exit::Input
     })?;
+    if let Some(text) = fovqa::not_negated(&analysis) {
+        diagnostic::warning(&text);
+    }
     show(&analysis, settings)
 }
 

@@ -22,7 +22,8 @@ pub fn read_curves(path: &Path) -> Result<CurvesFile, ExperimentError> {
 /// # Errors
 /// If it contains mistakes.
 pub fn parse_curves(path: &Path, text: String) -> Result<CurvesFile, ExperimentError> {
-    let (name, about, plan) = file::parse(path, &text, CURVES, resolve::curves)?;
+    let (name, about, plan) =
+        file::parse(path, &text, ("the curve file", CURVES), resolve::curves)?;
     Ok(CurvesFile { name, about, path: path.to_owned(), text, plan })
 }
 

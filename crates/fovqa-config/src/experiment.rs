@@ -23,8 +23,16 @@ pub fn read_experiment(path: &Path) -> Result<Experiment, ExperimentError> {
 /// # Errors
 /// If it contains mistakes.
 pub fn parse_experiment(path: &Path, text: String) -> Result<Experiment, ExperimentError> {
-    let resolved = file::parse(path, &text, EXPERIMENT, |root, faults| {
+    let resolved = file::parse(path, &text, ("the experiment", EXPERIMENT), |root, faults| {
         resolve::experiment(root, path, &text, faults)
     });
     Ok(Experiment { text, ..resolved? })
+}
+
+/// Whether a file is an experiment: it contains scenes that are scored.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn is_experiment(path: &Path) -> Result<bool, ExperimentError> {
+    Ok(file::has(&file::read(path)?, &["scene"]))
 }

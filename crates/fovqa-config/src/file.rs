@@ -26,14 +26,15 @@ fn reason(error: &std::io::Error) -> String {
     }
 }
 
-/// The content of a text, if neither the grammar nor `resolve` finds a mistake.
+/// The content of a text, if neither the grammar nor `resolve` finds a mistake. `what` is what messages
+/// call it: `the experiment`.
 pub(crate) fn parse<T>(
     path: &Path,
     text: &str,
-    keys: &[Key],
+    (what, keys): (&str, &[Key]),
     resolve: impl FnOnce(Node<'_>, &mut Faults) -> T,
 ) -> Result<T, ExperimentError> {
-    parsed(text, keys, resolve).map_err(|faults| {
+    parsed(text, (what, keys), resolve).map_err(|faults| {
         let faults = faults.in_order();
         ExperimentError::Faults { path: path.to_owned(), text: text.to_owned(), faults }
     })
@@ -41,7 +42,7 @@ pub(crate) fn parse<T>(
 
 fn parsed<T>(
     text: &str,
-    keys: &[Key],
+    (what, keys): (&str, &[Key]),
     resolve: impl FnOnce(Node<'_>, &mut Faults) -> T,
 ) -> Result<T, Faults> {
     let mut faults = Faults::default();
@@ -52,7 +53,7 @@ fn parsed<T>(
             return Err(faults);
         }
     };
-    check(keys, document.get_ref(), "the experiment", 0..0, &mut faults);
+    check(keys, document.get_ref(), what, 0..0, &mut faults);
     // References are checked only in a file that the grammar accepts. If the name of a table is
     // misspelled, every reference to it would be reported as well.
     if !faults.is_empty() {

@@ -15,7 +15,7 @@ mod resolve;
 mod study;
 
 pub use curves::{is_curves, parse_curves, read_curves};
-pub use experiment::{parse_experiment, read_experiment};
+pub use experiment::{is_experiment, parse_experiment, read_experiment};
 pub use fault::{ExperimentError, Fault};
 pub use grammar::{curves_schema, resolution, schema, study_schema};
 pub use nearest::nearest;

@@ -22,7 +22,7 @@ pub fn read_study(path: &Path) -> Result<StudyFile, ExperimentError> {
 /// # Errors
 /// If it contains mistakes.
 pub fn parse_study(path: &Path, text: &str) -> Result<StudyFile, ExperimentError> {
-    file::parse(path, text, STUDY, |root, faults| resolve::study(root, path, faults))
+    file::parse(path, text, ("the study", STUDY), |root, faults| resolve::study(root, path, faults))
 }
 
 /// Whether a file is a study file rather than an experiment: it contains analyses, and nothing that is

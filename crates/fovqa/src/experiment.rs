@@ -11,16 +11,7 @@ use crate::error::Error;
 /// # Errors
 /// If it cannot be read or contains mistakes. All mistakes that can be found are returned together.
 pub fn read_experiment(path: &Path) -> Result<Experiment, Error> {
-    if matches!(fovqa_config::is_curves(path), Ok(true)) {
-        let message = format!("{}: this is a curve file", path.display());
-        let help = "`fovqa curves` draws it, and `fovqa check` checks it";
-        return Err(Error::usage(message, help));
-    }
-    if matches!(fovqa_config::is_study(path), Ok(true)) {
-        let message = format!("{}: this is a study file", path.display());
-        let help = "`fovqa study` carries it out, and `fovqa check` checks it";
-        return Err(Error::usage(message, help));
-    }
+    not_of_another_kind(path, FileKind::Experiment)?;
     Ok(fovqa_config::read_experiment(path)?)
 }
 
@@ -29,6 +20,7 @@ pub fn read_experiment(path: &Path) -> Result<Experiment, Error> {
 /// # Errors
 /// If it cannot be read or contains mistakes.
 pub fn read_curves(path: &Path) -> Result<CurvesFile, Error> {
+    not_of_another_kind(path, FileKind::Curves)?;
     Ok(fovqa_config::read_curves(path)?)
 }
 
@@ -37,5 +29,35 @@ pub fn read_curves(path: &Path) -> Result<CurvesFile, Error> {
 /// # Errors
 /// If it cannot be read or contains mistakes.
 pub fn read_study(path: &Path) -> Result<StudyFile, Error> {
+    not_of_another_kind(path, FileKind::Study)?;
     Ok(fovqa_config::read_study(path)?)
+}
+
+/// What a TOML file describes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum FileKind {
+    Experiment,
+    Curves,
+    Study,
+}
+
+/// Whether a file is of another kind than is wanted, as far as that can be told. A file that cannot be read
+/// or understood is explained when it is read.
+fn not_of_another_kind(path: &Path, wanted: FileKind) -> Result<(), Error> {
+    let is = |found: Result<bool, fovqa_config::ExperimentError>| matches!(found, Ok(true));
+    let (kind, what, help) = if is(fovqa_config::is_curves(path)) {
+        let help = "`fovqa curves` draws it, and `fovqa check` checks it";
+        (FileKind::Curves, "a curve file", help)
+    } else if is(fovqa_config::is_study(path)) {
+        let help = "`fovqa study` carries it out, and `fovqa check` checks it";
+        (FileKind::Study, "a study file", help)
+    } else if is(fovqa_config::is_experiment(path)) {
+        (FileKind::Experiment, "an experiment", "`fovqa run` runs it, and `fovqa check` checks it")
+    } else {
+        return Ok(());
+    };
+    if kind == wanted {
+        return Ok(());
+    }
+    Err(Error::usage(format!("{}: this is {what}", path.display()), help))
 }

@@ -110,7 +110,7 @@ pub use report::{Report, report};
 pub use run::{Finished, Run, RunOptions, problems};
 pub use samples::Sample;
 pub use score::score_files;
-pub use study::{FinishedStudy, check_study, read_table, study};
+pub use study::{FinishedStudy, check_study, not_negated, read_table, study};
 
 pub use fovqa_config::{ExperimentError, Fault};
 pub use fovqa_emulate::{Budget, EmulationSpec, FilterChoice, Sampling, Space};

@@ -4,16 +4,25 @@
 use std::path::Path;
 use std::{fs, io};
 
+use fovqa_engine::Events;
 use fovqa_plan::Experiment;
 use fovqa_results::{OPINIONS_CSV, write_whole};
 use fovqa_study::input::{Data, Table};
-use fovqa_study::metrics::check_opinions;
+use fovqa_study::metrics::{Condition, opinions};
 
 use crate::error::Error;
+use crate::study::{as_keys, escaped};
 
-/// The bytes of the table.
+/// A condition in a message beyond these is only counted.
+const MOST_NAMED: usize = 5;
+
+/// The table.
 #[derive(Debug)]
-pub(crate) struct Opinions(Vec<u8>);
+pub(crate) struct Opinions {
+    bytes: Vec<u8>,
+    /// What the user should know of it: conditions that are not in the experiment.
+    warning: Option<String>,
+}
 
 impl Opinions {
     /// Reads the table of an experiment, and checks that it has opinion scores; `None` if the experiment
@@ -30,29 +39,64 @@ impl Opinions {
             Error::input(format!("{shown} cannot be read: {error}"), help)
         })?;
         let selection = study.selection();
-        let checked = Table::read(&shown, &bytes)
-            .and_then(|table| check_opinions(&Data::new(&table, &selection)?));
-        checked.map_err(|error| {
-            let help = error.help().replace("--column ", "a key of [study]: ");
-            Error::input(error.to_string(), help)
-        })?;
-        Ok(Some(Self(bytes)))
+        let read = Table::read(&shown, &bytes)
+            .and_then(|table| opinions(&Data::new(&table, &selection)?))
+            .map_err(|error| {
+                let help = as_keys(&error.help()).replace("column = ", "in [study]: ");
+                Error::input(error.to_string(), escaped(&help))
+            })?;
+        let warning = unknown(experiment, &shown, &read);
+        Ok(Some(Self { bytes, warning }))
+    }
+
+    /// What the user should know of the table before anything is scored.
+    pub(crate) fn warn(&self, events: &dyn Events) {
+        if let Some(warning) = &self.warning {
+            events.warn(warning);
+        }
     }
 
     /// Writes the table into a results folder.
     pub(crate) fn write(&self, folder: &Path) -> Result<(), Error> {
-        write_whole(&folder.join(OPINIONS_CSV), &self.0).map_err(|error| {
+        write_whole(&folder.join(OPINIONS_CSV), &self.bytes).map_err(|error| {
             Error::input(error.to_string(), "free some space, or give another folder with {output}")
         })
     }
+}
+
+/// Which conditions are not in an experiment, in words; `None` if all are.
+fn unknown(experiment: &Experiment, file: &str, conditions: &[Condition]) -> Option<String> {
+    let plan = &experiment.plan;
+    let is_known = |condition: &&Condition| {
+        plan.scenes.iter().any(|scene| scene.name == condition.scene)
+            && plan.methods.contains(&condition.method)
+    };
+    let unknown: Vec<String> = conditions
+        .iter()
+        .filter(|condition| !is_known(condition))
+        .map(|condition| format!("{}/{}", condition.scene, condition.method))
+        .collect();
+    let more = match unknown.len().saturating_sub(MOST_NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let named = unknown.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
+    (!unknown.is_empty()).then(|| {
+        format!(
+            "{file}: the experiment has no {named}{more} (scene/method): their scores are not used"
+        )
+    })
 }
 
 /// Checks the mean opinion scores of an experiment.
 ///
 /// # Errors
 /// If the table cannot be read, or has no opinion scores.
-pub fn check_study_of(experiment: &Experiment) -> Result<(), Error> {
-    Opinions::read(experiment).map(|_| ())
+pub fn check_study_of(experiment: &Experiment, events: &dyn Events) -> Result<(), Error> {
+    if let Some(opinions) = Opinions::read(experiment)? {
+        opinions.warn(events);
+    }
+    Ok(())
 }
 
 /// Copies the table of a shard, if it has one, into the folder of the merged results.

@@ -161,6 +161,9 @@ impl Run {
         let folder = self.folder();
         check_inputs(&self.experiment.plan, &self.found, &folder)?;
         let opinions = Opinions::read(&self.experiment)?;
+        if let Some(opinions) = &opinions {
+            opinions.warn(events);
+        }
         // The folder is opened before anything is scored, so that a folder that cannot be written
         // to is noticed at once.
         let folder = ResultsFolder::open(&folder, self.options.locking)

@@ -4,10 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fovqa_engine::{Events, Locking, ResultsFolder};
+use fovqa_metrics::{Better, Metric};
 use fovqa_plan::{StudyAnalysis, StudyFile};
 use fovqa_report::{AnsweredAnalysis, DrawnStudy, draw_study, printed_results, study_json};
 use fovqa_study::input::Table;
-use fovqa_study::{Inputs, StudyError};
+use fovqa_study::{Analysis, Inputs, StudyError};
 
 use crate::error::Error;
 use crate::finish::in_folder;
@@ -48,9 +49,30 @@ pub fn study(
             Error::input(error.to_string(), "free some space, or give another folder with {output}")
         }
     })?;
+    for of in &answers {
+        if let Some(text) = not_negated(&of.result) {
+            events.warn(&format!("{:?}: {}", of.of.name, as_keys(&text)));
+        }
+    }
     drawn.warnings.iter().for_each(|warning| events.warn(warning));
     let json = study_json(file, &answers);
     Ok(FinishedStudy { folder: folder.path().to_owned(), drawn, json })
+}
+
+/// Which metrics are better if lower but were not said to be, in words; `None` if there are none.
+pub fn not_negated(result: &Analysis) -> Option<String> {
+    let Analysis::Metrics(document) = result else { return None };
+    let metrics = document.groups.first().map(|group| group.result.metrics.as_slice());
+    let is_forgotten = |metric: &&fovqa_study::metrics::Metric| {
+        let known = Metric::find(&metric.metric);
+        !metric.lower_is_better && known.is_some_and(|m| m.info().better == Better::Lower)
+    };
+    let names: Vec<&str> =
+        metrics?.iter().filter(is_forgotten).map(|metric| metric.metric.as_str()).collect();
+    (!names.is_empty()).then(|| {
+        let names = names.join(",");
+        format!("lower scores of {names} are better: name these with --lower-is-better {names}")
+    })
 }
 
 /// Checks a study file with its tables: all analyses are carried out, and nothing is written.
@@ -97,6 +119,11 @@ fn answers(file: &StudyFile) -> Result<Vec<AnsweredAnalysis<'_>>, Error> {
 /// If it cannot be read.
 pub fn read_table(path: &Path) -> Result<Table, Error> {
     let file = path.display().to_string();
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+        let help =
+            format!("`fovqa study {file}` carries out a study file; an analysis needs a CSV table");
+        return Err(Error::usage(format!("{file} is no CSV table"), escaped(&help)));
+    }
     let bytes = fs::read(path).map_err(|error| {
         let help = "check the path; `fovqa study --help` shows what the file has to contain";
         Error::input(format!("{file} cannot be read: {error}"), help)
@@ -112,12 +139,18 @@ fn of_analysis(file: &StudyFile, of: &StudyAnalysis, error: &StudyError) -> Erro
 }
 
 /// A help text in which braces stand for themselves.
-fn escaped(help: &str) -> String {
+pub(crate) fn escaped(help: &str) -> String {
     help.replace('{', "(").replace('}', ")")
 }
 
-/// Options of the command line as keys of a file: `--max-errors` is `max_errors`.
-fn as_keys(text: &str) -> String {
+/// Options of the command line as keys of a file: `--max-errors` is `max_errors`, and `--column value=NAME`
+/// is `column = { value = "NAME" }`.
+pub(crate) fn as_keys(text: &str) -> String {
+    if let Some((before, option)) = text.split_once("--column ")
+        && let Some((role, after)) = option.split_once("=NAME")
+    {
+        return as_keys(before) + &format!("column = {{ {role} = \"NAME\" }}") + &as_keys(after);
+    }
     let mut words = text.split(' ').map(|word| match word.strip_prefix("--") {
         Some(option) => option.replace('-', "_"),
         None => word.to_owned(),
@@ -137,5 +170,9 @@ mod tests {
             "max_errors needs validation_expected: a-b"
         );
         assert_eq!(as_keys("--by"), "by");
+        assert_eq!(
+            as_keys("name it with --column value=NAME; the file has a"),
+            "name it with column = { value = \"NAME\" }; the file has a"
+        );
     }
 }

@@ -40,8 +40,11 @@ pub(crate) fn check(
     }
 }
 
+/// With what the name of a whole file begins: `the experiment`.
+const WHOLE: &str = "the ";
+
 fn inside(place: &str, key: &str) -> String {
-    if place == "the experiment" { key.to_owned() } else { format!("{place}.{key}") }
+    if place.starts_with(WHOLE) { key.to_owned() } else { format!("{place}.{key}") }
 }
 
 fn unknown<'a>(

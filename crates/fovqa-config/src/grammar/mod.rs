@@ -16,7 +16,7 @@ pub(crate) use curves::{CURVES, MOST_CURVES};
 pub(crate) use emulate::{BUDGET, OTHER_EYE, REPROJECT};
 pub(crate) use experiment::{EXPERIMENT, SWEEP_RANGE};
 pub use schema::{curves_schema, schema, study_schema};
-pub(crate) use study::{ANALYSES, STUDY};
+pub(crate) use study::{ANALYSES, STUDY, about_option};
 
 use fovqa_methods::Method;
 use fovqa_params::{ParamInfo, ParamValues};

@@ -168,6 +168,11 @@ static STUDY_TABLE: [Key; 5] = [
     required("analysis", Kind::Tables(&ANALYSIS, MOST_ANALYSES), "the analyses"),
 ];
 
+/// What an option of an analysis is for.
+pub(crate) fn about_option(name: &str) -> &'static str {
+    ANALYSIS.iter().find(|key| key.name == name).map_or("", |key| key.about)
+}
+
 /// The top-level keys of the file.
 pub(crate) const STUDY: &[Key] = &STUDY_TABLE;
 

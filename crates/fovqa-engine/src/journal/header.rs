@@ -74,11 +74,12 @@ fn plots_with_crops(experiment: &Experiment) -> Vec<Plot> {
     plots.map(of).collect()
 }
 
-/// The SHA-256 of what an experiment scores: without its plots, figures, rules and description.
+/// The SHA-256 of what an experiment scores: without its plots, figures, opinion scores, rules and description.
 fn scored(experiment: &Experiment) -> String {
     let scored = Resolved {
         about: None,
         plots: plots_with_crops(experiment),
+        study: None,
         figures: FigureSettings::default(),
         gates: Vec::new(),
         spreadsheet_safe: false,

@@ -17,9 +17,9 @@ fn shares(pairs: &Pairs, parts: &mut Parts) {
     let row = |pair: &fovqa_study::pairs::Pair| {
         vec![
             Cell::text(name(&pair.method, &pair.opponent)),
-            number(pair.wins),
-            number(pair.losses),
-            number(pair.ties),
+            votes(pair.wins),
+            votes(pair.losses),
+            votes(pair.ties),
             number(pair.share),
             interval(pair.clopper_pearson),
             interval(pair.wilson),
@@ -48,6 +48,11 @@ fn shares(pairs: &Pairs, parts: &mut Parts) {
     parts.reasons(
         pairs.pairs.iter().map(|pair| (name(&pair.method, &pair.opponent), pair.reason.clone())),
     );
+}
+
+/// A number of votes, of which ties may be halves.
+fn votes(count: f64) -> Cell {
+    if count.fract() == 0.0 && count < 9e15 { whole(count as i64) } else { number(count) }
 }
 
 /// A number of participants in words.

@@ -153,11 +153,11 @@ fn add(joined: &mut Vec<(Part, Vec<String>)>, part: Part, by: &By, of: &str) {
 mod tests {
     use super::*;
 
-    fn group(scene: &str, value: f64) -> Group<Vec<f64>> {
-        Group { by: By(vec![("scene".to_owned(), scene.to_owned())]), result: vec![value] }
+    fn group(scene: &str, value: f64) -> Group<[f64; 3]> {
+        Group { by: By(vec![("scene".to_owned(), scene.to_owned())]), result: [value; 3] }
     }
 
-    fn parts(values: &Vec<f64>, parts: &mut Parts) {
+    fn parts(values: &[f64; 3], parts: &mut Parts) {
         let value = values[0];
         let row = vec![Cell::text("A"), Cell::number(value.to_string(), value)];
         parts.table(("scores", "Scores"), &[("method", "method"), ("mean", "mean")], vec![row]);

@@ -1,58 +1,79 @@
 //! Tables of plans.
 
-use fovqa_study::plan::{PairsPlan, PredictedPlan, StaircasePlan};
+use fovqa_study::plan::{PairsPlan, PredictedPair, PredictedPlan, StaircasePlan};
 
-use super::cells::{half_open, number, whole, whole_or};
+use super::cells::{half_open, number, shown, whole, whole_or};
 use super::parts::Parts;
 use crate::plain_table::Cell;
 
 const COLUMNS: [(&str, &str); 2] = [("quantity", "quantity"), ("value", "value")];
 
 pub(super) fn pairs(plan: &PairsPlan, parts: &mut Parts) {
-    let rows = vec![
+    let mut rows = vec![
         vec![Cell::text("trials per pair"), whole_or(plan.trials)],
         vec![Cell::text("power with these trials"), number(plan.power)],
-        vec![Cell::text("power with --trials"), number(plan.power_at_trials)],
-        vec![Cell::text("trials for --width"), whole_or(plan.trials_for_width)],
     ];
+    if let Some(trials) = plan.requested {
+        rows.push(vec![Cell::text(power_with(trials)), number(plan.power_at_trials)]);
+    }
+    if let Some(width) = plan.width {
+        rows.push(vec![Cell::text(trials_for(width)), whole_or(plan.trials_for_width)]);
+    }
     let caption = "Trials that a binomial test of one pair needs";
     parts.table(("plan", caption), &COLUMNS, rows);
-    parts.reasons([("plan".to_owned(), plan.reason.clone())]);
+    parts.reasons([("plan".to_owned(), reason(plan))]);
+}
+
+fn power_with(trials: u64) -> String {
+    format!("power with {trials} trials")
+}
+
+fn trials_for(width: f64) -> String {
+    format!("trials for an interval {} wide", shown(width))
+}
+
+/// Why a value that was asked for is undefined.
+fn reason(plan: &PairsPlan) -> Option<String> {
+    let asked = |reason: &&str| !reason.starts_with("without --");
+    let reasons: Vec<&str> = plan.reason.as_deref()?.split("; ").filter(asked).collect();
+    (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 
 pub(super) fn predicted(plan: &PredictedPlan, parts: &mut Parts) {
     parts.remark(&plan.prediction);
     let scenes = if plan.scenes.len() == 1 { "scene" } else { "scenes" };
     parts.remark(format!("{scenes}: {}", plan.scenes.join(", ")));
+    let first = plan.pairs.first().map(|pair| &pair.plan);
+    let (requested, width) = (first.and_then(|p| p.requested), first.and_then(|p| p.width));
     let rows = plan.pairs.iter().map(|pair| {
-        vec![
+        let mut row = vec![
             Cell::text(format!("{} – {}", pair.method, pair.opponent)),
             number(pair.jod),
             number(pair.opponent_jod),
             number(pair.share),
             whole_or(pair.plan.trials),
             number(pair.plan.power),
-            number(pair.plan.power_at_trials),
-            whole_or(pair.plan.trials_for_width),
-        ]
+        ];
+        row.extend(requested.map(|_| number(pair.plan.power_at_trials)));
+        row.extend(width.map(|_| whole_or(pair.plan.trials_for_width)));
+        row
     });
-    let columns = [
+    let power_with = requested.map(power_with).unwrap_or_default();
+    let trials_for = width.map(trials_for).unwrap_or_default();
+    let mut columns = vec![
         ("pair", "pair"),
         ("JOD", "jod"),
         ("JOD of the other", "opponent_jod"),
         ("share", "share"),
         ("trials", "trials"),
         ("power", "power"),
-        ("power with --trials", "power_at_trials"),
-        ("trials for --width", "trials_for_width"),
     ];
+    columns.extend(requested.map(|_| (power_with.as_str(), "power_at_trials")));
+    columns.extend(width.map(|_| (trials_for.as_str(), "trials_for_width")));
     let caption = "Trials that binomial tests of predicted shares need";
     parts.table(("plan", caption), &columns, rows.collect());
-    parts.reasons(
-        plan.pairs
-            .iter()
-            .map(|pair| (format!("{} – {}", pair.method, pair.opponent), pair.plan.reason.clone())),
-    );
+    let name = |pair: &PredictedPair| format!("{} – {}", pair.method, pair.opponent);
+    parts.reasons(plan.pairs.iter().map(|pair| (name(pair), reason(&pair.plan))));
 }
 
 pub(super) fn staircase(plan: &StaircasePlan, parts: &mut Parts) {

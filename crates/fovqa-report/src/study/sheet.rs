@@ -56,9 +56,9 @@ struct RecordedAnalysis<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     title: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    file: Option<&'a PathBuf>,
+    file: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    scores: Option<&'a PathBuf>,
+    scores: Option<String>,
     confidence: f64,
     bootstrap: usize,
     seed: u64,
@@ -156,12 +156,16 @@ fn sentence(text: &str) -> String {
 }
 
 fn record<'a>(file: &'a StudyFile, answers: &'a [AnsweredAnalysis<'_>]) -> Record<'a> {
+    // As the file names them, so that they do not depend on the working directory.
+    let base = file.path.parent().unwrap_or(Path::new(""));
+    let shown =
+        |path: &Path| path.strip_prefix(base).unwrap_or(path).to_string_lossy().replace('\\', "/");
     let analyses =
         answers.iter().map(|AnsweredAnalysis { of, result, printed }| RecordedAnalysis {
             name: &of.name,
             title: of.title.as_deref(),
-            file: of.table.as_ref(),
-            scores: of.scores.as_ref(),
+            file: of.table.as_deref().map(shown),
+            scores: of.scores.as_deref().map(shown),
             confidence: of.settings.confidence,
             bootstrap: of.settings.bootstrap,
             seed: of.settings.seed,

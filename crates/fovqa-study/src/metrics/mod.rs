@@ -129,13 +129,13 @@ pub fn metrics(
     Ok(Document::new("metrics", groups))
 }
 
-/// Checks that rows are mean opinion scores: each has a scene, a method and a number.
+/// The conditions with a mean opinion score, by first appearance.
 ///
 /// # Errors
 ///
 /// If a column is missing, or a cell cannot be used.
-pub fn check_opinions(data: &Data) -> Result<(), StudyError> {
-    conditions(&data.without_empty("value")?).map(|_| ())
+pub fn opinions(data: &Data) -> Result<Vec<Condition>, StudyError> {
+    conditions(&data.without_empty("value")?)
 }
 
 /// The metrics with scores of whole images in the table of a run (results.csv), by first appearance.

@@ -61,6 +61,9 @@ pub struct PairsPlan {
     /// The requested number of trials, for figures.
     #[serde(skip)]
     pub requested: Option<u64>,
+    /// The requested width, for tables.
+    #[serde(skip)]
+    pub width: Option<f64>,
     /// Why a value is undefined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -93,6 +96,7 @@ pub fn plan_pairs(options: &PairsOptions, settings: &Settings) -> Plan<PairsPlan
         required: options.power,
         curve: curve(options, found.map(|(trials, _)| trials)),
         requested: options.trials,
+        width: options.width,
         reason: (!reasons.is_empty()).then(|| reasons.join("; ")),
     };
     Plan::new("pairs", result)

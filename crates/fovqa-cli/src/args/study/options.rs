@@ -15,7 +15,7 @@ use crate::args::values::{finite, words};
 pub(crate) enum StudyFormat {
     /// Tables.
     Text,
-    /// JSON of the schema fovqa.study/1.
+    /// JSON of the schema fovqa.study/1; of a study file, fovqa.studies/1.
     Json,
 }
 

@@ -47,10 +47,16 @@ pub(crate) struct PlanPairsArgs {
     #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
     /// Only these methods of the run
-    #[arg(long, value_name = "METHOD,…", value_delimiter = ',', requires = "results")]
+    #[arg(
+        long,
+        value_name = "METHOD,…",
+        value_delimiter = ',',
+        requires = "results",
+        conflicts_with = "share"
+    )]
     methods: Vec<String>,
     /// Only this scene of the run [default: the mean over all scenes]
-    #[arg(long, value_name = "SCENE", requires = "results")]
+    #[arg(long, value_name = "SCENE", requires = "results", conflicts_with = "share")]
     scene: Option<String>,
     /// Level of significance
     #[arg(long, value_name = "SHARE", default_value = "0.05", value_parser = share)]

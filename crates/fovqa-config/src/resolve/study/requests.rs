@@ -9,6 +9,7 @@ use fovqa_study::{Request, metrics, pairs, psychometric, ranks, ratings, stairca
 
 use super::options::names;
 use crate::fault::{Fault, Faults};
+use crate::grammar::about_option;
 use crate::node::Node;
 
 /// The analysis that a table asks for; `None` if something is wrong with its options.
@@ -58,7 +59,8 @@ fn needed(table: Node<'_>, span: Range<usize>, keys: &[&str], faults: &mut Fault
     let kind = table.text("kind").unwrap_or_default();
     let missing = missing.join(", ");
     let fault = Fault::new(span, format!("the analysis {kind} lacks {missing}"));
-    faults.push(fault.help(format!("`fovqa study {kind} --help` says what each is for")));
+    let first = keys.iter().find(|key| !table.has(key)).copied().unwrap_or_default();
+    faults.push(fault.help(format!("add {first} = …: {}", about_option(first))));
     None
 }
 
