@@ -181,7 +181,7 @@ fn correlations(
         groups_left,
     ]);
     let min = is_above_0.then_some(0.0);
-    let y = Axis { min, max: Some(1.0), ..Axis::new("|Correlation|") };
+    let y = Axis { min, max: Some(1.0), ..Axis::new("Size of correlation") };
     let names = metrics.iter().map(|metric| label(&metric.metric)).collect();
     let chart: BarChart = chart(y, names, rows)?;
     Some(context.figure("correlations", &group_name(&group.by), (text, Figure::Bar(chart))))
