@@ -335,6 +335,9 @@ fn the_committed_experiments_are_right() {
     let results = Folder::new();
     let data = shared("data");
     let configs = root().join("configs");
+    // Opinion scores are beside the experiment that names them.
+    let opinions = "studies/data/opinions.csv";
+    results.write(opinions, fs::read(configs.join(opinions)).unwrap());
     let folders = [configs.join("papers"), configs.join("ci"), configs];
     let mut seen = 0;
     for entry in folders.iter().flat_map(|folder| fs::read_dir(folder).unwrap()) {

@@ -134,6 +134,50 @@ fn many() -> Folder {
     folder
 }
 
+/// Studies with such names, and those of the repository.
+#[test]
+fn tables_of_studies_fit_on_a_page() {
+    if !has_latex() {
+        return;
+    }
+    let folder = Folder::new();
+    let cell = |name: &str| format!("\"{}\"", name.replace('"', "\"\""));
+    let mut votes = String::from("participant,scene,method_a,method_b,answer\n");
+    let mut values = String::from("participant,method,value\n");
+    for (a, first) in NAMES.iter().enumerate() {
+        for participant in 0..3 {
+            let value = (a * 7 + participant * 5) % 11;
+            let _ = writeln!(values, "P{participant},{},{value}", cell(first));
+        }
+        for (b, second) in NAMES.iter().enumerate().skip(a + 1) {
+            for participant in 0..3 {
+                let answer = if (a + b + participant) % 3 == 0 { "a" } else { "b" };
+                let (first, second) = (cell(first), cell(second));
+                let scene = cell(NAMES[participant % 2]);
+                let _ = writeln!(votes, "P{participant},{scene},{first},{second},{answer}");
+            }
+        }
+    }
+    folder.write("votes.csv", votes);
+    folder.write("values.csv", values);
+    folder.write(
+        "s.toml",
+        "name = \"names\"\n[[analysis]]\nkind = \"pairs\"\nfile = \"votes.csv\"\nby = [\"scene\"]\n\
+         bootstrap = 20\n[[analysis]]\nkind = \"ranks\"\nfile = \"values.csv\"\n\
+         pairwise = \"signed-rank\"\n[[analysis]]\nkind = \"anova\"\nfile = \"values.csv\"\n\
+         within = \"method\"\n",
+    );
+    folder.run(&["study", "s.toml", "--output", "names"]).ok();
+    let mut files = latex_files(&folder, "names");
+    for name in ["metrics", "rmfr-table-2", "slider", "thresholds", "votes"] {
+        let path = root().join(format!("configs/studies/{name}.toml"));
+        folder.run(&["study", path.to_str().unwrap(), "--output", name]).ok();
+        files.extend(latex_files(&folder, name));
+    }
+    assert!(files.len() > 35, "{files:?}");
+    typeset(&folder, &files, "7in");
+}
+
 #[test]
 fn tables_of_many_methods_and_metrics_fit_on_a_page() {
     if !has_latex() {

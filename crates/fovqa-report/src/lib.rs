@@ -25,6 +25,7 @@ mod plot_figures;
 mod print;
 mod printed;
 mod run_table;
+mod sentence;
 mod sheet;
 mod study;
 mod sweep;

@@ -6,6 +6,7 @@ mod curves;
 mod emulate;
 mod experiment;
 mod figures;
+mod gates;
 mod keys;
 mod schema;
 mod study;

@@ -3,9 +3,9 @@
 use askama::Template;
 
 use super::Source;
-use super::tables::sentence;
 use crate::page::{PageFigure, PageTable, Shell};
 use crate::plain_table::PlainTable;
+use crate::sentence::sentence;
 
 #[derive(Template)]
 #[template(path = "curves.html")]

@@ -7,6 +7,7 @@ use fovqa_plan::{CurveTable, CurveTableKind, TableAcross};
 use super::Source;
 use super::labels::{Labels, resolution, screen};
 use crate::plain_table::{Cell, Column, PlainTable};
+use crate::sentence::sentence;
 
 /// A table and the name of its files.
 pub(super) fn table(source: &Source<'_>, table: &CurveTable) -> (&'static str, PlainTable) {
@@ -55,13 +56,6 @@ fn rounded(text: &str) -> String {
         rest = &number[end..];
     }
     shown + rest
-}
-
-/// Formats a note as a sentence.
-pub(super) fn sentence(note: &str) -> String {
-    let mut chars = note.chars();
-    let first: String = chars.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
-    format!("{first}{}.", chars.as_str())
 }
 
 fn notes<'a>(curves: impl Iterator<Item = &'a &'a Curve>) -> Vec<String> {

@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::Value;
 use thiserror::Error;
 
-use super::cells::number;
+use super::cells::{number, shown};
 use super::parts::Part;
 use crate::plain_table::{Cell, Column, PlainTable};
 use crate::printed::{Printed, PrintedVerdict};
@@ -110,7 +110,7 @@ pub(super) fn part(results: &[ResultOfPrinted]) -> Option<Part> {
             Cell::text(&result.place),
             Cell::text(&result.quantity),
             Cell::text(&result.printed),
-            number(result.computed),
+            computed(result),
             error,
             Cell::text(result.verdict),
             Cell::text(&result.note),
@@ -118,7 +118,7 @@ pub(super) fn part(results: &[ResultOfPrinted]) -> Option<Part> {
     };
     let mut columns = vec![
         Column::new("Place", "place"),
-        Column::new("Quantity", "quantity"),
+        Column::new("Quantity", "quantity").repeated(),
         Column::new("Printed", "printed"),
         Column::new("Computed", "computed"),
         Column::new("Relative error", "relative_error"),
@@ -144,6 +144,21 @@ pub(super) fn part(results: &[ResultOfPrinted]) -> Option<Part> {
     ];
     let table = PlainTable { caption: "Printed numbers".to_owned(), columns, rows, notes };
     Some(Part::Table { name: "printed", detail: String::new(), table })
+}
+
+/// A result with more decimals than the printed number.
+fn computed(result: &ResultOfPrinted) -> Cell {
+    let Some(value) = result.computed else { return number(None) };
+    let short = shown(value);
+    let decimals = |text: &str| {
+        let behind = text.split_once('.').map_or("", |(_, behind)| behind);
+        behind.chars().take_while(char::is_ascii_digit).count()
+    };
+    let wanted = decimals(&result.printed) + 1;
+    if short.contains('e') || decimals(&short) >= wanted || decimals(&result.printed) == 0 {
+        return Cell::number(short, value);
+    }
+    Cell::number(format!("{value:.wanted$}"), value)
 }
 
 /// A relative error with two digits.
@@ -204,6 +219,20 @@ mod tests {
         assert_eq!(compared("1", "/nothing").unwrap_err().found, "nothing");
         assert_eq!(compared("1", "/plan").unwrap_err().found, "a text");
         assert_eq!(compared("1", "/excluded").unwrap_err().found, "no number");
+    }
+
+    #[test]
+    fn results_have_more_decimals_than_printed_numbers() {
+        let of = |printed: &str, value: f64| {
+            let mut result = compared("90", "/trials").unwrap().remove(0);
+            (result.printed, result.computed) = (printed.to_owned(), Some(value));
+            computed(&result).shown
+        };
+        assert_eq!(of("28.315", 28.315), "28.3150");
+        assert_eq!(of(".637", 0.640_876), "0.6409");
+        assert_eq!(of("12", 12.0), "12");
+        assert_eq!(of("< .01", 0.012_77), "0.01277");
+        assert_eq!(of("68.1 %", 68.055_6), "68.06");
     }
 
     #[test]

@@ -16,6 +16,7 @@ use crate::figures::slug;
 use crate::latex::usual_label;
 use crate::page::{PageFigure, PageTable, Shell};
 use crate::plain_table::PlainTable;
+use crate::sentence::sentence;
 use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, PLOTS, ReportError, Sheet};
 
 /// An analysis of a study file with its result.
@@ -125,7 +126,9 @@ fn section<'a>(
     let (mut tables, mut remarks) = (Vec::new(), excluded(&answer.result));
     for part in printed::part(&answer.printed).into_iter().chain(joined_parts(&answer.result)) {
         match part {
-            Part::Remark(text) => remarks.push(sentence(&text)),
+            Part::Remark(text) => {
+                remarks.push(sentence(text.strip_prefix("note: ").unwrap_or(&text)));
+            }
             Part::Table { name, table, .. } => {
                 tables.push((names.free(&format!("table-{begin}-{name}")), table));
             }
@@ -145,14 +148,6 @@ fn excluded(result: &Analysis) -> Vec<String> {
     let excluded = result.excluded();
     let text = || format!("Excluded participants: {}.", excluded.join(", "));
     if excluded.is_empty() { Vec::new() } else { vec![text()] }
-}
-
-/// A remark as a sentence.
-fn sentence(text: &str) -> String {
-    let text = text.strip_prefix("note: ").unwrap_or(text);
-    let mut chars = text.chars();
-    let first: String = chars.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
-    format!("{first}{}.", chars.as_str().trim_end_matches('.'))
 }
 
 fn record<'a>(file: &'a StudyFile, answers: &'a [AnsweredAnalysis<'_>]) -> Record<'a> {
