@@ -288,3 +288,31 @@ fn the_committed_schema_is_the_one_printed_and_its_keys_are_documented() {
     }
     assert!(seen > 55, "{seen}");
 }
+
+#[test]
+fn files_of_the_user_are_not_replaced() {
+    let folder = with(STUDY);
+    for file in ["table-pairs-shares.csv", "plots/pairs-scores.svg", "table-pairs-fit.tex"] {
+        let output = file.replace(['/', '.'], "-");
+        let mine = format!("{output}/{file}");
+        folder.write(&mine, "mine");
+        let run = folder.run(&["study", "in/study.toml", "--output", &output]);
+        run.fails(3, &[file, "fovqa did not write this file"]);
+        assert_eq!(read(&folder, &mine), "mine");
+        assert!(!folder.path(&output).join("study.json").exists());
+    }
+    // Neither is the table of answers, nor what belongs to a page.
+    folder.write("here/table-pairs-shares.csv", VOTES);
+    folder.write("here/s.toml", STUDY.replace("votes.csv", "table-pairs-shares.csv"));
+    folder.run(&["study", "here/s.toml", "--output", "here"]).fails(3, &["table-pairs-shares.csv"]);
+    folder.run(&["study", "in/study.toml", "--output", "out"]).ok();
+    let before = read(&folder, "out/study.json");
+    let single = ["study", "pairs", "in/votes.csv", "--output"];
+    folder.run(&[&single[..], &["out"]].concat()).fails(3, &["study.json", "--output"]);
+    assert_eq!(read(&folder, "out/study.json"), before);
+    folder.write("own/study.json", "{\"my\": 1}");
+    folder.run(&[&single[..], &["own"]].concat()).fails(3, &["study.json"]);
+    for _ in 0..2 {
+        folder.run(&[&single[..], &["single"]].concat()).ok();
+    }
+}

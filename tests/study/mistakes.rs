@@ -50,6 +50,8 @@ fn a_message_names_file_column_line_and_remedy() {
         &["--column condition=mean"],
     );
     Folder::new().run(&["study", "pairs", "none.csv"]).fails(3, &["none.csv", "help:"]);
+    let validation = "participant,level,value,validation\nP,1,2,0\nP,1,3,yes\n";
+    wrong(validation, &["ratings", "t.csv"], &["line 3, column \"validation\": \"yes\"", "0 or 1"]);
 }
 
 #[test]

@@ -115,6 +115,11 @@ fn shards_take_their_opinion_scores_with_them() {
         let of = |run: &str| fs::read(folder.path(&format!("{run}/{name}"))).unwrap();
         assert!(of("whole") == of("merged"), "{name}");
     }
+    // Shards with different tables are not joined.
+    let other = fs::read_to_string(folder.path("s2/opinions.csv")).unwrap();
+    folder.write("s2/opinions.csv", other.replace("hall,A,4.8", "hall,A,1"));
+    let joined = folder.run(&["merge", "s1", "s2", "--output", "other"]);
+    joined.fails(3, &["different opinion scores", "--resume"]);
     // A changed opinion costs no score.
     let folder = experiment();
     folder.run(&["run", "e.toml", "--output", "out"]).ok();
@@ -190,4 +195,51 @@ fn a_plan_predicts_shares_from_the_scores_of_a_run() {
     folder.write("run/results.csv", results);
     folder.run(&["study", "p.toml", "--output", "out"]).ok();
     assert_eq!(json_of(&folder, "out/study.json")["analyses"][0]["result"], found);
+}
+
+#[test]
+fn names_and_directions_of_scores_are_those_of_the_experiment() {
+    // A method like a formula, in a table that spreadsheets may open.
+    let folder = experiment();
+    for file in ["e.toml", "mos.csv"] {
+        let text = fs::read_to_string(folder.path(file)).unwrap();
+        let text = text.replace("\"A\"", "\"=A\"").replace(",A,", ",=A,");
+        folder.write(file, text);
+    }
+    folder.run(&["run", "e.toml", "--output", "plain"]).ok();
+    let text = fs::read_to_string(folder.path("e.toml")).unwrap();
+    folder.write("e.toml", format!("{text}[output]\nspreadsheet_safe = true\n"));
+    folder.run(&["run", "e.toml", "--output", "safe"]).ok();
+    assert_eq!(json_of(&folder, "safe/study.json"), json_of(&folder, "plain/study.json"));
+    assert_eq!(json_of(&folder, "safe/study.json")["groups"][0]["n"], 9);
+    // Where nothing fits, nothing is compared, and an earlier comparison does not stay.
+    let table = fs::read_to_string(folder.path("mos.csv")).unwrap();
+    folder.write("mos.csv", table.replace("hall,", "hail,").replace("road,", "rode,"));
+    let said = ["the experiment has no hail/", "are not compared", "no condition"];
+    folder.run(&["run", "e.toml", "--output", "safe", "--resume"]).ok().says(&said);
+    assert!(!folder.path("safe").join("study.json").exists());
+    // A metric that says nothing of quality is refused.
+    let neither = text.replace("ssim = {}", "rms_contrast = {}");
+    folder.write("e.toml", neither.replace("[study]\n", "[study]\nmetrics = [\"rms_contrast\"]\n"));
+    folder.run(&["check", "e.toml"]).fails(2, &["rms_contrast says neither"]);
+}
+
+#[test]
+fn metrics_that_are_better_if_lower_are_pointed_out() {
+    let folder = experiment();
+    folder.run(&["run", "e.toml", "--output", "out"]).ok();
+    let arguments = [
+        "study",
+        "metrics",
+        "mos.csv",
+        "--column",
+        "value=score",
+        "--scores",
+        "out/results.csv",
+        "--bootstrap",
+        "10",
+    ];
+    folder.run(&arguments).ok().says(&["lower scores of mse are better", "--lower-is-better mse"]);
+    let named = folder.run(&[&arguments[..], &["--lower-is-better", "mse"]].concat()).ok();
+    assert!(!named.stderr.contains("lower scores"), "{}", named.stderr);
 }

@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use fovqa::StudyFile;
-use fovqa_results::{STUDY_JSON, write_json_output};
+use fovqa_io::read_head;
+use fovqa_results::{RUN_JSON, STUDY_JSON, write_json_output};
 use fovqa_study::input::{Selection, Table};
 use fovqa_study::{Analysis, Inputs};
 
@@ -13,6 +14,9 @@ use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{diagnostic, experiment, output, threads};
+
+/// Bytes at the beginning of a file that tell what it is.
+const HEAD_BYTES: u64 = 256;
 
 pub(crate) fn run(args: &StudyArgs) -> Exit {
     let outcome = match &args.command {
@@ -28,7 +32,9 @@ fn files(args: &StudyArgs) -> Result<Exit, Exit> {
         args.files.iter().map(|path| experiment::read_study(path)).collect();
     let files = read.into_iter().collect::<Result<Vec<StudyFile>, Exit>>()?;
     for (index, file) in files.iter().enumerate() {
-        if let Some(other) = files[..index].iter().find(|other| other.name == file.name) {
+        if let Some(other) =
+            files[..index].iter().find(|other| is_same_folder(&other.name, &file.name))
+        {
             let (a, b) = (other.path.display(), file.path.display());
             let name = &file.name;
             let message =
@@ -52,6 +58,11 @@ fn files(args: &StudyArgs) -> Result<Exit, Exit> {
         }
     }
     Ok(outcome)
+}
+
+/// Whether two names are one folder on some file systems.
+fn is_same_folder(a: &str, b: &str) -> bool {
+    a.to_lowercase() == b.to_lowercase()
 }
 
 /// Carries out all analyses of a study file.
@@ -120,7 +131,16 @@ fn write(analysis: &Analysis, folder: &Path) -> Result<(), Exit> {
         diagnostic::error(&message, help);
         Exit::Input
     })?;
-    write_json_output(&folder.join(STUDY_JSON), analysis).map_err(|error| {
+    let path = folder.join(STUDY_JSON);
+    // The study of a run or of a study file belongs to their pages.
+    let head = read_head(&path, HEAD_BYTES).unwrap_or_default();
+    let is_ours = String::from_utf8_lossy(&head).contains("\"fovqa.study/1\"");
+    if path.exists() && (!is_ours || folder.join(RUN_JSON).exists()) {
+        let message = format!("{}: a single analysis did not write this file", path.display());
+        diagnostic::error(&message, help);
+        return Err(Exit::Input);
+    }
+    write_json_output(&path, analysis).map_err(|error| {
         diagnostic::error(&error.to_string(), help);
         Exit::Input
     })

@@ -46,7 +46,7 @@ impl NamedFigure {
     }
 
     /// The endings of its files.
-    fn endings(&self) -> impl Iterator<Item = &'static str> {
+    pub(crate) fn endings(&self) -> impl Iterator<Item = &'static str> {
         formats(&self.settings).into_iter().map(FigureFormat::word).chain(["csv"])
     }
 }

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::finish::{clear, finish, in_folder};
 use crate::kept_frames::copy_kept;
 use crate::maps::copy_maps;
-use crate::opinions::copy_opinions;
+use crate::opinions::{check_shards, copy_opinions};
 use crate::pictures::{Pictures, Taking, clear_pictures, copy_pictures, take_missing};
 use crate::run::Finished;
 
@@ -39,6 +39,7 @@ pub fn merge(
     };
     let plan = &experiment.plan;
     let findings = read.findings(plan).map_err(failed)?;
+    check_shards(shards)?;
     // Nothing is written until all shards are known to be correct.
     let folder = ResultsFolder::open(output, locking).map_err(|error| in_folder(&error))?;
     clear(&folder)?;

@@ -1,7 +1,7 @@
 //! The mean opinion scores of an experiment (`[study]`). A copy in the results folder lets the report be
 //! made again without the table.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use fovqa_engine::Events;
@@ -11,7 +11,6 @@ use fovqa_study::input::{Data, Table};
 use fovqa_study::metrics::{Condition, opinions};
 
 use crate::error::Error;
-use crate::study::{as_keys, escaped};
 
 /// A condition in a message beyond these is only counted.
 const MOST_NAMED: usize = 5;
@@ -42,8 +41,8 @@ impl Opinions {
         let read = Table::read(&shown, &bytes)
             .and_then(|table| opinions(&Data::new(&table, &selection)?))
             .map_err(|error| {
-                let help = as_keys(&error.help()).replace("column = ", "in [study]: ");
-                Error::input(error.to_string(), escaped(&help))
+                let help = error.help().replace("--column ", "[study]: ").replace('=', " = ");
+                Error::input(error.to_string(), help.replace("NAME", "\"NAME\""))
             })?;
         let warning = unknown(experiment, &shown, &read);
         Ok(Some(Self { bytes, warning }))
@@ -97,6 +96,26 @@ pub fn check_study_of(experiment: &Experiment, events: &dyn Events) -> Result<()
         opinions.warn(events);
     }
     Ok(())
+}
+
+/// Checks that shards have the same opinion scores.
+///
+/// # Errors
+/// If two of them differ.
+pub(crate) fn check_shards(shards: &[PathBuf]) -> Result<(), Error> {
+    let tables =
+        shards.iter().filter_map(|shard| Some((shard, fs::read(shard.join(OPINIONS_CSV)).ok()?)));
+    let tables: Vec<(&PathBuf, Vec<u8>)> = tables.collect();
+    let Some((first, known)) = tables.first() else { return Ok(()) };
+    match tables.iter().find(|(_, table)| table != known) {
+        None => Ok(()),
+        Some((other, _)) => {
+            let (a, b) = (first.display(), other.display());
+            let message = format!("{a} and {b} have different opinion scores ({OPINIONS_CSV})");
+            let help = "run one of them again with {resume}, which takes the present table";
+            Err(Error::input(message, help))
+        }
+    }
 }
 
 /// Copies the table of a shard, if it has one, into the folder of the merged results.

@@ -6,11 +6,13 @@ use std::path::{Path, PathBuf};
 use fovqa_engine::{Events, Locking, ResultsFolder};
 use fovqa_metrics::{Better, Metric};
 use fovqa_plan::{StudyAnalysis, StudyFile};
-use fovqa_report::{AnsweredAnalysis, DrawnStudy, draw_study, printed_results, study_json};
+use fovqa_report::{
+    AnsweredAnalysis, DrawnStudy, draw_study, foreign_to_study, printed_results, study_json,
+};
 use fovqa_study::input::Table;
 use fovqa_study::{Analysis, Inputs, StudyError};
 
-use crate::error::Error;
+use crate::error::{Complaint, Error};
 use crate::finish::in_folder;
 use crate::foreseen_figures::CHANGE;
 
@@ -41,6 +43,11 @@ pub fn study(
     let folder = output.map_or_else(|| Path::new("reports").join(&file.name), Path::to_owned);
     let folder =
         ResultsFolder::open_for_study(&folder, locking).map_err(|error| in_folder(&error))?;
+    if let Some(path) = foreign_to_study(folder.path(), &answers) {
+        let message =
+            format!("{}: fovqa did not write this file, so it is not replaced", path.display());
+        return Err(Error::input(message, "move it away, or give another folder with {output}"));
+    }
     folder.clear().map_err(|error| in_folder(&error))?;
     let drawn = draw_study(folder.path(), file, &answers).map_err(|error| {
         if error.is_of_settings() {
@@ -88,7 +95,8 @@ fn answers(file: &StudyFile) -> Result<Vec<AnsweredAnalysis<'_>>, Error> {
     let mut tables: Vec<(&Path, Table)> = Vec::new();
     for path in file.analyses.iter().flat_map(|of| [&of.table, &of.scores]).flatten() {
         if !tables.iter().any(|(known, _)| known == path) {
-            tables.push((path, read_table(path)?));
+            let named = |error| in_study(file, path, error);
+            tables.push((path, read_table(path).map_err(named)?));
         }
     }
     let table = |path: Option<&Path>| {
@@ -113,6 +121,22 @@ fn answers(file: &StudyFile) -> Result<Vec<AnsweredAnalysis<'_>>, Error> {
     Ok(answers)
 }
 
+/// The error of a table with the study and the analysis that name it.
+fn in_study(file: &StudyFile, path: &Path, error: Error) -> Error {
+    let names = |of: &&StudyAnalysis| [&of.table, &of.scores].contains(&&Some(path.to_owned()));
+    let Some(of) = file.analyses.iter().find(names) else { return error };
+    let place = format!("{}: analysis {:?}", file.path.display(), of.name);
+    let placed = |complaints: Vec<Complaint>| {
+        let one = |of: Complaint| Complaint { message: format!("{place}: {}", of.message), ..of };
+        complaints.into_iter().map(one).collect()
+    };
+    match error {
+        Error::Input(complaints) => Error::Input(placed(complaints)),
+        Error::Usage(complaints) => Error::Usage(placed(complaints)),
+        other => other,
+    }
+}
+
 /// Reads a CSV table of a study.
 ///
 /// # Errors
@@ -122,25 +146,19 @@ pub fn read_table(path: &Path) -> Result<Table, Error> {
     if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
         let help =
             format!("`fovqa study {file}` carries out a study file; an analysis needs a CSV table");
-        return Err(Error::usage(format!("{file} is no CSV table"), escaped(&help)));
+        return Err(Error::usage(format!("{file} is no CSV table"), help));
     }
     let bytes = fs::read(path).map_err(|error| {
         let help = "check the path; `fovqa study --help` shows what the file has to contain";
         Error::input(format!("{file} cannot be read: {error}"), help)
     })?;
-    Table::read(&file, &bytes)
-        .map_err(|error| Error::input(error.to_string(), escaped(&error.help())))
+    Table::read(&file, &bytes).map_err(|error| Error::input(error.to_string(), error.help()))
 }
 
 fn of_analysis(file: &StudyFile, of: &StudyAnalysis, error: &StudyError) -> Error {
     let place = format!("{}: analysis {:?}", file.path.display(), of.name);
     let message = format!("{place}: {}", as_keys(&error.to_string()));
-    Error::input(message, escaped(&as_keys(&error.help())))
-}
-
-/// A help text in which braces stand for themselves.
-pub(crate) fn escaped(help: &str) -> String {
-    help.replace('{', "(").replace('}', ")")
+    Error::input(message, as_keys(&error.help()))
 }
 
 /// Options of the command line as keys of a file: `--max-errors` is `max_errors`, and `--column value=NAME`

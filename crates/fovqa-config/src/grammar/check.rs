@@ -35,7 +35,10 @@ pub(crate) fn check(
     }
     for key in keys.iter().filter(|key| key.required && !table.contains_key(key.name)) {
         let message = format!("{place} has no {}", key.name);
-        let help = format!("add {} = …: {}", key.name, key.about);
+        let help = match key.kind {
+            Kind::Tables(..) => format!("add [[{}]]: {}", key.name, key.about),
+            _ => format!("add {} = …: {}", key.name, key.about),
+        };
         faults.push(Fault::new(span.clone(), message).help(help));
     }
 }

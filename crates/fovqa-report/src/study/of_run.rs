@@ -5,7 +5,7 @@ use std::path::Path;
 
 use fovqa_metrics::{Better, Metric};
 use fovqa_plan::Resolved;
-use fovqa_results::{OPINIONS_CSV, RESULTS_CSV, STUDY_JSON, write_json_file};
+use fovqa_results::{CsvNames, OPINIONS_CSV, RESULTS_CSV, STUDY_JSON, take_away, write_json_file};
 use fovqa_study::input::Table;
 use fovqa_study::{Analysis, Inputs, Request, metrics};
 
@@ -47,7 +47,11 @@ pub(crate) fn study_of_run(folder: &Path, run: &Resolved) -> Result<StudyOfRun, 
         kept.map(|metric| metric.key().to_owned()).collect::<Vec<String>>()
     };
     let answered = read(OPINIONS_CSV).and_then(|opinions| {
-        let scores = read(RESULTS_CSV)?;
+        let mut scores = read(RESULTS_CSV)?;
+        let names = CsvNames::from(run);
+        for column in ["scene", "method"] {
+            scores.rewrite(column, |name| names.read(name).to_owned());
+        }
         let scored = metrics::scored(&scores).map_err(|error| error.to_string())?;
         // A metric without a score of the whole image, such as energy by frequency, predicts nothing.
         let options = metrics::Options {
@@ -69,11 +73,20 @@ pub(crate) fn study_of_run(folder: &Path, run: &Resolved) -> Result<StudyOfRun, 
         let inputs = Inputs { table: Some(&opinions), scores: Some(&scores) };
         let request = Request::Metrics(options);
         let answer = request.answer(inputs, &study.selection(), &study.settings());
-        answer.map_err(|error| error.to_string())
+        let answer = answer.map_err(|error| error.to_string())?;
+        match &answer {
+            Analysis::Metrics(document) if document.groups.iter().all(|g| g.result.n == 0) => {
+                Err("no condition has an opinion score and a finite score of each metric"
+                    .to_owned())
+            }
+            _ => Ok(answer),
+        }
     });
     let analysis = match answered {
         Ok(analysis) => analysis,
         Err(why) => {
+            // The user may have removed it already.
+            let _ = take_away(&folder.join(STUDY_JSON));
             let warning = format!("the metrics are not compared with opinion scores: {why}");
             return Ok(StudyOfRun { warning: Some(warning), ..StudyOfRun::default() });
         }

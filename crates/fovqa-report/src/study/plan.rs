@@ -43,6 +43,10 @@ pub(super) fn predicted(plan: &PredictedPlan, parts: &mut Parts) {
     parts.remark(&plan.prediction);
     let scenes = if plan.scenes.len() == 1 { "scene" } else { "scenes" };
     parts.remark(format!("{scenes}: {}", plan.scenes.join(", ")));
+    if !plan.left_out.is_empty() {
+        let left_out = plan.left_out.join(", ");
+        parts.remark(format!("left out, without a finite score in each scene: {left_out}"));
+    }
     let first = plan.pairs.first().map(|pair| &pair.plan);
     let (requested, width) = (first.and_then(|p| p.requested), first.and_then(|p| p.width));
     let rows = plan.pairs.iter().map(|pair| {

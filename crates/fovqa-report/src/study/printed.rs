@@ -32,14 +32,12 @@ pub struct ResultOfPrinted {
 
 /// A printed number without a result.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("the printed number {quantity:?} has at = {at:?}, where there is {found}")]
+#[error("the printed number {quantity:?} has {wrong}")]
 pub struct NoResult {
     /// What the number is.
     pub quantity: String,
-    /// Its place in the JSON of the analysis.
-    pub at: String,
-    /// What is there.
-    pub found: &'static str,
+    /// What is wrong with it.
+    pub wrong: String,
 }
 
 /// The results that printed numbers are compared with.
@@ -65,10 +63,15 @@ pub fn printed_results(
         };
         let computed = computed.map_err(|found| NoResult {
             quantity: number.quantity.clone(),
-            at: number.at.clone(),
-            found,
+            wrong: format!("at = {:?}, where there is {found}", number.at),
         })?;
-        let printed = Printed::new(&number.value);
+        let printed = as_printed(&number.value).ok_or_else(|| NoResult {
+            quantity: number.quantity.clone(),
+            wrong: format!(
+                "value = {:?}, which is no number as papers print it (.637, < .01, 14.8 %)",
+                number.value
+            ),
+        })?;
         // Shares are printed in percent.
         let is_percent = printed.unit().trim() == "%";
         let computed = computed.map(|value| if is_percent { 100.0 * value } else { value });
@@ -92,18 +95,40 @@ pub fn printed_results(
     printed.iter().map(result).collect()
 }
 
+/// A number as papers print it: `.637`, `p < .01`, `<.001`, `≤ 5`, `14.8 %`. `None` if a text is none.
+fn as_printed(text: &str) -> Option<Printed> {
+    let text = text.trim();
+    let number = text.strip_prefix(['p', 'P']).map_or(text, |rest| {
+        let rest = rest.trim_start();
+        rest.strip_prefix('=').unwrap_or(rest).trim_start()
+    });
+    let bounds = [("<=", "up to "), ("≤", "up to "), ("<", "< "), (">", "> ")];
+    let bound =
+        bounds.into_iter().find_map(|(sign, word)| Some((word, number.strip_prefix(sign)?)));
+    let (word, digits) = bound.unwrap_or(("", number));
+    let printed = Printed::new(&format!("{word}{}", digits.trim_start()));
+    // `0,681` would be 681.
+    let digits = digits.trim_start();
+    let is_decimal_comma = digits.starts_with("0,");
+    let has_unit = |unit: &str| unit.chars().all(|c| c.is_alphabetic() || " %°".contains(c));
+    let fits = printed.value().is_finite() && has_unit(printed.unit()) && !is_decimal_comma;
+    // An exponent looks like a unit.
+    let is_power = printed.unit().starts_with(['e', 'E']);
+    (fits && !is_power).then_some(printed)
+}
+
 /// The table of printed numbers; `None` if there is none.
 pub(super) fn part(results: &[ResultOfPrinted]) -> Option<Part> {
     if results.is_empty() {
         return None;
     }
     let error = |result: &ResultOfPrinted| {
-        let relative = Printed::new(&result.printed).relative_error(result.computed?)?;
+        let relative = as_printed(&result.printed)?.relative_error(result.computed?)?;
         Some(100.0 * relative).filter(|error| error.is_finite())
     };
     let row = |result: &ResultOfPrinted| {
         let error = error(result).map_or_else(
-            || Cell { shown: "–".to_owned(), value: String::new(), is_number: true },
+            || Cell::named("–", ""),
             |error| Cell::number(percent(error), error / 100.0),
         );
         vec![
@@ -216,9 +241,25 @@ mod tests {
 
     #[test]
     fn places_without_a_number_are_errors() {
-        assert_eq!(compared("1", "/nothing").unwrap_err().found, "nothing");
-        assert_eq!(compared("1", "/plan").unwrap_err().found, "a text");
-        assert_eq!(compared("1", "/excluded").unwrap_err().found, "no number");
+        assert_eq!(
+            compared("1", "/nothing").unwrap_err().wrong,
+            "at = \"/nothing\", where there is nothing"
+        );
+        assert_eq!(
+            compared("1", "/plan").unwrap_err().wrong,
+            "at = \"/plan\", where there is a text"
+        );
+        assert!(compared("1", "/excluded").unwrap_err().wrong.ends_with("there is no number"));
+        for wrong in ["abc", "NS", "0,681", "1e400", "6.81e-1", "0.68 ± 0.05", ".681*", ""] {
+            assert!(as_printed(wrong).is_none(), "{wrong}");
+            assert!(compared(wrong, "/trials").unwrap_err().wrong.contains("value = "), "{wrong}");
+        }
+        let verdict = |text: &str| compared(text, "/power").unwrap()[0].verdict;
+        // The power is 0.8123.
+        for right in ["<.9", "p < .9", "≤ .9", "<= .9", "p = .812", "> .8", "81.2 %", " .812 "] {
+            assert_eq!(verdict(right), "reproduced", "{right}");
+        }
+        assert_eq!(verdict("<.8"), "not reproduced");
     }
 
     #[test]

@@ -17,7 +17,9 @@ use crate::latex::usual_label;
 use crate::page::{PageFigure, PageTable, Shell};
 use crate::plain_table::PlainTable;
 use crate::sentence::sentence;
-use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, PLOTS, ReportError, Sheet};
+use crate::sheet::{
+    MakeText, NamedFigure, NamedTable, Names, PLOTS, ReportError, Sheet, drawn_before,
+};
 
 /// An analysis of a study file with its result.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,15 +88,7 @@ pub fn draw_study(
     file: &StudyFile,
     answers: &[AnsweredAnalysis<'_>],
 ) -> Result<DrawnStudy, ReportError> {
-    let mut names = Names::default();
-    let mut drawn: Vec<NamedFigure> = Vec::new();
-    let mut sections: Vec<Section<'_>> = Vec::new();
-    for answer in answers {
-        let (section, of_section) = section(answer, &mut names);
-        drawn.extend(of_section);
-        sections.push(section);
-    }
-    write_json_file(&folder.join(STUDY_JSON), &record(file, answers))?;
+    let (sections, drawn) = sections(answers);
     let labelled = slug(&file.name);
     let tables = sections.iter().flat_map(|section| &section.tables).map(|(name, table)| {
         let markdown: MakeText<'_> = Box::new(|| table.markdown());
@@ -110,7 +104,35 @@ pub fn draw_study(
         names: CsvNames::Plain,
     };
     let warnings = sheet.write(folder)?;
+    // Last: a folder that was not finished has none.
+    write_json_file(&folder.join(STUDY_JSON), &record(file, answers))?;
     Ok(DrawnStudy { text: text(answers), figures: sheet.figures.len(), warnings })
+}
+
+/// The first file in a folder that the study would replace although no report of fovqa wrote it.
+pub fn foreign_to_study(folder: &Path, answers: &[AnsweredAnalysis<'_>]) -> Option<PathBuf> {
+    let (sections, figures) = sections(answers);
+    let tables = sections.iter().flat_map(|section| &section.tables);
+    let tables =
+        tables.flat_map(|(name, _)| ["md", "csv", "tex"].map(|ending| format!("{name}.{ending}")));
+    let figures = figures.iter().flat_map(|figure| {
+        figure.endings().map(|ending| format!("{PLOTS}/{}.{ending}", figure.name))
+    });
+    let known = drawn_before(folder);
+    let is_foreign = |file: &String| !known.contains(file) && folder.join(file).exists();
+    tables.chain(figures).find(is_foreign).map(|file| folder.join(file))
+}
+
+/// The tables, remarks and figures of all analyses.
+fn sections<'a>(answers: &[AnsweredAnalysis<'a>]) -> (Vec<Section<'a>>, Vec<NamedFigure>) {
+    let mut names = Names::default();
+    let (mut sections, mut figures) = (Vec::new(), Vec::new());
+    for answer in answers {
+        let (section, of_section) = section(answer, &mut names);
+        figures.extend(of_section);
+        sections.push(section);
+    }
+    (sections, figures)
 }
 
 /// The tables, remarks and figures of an analysis.
@@ -148,6 +170,12 @@ fn excluded(result: &Analysis) -> Vec<String> {
     let excluded = result.excluded();
     let text = || format!("Excluded participants: {}.", excluded.join(", "));
     if excluded.is_empty() { Vec::new() } else { vec![text()] }
+}
+
+/// A path as the file names it, so that it does not depend on the working directory.
+fn shown(file: &StudyFile, path: &Path) -> String {
+    let base = file.path.parent().unwrap_or(Path::new(""));
+    path.strip_prefix(base).unwrap_or(path).to_string_lossy().replace('\\', "/")
 }
 
 fn record<'a>(file: &'a StudyFile, answers: &'a [AnsweredAnalysis<'_>]) -> Record<'a> {
@@ -199,13 +227,13 @@ fn text(answers: &[AnsweredAnalysis<'_>]) -> String {
 }
 
 /// What an analysis was made of, in a line.
-fn made_of(of: &StudyAnalysis) -> String {
+fn made_of(study: &StudyFile, of: &StudyAnalysis) -> String {
     let mut parts = vec![format!("Analysis: {}", of.request.kind())];
     let file = |path: &PathBuf| {
         path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
     };
     parts.extend(of.table.as_ref().map(file));
-    parts.extend(of.scores.as_ref().map(|path| format!("scores of {}", path.display())));
+    parts.extend(of.scores.as_ref().map(|path| format!("scores of {}", shown(study, path))));
     parts.extend(of.selection.filters.iter().map(|(column, value)| format!("{column} = {value}")));
     if !of.selection.by.is_empty() {
         parts.push(format!("by {}", of.selection.by.join(", ")));
@@ -240,7 +268,7 @@ fn page(file: &StudyFile, sections: &[Section<'_>], figures: &[PageFigure<'_>]) 
     let page = StudyPage {
         shell: Shell::new(&file.name),
         about: &file.about,
-        sections: sections.map(|(index, of)| PageSection::new(index, of, figures)).collect(),
+        sections: sections.map(|(index, of)| PageSection::new(file, index, of, figures)).collect(),
         version: env!("CARGO_PKG_VERSION"),
     };
     // Writing to memory does not fail.
@@ -248,14 +276,19 @@ fn page(file: &StudyFile, sections: &[Section<'_>], figures: &[PageFigure<'_>]) 
 }
 
 impl<'a> PageSection<'a> {
-    fn new(index: usize, section: &'a Section<'_>, figures: &'a [PageFigure<'a>]) -> Self {
+    fn new(
+        file: &StudyFile,
+        index: usize,
+        section: &'a Section<'_>,
+        figures: &'a [PageFigure<'a>],
+    ) -> Self {
         // A figure that could not be drawn is missing.
         let is_own = |figure: &&PageFigure<'_>| section.figures.contains(&figure.path);
         let tables = section.tables.iter().map(|(name, table)| PageTable::in_section(name, table));
         Self {
             name: format!("analysis-{}", index + 1),
             title: section.of.title.as_ref().unwrap_or(&section.of.name),
-            made_of: made_of(section.of),
+            made_of: made_of(file, section.of),
             remarks: &section.remarks,
             tables: tables.collect(),
             figures: figures.iter().filter(is_own).collect(),

@@ -71,6 +71,15 @@ impl Table {
         self.lines[row]
     }
 
+    /// Rewrites the names in a column, if there is one. Different names must remain different.
+    pub fn rewrite(&mut self, name: &str, cell: impl Fn(&str) -> String) {
+        for column in self.columns.iter_mut().filter(|column| column.name == name) {
+            for text in &mut column.texts {
+                *text = cell(text);
+            }
+        }
+    }
+
     /// The names of all columns.
     pub fn names(&self) -> Vec<String> {
         self.columns.iter().map(|column| column.name.clone()).collect()

@@ -18,8 +18,8 @@ pub struct Validation {
 ///
 /// # Errors
 ///
-/// If `rule` is given and there is no validation column, a cell of a validation row is no number, or
-/// no row remains.
+/// If `rule` is given and there is no validation column, a cell of that column is not 0, 1 or empty, a
+/// value of a validation row is no number, or no row remains.
 pub fn without_validation<'t>(
     data: &Data<'t>,
     rule: Option<Validation>,
@@ -35,7 +35,18 @@ pub fn without_validation<'t>(
     let mut errors = vec![0_usize; participants.len()];
     let mut rows = Vec::new();
     for &row in data.rows() {
-        if column.number(row) != Some(1.0) {
+        let is_validation = match column.text(row) {
+            "" => false,
+            _ => match column.number(row) {
+                Some(0.0) => false,
+                Some(1.0) => true,
+                _ => {
+                    let help = "write 1 in rows of validation trials, and 0 or nothing in others";
+                    return Err(data.wrong_cell(column, row, "0 or 1", help));
+                }
+            },
+        };
+        if !is_validation {
             rows.push(row);
         } else if let Some(rule) = rule {
             let is_wrong = (data.number(value, row)? - rule.expected).abs() > 0.0;

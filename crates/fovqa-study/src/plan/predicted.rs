@@ -36,6 +36,8 @@ pub struct PredictedPlan {
     pub prediction: String,
     /// The scenes whose scores are averaged.
     pub scenes: Vec<String>,
+    /// Methods that are left out, because they lack a finite score in one of the scenes.
+    pub left_out: Vec<String>,
     /// The pairs of methods, in the order of their first appearance.
     pub pairs: Vec<PredictedPair>,
 }
@@ -79,15 +81,30 @@ pub fn plan_predicted(
         Some((method.clone(), sum / scenes.len() as f64)).filter(|(_, mean)| mean.is_finite())
     };
     let means: Vec<(String, f64)> = methods.iter().filter_map(mean).collect();
+    let is_left_out = |method: &&String| !means.iter().any(|(name, _)| name == *method);
+    let left_out: Vec<String> = methods.iter().filter(is_left_out).cloned().collect();
     let pairs = means.len() * means.len().saturating_sub(1) / 2;
     if pairs == 0 || pairs > MOST_PAIRS {
         return Err(StudyError::Setting {
             message: format!(
-                "{} has {} methods with a {METRIC} score in each scene",
+                "{} has {} with a finite {METRIC} score in each scene, which is {} pairs",
                 scores.file(),
-                means.len()
+                if means.len() == 1 {
+                    "1 method".to_owned()
+                } else {
+                    format!("{} methods", means.len())
+                },
+                pairs
             ),
-            help: format!("a plan needs 2 or more methods, and at most {MOST_PAIRS} pairs"),
+            help: match left_out.as_slice() {
+                [] => format!(
+                    "choose 2 or more methods with --methods, and at most {MOST_PAIRS} pairs"
+                ),
+                _ => format!(
+                    "{} lack a score in a scene: choose a scene that has them with --scene",
+                    left_out.join(", ")
+                ),
+            },
         });
     }
     let mut planned = Vec::with_capacity(pairs);
@@ -98,7 +115,8 @@ pub fn plan_predicted(
     }
     let prediction = "shares are predicted from the mean FovVideoVDP scores: a difference of 1 JOD is \
                       75 % of votes (Thurstone's Case V)";
-    let result = PredictedPlan { prediction: prediction.to_owned(), scenes, pairs: planned };
+    let result =
+        PredictedPlan { prediction: prediction.to_owned(), scenes, left_out, pairs: planned };
     Ok(Plan::new("pairs", result))
 }
 
@@ -202,6 +220,6 @@ mod tests {
     fn unknown_names_and_single_methods_are_errors() {
         assert!(planned(&["D"], None).unwrap_err().to_string().contains("method \"D\""));
         assert!(planned(&[], Some("x")).unwrap_err().help().contains("hall, road"));
-        assert!(planned(&["A"], None).unwrap_err().to_string().contains("1 methods"));
+        assert!(planned(&["A"], None).unwrap_err().to_string().contains("1 method "));
     }
 }

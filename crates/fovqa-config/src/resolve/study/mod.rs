@@ -38,6 +38,10 @@ pub(crate) fn study(root: Node<'_>, path: &Path, faults: &mut Faults) -> StudyFi
             None => analyses.push(found),
         }
     }
+    if root.tables("analysis").is_empty() {
+        let fault = Fault::new(root.span("analysis"), "the study has no analysis");
+        faults.push(fault.help("add [[analysis]] with kind and file"));
+    }
     StudyFile { name: text("name"), about: text("about"), path: path.to_owned(), analyses }
 }
 

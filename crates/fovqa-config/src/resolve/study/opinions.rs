@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Better, Metric};
 use fovqa_plan::{MetricChoice, OpinionScores, OutputSettings, TableFormat};
 
 use super::{names, settings};
@@ -32,6 +32,14 @@ pub(in crate::resolve) fn opinions(
             let fault = Fault::new(table.span("metrics"), message);
             faults.push(fault.help(format!("add {key} = {{}} to [metrics], or leave it out here")));
         }
+    }
+    let is_neither = |key: &&String| {
+        Metric::find(key).is_some_and(|metric| metric.info().better == Better::Neither)
+    };
+    if let Some(key) = metrics.iter().find(is_neither) {
+        let message = format!("{key} says neither that an image is better nor that it is worse");
+        let fault = Fault::new(table.span("metrics"), message);
+        faults.push(fault.help("leave it out of metrics in [study]"));
     }
     let settings = settings(table);
     Some(OpinionScores {

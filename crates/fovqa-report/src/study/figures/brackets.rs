@@ -32,7 +32,7 @@ pub(super) fn brackets<'a>(
     let more = found.len().saturating_sub(MOST_BRACKETS);
     let phrase = match more {
         0 => String::new(),
-        more => format!("{more} more pairs with p < .05, whose p is larger, have no bracket"),
+        more => format!("{more} more pairs with p < .05 have no bracket"),
     };
     let bracket = |(p, [a, b]): (f64, [usize; 2])| Bracket {
         ends: [[a, 0], [b, 0]],

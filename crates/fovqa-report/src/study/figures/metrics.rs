@@ -141,13 +141,7 @@ fn correlations(
     let all = &group.result.metrics;
     let metrics = &all[..all.len().min(MOST_GROUPS)];
     let has_bootstrap = metrics.iter().any(|metric| metric.pearson_bootstrap.is_some());
-    // The size of a correlation, with its interval mirrored if it is negative.
-    let dot = |value: Option<f64>, interval: Option<[f64; 2]>| {
-        let is_negative = value.is_some_and(|value| value < 0.0);
-        let mirrored =
-            |[low, high]: [f64; 2]| if is_negative { [-high, -low] } else { [low, high] };
-        Dot { value: value.map(f64::abs), interval: interval.map(mirrored) }
-    };
+    let dot = |value: Option<f64>, interval: Option<[f64; 2]>| Dot { value, interval };
     let pearson = metrics.iter().map(|metric| {
         let interval =
             if has_bootstrap { ends(metric.pearson_bootstrap) } else { metric.pearson_fisher };
@@ -163,7 +157,8 @@ fn correlations(
     };
     let rows: Vec<Row> = rows.into_iter().enumerate().map(row).collect();
     let lowest = rows.iter().flat_map(|row| &row.dots).filter_map(|dot| dot.interval);
-    let is_above_0 = lowest.clone().all(|[low, _]| low >= 0.0);
+    let is_above_0 = lowest.clone().all(|[low, _]| low >= 0.0)
+        && rows.iter().flat_map(|row| &row.dots).all(|dot| dot.value.is_none_or(|r| r >= 0.0));
     let has_interval = lowest.clone().next().is_some();
     let interval = match (has_interval, has_bootstrap) {
         (false, _) => String::new(),
@@ -173,15 +168,14 @@ fn correlations(
         (true, false) => format!("intervals: {}, Fisher's transformation", context.coverage()),
     };
     let text = caption(&[
-        "Size of the correlation of each metric with the mean opinion scores",
+        "Correlation of each metric with the mean opinion scores; scores of which lower ones are better are negated",
         &group_in_words(&group.by),
         &interval,
-        if is_above_0 { "" } else { "an interval below 0 reaches the opposite sign" },
         &left_out(all.len(), metrics.len(), "metrics"),
         groups_left,
     ]);
     let min = is_above_0.then_some(0.0);
-    let y = Axis { min, max: Some(1.0), ..Axis::new("Size of correlation") };
+    let y = Axis { min, max: Some(1.0), ..Axis::new("Correlation") };
     let names = metrics.iter().map(|metric| label(&metric.metric)).collect();
     let chart: BarChart = chart(y, names, rows)?;
     Some(context.figure("correlations", &group_name(&group.by), (text, Figure::Bar(chart))))

@@ -78,7 +78,13 @@ fn text(part: &[&Group<Psychometric>], context: &Context, left: &str) -> String 
         } else {
             String::new()
         };
-        format!("dashed: threshold of {}{shaded}", percent(performance))
+        // The median need not be on the curve of the mode.
+        let median = match thresholds().filter(|threshold| threshold.is_median).count() {
+            0 => "",
+            count if count == thresholds().count() => ", the median of the posterior",
+            _ => ", of some panels the median of the posterior",
+        };
+        format!("dashed: threshold of {}{median}{shaded}", percent(performance))
     });
     caption(&[
         &format!("Psychometric functions {what}"),
