@@ -496,7 +496,7 @@ fn metrics_are_shown_in_their_own_scores() {
 }
 
 #[test]
-fn negative_correlations_are_mirrored() {
+fn negative_correlations_stay_negative() {
     let (mut csv, mut results) =
         ("scene,method,value\n".to_owned(), "scene,method,metric,value\n".to_owned());
     for (i, mse) in [0.9, 0.7, 0.8, 0.3, 0.25, 0.1].into_iter().enumerate() {
@@ -514,8 +514,8 @@ fn negative_correlations_are_mirrored() {
     let (_, dots) = bar(&figures, "study-correlations");
     let [low, high] = metric.pearson_bootstrap.unwrap().map(Option::unwrap);
     assert!(metric.pearson.unwrap() < 0.0);
-    assert_eq!(dots.series[0].values, [metric.pearson.map(|r| -r)]);
-    assert_eq!(dots.series[0].intervals, [Some([-high, -low])]);
+    assert_eq!(dots.series[0].values, [metric.pearson]);
+    assert_eq!(dots.series[0].intervals, [Some([low, high])]);
 }
 
 #[test]
