@@ -142,6 +142,14 @@ fn mistakes_are_pointed_at() {
     wrong(&analysis(&format!("{ratings}grid = [\"x\"]")), &["two different columns"]);
     wrong(&analysis(&format!("{ratings}max_errors = 2")), &["needs validation_expected"]);
     wrong(&analysis("kind = \"plan\""), &["lacks plan"]);
+    wrong(&analysis(&format!("{pairs}by = [\"scene\", \"scene\"]")), &["by names \"scene\" twice"]);
+    let psychometric = "kind = \"psychometric\"\nfile = \"votes.csv\"\nlapse = 0.5\n";
+    wrong(&analysis(&format!("{psychometric}lapse_max = 0.1")), &["no effect with lapse"]);
+    wrong(
+        &analysis(&format!("{psychometric}guess = 0.6")),
+        &["guess 0.6 and lapse 0.5", "1 or more"],
+    );
+    wrong("name = \"mine\"\nanalysis = []\n", &["the study has no analysis", "[[analysis]]"]);
     wrong(&analysis("kind = \"plan\"\nplan = \"pairs\""), &["the plan has no share", "results"]);
     wrong(
         &analysis("kind = \"plan\"\nplan = \"staircase\"\nstart = 4"),

@@ -44,10 +44,21 @@ fn a_message_names_file_column_line_and_remedy() {
     let anova = ["anova", "t.csv", "--within", "method"];
     wrong("participant,method,value\nP,A,\n", &anova, &["no rows", "not empty"]);
     wrong("participant,method,value\nP,,1\n", &anova, &["line 2, column \"method\""]);
+    with("participant,mean,value\nP,A,1\n")
+        .run(&["study", "anova", "t.csv", "--within", "mean"])
+        .fails(2, &["--column condition=mean"]);
+    with("participant,mean,value\nP,A,1\n")
+        .run(&["study", "anova", "t.csv", "--within", "participant"])
+        .fails(2, &["participant, which is no factor"]);
+    let levels = "level,correct\n1,1\n2,0\n";
+    with(levels)
+        .run(&["study", "psychometric", "t.csv", "--guess", "0.6", "--lapse", "0.5"])
+        .fails(2, &["add up to 1 or more"]);
+    let careless = "participant,level,value,validation\nP,1,2,0\nP,1,3,1\n";
     wrong(
-        "participant,mean,value\nP,A,1\n",
-        &["anova", "t.csv", "--within", "mean"],
-        &["--column condition=mean"],
+        careless,
+        &["ratings", "t.csv", "--validation-expected", "1", "--max-errors", "1"],
+        &["every participant is left out", "--max-errors"],
     );
     Folder::new().run(&["study", "pairs", "none.csv"]).fails(3, &["none.csv", "help:"]);
     let validation = "participant,level,value,validation\nP,1,2,0\nP,1,3,yes\n";

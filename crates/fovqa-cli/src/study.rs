@@ -94,7 +94,7 @@ fn one(command: &StudyCommand) -> Result<Exit, Exit> {
     let inputs = Inputs { table: table.as_ref(), scores: scores.as_ref() };
     let analysis = request.answer(inputs, &selection, &settings.settings()).map_err(|error| {
         diagnostic::error(&error.to_string(), &diagnostic::shown(&error.help()));
-        Exit::Input
+        if error.is_of_options() { Exit::Usage } else { Exit::Input }
     })?;
     if let Some(text) = fovqa::not_negated(&analysis) {
         diagnostic::warning(&text);

@@ -46,6 +46,14 @@ pub enum StudyError {
     /// A cell has a value that the analysis does not know.
     #[error(transparent)]
     Cell(Box<WrongCell>),
+    /// Options are not possible, whatever the table.
+    #[error("{message}")]
+    Options {
+        /// What is wrong.
+        message: String,
+        /// How to correct it.
+        help: String,
+    },
     /// A setting does not fit the table.
     #[error("{message}")]
     Setting {
@@ -100,7 +108,12 @@ impl StudyError {
             ),
             StudyError::DuplicateColumn { .. } => "rename one of the columns".to_owned(),
             StudyError::Cell(cell) => cell.help.clone(),
-            StudyError::Setting { help, .. } => help.clone(),
+            StudyError::Options { help, .. } | StudyError::Setting { help, .. } => help.clone(),
         }
+    }
+
+    /// Whether options are wrong, whatever the table.
+    pub fn is_of_options(&self) -> bool {
+        matches!(self, StudyError::Options { .. })
     }
 }

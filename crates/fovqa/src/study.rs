@@ -158,7 +158,8 @@ pub fn read_table(path: &Path) -> Result<Table, Error> {
 fn of_analysis(file: &StudyFile, of: &StudyAnalysis, error: &StudyError) -> Error {
     let place = format!("{}: analysis {:?}", file.path.display(), of.name);
     let message = format!("{place}: {}", as_keys(&error.to_string()));
-    Error::input(message, as_keys(&error.help()))
+    let help = as_keys(&error.help());
+    if error.is_of_options() { Error::usage(message, help) } else { Error::input(message, help) }
 }
 
 /// Options of the command line as keys of a file: `--max-errors` is `max_errors`, and `--column value=NAME`
@@ -169,13 +170,25 @@ pub(crate) fn as_keys(text: &str) -> String {
     {
         return as_keys(before) + &format!("column = {{ {role} = \"NAME\" }}") + &as_keys(after);
     }
-    let mut words = text.split(' ').map(|word| match word.strip_prefix("--") {
-        Some(option) => option.replace('-', "_"),
-        None => word.to_owned(),
-    });
-    let first = words.next().unwrap_or_default();
-    words.fold(first, |text, word| text + " " + &word)
+    let mut words: Vec<String> = Vec::new();
+    let mut is_value = false;
+    for word in text.split(' ') {
+        let option = word.strip_prefix("--").map(|option| option.replace('-', "_"));
+        let is_option = option.is_some();
+        match option {
+            Some(option) => words.push(option),
+            // Of an option with a word, both are named.
+            None if is_value && VALUES.contains(&word) => words.push(format!("= \"{word}\"")),
+            None => words.push(word.to_owned()),
+        }
+        is_value = is_option;
+    }
+    words.join(" ")
 }
+
+/// Words that messages name with their option, such as `--ties drop`.
+const VALUES: [&str; 7] =
+    ["arithmetic", "drop", "error", "geometric", "half", "logistic", "weibull"];
 
 #[cfg(test)]
 mod tests {
@@ -188,6 +201,9 @@ mod tests {
             "max_errors needs validation_expected: a-b"
         );
         assert_eq!(as_keys("--by"), "by");
+        let ties = as_keys("choose how ties count: --ties drop or --ties half");
+        assert_eq!(ties, "choose how ties count: ties = \"drop\" or ties = \"half\"");
+        assert_eq!(as_keys("set --start and --lowest to 1"), "set start and lowest to 1");
         assert_eq!(
             as_keys("name it with --column value=NAME; the file has a"),
             "name it with column = { value = \"NAME\" }; the file has a"

@@ -78,7 +78,7 @@ impl Cell {
 /// Checks the names of factors.
 pub(super) fn check_factors(within: &[String]) -> Result<(), StudyError> {
     let error =
-        |message: String, help: &str| Err(StudyError::Setting { message, help: help.to_owned() });
+        |message: String, help: &str| Err(StudyError::Options { message, help: help.to_owned() });
     if within.is_empty() || within.len() > 2 {
         let message = format!("--within names {} factors", within.len());
         return error(message, "name one or two columns, such as --within method,eye");
@@ -88,6 +88,11 @@ pub(super) fn check_factors(within: &[String]) -> Result<(), StudyError> {
             format!("--within names {:?} twice", within[0]),
             "name two different columns",
         );
+    }
+    if let Some(name) = within.iter().find(|name| ["participant", "value"].contains(&name.as_str()))
+    {
+        let message = format!("--within names {name}, which is no factor");
+        return error(message, "name one or two columns of conditions, such as method");
     }
     if let Some(name) = within.iter().find(|name| KEYS.contains(&name.as_str())) {
         return error(

@@ -53,6 +53,15 @@ pub fn without_validation<'t>(
             errors[participants.of_row(participant, row)] += usize::from(is_wrong);
         }
     }
+    let is_all_out = |rule: Validation| {
+        !participants.is_empty() && errors.iter().all(|errors| *errors >= rule.max_errors)
+    };
+    if rule.is_some_and(is_all_out) {
+        return Err(StudyError::Setting {
+            message: "every participant is left out because of validation trials".to_owned(),
+            help: "check --validation-expected, or raise --max-errors".to_owned(),
+        });
+    }
     let is_out = |index: usize| rule.is_some_and(|rule| errors[index] >= rule.max_errors);
     rows.retain(|&row| !is_out(participants.of_row(participant, row)));
     let names = participants.names().iter().enumerate();

@@ -133,7 +133,7 @@ struct Study {
 impl StaircaseOptions {
     fn check(&self) -> Result<(), StudyError> {
         let setting = |message: String, help: &str| {
-            Err(StudyError::Setting { message, help: help.to_owned() })
+            Err(StudyError::Options { message, help: help.to_owned() })
         };
         if let (Some(low), Some(high)) = (self.lowest, self.highest)
             && low > high

@@ -45,7 +45,7 @@ impl Options {
         if guess + lapse < 1.0 {
             return Ok(());
         }
-        Err(StudyError::Setting {
+        Err(StudyError::Options {
             message: format!("--guess {guess} and {option} {lapse} add up to 1 or more"),
             help: "the function needs a range between them: choose smaller rates".to_owned(),
         })

@@ -10,6 +10,10 @@ const ALL: &[&str] =
 /// The keys of every analysis of a table.
 const TABLE: &[&str] = &["file", "by", "where", "column"];
 
+/// Options that are lists of names.
+const LISTS: &[&str] =
+    &["by", "order", "unit", "within", "grid", "metrics", "lower_is_better", "methods"];
+
 /// The own options of an analysis.
 fn own(kind: &str, plan: Option<&str>) -> &'static [&'static str] {
     match (kind, plan) {
@@ -83,6 +87,20 @@ pub(super) fn has_only(table: Node<'_>, faults: &mut Faults) -> Option<()> {
         let options = [table_keys, own].concat().join(", ");
         let fault = Fault::new(span, format!("{key} has no effect on {of}"));
         faults.push(fault.help(format!("leave it out; the options of {of} are {options}")));
+    }
+    for key in LISTS {
+        let names = names(table, key);
+        let repeated = names.iter().enumerate().find(|(at, name)| names[..*at].contains(name));
+        if let Some((_, name)) = repeated {
+            fits = false;
+            let fault = Fault::new(table.span(key), format!("{key} names \"{name}\" twice"));
+            faults.push(fault.help("leave one of them out"));
+        }
+    }
+    if table.has("lapse") && table.has("lapse_max") {
+        fits = false;
+        let message = "lapse_max has no effect with lapse, which fixes the rate";
+        faults.push(Fault::new(table.span("lapse_max"), message).help("leave out one of them"));
     }
     fits.then_some(())
 }
