@@ -12,7 +12,7 @@ use fovqa_results::{
 };
 
 use crate::error::Error;
-use crate::gate::clear_gate;
+use crate::gate::clear::clear_gate;
 
 /// Removes the results of an earlier run, so that they cannot be mistaken for the results of this
 /// one.

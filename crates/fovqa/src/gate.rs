@@ -1,7 +1,7 @@
 //! A gate checks the values of a run against the rules of an experiment, and shows where it got worse.
 
 mod baselines;
-mod clear;
+pub(crate) mod clear;
 mod locate;
 mod places;
 mod sheets;
@@ -21,7 +21,7 @@ use crate::run::{Run, RunOptions};
 use baselines::{Baselines, Named};
 use locate::{Site, locate};
 
-pub(crate) use clear::clear_gate;
+use clear::clear_gate;
 
 /// What a gate compares a run with.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use fovqa_vision::{BandEdges, EccentricityKind, Eotf};
 
 use super::emulate::{BUDGET, SHARE};
 use super::figures::FIGURES;
-use super::gates::GATE_TABLE;
+use super::gates::{BAND_EDGE, GATE_TABLE};
 use super::keys::{joined, key, required};
 use super::study::OPINIONS;
 use super::tables::{METRICS, TABLE_KEYS};
@@ -27,7 +27,6 @@ const POSITION: Kind = Kind::Number(-1e6, 1e6);
 pub(super) const POSITION_PAIR: Kind = Kind::List(&POSITION, 2, 2);
 const LENGTH_M: Kind = Kind::Above(0.0, 1e4);
 const PIXELS: Kind = Kind::Whole(0, 1_000_000);
-pub(super) const BAND_EDGE: Kind = Kind::Number(0.0, 180.0);
 const NAMES: Kind = Kind::List(&Kind::Name, 1, 10_000);
 
 const FRUSTUM: &[Key] = &[

@@ -3,9 +3,11 @@
 use fovqa_params::words_of;
 use fovqa_statistics::adjust::Adjustment;
 
-use super::experiment::BAND_EDGE;
 use super::keys::{key, required};
 use super::{Key, Kind};
+
+/// An edge of an eccentricity band in degrees.
+pub(super) const BAND_EDGE: Kind = Kind::Number(0.0, 180.0);
 
 /// The allowed distance of a value from the baseline.
 const ALLOWANCE: Kind = Kind::Either(&[Kind::Number(0.0, 1e12), Kind::Text]);

@@ -2,8 +2,7 @@
 
 use fovqa_study::anova::{Anova, Effect, PairedTest};
 
-use super::cells::{interval, number, p_value, stars, whole};
-use super::pairs::participants;
+use super::cells::{interval, number, p_value, participants, stars, whole};
 use super::parts::Parts;
 use crate::plain_table::Cell;
 

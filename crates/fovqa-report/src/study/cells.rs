@@ -57,6 +57,11 @@ pub(super) fn p_value(p: Option<f64>) -> Cell {
     }
 }
 
+/// A number of participants in words.
+pub(super) fn participants(count: usize) -> String {
+    if count == 1 { "1 participant".to_owned() } else { format!("{count} participants") }
+}
+
 /// The stars of a p-value.
 pub(super) fn stars(p: Option<f64>) -> Cell {
     Cell::text(adjust::stars(p))

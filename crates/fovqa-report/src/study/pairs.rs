@@ -2,7 +2,7 @@
 
 use fovqa_study::pairs::{Consistency, Pairs, Scaled};
 
-use super::cells::{half_open, interval, number, p_value, stars, whole, whole_or};
+use super::cells::{half_open, interval, number, p_value, participants, stars, whole, whole_or};
 use super::parts::Parts;
 use crate::plain_table::Cell;
 
@@ -53,11 +53,6 @@ fn shares(pairs: &Pairs, parts: &mut Parts) {
 /// A number of votes, of which ties may be halves.
 fn votes(count: f64) -> Cell {
     if count.fract() == 0.0 && count < 9e15 { whole(count as i64) } else { number(count) }
-}
-
-/// A number of participants in words.
-pub(super) fn participants(count: usize) -> String {
-    if count == 1 { "1 participant".to_owned() } else { format!("{count} participants") }
 }
 
 fn scores(pairs: &Pairs, parts: &mut Parts) {

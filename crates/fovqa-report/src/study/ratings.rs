@@ -2,8 +2,7 @@
 
 use fovqa_study::ratings::{GridRatings, LevelRatings, Ratings};
 
-use super::cells::{half_open, interval, number, shown, whole};
-use super::pairs::participants;
+use super::cells::{half_open, interval, number, participants, shown, whole};
 use super::parts::Parts;
 use crate::plain_table::Cell;
 
