@@ -72,7 +72,7 @@ fn carried_out(args: &StudyArgs, file: &StudyFile, folder: Option<&Path>) -> Res
         .map_err(|error| experiment::said(&error, Dialect::Options))?;
     let text = match args.format {
         StudyFormat::Text => &finished.drawn.text,
-        StudyFormat::Json => &finished.json,
+        StudyFormat::Json => &finished.drawn.json,
     };
     let printed = output::write(|out| out.write_all(text.as_bytes()));
     let figures = match finished.drawn.figures {

@@ -46,8 +46,8 @@ pub use printed::{Printed, PrintedVerdict};
 pub use run_table::{PlainRunTable, RunTable};
 pub use sheet::{ReportError, clear};
 pub use study::{
-    AnsweredAnalysis, DrawnStudy, NoResult, ResultOfPrinted, draw_study, foreign_to_study,
-    printed_results, study_json, study_text,
+    AnsweredAnalysis, DrawnStudy, NoResult, ResultOfPrinted, StudySheet, printed_results,
+    study_text,
 };
 pub use terminal::score_table;
 pub use verdict::{

@@ -6,9 +6,7 @@ use std::path::{Path, PathBuf};
 use fovqa_engine::{Events, Locking, ResultsFolder};
 use fovqa_metrics::{Better, Metric};
 use fovqa_plan::{StudyAnalysis, StudyFile};
-use fovqa_report::{
-    AnsweredAnalysis, DrawnStudy, draw_study, foreign_to_study, printed_results, study_json,
-};
+use fovqa_report::{AnsweredAnalysis, DrawnStudy, StudySheet, printed_results};
 use fovqa_study::input::Table;
 use fovqa_study::{Analysis, Inputs, StudyError};
 
@@ -21,10 +19,8 @@ use crate::foreseen_figures::CHANGE;
 pub struct FinishedStudy {
     /// The folder.
     pub folder: PathBuf,
-    /// The tables, and the number of figures.
+    /// The tables, the results, and the number of figures.
     pub drawn: DrawnStudy,
-    /// The results as JSON.
-    pub json: String,
 }
 
 /// Carries out all analyses of a file, and writes results, figures, tables and a page into a folder. The
@@ -43,13 +39,14 @@ pub fn study(
     let folder = output.map_or_else(|| Path::new("reports").join(&file.name), Path::to_owned);
     let folder =
         ResultsFolder::open_for_study(&folder, locking).map_err(|error| in_folder(&error))?;
-    if let Some(path) = foreign_to_study(folder.path(), &answers) {
+    let sheet = StudySheet::new(file, &answers);
+    if let Some(path) = sheet.foreign(folder.path()) {
         let message =
             format!("{}: fovqa did not write this file, so it is not replaced", path.display());
         return Err(Error::input(message, "move it away, or give another folder with {output}"));
     }
     folder.clear().map_err(|error| in_folder(&error))?;
-    let drawn = draw_study(folder.path(), file, &answers).map_err(|error| {
+    let drawn = sheet.write(folder.path()).map_err(|error| {
         if error.is_of_settings() {
             Error::usage(error.to_string(), CHANGE)
         } else {
@@ -62,8 +59,7 @@ pub fn study(
         }
     }
     drawn.warnings.iter().for_each(|warning| events.warn(warning));
-    let json = study_json(file, &answers);
-    Ok(FinishedStudy { folder: folder.path().to_owned(), drawn, json })
+    Ok(FinishedStudy { folder: folder.path().to_owned(), drawn })
 }
 
 /// Which metrics are better if lower but were not said to be, in words; `None` if there are none.

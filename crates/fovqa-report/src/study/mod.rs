@@ -18,7 +18,7 @@ mod text;
 
 pub(crate) use of_run::study_of_run;
 pub use printed::{NoResult, ResultOfPrinted, printed_results};
-pub use sheet::{AnsweredAnalysis, DrawnStudy, draw_study, foreign_to_study, study_json};
+pub use sheet::{AnsweredAnalysis, DrawnStudy, StudySheet};
 pub use text::study_text;
 
 use fovqa_study::Analysis;

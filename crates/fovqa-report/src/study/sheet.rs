@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use askama::Template;
 use fovqa_plan::{StudyAnalysis, StudyFile};
-use fovqa_results::{CsvNames, STUDIES_SCHEMA, STUDY_JSON, write_json_file};
+use fovqa_results::{CsvNames, STUDIES_SCHEMA, STUDY_JSON, write_whole};
 use fovqa_study::Analysis;
 use serde::Serialize;
 
@@ -21,7 +21,7 @@ use crate::sheet::{
     MakeText, NamedFigure, NamedTable, Names, PLOTS, ReportError, Sheet, drawn_before,
 };
 
-/// An analysis of a study file with its result.
+/// One analysis of a study file, and its result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnsweredAnalysis<'a> {
     /// The analysis.
@@ -37,6 +37,8 @@ pub struct AnsweredAnalysis<'a> {
 pub struct DrawnStudy {
     /// The tables, for a terminal.
     pub text: String,
+    /// The results as JSON.
+    pub json: String,
     /// Number of figures.
     pub figures: usize,
     /// What the user should know of the figures.
@@ -79,48 +81,60 @@ struct Section<'a> {
     figures: Vec<String>,
 }
 
-/// Writes the results, figures, tables and page of a study into its folder.
-///
-/// # Errors
-/// If the folder cannot be written to, or a figure does not fit into the size that was asked for.
-pub fn draw_study(
-    folder: &Path,
-    file: &StudyFile,
-    answers: &[AnsweredAnalysis<'_>],
-) -> Result<DrawnStudy, ReportError> {
-    let (sections, drawn) = sections(answers);
-    let labelled = slug(&file.name);
-    let tables = sections.iter().flat_map(|section| &section.tables).map(|(name, table)| {
-        let markdown: MakeText<'_> = Box::new(|| table.markdown());
-        let latex: MakeText<'_> = Box::new(|| table.latex(&usual_label(&labelled, name)));
-        let files = vec![("md", markdown), ("csv", Box::new(|| table.csv())), ("tex", latex)];
-        NamedTable { name, files }
-    });
-    let sheet = Sheet {
-        tables: tables.collect(),
-        figures: drawn,
-        page: Box::new(|figures| page(file, &sections, figures)),
-        forward: None,
-        names: CsvNames::Plain,
-    };
-    let warnings = sheet.write(folder)?;
-    // Last: a folder that was not finished has none.
-    write_json_file(&folder.join(STUDY_JSON), &record(file, answers))?;
-    Ok(DrawnStudy { text: text(answers), figures: sheet.figures.len(), warnings })
+/// The figures, tables and page of a study, which are not yet written.
+pub struct StudySheet<'a> {
+    file: &'a StudyFile,
+    answers: &'a [AnsweredAnalysis<'a>],
+    sections: Vec<Section<'a>>,
+    figures: Vec<NamedFigure>,
 }
 
-/// The first file in a folder that the study would replace although no report of fovqa wrote it.
-pub fn foreign_to_study(folder: &Path, answers: &[AnsweredAnalysis<'_>]) -> Option<PathBuf> {
-    let (sections, figures) = sections(answers);
-    let tables = sections.iter().flat_map(|section| &section.tables);
-    let tables =
-        tables.flat_map(|(name, _)| ["md", "csv", "tex"].map(|ending| format!("{name}.{ending}")));
-    let figures = figures.iter().flat_map(|figure| {
-        figure.endings().map(|ending| format!("{PLOTS}/{}.{ending}", figure.name))
-    });
-    let known = drawn_before(folder);
-    let is_foreign = |file: &String| !known.contains(file) && folder.join(file).exists();
-    tables.chain(figures).find(is_foreign).map(|file| folder.join(file))
+impl<'a> StudySheet<'a> {
+    /// The figures and tables of the analyses of a file.
+    pub fn new(file: &'a StudyFile, answers: &'a [AnsweredAnalysis<'a>]) -> Self {
+        let (sections, figures) = sections(answers);
+        Self { file, answers, sections, figures }
+    }
+
+    /// The first file in a folder that would be replaced although no report of fovqa wrote it.
+    pub fn foreign(&self, folder: &Path) -> Option<PathBuf> {
+        let tables = self.sections.iter().flat_map(|section| &section.tables);
+        let tables = tables
+            .flat_map(|(name, _)| ["md", "csv", "tex"].map(|ending| format!("{name}.{ending}")));
+        let figures = self.figures.iter().flat_map(|figure| {
+            figure.endings().map(|ending| format!("{PLOTS}/{}.{ending}", figure.name))
+        });
+        let known = drawn_before(folder);
+        let is_foreign = |file: &String| !known.contains(file) && folder.join(file).exists();
+        tables.chain(figures).find(is_foreign).map(|file| folder.join(file))
+    }
+
+    /// Writes everything, and the results, into the folder of the study.
+    ///
+    /// # Errors
+    /// If the folder cannot be written to, or a figure does not fit into the size that was asked for.
+    pub fn write(self, folder: &Path) -> Result<DrawnStudy, ReportError> {
+        let Self { file, answers, sections, figures } = self;
+        let labelled = slug(&file.name);
+        let tables = sections.iter().flat_map(|section| &section.tables).map(|(name, table)| {
+            let markdown: MakeText<'_> = Box::new(|| table.markdown());
+            let latex: MakeText<'_> = Box::new(|| table.latex(&usual_label(&labelled, name)));
+            let files = vec![("md", markdown), ("csv", Box::new(|| table.csv())), ("tex", latex)];
+            NamedTable { name, files }
+        });
+        let sheet = Sheet {
+            tables: tables.collect(),
+            figures,
+            page: Box::new(|figures| page(file, &sections, figures)),
+            forward: None,
+            names: CsvNames::Plain,
+        };
+        let warnings = sheet.write(folder)?;
+        let json = study_json(file, answers);
+        // Last: a folder that was not finished has none.
+        write_whole(&folder.join(STUDY_JSON), json.as_bytes())?;
+        Ok(DrawnStudy { text: text(answers), json, figures: sheet.figures.len(), warnings })
+    }
 }
 
 /// The tables, remarks and figures of all analyses.
@@ -204,8 +218,8 @@ fn record<'a>(file: &'a StudyFile, answers: &'a [AnsweredAnalysis<'_>]) -> Recor
     }
 }
 
-/// The JSON of a study file as it is written into its folder.
-pub fn study_json(file: &StudyFile, answers: &[AnsweredAnalysis<'_>]) -> String {
+/// The JSON of a study file.
+fn study_json(file: &StudyFile, answers: &[AnsweredAnalysis<'_>]) -> String {
     serde_json::to_string_pretty(&record(file, answers)).unwrap_or_default() + "\n"
 }
 
