@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use fovqa::{Complaint, Events, FoundInputs, FoundView, Given};
+use fovqa_config::{FileKind, file_kind};
 use fovqa_engine::FoundFrame;
 use fovqa_frame::source::Origin;
 use fovqa_io::frame_size;
@@ -22,11 +23,11 @@ use crate::progress::Terminal;
 use crate::{experiment, output};
 
 pub(crate) fn run(args: &CheckArgs) -> Exit {
-    if matches!(fovqa_config::is_curves(&args.experiment), Ok(true)) {
-        return curves(args);
-    }
-    if matches!(fovqa_config::is_study(&args.experiment), Ok(true)) {
-        return study(args);
+    match file_kind(&args.experiment) {
+        Ok(Some(FileKind::Curves)) => return curves(args),
+        Ok(Some(FileKind::Study)) => return study(args),
+        // An error is explained when the file is read.
+        _ => {}
     }
     let mut experiment = match experiment::read(&args.experiment) {
         Ok(experiment) => experiment,

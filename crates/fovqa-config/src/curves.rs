@@ -26,14 +26,3 @@ pub fn parse_curves(path: &Path, text: String) -> Result<CurvesFile, ExperimentE
         file::parse(path, &text, ("the curve file", CURVES), resolve::curves)?;
     Ok(CurvesFile { name, about, path: path.to_owned(), text, plan })
 }
-
-/// Whether a file is a curves file rather than an experiment: it contains curves, plots or tables,
-/// and nothing that is scored.
-///
-/// # Errors
-/// If it cannot be read.
-pub fn is_curves(path: &Path) -> Result<bool, ExperimentError> {
-    let text = file::read(path)?;
-    let any = |keys: &[&str]| file::has(&text, keys);
-    Ok(any(&["curve", "plot", "table"]) && !any(&["scene", "method", "metrics", "signal"]))
-}

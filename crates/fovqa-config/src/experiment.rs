@@ -28,12 +28,3 @@ pub fn parse_experiment(path: &Path, text: String) -> Result<Experiment, Experim
     });
     Ok(Experiment { text, ..resolved? })
 }
-
-/// Whether a file is an experiment: it contains scenes that are scored, and nothing of other files.
-///
-/// # Errors
-/// If it cannot be read.
-pub fn is_experiment(path: &Path) -> Result<bool, ExperimentError> {
-    let text = file::read(path)?;
-    Ok(file::has(&text, &["scene"]) && !file::has(&text, &["curve", "analysis"]))
-}

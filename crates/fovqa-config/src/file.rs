@@ -72,8 +72,9 @@ fn document(text: &str) -> Result<serde_spanned::Spanned<DeTable<'_>>, Fault> {
     })
 }
 
-/// Whether a text has any of these keys at the top level.
-pub(crate) fn has(text: &str, keys: &[&str]) -> bool {
-    document(text)
-        .is_ok_and(|document| keys.iter().any(|key| document.get_ref().contains_key(*key)))
+/// The keys at the top level of a text; none if it is not TOML.
+pub(crate) fn keys(text: &str) -> Vec<String> {
+    let document = document(text);
+    let keys = document.iter().flat_map(|document| document.get_ref().keys());
+    keys.map(|key| key.get_ref().to_string()).collect()
 }

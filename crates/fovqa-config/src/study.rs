@@ -24,13 +24,3 @@ pub fn read_study(path: &Path) -> Result<StudyFile, ExperimentError> {
 pub fn parse_study(path: &Path, text: &str) -> Result<StudyFile, ExperimentError> {
     file::parse(path, text, ("the study", STUDY), |root, faults| resolve::study(root, path, faults))
 }
-
-/// Whether a file is a study file rather than an experiment: it contains analyses, and nothing that is
-/// scored.
-///
-/// # Errors
-/// If it cannot be read.
-pub fn is_study(path: &Path) -> Result<bool, ExperimentError> {
-    let text = file::read(path)?;
-    Ok(file::has(&text, &["analysis"]) && !file::has(&text, &["scene", "method", "metrics"]))
-}

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use fovqa_config::{FileKind, file_kind};
 use fovqa_plan::{CurvesFile, Experiment, StudyFile};
 
 use crate::error::Error;
@@ -33,31 +34,18 @@ pub fn read_study(path: &Path) -> Result<StudyFile, Error> {
     Ok(fovqa_config::read_study(path)?)
 }
 
-/// What a TOML file describes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum FileKind {
-    Experiment,
-    Curves,
-    Study,
-}
-
 /// Whether a file is of another kind than is wanted, as far as that can be told. A file that cannot be read
 /// or understood is explained when it is read.
 fn not_of_another_kind(path: &Path, wanted: FileKind) -> Result<(), Error> {
-    let is = |found: Result<bool, fovqa_config::ExperimentError>| matches!(found, Ok(true));
-    let (kind, what, help) = if is(fovqa_config::is_curves(path)) {
-        let help = "`fovqa curves` draws it, and `fovqa check` checks it";
-        (FileKind::Curves, "a curve file", help)
-    } else if is(fovqa_config::is_study(path)) {
-        let help = "`fovqa study` carries it out, and `fovqa check` checks it";
-        (FileKind::Study, "a study file", help)
-    } else if is(fovqa_config::is_experiment(path)) {
-        (FileKind::Experiment, "an experiment", "`fovqa run` runs it, and `fovqa check` checks it")
-    } else {
-        return Ok(());
-    };
+    let Ok(Some(kind)) = file_kind(path) else { return Ok(()) };
     if kind == wanted {
         return Ok(());
     }
-    Err(Error::usage(format!("{}: this is {what}", path.display()), help))
+    let (what, command) = match kind {
+        FileKind::Curves => ("a curve file", "`fovqa curves` draws it"),
+        FileKind::Study => ("a study file", "`fovqa study` carries it out"),
+        FileKind::Experiment => ("an experiment", "`fovqa run` runs it"),
+    };
+    let message = format!("{}: this is {what}", path.display());
+    Err(Error::usage(message, format!("{command}, and `fovqa check` checks it")))
 }
