@@ -9,6 +9,8 @@ mod scaling;
 mod table;
 mod votes;
 
+pub(crate) use newton::PROBIT_75;
+
 pub use consistency::{Agreement, Consistency, Judge};
 pub use options::Options;
 pub use scaling::{Scaled, Scaling, Score};

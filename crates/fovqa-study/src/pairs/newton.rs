@@ -5,7 +5,7 @@ use crate::distributions::{normal_density, normal_log_cdf};
 /// ln 3: with this factor, 1 JOD is a share of 75 % in the logistic model.
 const LN_3: f64 = 1.098_612_288_668_109_8;
 /// Φ⁻¹(0.75): with this factor, 1 JOD is a share of 75 % in the normal model.
-const PROBIT_75: f64 = 0.674_489_750_196_081_7;
+pub(crate) const PROBIT_75: f64 = 0.674_489_750_196_081_7;
 /// More steps than any data need.
 const MOST_STEPS: usize = 200;
 

@@ -7,14 +7,13 @@ use super::pairs::{PairsOptions, PairsPlan, plan_pairs};
 use crate::distributions::normal_cdf;
 use crate::input::Table;
 use crate::metrics::mean_scores;
+use crate::pairs::PROBIT_75;
 use crate::{Settings, StudyError};
 
 /// The metric whose scores are in JOD.
 const METRIC: &str = "fvvdp";
 /// The most pairs of methods.
 const MOST_PAIRS: usize = 1000;
-/// Φ⁻¹(0.75): a difference of 1 JOD is a share of 75 %.
-const OF_ONE_JOD: f64 = 0.674_489_750_196_081_7;
 /// A larger share is as good as certain, and its trials are not worth a plan.
 const LARGEST_SHARE: f64 = 0.999_999;
 
@@ -149,7 +148,7 @@ fn pair(
     settings: &Settings,
 ) -> PredictedPair {
     let (winner, loser) = if second.1 > first.1 { (second, first) } else { (first, second) };
-    let share = normal_cdf(OF_ONE_JOD * (winner.1 - loser.1));
+    let share = normal_cdf(PROBIT_75 * (winner.1 - loser.1));
     let pair = PairsOptions { share: share.min(LARGEST_SHARE), ..options.pair };
     PredictedPair {
         method: winner.0.clone(),
@@ -213,7 +212,7 @@ mod tests {
         assert_eq!(plan.scenes, ["hall", "road"]);
         let [pair] = plan.pairs.as_slice() else { panic!("{plan:?}") };
         assert_eq!((pair.method.as_str(), pair.jod, pair.opponent_jod), ("A", 8.5, 7.0));
-        assert!((pair.share - normal_cdf(1.5 * OF_ONE_JOD)).abs() < 1e-12);
+        assert!((pair.share - normal_cdf(1.5 * PROBIT_75)).abs() < 1e-12);
     }
 
     #[test]
