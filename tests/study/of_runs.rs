@@ -131,6 +131,13 @@ fn shards_take_their_opinion_scores_with_them() {
         .ok()
         .says(&["frames are finished"]);
     assert_ne!(json_of(&folder, "out/study.json"), before);
+    // Nor do other settings of the comparison.
+    let text = fs::read_to_string(folder.path("e.toml")).unwrap();
+    folder.write("e.toml", text.replace("bootstrap = 50", "bootstrap = 60"));
+    folder
+        .run(&["run", "e.toml", "--output", "out", "--resume"])
+        .ok()
+        .says(&["frames are finished"]);
     // Nor does a study that is no longer wanted stay.
     let text = fs::read_to_string(folder.path("e.toml")).unwrap();
     let (start, end) = (text.find("[study]").unwrap(), text.find("[[scene]]").unwrap());

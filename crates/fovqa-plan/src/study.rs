@@ -23,7 +23,7 @@ pub struct StudyFile {
     pub analyses: Vec<StudyAnalysis>,
 }
 
-/// An analysis of a study file.
+/// One analysis in a study file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyAnalysis {
     /// Its name, with which the names of its files begin. No two analyses have the same one.

@@ -86,7 +86,7 @@ fn study_file(text: &str) -> Result<PathBuf, String> {
     ))
 }
 
-/// An analysis of the command line.
+/// What a command asks for.
 pub(crate) struct Asked<'a> {
     pub(crate) request: Request,
     /// The table; a plan has none.

@@ -7,7 +7,7 @@ use crate::node::{Node, text};
 /// The keys of every analysis.
 const ALL: &[&str] =
     &["kind", "name", "title", "figure", "printed", "confidence", "adjust", "bootstrap", "seed"];
-/// The keys of every analysis of a table.
+/// The keys that each analysis with a table has.
 const TABLE: &[&str] = &["file", "by", "where", "column"];
 
 /// Options that are lists of names.

@@ -2,7 +2,7 @@
 
 use fovqa_plot::{Axis, BarChart, BarSeries, Look};
 
-/// The most groups along the axis of a figure.
+/// A figure shows at most this many groups side by side.
 pub(super) const MOST_GROUPS: usize = 48;
 
 /// An estimate with its interval.

@@ -38,7 +38,7 @@ pub(super) fn panel_figure(mut panels: Vec<LineChart>, columns: usize) -> Figure
     }
 }
 
-/// The axis of all panels, which begins below the lowest share.
+/// The vertical axis, the same in all panels. It begins below the lowest share.
 fn y_axis(groups: &[&Group<Psychometric>]) -> Axis {
     let shares = groups.iter().flat_map(|group| {
         let levels = group.result.levels.iter().map(|level| share(level.correct, level.trials));

@@ -82,7 +82,7 @@ fn by_level(part: &[Levels<'_>], has_panels: bool, context: &Context, left: &str
     context.figure("levels", "", (text, figure))
 }
 
-/// The axis of all panels, which has room for their scores, intervals and thresholds.
+/// The vertical axis, the same in all panels. It has room for all scores, intervals and thresholds.
 fn common_axis(part: &[Levels<'_>]) -> Axis {
     let of = |of: &Levels<'_>| {
         let levels = of.ratings.levels.iter().map(|level| &level.moments);
