@@ -10,9 +10,8 @@ use crate::{diagnostic, experiment, output};
 pub(crate) fn run(command: &BaselineCommand) -> Exit {
     let done = match command {
         BaselineCommand::Save(args) => save(args),
-        BaselineCommand::Show(args) => fovqa::read_baseline(&args.baseline).map(|baseline| {
-            output::write(|out| out.write_all(baseline_table(&baseline).as_bytes()))
-        }),
+        BaselineCommand::Show(args) => fovqa::read_baseline(&args.baseline)
+            .map(|baseline| output::text(&baseline_table(&baseline))),
         BaselineCommand::Accept(args) => accept(args),
     };
     done.unwrap_or_else(|error| experiment::failed(&error))
@@ -53,7 +52,7 @@ fn accept(args: &AcceptArgs) -> Result<Exit, fovqa::Error> {
     }
     let count = accepted.differences.len();
     let table = difference_table(&accepted.differences);
-    let printed = output::write(|out| out.write_all(table.as_bytes()));
+    let printed = output::text(&table);
     if args.dry_run {
         diagnostic::note(&format!("{count} values differ; nothing was written"));
         return Ok(printed);

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use fovqa::{CurvesFile, Locking};
 use fovqa_methods::curves::{Curve, trace};
+use fovqa_report::Text;
 
 use crate::args::CurvesArgs;
 use crate::dialect::Dialect;
@@ -95,11 +96,12 @@ fn draw(file: &CurvesFile, folder: Option<&Path>, locking: Locking) -> Result<()
     let terminal = Terminal::speaking(Dialect::Options);
     let (folder, drawn) = fovqa::curves(file, folder, locking, &terminal)
         .map_err(|error| experiment::said(&error, Dialect::Options))?;
-    let tables = drawn.tables.iter().fold(String::new(), |mut text, table| {
-        let _ = writeln!(text, "{table}\n");
-        text
-    });
-    let printed = output::write(|out| out.write_all(tables.as_bytes()));
+    let mut text = Text::default();
+    for table in drawn.tables {
+        text.push_table(table);
+        text.push_str("\n");
+    }
+    let printed = output::text(&text);
     let figures =
         if drawn.figures == 1 { "1 figure" } else { &format!("{} figures", drawn.figures) };
     let shown = folder.display();

@@ -4,6 +4,9 @@
 use std::io::Write;
 
 use anstyle::{AnsiColor, Style};
+use fovqa_report::{Text, wrapped_line};
+
+use crate::width;
 
 /// Prints an error and, unless `help` is empty, a line on how to correct it.
 pub(crate) fn error(message: &str, help: &str) {
@@ -41,15 +44,31 @@ pub(crate) fn block(text: &str) {
     let _ = writeln!(anstream::stderr().lock(), "{}\n", text.trim_end());
 }
 
+/// Prints a text. On a terminal, lines and tables are laid out for its width.
+pub(crate) fn text(text: &Text) {
+    match width::of_stderr() {
+        Some(columns) => block(&text.within(columns)),
+        None => block(&text.to_string()),
+    }
+}
+
 fn say(kind: &str, colour: AnsiColor, message: &str, help: &str) {
     let style = Style::new().bold().fg_color(Some(colour.into()));
     let bold = Style::new().bold();
     let message = shown(message);
     let mut stderr = anstream::stderr().lock();
     // A closed stderr must not change how the run ends.
-    let _ = writeln!(stderr, "{style}{kind}:{style:#} {message}");
+    let _ = writeln!(stderr, "{}", line(&format!("{style}{kind}:{style:#} "), &message));
     if !help.is_empty() {
-        let _ = writeln!(stderr, "  {bold}help:{bold:#} {help}");
+        let _ = writeln!(stderr, "{}", line(&format!("  {bold}help:{bold:#} "), help));
+    }
+}
+
+/// A message behind its kind. On a terminal, it is wrapped between words.
+fn line(kind: &str, message: &str) -> String {
+    match width::of_stderr() {
+        Some(columns) => wrapped_line(message, columns, kind),
+        None => format!("{kind}{message}"),
     }
 }
 

@@ -8,9 +8,9 @@ use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
 };
 
-use crate::diagnostic;
 use crate::dialect::Dialect;
 use crate::exit::Exit;
+use crate::{diagnostic, width};
 
 /// Number of mistakes that are shown in full; the others are only counted.
 const SHOWN: usize = 20;
@@ -18,6 +18,9 @@ const SHOWN: usize = 20;
 /// Maximum number of characters in a line that is shown. In a longer line, the place would be hard
 /// to find.
 const LONGEST_LINE: usize = 400;
+
+/// Width in columns of a mistake with its lines, on a terminal that is not narrower.
+const WIDTH: usize = 100;
 
 /// Reads an experiment. Errors are reported before this returns.
 pub(crate) fn read(path: &Path) -> Result<Experiment, Exit> {
@@ -72,7 +75,7 @@ fn say(file: &str, text: &str, faults: &[Fault]) {
     let long = text.lines().any(|line| line.len() > LONGEST_LINE);
     for fault in faults.iter().take(SHOWN) {
         let whole = fault.span.is_empty() && fault.span.start == 0;
-        if whole || long {
+        if whole || long || !fits(text, fault, width::of_stderr()) {
             // A mistake that concerns the whole file has no position.
             let place = if whole { String::new() } else { format!(":{}", place(text, fault)) };
             let label = if fault.label.is_empty() { "" } else { "; " };
@@ -85,6 +88,18 @@ fn say(file: &str, text: &str, faults: &[Fault]) {
     if faults.len() > SHOWN {
         diagnostic::note(&format!("{} more mistakes are not shown", faults.len() - SHOWN));
     }
+}
+
+/// Whether the line of a mistake and its neighbours fit on a terminal. On a narrow one, a wrapped line
+/// would separate the mistake from its mark.
+fn fits(text: &str, fault: &Fault, width: Option<usize>) -> bool {
+    /// Columns before a line: its number and a rule.
+    const BEFORE: usize = 8;
+    let Some(width) = width.filter(|width| *width < WIDTH) else { return true };
+    let number = |at: usize| text.get(..at).unwrap_or(text).matches('\n').count();
+    let (first, last) = (number(fault.span.start), number(fault.span.end));
+    let shown = text.lines().take(last + 2).skip(first.saturating_sub(1));
+    shown.map(|line| line.chars().count()).all(|columns| columns + BEFORE <= width)
 }
 
 /// Line and column of a mistake, both counted from 1.
@@ -111,8 +126,12 @@ fn printable(text: &str) -> String {
 fn rendered(fault: &Shown<'_>) -> String {
     let mut text = String::new();
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode());
+    let handler = match width::of_stderr().filter(|width| *width < WIDTH) {
+        Some(width) => handler.with_width(width).with_break_words(false),
+        None => handler.with_width(WIDTH),
+    };
     // Rendering to a string does not fail. If it did, the message would still be shown.
-    if handler.with_width(100).with_context_lines(1).render_report(&mut text, fault).is_err() {
+    if handler.with_context_lines(1).render_report(&mut text, fault).is_err() {
         text = fault.to_string();
     }
     text
@@ -160,6 +179,21 @@ mod tests {
         let shown = printable(text);
         assert_eq!(shown, "a = \"?[31m\" \n\tb¿c");
         assert_eq!(shown.len(), text.len());
+    }
+
+    #[test]
+    fn lines_that_do_not_fit_are_not_shown() {
+        let text = format!("short\n{}\nshort\nshort", "x".repeat(50));
+        let at = |start| Fault {
+            message: String::new(),
+            span: start..start + 1,
+            label: String::new(),
+            help: String::new(),
+        };
+        let fits = |start: usize, width| fits(&text, &at(start), width);
+        assert!(fits(0, Some(58)) && !fits(0, Some(57)), "the next line counts");
+        assert!(fits(text.len() - 1, Some(57)), "others do not");
+        assert!(fits(0, None) && fits(0, Some(100)));
     }
 
     #[test]

@@ -37,10 +37,10 @@ pub(crate) fn run(args: FoveateArgs) -> Exit {
     let written = if record.frames.is_empty() {
         Exit::Done
     } else {
-        output::write(|out| match format {
-            FoveateFormat::Text => out.write_all(fovqa_report::foveate_text(record).as_bytes()),
-            FoveateFormat::Json => record.write_json(out),
-        })
+        match format {
+            FoveateFormat::Text => output::text(&fovqa_report::foveate_text(record)),
+            FoveateFormat::Json => output::write(|out| record.write_json(out)),
+        }
     };
     if foveated.failures.is_empty() { written } else { Exit::Input }
 }

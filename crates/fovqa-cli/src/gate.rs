@@ -112,15 +112,16 @@ fn print(args: &GateArgs, verdict: &Verdict) -> Exit {
     let table = verdict_table(verdict);
     match (args.annotations, args.format) {
         (Some(Annotations::Gitlab), _) => {
-            diagnostic::block(&table);
+            diagnostic::text(&table);
             let report = gitlab_report(verdict, text_hash);
             output::write(|out| out.write_all(report.as_bytes()))
         }
         (Some(Annotations::Github), _) => {
-            let text = format!("{}{}", without_commands(&table), github_annotations(verdict));
+            let text =
+                format!("{}{}", without_commands(&table.to_string()), github_annotations(verdict));
             output::write(|out| out.write_all(text.as_bytes()))
         }
-        (None, GateFormat::Table) => output::write(|out| out.write_all(table.as_bytes())),
+        (None, GateFormat::Table) => output::text(&table),
         (None, GateFormat::Json) => output::write(|out| write_verdict_json(verdict, out)),
     }
 }

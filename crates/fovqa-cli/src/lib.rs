@@ -23,10 +23,12 @@ mod schema;
 mod score;
 mod study;
 mod threads;
+mod usage;
+mod width;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser};
+use clap::CommandFactory;
 
 use args::{Cli, Command};
 use exit::Exit;
@@ -36,9 +38,9 @@ pub fn main() -> ExitCode {
     exit::watch_panics();
     exit::watch_interrupts();
     let outcome = std::panic::catch_unwind(|| {
-        let cli = match Cli::try_parse() {
+        let cli = match usage::parse() {
             Ok(cli) => cli,
-            Err(error) => return usage(&error),
+            Err(error) => return usage::show(&error),
         };
         dispatch(cli)
     });
@@ -67,14 +69,4 @@ fn dispatch(cli: Cli) -> Exit {
             out.write_all(&script)
         }),
     }
-}
-
-/// Prints the output of clap: help and version on stdout, errors on stderr.
-fn usage(error: &clap::Error) -> Exit {
-    let printed = error.print();
-    if error.use_stderr() {
-        // If stderr is closed, nothing more can be done.
-        return Exit::Usage;
-    }
-    output::outcome(printed)
 }

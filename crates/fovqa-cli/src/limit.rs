@@ -29,8 +29,7 @@ fn searched(args: &LimitArgs) -> Result<Exit, Exit> {
     let terminal = Terminal::speaking(Dialect::Options);
     let found = fovqa::find_limits(&experiment, &options, &terminal)
         .map_err(|error| experiment::said(&error, Dialect::Options))?;
-    let table = format!("{}\n", found.drawn.table);
-    let printed = output::write(|out| out.write_all(table.as_bytes()));
+    let printed = output::text(&found.drawn.table);
     let shown = found.folder.display();
     let figures = match found.drawn.figures {
         1 => "1 figure".to_owned(),

@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 use fovqa_emulate::{EmulationSpec, FilterChoice};
 use fovqa_methods::Method;
 use fovqa_metrics::{Better, Metric, MetricKind};
 use fovqa_params::{ParamInfo, Words};
+use fovqa_report::{Text, TextTable};
 use fovqa_vision::acuity::AcuityModel;
 use fovqa_vision::displays;
 
@@ -16,11 +16,11 @@ use crate::output;
 
 pub(crate) fn run(what: Listed) -> Exit {
     let text = match what {
-        Listed::Metrics => metrics(),
-        Listed::Methods => methods(),
+        Listed::Metrics => metrics().into(),
+        Listed::Methods => methods().into(),
         Listed::Displays => display_presets(),
     };
-    output::write(|out| out.write_all(text.as_bytes()))
+    output::text(&text)
 }
 
 fn metrics() -> String {
@@ -138,10 +138,9 @@ fn ended(mut text: String) -> String {
     text
 }
 
-fn display_presets() -> String {
-    let mut table = Table::new();
-    table.load_preset(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(["display", "pixels", "field or size", "px/°", "cd/m²", "source"]);
+fn display_presets() -> Text {
+    let mut table =
+        TextTable::new(["display", "pixels", "field or size", "px/°", "cd/m²", "source"]);
     for display in displays() {
         let [w, h] = display.resolution;
         table.add_row([
@@ -153,16 +152,7 @@ fn display_presets() -> String {
             display.source.clone(),
         ]);
     }
-    if let Some(column) = table.column_mut(0) {
-        column.set_padding((0, 1));
-    }
-    for numbers in [3, 4] {
-        if let Some(column) = table.column_mut(numbers) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
-    table.lines().fold(String::new(), |mut text, line| {
-        let _ = writeln!(text, "{}", line.trim_end());
-        text
-    })
+    let mut text = Text::default();
+    text.push_table(table.with_text_in(&[1, 2, 5]));
+    text
 }

@@ -2,13 +2,24 @@
 
 use std::io::{self, BufWriter, ErrorKind, Write};
 
-use crate::diagnostic;
+use fovqa_report::Text;
+
 use crate::exit::Exit;
+use crate::{diagnostic, width};
 
 /// Writes results to stdout.
 pub(crate) fn write(results: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Exit {
     let mut out = BufWriter::new(io::stdout().lock());
     outcome(results(&mut out).and_then(|()| out.flush()))
+}
+
+/// Writes text to stdout. On a terminal, lines and tables are laid out for its width.
+pub(crate) fn text(text: &Text) -> Exit {
+    let shown = match width::of_stdout() {
+        Some(columns) => text.within(columns),
+        None => text.to_string(),
+    };
+    write(|out| out.write_all(shown.as_bytes()))
 }
 
 /// How the command ends after writing to stdout. If the reader has closed its end, that is a

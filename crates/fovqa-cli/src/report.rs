@@ -3,19 +3,19 @@
 use fovqa::{Finished, Report};
 
 use crate::args::ReportArgs;
+use crate::dialect::Dialect;
 use crate::exit::Exit;
+use crate::progress::Terminal;
 use crate::{diagnostic, experiment, output, run};
 
 pub(crate) fn run(args: &ReportArgs) -> Exit {
     let folder = &args.results;
-    match fovqa::report(folder, args.lock.locking()) {
+    let terminal = Terminal::speaking(Dialect::Experiment);
+    match fovqa::report(folder, args.lock.locking(), &terminal) {
         Ok(Report::Run(drawn)) => {
             run::say(&Finished { folder: folder.clone(), scored: 0, errors: 0, drawn: Some(drawn) })
         }
-        Ok(Report::Limits(drawn)) => {
-            let table = format!("{}\n", drawn.table);
-            output::write(|out| out.write_all(table.as_bytes()))
-        }
+        Ok(Report::Limits(drawn)) => output::text(&drawn.table),
         Ok(Report::Index(count)) => {
             let folders = if count == 1 { "1 folder" } else { &format!("{count} folders") };
             let shown = folder.display();

@@ -40,7 +40,7 @@ fn scored(args: &RunArgs) -> Result<Exit, Exit> {
 pub(crate) fn say(finished: &Finished) -> Exit {
     let table = finished.drawn.as_ref().and_then(|drawn| drawn.table.as_ref());
     let printed = match table {
-        Some(table) => output::write(|out| out.write_all(table.terminal().as_bytes())),
+        Some(table) => output::text(&table.terminal()),
         None => Exit::Done,
     };
     for warning in finished.drawn.iter().flat_map(|drawn| &drawn.warnings) {

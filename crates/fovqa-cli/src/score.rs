@@ -31,11 +31,11 @@ pub(crate) fn run(args: ScoreArgs) -> Exit {
     let written = if report.frames.is_empty() {
         Exit::Done
     } else {
-        output::write(|out| match format {
-            Format::Table => out.write_all(fovqa_report::score_table(&report).as_bytes()),
-            Format::Json => write_json(&report, out),
-            Format::Csv => write_csv(&report, out),
-        })
+        match format {
+            Format::Table => output::text(&fovqa_report::score_table(&report)),
+            Format::Json => output::write(|out| write_json(&report, out)),
+            Format::Csv => output::write(|out| write_csv(&report, out)),
+        }
     };
     if report.failures.is_empty() { written } else { Exit::Input }
 }

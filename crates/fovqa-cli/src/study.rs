@@ -70,11 +70,10 @@ fn carried_out(args: &StudyArgs, file: &StudyFile, folder: Option<&Path>) -> Res
     let terminal = Terminal::speaking(Dialect::Options);
     let finished = fovqa::study(file, folder, args.lock.locking(), &terminal)
         .map_err(|error| experiment::said(&error, Dialect::Options))?;
-    let text = match args.format {
-        StudyFormat::Text => &finished.drawn.text,
-        StudyFormat::Json => &finished.drawn.json,
+    let printed = match args.format {
+        StudyFormat::Text => output::text(&finished.drawn.text),
+        StudyFormat::Json => output::write(|out| out.write_all(finished.drawn.json.as_bytes())),
     };
-    let printed = output::write(|out| out.write_all(text.as_bytes()));
     let figures = match finished.drawn.figures {
         1 => "1 figure".to_owned(),
         count => format!("{count} figures"),
@@ -117,10 +116,7 @@ fn show(analysis: &Analysis, settings: &SettingsArgs) -> Result<Exit, Exit> {
             serde_json::to_writer_pretty(&mut *out, analysis)?;
             out.write_all(b"\n")
         }),
-        StudyFormat::Text => {
-            let text = fovqa_report::study_text(analysis);
-            output::write(|out| out.write_all(text.as_bytes()))
-        }
+        StudyFormat::Text => output::text(&fovqa_report::study_text(analysis)),
     })
 }
 

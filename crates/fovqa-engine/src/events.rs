@@ -2,6 +2,9 @@
 
 use std::collections::BTreeSet;
 
+/// Is called after each item of a step, by any thread.
+pub type ItemDone = Box<dyn Fn() + Send + Sync>;
+
 /// Receives warnings and progress.
 pub trait Events {
     /// Something that the user should know. It is reported once.
@@ -12,6 +15,12 @@ pub trait Events {
 
     /// All frames are finished.
     fn finish(&self) {}
+
+    /// A step after the frames begins, such as `drawing figures`. It has this number of items, or 0 if
+    /// they are not counted. It ends when the returned function is dropped.
+    fn step(&self, _what: &str, _items: usize) -> ItemDone {
+        Box::new(|| {})
+    }
 
     /// Something could not be done, and the rest continues. The texts say what failed, where, and
     /// how to correct it.

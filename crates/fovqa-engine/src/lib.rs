@@ -56,7 +56,7 @@ pub use assemble::results;
 pub use budget_range::budget_range;
 pub use crops::CropPair;
 pub use error::EngineError;
-pub use events::Events;
+pub use events::{Events, ItemDone};
 pub use find::find;
 pub use findings::{Entry, Findings, Finished, Named, Record, Settled};
 pub use folder::{FolderError, Locking, ResultsFolder};

@@ -20,6 +20,7 @@ use crate::plain_table::PlainTable;
 use crate::plot_figures::plot_figures;
 use crate::run_table::RunTable;
 use crate::sheet::{MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
+use crate::steps::BeginStep;
 use crate::study::study_of_run;
 use crate::sweep::optima;
 use crate::viewer::Viewer;
@@ -35,11 +36,12 @@ pub struct Drawn {
     pub warnings: Vec<String>,
 }
 
-/// Writes tables, figures and the page of a run into its folder.
+/// Writes tables, figures and the page of a run into its folder. Each step is begun with `begin`.
 ///
 /// # Errors
 /// If a file of the run is missing or damaged, or the folder cannot be written to.
-pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
+pub fn draw(folder: &Path, begin: &BeginStep<'_>) -> Result<Drawn, ReportError> {
+    let reading = begin("reading the results", 0);
     let mut run: RunRecord =
         read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
     // The page lists only the first, and a long sequence has very many.
@@ -119,7 +121,8 @@ pub fn draw(folder: &Path) -> Result<Drawn, ReportError> {
         forward: Some(forward(&run.resolved.name)),
         names: csv_names,
     };
-    let of_figures = sheet.write(folder)?;
+    drop(reading);
+    let of_figures = sheet.write(folder, begin)?;
     drop(sheet);
     let warnings = warning.into_iter().chain(study.warning).chain(of_figures);
     let warnings = warnings.chain(viewer.warnings).chain(damaged);

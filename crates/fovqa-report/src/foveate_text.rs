@@ -5,19 +5,20 @@ use std::fmt::Write;
 use fovqa_params::ParamValue;
 use fovqa_results::{BudgetRecord, FoveateRecord, FoveatedRecord};
 
-use crate::text_table::{aligned, plain_table, printable};
+use crate::text::Text;
+use crate::text_table::{TextTable, printable};
 
 /// Largest number of rows of the table, so that it fits on a terminal.
 const MOST_ROWS: usize = 20;
 
 /// The record as text. Frames in a row with the same numbers share a row of the table.
-pub fn foveate_text(record: &FoveateRecord) -> String {
-    let mut text = heading(record);
+pub fn foveate_text(record: &FoveateRecord) -> Text {
+    let mut text = Text::from(heading(record));
     let runs = runs(&record.frames);
     let has_quads = record.frames.iter().any(|frame| frame.quads.is_some());
     let mut header = vec!["frame", "samples", "on screen", "beyond", "share of pixels"];
     header.extend(has_quads.then_some("quads"));
-    let mut table = plain_table(&header);
+    let mut table = TextTable::new(header);
     for run in runs.iter().take(MOST_ROWS) {
         let [first, .., last] = run else {
             table.add_row(row(run[0].frame.to_string(), &run[0], has_quads));
@@ -26,7 +27,8 @@ pub fn foveate_text(record: &FoveateRecord) -> String {
         let name = format!("{} to {}", first.frame, last.frame);
         table.add_row(row(name, first, has_quads));
     }
-    let _ = writeln!(text, "\n{}", aligned(table));
+    text.push_str("\n");
+    text.push_table(table);
     let more = runs.len().saturating_sub(MOST_ROWS);
     if more > 0 {
         let _ = writeln!(text, "{more} more rows; --format json lists all frames");

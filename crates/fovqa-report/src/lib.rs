@@ -27,9 +27,11 @@ mod printed;
 mod run_table;
 mod sentence;
 mod sheet;
+mod steps;
 mod study;
 mod sweep;
 mod terminal;
+mod text;
 mod text_table;
 mod verdict;
 mod viewer;
@@ -45,11 +47,14 @@ pub use limits::{DrawnLimits, draw_limits};
 pub use printed::{Printed, PrintedVerdict};
 pub use run_table::{PlainRunTable, RunTable};
 pub use sheet::{ReportError, clear};
+pub use steps::{BeginStep, ItemDone};
 pub use study::{
     AnsweredAnalysis, DrawnStudy, NoResult, ResultOfPrinted, StudySheet, printed_results,
     study_text,
 };
 pub use terminal::score_table;
+pub use text::{Text, wrapped, wrapped_line};
+pub use text_table::TextTable;
 pub use verdict::{
     baseline_table, difference_table, github_annotations, gitlab_report, junit, markdown,
     verdict_table, without_commands,

@@ -16,12 +16,14 @@ use crate::latex::usual_label;
 use crate::page::{PageFigure, PageTable, Shell};
 use crate::plain_table::{Cell, Column, PlainTable};
 use crate::sheet::{MakeText, NamedFigure, NamedTable, ReportError, Sheet};
+use crate::steps::BeginStep;
+use crate::text::Text;
 
 /// What was made of a search for limits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnLimits {
     /// The table, for a terminal.
-    pub table: String,
+    pub table: Text,
     /// Number of figures.
     pub figures: usize,
     /// What the user should know of the figures.
@@ -33,11 +35,16 @@ const TABLE: &str = "table-limits";
 /// The ratio of the ends of a range from which its axis is logarithmic.
 const LOG_RATIO: f64 = 4.0;
 
-/// Writes the table, figures and page of a search for limits into its folder.
+/// Writes the table, figures and page of a search for limits into its folder. Each step is begun
+/// with `begin`.
 ///
 /// # Errors
 /// If the folder cannot be written to, or a figure does not fit into the size that was asked for.
-pub fn draw_limits(folder: &Path, record: &LimitsRecord) -> Result<DrawnLimits, ReportError> {
+pub fn draw_limits(
+    folder: &Path,
+    record: &LimitsRecord,
+    begin: &BeginStep<'_>,
+) -> Result<DrawnLimits, ReportError> {
     let table = table(record);
     let figures = figures(record);
     let label = usual_label(&slug(&record.experiment), TABLE);
@@ -54,9 +61,11 @@ pub fn draw_limits(folder: &Path, record: &LimitsRecord) -> Result<DrawnLimits, 
         forward: None,
         names: CsvNames::Plain,
     };
-    let warnings = sheet.write(folder)?;
-    let notes = table.notes.iter().fold(String::new(), |text, note| text + "\n" + note);
-    let text = format!("{}\n\n{}\n{notes}", table.caption, table.terminal());
+    let warnings = sheet.write(folder, begin)?;
+    let mut text = Text::from(format!("{}\n\n", table.caption));
+    text.push_table(table.terminal());
+    table.notes.iter().for_each(|note| text.push_str(&["\n", note].concat()));
+    text.push_str("\n");
     Ok(DrawnLimits { table: text, figures: sheet.figures.len(), warnings })
 }
 

@@ -3,6 +3,7 @@
 use crate::comparison::ComparisonTable;
 use crate::html_table::HtmlTable;
 use crate::plain_table::PlainTable;
+use crate::text::Text;
 
 /// A table of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,12 +51,13 @@ impl RunTable {
     }
 
     /// Text for a terminal.
-    pub fn terminal(&self) -> String {
+    pub fn terminal(&self) -> Text {
         match self {
             Self::Comparison(table) => table.terminal(),
             Self::Plain(plain) => {
-                let PlainTable { caption, .. } = &plain.table;
-                format!("{caption}\n\n{}\n", plain.table.terminal())
+                let mut text = Text::from(format!("{}\n\n", plain.table.caption));
+                text.push_table(plain.table.terminal());
+                text
             }
         }
     }

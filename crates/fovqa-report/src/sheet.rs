@@ -20,6 +20,7 @@ use crate::doubts::{missing_in_words, unseen_in_words};
 use crate::long_lines::for_picture;
 use crate::page::{PageFigure, data_image, in_words};
 use crate::print::{PNG_DPI, formats, set_axes, style_of};
+use crate::steps::BeginStep;
 
 /// Folder of the figures.
 pub(crate) const PLOTS: &str = "plots";
@@ -129,7 +130,11 @@ struct Manifest {
 
 impl Sheet<'_> {
     /// Writes all files into a folder. Returns warnings about the figures.
-    pub(crate) fn write(&self, folder: &Path) -> Result<Vec<String>, ReportError> {
+    pub(crate) fn write(
+        &self,
+        folder: &Path,
+        begin: &BeginStep<'_>,
+    ) -> Result<Vec<String>, ReportError> {
         let table_files = self.tables.iter().flat_map(|table| {
             table.files.iter().map(|(ending, _)| format!("{}.{ending}", table.name))
         });
@@ -148,6 +153,7 @@ impl Sheet<'_> {
         // The list must not be lost if files on it are not.
         batch.flush();
 
+        let done = begin("writing tables", self.tables.len());
         for NamedTable { name, files } in &self.tables {
             for (ending, text) in files {
                 let path = folder.join(format!("{name}.{ending}"));
@@ -157,17 +163,23 @@ impl Sheet<'_> {
                     _ => batch.write(&path, text.as_bytes())?,
                 }
             }
+            done();
         }
+        drop(done);
         let plots = folder.join(PLOTS);
         if !self.figures.is_empty() {
             make_folder(&plots).map_err(|error| FileError::Write { path: plots.clone(), error })?;
         }
         let names = self.names;
-        let written: Vec<Result<WrittenFigure, ReportError>> = self
-            .figures
-            .par_iter()
-            .map(|figure| write_figure(&plots, figure, names, &batch))
-            .collect();
+        let done = begin("drawing figures", self.figures.len());
+        let write = |figure| {
+            let written = write_figure(&plots, figure, names, &batch);
+            done();
+            written
+        };
+        let written: Vec<Result<WrittenFigure, ReportError>> =
+            self.figures.par_iter().map(write).collect();
+        drop(done);
         let mut on_page: Vec<PageFigure<'_>> = Vec::new();
         // A figure that cannot be drawn must not take the others with it.
         let mut wrong = None;
@@ -193,6 +205,7 @@ impl Sheet<'_> {
                 image: image.take(),
             });
         }
+        let _writing = begin("writing the page", 0);
         let page = (self.page)(&on_page);
         match &self.forward {
             None => batch.write(&folder.join(INDEX_HTML), page.as_bytes())?,

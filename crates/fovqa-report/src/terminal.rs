@@ -6,15 +6,16 @@ use fovqa_metrics::{Image, Key, Metric, MetricKind, Subject};
 use fovqa_params::Words;
 use fovqa_results::{AtdSummary, FvvdpSummary, GuideSource, ScoreReport, Statistics, Summary};
 
-use crate::text_table::{aligned, plain_table, printable};
+use crate::text::Text;
+use crate::text_table::{TextTable, printable};
 
 /// The report as text: the input, the value of each metric, and the values in each band.
-pub fn score_table(report: &ScoreReport) -> String {
+pub fn score_table(report: &ScoreReport) -> Text {
     let summary = Summary::of(report);
-    let mut text = heading(report);
+    let mut text = Text::from(heading(report));
     let one = report.frames.len() == 1;
-    let mut whole =
-        plain_table(if one { &["", "value"][..] } else { &["", "mean", "min", "max", "pooled"] });
+    let columns = if one { &["", "value"][..] } else { &["", "mean", "min", "max", "pooled"] };
+    let mut whole = TextTable::new(columns.iter().copied());
     for (metric, s) in &summary.statistics {
         let mut row = vec![label(*metric)];
         if one {
@@ -26,7 +27,8 @@ pub fn score_table(report: &ScoreReport) -> String {
         whole.add_row(row);
     }
     if !summary.statistics.is_empty() {
-        let _ = writeln!(text, "\n{}", aligned(whole));
+        text.push_str("\n");
+        text.push_table(whole);
     }
     if let Some(identical) = summary.statistics.values().find_map(|s| s.identical_frames)
         && identical > 0
@@ -43,8 +45,8 @@ pub fn score_table(report: &ScoreReport) -> String {
     if let Some(atd) = &summary.atd {
         let _ = writeln!(text, "\n{}", atd_in_words(atd));
     }
-    text.push_str(&band_table(report, &summary));
-    text.push_str(&haar_table(&summary));
+    text.push(band_table(report, &summary));
+    text.push(haar_table(&summary));
     for (subject, where_they_are) in [
         (Subject::PixelsOutsideBands, "lie outside all bands"),
         (Subject::PixelsLeftOut, "are left out by a mask"),
@@ -61,20 +63,20 @@ pub fn score_table(report: &ScoreReport) -> String {
 
 /// Each band with the metrics that have a value there. For contrast and temporal differences, the
 /// value of the test is shown, with the percentage of the reference's value in brackets.
-fn band_table(report: &ScoreReport, summary: &Summary) -> String {
+fn band_table(report: &ScoreReport, summary: &Summary) -> Text {
     let per_band = report.metrics.iter().copied().filter(|m| m.info().per_band);
     let (fidelity, compared): (Vec<Metric>, Vec<Metric>) =
         per_band.filter(|m| *m != Metric::Haar).partition(|m| m.is(MetricKind::Fidelity));
     if summary.bands.is_empty() || (fidelity.is_empty() && compared.is_empty()) {
-        return String::new();
+        return Text::default();
     }
     let of_band = |metric: &Metric| match metric {
         Metric::Fvvdp => format!("{} share", metric.info().label),
         metric => label(*metric),
     };
-    let labels: Vec<String> = fidelity.iter().chain(&compared).map(of_band).collect();
-    let header = ["eccentricity", "pixels"].into_iter().chain(labels.iter().map(String::as_str));
-    let mut table = plain_table(&header.collect::<Vec<_>>());
+    let labels = fidelity.iter().chain(&compared).map(of_band);
+    let header = ["eccentricity", "pixels"].map(str::to_owned).into_iter().chain(labels);
+    let mut table = TextTable::new(header);
     for (index, band) in summary.bands.iter().enumerate() {
         let mut row = vec![
             format!("{}° to {}°", band.from_deg, band.to_deg),
@@ -99,7 +101,8 @@ fn band_table(report: &ScoreReport, summary: &Summary) -> String {
         row.extend(compared.iter().map(|m| beside(m).unwrap_or_else(missing)));
         table.add_row(row);
     }
-    let mut text = format!("\n{}\n", aligned(table));
+    let mut text = Text::from("\n".to_owned());
+    text.push_table(table);
     if report.frames.len() != 1 {
         text.push_str("pixels and values are means over the frames\n");
     }
@@ -110,20 +113,19 @@ fn band_table(report: &ScoreReport, summary: &Summary) -> String {
 }
 
 /// The share of the reference's energy that the test keeps, for each level and band.
-fn haar_table(summary: &Summary) -> String {
+fn haar_table(summary: &Summary) -> Text {
     let haar = Subject::Metric(Metric::Haar);
     let Some(energy) = Key::named(haar, "energy").map(|key| key.of_image(Image::Ratio)) else {
-        return String::new();
+        return Text::default();
     };
     let of_haar = summary.compared.keys().filter(|key| key.subject == haar);
     let levels = of_haar.filter_map(|key| key.level).max().map_or(0, usize::from);
     if levels == 0 {
-        return String::new();
+        return Text::default();
     }
-    let names: Vec<String> = (1..=levels).map(|level| format!("level {level}")).collect();
-    let header = ["Haar energy, test / reference"].into_iter();
-    let mut table =
-        plain_table(&header.chain(names.iter().map(String::as_str)).collect::<Vec<_>>());
+    let names = (1..=levels).map(|level| format!("level {level}"));
+    let header = ["Haar energy, test / reference".to_owned()].into_iter().chain(names);
+    let mut table = TextTable::new(header);
     for (index, band) in summary.bands.iter().enumerate() {
         let ratio = |level: usize| {
             let found = summary.compared.get(&energy.on_level(level).in_band(index));
@@ -132,7 +134,9 @@ fn haar_table(summary: &Summary) -> String {
         let label = format!("{}° to {}°", band.from_deg, band.to_deg);
         table.add_row([label].into_iter().chain((1..=levels).map(ratio)));
     }
-    format!("\n{}\n", aligned(table))
+    let mut text = Text::from("\n".to_owned());
+    text.push_table(table);
+    text
 }
 
 fn percent(ratio: Option<f64>) -> String {

@@ -29,13 +29,18 @@ pub fn curves(
     let folder =
         ResultsFolder::open_for_curves(&folder, locking).map_err(|error| in_folder(&error))?;
     folder.clear().map_err(|error| in_folder(&error))?;
-    let drawn = fovqa_report::draw_curves(folder.path(), file, &curves).map_err(|error| {
-        if error.is_of_settings() {
-            Error::usage(error.to_string(), CHANGE)
-        } else {
-            Error::input(error.to_string(), "free some space, or give another folder with {output}")
-        }
-    })?;
+    let begin = |what: &str, items| events.step(what, items);
+    let drawn =
+        fovqa_report::draw_curves(folder.path(), file, &curves, &begin).map_err(|error| {
+            if error.is_of_settings() {
+                Error::usage(error.to_string(), CHANGE)
+            } else {
+                Error::input(
+                    error.to_string(),
+                    "free some space, or give another folder with {output}",
+                )
+            }
+        })?;
     warn_of_curves(file, events);
     drawn.warnings.iter().for_each(|warning| events.warn(warning));
     let mut notes: Vec<&String> = Vec::new();

@@ -47,11 +47,14 @@ pub(crate) fn finish(
     });
     let errors = failures.clone().count();
     say_failures(failures, "summary.json", events);
+    let writing = events.step("writing the results", 0);
     if let Err(error) = write(experiment, results, folder.path()) {
         return Err(Error::input(error.to_string(), NO_SPACE));
     }
+    drop(writing);
     judge(folder)?;
-    let drawn = fovqa_report::draw(folder.path()).map_err(|error| {
+    let begin = |what: &str, items| events.step(what, items);
+    let drawn = fovqa_report::draw(folder.path(), &begin).map_err(|error| {
         if error.is_of_settings() {
             Error::usage(error.to_string(), FIT)
         } else {

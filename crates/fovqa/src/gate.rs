@@ -117,7 +117,7 @@ pub fn gate_folder(
         Ok((run.experiment.plan, run.found, Some(KnownInputs::of(&finished.record))))
     };
     let verdict = show(verdict, named, &opened, found, events);
-    match fovqa_report::draw(folder) {
+    match fovqa_report::draw(folder, &|what, items| events.step(what, items)) {
         Ok(drawn) => drawn.warnings.iter().for_each(|warning| events.warn(warning)),
         Err(error) => events.warn(&format!("the verdict is not added to the page: {error}")),
     }

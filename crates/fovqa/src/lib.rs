@@ -115,8 +115,8 @@ pub use study::{FinishedStudy, check_study, not_negated, read_table, study};
 pub use fovqa_config::{ExperimentError, Fault};
 pub use fovqa_emulate::{Budget, EmulationSpec, FilterChoice, Sampling, Space};
 pub use fovqa_engine::{
-    Events, FoundInputs, FoundView, Given, Locking, Shard, Task, TaskError, TaskFindings, Unit,
-    find, foresee, results, units,
+    Events, FoundInputs, FoundView, Given, ItemDone, Locking, Shard, Task, TaskError, TaskFindings,
+    Unit, find, foresee, results, units,
 };
 pub use fovqa_frame::source::{Listing, Picture, Source, SourceError};
 pub use fovqa_frame::{Crop, Frame, SignalChannels, SignalParams, ToneMap, Transfer};

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fovqa_engine::{Locking, ResultsFolder, shard_in};
+use fovqa_engine::{Events, Locking, ResultsFolder, shard_in};
 use fovqa_report::{Drawn, DrawnLimits};
 use fovqa_results::{
     CURVES_JSON, LIMITS_JSON, LIMITS_SCHEMA, LimitsRecord, RUN_JSON, STUDY_JSON, read_json_file,
@@ -27,7 +27,8 @@ pub enum Report {
 ///
 /// # Errors
 /// If the folder contains no results, or cannot be written to.
-pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
+pub fn report(folder: &Path, locking: Locking, events: &dyn Events) -> Result<Report, Error> {
+    let begin = |what: &str, items| events.step(what, items);
     let shown = folder.display();
     if folder.join(CURVES_JSON).is_file() {
         let message = format!("{shown}: the folder contains curves");
@@ -48,7 +49,7 @@ pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
                 .map_err(|error| failed(&error))?;
         let folder =
             ResultsFolder::open_for_limits(folder, locking).map_err(|error| in_folder(&error))?;
-        let drawn = fovqa_report::draw_limits(folder.path(), &record);
+        let drawn = fovqa_report::draw_limits(folder.path(), &record, &begin);
         return Ok(Report::Limits(drawn.map_err(|error| failed(&error))?));
     }
     if !folder.join(RUN_JSON).is_file() && folder.is_dir() {
@@ -74,7 +75,7 @@ pub fn report(folder: &Path, locking: Locking) -> Result<Report, Error> {
         });
     }
     let folder = ResultsFolder::open(folder, locking).map_err(|error| in_folder(&error))?;
-    let drawn = fovqa_report::draw(folder.path());
+    let drawn = fovqa_report::draw(folder.path(), &begin);
     let drawn = drawn.map_err(|error| {
         if error.is_of_settings() {
             let help = "change its `figure`, or [figures], in the experiment file, and run `fovqa run FILE --resume`";

@@ -46,7 +46,8 @@ pub fn study(
         return Err(Error::input(message, "move it away, or give another folder with {output}"));
     }
     folder.clear().map_err(|error| in_folder(&error))?;
-    let drawn = sheet.write(folder.path()).map_err(|error| {
+    let begin = |what: &str, items| events.step(what, items);
+    let drawn = sheet.write(folder.path(), &begin).map_err(|error| {
         if error.is_of_settings() {
             Error::usage(error.to_string(), CHANGE)
         } else {

@@ -27,12 +27,14 @@ use crate::foresee::check;
 use crate::latex::usual_label;
 use crate::plain_table::PlainTable;
 use crate::sheet::{MakePage, MakeText, NamedFigure, NamedTable, Names, ReportError, Sheet};
+use crate::steps::BeginStep;
+use crate::text_table::TextTable;
 
 /// The figures and tables that were made from a curves file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnCurves {
-    /// The tables as text for a terminal.
-    pub tables: Vec<String>,
+    /// The tables for a terminal.
+    pub tables: Vec<TextTable>,
     /// Number of figures.
     pub figures: usize,
     /// Warnings about figures.
@@ -53,7 +55,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Writes curves, figures, tables and the page into a folder.
+/// Writes curves, figures, tables and the page into a folder. Each step is begun with `begin`.
 ///
 /// # Errors
 /// If the folder cannot be written to, or a figure cannot be drawn.
@@ -61,6 +63,7 @@ pub fn draw_curves(
     folder: &Path,
     file: &CurvesFile,
     curves: &[Curve],
+    begin: &BeginStep<'_>,
 ) -> Result<DrawnCurves, ReportError> {
     let source = Source { file, curves };
     let mut names = Names::default();
@@ -81,7 +84,7 @@ pub fn draw_curves(
         Sheet { tables: files.collect(), figures, page, forward: None, names: CsvNames::Plain };
     write_whole(&folder.join(CURVES_CSV), curves_csv(&file.plan, curves).as_bytes())?;
     write_json_file(&folder.join(CURVES_JSON), &CurvesRecord::new(file, curves))?;
-    let warnings = sheet.write(folder)?;
+    let warnings = sheet.write(folder, begin)?;
     let tables = made.iter().map(|(_, table)| table.terminal()).collect();
     Ok(DrawnCurves { tables, figures: sheet.figures.len(), warnings })
 }

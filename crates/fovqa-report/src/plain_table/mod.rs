@@ -6,7 +6,7 @@ mod latex;
 use std::fmt::Write;
 
 use crate::comparison::escaped_markdown;
-use crate::text_table::{aligned, plain_table, printable};
+use crate::text_table::{TextTable, printable};
 
 /// A table. The first cells of each row are names.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -142,14 +142,14 @@ impl PlainTable {
         String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
     }
 
-    pub(crate) fn terminal(&self) -> String {
-        let heads: Vec<String> =
-            self.columns.iter().map(|column| printable(&column.head)).collect();
-        let mut table = plain_table(&heads.iter().map(String::as_str).collect::<Vec<_>>());
+    /// The table for a terminal, without its caption and notes.
+    pub(crate) fn terminal(&self) -> TextTable {
+        let heads = self.columns.iter().map(|column| printable(&column.head));
+        let mut table = TextTable::new(heads);
         for row in &self.rows {
             table.add_row(row.iter().map(|cell| printable(&cell.shown)));
         }
-        aligned(table)
+        table
     }
 }
 

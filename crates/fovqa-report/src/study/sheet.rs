@@ -20,6 +20,8 @@ use crate::sentence::sentence;
 use crate::sheet::{
     MakeText, NamedFigure, NamedTable, Names, PLOTS, ReportError, Sheet, drawn_before,
 };
+use crate::steps::BeginStep;
+use crate::text::Text;
 
 /// One analysis of a study file, and its result.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +38,7 @@ pub struct AnsweredAnalysis<'a> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DrawnStudy {
     /// The tables, for a terminal.
-    pub text: String,
+    pub text: Text,
     /// The results as JSON.
     pub json: String,
     /// Number of figures.
@@ -109,11 +111,12 @@ impl<'a> StudySheet<'a> {
         tables.chain(figures).find(is_foreign).map(|file| folder.join(file))
     }
 
-    /// Writes everything, and the results, into the folder of the study.
+    /// Writes everything, and the results, into the folder of the study. Each step is begun with
+    /// `begin`.
     ///
     /// # Errors
     /// If the folder cannot be written to, or a figure does not fit into the size that was asked for.
-    pub fn write(self, folder: &Path) -> Result<DrawnStudy, ReportError> {
+    pub fn write(self, folder: &Path, begin: &BeginStep<'_>) -> Result<DrawnStudy, ReportError> {
         let Self { file, answers, sections, figures } = self;
         let labelled = slug(&file.name);
         let tables = sections.iter().flat_map(|section| &section.tables).map(|(name, table)| {
@@ -129,7 +132,7 @@ impl<'a> StudySheet<'a> {
             forward: None,
             names: CsvNames::Plain,
         };
-        let warnings = sheet.write(folder)?;
+        let warnings = sheet.write(folder, begin)?;
         let json = study_json(file, answers);
         // Last: a folder that was not finished has none.
         write_whole(&folder.join(STUDY_JSON), json.as_bytes())?;
@@ -224,8 +227,8 @@ fn study_json(file: &StudyFile, answers: &[AnsweredAnalysis<'_>]) -> String {
 }
 
 /// The tables of all analyses, for a terminal.
-fn text(answers: &[AnsweredAnalysis<'_>]) -> String {
-    let mut text = String::new();
+fn text(answers: &[AnsweredAnalysis<'_>]) -> Text {
+    let mut text = Text::default();
     for answer in answers {
         let title = answer.of.title.as_ref().unwrap_or(&answer.of.name);
         let title = crate::text_table::printable(title);
@@ -233,9 +236,11 @@ fn text(answers: &[AnsweredAnalysis<'_>]) -> String {
         let joint = if text.is_empty() { "" } else { "\n" };
         text.push_str(&[joint, &title, "\n", &line, "\n\n"].concat());
         if let Some(Part::Table { table, .. }) = printed::part(&answer.printed) {
-            text.push_str(&[&table.caption, "\n", &table.terminal(), "\n\n"].concat());
+            text.push_str(&[&table.caption, "\n"].concat());
+            text.push_table(table.terminal());
+            text.push_str("\n");
         }
-        text.push_str(&study_text(&answer.result));
+        text.push(study_text(&answer.result));
     }
     text
 }

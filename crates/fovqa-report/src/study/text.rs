@@ -8,13 +8,14 @@ use fovqa_study::json::Document;
 use super::parts::{Part, Parts, in_words};
 use super::{anova, metrics, pairs, plan, psychometric, ranks, ratings, staircase};
 use crate::plain_table::PlainTable;
+use crate::text::Text;
 use crate::text_table::printable;
 
 /// Rows beyond these are only counted.
 const MOST_ROWS: usize = 200;
 
 /// The tables of a study, one part per group.
-pub fn study_text(analysis: &Analysis) -> String {
+pub fn study_text(analysis: &Analysis) -> Text {
     match analysis {
         Analysis::Pairs(document) => of_groups(document, pairs::parts),
         Analysis::Ranks(document) => of_groups(document, ranks::parts),
@@ -29,17 +30,17 @@ pub fn study_text(analysis: &Analysis) -> String {
     }
 }
 
-fn of_one<T>(result: &T, parts: impl Fn(&T, &mut Parts)) -> String {
+fn of_one<T>(result: &T, parts: impl Fn(&T, &mut Parts)) -> Text {
     let mut own = Parts::default();
     parts(result, &mut own);
-    let mut text = Text::default();
+    let mut text = Paragraphs::default();
     text.parts(&own.0);
     text.0
 }
 
 /// The text of each group, below what its rows have in common.
-fn of_groups<T>(document: &Document<T>, parts: impl Fn(&T, &mut Parts)) -> String {
-    let mut text = Text::default();
+fn of_groups<T>(document: &Document<T>, parts: impl Fn(&T, &mut Parts)) -> Text {
+    let mut text = Paragraphs::default();
     if !document.excluded.is_empty() {
         text.line(&format!("excluded participants: {}", document.excluded.join(", ")));
     }
@@ -57,9 +58,9 @@ fn of_groups<T>(document: &Document<T>, parts: impl Fn(&T, &mut Parts)) -> Strin
 
 /// Text with tables and remarks, and empty lines between them.
 #[derive(Default)]
-struct Text(String);
+struct Paragraphs(Text);
 
-impl Text {
+impl Paragraphs {
     fn parts(&mut self, parts: &[Part]) {
         for part in parts {
             match part {
@@ -72,7 +73,7 @@ impl Text {
     /// Adds a paragraph of one line.
     fn line(&mut self, text: &str) {
         if !self.0.is_empty() {
-            self.0.push('\n');
+            self.0.push_str("\n");
         }
         let _ = writeln!(self.0, "{}", printable(text));
     }
@@ -84,10 +85,10 @@ impl Text {
         if more > 0 {
             let rows = table.rows[..MOST_ROWS].to_vec();
             let shown = PlainTable { rows, ..table.clone() };
-            let _ = writeln!(self.0, "{}", shown.terminal());
+            self.0.push_table(shown.terminal());
             let _ = writeln!(self.0, "… and {more} more rows; --format json has all of them");
         } else {
-            let _ = writeln!(self.0, "{}", table.terminal());
+            self.0.push_table(table.terminal());
         }
         for note in &table.notes {
             let _ = writeln!(self.0, "– {}", printable(note));

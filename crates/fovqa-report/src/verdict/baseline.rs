@@ -5,23 +5,25 @@ use std::fmt::Write as _;
 use fovqa_results::{Baseline, Difference};
 
 use super::digits::number;
-use crate::text_table::{aligned, plain_table, printable};
+use crate::text::Text;
+use crate::text_table::{TextTable, printable};
 
 /// The contents of a baseline.
-pub fn baseline_table(baseline: &Baseline) -> String {
-    let mut text = format!(
+pub fn baseline_table(baseline: &Baseline) -> Text {
+    let mut text = Text::from(format!(
         "{}, by fovqa {}: {} comparisons\n\n",
         printable(&baseline.experiment),
         printable(&baseline.version),
         baseline.comparisons.len()
-    );
-    let mut table = plain_table(&["of", "value", ""]);
+    ));
+    let mut table = TextTable::new(["of", "value", ""]);
     for comparison in &baseline.comparisons {
         for (quantity, value) in comparison.values() {
             table.add_row([printable(&comparison.named()), printable(quantity), number(value)]);
         }
     }
-    let _ = writeln!(text, "{}\n", aligned(table));
+    text.push_table(table);
+    text.push_str("\n");
     let metrics = baseline.metrics.iter().map(|(key, metric)| format!("{key} {}", metric.version));
     let metrics: Vec<String> = metrics.collect();
     let _ = writeln!(text, "versions of metrics: {}", printable(&metrics.join(", ")));
@@ -41,11 +43,12 @@ pub fn baseline_table(baseline: &Baseline) -> String {
 }
 
 /// All values that differ; empty if there are none.
-pub fn difference_table(differences: &[Difference]) -> String {
+pub fn difference_table(differences: &[Difference]) -> Text {
+    let mut text = Text::default();
     if differences.is_empty() {
-        return String::new();
+        return text;
     }
-    let mut table = plain_table(&["of", "value", "baseline", "run", "change"]);
+    let mut table = TextTable::new(["of", "value", "baseline", "run", "change"]);
     for Difference { place, quantity, before, after } in differences {
         let shown = |value: &Option<f64>| value.map_or_else(|| "–".to_owned(), number);
         let change = before.zip(*after).map(|(before, after)| after - before);
@@ -61,5 +64,6 @@ pub fn difference_table(differences: &[Difference]) -> String {
             change.unwrap_or_default(),
         ]);
     }
-    format!("{}\n", aligned(table))
+    text.push_table(table);
+    text
 }

@@ -5,12 +5,13 @@ use std::fmt::Write as _;
 use fovqa_results::Verdict;
 
 use super::{margin, outcome, place, value_and_limit, where_lines, worst};
-use crate::text_table::{aligned, plain_table, printable};
+use crate::text::Text;
+use crate::text_table::{TextTable, printable};
 
 /// One row per rule and comparison, followed by the outcome.
-pub fn verdict_table(verdict: &Verdict) -> String {
+pub fn verdict_table(verdict: &Verdict) -> Text {
     let mut table =
-        plain_table(&["rule", "of", "value", "limit", "margin", "worst frame", "verdict"]);
+        TextTable::new(["rule", "of", "value", "limit", "margin", "worst frame", "verdict"]);
     for rule in &verdict.rules {
         let title = printable(&rule.title());
         for check in &rule.checks {
@@ -31,7 +32,9 @@ pub fn verdict_table(verdict: &Verdict) -> String {
             table.add_row([title, printable(why), dash(), dash(), dash(), dash(), state]);
         }
     }
-    let mut text = format!("{}\n\n", aligned(table));
+    let mut text = Text::default();
+    text.push_table(table);
+    text.push_str("\n");
     for rule in &verdict.rules {
         for check in rule.checks.iter().filter(|check| check.outcome.reason().is_some()) {
             let why = check.outcome.reason().unwrap_or_default();

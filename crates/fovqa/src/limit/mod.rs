@@ -104,7 +104,7 @@ pub fn find_limits(
     events.finish();
     let record = record(experiment, options, &targets, &wanted);
     folder.clear().map_err(|error| in_folder(&error))?;
-    let drawn = write(folder.path(), &record)?;
+    let drawn = write(folder.path(), &record, events)?;
     for warning in &drawn.warnings {
         events.warn(warning);
     }
@@ -322,12 +322,13 @@ fn point(of: &Measured<Sample>) -> LimitPoint {
 }
 
 /// Writes the record, the table and the figures.
-fn write(folder: &Path, record: &LimitsRecord) -> Result<DrawnLimits, Error> {
+fn write(folder: &Path, record: &LimitsRecord, events: &dyn Events) -> Result<DrawnLimits, Error> {
     const HELP: &str = "free some space, or give another folder with {output}";
     let failed = |error: &dyn std::fmt::Display| Error::input(error.to_string(), HELP);
     write_whole(&folder.join(LIMITS_CSV), record.csv().as_bytes()).map_err(|e| failed(&e))?;
     write_json_file(&folder.join(LIMITS_JSON), record).map_err(|error| failed(&error))?;
-    fovqa_report::draw_limits(folder, record).map_err(|error| {
+    let begin = |what: &str, items| events.step(what, items);
+    fovqa_report::draw_limits(folder, record, &begin).map_err(|error| {
         if error.is_of_settings() {
             Error::usage(error.to_string(), "change [figures] in the experiment")
         } else {
