@@ -1,5 +1,6 @@
 //! The command line itself: exit codes, output, and files that are named for it.
 
+mod completions;
 mod exit_codes;
 mod help;
 mod output;

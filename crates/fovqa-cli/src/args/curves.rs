@@ -12,6 +12,7 @@ use fovqa_vision::{EccentricityKind, Tangential, ViewSpec};
 
 use super::lock::LockArgs;
 use super::no_such::no_such;
+use super::offered::{self, offering};
 use super::values::{finite, literal, numbers, words};
 use super::view::{FAR, ViewSpecArgs, near};
 use crate::diagnostic;
@@ -66,10 +67,10 @@ pub(crate) struct CurvesArgs {
     #[arg(value_name = "CURVES.toml", conflicts_with_all = IN_FILE)]
     pub(crate) curves: Vec<PathBuf>,
     /// A foveation method; `fovqa list methods` shows them
-    #[arg(long, value_name = "NAME", value_parser = method)]
+    #[arg(long, value_name = "NAME", value_parser = offering(method, offered::methods), hide_possible_values = true)]
     method: Option<Method>,
     /// An acuity model: piecewise, linear-mar, geisler-perry
-    #[arg(long, value_name = "NAME", value_parser = acuity)]
+    #[arg(long, value_name = "NAME", value_parser = offering(acuity, offered::acuity_models), hide_possible_values = true)]
     acuity: Option<AcuityModel>,
     /// A parameter of the method or model, such as sigma=1.8
     #[arg(long = "set", value_name = "PARAM=VALUE", value_parser = assignment)]
@@ -109,7 +110,7 @@ pub(crate) struct CurvesArgs {
     format: CurvesFormat,
     /// Folder for the figures and tables. With one file, they are written directly to this folder;
     /// with several, each file gets a subfolder [default: reports/NAME, with the name in the file]
-    #[arg(long, verbatim_doc_comment, value_name = "DIR", conflicts_with_all = ["method", "acuity"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["method", "acuity"])]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) lock: LockArgs,

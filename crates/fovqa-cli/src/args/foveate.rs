@@ -18,6 +18,7 @@ use fovqa_vision::ViewSpec;
 use super::curves::resolution;
 use super::guides::MotionArgs;
 use super::no_such::no_such;
+use super::offered::{self, offering};
 use super::signal::{EncodingArgs, VideoArgs};
 use super::values::{crop, finite, literal, positive, words};
 use super::view::{GazeArgs, ViewSpecArgs};
@@ -65,7 +66,7 @@ pub(crate) struct FoveateArgs {
     emulation: EmulationArgs,
     /// Also write the reduced buffer as a picture: FILE for a single frame, otherwise a folder. Of
     /// several layers, each has a file: FILE with -1, -2, … before the ending, the innermost first
-    #[arg(long, verbatim_doc_comment, value_name = "FILE")]
+    #[arg(long, value_name = "FILE")]
     pub(crate) buffer: Option<PathBuf>,
     #[command(flatten)]
     view: ViewSpecArgs,
@@ -97,7 +98,7 @@ pub(crate) struct FoveateArgs {
 #[command(next_help_heading = "Emulation")]
 struct EmulationArgs {
     /// The method; `fovqa list methods` shows them
-    #[arg(long, value_name = "NAME", value_parser = method)]
+    #[arg(long, value_name = "NAME", value_parser = offering(method, offered::emulated_methods), hide_possible_values = true)]
     method: EmulationSpec,
     /// A parameter: of the method, such as sigma=1.8, of its filters (filter.X), of the temporal filter
     /// (taa.X) or of the enhancement (enhance.X)

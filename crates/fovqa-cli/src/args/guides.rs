@@ -6,13 +6,15 @@ use clap::Args;
 use fovqa_io::{DepthChannels, GuideOptions, GuidePreset, MotionChannels, MotionUnit, NamedMotion};
 use fovqa_params::Words;
 
+use super::offered::{self, offering};
+
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Sequence")]
 pub(crate) struct MotionArgs {
     /// Backward motion vectors: auto, none, blender, falcor, unreal, mitsuba, or two OpenEXR channels:
     /// X,Y in pixels to the right and down (X,-Y: y up), or blender:X,Y as a renderer encodes them
     /// (experiment files can also give units and scales)
-    #[arg(long, verbatim_doc_comment, value_name = "WHICH", default_value = "auto", allow_hyphen_values = true, value_parser = motion)]
+    #[arg(long, value_name = "WHICH", default_value = "auto", allow_hyphen_values = true, value_parser = offering(motion, offered::guides), hide_possible_values = true)]
     motion: MotionChannels,
     /// Separate OpenEXR files with the motion; they pair with the reference (or input) frames
     #[arg(long, value_name = "PATH")]
@@ -35,7 +37,7 @@ pub(crate) struct GuideArgs {
     #[command(flatten)]
     motion: MotionArgs,
     /// Depth: auto, none, blender, falcor, unreal, mitsuba, or the name of an OpenEXR channel
-    #[arg(long, value_name = "WHICH", default_value = "auto", value_parser = depth)]
+    #[arg(long, value_name = "WHICH", default_value = "auto", value_parser = offering(depth, offered::guides), hide_possible_values = true)]
     depth: DepthChannels,
     /// Separate OpenEXR files with the depth; they pair with the reference frames
     #[arg(long, value_name = "PATH")]

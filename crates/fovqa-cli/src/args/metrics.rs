@@ -6,6 +6,7 @@ use fovqa_params::ParamValue;
 use fovqa_plan::MetricChoice;
 
 use super::no_such::no_such;
+use super::offered::{self, offering};
 use super::values::literal;
 
 #[derive(Debug, Args)]
@@ -14,7 +15,7 @@ pub(crate) struct MetricArgs {
     /// Metrics to compute, separated by commas; `fovqa list metrics` shows all
     /// [default: mse,psnr,ssim,fpsnr,rms-contrast,haar and, for a sequence, atd; metrics that do not
     /// fit are left out]
-    #[arg(long, verbatim_doc_comment, value_name = "NAME,NAME,…", value_delimiter = ',', value_parser = metric)]
+    #[arg(long, value_name = "NAME,NAME,…", value_delimiter = ',', value_parser = offering(metric, offered::metrics), hide_possible_values = true)]
     metrics: Vec<Metric>,
     /// A parameter of a metric, such as ssim.sigma=1.5
     #[arg(long = "set", value_name = "METRIC.PARAM=VALUE", value_parser = assignment)]

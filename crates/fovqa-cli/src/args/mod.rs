@@ -12,6 +12,7 @@ mod lock;
 mod luminance;
 mod metrics;
 mod no_such;
+mod offered;
 mod run;
 mod score;
 mod signal;

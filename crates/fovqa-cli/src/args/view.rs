@@ -9,6 +9,7 @@ use fovqa_vision::{BandEdges, EccentricityKind, Luminance, ViewSpec};
 
 use super::display::display;
 use super::luminance::luminance;
+use super::offered::{self, offering};
 use super::values::{finite, numbers, words};
 
 /// The ways to give a view.
@@ -28,7 +29,7 @@ pub(crate) struct ViewSpecArgs {
     #[arg(long, value_name = "L,R,U,D", allow_hyphen_values = true, value_parser = |t: &str| numbers::<4>(t, "four tangents, L,R,U,D"))]
     frustum: Option<[f64; 4]>,
     /// A display preset; `fovqa list displays` shows them
-    #[arg(long, value_name = "NAME", value_parser = display)]
+    #[arg(long, value_name = "NAME", value_parser = offering(display, offered::display_names), hide_possible_values = true)]
     display: Option<fovqa_vision::Display>,
     /// Distance of the eye from a flat screen, metres; with --pixel-pitch-mm
     #[arg(long, value_name = "D", value_parser = finite, requires = "pixel_pitch_mm")]
@@ -46,7 +47,7 @@ pub(crate) struct ViewArgs {
     /// Photometry of the display, for FovVideoVDP and PU-PSNR: the name of a preset (htc-vive-pro), or
     /// values such as peak_cd_m2=100,contrast=1000; further keys are min_cd_m2, ambient_lux,
     /// reflectivity, eotf and gamma [default: that of --display]
-    #[arg(long, verbatim_doc_comment, value_name = "NAME|KEY=N,…", value_parser = luminance)]
+    #[arg(long, value_name = "NAME|KEY=N,…", value_parser = offering(luminance, offered::luminances), hide_possible_values = true)]
     luminance: Option<Luminance>,
     #[command(flatten)]
     gaze: GazeArgs,
@@ -65,7 +66,7 @@ pub(crate) struct ViewArgs {
 pub(crate) struct GazeArgs {
     /// Gaze in pixels from the top-left corner, or a CSV trace with columns frame,x_px,y_px (or
     /// time_s with --fps) [default: the principal point]
-    #[arg(long, verbatim_doc_comment, value_name = "X,Y|FILE.csv", allow_hyphen_values = true, value_parser = gaze)]
+    #[arg(long, value_name = "X,Y|FILE.csv", allow_hyphen_values = true, value_parser = gaze)]
     gaze: Option<GazeArg>,
     /// Keep the last gaze in frames that the gaze trace does not cover
     #[arg(long, requires = "gaze")]

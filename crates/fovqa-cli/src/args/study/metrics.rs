@@ -3,9 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::StringValueParser;
 use fovqa_study::metrics::Options;
 
 use super::{InputArgs, SettingsArgs};
+use crate::args::offered::{self, offering};
 
 pub(super) const EXAMPLES: &str = "\
 Columns: scene, method, value (the mean opinion score); optional: se (its standard error).
@@ -22,10 +24,10 @@ pub(crate) struct MetricsArgs {
     #[arg(long, value_name = "results.csv")]
     pub(super) scores: PathBuf,
     /// Metrics to compare [default: all in the file]
-    #[arg(long, value_name = "METRIC,…", value_delimiter = ',')]
+    #[arg(long, value_name = "METRIC,…", value_delimiter = ',', value_parser = offering(StringValueParser::new(), offered::metric_keys), hide_possible_values = true)]
     metrics: Vec<String>,
     /// Metrics whose lower scores are better
-    #[arg(long, value_name = "METRIC,…", value_delimiter = ',')]
+    #[arg(long, value_name = "METRIC,…", value_delimiter = ',', value_parser = offering(StringValueParser::new(), offered::metric_keys), hide_possible_values = true)]
     lower_is_better: Vec<String>,
     #[command(flatten)]
     pub(super) settings: SettingsArgs,
