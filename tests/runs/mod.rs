@@ -23,5 +23,6 @@ pub(crate) mod resume;
 pub(crate) mod shards;
 mod spreadsheet_names;
 mod table_layouts;
+mod two_eyes;
 mod typeset;
 mod unchanged;

@@ -29,12 +29,17 @@ pub(crate) fn average_label(of: usize, all: usize) -> String {
     }
 }
 
+/// The scenes, each once: one with two eyes counts with the values of both together.
+fn scenes_of(values: &Values) -> impl Iterator<Item = &Item> + Clone {
+    values.items.iter().filter(|item| item.is_of_whole_scene())
+}
+
 /// The means over the scenes that all methods have, for each measure. Only measures with at least
 /// two such scenes are included; `None` if there is no such measure.
 pub(super) fn average(values: &Values, with_spread: bool) -> Option<Item> {
     let mut scenes = Vec::new();
     let cells = values.measures.iter().enumerate().map(|(index, measure)| {
-        let common = values.items.iter().map(|item| &item.cells[index]);
+        let common = scenes_of(values).map(|item| &item.cells[index]);
         let common: Vec<_> =
             common.filter(|cells| cells.iter().all(|cell| cell.value.is_some())).collect();
         if common.len() > 1 {
@@ -50,12 +55,12 @@ pub(super) fn average(values: &Values, with_spread: bool) -> Option<Item> {
     });
     let cells = cells.collect();
     let (fewest, most) = (scenes.iter().min().copied()?, scenes.iter().max().copied()?);
-    let all = values.items.len();
+    let all = scenes_of(values).count();
     let label = if fewest == most {
         average_label(fewest, all)
     } else {
         "Average of the scenes all methods have".to_owned()
     };
     let title = if fewest == all { format!("Average over {all} scenes") } else { label.clone() };
-    Some(Item { label, title, is_average: true, cells })
+    Some(Item { title, is_average: true, ..Item::new(label, cells) })
 }

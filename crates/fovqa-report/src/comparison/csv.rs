@@ -4,10 +4,11 @@ use fovqa_metrics::Better;
 
 use super::ComparisonTable;
 use super::marks::Mark;
-use super::values::Cell;
+use super::values::{Cell, ItemEye};
 
 impl ComparisonTable {
-    /// CSV with one row per scene. There is one column per measure and method (`psnr RMFR`), and
+    /// CSV with one row per scene. A scene with two eyes has further rows for the left and the right
+    /// eye, and the last column, `eye`, tells them apart. There is one column per measure and method (`psnr RMFR`), and
     /// one column per measure with the best methods of the row (`psnr best`), if there is a best.
     /// Equally good methods are separated by ` = `. If the table shows a spread, one column per
     /// measure and method has it (`psnr RMFR sd`). Numbers have full precision.
@@ -30,11 +31,13 @@ impl ComparisonTable {
                 header.extend(values.methods.iter().map(column));
             }
         }
+        let has_eyes = values.items.iter().any(|item| item.eye.is_some());
+        header.extend(has_eyes.then(|| "eye".to_owned()));
         // Writing to memory does not fail, and all rows have the same length.
         let _ = writer.write_record(&header);
         let text = |value: Option<f64>| value.map(|v| format!("{v:?}")).unwrap_or_default();
         for item in &values.items {
-            let mut record = vec![item.label.clone()];
+            let mut record = vec![item.name.clone()];
             for (index, (measure, cells)) in values.measures.iter().zip(&item.cells).enumerate() {
                 record.extend(cells.iter().map(|cell| text(cell.value)));
                 if measure.better != Better::Neither {
@@ -44,6 +47,8 @@ impl ComparisonTable {
                     record.extend(cells.iter().map(|cell| text(cell.spread)));
                 }
             }
+            let eye = item.eye.map_or("", ItemEye::name);
+            record.extend(has_eyes.then(|| eye.to_owned()));
             let _ = writer.write_record(&record);
         }
         String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()

@@ -7,6 +7,10 @@ use fovqa_results::GuideSource;
 use super::column::Column;
 use crate::overview::Overview;
 
+pub(super) const EYES_NOTE: &str = "Both eyes: the values of the left and the right eye pooled as each metric requires, which is not always their mean.";
+
+pub(super) const EYES_AVERAGED_NOTE: &str = "Averages over scenes are of both eyes.";
+
 const FOVEAL_NOTE: &str = "FPSNR and FSSIM: the papers print no constants for the foveal weight; \
                            values can be compared between methods, not with papers.";
 

@@ -54,7 +54,7 @@ impl ComparisonTable {
                 let scored: Vec<_> = ratios.methods.iter().map(|m| (value(m), None)).collect();
                 marked(index, measure, &scored)
             });
-            Item { title: label.clone(), label, is_average: false, cells: cells.collect() }
+            Item::new(label, cells.collect())
         };
         let band = |band: &Band| {
             let edges = (band.from_deg, band.to_deg);

@@ -7,11 +7,11 @@ use fovqa_results::RunRecord;
 use super::average::average;
 use super::column::Column;
 use super::measure::Measure;
-use super::notes::{means, notes};
-use super::values::{Item, Items, Scored, Values, deviation, marked};
+use super::notes::{EYES_AVERAGED_NOTE, EYES_NOTE, means, notes};
+use super::values::{Item, ItemEye, Items, Scored, Values, deviation, marked};
 use super::{ComparisonTable, named};
 use crate::frame_values::FrameValues;
-use crate::overview::Overview;
+use crate::overview::{Measured, Overview};
 
 /// The columns of a plot: those that it names, in its order, or all that have values, in the order
 /// of the experiment.
@@ -55,21 +55,43 @@ impl ComparisonTable {
             return None;
         }
         let measures: Vec<Measure> = columns.iter().map(|column| column.measure()).collect();
-        let scored = |scene: &str, method: &str, column: Column| -> Scored {
-            let value = overview.of(scene, method).and_then(|of| column.value(of));
+        let scored = |scene: &str, eye: Option<ItemEye>, method: &str, column: Column| -> Scored {
+            let measured = match eye {
+                Some(ItemEye::Left | ItemEye::Right) => {
+                    let is_it = |of: &&Measured| Some(of.eye.as_str()) == eye.map(ItemEye::name);
+                    overview.eyes_of(scene, method).into_iter().find(is_it)
+                }
+                Some(ItemEye::Both) | None => overview.of(scene, method),
+            };
+            let of = (scene, method, eye.map_or("", ItemEye::name));
             let over_frames = plot.spread == Some(SpreadOver::Frames);
-            (value, over_frames.then(|| spread(frames, scene, method, column)).flatten())
+            let spread = over_frames.then(|| spread(frames, of, column)).flatten();
+            (measured.and_then(|of| column.value(of)), spread)
         };
-        let item = |scene: &&str| {
+        let item = |scene: &str, eye: Option<ItemEye>| {
             let cells = columns.iter().zip(&measures).enumerate().map(|(index, (&c, measure))| {
                 let scored: Vec<Scored> =
-                    methods.iter().map(|method| scored(scene, method, c)).collect();
+                    methods.iter().map(|method| scored(scene, eye, method, c)).collect();
                 marked(index, measure, &scored)
             });
-            let (label, title) = ((*scene).to_owned(), (*scene).to_owned());
-            Item { label, title, is_average: false, cells: cells.collect() }
+            let cells = cells.collect();
+            let Some(eye) = eye else { return Item::new(scene.to_owned(), cells) };
+            let item = Item::new(format!("{scene}, {}", eye.in_words()), cells);
+            let name = if eye == ItemEye::Both { scene.to_owned() } else { item.name };
+            Item { name, eye: Some(eye), ..item }
         };
-        let items = scenes.iter().map(item).collect();
+        let has_eyes = |scene: &str| {
+            let mut measured = methods.iter().filter_map(|method| overview.of(scene, method));
+            measured.any(|of| of.is_of_both_eyes)
+        };
+        let items_of = |scene: &&str| -> Vec<Item> {
+            if has_eyes(scene) {
+                ItemEye::ALL.iter().map(|eye| item(scene, Some(*eye))).collect()
+            } else {
+                vec![item(scene, None)]
+            }
+        };
+        let items = scenes.iter().flat_map(items_of).collect();
         let mut values = Values { items_are: Items::Scenes, items, measures, methods };
         let average = average(&values, plot.spread == Some(SpreadOver::Scenes));
         match (plot.average, average) {
@@ -79,7 +101,12 @@ impl ComparisonTable {
             // If nothing can be averaged, the scenes are still worth showing.
             (AveragePlace::None, _) | (_, None) => {}
         }
-        let remarks = notes(overview, plot, &columns, &scenes, &values.methods);
+        let mut remarks = notes(overview, plot, &columns, &scenes, &values.methods);
+        if values.items.iter().any(|item| item.eye.is_some()) {
+            let averaged = values.items.iter().any(|item| item.is_average);
+            let eyes = [EYES_NOTE].into_iter().chain(averaged.then_some(EYES_AVERAGED_NOTE));
+            remarks.splice(0..0, eyes.map(str::to_owned));
+        }
         Some(Self {
             title: "Comparison".to_owned(),
             caption: plot.caption.clone(),
@@ -92,10 +119,10 @@ impl ComparisonTable {
     }
 }
 
-/// The standard deviation over the frames that the mean includes.
-fn spread(frames: &FrameValues, scene: &str, method: &str, column: Column) -> Option<f64> {
+/// The standard deviation over the frames that the mean includes, of a scene, a method and an eye.
+fn spread(frames: &FrameValues, of: (&str, &str, &str), column: Column) -> Option<f64> {
     let Column::Metric(metric) = column else { return None };
-    let frames = frames.of(scene, method, (metric, Image::Pair)).iter();
+    let frames = frames.of_eye(of, (metric, Image::Pair)).iter();
     // Means of decibels leave out identical frames.
     let values: Vec<f64> = frames.map(|(_, value)| *value).filter(|v| v.is_finite()).collect();
     deviation(&values).filter(|_| column.has_frames())

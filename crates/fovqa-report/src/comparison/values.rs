@@ -36,10 +36,58 @@ pub(super) struct Item {
     pub(super) label: String,
     /// Its name above the rows of all methods.
     pub(super) title: String,
+    /// Its name in CSV, which programs look up.
+    pub(super) name: String,
+    /// The eye, in a scene with two.
+    pub(super) eye: Option<ItemEye>,
     /// Whether it sums up the others.
     pub(super) is_average: bool,
     /// The cells, by measure and then by method.
     pub(super) cells: Vec<Vec<Cell>>,
+}
+
+impl Item {
+    /// An item with the same name everywhere.
+    pub(super) fn new(name: String, cells: Vec<Vec<Cell>>) -> Self {
+        let (label, title) = (name.clone(), name.clone());
+        Self { label, title, name, eye: None, is_average: false, cells }
+    }
+
+    /// Whether the values belong to a scene as a whole, as averages need them.
+    pub(super) fn is_of_whole_scene(&self) -> bool {
+        matches!(self.eye, None | Some(ItemEye::Both))
+    }
+}
+
+/// What the values of a scene with two eyes belong to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ItemEye {
+    Left,
+    Right,
+    /// Both together.
+    Both,
+}
+
+impl ItemEye {
+    pub(super) const ALL: [Self; 3] = [Self::Left, Self::Right, Self::Both];
+
+    /// Its name in results.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Both => "both",
+        }
+    }
+
+    /// Its name for people.
+    pub(super) fn in_words(self) -> &'static str {
+        match self {
+            Self::Left => "left eye",
+            Self::Right => "right eye",
+            Self::Both => "both eyes",
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
