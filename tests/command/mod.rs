@@ -9,3 +9,4 @@ mod outputs;
 mod pseudo_terminal;
 #[cfg(unix)]
 mod terminal;
+mod two_eyes;

@@ -52,7 +52,7 @@ pub use study::{
     AnsweredAnalysis, DrawnStudy, NoResult, ResultOfPrinted, StudySheet, printed_results,
     study_text,
 };
-pub use terminal::score_table;
+pub use terminal::{score_table, stereo_table};
 pub use text::{Text, wrapped, wrapped_line};
 pub use text_table::TextTable;
 pub use verdict::{

@@ -4,15 +4,59 @@ use std::fmt::Write;
 
 use fovqa_metrics::{Image, Key, Metric, MetricKind, Subject};
 use fovqa_params::Words;
-use fovqa_results::{AtdSummary, FvvdpSummary, GuideSource, ScoreReport, Statistics, Summary};
+use fovqa_results::{
+    AtdSummary, FvvdpSummary, GuideSource, ScoreReport, Statistics, StereoReport, Summary,
+};
 
 use crate::text::Text;
 use crate::text_table::{TextTable, printable};
 
 /// The report as text: the input, the value of each metric, and the values in each band.
 pub fn score_table(report: &ScoreReport) -> Text {
-    let summary = Summary::of(report);
     let mut text = Text::from(heading(report));
+    text.push(values(report, true));
+    text
+}
+
+/// The results of two eyes as text: those of the left eye, of the right eye, and of both with all three
+/// side by side.
+pub fn stereo_table(report: &StereoReport) -> Text {
+    let mut text = Text::default();
+    for (title, report) in [("Left eye", &report.left), ("Right eye", &report.right)] {
+        text.push_str(&format!("{title}\n"));
+        text.push(score_table(report));
+        text.push_str("\n");
+    }
+    let both = &report.both;
+    let frames =
+        if both.frames.len() == 1 { "1 frame" } else { &format!("{} frames", both.frames.len()) };
+    text.push_str(&format!("Both eyes, {frames}\n\n"));
+    let summaries = report.named().map(|(_, report)| Summary::of(report));
+    let mut table = TextTable::new(["", "left eye", "right eye", "both eyes"]);
+    for metric in &both.metrics {
+        let value = |summary: &Summary| match metric {
+            Metric::Fvvdp => summary.fvvdp.as_ref()?.jod,
+            metric => Some(summary.statistics.get(metric)?.mean),
+        };
+        let cells = summaries.each_ref().map(value);
+        if cells.iter().any(Option::is_some) {
+            let shown = |cell: Option<f64>| cell.map_or_else(missing, |v| number(*metric, v));
+            table.add_row([label(*metric)].into_iter().chain(cells.map(shown)));
+        }
+    }
+    text.push_table(table);
+    if both.frames.len() != 1 {
+        let jod = if both.fvvdp.is_some() { "; JOD is that of the sequence" } else { "" };
+        text.push_str(&format!("means over the frames{jod}\n"));
+    }
+    text.push(values(both, both.frames.len() != 1));
+    text
+}
+
+/// The values of each metric and those in each band; `of_frames` says whether to show the former.
+fn values(report: &ScoreReport, of_frames: bool) -> Text {
+    let summary = Summary::of(report);
+    let mut text = Text::default();
     let one = report.frames.len() == 1;
     let columns = if one { &["", "value"][..] } else { &["", "mean", "min", "max", "pooled"] };
     let mut whole = TextTable::new(columns.iter().copied());
@@ -26,7 +70,7 @@ pub fn score_table(report: &ScoreReport) -> Text {
         }
         whole.add_row(row);
     }
-    if !summary.statistics.is_empty() {
+    if of_frames && !summary.statistics.is_empty() {
         text.push_str("\n");
         text.push_table(whole);
     }
@@ -96,7 +140,6 @@ fn band_table(report: &ScoreReport, summary: &Summary) -> Text {
             let test = number(*metric, statistics.test?.mean);
             Some(format!("{test} ({})", percent(statistics.ratio)))
         };
-        let missing = || "–".to_owned();
         row.extend(fidelity.iter().map(|m| cell(m).unwrap_or_else(missing)));
         row.extend(compared.iter().map(|m| beside(m).unwrap_or_else(missing)));
         table.add_row(row);
@@ -139,8 +182,12 @@ fn haar_table(summary: &Summary) -> Text {
     text
 }
 
+fn missing() -> String {
+    "–".to_owned()
+}
+
 fn percent(ratio: Option<f64>) -> String {
-    ratio.map_or_else(|| "–".to_owned(), |ratio| format!("{:.1} %", ratio * 100.0))
+    ratio.map_or_else(missing, |ratio| format!("{:.1} %", ratio * 100.0))
 }
 
 fn fvvdp_in_words(fvvdp: &FvvdpSummary) -> String {

@@ -19,6 +19,7 @@ mod pictures;
 mod report;
 mod samples;
 mod spread;
+mod stereo;
 mod summary;
 mod table;
 
@@ -50,7 +51,7 @@ pub use json::{
     BandStatistics, BudgetRecord, ComparisonSummary, ErrorRecord, ExperimentRecord, FOVEATE_SCHEMA,
     FoveateErrorRecord, FoveateRecord, FoveatedRecord, HaarRecord, HaarSides, HaarValues, Number,
     RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, ViewRecord, read_summary,
-    write_json, write_summary,
+    write_json, write_stereo_json, write_summary,
 };
 pub use limits::{LIMITS_SCHEMA, LimitPoint, LimitRecord, LimitRule, LimitState, LimitsRecord};
 pub use output::{
@@ -67,10 +68,11 @@ pub use report::{
 };
 pub use samples::{BudgetSummary, SampleSummary};
 pub use spread::Spread;
+pub use stereo::StereoReport;
 pub use summary::{AtdSummary, BandSummary, SideStatistics, Statistics, Summary};
 #[cfg(feature = "parquet")]
 pub use table::write_results_parquet;
 pub use table::{
     ERROR, GAZE_STEP, HAS_PARQUET, TableRow, Value, Which, read_results, table_file, write_csv,
-    write_results_csv, write_tables,
+    write_results_csv, write_stereo_csv, write_tables,
 };

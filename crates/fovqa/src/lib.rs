@@ -109,7 +109,7 @@ pub use pair::{PairScores, ScoreMap, ScoreOptions, score};
 pub use report::{Report, report};
 pub use run::{Finished, Run, RunOptions, problems};
 pub use samples::Sample;
-pub use score::score_files;
+pub use score::{score_files, score_two_eyes};
 pub use study::{FinishedStudy, check_study, not_negated, read_table, study};
 
 pub use fovqa_config::{ExperimentError, Fault};
@@ -129,7 +129,7 @@ pub use fovqa_plan::{
     Scene, Settings, SourceSpec, StudyFile,
 };
 pub use fovqa_results::{
-    Baseline, Calibration, FALSE_ALARMS, Failure, FoveateRecord, RunResults, ScoreReport, Verdict,
-    write_csv, write_json,
+    Baseline, Calibration, FALSE_ALARMS, Failure, FoveateRecord, RunResults, ScoreReport,
+    StereoReport, Verdict, write_csv, write_json, write_stereo_csv, write_stereo_json,
 };
 pub use fovqa_vision::{BandEdges, EccentricityKind, ViewSpec};

@@ -55,8 +55,8 @@ impl MapsFolder {
         let mut folder = self.folder.clone();
         if self.several {
             folder.extend([named.scene, named.method]);
-            folder.extend(named.eye.map(fovqa_plan::Eye::name));
         }
+        folder.extend(named.eye.map(fovqa_plan::Eye::name));
         folder
     }
 

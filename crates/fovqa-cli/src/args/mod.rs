@@ -13,6 +13,7 @@ mod luminance;
 mod metrics;
 mod no_such;
 mod offered;
+mod right_eye;
 mod run;
 mod score;
 mod signal;

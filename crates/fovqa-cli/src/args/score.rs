@@ -8,6 +8,7 @@ use fovqa_plan::{EyeView, Plan, Scene, Settings, WantedPictures};
 
 use super::guides::GuideArgs;
 use super::metrics::MetricArgs;
+use super::right_eye::RightEyeArgs;
 use super::signal::SignalArgs;
 use super::values::positive;
 use super::view::ViewArgs;
@@ -22,6 +23,7 @@ Examples:
   fovqa score gt/ rmfr/ --display vive-pro-eye --gaze gaze.csv --fps 72 --format csv
   fovqa score gt/ rmfr/ --metrics fvvdp --display htc-vive-pro --fps 90 --maps maps
   fovqa score gt.%04d.exr rmfr.%04d.exr --tonemap reinhard --exposure 0.5 --metrics psnr,ssim
+  fovqa score left/gt.exr left/rmfr.exr --right-reference right/gt.exr --right-test right/rmfr.exr
   ffmpeg -i rmfr.mkv -f yuv4mpegpipe -strict -1 - | fovqa score gt.y4m -
 
 Exit codes: 0 done; 2 the command line is wrong; 3 an input is missing, unreadable or does not fit,
@@ -55,6 +57,8 @@ pub(crate) struct ScoreArgs {
     view: ViewArgs,
     #[command(flatten)]
     signal: SignalArgs,
+    #[command(flatten)]
+    right_eye: RightEyeArgs,
     #[command(flatten)]
     guides: GuideArgs,
     /// Score only these frame numbers, from A up to, but not including, B
@@ -109,12 +113,13 @@ impl ScoreArgs {
             test_layers: self.signal.test_layer().map(|layer| (0, layer)).into_iter().collect(),
             settings,
         };
+        let eyes = self.right_eye.with_left(eye, self.view.gaze_hold())?;
         let scene = Scene {
             name: String::new(),
             frames: self.frames,
             allow_missing: self.allow_missing,
             fps: self.fps,
-            eyes: vec![eye],
+            eyes,
         };
         Ok(Plan {
             // Absolute paths inside the working directory are shown relative to it.

@@ -82,17 +82,26 @@ impl GazeArgs {
     pub(crate) fn gaze(&self) -> Gaze {
         match &self.gaze {
             None => Gaze::Centre,
-            Some(GazeArg::Point(px)) => Gaze::Point(*px),
-            Some(GazeArg::File(path)) => Gaze::Trace { path: path.clone(), hold: self.gaze_hold },
+            Some(gaze) => gaze.gaze(self.gaze_hold),
         }
     }
 }
 
 /// A gaze as the user wrote it.
 #[derive(Debug, Clone)]
-enum GazeArg {
+pub(super) enum GazeArg {
     Point([f64; 2]),
     File(PathBuf),
+}
+
+impl GazeArg {
+    /// The gaze. `hold` says whether frames that a trace does not cover keep its last gaze.
+    pub(super) fn gaze(&self, hold: bool) -> Gaze {
+        match self {
+            Self::Point(px) => Gaze::Point(*px),
+            Self::File(path) => Gaze::Trace { path: path.clone(), hold },
+        }
+    }
 }
 
 /// The message for a gaze that is far outside any frame.
@@ -104,7 +113,7 @@ pub(super) fn near(point: [f64; 2]) -> bool {
     point.iter().all(|v| v.abs() <= FARTHEST_PX)
 }
 
-fn gaze(text: &str) -> Result<GazeArg, String> {
+pub(super) fn gaze(text: &str) -> Result<GazeArg, String> {
     if let Ok(point) = numbers::<2>(text, "") {
         return if near(point) { Ok(GazeArg::Point(point)) } else { Err(FAR.to_owned()) };
     }
@@ -153,6 +162,10 @@ impl ViewArgs {
 
     pub(crate) fn gaze(&self) -> Gaze {
         self.gaze.gaze()
+    }
+
+    pub(crate) fn gaze_hold(&self) -> bool {
+        self.gaze.gaze_hold
     }
 
     pub(crate) fn luminance(&self) -> Option<Luminance> {

@@ -10,8 +10,9 @@ use super::compared::{HaarRecord, SideValues, haar, in_band, name, summary_haar}
 use super::summary::{BandStatistics, ViewRecord, stats};
 use super::values::{Each, MetricMap, Number, Stats};
 use crate::fvvdp::{FvvdpSummary, SpatialBand, spatial_bands};
-use crate::report::{FrameResult, ScoreReport};
+use crate::report::{Failure, FrameResult, ScoreReport};
 use crate::spread::Spread;
+use crate::stereo::StereoReport;
 use crate::summary::{AtdSummary, Summary};
 
 /// Name and version of the format.
@@ -21,37 +22,72 @@ pub const SCORE_SCHEMA: &str = "fovqa.score/1";
 ///
 /// # Errors
 /// If the writer refuses.
-pub fn write_json(report: &ScoreReport, mut out: impl Write) -> io::Result<()> {
-    let summary = Summary::of(report);
+pub fn write_json(report: &ScoreReport, out: impl Write) -> io::Result<()> {
+    let errors = report.failures.iter().map(|failure| Error::of("", failure)).collect();
+    write(report, errors, None::<()>, out)
+}
+
+/// Writes the results of two eyes as indented JSON with a newline at its end. The document is that of
+/// both eyes together; `eyes` has the same keys for each eye.
+///
+/// # Errors
+/// If the writer refuses.
+pub fn write_stereo_json(report: &StereoReport, out: impl Write) -> io::Result<()> {
+    let errors = report.failures().map(|(eye, failure)| Error::of(eye, failure)).collect();
+    let of_eye = |report| contents(report, Vec::new());
+    let eyes = Eyes { left: of_eye(&report.left), right: of_eye(&report.right) };
+    write(&report.both, errors, Some(eyes), out)
+}
+
+fn write(
+    report: &ScoreReport,
+    errors: Vec<Error<'_>>,
+    eyes: Option<impl Serialize>,
+    mut out: impl Write,
+) -> io::Result<()> {
     let document = Document {
         schema: SCORE_SCHEMA,
         version: env!("CARGO_PKG_VERSION"),
-        view: report.view.as_ref().map(ViewRecord::of),
-        frames: Each(|| report.frames.iter().map(|frame| Frame::of(frame, report))),
-        sequence: Sequence { atd: summary.atd.clone(), fvvdp: summary.fvvdp.clone() },
-        summary: stats(&summary.statistics),
-        summary_haar: summary_haar(&summary),
-        summary_bands: BandStatistics::all(&summary),
-        gaze_held: report.gaze_held,
-        errors: report
-            .failures
-            .iter()
-            .map(|f| Error {
-                frame: f.frame,
-                reference: &f.reference,
-                test: &f.test,
-                message: &f.message,
-            })
-            .collect(),
+        contents: contents(report, errors),
+        eyes,
     };
     serde_json::to_writer_pretty(&mut out, &document)?;
     writeln!(out)
 }
 
+/// What a document says about a report.
+fn contents<'a>(report: &'a ScoreReport, errors: Vec<Error<'a>>) -> impl Serialize + use<'a> {
+    let summary = Summary::of(report);
+    Contents {
+        view: report.view.as_ref().map(ViewRecord::of),
+        frames: Each(move || report.frames.iter().map(|frame| Frame::of(frame, report))),
+        sequence: Sequence { atd: summary.atd.clone(), fvvdp: summary.fvvdp.clone() },
+        summary: stats(&summary.statistics),
+        summary_haar: summary_haar(&summary),
+        summary_bands: BandStatistics::all(&summary),
+        gaze_held: report.gaze_held,
+        errors,
+    }
+}
+
 #[derive(serde::Serialize)]
-struct Document<'a, F> {
-    schema: &'a str,
+struct Document<C, E> {
+    schema: &'static str,
     version: &'static str,
+    #[serde(flatten)]
+    contents: C,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    eyes: Option<E>,
+}
+
+#[derive(serde::Serialize)]
+struct Eyes<L, R> {
+    left: L,
+    right: R,
+}
+
+#[derive(serde::Serialize)]
+struct Contents<'a, F> {
     view: Option<ViewRecord>,
     frames: F,
     sequence: Sequence,
@@ -248,8 +284,18 @@ impl Serialize for Band {
 
 #[derive(serde::Serialize)]
 struct Error<'a> {
+    /// The eye, if there are two.
+    #[serde(skip_serializing_if = "str::is_empty")]
+    eye: &'static str,
     frame: Option<i64>,
     reference: &'a str,
     test: &'a str,
     message: &'a str,
+}
+
+impl<'a> Error<'a> {
+    fn of(eye: &'static str, failure: &'a Failure) -> Self {
+        let Failure { frame, reference, test, message, .. } = failure;
+        Self { eye, frame: *frame, reference, test, message }
+    }
 }

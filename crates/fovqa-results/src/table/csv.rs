@@ -13,6 +13,7 @@ use super::rows::{rows_of_report, rows_of_run};
 use crate::csv_names::CsvNames;
 use crate::files::{FileError, open_result_file};
 use crate::report::{RunResults, ScoreReport};
+use crate::stereo::StereoReport;
 
 /// The column with the lower edge of a band.
 const FROM: usize = 9;
@@ -25,6 +26,19 @@ const FROM: usize = 9;
 pub fn write_csv(report: &ScoreReport, out: impl Write) -> io::Result<()> {
     let mut table = CsvTable::new(out, CsvNames::Plain)?;
     rows_of_report(report, &mut |row| table.write(row))?;
+    table.writer.flush()
+}
+
+/// Writes the results of two eyes as CSV: those of the left eye, of the right eye and of both together,
+/// each as [`write_csv`] writes them.
+///
+/// # Errors
+/// If the writer refuses.
+pub fn write_stereo_csv(report: &StereoReport, out: impl Write) -> io::Result<()> {
+    let mut table = CsvTable::new(out, CsvNames::Plain)?;
+    for (eye, report) in report.named() {
+        rows_of_report(report, &mut |row| table.write(&TableRow { eye, ..*row }))?;
+    }
     table.writer.flush()
 }
 

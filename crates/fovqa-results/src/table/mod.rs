@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use fovqa_plan::{OutputSettings, TableFormat};
 
-pub use csv::{write_csv, write_results_csv};
+pub use csv::{write_csv, write_results_csv, write_stereo_csv};
 #[cfg(feature = "parquet")]
 pub use parquet::write_results_parquet;
 pub use reading::Which;
