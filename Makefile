@@ -1,6 +1,6 @@
 # Each line is a plain cargo command, for those without make. All targets except `lint` and `fuzz` share the release profile.
 
-.PHONY: demo sample figures published-numbers test recovery bench lint fuzz
+.PHONY: demo sample figures published-numbers test recovery mistakes bench lint fuzz
 
 demo:
 	cargo run --release --locked --bin fovqa -- run configs/demo.toml
@@ -29,6 +29,10 @@ test:
 # How often the intervals of simulated studies contain the truth, as a table. About 5 CPU minutes.
 recovery:
 	cargo test --quiet --release --locked -p fovqa-study --test recovery -- --ignored --nocapture --test-threads=1
+
+# Mistakes made on purpose in real renders, and how many of them are noticed, as a table. About 1 CPU minute.
+mistakes:
+	cargo test --quiet --release --locked -p fovqa-plausibility --test mistakes -- --nocapture
 
 bench:
 	cargo bench --locked -p fovqa-tests --bench speed
