@@ -14,6 +14,7 @@ pub(crate) mod interrupted_runs;
 mod killed;
 mod library;
 mod many_methods;
+mod mistakes;
 mod parquet;
 mod pictures;
 mod printed_figures;

@@ -1,19 +1,20 @@
 //! `fovqa check`: shows the plan, the frames that were found, and the warnings of a run, without
-//! reading a pixel.
+//! reading a pixel unless previews are asked for.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use fovqa::{Complaint, Events, FoundInputs, FoundView, Given};
+use fovqa::{Complaint, Events, Failure, FoundInputs, FoundView, Given};
 use fovqa_config::{FileKind, file_kind};
 use fovqa_engine::FoundFrame;
 use fovqa_frame::source::Origin;
 use fovqa_io::frame_size;
 use fovqa_methods::curves::CurveSource;
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Metric, MetricKind};
 use fovqa_plan::{Experiment, EyeView, Gaze, MetricChoice, SourceSpec};
+use fovqa_report::Text;
 
 use crate::args::CheckArgs;
 use crate::diagnostic;
@@ -39,9 +40,18 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
     let terminal = Terminal::speaking(Dialect::Experiment);
     // The warnings come after the plan, as they do in a run.
     let warnings = Later::default();
-    let metrics = match fovqa::foresee(&experiment.plan, &found, &warnings) {
+    let mut metrics = match fovqa::foresee(&experiment.plan, &found, &warnings) {
         Ok(metrics) => metrics,
         Err(error) => return experiment::failed(&error.into()),
+    };
+    leave_out_temporal(&mut metrics, &found, &warnings);
+    let failures = if args.previews {
+        match fovqa::preview(&experiment.plan, &found, &warnings) {
+            Ok(failures) => failures,
+            Err(error) => return experiment::failed(&error.into()),
+        }
+    } else {
+        Vec::new()
     };
     if let Err(error) = fovqa::foresee_figures(&experiment, &found, &metrics, &warnings) {
         return experiment::failed(&error);
@@ -50,9 +60,14 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
         return experiment::failed(&error);
     }
     let text = plan(&experiment, &metrics, &found);
-    let printed = output::write(|out| out.write_all(text.as_bytes()));
+    let printed = output::text(&Text::from(text));
     for message in warnings.0.take() {
         terminal.warn(&message);
+    }
+    for (scene, Failure { frame, message, help, .. }) in &failures {
+        let frame = frame.map(|frame| format!(", frame {frame}")).unwrap_or_default();
+        let message = Dialect::Experiment.spell(&format!("{scene}{frame}: {message}"));
+        diagnostic::error(&message, &Dialect::Experiment.spell(help));
     }
     for Complaint { message, help } in fovqa::problems(&experiment, &found) {
         diagnostic::error(&message, &Dialect::Experiment.spell(&help));
@@ -60,10 +75,20 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
     let masks = masks(&experiment) & frames(&found);
     if found.problems.iter().any(|problem| problem.error.is_usage()) {
         Exit::Usage
-    } else if found.problems.is_empty() && masks {
+    } else if found.problems.is_empty() && failures.is_empty() && masks {
         printed
     } else {
         Exit::Input
+    }
+}
+
+/// Takes the metrics that compare frames with those before them from the list if no scene has two frames.
+fn leave_out_temporal(metrics: &mut Vec<Metric>, found: &FoundInputs, events: &dyn Events) {
+    if found.views.is_empty() || found.views.iter().any(|view| view.frames.len() > 1) {
+        return;
+    }
+    for metric in metrics.extract_if(.., |metric| metric.is(MetricKind::Temporal)) {
+        events.warn(&format!("{} has no value: it needs two frames", metric.info().label));
     }
 }
 
@@ -111,7 +136,7 @@ fn curves(args: &CheckArgs) -> Exit {
     let plots = count(file.plan.plots.len(), "figure");
     let tables = count(file.plan.tables.len(), "table");
     let _ = writeln!(text, "\n{plots}, {tables}; output: reports/{}", file.name);
-    let printed = output::write(|out| out.write_all(text.as_bytes()));
+    let printed = output::text(&Text::from(text));
     for message in warnings.0.take() {
         diagnostic::warning(&message);
     }
@@ -134,7 +159,7 @@ fn study(args: &CheckArgs) -> Exit {
         let _ = writeln!(text, "  {}: {}{table}", of.name, of.request.kind());
     }
     let _ = writeln!(text, "\noutput: reports/{}", file.name);
-    output::write(|out| out.write_all(text.as_bytes()))
+    output::text(&Text::from(text))
 }
 
 fn several(analyses: usize) -> String {

@@ -14,17 +14,19 @@ pub(crate) enum Dialect {
 }
 
 /// Setting, option, and key.
-const SETTINGS: [(&str, &str, &str); 24] = [
+const SETTINGS: [(&str, &str, &str); 29] = [
     ("allow_missing", "--allow-missing", "allow_missing = true"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\""),
     ("alpha=over-black", "--alpha over-black", "alpha = \"over-black\""),
     ("baseline", "--baseline", "--baseline"),
     ("buffer", "--buffer", "--buffer"),
     ("crop", "--crop X,Y,W,H", "crop = [X, Y, W, H]"),
+    ("exposure", "--exposure", "exposure_stops"),
     ("experiment", "--frames=EXPERIMENT", "--frames=EXPERIMENT"),
     ("fps", "--fps", "fps"),
     ("frames", "--frames A..B", "frames = \"A..B\" (or --frames A..B)"),
     ("gaze", "X,Y", "[X, Y]"),
+    ("gaze_px", "--gaze X,Y", "gaze = [X, Y]"),
     ("gaze_hold", "--gaze-hold", "hold = true next to trace"),
     (
         "guides",
@@ -45,13 +47,16 @@ const SETTINGS: [(&str, &str, &str); 24] = [
         "the display's photometry with luminance in [view]",
     ),
     ("maps", "--maps", "--maps"),
+    ("mask", "--mask", "mask"),
     ("max_megapixels", "--max-megapixels", "max_megapixels"),
     ("metrics", "--metrics", "[metrics]"),
     ("motion", "--motion or --motion-files", "motion"),
     ("nonfinite=mask", "--nonfinite mask", "nonfinite = \"mask\""),
     ("output", "--output", "--output"),
+    ("plausibility=warn", "--plausibility warn", "plausibility = \"warn\""),
     ("resume", "--resume", "--resume"),
     ("start", "the working directory", "the folder of the experiment file"),
+    ("tonemap", "--tonemap", "tonemap"),
     ("transfer", "--transfer", "transfer"),
     (
         "view",

@@ -112,10 +112,15 @@ fn in_order(
                     let both = both_eyes(left, right);
                     let alone = left.frames.len() + right.frames.len() - 2 * both.frames.len();
                     if alone > 0 {
-                        let (scene, frames) =
-                            (&scene.name, if alone == 1 { "frame" } else { "frames" });
+                        let frames = if alone == 1 { "frame" } else { "frames" };
+                        // The only scene of a command has no name, and neither has its method.
+                        let place = if scene.name.is_empty() {
+                            String::new()
+                        } else {
+                            format!("{}, {method}: ", scene.name)
+                        };
                         events.warn(&format!(
-                            "{scene}, {method}: left out of the results of both eyes: {alone} {frames} of one \
+                            "{place}left out of the results of both eyes: {alone} {frames} of one \
                              eye without a partner of the other eye"
                         ));
                     }

@@ -2,11 +2,13 @@
 
 use fovqa_metrics::Metric;
 use fovqa_plan::Plan;
+use fovqa_results::Failure;
 use fovqa_vision::BandEdges;
 
 use crate::error::EngineError;
 use crate::events::{Events, Warnings};
 use crate::found::{FoundInputs, FoundView};
+use crate::plausibility::Checks;
 use crate::regions::warn_of_regions;
 use crate::scoring::{Scoring, scene_bands};
 use crate::setup::{Inputs, Setup};
@@ -34,12 +36,36 @@ pub fn foresee(
             Ok(much) => warnings.note_of_view(much.as_deref()),
             Err(error) => warnings.once_a_view("memory", &format!("{error}; {}", error.help())),
         }
+        Checks::new(plan, view).foresee(&mut warnings);
         metrics.extend(settle(plan, view, bands, wanted, &mut warnings));
     }
     warn_of_regions(plan, found, events);
     metrics.sort_unstable();
     metrics.dedup();
     Ok(metrics)
+}
+
+/// Reads some frames of each view, without scoring them: reports the warnings that they would bring, and
+/// returns those that could not be scored, with the name of their scene.
+///
+/// # Errors
+/// If the plan itself is not possible ([`crate::check`]).
+pub fn preview(
+    plan: &Plan,
+    found: &FoundInputs,
+    events: &dyn Events,
+) -> Result<Vec<(String, Failure)>, EngineError> {
+    let mut warnings = Warnings::new(events);
+    let mut failures = Vec::new();
+    for view in &found.views {
+        let scene = &plan.scenes[view.scene];
+        let bands = scene_bands(scene, found, view.scene);
+        let (bands, range) = (bands.as_ref(), 0..view.pairs());
+        let scoring = Scoring { plan, scene, view, bands, dominant: None, range };
+        let of_view = scoring.preview(&mut warnings)?;
+        failures.extend(of_view.into_iter().map(|failure| (scene.name.clone(), failure)));
+    }
+    Ok(failures)
 }
 
 /// Prepares a view as its first frame will, and returns the metrics that fit.

@@ -1,14 +1,15 @@
 //! Scores the pairs of one view: its files in order, and every test against its reference.
 
+use std::collections::BTreeSet;
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use fovqa_frame::Mask;
-use fovqa_frame::source::InputId;
+use fovqa_frame::source::{InputId, Source};
 use fovqa_io::{id_of_file, read_mask};
 use fovqa_metrics::{Metric, Needs};
 use fovqa_plan::{Emulation, EyeView, Gaze, Plan, Scene};
-use fovqa_results::{Input, Inputs};
+use fovqa_results::{Failure, Input, Inputs};
 use fovqa_vision::{BandEdges, GazeAt};
 
 use crate::assemble::whole;
@@ -74,6 +75,16 @@ impl<'a> Scoring<'a> {
         &self.scene.eyes[self.view.eye]
     }
 
+    /// Names of the scene and, if there are two, of the eye.
+    fn place(&self) -> String {
+        match self.eye().eye {
+            None => self.scene.name.clone(),
+            // The only scene of a command has no name.
+            Some(eye) if self.scene.name.is_empty() => format!("{} eye", eye.name()),
+            Some(eye) => format!("{}, {} eye", self.scene.name, eye.name()),
+        }
+    }
+
     fn named(&self, method: usize) -> Named<'a> {
         let (scene, method) = (&self.scene.name, &self.plan.methods[method]);
         Named { scene, method, eye: self.eye().eye }
@@ -122,6 +133,42 @@ impl<'a> Scoring<'a> {
         let (scene, methods) = (&self.scene.name, &plan.methods);
         (recorder.record)(Entry::Settled(scene, eye.eye, &settled, methods))?;
         Ok(ViewFindings { settled: Some(settled), ..findings })
+    }
+
+    /// Looks at the first, the middle and the last frame, without scoring them. Returns the pairs that
+    /// cannot be scored.
+    pub(crate) fn preview(&self, warnings: &mut Warnings<'_>) -> Result<Vec<Failure>, EngineError> {
+        let (plan, eye, view) = (self.plan, self.eye(), self.view);
+        let place = self.place();
+        warnings.enter(place, view.frames.len());
+        let (metrics, _) = view.metrics(plan)?;
+        // A mask that cannot be read is an error of its own.
+        let Ok(mask) = self.mask() else { return Ok(Vec::new()) };
+        let loader = Loader { settings: &eye.settings, sources: &view.sources, guides: false };
+        if view.sources.all().any(Source::is_read_once) {
+            warnings.of_view("a stream can only be read once, so its frames are not looked at");
+            return Ok(Vec::new());
+        }
+        let sequence = (self.bands, view.fps);
+        let mut run = ViewRun::new((plan, eye, view), mask, metrics, sequence, &loader, None);
+        run.for_previews();
+        let last = view.frames.len().saturating_sub(1);
+        let frames = BTreeSet::from([0, last / 2, last]);
+        let mut failures = Vec::new();
+        for frame in frames {
+            let Some(found) = view.frames.get(frame) else { continue };
+            let mut reference = true;
+            for &(method, test) in &found.tests {
+                if view.sources.test(method).read().is_none() {
+                    continue;
+                }
+                let step = Step { frame, found, reference, method, test };
+                let loaded = loader.load(&step);
+                failures.extend(run.preview(&step, loaded, warnings).err());
+                reference = false;
+            }
+        }
+        Ok(failures)
     }
 
     /// Reads the pairs that are needed before the first pair to be scored. Returns the present
@@ -255,11 +302,7 @@ impl<'a> Scoring<'a> {
 
     /// Selects the metrics, and reports the warnings that belong before the first frame.
     pub(crate) fn begin(&self, warnings: &mut Warnings<'_>) -> Result<Vec<Metric>, EngineError> {
-        let place = match self.eye().eye {
-            None => self.scene.name.clone(),
-            Some(eye) => format!("{}, {} eye", self.scene.name, eye.name()),
-        };
-        warnings.enter(place, self.view.frames.len());
+        warnings.enter(self.place(), self.view.frames.len());
         let (metrics, left_out) = self.view.metrics(self.plan)?;
         for metric in left_out {
             let label = metric.info().label;

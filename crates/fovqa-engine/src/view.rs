@@ -9,7 +9,7 @@ use fovqa_frame::{Frame, Mask, SignalTables};
 use fovqa_metrics::{Image, Key, Layouts, Map, Metric, MetricKind, Needs, Rows, Subject};
 use fovqa_params::ParamValue;
 use fovqa_plan::{EyeView, Plan};
-use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
+use fovqa_results::{AtdGuides, Doubt, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::{BandEdges, Seen};
 
 use crate::crops::{CropPair, CropSource};
@@ -20,6 +20,7 @@ use crate::found::FoundView;
 use crate::load::{Fault, Loaded, Loader, Made, Side, Step, comparable};
 use crate::meters::{Measured, Meters, Pair};
 use crate::pictures::{PicturePair, picture_of};
+use crate::plausibility::{Checks, Seen as SeenPair};
 use crate::regions::is_foreseen;
 use crate::setup::{Inputs, Setup};
 use crate::work::Work;
@@ -53,6 +54,7 @@ pub(crate) struct ViewRun<'a> {
     meters: Meters,
     emulated: EmulatedMethods<'a>,
     layouts: Layouts,
+    checks: Checks<'a>,
     loader: &'a Loader<'a>,
     /// The picture of a reference, with the index of its frame.
     picture: Option<(usize, Arc<Frame>)>,
@@ -82,6 +84,7 @@ impl<'a> ViewRun<'a> {
             meters: Meters::new(plan, &eye.settings, &metrics, view, fps),
             emulated: EmulatedMethods::new(view, eye, dominant, needs_light),
             layouts: Layouts::default(),
+            checks: Checks::new(plan, view),
             metrics,
             loader,
             picture: None,
@@ -119,6 +122,10 @@ impl<'a> ViewRun<'a> {
     ) -> Result<(), Failure> {
         self.take(step, loaded, warnings, |run, reference, test, warnings| {
             let finite = run.enter(step, reference, test, warnings)?;
+            // Pairs that are scored elsewhere are suspected there.
+            if run.checks.refuses() {
+                run.doubts(step, (reference, test), finite.as_ref(), warnings)?;
+            }
             if !kept {
                 return Ok(());
             }
@@ -163,8 +170,49 @@ impl<'a> ViewRun<'a> {
     ) -> Result<Scored, Failure> {
         self.take(step, loaded, warnings, |run, reference, test, warnings| {
             let finite = run.enter(step, reference, test, warnings)?;
-            run.score(step, (reference, test), finite.as_ref(), warnings)
+            let doubts = run.doubts(step, (reference, test), finite.as_ref(), warnings)?;
+            run.score(step, (reference, test), finite.as_ref(), doubts, warnings)
         })
+    }
+
+    /// Prepares for previews: what is known of whole methods has been reported already.
+    pub(crate) fn for_previews(&mut self) {
+        self.checks.forget_methods();
+    }
+
+    /// Looks at a pair without scoring it, and reports the warnings that it would bring.
+    pub(crate) fn preview(
+        &mut self,
+        step: &Step<'_>,
+        loaded: Loaded,
+        warnings: &mut Warnings<'_>,
+    ) -> Result<(), Failure> {
+        self.take(step, loaded, warnings, |run, reference, test, warnings| {
+            let finite = run.enter(step, reference, test, warnings)?;
+            run.meters.foresee(&reference.frame, warnings);
+            run.doubts(step, (reference, test), finite.as_ref(), warnings).map(|_| ())
+        })
+    }
+
+    /// Looks for mistakes in a pair.
+    fn doubts(
+        &self,
+        step: &Step<'_>,
+        (reference, test): (&Side, &Side),
+        finite: Option<&Mask>,
+        warnings: &mut Warnings<'_>,
+    ) -> Result<Vec<Doubt>, Fault> {
+        let Some(setup) = &self.setup else { return Ok(Vec::new()) };
+        let within = finite.map(|finite| setup.within_mask(finite));
+        let traced = self.view.trace.as_ref().map(|trace| trace[step.frame].px);
+        let seen = SeenPair {
+            reference,
+            test,
+            tables: &self.tables,
+            counts: within.as_ref().or(setup.mask()),
+            gaze_px: setup.view.as_ref().map(|view| traced.unwrap_or(view.gaze_px)),
+        };
+        self.checks.look(step, &seen, warnings)
     }
 
     /// Keeps the reference if it comes with the step, and processes the pair.
@@ -271,6 +319,7 @@ impl<'a> ViewRun<'a> {
         step: &Step<'_>,
         (reference, test): (&Side, &Side),
         finite: Option<&Mask>,
+        doubts: Vec<Doubt>,
         warnings: &mut Warnings<'_>,
     ) -> Result<Scored, Fault> {
         let (view, frame) = (self.view, &self.view.frames[step.frame]);
@@ -300,6 +349,7 @@ impl<'a> ViewRun<'a> {
             test: Arc::clone(&test.file),
             gaze_px,
             gaze_step_deg,
+            doubts,
             rows: self.layouts.pack(&rows),
         };
         let kept = test.made.as_ref().and_then(|made| made.kept.clone());

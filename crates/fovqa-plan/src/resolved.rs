@@ -6,6 +6,7 @@ use std::path::Path;
 use fovqa_io::{DepthChannels, MotionChannels, NamedMotion};
 use fovqa_metrics::Metric;
 use fovqa_params::{ParamValue, Words};
+use fovqa_plausibility::Plausibility;
 use fovqa_vision::{Eotf, Luminance, ViewSpec};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -313,6 +314,10 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
         "motion": motion_keys(plan, settings),
         "depth": depth_keys(plan, settings),
     });
+    // The default is not written, so that results are the same as those of earlier versions.
+    if settings.plausibility != Plausibility::default() {
+        signal["plausibility"] = json!(settings.plausibility);
+    }
     // Keys that belong to one format are listed among the others, as in the experiment file.
     if let (Value::Object(keys), Ok(Value::Object(more))) =
         (&mut signal, serde_json::to_value(&read.formats))

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use fovqa_frame::{Crop, SignalParams, Transfer};
 use fovqa_io::{GuideOptions, ReadOptions};
 use fovqa_params::words;
+use fovqa_plausibility::Plausibility;
 use fovqa_vision::{BandEdges, EccentricityKind, Eotf, Luminance, ViewSpec};
 use serde::{Deserialize, Serialize};
 
@@ -53,6 +54,8 @@ pub struct Settings {
     pub signal: SignalParams,
     /// What to do about NaN and infinity.
     pub nonfinite: Nonfinite,
+    /// What to do about pairs that cannot be what the user wants to compare.
+    pub plausibility: Plausibility,
     /// The view.
     pub view: Option<ViewSpec>,
     /// The photometry of the display, if it differs from that of the view's preset.

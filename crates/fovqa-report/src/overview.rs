@@ -6,9 +6,9 @@ use std::path::Path;
 
 use fovqa_metrics::{Metric, MetricKind};
 use fovqa_results::{
-    AtdSummary, BandStatistics, BudgetSummary, ComparisonSummary, EccentricityShare, ErrorRecord,
-    FileError, GuideSource, HaarRecord, HaarValues, SideValues, Spread, Statistics, ViewRecord,
-    read_summary,
+    AtdSummary, BandStatistics, BudgetSummary, ComparisonSummary, DoubtRecord, EccentricityShare,
+    ErrorRecord, FileError, GuideSource, HaarRecord, HaarValues, SideValues, Spread, Statistics,
+    ViewRecord, read_summary,
 };
 
 /// The comparisons of a run, and its errors.
@@ -19,6 +19,8 @@ pub(crate) struct Overview {
     /// has two eyes, it is the one of both.
     overall: BTreeMap<String, BTreeMap<String, usize>>,
     pub(crate) errors: Vec<ErrorRecord>,
+    /// Likely mistakes in pairs that were scored, in words.
+    pub(crate) mistakes: Vec<String>,
 }
 
 /// One method in one scene, for one eye or both.
@@ -95,6 +97,7 @@ impl Overview {
 
     fn add(&mut self, comparison: &ComparisonSummary) {
         let measured = Measured::of(comparison);
+        self.mistakes.extend(comparison.plausibility.iter().map(|of| mistake(comparison, of)));
         self.insert(&comparison.scene, comparison.label(), measured);
     }
 
@@ -341,6 +344,18 @@ fn of<T>(values: &[(Metric, T)], metric: Metric) -> Option<&T> {
     values.iter().find(|(of, _)| *of == metric).map(|(_, value)| value)
 }
 
+/// A likely mistake, with its place.
+fn mistake(comparison: &ComparisonSummary, doubt: &DoubtRecord) -> String {
+    let eye = &comparison.eye;
+    let eye = if eye.is_empty() { String::new() } else { format!(", {eye} eye") };
+    let more = match doubt.frames {
+        0 | 1 => String::new(),
+        frames => format!(" and {} more", frames - 1),
+    };
+    let DoubtRecord { frame, message, .. } = doubt;
+    format!("{}, {}{eye}, frame {frame}{more}: {message}", comparison.scene, comparison.label())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -360,7 +375,27 @@ mod tests {
             atd: None,
             fvvdp: None,
             samples: None,
+            plausibility: Vec::new(),
         }
+    }
+
+    #[test]
+    fn likely_mistakes_say_where_they_are() {
+        let mut overview = Overview::default();
+        let of = |frames| DoubtRecord {
+            check: "exposure".to_owned(),
+            frame: 7,
+            frames,
+            message: "it is dark".to_owned(),
+        };
+        for (eye, frames) in [("left", 1), ("", 3)] {
+            let mut comparison = comparison("s", "m", eye, 8);
+            comparison.plausibility.push(of(frames));
+            overview.add(&comparison);
+        }
+        let wanted =
+            ["s, m, left eye, frame 7: it is dark", "s, m, frame 7 and 2 more: it is dark"];
+        assert_eq!(overview.mistakes, wanted);
     }
 
     #[test]

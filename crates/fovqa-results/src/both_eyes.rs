@@ -36,6 +36,8 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
             test: Arc::clone(&l.test),
             gaze_px: None,
             gaze_step_deg: None,
+            // Each eye has its own.
+            doubts: Vec::new(),
             rows: layouts.pack(&both),
         })
     });
@@ -99,6 +101,7 @@ mod tests {
             test: "".into(),
             gaze_px: None,
             gaze_step_deg: None,
+            doubts: Vec::new(),
             rows: rows.into(),
         }
     }

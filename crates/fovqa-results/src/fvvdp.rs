@@ -164,6 +164,7 @@ mod tests {
             test: "".into(),
             gaze_px: None,
             gaze_step_deg: None,
+            doubts: Vec::new(),
             rows: rows.into(),
         }
     }

@@ -48,10 +48,10 @@ pub use gate::{
 };
 pub use inputs::{Identity, Input, Inputs};
 pub use json::{
-    BandStatistics, BudgetRecord, ComparisonSummary, ErrorRecord, ExperimentRecord, FOVEATE_SCHEMA,
-    FoveateErrorRecord, FoveateRecord, FoveatedRecord, HaarRecord, HaarSides, HaarValues, Number,
-    RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues, ViewRecord, read_summary,
-    write_json, write_stereo_json, write_summary,
+    BandStatistics, BudgetRecord, ComparisonSummary, DoubtRecord, ErrorRecord, ExperimentRecord,
+    FOVEATE_SCHEMA, FoveateErrorRecord, FoveateRecord, FoveatedRecord, HaarRecord, HaarSides,
+    HaarValues, Number, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues,
+    ViewRecord, read_summary, write_json, write_stereo_json, write_summary,
 };
 pub use limits::{LIMITS_SCHEMA, LimitPoint, LimitRecord, LimitRule, LimitState, LimitsRecord};
 pub use output::{
@@ -63,7 +63,7 @@ pub use pictures::{
     ImagesRecord, MapBlocks, TestRecord, ViewImages, padded, read_record,
 };
 pub use report::{
-    AtdGuides, Comparison, Failure, FrameResult, FvvdpViewing, GuideSource, RunResults,
+    AtdGuides, Comparison, Doubt, Failure, FrameResult, FvvdpViewing, GuideSource, RunResults,
     ScoreReport, Swept, ViewResult,
 };
 pub use samples::{BudgetSummary, SampleSummary};

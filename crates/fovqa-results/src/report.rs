@@ -36,8 +36,19 @@ pub struct FrameResult {
     pub gaze_px: Option<[f64; 2]>,
     /// How far the gaze has moved since the previous frame, in degrees, if it comes from a trace.
     pub gaze_step_deg: Option<f64>,
+    /// Why the pair may not be what was to be compared.
+    pub doubts: Vec<Doubt>,
     /// The measured values.
     pub rows: FrameRows,
+}
+
+/// A likely mistake in a pair that was scored nevertheless.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Doubt {
+    /// The check, as `plausibility` names it, such as `exposure`.
+    pub check: String,
+    /// What was seen, with numbers.
+    pub message: String,
 }
 
 /// The source of the motion or depth that temporal differences use.

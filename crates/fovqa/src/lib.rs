@@ -116,7 +116,7 @@ pub use fovqa_config::{ExperimentError, Fault};
 pub use fovqa_emulate::{Budget, EmulationSpec, FilterChoice, Sampling, Space};
 pub use fovqa_engine::{
     Events, FoundInputs, FoundView, Given, ItemDone, Locking, Shard, Task, TaskError, TaskFindings,
-    Unit, find, foresee, results, units,
+    Unit, find, foresee, preview, results, units,
 };
 pub use fovqa_frame::source::{Listing, Picture, Source, SourceError};
 pub use fovqa_frame::{Crop, Frame, SignalChannels, SignalParams, ToneMap, Transfer};

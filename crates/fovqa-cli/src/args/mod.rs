@@ -78,7 +78,7 @@ pub(crate) enum Command {
     Merge(MergeArgs),
     /// Draw the tables, figures and page of a run again, without scoring, or an overview page of several runs.
     Report(ReportArgs),
-    /// Check an experiment file and print its plan and the frames found, without reading pixels.
+    /// Check an experiment file and print its plan and the frames found; pixels are read with --previews only.
     Check(CheckArgs),
     /// Print the JSON Schema of a file, for editors.
     Schema {

@@ -68,6 +68,10 @@ pub(crate) struct RunArgs {
 pub(crate) struct CheckArgs {
     /// The experiment file, or a curve file
     pub(crate) experiment: PathBuf,
+    /// Read the first, the middle and the last frame of each scene, and look for mistakes: another
+    /// exposure, swapped folders, a wrong gaze, another scene
+    #[arg(long)]
+    pub(crate) previews: bool,
 }
 
 #[derive(Debug, Args)]

@@ -103,6 +103,7 @@ impl ScoreArgs {
             read: self.signal.read(),
             signal: self.signal.signal(),
             nonfinite: self.signal.nonfinite(),
+            plausibility: self.signal.plausibility(),
             mask: self.signal.mask(),
             crop: self.signal.crop(),
         };

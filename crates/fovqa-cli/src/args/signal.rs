@@ -8,6 +8,7 @@ use fovqa_frame::{Crop, SignalChannels, SignalParams, ToneMap, Transfer};
 use fovqa_io::{AlphaPolicy, CodeRange, ColourMatrix, FormatOptions, ReadOptions, Y4mOptions};
 use fovqa_params::Words;
 use fovqa_plan::Nonfinite;
+use fovqa_plausibility::Plausibility;
 
 use super::values::{crop, finite, words};
 
@@ -78,6 +79,9 @@ pub(crate) struct SignalArgs {
     /// Treatment of NaN and infinity
     #[arg(long, value_name = "POLICY", default_value = Nonfinite::default().word(), value_parser = words::<Nonfinite>())]
     nonfinite: Nonfinite,
+    /// What to do about pairs that look like a mistake, such as another exposure, scene or gaze
+    #[arg(long, value_name = "POLICY", default_value = Plausibility::default().word(), value_parser = words::<Plausibility>())]
+    plausibility: Plausibility,
     /// Treatment of alpha that is not 1 everywhere
     #[arg(long, value_name = "POLICY", default_value = AlphaPolicy::default().word(), value_parser = words::<AlphaPolicy>())]
     alpha: AlphaPolicy,
@@ -112,6 +116,10 @@ impl SignalArgs {
 
     pub(crate) fn test_layer(&self) -> Option<String> {
         self.test_layer.clone()
+    }
+
+    pub(crate) fn plausibility(&self) -> Plausibility {
+        self.plausibility
     }
 
     pub(crate) fn nonfinite(&self) -> Nonfinite {

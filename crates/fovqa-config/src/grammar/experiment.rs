@@ -17,6 +17,7 @@ use super::{Key, Kind};
 use fovqa_plan::Nonfinite;
 use fovqa_plan::TableFormat;
 use fovqa_plan::{ErrorBars, FrameWord, PlotKind, SpreadShape};
+use fovqa_plausibility::Plausibility;
 
 /// A full angle of view in degrees.
 const FOV: Kind = Kind::Above(0.0, 179.999);
@@ -112,6 +113,13 @@ pub(super) const VIEW: &[Key] = &[
     ),
 ];
 
+/// The checks for mistakes.
+const PLAUSIBILITY: Key = key(
+    "plausibility",
+    Kind::Words(words_of::<Plausibility>),
+    "what to do about pairs that look like a mistake, such as another exposure, scene or gaze",
+);
+
 /// How frames are read.
 const SIGNAL: &[Key] = &[
     key("channels", Kind::Words(words_of::<SignalChannels>), "channels to compare"),
@@ -128,6 +136,7 @@ const SIGNAL: &[Key] = &[
         "colour layer of OpenEXR files that have several, of reference and tests alike",
     ),
     key("nonfinite", Kind::Words(words_of::<Nonfinite>), "treatment of NaN and infinity"),
+    PLAUSIBILITY,
     key(
         "alpha",
         Kind::Words(words_of::<AlphaPolicy>),
@@ -433,12 +442,13 @@ pub(crate) const SWEEP_RANGE: &[Key] = &[
 
 const FINITE: Kind = Kind::Number(-1e12, 1e12);
 
-static EXPERIMENT_TABLE: [Key; 18] = [
+static EXPERIMENT_TABLE: [Key; 19] = [
     key("schema", Kind::Whole(1, 1), "version of this format"),
     required("name", Kind::Name, "name of the experiment, and of its folder below reports/"),
     key("about", Kind::Text, "description of what it shows, for its page"),
     key("view", Kind::Table(&VIEW_TABLE), "view of the frames"),
     key("signal", Kind::Table(&SIGNAL_TABLE), "how frames are read"),
+    PLAUSIBILITY,
     required("scene", Kind::Tables(&SCENE_TABLE, 10_000), "the scenes"),
     required("method", Kind::Tables(&METHOD_TABLE, 1000), "the methods"),
     key(

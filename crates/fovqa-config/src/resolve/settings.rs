@@ -27,7 +27,9 @@ pub(super) struct Layers<'a> {
 impl<'a> Layers<'a> {
     pub(super) fn new(root: Node<'a>, scene: Node<'a>, eye: Option<Eye>) -> Self {
         let general = [root.table("view"), root.table("signal")];
-        let mut tables = Vec::new();
+        // The key is allowed at the top of the file too, where it counts least.
+        let mut tables: Vec<Node<'a>> =
+            root.has("plausibility").then_some(root).into_iter().collect();
         for table in general.into_iter().flatten() {
             tables.push(table);
             tables.extend(eye.and_then(|eye| table.table(eye.name())));
@@ -85,6 +87,7 @@ impl<'a> Layers<'a> {
             mask,
             signal: self.signal(),
             nonfinite: self.word("nonfinite"),
+            plausibility: self.word("plausibility"),
             view: self.view(faults),
             luminance: self.having("luminance").and_then(|table| luminance(table, faults)),
             gaze: self.gaze(base, placeholders, faults),

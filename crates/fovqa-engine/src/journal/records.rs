@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use fovqa_metrics::{FrameRows, Image, Key, Layout, Metric, Parts, Subject};
 use fovqa_plan::Eye;
-use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, ViewResult};
+use fovqa_results::{AtdGuides, Doubt, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::EccentricityKind;
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +29,8 @@ pub(super) struct FrameRecord {
     /// Which motion and depth the temporal differences used, if there are any differences.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     atd: Option<AtdGuides>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    doubts: Vec<Doubt>,
 }
 
 /// The keys that describe the values of the frames after this line.
@@ -116,6 +118,7 @@ impl FrameRecord {
             keys,
             values: tokens(&result.rows),
             atd: result.rows.has(Metric::Atd).then_some(finished.guides),
+            doubts: result.doubts.clone(),
         }
     }
 
@@ -131,6 +134,7 @@ impl FrameRecord {
             test: self.test.into(),
             gaze_px: self.gaze_px,
             gaze_step_deg: read(self.gaze_step_deg),
+            doubts: self.doubts,
             rows: FrameRows::of(layouts.get(&self.keys)?, &numbers(&self.values)?)?,
         };
         Some((result, self.atd.unwrap_or_default()))

@@ -6,7 +6,7 @@ use std::path::Path;
 use fovqa_metrics::{Image, Key, Metric, Parts, Pooling, Rows, Subject};
 use fovqa_plan::{Experiment, Eye, EyeView, Plan, Scene};
 use fovqa_results::{
-    AtdGuides, Failure, FrameResult, FvvdpViewing, GuideSource, Identity, ViewResult,
+    AtdGuides, Doubt, Failure, FrameResult, FvvdpViewing, GuideSource, Identity, ViewResult,
 };
 
 use super::read::Said;
@@ -60,6 +60,7 @@ fn frame() -> FrameResult {
         test: "a".into(),
         gaze_px: Some([0.1, -7.25]),
         gaze_step_deg: Some(1e-300),
+        doubts: vec![Doubt { check: "gaze".to_owned(), message: "the test\n\"is\"".to_owned() }],
         rows: rows.into(),
     }
 }
@@ -70,7 +71,13 @@ fn bare_frame() -> FrameResult {
     let parts = Parts::Mean { sum: 0.0, weight: 1.0 };
     rows.push(Key::of(Metric::Psnr), Some(f64::INFINITY), parts);
     rows.score(Key::of(Metric::Mse), 5.0);
-    FrameResult { gaze_px: None, gaze_step_deg: None, rows: rows.into(), ..frame() }
+    FrameResult {
+        gaze_px: None,
+        gaze_step_deg: None,
+        doubts: Vec::new(),
+        rows: rows.into(),
+        ..frame()
+    }
 }
 
 fn failure(frame: Option<i64>) -> Failure {

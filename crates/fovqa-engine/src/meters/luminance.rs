@@ -117,6 +117,13 @@ impl LuminanceMeter {
         Arc::new(Grid::luminance(frame, &self.tables))
     }
 
+    /// Warns if a reference seems to be in other units than the display.
+    pub(super) fn foresee(&self, reference: &Frame, warnings: &mut Warnings<'_>) {
+        if self.is_dim(reference) {
+            warnings.once_a_view("candela", CANDELA);
+        }
+    }
+
     /// Measures a pair. The frames of a sequence must come in order; a missing frame ends the
     /// sequence.
     pub(super) fn measure(
@@ -125,9 +132,7 @@ impl LuminanceMeter {
         measured: &mut Measured,
         warnings: &mut Warnings<'_>,
     ) {
-        if self.is_dim(&pair.reference.frame) {
-            warnings.once_a_view("candela", CANDELA);
-        }
+        self.foresee(&pair.reference.frame, warnings);
         let (reference, test) = (&pair.reference.frame, &pair.test.frame);
         if self.pu_psnr {
             pu_psnr::rows(reference, test, &self.tables, pair.regions, &mut measured.rows);

@@ -14,7 +14,7 @@ mod temporal;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use fovqa_frame::{Mask, SignalTables};
+use fovqa_frame::{Frame, Mask, SignalTables};
 use fovqa_metrics::{BlockRegions, Map, Metric, Regions, Rows, Scored};
 use fovqa_plan::{Plan, Settings};
 use fovqa_results::{AtdGuides, FvvdpViewing};
@@ -208,6 +208,13 @@ impl Meters {
                 Meter::Temporal(temporal) => temporal.leave(reference, position),
                 Meter::Fidelity(_) | Meter::Own(_) | Meter::Luminance(_) => {}
             }
+        }
+    }
+
+    /// Reports the warnings that a reference brings before anything is measured.
+    pub(crate) fn foresee(&self, reference: &Frame, warnings: &mut Warnings<'_>) {
+        if let Some(light) = self.light() {
+            light.foresee(reference, warnings);
         }
     }
 

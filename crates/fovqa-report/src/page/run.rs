@@ -40,7 +40,7 @@ impl PageInputs {
     }
 }
 
-/// The errors of a run in words.
+/// The errors of a run, or its likely mistakes, in words.
 struct PageErrors {
     first: Vec<String>,
     all: usize,
@@ -61,6 +61,8 @@ struct RunPage<'a> {
     parts: Vec<(String, String)>,
     conditions: Conditions,
     errors: PageErrors,
+    /// Likely mistakes in pairs that were scored.
+    mistakes: PageErrors,
     /// The tables that readers look for first.
     tables: Vec<PageTable>,
     long_tables: Vec<PageTable>,
@@ -105,6 +107,10 @@ pub(crate) fn run_page(
         errors: PageErrors {
             first: overview.errors.iter().take(MOST_ERRORS).map(in_words).collect(),
             all: overview.errors.len(),
+        },
+        mistakes: PageErrors {
+            first: overview.mistakes.iter().take(MOST_ERRORS).cloned().collect(),
+            all: overview.mistakes.len(),
         },
         tables: first,
         long_tables: others,

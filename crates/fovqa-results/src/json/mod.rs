@@ -2,6 +2,7 @@
 //! renamed.
 
 mod compared;
+mod doubts;
 mod foveate;
 mod run;
 mod score;
@@ -11,6 +12,7 @@ mod unique_keys;
 mod values;
 
 pub use compared::{HaarRecord, HaarSides, HaarValues, SideValues};
+pub use doubts::DoubtRecord;
 pub use foveate::{
     BudgetRecord, FOVEATE_SCHEMA, FoveateErrorRecord, FoveateRecord, FoveatedRecord,
 };

@@ -7,6 +7,7 @@ use fovqa_metrics::{Image, Key, Metric, Row, Subject};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::compared::{HaarRecord, SideValues, haar, in_band, name, summary_haar};
+use super::doubts::DoubtRecord;
 use super::summary::{BandStatistics, ViewRecord, stats};
 use super::values::{Each, MetricMap, Number, Stats};
 use crate::fvvdp::{FvvdpSummary, SpatialBand, spatial_bands};
@@ -66,6 +67,7 @@ fn contents<'a>(report: &'a ScoreReport, errors: Vec<Error<'a>>) -> impl Seriali
         summary_haar: summary_haar(&summary),
         summary_bands: BandStatistics::all(&summary),
         gaze_held: report.gaze_held,
+        plausibility: DoubtRecord::all(&report.frames),
         errors,
     }
 }
@@ -97,6 +99,8 @@ struct Contents<'a, F> {
     summary_haar: Vec<HaarRecord<Spread>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     gaze_held: Option<usize>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    plausibility: Vec<DoubtRecord>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     errors: Vec<Error<'a>>,
 }

@@ -9,6 +9,7 @@ use serde::de::{Deserialize, Deserializer, Error};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::compared::{HaarRecord, SideValues, in_summary_band, summary_haar};
+use super::doubts::DoubtRecord;
 use super::values::{AnyStats, MetricMap, Number, Stats};
 use crate::fvvdp::FvvdpSummary;
 use crate::report::{Comparison, ViewResult};
@@ -53,6 +54,9 @@ pub struct ComparisonSummary {
     /// The samples of an emulated method.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<SampleSummary>,
+    /// Likely mistakes in its pairs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub plausibility: Vec<DoubtRecord>,
 }
 
 /// A view, as `score` prints it.
@@ -138,6 +142,7 @@ impl ComparisonSummary {
             atd: summary.atd,
             fvvdp: summary.fvvdp,
             samples: summary.samples,
+            plausibility: DoubtRecord::all(&report.frames),
             metrics: summary.statistics,
         }
     }
@@ -367,6 +372,12 @@ mod tests {
                 reason: None,
             }),
             fvvdp: Some(fvvdp(spread)),
+            plausibility: vec![DoubtRecord {
+                check: "gaze".to_owned(),
+                frame: -1,
+                frames: 2,
+                message: "elsewhere".to_owned(),
+            }],
         };
         let text = serde_json::to_string_pretty(&record).unwrap();
         assert_eq!(serde_json::from_str::<ComparisonSummary>(&text).unwrap(), record, "{text}");
