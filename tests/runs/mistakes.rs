@@ -28,8 +28,10 @@ fn a_forgotten_exposure_is_named_with_its_value() {
     let pair = [&render("classroom/gt/0000.exr"), &render("classroom/rmfr_taa/0000.png")];
     let pair = pair.map(String::as_str);
     let forgotten = folder.score(&[&pair[..], &VIEW].concat()).ok();
-    let words =
-        ["stops brighter than the reference over most of the frame", "with --exposure, about 0.6"];
+    let words = [
+        "stops brighter than the reference over most of the frame",
+        "set --exposure to that with which the test was written, about 0.6",
+    ];
     let forgotten = forgotten.says(&words);
     assert_eq!(forgotten.stderr.matches("warning").count(), 1, "{}", forgotten.stderr);
     let right = [&pair[..], &VIEW, &["--exposure", EXPOSURE]].concat();
@@ -93,7 +95,10 @@ fn a_run_says_each_mistake_once_and_keeps_it() {
     let folder = class_room("name = \"e\"\n");
     let run = folder.run(&["run", "e.toml"]).ok();
     assert_eq!(run.stderr.matches("over most of the frame").count(), 2, "{}", run.stderr);
-    let run = run.says(&["room: taa/0000.png: the test is", "with exposure_stops, about 0.6"]);
+    let run = run.says(&[
+        "room: taa/0000.png: the test is",
+        "set exposure_stops to that with which the test was written, about 0.6",
+    ]);
     assert!(run.stderr.contains("said once for all frames"));
     let all = summary(&folder);
     let doubts: Vec<&Value> =

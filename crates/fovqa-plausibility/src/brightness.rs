@@ -155,13 +155,13 @@ fn exposure(pair: &Looked<'_>, light: &[[f32; 2]]) -> Option<Suspicion> {
     let is_linear = |frame: &Frame| pair.tables.params().transfer_of(frame) == Transfer::Linear;
     let help = match (is_linear(pair.reference), is_linear(pair.test)) {
         (true, false) => format!(
-            "the reference is linear and the test is encoded: give the exposure with which the test was \
-             written with {{exposure}}, about {:.2} stops; if it was tone mapped, give {{tonemap}} first",
+            "the reference is linear and the test is encoded: set {{exposure}} to that with which the test \
+             was written, about {:.2} stops; if it was tone mapped, set {{tonemap}} first",
             exposure + f64::from(stops)
         ),
         (false, true) => format!(
-            "the test is linear and the reference is encoded: give the exposure with which the reference \
-             was written with {{exposure}}, about {:.2} stops; if it was tone mapped, give {{tonemap}} first",
+            "the test is linear and the reference is encoded: set {{exposure}} to that with which the \
+             reference was written, about {:.2} stops; if it was tone mapped, set {{tonemap}} first",
             exposure - f64::from(stops)
         ),
         _ => "write both with the same exposure: the values of one of them have to be changed"
