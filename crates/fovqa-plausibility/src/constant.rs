@@ -15,6 +15,9 @@ const MISSING: f64 = 0.45;
 /// The share of the windows along the edges of the frame from which such a part no longer counts.
 const LEFT_OUT: f64 = 0.4;
 
+/// A picture of fewer pixels may well have one colour.
+const FEWEST_PIXELS: usize = 64;
+
 /// Distance of the pixels that are compared first.
 const LATTICE: usize = 37;
 
@@ -44,6 +47,9 @@ fn is_constant(frame: &Frame, counts: Option<&Mask>) -> bool {
 
 /// A picture whose every pixel is the same.
 pub(crate) fn check(pair: &Looked<'_>) -> Option<Suspicion> {
+    if pair.reference.width() * pair.reference.height() < FEWEST_PIXELS {
+        return None;
+    }
     let sides = [("the reference", pair.reference), ("the test", pair.test)];
     let constant: Vec<_> =
         sides.into_iter().filter(|(_, frame)| is_constant(frame, pair.counts)).collect();
