@@ -12,11 +12,9 @@ use crate::events::Warnings;
 use crate::found::FoundView;
 use crate::load::{Fault, Side, Step};
 
-/// Frames at the beginning of a sequence that are looked at closely.
-const FIRST: usize = 2;
-
-/// Of the later frames, each of this many is looked at closely: a mistake is seldom in one frame alone.
-const EVERY: usize = 8;
+/// Of the frames of a sequence, each of this many is looked at closely, from the first one on: a mistake is
+/// seldom in one frame alone. If suspected pairs are not scored, all are looked at.
+const EVERY: usize = 16;
 
 /// What is known of a pair when it is looked at.
 pub(crate) struct Seen<'a> {
@@ -73,7 +71,7 @@ impl<'a> Checks<'a> {
             counts: seen.counts,
             gaze_px: seen.gaze_px,
         };
-        let closely = step.frame < FIRST || step.frame.is_multiple_of(EVERY);
+        let closely = self.refuses() || step.frame.is_multiple_of(EVERY);
         let mut suspicions = if closely { look(&pair) } else { glance(&pair) };
         suspicions.extend(self.of_methods.get(&step.method).cloned());
         let file = &seen.test.file;

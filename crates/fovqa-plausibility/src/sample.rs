@@ -9,6 +9,12 @@ pub(crate) const SIDE: usize = 12;
 /// Largest number of bands, which bounds the cost on large frames.
 const MOST_BANDS: usize = 20;
 
+/// In frames with many columns of windows, fewer bands have this number of windows.
+const ENOUGH: usize = 1800;
+
+/// The smallest number of bands of a high frame.
+const FEWEST_BANDS: usize = 14;
+
 /// Luma above this counts as clipped to white.
 pub(crate) const WHITE: f32 = 0.99;
 
@@ -82,7 +88,7 @@ impl Sample {
         let stride = across + 2;
         let mut bands = [vec![0.0f32; stride * SIDE], vec![0.0f32; stride * SIDE]];
         let mut windows = Vec::new();
-        for top in tops(height) {
+        for top in tops(height, columns) {
             for (signal, band) in signals.iter().zip(&mut bands) {
                 for (y, out) in (top..).zip(band.chunks_exact_mut(stride)) {
                     signal.fill_row(y, left..left + across, &mut scratch, &mut row);
@@ -126,8 +132,9 @@ fn narrow(values: &[f64], out: &mut [f32]) {
 }
 
 /// The first rows of the bands, symmetric about the middle.
-fn tops(height: usize) -> impl Iterator<Item = usize> {
-    let bands = (height / SIDE).min(MOST_BANDS);
+fn tops(height: usize, columns: usize) -> impl Iterator<Item = usize> {
+    let enough = (ENOUGH / columns.max(1)).clamp(FEWEST_BANDS, MOST_BANDS);
+    let bands = (height / SIDE).min(enough);
     (0..bands).map(move |n| (2 * n + 1) * height / (2 * bands) - SIDE / 2)
 }
 
