@@ -15,7 +15,7 @@ use std::path::Path;
 use cases::{Innocent, Made, Mistake};
 use fovqa_params::Words;
 use fovqa_plausibility::Check;
-use picture::{Pair, read};
+use picture::{Pair, Picture, read};
 
 /// Real foveated renders: reference, test, exposure in stops, gaze.
 const RENDERS: [(&str, &str, f64, [f64; 2]); 10] = [
@@ -141,4 +141,34 @@ fn every_check_has_a_case() {
         // Files are compared by their kind, not by their pixels.
         assert!(tried.contains(&check) || check == Check::Format, "{}", check.word());
     }
+}
+
+/// The messages about the foveated reference of a pair, after a change of the test and of the gaze.
+fn said(change: impl Fn(&Picture) -> Picture, gaze: [f64; 2]) -> Vec<String> {
+    let pair = pairs().swap_remove(0);
+    let mut pair = Innocent::Foveated.apply(&pair, 0);
+    pair.test = change(&pair.test);
+    pair.gaze = gaze;
+    pair.look().into_iter().map(|suspicion| suspicion.message).collect()
+}
+
+#[test]
+fn messages_have_the_right_direction_amount_and_place() {
+    const GAZE: [f64; 2] = [360.0, 400.0];
+    let shifted = said(|test| test.shifted([2, -3]), GAZE);
+    let wanted =
+        "the test is shifted by 2 pixels to the right and 3 pixels up against the reference";
+    assert_eq!(shifted, [wanted]);
+    let flipped = said(|test| test.flipped(false, true), GAZE);
+    assert!(flipped[0].starts_with("the test is upside down"), "{flipped:?}");
+    let darker = said(|test| test.map(|v| v * 0.5_f32.powf(1.0 / 2.2)), GAZE);
+    let words: Vec<&str> = darker[0].split(' ').collect();
+    assert_eq!(words[4..6], ["stops", "darker"], "{darker:?}");
+    let stops: f64 = words[3].parse().expect("a number of stops");
+    assert!((stops - 1.0).abs() < 0.15, "{darker:?}");
+    let gaze = said(Picture::clone, [600.0, 120.0]);
+    let place = gaze[0].split(['(', ')']).nth(1).expect("a place");
+    let (x, y) = place.split_once(", ").expect("two numbers");
+    let [x, y] = [x, y].map(|text| text.parse::<f64>().expect("a number"));
+    assert!((x - GAZE[0]).hypot(y - GAZE[1]) < 80.0, "{gaze:?}");
 }
