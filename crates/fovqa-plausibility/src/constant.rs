@@ -50,26 +50,20 @@ pub(crate) fn check(pair: &Looked<'_>) -> Option<Suspicion> {
     if pair.reference.width() * pair.reference.height() < FEWEST_PIXELS {
         return None;
     }
-    let sides = [("the reference", pair.reference), ("the test", pair.test)];
-    let constant: Vec<_> =
-        sides.into_iter().filter(|(_, frame)| is_constant(frame, pair.counts)).collect();
-    let (_, frame) = constant.first()?;
-    let names: Vec<&str> = constant.iter().map(|(name, _)| *name).collect();
-    let (names, are) = if names.len() == 2 {
-        ("the test and the reference".to_owned(), "are")
-    } else {
-        (names[0].to_owned(), "is")
+    let message = match [pair.reference, pair.test].map(|side| is_constant(side, pair.counts)) {
+        [false, false] => return None,
+        [true, true] => "the test and the reference are constant".to_owned(),
+        [true, false] => format!("the reference is constant{}", value(pair.reference, pair)),
+        [false, true] => format!("the test is constant{}", value(pair.test, pair)),
     };
-    let colour = if names.starts_with("the test and") {
-        String::new()
-    } else {
-        format!(", {}", value(frame))
-    };
-    Some(Suspicion::new(Check::Constant, format!("{names} {are} constant{colour}"), HELP))
+    Some(Suspicion::new(Check::Constant, message, HELP))
 }
 
-/// The value of the first pixel, as the file has it.
-fn value(frame: &Frame) -> String {
+/// The value of the first pixel, as the file has it; nothing if that pixel may not count.
+fn value(frame: &Frame, pair: &Looked<'_>) -> String {
+    if pair.counts.is_some() {
+        return String::new();
+    }
     let values: Vec<String> =
         (0..frame.channels().count()).map(|c| frame.sample(c, 0, 0).to_string()).collect();
     let what = match frame.samples() {
@@ -77,7 +71,7 @@ fn value(frame: &Frame) -> String {
         Samples::U16(_) => "16-bit code ",
         Samples::F16(_) | Samples::F32(_) => "value ",
     };
-    format!("{what}{}", values.join(" "))
+    format!(", {what}{}", values.join(" "))
 }
 
 /// A picture of which a large part has one single value where the other has detail, or that is nearly

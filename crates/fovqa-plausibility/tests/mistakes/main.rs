@@ -13,8 +13,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use cases::{Innocent, Made, Mistake};
+use fovqa_frame::{SignalParams, SignalTables, Transfer};
 use fovqa_params::Words;
-use fovqa_plausibility::Check;
+use fovqa_plausibility::{Check, Looked, look};
+use fovqa_testkit::synthetic::rgb8;
 use picture::{Pair, Picture, read};
 
 /// Real foveated renders: reference, test, exposure in stops, gaze.
@@ -171,4 +173,20 @@ fn messages_have_the_right_direction_amount_and_place() {
     let (x, y) = place.split_once(", ").expect("two numbers");
     let [x, y] = [x, y].map(|text| text.parse::<f64>().expect("a number"));
     assert!((x - GAZE[0]).hypot(y - GAZE[1]) < 80.0, "{gaze:?}");
+}
+
+#[test]
+fn a_border_that_is_nearly_everything_is_no_fault() {
+    let bright = |x: usize, y: usize| {
+        if x < 24 && y < 24 && !x.is_multiple_of(6) { (x * 7 + y * 5) as u8 } else { 0 }
+    };
+    let places = (0..240 * 240).map(|at| bright(at % 240, at / 240));
+    let codes: Vec<u8> = places.flat_map(|v| [v; 3]).collect();
+    let frame = rgb8(240, 240, codes);
+    for transfer in [None, Some(Transfer::Pq), Some(Transfer::Gamma22), Some(Transfer::Linear)] {
+        let tables = SignalTables::new(SignalParams { transfer, ..SignalParams::default() });
+        let (reference, test, tables) = (&frame, &frame, &tables);
+        let pair = Looked { reference, test, tables, counts: None, gaze_px: Some([1.0, 1.0]) };
+        assert_eq!(look(&pair), []);
+    }
 }
