@@ -280,7 +280,7 @@ impl Source for Counted {
 
     fn read(&self, frame: usize, _guides: bool) -> Result<Picture, SourceError> {
         self.reads.fetch_add(1, Ordering::SeqCst);
-        let samples = Samples::U8(codes(48, 40, 3, frame as u64));
+        let samples = Samples::U8(codes(48, 40, 3, frame as u64).into());
         Ok(Picture::new(Frame::new(48, 40, Channels::Rgb, samples).unwrap()))
     }
 

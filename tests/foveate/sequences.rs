@@ -90,7 +90,7 @@ fn frames_of_a_video_become_png_files() {
     assert_eq!(record["frames"][1]["input"], "clip.y4m");
     assert_eq!(record["frames"][1]["output"], "out/clip.000001.png");
     let frame = folder.frame("out/clip.000001.png");
-    assert_eq!(frame.samples(), &Samples::U8(codes(WIDTH, HEIGHT, 1, 1)));
+    assert_eq!(frame.samples(), &Samples::U8(codes(WIDTH, HEIGHT, 1, 1).into()));
     folder.foveate("deep.y4m deep --method full").ok();
     let frame = folder.frame("deep/deep.000000.png");
     assert!(matches!(frame.samples(), Samples::U16(_)), "more than 8 bits");

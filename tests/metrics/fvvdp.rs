@@ -45,7 +45,7 @@ fn write_frame(folder: &Folder, name: &str, frame: &Frame) {
     let (width, height) = frame.file_size();
     let Samples::U8(codes) = frame.samples() else { panic!("8 bits") };
     let rgb: Vec<u8> = match frame.channels() {
-        Channels::Rgb => codes.clone(),
+        Channels::Rgb => codes.to_vec(),
         Channels::Gray => codes.iter().flat_map(|code| [*code; 3]).collect(),
     };
     write8(&folder.path(name), width, height, &rgb);

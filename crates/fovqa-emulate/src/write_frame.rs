@@ -28,7 +28,7 @@ impl Picture {
         let mut codes = vec![0u8; self.values().len()];
         let tasks = codes.par_chunks_mut(TASK).zip(self.values().par_chunks(TASK));
         tasks.for_each(|(codes, values)| codes8(values, codes));
-        self.frame(Samples::U8(codes))
+        self.frame(Samples::U8(codes.into()))
     }
 
     /// Codes of 16 bits: `[65535 clamp(V, 0, 1) + 0.5]`.
@@ -36,12 +36,12 @@ impl Picture {
         let mut codes = vec![0u16; self.values().len()];
         // A cast saturates, and makes 0 of NaN.
         self.each(&mut codes, |value| (value * 65535.0 + 0.5) as u16);
-        self.frame(Samples::U16(codes))
+        self.frame(Samples::U16(codes.into()))
     }
 
     /// The signal itself, in floats that are encoded for display: nothing is rounded.
     pub fn to_signal(&self) -> Frame {
-        self.frame(Samples::F32(self.planes(|value| value))).encoded()
+        self.frame(Samples::F32(self.planes(|value| value).into())).encoded()
     }
 
     /// Linear light in floats: sRGB decoded, the tone map inverted, the exposure undone. What was
@@ -57,7 +57,7 @@ impl Picture {
         let decoder = srgb::Decoder::new();
         let tonemap: ToneMap = signal.tonemap;
         let light = |value| tonemap.inverse(decoder.decode(value)).unwrap_or_default() * gain;
-        Ok(self.frame(Samples::F32(self.planes(light))))
+        Ok(self.frame(Samples::F32(self.planes(light).into())))
     }
 
     /// The same, but a sample that emulation has left as it was in `before`, the picture of `frame`,
@@ -76,9 +76,10 @@ impl Picture {
         frame: &Frame,
     ) -> Result<Frame, WriteFrameError> {
         let linear = self.to_linear(signal)?;
-        let Samples::F32(mut samples) = linear.samples().clone() else {
+        let Samples::F32(samples) = linear.samples().clone() else {
             unreachable!("linear light is in floats")
         };
+        let mut samples = samples.into_vec();
         let (width, height) = (self.width(), self.height());
         assert_eq!((before.width(), before.height()), (width, height), "the picture of the frame");
         let channels = self.channels().count();
@@ -92,7 +93,7 @@ impl Picture {
                 }
             }
         });
-        Ok(self.frame(Samples::F32(samples)))
+        Ok(self.frame(Samples::F32(samples.into())))
     }
 
     fn each<T: Send>(&self, out: &mut [T], of: impl Fn(f32) -> T + Sync) {
@@ -129,7 +130,7 @@ impl<const C: usize> Image<C, u8> {
     pub(crate) fn into_frame(self) -> Frame {
         let size = [self.width(), self.height()];
         let channels = if C == 1 { Channels::Gray } else { Channels::Rgb };
-        frame(size, channels, Samples::U8(self.into_pixels().into_flattened()))
+        frame(size, channels, Samples::U8(self.into_pixels().into_flattened().into()))
     }
 }
 

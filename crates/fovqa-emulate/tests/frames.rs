@@ -14,10 +14,10 @@ fn codes_come_back_as_they_were() {
     let frame = Frame::new(16, 16, Channels::Gray, Samples::U8((0..=255).collect())).unwrap();
     assert_eq!(read(&frame, SignalParams::default()).to_codes8(), frame);
     let codes: Vec<u16> = (0..=65535).rev().collect();
-    let frame = Frame::new(256, 256, Channels::Gray, Samples::U16(codes)).unwrap();
+    let frame = Frame::new(256, 256, Channels::Gray, Samples::U16(codes.into())).unwrap();
     assert_eq!(read(&frame, SignalParams::default()).to_codes16(), frame);
     let codes: Vec<u8> = (0..96).map(|i| i * 2).collect();
-    let frame = Frame::new(8, 4, Channels::Rgb, Samples::U8(codes)).unwrap();
+    let frame = Frame::new(8, 4, Channels::Rgb, Samples::U8(codes.into())).unwrap();
     assert_eq!(read(&frame, SignalParams::default()).to_codes8(), frame);
 }
 
@@ -33,7 +33,7 @@ fn the_signal_is_not_rounded() {
 #[test]
 fn light_comes_back_exposed_and_mapped_as_it_was() {
     let values: Vec<f32> = (0..300).map(|i| i as f32 / 300.0).collect();
-    let frame = Frame::new(10, 10, Channels::Rgb, Samples::F32(values.clone())).unwrap();
+    let frame = Frame::new(10, 10, Channels::Rgb, Samples::F32(values.clone().into())).unwrap();
     for tonemap in [ToneMap::Clamp, ToneMap::Reinhard] {
         let signal = SignalParams { exposure_stops: -1.5, tonemap, ..SignalParams::default() };
         let back = read(&frame, signal).to_linear(&signal).unwrap();

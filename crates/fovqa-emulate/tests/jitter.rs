@@ -110,7 +110,7 @@ fn finished_frames_are_read_between_their_pixels() {
 #[test]
 fn codes_are_read_where_samples_stand() {
     let codes: Vec<u8> = (0..SIZE[0] * SIZE[1] * 3).map(|i| (i * 37 % 251) as u8).collect();
-    let frame = Frame::new(SIZE[0], SIZE[1], Channels::Rgb, Samples::U8(codes)).unwrap();
+    let frame = Frame::new(SIZE[0], SIZE[1], Channels::Rgb, Samples::U8(codes.into())).unwrap();
     let tables = SignalTables::new(SignalParams::default());
     for info in EmulationSpec::methods() {
         let emulator = emulator(&jittered(info.key)).at_frame(5).unwrap();

@@ -117,7 +117,7 @@ fn budgets_are_met_before_rounding() {
 #[test]
 fn history_begins_with_the_first_frame() {
     let gray = |code: u8| {
-        let samples = Samples::U8(vec![code; SIZE[0] * SIZE[1]]);
+        let samples = Samples::U8(vec![code; SIZE[0] * SIZE[1]].into());
         let frame = Frame::new(SIZE[0], SIZE[1], Channels::Gray, samples).unwrap();
         Picture::from_frame(&frame, &SignalTables::new(SignalParams::default()))
     };
@@ -133,7 +133,7 @@ fn history_begins_with_the_first_frame() {
         "{}",
         shown.values()[0]
     );
-    let small = Frame::new(2, 2, Channels::Gray, Samples::U8(vec![0; 4])).unwrap();
+    let small = Frame::new(2, 2, Channels::Gray, Samples::U8(vec![0; 4].into())).unwrap();
     let small = Picture::from_frame(&small, &SignalTables::new(SignalParams::default()));
     assert_eq!(said(emulator.emulate(&small)), "a picture of 2x2 in an emulation of 320x240");
 }

@@ -239,7 +239,7 @@ impl Loader<'_> {
     pub(crate) fn unlit(&self, builtin: &Builtin, found: &FoundFrame) -> Side {
         let at = found.reference;
         let (width, height) = (builtin.view().width, builtin.view().height);
-        let black = Samples::F32(vec![0.0; 3 * width * height]);
+        let black = Samples::F32(vec![0.0; 3 * width * height].into());
         let frame = Frame::new(width, height, Channels::Rgb, black);
         let frame = frame.unwrap_or_else(|_| unreachable!("three values for each pixel"));
         Side {

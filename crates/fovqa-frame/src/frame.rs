@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::blocks::BLOCK_ROWS;
+use crate::buffer::Buffer;
 use crate::mask::Mask;
 
 /// The colour channels of a frame: one of gray, or three with Rec.709 primaries.
@@ -42,13 +43,14 @@ impl Channels {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Samples {
     /// Codes 0..=255, channels interleaved.
-    U8(Vec<u8>),
+    U8(Buffer<u8>),
     /// Codes 0..=65535, channels interleaved.
-    U16(Vec<u16>),
-    /// Half floats, one plane after the other.
-    F16(Vec<f16>),
-    /// Floats, one plane after the other.
-    F32(Vec<f32>),
+    U16(Buffer<u16>),
+    /// Half floats, one plane after the other, unless the frame says that they are
+    /// [interleaved](Frame::interleaved).
+    F16(Buffer<f16>),
+    /// Floats, in the order of half floats.
+    F32(Buffer<f32>),
 }
 
 impl Samples {
@@ -164,6 +166,8 @@ pub struct Frame {
     samples: Samples,
     /// Whether the samples are encoded for display rather than linear light.
     encoded: bool,
+    /// Whether the channels of a pixel are side by side. Otherwise, each channel is a plane.
+    interleaved: bool,
     /// The visible part, within `width` x `height`.
     crop: Crop,
 }
@@ -188,8 +192,21 @@ impl Frame {
             return Err(FrameError::SampleCount { found: samples.len(), expected });
         }
         let crop = Crop { x: 0, y: 0, width, height };
-        let encoded = samples.is_integer();
-        Ok(Self { width, height, channels, samples, encoded, crop })
+        let is_integer = samples.is_integer();
+        let (encoded, interleaved) = (is_integer, is_integer);
+        Ok(Self { width, height, channels, samples, encoded, interleaved, crop })
+    }
+
+    /// Marks the samples as interleaved, even if they are floats: the channels of a pixel are side by
+    /// side, as in the arrays of most programs.
+    #[must_use]
+    pub fn interleaved(self) -> Self {
+        Self { interleaved: true, ..self }
+    }
+
+    /// Whether the channels of a pixel are side by side. Otherwise, each channel is a plane.
+    pub fn is_interleaved(&self) -> bool {
+        self.interleaved
     }
 
     /// Marks the samples as encoded for display, even if they are floats. Such floats come from
@@ -223,17 +240,18 @@ impl Frame {
         let count = self.channels.count();
         let row = |y: usize| y * self.width + x..y * self.width + x + width;
         let rows = || (y..y + height).map(row);
-        let interleaved = || rows().map(|row| row.start * count..row.end * count);
-        let planes = || {
+        let ranges: Vec<Range<usize>> = if self.interleaved {
+            rows().map(|row| row.start * count..row.end * count).collect()
+        } else {
             let plane = |c: usize| c * self.plane_len();
-            let of_plane = move |c| rows().map(move |row| plane(c) + row.start..plane(c) + row.end);
-            (0..count).flat_map(of_plane)
+            let of_plane = |c| rows().map(move |row| plane(c) + row.start..plane(c) + row.end);
+            (0..count).flat_map(of_plane).collect()
         };
         let samples = match &self.samples {
-            Samples::U8(s) => Samples::U8(copied(s, interleaved())),
-            Samples::U16(s) => Samples::U16(copied(s, interleaved())),
-            Samples::F16(s) => Samples::F16(copied(s, planes())),
-            Samples::F32(s) => Samples::F32(copied(s, planes())),
+            Samples::U8(s) => Samples::U8(copied(s, ranges)),
+            Samples::U16(s) => Samples::U16(copied(s, ranges)),
+            Samples::F16(s) => Samples::F16(copied(s, ranges)),
+            Samples::F32(s) => Samples::F32(copied(s, ranges)),
         };
         let crop = Crop { x: 0, y: 0, width, height };
         Ok(Self { width, height, samples, crop, ..*self })
@@ -285,16 +303,33 @@ impl Frame {
         self.width * self.height
     }
 
+    /// Index of a sample of a pixel, whose index counts the rows of the whole file.
+    #[inline]
+    pub(crate) fn index(&self, channel: usize, pixel: usize) -> usize {
+        if self.interleaved {
+            pixel * self.channels.count() + channel
+        } else {
+            channel * self.plane_len() + pixel
+        }
+    }
+
+    /// Where the samples of some pixels of a row are, of which the first has the index `first`: in one
+    /// piece, or in one for each channel.
+    pub(crate) fn pieces(&self, first: usize, pixels: usize) -> impl Iterator<Item = Range<usize>> {
+        let count = self.channels.count();
+        let (pieces, length) = if self.interleaved { (1, pixels * count) } else { (count, pixels) };
+        let start = move |piece: usize| self.index(piece, first);
+        (0..pieces).map(move |piece| start(piece)..start(piece) + length)
+    }
+
     /// The sample of one channel at a visible pixel, as a number: the code, or the float itself.
     pub fn sample(&self, channel: usize, x: usize, y: usize) -> f32 {
-        let pixel = self.row_start(y) + x;
-        let interleaved = pixel * self.channels.count() + channel;
-        let planar = channel * self.plane_len() + pixel;
+        let index = self.index(channel, self.row_start(y) + x);
         match &self.samples {
-            Samples::U8(s) => f32::from(s[interleaved]),
-            Samples::U16(s) => f32::from(s[interleaved]),
-            Samples::F16(s) => s[planar].to_f32(),
-            Samples::F32(s) => s[planar],
+            Samples::U8(s) => f32::from(s[index]),
+            Samples::U16(s) => f32::from(s[index]),
+            Samples::F16(s) => s[index].to_f32(),
+            Samples::F32(s) => s[index],
         }
     }
 
@@ -302,22 +337,22 @@ impl Frame {
         self.sample(channel, x, y).is_finite()
     }
 
-    /// Whether row `y` of `channel` may hold a NaN or an infinity. This is a quick check of the
-    /// bits.
-    fn row_has_bad(&self, channel: usize, y: usize) -> bool {
+    /// Whether row `y` may hold a NaN or an infinity. This is a quick check of the bits.
+    fn row_has_bad(&self, y: usize) -> bool {
         const F16_EXPONENT: u16 = 0x7c00;
         const F32_EXPONENT: u32 = 0x7f80_0000;
-        let start = channel * self.plane_len() + self.row_start(y);
-        let row = start..start + self.width();
+        let mut pieces = self.pieces(self.row_start(y), self.width());
         match &self.samples {
             Samples::U8(_) | Samples::U16(_) => false,
             // A fold instead of `any`: the loop vectorises only without an early exit.
-            Samples::F16(s) => s[row]
-                .iter()
-                .fold(false, |bad, v| bad | (v.to_bits() & F16_EXPONENT == F16_EXPONENT)),
-            Samples::F32(s) => s[row]
-                .iter()
-                .fold(false, |bad, v| bad | (v.to_bits() & F32_EXPONENT == F32_EXPONENT)),
+            Samples::F16(s) => pieces.any(|piece| {
+                let values = s[piece].iter();
+                values.fold(false, |bad, v| bad | (v.to_bits() & F16_EXPONENT == F16_EXPONENT))
+            }),
+            Samples::F32(s) => pieces.any(|piece| {
+                let values = s[piece].iter();
+                values.fold(false, |bad, v| bad | (v.to_bits() & F32_EXPONENT == F32_EXPONENT))
+            }),
         }
     }
 
@@ -328,8 +363,8 @@ impl Frame {
             return None;
         }
         let channels = 0..self.channels.count();
-        let bad_row = |y: usize| channels.clone().any(|c| self.row_has_bad(c, y));
-        let rows: Vec<usize> = (0..self.height()).into_par_iter().filter(|&y| bad_row(y)).collect();
+        let rows = (0..self.height()).into_par_iter().filter(|&y| self.row_has_bad(y));
+        let rows: Vec<usize> = rows.collect();
         let mut first = None;
         let mut pixels = 0;
         for y in rows {
@@ -354,13 +389,9 @@ impl Frame {
     pub fn finite_mask(&self) -> Mask {
         let (width, height) = (self.width(), self.height());
         let mut valid = vec![true; width * height];
-        for y in 0..height {
-            for c in 0..self.channels.count() {
-                if self.row_has_bad(c, y) {
-                    for (x, valid) in valid[y * width..(y + 1) * width].iter_mut().enumerate() {
-                        *valid &= self.is_finite(c, x, y);
-                    }
-                }
+        for y in (0..height).filter(|&y| self.row_has_bad(y)) {
+            for (x, valid) in valid[y * width..(y + 1) * width].iter_mut().enumerate() {
+                *valid = (0..self.channels.count()).all(|c| self.is_finite(c, x, y));
             }
         }
         Mask::new(width, height, valid).unwrap_or_else(|| unreachable!("one flag per pixel"))
@@ -369,19 +400,16 @@ impl Frame {
     /// The smallest and the largest finite sample of the visible part.
     pub fn range(&self) -> (f32, f32) {
         let rows = (0..self.height()).into_par_iter().with_min_len(BLOCK_ROWS);
-        let of_row = |y: usize| {
-            let channels = (0..self.channels.count()).map(|c| self.row_range(c, y));
-            channels.fold(NO_RANGE, wider)
-        };
-        rows.map(of_row).reduce(|| NO_RANGE, wider)
+        rows.map(|y| self.row_range(y)).reduce(|| NO_RANGE, wider)
     }
 
-    fn row_range(&self, channel: usize, y: usize) -> (f32, f32) {
-        let start = channel * self.plane_len() + self.row_start(y);
+    fn row_range(&self, y: usize) -> (f32, f32) {
         if let Samples::F32(s) = &self.samples {
-            return range_of(&s[start..start + self.width()]);
+            let pieces = self.pieces(self.row_start(y), self.width());
+            return pieces.map(|piece| range_of(&s[piece])).fold(NO_RANGE, wider);
         }
-        let values = (0..self.width()).map(|x| self.sample(channel, x, y));
+        let channels = 0..self.channels.count();
+        let values = channels.flat_map(|c| (0..self.width()).map(move |x| self.sample(c, x, y)));
         values.filter(|v| v.is_finite()).fold(NO_RANGE, |range, v| wider(range, (v, v)))
     }
 }
@@ -413,8 +441,8 @@ fn range_of(values: &[f32]) -> (f32, f32) {
 }
 
 /// Copies ranges of samples, one after the other.
-fn copied<T: Copy>(samples: &[T], ranges: impl Iterator<Item = Range<usize>>) -> Vec<T> {
-    ranges.flat_map(|range| samples[range].iter().copied()).collect()
+fn copied<T: Copy>(samples: &[T], ranges: Vec<Range<usize>>) -> Buffer<T> {
+    ranges.into_iter().flat_map(|range| samples[range].iter().copied()).collect()
 }
 
 #[cfg(test)]
@@ -430,11 +458,11 @@ mod tests {
             values[(at + 1) % 111] = f32::NAN;
             values[(at + 2) % 111] = f32::INFINITY;
             values[(at + 3) % 111] = 3.0;
-            let frame = Frame::new(37, 1, Channels::Rgb, Samples::F32(values)).unwrap();
+            let frame = Frame::new(37, 1, Channels::Rgb, Samples::F32(values.into())).unwrap();
             assert_eq!(frame.range(), (-2.0, 3.0), "{at}");
         }
         let values = vec![f16::from_f32(-1.0), f16::NAN, f16::from_f32(0.25), f16::from_f32(4.0)];
-        let frame = Frame::new(4, 1, Channels::Gray, Samples::F16(values)).unwrap();
+        let frame = Frame::new(4, 1, Channels::Gray, Samples::F16(values.into())).unwrap();
         assert_eq!(frame.range(), (-1.0, 4.0));
         let cut = frame.cropped(Crop { x: 1, y: 0, width: 2, height: 1 }).unwrap();
         assert_eq!(cut.range(), (0.25, 0.25));
@@ -446,7 +474,7 @@ mod tests {
         values[20 + 7] = f32::NAN; // G at (2, 1) of a 5x4 frame
         values[40 + 7] = f32::INFINITY; // B, the same pixel
         values[19] = f32::NEG_INFINITY; // R at (4, 3)
-        let frame = Frame::new(5, 4, Channels::Rgb, Samples::F32(values)).unwrap();
+        let frame = Frame::new(5, 4, Channels::Rgb, Samples::F32(values.into())).unwrap();
         let bad = frame.bad_pixel().unwrap();
         assert_eq!((bad.channel, bad.x, bad.y, bad.pixels), ("G", 2, 1, 2));
         assert_eq!(frame.finite_mask().left_out(), 2);
@@ -458,7 +486,7 @@ mod tests {
     fn a_part_is_a_copy_of_what_a_crop_shows() {
         let codes: Vec<u8> = (0..90).collect();
         let floats: Vec<f32> = codes.iter().copied().map(f32::from).collect();
-        for samples in [Samples::U8(codes), Samples::F32(floats)] {
+        for samples in [Samples::U8(codes.into()), Samples::F32(floats.into())] {
             let frame = Frame::new(6, 5, Channels::Rgb, samples).unwrap().encoded();
             let frame = frame.cropped(Crop { x: 1, y: 1, width: 5, height: 4 }).unwrap();
             let crop = Crop { x: 2, y: 1, width: 3, height: 2 };
@@ -472,9 +500,37 @@ mod tests {
         }
     }
 
+    /// Floats whose channels are side by side are the same picture as floats in planes.
+    #[test]
+    fn floats_side_by_side_are_read_like_planes() {
+        const PIXELS: usize = 7 * 5;
+        let mut values: Vec<f32> = (0..3 * PIXELS).map(|i| (i as f32 * 0.37).sin()).collect();
+        values[PIXELS + 23] = f32::NAN; // G at (2, 3)
+        let side_by_side = (0..3 * PIXELS).map(|i| values[i % 3 * PIXELS + i / 3]).collect();
+        let frame = |values| Frame::new(7, 5, Channels::Rgb, Samples::F32(values)).unwrap();
+        let crop = Crop { x: 1, y: 1, width: 5, height: 4 };
+        let planes = frame(values.into()).cropped(crop).unwrap();
+        let pixels = frame(side_by_side).interleaved().cropped(crop).unwrap();
+        assert_eq!(planes.bad_pixel().unwrap().pixels, 1);
+        let cut = Crop { x: 1, y: 1, width: 3, height: 3 };
+        let alike = |a: &Frame, b: &Frame| {
+            assert_eq!(a.range(), b.range());
+            assert_eq!(a.finite_mask(), b.finite_mask());
+            let place = |frame: &Frame| frame.bad_pixel().map(|bad| (bad.channel, bad.x, bad.y));
+            assert_eq!(place(a), place(b));
+            for (c, i) in (0..3).flat_map(|c| (0..a.width() * a.height()).map(move |i| (c, i))) {
+                let [a, b] = [a, b].map(|f| f.sample(c, i % f.width(), i / f.width()).to_bits());
+                assert_eq!(a, b);
+            }
+        };
+        alike(&planes, &pixels);
+        alike(&planes.part(cut).unwrap(), &pixels.part(cut).unwrap());
+        alike(&crate::half_floats(&planes), &crate::half_floats(&pixels));
+    }
+
     #[test]
     fn refuses_a_crop_beyond_the_frame() {
-        let frame = Frame::new(5, 4, Channels::Gray, Samples::U8(vec![0; 20])).unwrap();
+        let frame = Frame::new(5, 4, Channels::Gray, Samples::U8(vec![0; 20].into())).unwrap();
         assert!(frame.clone().cropped(Crop { x: 1, y: 0, width: 5, height: 4 }).is_err());
         assert!(frame.clone().cropped(Crop { x: 0, y: 0, width: 0, height: 4 }).is_err());
         assert!(frame.cropped(Crop { x: usize::MAX, y: 0, width: 5, height: 4 }).is_err());

@@ -60,14 +60,14 @@ mod tests {
     fn codes_and_planes_come_pixel_by_pixel() {
         let tables = SignalTables::new(SignalParams::default());
         let codes: Vec<u8> = (0..24).collect();
-        let frame = Frame::new(4, 2, Channels::Rgb, Samples::U8(codes)).unwrap();
+        let frame = Frame::new(4, 2, Channels::Rgb, Samples::U8(codes.into())).unwrap();
         let frame = frame.cropped(Crop { x: 1, y: 1, width: 2, height: 1 }).unwrap();
         let mut row = [0.0; 6];
         FrameSignal::new(&frame, &tables).fill_row(0, &mut row);
         assert_eq!(row, [15, 16, 17, 18, 19, 20].map(|code| code as f32 / 255.0));
 
         let planes: Vec<f32> = (0..6).map(|i| i as f32 / 8.0).collect();
-        let frame = Frame::new(2, 1, Channels::Rgb, Samples::F32(planes)).unwrap().encoded();
+        let frame = Frame::new(2, 1, Channels::Rgb, Samples::F32(planes.into())).unwrap().encoded();
         FrameSignal::new(&frame, &tables).fill_row(0, &mut row);
         assert_eq!(row, [0.0, 0.25, 0.5, 0.125, 0.375, 0.625]);
     }

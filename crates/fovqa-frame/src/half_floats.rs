@@ -18,6 +18,7 @@ pub fn half_floats(frame: &Frame) -> Frame {
         .unwrap_or_else(|_| unreachable!("as many samples as before"))
         .cropped(frame.crop())
         .unwrap_or_else(|_| unreachable!("the same crop as before"));
+    let halves = if frame.is_interleaved() { halves.interleaved() } else { halves };
     if frame.is_encoded() { halves.encoded() } else { halves }
 }
 
@@ -29,9 +30,9 @@ mod tests {
     #[test]
     fn large_values_stay_finite() {
         let values = vec![0.1, -1e9, 1e9, f32::INFINITY];
-        let frame = Frame::new(4, 1, Channels::Gray, Samples::F32(values)).unwrap();
+        let frame = Frame::new(4, 1, Channels::Gray, Samples::F32(values.into())).unwrap();
         let halves = [f16::from_f32(0.1), f16::MIN, f16::MAX, f16::INFINITY].to_vec();
-        assert_eq!(half_floats(&frame).samples(), &Samples::F16(halves));
+        assert_eq!(half_floats(&frame).samples(), &Samples::F16(halves.into()));
         assert!(half_floats(&frame.encoded()).is_encoded());
     }
 }

@@ -11,6 +11,7 @@
 //! | source | a sequence of frames from any origin |
 
 mod blocks;
+mod buffer;
 mod chromaticities;
 mod codes;
 mod conversion;
@@ -31,6 +32,7 @@ mod tonemap;
 pub mod transfer;
 
 pub use blocks::{BLOCK_ROWS, map_row_blocks};
+pub use buffer::Buffer;
 pub use chromaticities::Chromaticities;
 pub use display_range::DisplayRange;
 pub use frame::{BadPixel, Channels, Crop, CropError, Frame, FrameError, Samples};

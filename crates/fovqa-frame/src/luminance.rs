@@ -256,9 +256,9 @@ mod tests {
     fn codes_go_through_the_curve_and_gray_is_not_weighted() {
         let tables = tables(SignalParams::default(), LinearInput::ToneMapped);
         let light = |v: f64| 100.0 * v * v + 1.0;
-        let colour = frame(Channels::Rgb, 1, Samples::U8(vec![255, 51, 0]));
+        let colour = frame(Channels::Rgb, 1, Samples::U8(vec![255, 51, 0].into()));
         near(&read(&tables, &colour), &[0.25 * 101.0 + 0.5 * light(0.2) + 0.25]);
-        let gray = frame(Channels::Gray, 2, Samples::U16(vec![13107, 65535]));
+        let gray = frame(Channels::Gray, 2, Samples::U16(vec![13107, 65535].into()));
         near(&read(&tables, &gray), &[light(0.2), 101.0]);
     }
 
@@ -268,7 +268,7 @@ mod tests {
         let tables = tables(signal, LinearInput::Absolute(SHOWN));
         let values = vec![-1.0, 0.0, 0.123_456, 1.0, 7.0, f32::NAN];
         let wanted = [1.0, 1.0, 100.0 * 0.123_456 * 0.123_456 + 1.0, 101.0, 101.0, 1.0];
-        let floats = frame(Channels::Gray, 6, Samples::F32(values.clone()));
+        let floats = frame(Channels::Gray, 6, Samples::F32(values.clone().into()));
         near(&read(&tables, &floats), &wanted);
         assert!(!tables.is_absolute(&floats));
         let halves = values.iter().map(|v| f16::from_f32(*v)).collect();
@@ -281,7 +281,7 @@ mod tests {
         let tables = tables(SignalParams::default(), LinearInput::Absolute(SHOWN));
         let values = vec![0.0, 0.001, 2.0, 50.0, f32::NAN, -3.0];
         let wanted = [0.505, 0.51, 20.5, 100.5, 0.505, 0.505];
-        let floats = frame(Channels::Gray, 6, Samples::F32(values.clone()));
+        let floats = frame(Channels::Gray, 6, Samples::F32(values.clone().into()));
         assert!(tables.is_absolute(&floats));
         near(&read(&tables, &floats), &wanted);
         let halves = values.iter().map(|v| f16::from_f32(*v)).collect();
@@ -291,7 +291,7 @@ mod tests {
         }
         let signal = SignalParams { transfer: Some(Transfer::Linear), ..SignalParams::default() };
         let tables = super::tests::tables(signal, LinearInput::Absolute(SHOWN));
-        near(&read(&tables, &frame(Channels::Gray, 1, Samples::U8(vec![51]))), &[2.5]);
+        near(&read(&tables, &frame(Channels::Gray, 1, Samples::U8(vec![51].into()))), &[2.5]);
     }
 
     #[test]
@@ -313,6 +313,6 @@ mod tests {
             50.0 * exposed / (1.0 + exposed)
         });
         let wanted: Vec<f64> = wanted.collect();
-        near(&read(&tables, &frame(Channels::Gray, 3, Samples::F32(values))), &wanted);
+        near(&read(&tables, &frame(Channels::Gray, 3, Samples::F32(values.into()))), &wanted);
     }
 }

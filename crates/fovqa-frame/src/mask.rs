@@ -1,5 +1,7 @@
 //! Masks: which pixels count, from a lens mask or because their values are finite.
 
+use crate::frame::{Frame, Samples};
+
 /// One flag per pixel, row by row: `true` where the pixel counts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mask {
@@ -12,6 +14,20 @@ impl Mask {
     /// A mask from one flag per pixel. `None` unless there are `width * height` flags.
     pub fn new(width: usize, height: usize, valid: Vec<bool>) -> Option<Self> {
         (Some(valid.len()) == width.checked_mul(height)).then_some(Self { width, height, valid })
+    }
+
+    /// The mask that a picture is: a pixel counts if it is brighter than half in every channel.
+    pub fn of(picture: &Frame) -> Self {
+        let (width, height) = (picture.width(), picture.height());
+        let half = match picture.samples() {
+            Samples::U8(_) => 127.5,
+            Samples::U16(_) => 32767.5,
+            Samples::F16(_) | Samples::F32(_) => 0.5,
+        };
+        let channels = picture.channels().count();
+        let counts = |x, y| (0..channels).all(|c| picture.sample(c, x, y) > half);
+        let valid = (0..width * height).map(|i| counts(i % width, i / width)).collect();
+        Self { width, height, valid }
     }
 
     /// Width in pixels.

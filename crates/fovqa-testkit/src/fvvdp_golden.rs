@@ -172,9 +172,9 @@ impl Golden {
             .map(|index| {
                 let part = index * size..(index + 1) * size;
                 let samples = match &values {
-                    Values::U8(codes) => Samples::U8(codes[part].to_vec()),
-                    Values::U16(codes) => Samples::U16(codes[part].to_vec()),
-                    Values::F32(values) => Samples::F32(planes(&values[part], channels)),
+                    Values::U8(codes) => Samples::U8(codes[part].to_vec().into()),
+                    Values::U16(codes) => Samples::U16(codes[part].to_vec().into()),
+                    Values::F32(values) => Samples::F32(planes(&values[part], channels).into()),
                     Values::F16(_) => panic!("{file}: half floats"),
                 };
                 let kind = if channels == 1 { Channels::Gray } else { Channels::Rgb };

@@ -58,5 +58,6 @@ pub fn disturbed(codes: &[u8], amount: f64, seed: u64) -> Vec<u8> {
 /// # Panics
 /// When the codes are not `3 * width * height`.
 pub fn rgb8(width: usize, height: usize, codes: Vec<u8>) -> Frame {
-    Frame::new(width, height, Channels::Rgb, Samples::U8(codes)).expect("three codes a pixel")
+    Frame::new(width, height, Channels::Rgb, Samples::U8(codes.into()))
+        .expect("three codes a pixel")
 }

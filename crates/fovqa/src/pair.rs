@@ -59,7 +59,7 @@ impl PairScores {
 }
 
 /// Scores a test image against a reference. Both are arrays of height x width x channel with one
-/// channel (gray) or three (RGB), of type `u8`, `u16` or `f32`. The values are exactly those of
+/// channel (gray) or three (RGB), of type `u8`, `u16`, `f16` or `f32`. The values are exactly those of
 /// `fovqa score`.
 ///
 /// # Errors

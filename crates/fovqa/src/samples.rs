@@ -1,6 +1,7 @@
 //! Converts arrays to frames.
 
-use fovqa_frame::{Channels, Frame, Samples};
+use fovqa_frame::{Buffer, Channels, Frame, Samples};
+use half::f16;
 use ndarray::ArrayView3;
 
 use crate::error::Error;
@@ -8,35 +9,41 @@ use crate::error::Error;
 /// The element type of an array. `u8` and `u16` are codes that are encoded for a display. Floats
 /// are linear values unless the settings state another transfer function
 /// ([`SignalParams::transfer`](crate::SignalParams)).
-pub trait Sample: Copy + sealed::Sealed {
-    /// The samples of an image of height x width x channel.
+pub trait Sample: Copy + sealed::Sealed + Send + Sync + 'static {
+    /// Samples of an image in which the channels of a pixel are side by side.
     #[doc(hidden)]
-    fn samples(pixels: ArrayView3<'_, Self>) -> Samples;
+    fn samples(interleaved: Buffer<Self>) -> Samples;
 }
 
 mod sealed {
     pub trait Sealed {}
     impl Sealed for u8 {}
     impl Sealed for u16 {}
+    impl Sealed for half::f16 {}
     impl Sealed for f32 {}
 }
 
 impl Sample for u8 {
-    fn samples(pixels: ArrayView3<'_, Self>) -> Samples {
-        Samples::U8(pixels.iter().copied().collect())
+    fn samples(interleaved: Buffer<Self>) -> Samples {
+        Samples::U8(interleaved)
     }
 }
 
 impl Sample for u16 {
-    fn samples(pixels: ArrayView3<'_, Self>) -> Samples {
-        Samples::U16(pixels.iter().copied().collect())
+    fn samples(interleaved: Buffer<Self>) -> Samples {
+        Samples::U16(interleaved)
+    }
+}
+
+impl Sample for f16 {
+    fn samples(interleaved: Buffer<Self>) -> Samples {
+        Samples::F16(interleaved)
     }
 }
 
 impl Sample for f32 {
-    fn samples(pixels: ArrayView3<'_, Self>) -> Samples {
-        // Floats are stored one channel after another.
-        Samples::F32(pixels.permuted_axes([2, 0, 1]).iter().copied().collect())
+    fn samples(interleaved: Buffer<Self>) -> Samples {
+        Samples::F32(interleaved)
     }
 }
 
@@ -57,6 +64,9 @@ pub(crate) fn frame<T: Sample>(name: &str, pixels: ArrayView3<'_, T>) -> Result<
             ));
         }
     };
-    Frame::new(width, height, channels, T::samples(pixels))
+    // Shared, so that reading the frame copies nothing again.
+    let samples = Buffer::shared(pixels.iter().copied().collect::<Vec<T>>());
+    Frame::new(width, height, channels, T::samples(samples))
+        .map(Frame::interleaved)
         .map_err(|error| Error::input(format!("the {name}: {error}"), "give an array with pixels"))
 }

@@ -90,11 +90,11 @@ pub(crate) fn read(
             let weights = luminance_weights.ok_or(ReadErrorKind::Chromaticities)?;
             let values = luminance_chroma::to_rgb(planes.into_f32(), weights);
             Samples::F32(match primaries {
-                Some(matrix) => converted(values, &matrix),
-                None => values,
+                Some(matrix) => converted(values, &matrix).into(),
+                None => values.into(),
             })
         }
-        (_, Some(matrix)) => Samples::F32(converted(planes.into_f32(), &matrix)),
+        (_, Some(matrix)) => Samples::F32(converted(planes.into_f32(), &matrix).into()),
         (_, None) => planes.into_samples(),
     };
     let colour = if is_gray { Channels::Gray } else { Channels::Rgb };

@@ -78,8 +78,8 @@ impl Planes {
 
     pub(crate) fn into_samples(self) -> Samples {
         match self {
-            Planes::Half(values, _) => Samples::F16(values),
-            Planes::Float(values, _) => Samples::F32(values),
+            Planes::Half(values, _) => Samples::F16(values.into()),
+            Planes::Float(values, _) => Samples::F32(values.into()),
         }
     }
 

@@ -62,7 +62,7 @@ pub(crate) fn read(mut file: impl BufRead + Seek, options: &ReadOptions) -> Resu
     let (planes, settings) = decoder::decode(head)?;
     let samples = picture::compose(&frame, &planes, colours);
     let channels = if colours == Colours::Gray { Channels::Gray } else { Channels::Rgb };
-    let frame = Frame::new(frame.width, frame.height, channels, Samples::U8(samples))
+    let frame = Frame::new(frame.width, frame.height, channels, Samples::U8(samples.into()))
         .map_err(|error| damaged(error.to_string()))?;
     let mut notes = Vec::new();
     if settings.application.turned {

@@ -22,7 +22,7 @@ impl Code for u8 {
     const MAX: u8 = u8::MAX;
 
     fn samples(codes: Vec<u8>) -> Samples {
-        Samples::U8(codes)
+        Samples::U8(codes.into())
     }
 }
 
@@ -30,7 +30,7 @@ impl Code for u16 {
     const MAX: u16 = u16::MAX;
 
     fn samples(codes: Vec<u16>) -> Samples {
-        Samples::U16(codes)
+        Samples::U16(codes.into())
     }
 }
 
@@ -56,7 +56,7 @@ pub(super) fn samples<C: Code>(
     match policy {
         AlphaPolicy::Error => require_opaque(alpha.map(|a| a.share() as f32), width)?,
         AlphaPolicy::OverBlack if alpha.clone().any(|a| a != C::MAX) => {
-            return Ok(Samples::F32(over_black(&codes, colours)));
+            return Ok(Samples::F32(over_black(&codes, colours).into()));
         }
         AlphaPolicy::OverBlack | AlphaPolicy::Ignore => {}
     }
@@ -93,15 +93,15 @@ mod tests {
         let share = |code: f64, alpha: f64| (code * alpha / (255.0 * 255.0)) as f32;
         let red = [share(255.0, 100.0), share(51.0, 255.0)];
         let green = [share(100.0, 100.0), 0.0];
-        assert_eq!(planes, [red, green, [share(10.0, 100.0), 0.0]].concat());
+        assert_eq!(planes, [red, green, [share(10.0, 100.0), 0.0]].concat().into());
         let ignored = over(codes.clone(), AlphaPolicy::Ignore).unwrap();
-        assert_eq!(ignored, Samples::U8(vec![255, 100, 10, 51, 0, 0]));
+        assert_eq!(ignored, Samples::U8(vec![255, 100, 10, 51, 0, 0].into()));
         assert!(matches!(
             over(codes, AlphaPolicy::Error),
             Err(ReadErrorKind::Alpha { transparent: 1, x: 0, y: 0, .. })
         ));
         let opaque = vec![1u16, 2, 3, 65535, 4, 5, 6, 65535];
         let kept = samples(opaque, Channels::Rgb, true, 2, AlphaPolicy::OverBlack).unwrap();
-        assert_eq!(kept, Samples::U16(vec![1, 2, 3, 4, 5, 6]));
+        assert_eq!(kept, Samples::U16(vec![1, 2, 3, 4, 5, 6].into()));
     }
 }

@@ -126,9 +126,9 @@ mod tests {
 
     #[test]
     fn a_format_refuses_what_it_cannot_hold() {
-        let codes8 = frame(Channels::Gray, |n| Samples::U8(vec![0; n]));
-        let codes16 = frame(Channels::Gray, |n| Samples::U16(vec![0; n]));
-        let linear = frame(Channels::Gray, |n| Samples::F32(vec![0.0; n]));
+        let codes8 = frame(Channels::Gray, |n| Samples::U8(vec![0; n].into()));
+        let codes16 = frame(Channels::Gray, |n| Samples::U16(vec![0; n].into()));
+        let linear = frame(Channels::Gray, |n| Samples::F32(vec![0.0; n].into()));
         let signal = linear.clone().encoded();
         let refused = [
             (&codes16, FrameFormat::Jpeg, "JPEG files cannot hold codes of 16 bits"),
@@ -143,7 +143,8 @@ mod tests {
             assert_eq!(error.to_string(), message);
             assert!(!error.help().is_empty());
         }
-        let wide = Frame::new(70_000, 1, Channels::Gray, Samples::U8(vec![0; 70_000])).unwrap();
+        let wide =
+            Frame::new(70_000, 1, Channels::Gray, Samples::U8(vec![0; 70_000].into())).unwrap();
         let error = encode_frame(&wide, FrameFormat::Jpeg).unwrap_err();
         assert_eq!(error.to_string(), "JPEG files cannot hold a frame of 70000x1");
     }

@@ -73,13 +73,13 @@ mod tests {
         };
         let codes: Vec<u8> = (0..5 * 3 * 3).map(|code| code * 5).collect();
         let frame = read("a.png", png_rgb8(5, 3, &codes).unwrap());
-        assert_eq!(frame.samples(), &Samples::U8(codes));
+        assert_eq!(frame.samples(), &Samples::U8(codes.into()));
         let values: Vec<f32> = (0..15).map(|v| v as f32 / 7.0).collect();
         let frame = read("a.exr", exr_gray_half(5, 3, &values).unwrap());
         let halves = values.iter().map(|value| f16::from_f32(*value)).collect();
         assert_eq!((frame.channels(), frame.samples()), (Channels::Gray, &Samples::F16(halves)));
         let frame = read("a.exr", exr_gray(5, 3, &values).unwrap());
-        assert_eq!(frame.samples(), &Samples::F32(values));
+        assert_eq!(frame.samples(), &Samples::F32(values.into()));
         assert!(png_rgb8(5, 3, &[0; 4]).is_err() && exr_gray(2, 2, &[]).is_err());
     }
 }

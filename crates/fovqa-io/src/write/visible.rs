@@ -9,12 +9,17 @@ pub(super) fn interleaved<'a, T: Copy>(frame: &Frame, samples: &'a [T]) -> Cow<'
     plane(frame, samples, frame.channels().count())
 }
 
-/// The samples of the visible part of one channel, of planar samples.
+/// The samples of the visible part of one channel.
 pub(super) fn channel<'a, T: Copy>(
     frame: &Frame,
     samples: &'a [T],
     channel: usize,
 ) -> Cow<'a, [T]> {
+    if frame.is_interleaved() {
+        let pixels = interleaved(frame, samples);
+        let of_channel = pixels.iter().skip(channel).step_by(frame.channels().count());
+        return Cow::Owned(of_channel.copied().collect());
+    }
     let (width, height) = frame.file_size();
     let pixels = width * height;
     plane(frame, &samples[channel * pixels..(channel + 1) * pixels], 1)

@@ -101,7 +101,7 @@ impl Conversion {
             None => {
                 let black = |code: &T| self.luma((*code).into()).clamp(0.0, 1.0);
                 let gray: Vec<f32> = y.par_iter().with_min_len(ROWS * width).map(black).collect();
-                Frame::new(width, height, Channels::Gray, Samples::F32(gray))
+                Frame::new(width, height, Channels::Gray, Samples::F32(gray.into()))
             }
             Some((sampling, (chroma_width, _))) => {
                 let [cb, cr] = [&rest[..chroma], &rest[chroma..]].map(|codes| Plane {
@@ -128,7 +128,7 @@ impl Conversion {
                         rgb_row(self, [&rows.y, &rows.cb, &rows.cr], [red, green, blue]);
                     }
                 });
-                Frame::new(width, height, Channels::Rgb, Samples::F32(rgb))
+                Frame::new(width, height, Channels::Rgb, Samples::F32(rgb.into()))
             }
         };
         let sized = |error: FrameError| unreachable!("a sample for each pixel: {error}");

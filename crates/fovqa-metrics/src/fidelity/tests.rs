@@ -295,7 +295,8 @@ fn masked_pixels_do_not_affect_any_number() {
     let metrics = [Metric::Mse, Metric::Psnr, Metric::Ssim, Metric::Fpsnr, Metric::Fssim];
     let before = setup.score(&metrics, &a, &b).unwrap();
     // The result does not depend on the pixels outside the mask.
-    let Samples::U8(mut codes) = b.samples().clone() else { unreachable!() };
+    let Samples::U8(codes) = b.samples().clone() else { unreachable!() };
+    let mut codes = codes.into_vec();
     for (i, code) in codes.iter_mut().enumerate() {
         if !inside(i / 3) {
             *code = 255 - *code;
@@ -370,7 +371,8 @@ fn one_picture_scores_alike_in_every_type() {
     let (w, h) = (64, 48);
     let a = codes(w, h, 1, 3);
     let b = disturbed(&a, 60.0, 4);
-    let as_u8 = |c: &[u8]| Frame::new(w, h, Channels::Gray, Samples::U8(c.to_vec())).unwrap();
+    let as_u8 =
+        |c: &[u8]| Frame::new(w, h, Channels::Gray, Samples::U8(c.to_vec().into())).unwrap();
     let as_u16 = |c: &[u8]| {
         let codes = c.iter().map(|c| u16::from(*c) * 257).collect();
         Frame::new(w, h, Channels::Gray, Samples::U16(codes)).unwrap()

@@ -108,7 +108,8 @@ impl Canvas {
     }
 
     fn png(self) -> io::Result<Vec<u8>> {
-        let frame = Frame::new(self.width, self.height, Channels::Rgb, Samples::U8(self.codes));
+        let frame =
+            Frame::new(self.width, self.height, Channels::Rgb, Samples::U8(self.codes.into()));
         encode_frame(&frame.map_err(io::Error::other)?, FrameFormat::Png).map_err(io::Error::other)
     }
 }
@@ -201,7 +202,8 @@ impl Sheets<'_> {
 
 /// A picture that is not larger than the others.
 fn reduced(canvas: Canvas) -> io::Result<Canvas> {
-    let frame = Frame::new(canvas.width, canvas.height, Channels::Rgb, Samples::U8(canvas.codes));
+    let frame =
+        Frame::new(canvas.width, canvas.height, Channels::Rgb, Samples::U8(canvas.codes.into()));
     Ok(Canvas::of(&small(&frame.map_err(io::Error::other)?, SIDE)?))
 }
 

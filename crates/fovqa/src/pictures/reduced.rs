@@ -94,7 +94,7 @@ pub(crate) fn small(frame: &Frame, size: usize) -> io::Result<Small> {
         return Err(io::Error::other("a picture is not cropped"));
     }
     let to = smaller(from, size);
-    let codes = if from == to { codes.clone() } else { resized(codes, (from, to), pixels)? };
+    let codes = if from == to { codes.to_vec() } else { resized(codes, (from, to), pixels)? };
     Ok(Small { size: to, channels: frame.channels(), codes })
 }
 
@@ -156,7 +156,7 @@ mod tests {
         let (width, height, codes) = decoded(&reduced(&ramp, 512).unwrap());
         assert_eq!((width, height), (40, 20));
         let Samples::U8(original) = ramp.samples() else { unreachable!() };
-        assert_eq!(&codes, original);
+        assert_eq!(codes, **original);
     }
 
     #[test]

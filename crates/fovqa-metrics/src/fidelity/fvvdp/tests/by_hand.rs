@@ -181,7 +181,7 @@ fn color_channels_are_shown_before_they_are_weighted() {
         let color_space = ColorSpace::find(name).unwrap();
         let tables = photometry.tables(signal, &Params { color_space, ..Params::default() });
         let codes = vec![255, 0, 128, 7, 200, 31];
-        let frame = Frame::new(2, 1, Channels::Rgb, Samples::U8(codes.clone())).unwrap();
+        let frame = Frame::new(2, 1, Channels::Rgb, Samples::U8(codes.clone().into())).unwrap();
         let of_pixel = |rgb: &[u8]| {
             let shown = rgb.iter().map(|code| photometry.emitted_cd_m2(f64::from(*code) / 255.0));
             shown.zip(color_space.luminance_weights()).map(|(light, weight)| light * weight).sum()
