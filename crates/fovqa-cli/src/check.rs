@@ -18,10 +18,10 @@ use fovqa_report::Text;
 
 use crate::args::CheckArgs;
 use crate::diagnostic;
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{experiment, output};
+use fovqa::Dialect;
 
 pub(crate) fn run(args: &CheckArgs) -> Exit {
     match file_kind(&args.experiment) {
@@ -309,6 +309,7 @@ fn gaze(experiment: &Experiment, eye: &EyeView, view: &FoundView) -> String {
         Gaze::Centre => "at the principal point".to_owned(),
         Gaze::Builtin => "that of the viewer in the built-in scene".to_owned(),
         Gaze::Point([x, y]) => format!("({x}, {y}) px"),
+        Gaze::Each(_) => "a point for each frame".to_owned(),
         Gaze::Trace { path, .. } => {
             let held = view.trace.iter().flatten().filter(|gaze| gaze.held).count();
             let held = if held > 0 {

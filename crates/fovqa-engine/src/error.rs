@@ -34,6 +34,14 @@ pub enum EngineError {
         /// The name of the source in the plan.
         name: String,
     },
+    /// Not as many gaze points as frames.
+    #[error("there are {points} gaze points for {frames} frames")]
+    GazeCount {
+        /// Number of points.
+        points: usize,
+        /// Number of frames.
+        frames: usize,
+    },
     /// A reference that is emulated.
     #[error("only tests can be emulated, not the reference")]
     EmulatedReference,
@@ -235,6 +243,7 @@ impl EngineError {
             | Self::LooksAhead { .. }
             | Self::ReprojectsAhead { .. }
             | Self::NotGiven { .. }
+            | Self::GazeCount { .. }
             | Self::NoView { .. }
             | Self::NoLuminance { .. }
             | Self::ShownWrongly { .. }
@@ -274,6 +283,9 @@ impl EngineError {
             Self::Emulate(error) => error.help().to_owned(),
             Self::Output(error) => error.help(),
             Self::Gallery(_) => "give a number in this range".to_owned(),
+            Self::GazeCount { .. } => {
+                "give one point for each frame of the reference, or one for all".to_owned()
+            }
             Self::EmulatedReference => "give files as the reference".to_owned(),
             Self::ReprojectsAhead { .. } => {
                 "leave fvvdp.temp_padding at replicate, or leave reproject out".to_owned()

@@ -82,7 +82,8 @@ pub fn find(plan: &Plan, given: &Given) -> FoundInputs {
             let spacing = Spacing::of(&numbers);
             match select(plan, scene, merge(pairings, &spacing)).and_then(|mut frames| {
                 let [motion, depth] = opener.guides(&*reference, &mut frames)?;
-                let sources = ViewSources { reference, builtin, tests, motion, depth };
+                let mask = opener.given_mask()?;
+                let sources = ViewSources { reference, builtin, tests, motion, depth, mask };
                 let mut remarks = remarks(plan, scene, view, &sources, (&numbering, &spacing))?;
                 let fps = scene.fps.or_else(|| sources.all().find_map(Source::fps));
                 let (trace, of_gaze) = gaze(plan, view, &sources, fps, &frames)?;

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use fovqa_frame::source::{Frames, Length};
 use fovqa_io::read_small_file;
 use fovqa_plan::{EyeView, Gaze, Plan};
 use fovqa_vision::{FrameAt, GazeAt, GazeTrace};
@@ -28,6 +29,7 @@ pub(crate) fn gaze(
         Gaze::Centre => return Ok((None, Vec::new())),
         Gaze::Builtin => return Ok((of_builtin(sources, frames), Vec::new())),
         Gaze::Point(point) => return Ok((None, of_point(*point).into_iter().collect())),
+        Gaze::Each(points) => return Ok((Some(of_each(points, sources, frames)?), Vec::new())),
         Gaze::Trace { path, hold } => (path, *hold),
     };
     let bytes = read_small_file(path, MAX_GAZE_BYTES)
@@ -45,6 +47,29 @@ fn of_builtin(sources: &ViewSources, frames: &[FoundFrame]) -> Option<Vec<GazeAt
     let builtin = sources.builtin.as_ref()?;
     let gaze = |frame: &FoundFrame| GazeAt { px: builtin.gaze_px(frame.reference), held: false };
     Some(frames.iter().map(gaze).collect())
+}
+
+/// The gaze of frames of which each has a point.
+fn of_each(
+    points: &[[f64; 2]],
+    sources: &ViewSources,
+    frames: &[FoundFrame],
+) -> Result<Vec<GazeAt>, EngineError> {
+    let listing = sources.reference.listing();
+    let count = match &listing.frames {
+        Frames::Named(entries) => Some(entries.len()),
+        Frames::Counted(Length::Whole(count)) => Some(*count),
+        Frames::Counted(Length::Damaged(_) | Length::Open) => None,
+    };
+    if let Some(frames) = count.filter(|count| *count != points.len()) {
+        return Err(EngineError::GazeCount { points: points.len(), frames });
+    }
+    let gaze = |frame: &FoundFrame| {
+        let lacks = || EngineError::GazeCount { points: points.len(), frames: frames.len() };
+        let px = *points.get(frame.reference).ok_or_else(lacks)?;
+        Ok(GazeAt { px, held: false })
+    };
+    frames.iter().map(gaze).collect()
 }
 
 /// A remark about a gaze point that looks like fractions of the frame size instead of pixels. The

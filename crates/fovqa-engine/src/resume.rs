@@ -78,7 +78,7 @@ fn origins(plan: &Plan, found: &FoundInputs) -> BTreeMap<String, Origin> {
     let beside = settings.flat_map(|settings| {
         let trace = match &settings.gaze {
             Gaze::Trace { path, .. } => Some(path),
-            Gaze::Centre | Gaze::Point(_) | Gaze::Builtin => None,
+            Gaze::Centre | Gaze::Point(_) | Gaze::Each(_) | Gaze::Builtin => None,
         };
         [settings.mask.as_ref(), trace].into_iter().flatten()
     });

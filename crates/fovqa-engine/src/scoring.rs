@@ -327,6 +327,9 @@ impl<'a> Scoring<'a> {
 
     fn mask(&self) -> Result<Option<Mask>, EngineError> {
         let settings = &self.eye().settings;
+        if let Some(given) = &self.view.sources.mask {
+            return Ok(Some(Mask::of(&given.read(0, false)?.frame)));
+        }
         let mask = settings.mask.as_deref().map(|path| read_mask(path, &settings.read));
         let shown = |error: EngineError| error.with_paths(&|path| self.plan.shown(path).into());
         mask.transpose().map_err(|error| shown(EngineError::Mask(error)))
@@ -337,7 +340,7 @@ impl<'a> Scoring<'a> {
         let settings = &self.eye().settings;
         let trace = match &settings.gaze {
             Gaze::Trace { path, .. } => Some(path),
-            Gaze::Centre | Gaze::Point(_) | Gaze::Builtin => None,
+            Gaze::Centre | Gaze::Point(_) | Gaze::Each(_) | Gaze::Builtin => None,
         };
         let files = [settings.mask.as_ref(), trace].into_iter().flatten();
         for path in files.filter(|_| self.plan.hash_inputs) {

@@ -54,10 +54,7 @@ impl Opener<'_> {
         };
         match spec {
             SourceSpec::Files(path) => Ok(open_source(path, self.options(read))?),
-            SourceSpec::Given(name) => {
-                let source = self.given.get(name);
-                source.cloned().ok_or_else(|| EngineError::NotGiven { name: name.clone() })
-            }
+            SourceSpec::Given(name) => self.given(name),
             SourceSpec::Builtin(frames) => {
                 let Some(builtin) = self.builtin.clone() else {
                     unreachable!("the scene was prepared before it is opened")
@@ -74,6 +71,16 @@ impl Opener<'_> {
             }
             SourceSpec::Emulated(_) => Err(EngineError::EmulatedReference),
         }
+    }
+
+    fn given(&self, name: &str) -> Result<Arc<dyn Source>, EngineError> {
+        let source = self.given.get(name);
+        source.cloned().ok_or_else(|| EngineError::NotGiven { name: name.to_owned() })
+    }
+
+    /// The mask, if the program gives it.
+    pub(crate) fn given_mask(&self) -> Result<Option<Arc<dyn Source>>, EngineError> {
+        self.view.settings.given_mask.as_deref().map(|name| self.given(name)).transpose()
     }
 
     fn options(&self, read: ReadOptions) -> SourceOptions {

@@ -99,7 +99,7 @@ impl SceneLight for BuiltinLight<'_> {
 pub(crate) fn fixed_gaze(eye: &EyeView) -> Option<[f64; 2]> {
     match eye.settings.gaze {
         Gaze::Point(px) => Some(px),
-        Gaze::Centre | Gaze::Builtin | Gaze::Trace { .. } => None,
+        Gaze::Centre | Gaze::Builtin | Gaze::Each(_) | Gaze::Trace { .. } => None,
     }
 }
 

@@ -25,6 +25,8 @@ pub struct ViewSources {
     pub motion: Option<Arc<dyn Source>>,
     /// The depth, if it has files of its own.
     pub depth: Option<Arc<dyn Source>>,
+    /// The mask, if the program gives it instead of a file.
+    pub mask: Option<Arc<dyn Source>>,
 }
 
 impl ViewSources {
@@ -78,7 +80,7 @@ impl ViewSources {
     pub(crate) fn empty() -> Self {
         let listing = Listing::counted(String::new(), Length::Whole(0));
         let (tests, reference) = (BTreeMap::new(), Arc::new(Never(listing)));
-        Self { reference, builtin: None, tests, motion: None, depth: None }
+        Self { reference, builtin: None, tests, motion: None, depth: None, mask: None }
     }
 }
 

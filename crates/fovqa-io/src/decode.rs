@@ -93,15 +93,5 @@ pub fn frame_size(path: &Path) -> Result<(usize, usize), ReadError> {
 pub fn read_mask(path: &Path, options: &ReadOptions) -> Result<Mask, ReadError> {
     let guides = GuideOptions::default();
     let options = ReadOptions { alpha: AlphaPolicy::Ignore, guides, ..options.clone() };
-    let frame = read_frame(path, &options)?.frame;
-    let (width, height, channels) = (frame.width(), frame.height(), frame.channels().count());
-    let half = match frame.samples() {
-        fovqa_frame::Samples::U8(_) => 127.5,
-        fovqa_frame::Samples::U16(_) => 32767.5,
-        fovqa_frame::Samples::F16(_) | fovqa_frame::Samples::F32(_) => 0.5,
-    };
-    let valid = (0..width * height)
-        .map(|i| (0..channels).all(|c| frame.sample(c, i % width, i / width) > half))
-        .collect();
-    Ok(Mask::new(width, height, valid).unwrap_or_else(|| unreachable!("one flag per pixel")))
+    Ok(Mask::of(&read_frame(path, &options)?.frame))
 }

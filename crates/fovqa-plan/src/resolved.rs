@@ -289,6 +289,7 @@ fn resolved_eye(plan: &Plan, eye: &EyeView) -> ResolvedEye {
         Gaze::Centre => json!("center"),
         Gaze::Builtin => json!("builtin"),
         Gaze::Point(point) => json!(point),
+        Gaze::Each(points) => json!(points),
         Gaze::Trace { path, hold } => json!({ "trace": plan.shown(path), "hold": hold }),
     };
     view["eccentricity"] = json!(settings.eccentricity);

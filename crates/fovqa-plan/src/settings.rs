@@ -20,6 +20,9 @@ pub enum Gaze {
     Point([f64; 2]),
     /// The gaze is that of the viewer of a built-in scene.
     Builtin,
+    /// The gaze of each frame of the reference is at a point in pixels. For programs, which have the gaze
+    /// in memory.
+    Each(Vec<[f64; 2]>),
     /// The gaze follows a trace.
     Trace {
         /// The CSV file.
@@ -50,6 +53,9 @@ pub struct Settings {
     pub crop: Option<Crop>,
     /// An image that is white where pixels count.
     pub mask: Option<PathBuf>,
+    /// Instead of a file, the name of a source that the program gives. Its first frame is the mask.
+    #[serde(default)]
+    pub given_mask: Option<String>,
     /// How samples become the signal.
     pub signal: SignalParams,
     /// What to do about NaN and infinity.
@@ -81,7 +87,7 @@ impl Settings {
         match self.gaze {
             _ if self.view.is_some() => None,
             _ if self.bands.is_some() => Some("eccentricity bands"),
-            Gaze::Point(_) | Gaze::Trace { .. } => Some("a gaze"),
+            Gaze::Point(_) | Gaze::Each(_) | Gaze::Trace { .. } => Some("a gaze"),
             Gaze::Centre | Gaze::Builtin => None,
         }
     }

@@ -105,6 +105,7 @@ impl ScoreArgs {
             nonfinite: self.signal.nonfinite(),
             plausibility: self.signal.plausibility(),
             mask: self.signal.mask(),
+            given_mask: None,
             crop: self.signal.crop(),
         };
         let eye = EyeView {

@@ -85,6 +85,7 @@ impl<'a> Layers<'a> {
             read: self.read(),
             crop,
             mask,
+            given_mask: None,
             signal: self.signal(),
             nonfinite: self.word("nonfinite"),
             plausibility: self.word("plausibility"),

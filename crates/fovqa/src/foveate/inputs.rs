@@ -37,7 +37,7 @@ pub(super) fn files(view: &FoundView, eye: &EyeView) -> BTreeSet<PathBuf> {
     };
     let trace = match &eye.settings.gaze {
         Gaze::Trace { path, .. } => Some(path.clone()),
-        Gaze::Centre | Gaze::Point(_) | Gaze::Builtin => None,
+        Gaze::Centre | Gaze::Point(_) | Gaze::Each(_) | Gaze::Builtin => None,
     };
     let files = view.sources.all().flat_map(of_source).chain(trace);
     files.filter_map(|path| fs::canonicalize(path).ok()).collect()
