@@ -16,6 +16,8 @@ use fovqa_plot::{Axis, BarChart, BarSeries, Figure, Look, SpreadChart, SpreadSer
 use fovqa_results::RunRecord;
 
 use parts::Part;
+pub use profile::Band;
+pub(crate) use profile::chart;
 
 use crate::band_spread::BandSpread;
 use crate::comparison::{ComparisonTable, Ratios, average_label, common_scenes, mean, named};

@@ -2,7 +2,7 @@
 
 use fovqa_metrics::{Image, Metric, MetricKind};
 use fovqa_plan::{ErrorBars, Plot};
-use fovqa_plot::{Axis, Figure, LineChart, LineSeries};
+use fovqa_plot::{Axis, Figure, LineChart, LineSeries, Look};
 use fovqa_results::EccentricityShare;
 
 use super::compared::Shown;
@@ -11,14 +11,61 @@ use crate::band_spread::InBand;
 use crate::comparison::mean;
 use crate::moments::half_length;
 
-/// The value of a metric in a band.
-#[derive(Debug, Clone, Copy)]
-struct Band {
-    from_deg: f64,
-    to_deg: f64,
-    value: Option<f64>,
-    /// Half the length of its error bar.
-    error: Option<f64>,
+/// The value of a metric in an eccentricity band.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Band {
+    /// Inner edge in degrees.
+    pub from_deg: f64,
+    /// Outer edge in degrees.
+    pub to_deg: f64,
+    /// The value, if there is one.
+    pub value: Option<f64>,
+    /// Half the length of its error bar, if it has one.
+    pub error: Option<f64>,
+}
+
+/// A metric against eccentricity, of series with their looks and bands. `None` if there are no bands.
+pub(crate) fn chart<'a>(
+    metric: Metric,
+    named: impl Iterator<Item = (&'a str, Look, Vec<Band>)>,
+) -> Option<LineChart> {
+    let mut edges: Vec<f64> = Vec::new();
+    let mut series = Vec::new();
+    for (name, look, bands) in named {
+        if bands.is_empty() {
+            continue;
+        }
+        edges.extend(bands.iter().flat_map(|band| [band.from_deg, band.to_deg]));
+        let points =
+            bands.iter().map(|band| (f64::midpoint(band.from_deg, band.to_deg), band.value));
+        let points = points.collect();
+        let errors = bands.iter().map(|band| band.error);
+        let errors = errors.collect::<Vec<_>>();
+        let errors = if errors.iter().any(Option::is_some) { errors } else { Vec::new() };
+        series.push(LineSeries {
+            name: name.to_owned(),
+            look,
+            points,
+            errors,
+            ..LineSeries::default()
+        });
+    }
+    if series.is_empty() {
+        return None;
+    }
+    edges.sort_by(f64::total_cmp);
+    edges.dedup_by(|a, b| a.to_bits() == b.to_bits());
+    Some(LineChart {
+        x: Axis::new("Eccentricity (°)"),
+        y: Axis::new(match metric {
+            Metric::Fvvdp => "Share of FovVideoVDP's Q".to_owned(),
+            metric => axis(metric),
+        }),
+        y_from_zero: metric == Metric::Fvvdp,
+        series,
+        x_ticks: Some(edges).filter(|edges| edges.len() <= MOST_EDGE_TICKS),
+        ..LineChart::default()
+    })
 }
 
 impl Band {
@@ -87,46 +134,10 @@ impl Selection<'_> {
         caption: String,
         bands: impl Fn(&str) -> Vec<Band>,
     ) -> Option<NamedFigure> {
-        let mut edges: Vec<f64> = Vec::new();
-        let mut series = Vec::new();
-        for &(method, look) in &self.methods {
-            let bands = bands(method);
-            if bands.is_empty() {
-                continue;
-            }
-            edges.extend(bands.iter().flat_map(|band| [band.from_deg, band.to_deg]));
-            let points =
-                bands.iter().map(|band| (f64::midpoint(band.from_deg, band.to_deg), band.value));
-            let points = points.collect();
-            let errors = bands.iter().map(|band| band.error);
-            let errors = errors.collect::<Vec<_>>();
-            let errors = if errors.iter().any(Option::is_some) { errors } else { Vec::new() };
-            series.push(LineSeries {
-                name: method.to_owned(),
-                look,
-                points,
-                errors,
-                ..LineSeries::default()
-            });
-        }
-        if series.is_empty() {
-            return None;
-        }
-        edges.sort_by(f64::total_cmp);
-        edges.dedup_by(|a, b| a.to_bits() == b.to_bits());
-        let figure = Figure::Line(LineChart {
-            title: title.map(str::to_owned),
-            x: Axis::new("Eccentricity (°)"),
-            y: Axis::new(match metric {
-                Metric::Fvvdp => "Share of FovVideoVDP's Q".to_owned(),
-                metric => axis(metric),
-            }),
-            y_from_zero: metric == Metric::Fvvdp,
-            series,
-            x_ticks: Some(edges).filter(|edges| edges.len() <= MOST_EDGE_TICKS),
-            ..LineChart::default()
-        });
-        Some(NamedFigure::new(name, caption, figure))
+        let series = self.methods.iter().map(|&(method, look)| (method, look, bands(method)));
+        let chart = chart(metric, series)?;
+        let chart = LineChart { title: title.map(str::to_owned), ..chart };
+        Some(NamedFigure::new(name, caption, Figure::Line(chart)))
     }
 
     fn bands(&self, metric: Metric, scene: &str, method: &str) -> Vec<Band> {
