@@ -8,10 +8,10 @@ use fovqa_methods::curves::{Curve, trace};
 use fovqa_report::Text;
 
 use crate::args::CurvesArgs;
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{diagnostic, experiment, output};
+use fovqa::Dialect;
 
 pub(crate) fn run(args: &CurvesArgs) -> Exit {
     if args.curves.is_empty() { one(args) } else { files(args) }

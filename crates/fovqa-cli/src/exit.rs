@@ -1,7 +1,6 @@
 //! Exit codes, and the handling of panics and interrupts.
 
 use std::any::Any;
-use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use fovqa_metrics::ReadBackError;
@@ -39,7 +38,8 @@ impl Exit {
         if rank(other) > rank(self) { other } else { self }
     }
 
-    fn code(self) -> u8 {
+    /// The code with which the process ends.
+    pub(crate) fn code(self) -> u8 {
         match self {
             Exit::Done => 0,
             Exit::Gate => 1,
@@ -47,12 +47,6 @@ impl Exit {
             Exit::Input => 3,
             Exit::Bug => 70,
         }
-    }
-}
-
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> Self {
-        ExitCode::from(exit.code())
     }
 }
 

@@ -8,9 +8,9 @@ use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode,
 };
 
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::{diagnostic, width};
+use fovqa::Dialect;
 
 /// Number of mistakes that are shown in full; the others are only counted.
 const SHOWN: usize = 20;

@@ -3,7 +3,7 @@
 use fovqa::Failure;
 
 use crate::diagnostic;
-use crate::dialect::Dialect;
+use fovqa::Dialect;
 
 /// Maximum number of failures that are shown, so that they fit on a terminal.
 const SHOWN: usize = 20;

@@ -3,10 +3,10 @@
 use fovqa::{FoveateOutputs, Given};
 
 use crate::args::{FoveateArgs, FoveateFormat};
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{diagnostic, experiment, failures, output, threads};
+use fovqa::Dialect;
 
 pub(crate) fn run(args: FoveateArgs) -> Exit {
     if let Err(exit) = threads::started(args.threads) {

@@ -1,10 +1,10 @@
 //! `fovqa gallery`: writes a built-in scene as files.
 
 use crate::args::GalleryArgs;
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{diagnostic, experiment, threads};
+use fovqa::Dialect;
 
 pub(crate) fn run(args: &GalleryArgs) -> Exit {
     if let Err(exit) = threads::started(args.threads) {

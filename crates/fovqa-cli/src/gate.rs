@@ -10,10 +10,10 @@ use fovqa_report::{
 use fovqa_results::{State, write_output, write_verdict_json};
 
 use crate::args::{Annotations, GateArgs, GateFormat};
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{diagnostic, experiment, output, threads};
+use fovqa::Dialect;
 
 pub(crate) fn run(args: &GateArgs) -> Exit {
     let gated = if args.calibrate.is_empty() { gate(args) } else { propose(args) };

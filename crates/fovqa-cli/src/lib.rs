@@ -5,7 +5,6 @@ mod baseline;
 mod check;
 mod curves;
 mod diagnostic;
-mod dialect;
 mod exit;
 mod experiment;
 mod failures;
@@ -26,6 +25,8 @@ mod threads;
 mod usage;
 mod width;
 
+use std::ffi::OsString;
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::CommandFactory;
@@ -35,16 +36,26 @@ use exit::Exit;
 
 /// Runs the command with the arguments of this process.
 pub fn main() -> ExitCode {
+    ExitCode::from(run_command(std::env::args_os()))
+}
+
+/// Runs the command with arguments, of which the first is the name of the program. Returns the exit code.
+/// This is for programs that are the command: it handles panics and Ctrl-C for the whole process.
+pub fn run_command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     exit::watch_panics();
     exit::watch_interrupts();
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
     let outcome = std::panic::catch_unwind(|| {
-        let cli = match usage::parse() {
+        let cli = match usage::parse(arguments) {
             Ok(cli) => cli,
             Err(error) => return usage::show(&error),
         };
         dispatch(cli)
     });
-    outcome.unwrap_or_else(|payload| exit::of_panic(&*payload)).into()
+    let exit = outcome.unwrap_or_else(|payload| exit::of_panic(&*payload)).code();
+    // Not every process that runs this does so at its end.
+    let _ = std::io::stdout().flush();
+    exit
 }
 
 fn dispatch(cli: Cli) -> Exit {

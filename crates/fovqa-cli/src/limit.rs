@@ -3,10 +3,10 @@
 use fovqa::LimitOptions;
 
 use crate::args::LimitArgs;
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{diagnostic, experiment, output, threads};
+use fovqa::Dialect;
 
 pub(crate) fn run(args: &LimitArgs) -> Exit {
     searched(args).unwrap_or_else(|exit| exit)

@@ -1,10 +1,10 @@
 //! `fovqa merge`: merges the shards of a run.
 
 use crate::args::MergeArgs;
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{experiment, run};
+use fovqa::Dialect;
 
 pub(crate) fn run(args: &MergeArgs) -> Exit {
     let terminal = Terminal::speaking(Dialect::Experiment);

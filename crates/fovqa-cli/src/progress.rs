@@ -7,8 +7,8 @@ use std::time::Duration;
 use fovqa::{Events, ItemDone};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::dialect::Dialect;
 use crate::{diagnostic, width};
+use fovqa::Dialect;
 
 /// Prints the messages of a run on stderr.
 #[derive(Default)]

@@ -3,10 +3,10 @@
 use fovqa::{Finished, Report};
 
 use crate::args::ReportArgs;
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{diagnostic, experiment, output, run};
+use fovqa::Dialect;
 
 pub(crate) fn run(args: &ReportArgs) -> Exit {
     let folder = &args.results;

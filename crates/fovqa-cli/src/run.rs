@@ -4,10 +4,10 @@
 use fovqa::{Finished, Given, Run, RunOptions, Shard};
 
 use crate::args::RunArgs;
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{diagnostic, experiment, output, threads};
+use fovqa::Dialect;
 
 pub(crate) fn run(args: &RunArgs) -> Exit {
     scored(args).unwrap_or_else(|exit| exit)

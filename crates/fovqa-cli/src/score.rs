@@ -9,10 +9,10 @@ use fovqa_results::{write_stereo_csv, write_stereo_json};
 
 use crate::args::{Format, ScoreArgs};
 use crate::diagnostic;
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{experiment, failures, output, threads};
+use fovqa::Dialect;
 
 pub(crate) fn run(args: ScoreArgs) -> Exit {
     let (format, maps) = (args.format, args.maps.clone());

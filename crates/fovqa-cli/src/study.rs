@@ -10,10 +10,10 @@ use fovqa_study::input::{Selection, Table};
 use fovqa_study::{Analysis, Inputs};
 
 use crate::args::{Asked, InputArgs, SettingsArgs, StudyArgs, StudyCommand, StudyFormat};
-use crate::dialect::Dialect;
 use crate::exit::Exit;
 use crate::progress::Terminal;
 use crate::{diagnostic, experiment, output, threads};
+use fovqa::Dialect;
 
 /// Bytes at the beginning of a file that tell what it is.
 const HEAD_BYTES: u64 = 256;

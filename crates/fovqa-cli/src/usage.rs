@@ -1,5 +1,6 @@
 //! Reads the command line, and shows help and errors of it at the width of the terminal.
 
+use std::ffi::OsString;
 use std::io::Write;
 
 use clap::{Command, CommandFactory, FromArgMatches};
@@ -12,10 +13,10 @@ use crate::{output, width};
 /// The longest line of help, in columns.
 const LONGEST: usize = 99;
 
-/// Parses the arguments of this process.
-pub(crate) fn parse() -> Result<Cli, clap::Error> {
+/// Parses arguments, of which the first is the name of the program.
+pub(crate) fn parse(arguments: Vec<OsString>) -> Result<Cli, clap::Error> {
     let mut command = command();
-    let mut matches = command.try_get_matches_from_mut(std::env::args_os())?;
+    let mut matches = command.try_get_matches_from_mut(arguments)?;
     Cli::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
 }
 

@@ -62,6 +62,7 @@ mod calibrate;
 mod calibrated_rules;
 mod crops;
 mod curves;
+mod dialect;
 mod error;
 mod events;
 mod experiment;
@@ -92,6 +93,7 @@ pub use baseline::{Accepted, Frames, Saved, accept_baseline, read_baseline, save
 pub use calibrate::calibrate;
 pub use calibrated_rules::write_limits;
 pub use curves::curves;
+pub use dialect::Dialect;
 pub use error::{Complaint, Error};
 pub use events::Silent;
 pub use experiment::{read_curves, read_experiment, read_study};
