@@ -55,6 +55,12 @@ fn heading(record: &FoveateRecord) -> String {
     around.extend(record.enhance.map(|f_max| format!("enhancement up to {f_max}")));
     let _ = writeln!(text, "{}", around.join(", "));
     match record.frames.as_slice() {
+        // Frames that were handed over in memory have no files.
+        [frame] if frame.output.is_empty() => {}
+        [first, .., last] if last.output.is_empty() => {
+            let (count, first, last) = (record.frames.len(), first.frame, last.frame);
+            let _ = writeln!(text, "{count} frames, {first} to {last}");
+        }
         [frame] => {
             let (input, output) = (printable(&frame.input), printable(&frame.output));
             let _ = writeln!(text, "{input} to {output}");

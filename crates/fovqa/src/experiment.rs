@@ -34,6 +34,30 @@ pub fn read_study(path: &Path) -> Result<StudyFile, Error> {
     Ok(fovqa_config::read_study(path)?)
 }
 
+/// Parses the text of an experiment. Its relative paths start in the folder of `path`, which need not exist.
+///
+/// # Errors
+/// If it contains mistakes.
+pub fn parse_experiment(path: &Path, text: String) -> Result<Experiment, Error> {
+    Ok(fovqa_config::parse_experiment(path, text)?)
+}
+
+/// Parses the text of a curves file.
+///
+/// # Errors
+/// If it contains mistakes.
+pub fn parse_curves(path: &Path, text: String) -> Result<CurvesFile, Error> {
+    Ok(fovqa_config::parse_curves(path, text)?)
+}
+
+/// Parses the text of a study file. Its relative paths start in the folder of `path`.
+///
+/// # Errors
+/// If it contains mistakes.
+pub fn parse_study(path: &Path, text: &str) -> Result<StudyFile, Error> {
+    Ok(fovqa_config::parse_study(path, text)?)
+}
+
 /// Whether a file is of another kind than is wanted, as far as that can be told. A file that cannot be read
 /// or understood is explained when it is read.
 fn not_of_another_kind(path: &Path, wanted: FileKind) -> Result<(), Error> {

@@ -96,11 +96,13 @@ pub use curves::curves;
 pub use dialect::Dialect;
 pub use error::{Complaint, Error};
 pub use events::Silent;
-pub use experiment::{read_curves, read_experiment, read_study};
+pub use experiment::{
+    parse_curves, parse_experiment, parse_study, read_curves, read_experiment, read_study,
+};
 pub use finish::text_hash;
 pub use finished_run::FinishedRun;
 pub use foreseen_figures::{check_curves, foresee_figures};
-pub use foveate::{FoveateOutputs, Foveated, foveate_files};
+pub use foveate::{FoveateOutputs, Foveated, ShownFrame, foveate_files, foveate_frames};
 pub use gallery::{GalleryRequest, write_gallery};
 pub use gate::{Against, gate, gate_folder};
 pub use limit::{FoundLimits, LimitOptions, find_limits};
@@ -111,7 +113,7 @@ pub use pair::{PairScores, ScoreMap, ScoreOptions, score};
 pub use report::{Report, report};
 pub use run::{Finished, Run, RunOptions, problems};
 pub use samples::Sample;
-pub use score::{score_files, score_two_eyes};
+pub use score::{Compared, PairMaps, TakeMaps, score_files, score_plan, score_two_eyes};
 pub use study::{FinishedStudy, check_study, not_negated, read_table, study};
 
 pub use fovqa_config::{ExperimentError, Fault};

@@ -71,7 +71,8 @@ pub struct FoveatedRecord {
     pub frame: i64,
     /// The input, with `/` between folders.
     pub input: String,
-    /// The file that was written.
+    /// The file that was written; empty for a frame in memory.
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub output: String,
     /// The files with the reduced buffer, the innermost layer first.
     #[serde(skip_serializing_if = "Vec::is_empty")]

@@ -2,6 +2,7 @@
 //! `fovqa foveate` does.
 
 mod destination;
+mod frames;
 mod inputs;
 mod record;
 mod warnings;
@@ -10,12 +11,14 @@ mod written_frame;
 
 use std::path::PathBuf;
 
-use fovqa_engine::{EngineError, Events, Given};
-use fovqa_plan::{Plan, SourceSpec};
+use fovqa_emulate::EmulationSpec;
+use fovqa_engine::{EngineError, Events, FoundView, Given};
+use fovqa_plan::{EyeView, Plan, SourceSpec};
 use fovqa_results::{Failure, FoveateRecord};
 
 use crate::error::Error;
 use destination::Destinations;
+pub use frames::{ShownFrame, foveate_frames};
 use writer::Writer;
 
 /// Where emulated frames are written.
@@ -49,6 +52,22 @@ pub fn foveate_files(
     outputs: &FoveateOutputs,
     events: &dyn Events,
 ) -> Result<Foveated, Error> {
+    let (eye, spec) = only_emulation(plan)?;
+    inputs::refuse_stream(&eye.reference)?;
+    let view = only_view(plan, given)?;
+    let view = &view;
+    let destinations = Destinations::new(plan, view, outputs)?;
+    let mut writer = Writer::new(plan, view, eye, spec, destinations, events);
+    let failures = fovqa_engine::foveate(plan, view, events, &mut |frame| {
+        writer.take(&frame).map_err(EngineError::from)
+    });
+    events.finish();
+    let failures = failures?;
+    Ok(Foveated { record: writer.into_record(&failures), failures })
+}
+
+/// The only eye of a plan, and the emulation of its only method.
+fn only_emulation(plan: &Plan) -> Result<(&EyeView, &EmulationSpec), Error> {
     let ([scene], [_]) = (plan.scenes.as_slice(), plan.methods.as_slice()) else {
         return Err(not_one());
     };
@@ -57,20 +76,16 @@ pub fn foveate_files(
         return Err(not_one());
     };
     fovqa_engine::check(plan)?;
-    inputs::refuse_stream(&eye.reference)?;
+    Ok((eye, &emulation.spec))
+}
+
+/// The frames of a plan with one eye.
+fn only_view(plan: &Plan, given: &Given) -> Result<FoundView, Error> {
     let mut found = fovqa_engine::find(plan, given);
     if let Some(problem) = found.problems.pop() {
         return Err(problem.error.into());
     }
-    let Some(view) = found.views.first() else { return Err(not_one()) };
-    let destinations = Destinations::new(plan, view, outputs)?;
-    let mut writer = Writer::new(plan, view, eye, &emulation.spec, destinations, events);
-    let failures = fovqa_engine::foveate(plan, view, events, &mut |frame| {
-        writer.take(&frame).map_err(EngineError::from)
-    });
-    events.finish();
-    let failures = failures?;
-    Ok(Foveated { record: writer.into_record(&failures), failures })
+    found.views.into_iter().next().ok_or_else(not_one)
 }
 
 fn not_one() -> Error {

@@ -68,9 +68,10 @@ impl<'a> Writer<'a> {
         };
         let mut buffer_files = Vec::new();
         if let Some(destination) = self.destinations.buffer(frame.index) {
-            for (path, picture) in
-                buffers(self.spec, frame, &self.eye.settings.signal, destination)?
-            {
+            let pictures = buffers(self.spec, frame, &self.eye.settings.signal)?;
+            let layers = pictures.len();
+            for (index, picture) in pictures.into_iter().enumerate() {
+                let path = destination.layer(index + 1, layers);
                 let destination = Destination { path, ..destination.clone() };
                 write(&written, &picture, None, &destination)?;
                 buffer_files.push(self.plan.shown(&destination.path));
@@ -89,13 +90,12 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// The buffers of a picture, with their files.
-fn buffers(
+/// The reduced buffers of a frame, the innermost layer first.
+pub(super) fn buffers(
     spec: &EmulationSpec,
     frame: &FoveatedFrame<'_>,
     signal: &SignalParams,
-    destination: &Destination,
-) -> Result<Vec<(std::path::PathBuf, Picture)>, OutputError> {
+) -> Result<Vec<Picture>, OutputError> {
     let none = || OutputError::NoBuffer { method: spec.key().replace('_', "-") };
     let pictures = match frame.scene {
         None => frame.emulator.buffers(frame.before),
@@ -103,12 +103,7 @@ fn buffers(
     };
     let pictures =
         pictures.unwrap_or_else(|_| unreachable!("the emulator was made for this picture"));
-    if pictures.is_empty() {
-        return Err(none());
-    }
-    let layers = pictures.len();
-    let file = |(index, picture)| (destination.layer(index + 1, layers), picture);
-    Ok(pictures.into_iter().enumerate().map(file).collect())
+    if pictures.is_empty() { Err(none()) } else { Ok(pictures) }
 }
 
 fn write(
