@@ -26,7 +26,7 @@
 //! use fovqa_emulate::{EmulationSpec, Emulator, Picture};
 //! use fovqa_frame::{Channels, Frame, Samples, SignalParams, SignalTables};
 //!
-//! let frame = Frame::new(64, 48, Channels::Rgb, Samples::U8(vec![128; 64 * 48 * 3]))?;
+//! let frame = Frame::new(64, 48, Channels::Rgb, Samples::U8(vec![128; 64 * 48 * 3].into()))?;
 //! let tables = SignalTables::new(SignalParams::default());
 //! let picture = Picture::from_frame(&frame, &tables);
 //!

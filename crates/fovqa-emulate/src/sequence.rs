@@ -20,7 +20,7 @@ impl Emulator {
     /// ```
     /// use fovqa_emulate::{EmulationSpec, Emulator, History, Jitter, Picture};
     /// # use fovqa_frame::{Channels, Frame, Samples, SignalParams, SignalTables};
-    /// # let frame = Frame::new(64, 48, Channels::Rgb, Samples::U8(vec![128; 64 * 48 * 3]))?;
+    /// # let frame = Frame::new(64, 48, Channels::Rgb, Samples::U8(vec![128; 64 * 48 * 3].into()))?;
     /// # let picture = Picture::from_frame(&frame, &SignalTables::new(SignalParams::default()));
     /// # let pictures = [picture.clone(), picture];
     /// let mut spec = EmulationSpec::new("rmfr")?;

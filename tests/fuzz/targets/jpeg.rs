@@ -38,7 +38,7 @@ fuzz_target!(init: prepare(), |bytes: &[u8]| {
     };
     assert_eq!(expected.warning, None, "libjpeg warns");
     assert_eq!((width, height), (expected.width, expected.height));
-    if *samples != expected.samples {
+    if **samples != *expected.samples {
         let expected = libjpeg(Transform::Float).expect("as before").samples;
         assert_eq!(samples.len(), expected.len());
         let differences = samples.iter().zip(&expected).map(|(a, b)| a.abs_diff(*b));
