@@ -35,7 +35,7 @@ pub enum EngineError {
         name: String,
     },
     /// Not as many gaze points as frames.
-    #[error("there are {points} gaze points for {frames} frames")]
+    #[error("the number of gaze points is {points}, but that of frames is {frames}")]
     GazeCount {
         /// Number of points.
         points: usize,
