@@ -94,12 +94,21 @@ impl Builtin {
 
     /// The ground truth of a frame: the mean of its samples in each pixel, in linear light.
     pub fn ground_truth(&self, frame: usize) -> Frame {
+        self.ground_truth_watched(frame, &|| {})
+    }
+
+    /// The same as [`Builtin::ground_truth`]. `begin` is called before each row, by any thread. If it
+    /// panics, the drawing ends.
+    pub fn ground_truth_watched(&self, frame: usize, begin: &(dyn Fn() + Sync)) -> Frame {
         let View { width, height, .. } = self.view;
         let scene = self.frame(frame);
         let offsets = offsets(self.spec.samples);
         let mut pixels = vec![[0.0f32; 3]; width * height];
         pixels.par_chunks_mut(BLOCK_ROWS * width).enumerate().for_each(|(block, pixels)| {
             for (index, pixel) in pixels.iter_mut().enumerate() {
+                if index % width == 0 {
+                    begin();
+                }
                 let (x, y) = (index % width, block * BLOCK_ROWS + index / width);
                 let mut sum = [0.0f64; 3];
                 for [dx, dy] in &offsets {
