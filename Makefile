@@ -1,6 +1,6 @@
 # Each line is a plain cargo command, for those without make. All targets except `lint` and `fuzz` share the release profile.
 
-.PHONY: demo sample figures published-numbers test recovery mistakes bench lint fuzz
+.PHONY: demo sample figures published-numbers test wheel test-python notebook recovery mistakes bench lint fuzz
 
 demo:
 	cargo run --release --locked --bin fovqa -- run configs/demo.toml
@@ -9,7 +9,7 @@ demo:
 # needed.
 sample:
 	cargo run --release --locked --bin fovqa -- run configs/demo.toml --output reports/sample
-	FOVQA_WRITE_PICTURES=1 cargo test --release --locked --workspace --test integration browser::pictures
+	FOVQA_WRITE_PICTURES=1 cargo test --release --locked --test integration browser::pictures
 
 # The papers' experiments and curves, except those of data that is not in the repository. About 15 CPU minutes.
 figures:
@@ -21,10 +21,28 @@ figures:
 
 # docs/published-numbers.md, from the models and the papers' tables in ../shared/papers.
 published-numbers:
-	FOVQA_WRITE_PUBLISHED_NUMBERS=1 cargo test --release --locked --workspace --test integration published::
+	FOVQA_WRITE_PUBLISHED_NUMBERS=1 cargo test --release --locked --test integration published::
 
 test:
-	cargo test --release --locked --workspace
+	cargo test --release --locked
+
+# The Python package, as target/wheels/fovqa-….whl.
+python = target/python
+wheel:
+	test -x $(python)/build/bin/maturin || { python3 -m venv $(python)/build && $(python)/build/bin/pip install --quiet 'maturin>=1.9.4,<2'; }
+	rm -rf target/wheels
+	$(python)/build/bin/maturin build --release --locked --manifest-path crates/fovqa-py/Cargo.toml --out target/wheels
+
+# Tests of the wheel in a new virtual environment.
+test-python: wheel
+	rm -rf $(python)/test && python3 -m venv $(python)/test
+	$(python)/test/bin/pip install --quiet target/wheels/fovqa-*.whl --requirement crates/fovqa-py/tests/requirements.txt
+	$(python)/test/bin/ruff check crates/fovqa-py && $(python)/test/bin/ruff format --check crates/fovqa-py
+	$(python)/test/bin/python -m pytest crates/fovqa-py/tests
+
+# docs/python.ipynb with its results.
+notebook:
+	FOVQA_WRITE_NOTEBOOK=1 $(MAKE) test-python
 
 # How often the intervals of simulated studies contain the truth, as a table. About 5 CPU minutes.
 recovery:
@@ -37,6 +55,9 @@ mistakes:
 bench:
 	cargo bench --locked -p fovqa-tests --bench speed
 
+# The Python module is linted without an interpreter.
+lint: export PYO3_NO_PYTHON = 1
+lint: export PYO3_BUILD_EXTENSION_MODULE = 1
 lint:
 	cargo fmt --all --check
 	cargo clippy --release --locked --workspace --all-targets -- -D warnings
