@@ -57,6 +57,12 @@ fn buffer<T: Element + Sync + Clone + 'static>(array: &Bound<'_, PyAny>) -> PyRe
     Ok(Buffer::shared(ArrayMemory { first, length, _array: array.unbind() }))
 }
 
+/// Whether a value is an array, or can be made one.
+pub(crate) fn is_like_array(value: &Bound<'_, PyAny>) -> bool {
+    let has = |method: &&str| value.hasattr(*method).unwrap_or(false);
+    value.is_instance_of::<PyMemoryView>() || ["__array__", "__array_interface__"].iter().any(has)
+}
+
 /// The array of a value that is one or can be made one without a copy, such as a picture of Pillow or a
 /// tensor in main memory.
 pub(crate) fn array_of<'py>(
@@ -72,9 +78,7 @@ pub(crate) fn array_of<'py>(
     if let Ok(array) = value.cast::<PyUntypedArray>() {
         return Ok(array.clone());
     }
-    let like_array = ["__array__", "__array_interface__"];
-    let is_view = value.is_instance_of::<PyMemoryView>();
-    if !is_view && !like_array.iter().any(|method| value.hasattr(*method).unwrap_or(false)) {
+    if !is_like_array(value) {
         return Err(PyTypeError::new_err(format!(
             "the {name} is {}; give a numpy array (height x width, or height x width x 3), a path, or a \
              sequence of these",

@@ -1,6 +1,6 @@
 //! Shows what a foveation method would have shown of frames.
 
-use fovqa::{Dialect, Given, MetricChoice};
+use fovqa::{Dialect, Given, MetricChoice, ReadOptions};
 use fovqa_plan::Gaze;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -9,7 +9,7 @@ use crate::array;
 use crate::error::{exception, wrong_input};
 use crate::score::{add, all_failed, failure, plan_of};
 use crate::source::{GivenFrames, no_guides};
-use crate::worker::work;
+use crate::worker::{AtWork, work};
 
 /// Emulates a method on frames. `document` has the keys of an experiment with one scene and one method that is
 /// emulated.
@@ -25,11 +25,14 @@ pub(crate) fn foveate<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     const NAME: &str = "input";
+    let _calling = AtWork::new();
     let mut plan = plan_of(document)?;
     plan.metrics = MetricChoice::Named(Vec::new());
     let mut given = Given::new();
     let eye = &mut plan.scenes[0].eyes[0];
-    eye.reference = match GivenFrames::of(NAME, images, &eye.settings.read.clone())? {
+    let guides = eye.settings.guides.clone();
+    let read = ReadOptions { guides, ..eye.settings.read.clone() };
+    eye.reference = match GivenFrames::of(NAME, images, &read)? {
         GivenFrames::Source(frames) => add(&mut given, NAME, frames.with_guides(motion, None)?),
         GivenFrames::Path(path) => {
             no_guides(motion, None)?;

@@ -3,7 +3,9 @@
 use std::io;
 use std::sync::Arc;
 
-use fovqa::{Compared, Dialect, Error, Events, Failure, Given, Plan, ScoreReport, SourceSpec};
+use fovqa::{
+    Compared, Dialect, Error, Events, Failure, Given, Plan, ReadOptions, ScoreReport, SourceSpec,
+};
 use fovqa_metrics::{Key, Metric, MetricKind};
 use fovqa_plan::{EyeView, Gaze};
 use fovqa_results::Summary;
@@ -15,7 +17,7 @@ use crate::array;
 use crate::document::{Document, working_folder};
 use crate::error::{exception, wrong_input, wrong_request};
 use crate::source::{GivenFrames, PythonFrames, no_guides};
-use crate::worker::work;
+use crate::worker::{AtWork, work};
 
 /// The frames of both images, each for one eye or for two.
 const REFERENCES: [&str; 2] = ["reference", "right_reference"];
@@ -54,6 +56,7 @@ pub(crate) fn score<'py>(
     maps: bool,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let _calling = AtWork::new();
     let mut plan = plan_of(document)?;
     plan.maps = maps;
     let mut given = Given::new();
@@ -68,7 +71,9 @@ pub(crate) fn score<'py>(
         ));
     }
     for (nth, eye) in eyes.iter_mut().enumerate() {
-        let read = eye.settings.read.clone();
+        // Files of a list may have motion and depth beside their colours.
+        let guides = eye.settings.guides.clone();
+        let read = ReadOptions { guides, ..eye.settings.read.clone() };
         let frames = GivenFrames::of(REFERENCES[nth], &references[nth], &read)?;
         eye.reference = match frames {
             GivenFrames::Source(frames) => {

@@ -8,9 +8,9 @@ use fovqa_frame::source::{
     Entry, Frames, Length, Listing, Numbering, Origin, Picture, PictureGuides, Source, SourceError,
 };
 use fovqa_frame::{Frame, Guides};
-use numpy::{PyUntypedArray, PyUntypedArrayMethods};
+use numpy::PyUntypedArrayMethods;
 use pyo3::prelude::*;
-use pyo3::types::{PyByteArray, PyBytes, PyList, PyMapping, PyMemoryView, PyTuple};
+use pyo3::types::{PyByteArray, PyBytes, PyList, PyMapping, PyTuple};
 
 use crate::array;
 use crate::document::working_folder;
@@ -88,15 +88,8 @@ impl PythonFrames {
             motion: None,
             depth: None,
         };
-        let is_array = value.cast::<PyUntypedArray>().is_ok();
         let is_list = value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>();
-        let like_array = |value: &Bound<'_, PyAny>| {
-            value.is_instance_of::<PyMemoryView>()
-                || ["__array__", "__array_interface__"]
-                    .iter()
-                    .any(|m| value.hasattr(*m).unwrap_or(false))
-        };
-        if is_array || (!is_list && like_array(value)) {
+        if !is_list && array::is_like_array(value) {
             let array = array::array_of(name, value)?;
             if array.ndim() != 4 {
                 let frame = array::frame(name, &array, most)?;
@@ -174,11 +167,11 @@ impl PythonFrames {
         }
     }
 
-    fn frame(&self, nth: usize) -> Result<Picture, SourceError> {
+    fn frame(&self, nth: usize, guides: bool) -> Result<Picture, SourceError> {
         match &self.items {
             Items::Known(items) => match &items[nth] {
                 Item::Frame(frame) => Ok(picture_of(frame.clone())),
-                Item::File(path) => self.file(path)?.read(0, false),
+                Item::File(path) => self.file(path)?.read(0, guides),
             },
             Items::Fetched { sequence, .. } => {
                 let (name, most) = (self.name, self.read.max_megapixels);
@@ -319,7 +312,7 @@ impl Source for PythonFrames {
     }
 
     fn read(&self, frame: usize, guides: bool) -> Result<Picture, SourceError> {
-        let mut picture = self.frame(frame)?;
+        let mut picture = self.frame(frame, guides)?;
         if guides && (self.motion.is_some() || self.depth.is_some()) {
             picture.guides = self.fetched(frame, |py| {
                 let at = |given: &Py<PyAny>| given.bind(py).get_item(frame);

@@ -21,6 +21,8 @@ use crate::threads;
 const SIGNALS: Duration = Duration::from_millis(50);
 /// How long an interrupted call waits for its work to end.
 const PATIENCE: Duration = Duration::from_secs(2);
+/// How long the end of the interpreter waits for all work to end.
+const LAST_PATIENCE: Duration = Duration::from_secs(10);
 
 /// A message of the work.
 enum Said {
@@ -39,11 +41,12 @@ static AT_WORK: AtomicUsize = AtomicUsize::new(0);
 /// Whether the interpreter is about to end.
 static ENDING: AtomicBool = AtomicBool::new(false);
 
-/// Counts a caller or a worker for as long as it exists.
-struct AtWork;
+/// Counts a caller or a worker for as long as it exists. A function that prepares long lists counts itself from
+/// its beginning.
+pub(crate) struct AtWork;
 
 impl AtWork {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         AT_WORK.fetch_add(1, Ordering::SeqCst);
         Self
     }
@@ -66,15 +69,15 @@ pub(crate) fn shutdown(py: Python<'_>) {
         }
     }
     if !threads::is_orphan() {
-        wait(py, || AT_WORK.load(Ordering::SeqCst) == 0);
+        wait(py, LAST_PATIENCE, || AT_WORK.load(Ordering::SeqCst) == 0);
     }
 }
 
 /// Waits until something has ended, but not for long.
-fn wait(py: Python<'_>, has_ended: impl Fn() -> bool + Send + Sync) {
+fn wait(py: Python<'_>, at_most: Duration, has_ended: impl Fn() -> bool + Send + Sync) {
     let begin = Instant::now();
     py.detach(|| {
-        while !has_ended() && begin.elapsed() < PATIENCE {
+        while !has_ended() && begin.elapsed() < at_most {
             thread::sleep(Duration::from_millis(2));
         }
     });
@@ -180,7 +183,7 @@ pub(crate) fn work<T: Send + 'static>(
     let mut state = Progress { progress, what: "frames".to_owned(), done: 0, total: 0 };
     if let Err(error) = listen(py, heard, &interrupted, &mut of_work, &mut state) {
         interrupted.store(true, Ordering::Relaxed);
-        wait(py, || worker.is_finished());
+        wait(py, PATIENCE, || worker.is_finished());
         return Err(error);
     }
     match py.detach(|| worker.join()) {

@@ -137,6 +137,10 @@ def test_a_sequence_has_the_numbers_of_its_files(tmp_path):
         assert found["summary"] == wanted["summary"]
         assert found["summary_bands"] == wanted["summary_bands"]
     assert wanted["sequence"]["atd"]["motion"] == "reference", "the motion counts"
+    # Files of a list bring their motion and depth.
+    listed = sorted((tmp_path / "exr").iterdir())
+    found = fovqa.score(listed, tests, view=VIEW, gaze=gaze, metrics="atd").to_dict()
+    assert found["sequence"]["atd"] == wanted["sequence"]["atd"]
 
 
 def test_both_eyes_have_the_numbers_of_the_command(room):
