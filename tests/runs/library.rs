@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use fovqa::{
-    Finished, Given, Locking, Metric, MetricChoice, ParamSet, ParamValue, ReadOptions, Run,
+    Finished, Given, MergeOptions, Metric, MetricChoice, ParamSet, ParamValue, ReadOptions, Run,
     RunOptions, ScoreOptions, Settings, Silent, SourceSpec, Task, TaskFindings, ViewSpec, merge,
     read_experiment, results, score, units, video_stream, write_json,
 };
@@ -256,7 +256,7 @@ fn shards_of_streams_are_finished_wherever_the_stream_ends() {
             [("one", "1/2"), ("two", "2/2")].map(|(name, shard)| run(name, Some(shard)).errors);
         assert_eq!(found, [0, errors], "{allow} {stream}: the first shard has all of its frames");
         let shards = ["one", "two"].map(at);
-        let merged = merge(&shards, &at("merged"), Locking::Locked, &Silent);
+        let merged = merge(&shards, &at("merged"), MergeOptions::default(), &Silent);
         let merged = merged.unwrap_or_else(|error| panic!("{allow} {stream}: {error}"));
         assert_eq!((merged.scored, merged.errors), (whole.scored, whole.errors));
         for file in ["results.csv", "summary.json", "journal.jsonl"] {

@@ -27,3 +27,4 @@ mod table_layouts;
 mod two_eyes;
 mod typeset;
 mod unchanged;
+mod values;

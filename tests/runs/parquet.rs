@@ -16,8 +16,22 @@ fn with_tables(tables: &str) -> Folder {
     folder
 }
 
+/// Every cell of results.csv.
+pub(crate) fn cells_of_csv(folder: &Folder, file: &str) -> Vec<Vec<String>> {
+    let csv = fs::read_to_string(folder.path(file)).unwrap();
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(csv.as_bytes());
+    let records = reader.records().map(|record| {
+        let record: Vec<String> = record.unwrap().iter().map(str::to_owned).collect();
+        // Counts are whole numbers in the CSV; in Parquet a column has one type.
+        let value = record[11].parse::<u64>();
+        let value = value.map_or(record[11].clone(), |count| format!("{:?}", count as f64));
+        [&record[..11], &[value]].concat()
+    });
+    records.collect()
+}
+
 /// Every cell as the CSV would show it.
-fn cells(folder: &Folder, file: &str) -> Vec<Vec<String>> {
+pub(crate) fn cells(folder: &Folder, file: &str) -> Vec<Vec<String>> {
     let file = fs::File::open(folder.path(file)).unwrap();
     let reader = SerializedFileReader::new(file).unwrap();
     let names: Vec<String> = reader
@@ -49,18 +63,7 @@ fn has_the_values_of_the_csv() {
     let folder = with_tables("[\"csv\", \"parquet\"]");
     folder.png("room/b/0001.png", 3, 3, &[0; 27]);
     assert_eq!(folder.run(&["run", "e.toml", "--output", "out"]).code, 3);
-    let csv = fs::read_to_string(folder.path("out/results.csv")).unwrap();
-    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(csv.as_bytes());
-    let expected: Vec<Vec<String>> = reader
-        .records()
-        .map(|record| {
-            let record: Vec<String> = record.unwrap().iter().map(str::to_owned).collect();
-            // Counts are whole numbers in the CSV; in Parquet a column has one type.
-            let value = record[11].parse::<u64>();
-            let value = value.map_or(record[11].clone(), |count| format!("{:?}", count as f64));
-            [&record[..11], &[value]].concat()
-        })
-        .collect();
+    let expected = cells_of_csv(&folder, "out/results.csv");
     assert!(expected.iter().any(|row| row[6] == "error" && row[11] == "nan"));
     assert_eq!(cells(&folder, "out/results.parquet"), expected);
 }

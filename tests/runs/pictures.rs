@@ -13,6 +13,7 @@ use fovqa_io::{ReadOptions, read_frame};
 use serde_json::Value;
 
 use crate::fovqa::Folder;
+use crate::runs::interrupted_runs::{assert_same, results};
 
 /// Eight frames of the gallery, two methods, one of which filters over time.
 fn sequence(frames: &str) -> String {
@@ -216,6 +217,17 @@ fn shards_bring_their_pictures_and_the_others_are_named() {
     assert_eq!(merged.stderr.contains("are missing"), !is_complete, "{}", merged.stderr);
     folder.run(&["run", "s.toml", "--output", "out", "--resume"]).ok();
     assert!(files(&folder.path("out/images")) == all);
+    // With the frames, all are taken at once.
+    let merge = |experiment: &str| {
+        let shards = ["merge", "part-1", "part-2", "--output", "with", "--experiment"];
+        folder.run(&[&shards[..], &[experiment]].concat())
+    };
+    let said = merge("s.toml").ok().stderr;
+    assert!(!said.contains("missing"), "{said}");
+    assert_same(&results(&folder.path("with")), &results(&folder.path("whole")), "with frames");
+    folder.write("t.toml", of_length(26, "[\"first\"]"));
+    merge("t.toml").fails(3, &["t.toml", "the shards belong to another experiment"]);
+    merge("nowhere.toml").fails(2, &["nowhere.toml"]);
 }
 
 #[test]

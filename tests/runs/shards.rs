@@ -13,7 +13,7 @@ use crate::runs::interrupted_runs::{
 };
 
 /// Runs one shard, into `NAME-I-of-N`.
-fn shard(folder: &Folder, name: &str, index: usize, of: usize) -> Run {
+pub(crate) fn shard(folder: &Folder, name: &str, index: usize, of: usize) -> Run {
     let shard = format!("{index}/{of}");
     let output = format!("{name}-{index}-of-{of}");
     folder.run(&["run", "e.toml", "--shard", &shard, "--output", &output])
@@ -24,7 +24,7 @@ fn merge(folder: &Folder, shards: &[String], output: &str) -> Run {
     folder.run(&[&["merge"][..], &shards, &["--output", output]].concat())
 }
 
-fn names(name: &str, of: usize) -> Vec<String> {
+pub(crate) fn names(name: &str, of: usize) -> Vec<String> {
     (1..=of).map(|index| format!("{name}-{index}-of-{of}")).collect()
 }
 
@@ -205,7 +205,7 @@ fn a_missing_gaze_or_mask_is_the_same_in_shards() {
 }
 
 #[test]
-fn a_shard_leaves_its_journal_and_nothing_else() {
+fn a_shard_leaves_its_journal_and_its_values() {
     let folder = two_scenes();
     folder.run(&["run", "e.toml", "--output", "s"]).ok();
     let run = folder.run(&["run", "e.toml", "--shard", "2/3", "--output", "s"]).ok();
@@ -217,7 +217,7 @@ fn a_shard_leaves_its_journal_and_nothing_else() {
         "which frames are shown is known at the end"
     );
     files.retain(|file, _| !file.starts_with("images/"));
-    assert_eq!(files.into_keys().collect::<Vec<_>>(), ["journal.jsonl"]);
+    assert_eq!(files.into_keys().collect::<Vec<_>>(), ["journal.jsonl", "values.parquet"]);
     let lines = journal(&folder, "s");
     assert!(lines[0].contains("\"shard\":\"2/3\""));
     assert_eq!(*lines.last().unwrap(), sealed("{\"done\":true,\"sum\":\"\"}\n"));

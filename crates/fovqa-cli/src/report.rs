@@ -12,9 +12,13 @@ pub(crate) fn run(args: &ReportArgs) -> Exit {
     let folder = &args.results;
     let terminal = Terminal::speaking(Dialect::Experiment);
     match fovqa::report(folder, args.lock.locking(), &terminal) {
-        Ok(Report::Run(drawn)) => {
-            run::say(&Finished { folder: folder.clone(), scored: 0, errors: 0, drawn: Some(drawn) })
-        }
+        Ok(Report::Run(drawn)) => run::say(&Finished {
+            folder: folder.clone(),
+            scored: 0,
+            known: 0,
+            errors: 0,
+            drawn: Some(drawn),
+        }),
         Ok(Report::Limits(drawn)) => output::text(&drawn.table),
         Ok(Report::Index(count)) => {
             let folders = if count == 1 { "1 folder" } else { &format!("{count} folders") };

@@ -12,6 +12,7 @@ use fovqa_vision::Seen;
 use crate::crops::CropPair;
 use crate::error::EngineError;
 use crate::pictures::PicturePair;
+use crate::unit::Unit;
 
 /// The findings of a whole run, of one of its shards, or of a run that was interrupted.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -165,6 +166,23 @@ impl Findings {
             let named = move |outcome: &Outcome| Named::of(plan, (scene, outcome.method, eye));
             view.pairs.values().map(move |outcome| (named(outcome), &**outcome))
         })
+    }
+
+    /// The findings about some units.
+    pub(crate) fn of_units(&self, units: &[Unit]) -> Self {
+        let mut part = Self::default();
+        for Unit { scene, eye, pairs } in units {
+            let Some(view) = self.views.get(&(*scene, *eye)) else { continue };
+            let pairs = view.pairs.range(pairs.clone());
+            let of_view = ViewFindings {
+                pairs: pairs.map(|(index, outcome)| (*index, outcome.clone())).collect(),
+                settled: view.settled.clone(),
+                failed: view.failed.clone(),
+                before: Vec::new(),
+            };
+            part.views.insert((*scene, *eye), of_view);
+        }
+        part
     }
 
     /// Records all findings again, in the order of a run.

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use fovqa_io::read_head;
 use fovqa_results::{
     CURVES_CSV, CURVES_JSON, INDEX_HTML, LIMITS_CSV, LIMITS_JSON, OPINIONS_CSV, REPORT_HTML,
-    REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, STUDY_JSON, SUMMARY_JSON, make_folder,
-    sweep, take_away, try_writing,
+    REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, STUDY_JSON, SUMMARY_JSON, VALUES_PARQUET,
+    make_folder, sweep, take_away, try_writing,
 };
 use thiserror::Error;
 
@@ -19,9 +19,10 @@ use crate::journal::JOURNAL;
 const LOCK: &str = ".fovqa.lock";
 
 /// The files that a run writes, and the figures at the top level of its folder.
-const OURS: [&str; 17] = [
+const OURS: [&str; 18] = [
     RESULTS_CSV,
     RESULTS_PARQUET,
+    VALUES_PARQUET,
     SUMMARY_JSON,
     RUN_JSON,
     JOURNAL,
@@ -235,8 +236,11 @@ impl ResultsFolder {
     fn of_any(path: &Path, locking: Locking) -> Result<Self, FolderError> {
         let failed = |error| FolderError::Io { path: path.to_owned(), error };
         make_folder(path).map_err(failed)?;
+        // Beside a journal that a full disk has left empty, a shard may have its values.
+        let is_of_shard = |file: &str| file == VALUES_PARQUET && path.join(JOURNAL).exists();
+        let is_foreign = |file: &&str| !is_of_shard(file) && has_content(&path.join(file));
         if !is_ours(path)
-            && let Some(file) = OURS.into_iter().find(|file| has_content(&path.join(file)))
+            && let Some(file) = OURS.into_iter().find(is_foreign)
         {
             return Err(FolderError::Foreign { path: path.to_owned(), file });
         }
@@ -267,6 +271,7 @@ impl ResultsFolder {
         let files = [
             RESULTS_CSV,
             RESULTS_PARQUET,
+            VALUES_PARQUET,
             SUMMARY_JSON,
             RUN_JSON,
             CURVES_CSV,
@@ -350,8 +355,13 @@ mod tests {
         assert!(!folder.path().join(RESULTS_CSV).exists());
         drop(ours);
         // An empty file, which a full disk leaves, contains nothing that could be lost.
+        let values = folder.path().join(VALUES_PARQUET);
+        fs::write(&values, "values").unwrap();
+        let error = open(folder.path()).unwrap_err();
+        assert!(matches!(error, FolderError::Foreign { file: VALUES_PARQUET, .. }), "{error}");
         fs::write(folder.path().join(JOURNAL), "").unwrap();
         drop(open(folder.path()).unwrap());
+        fs::remove_file(values).unwrap();
         fs::write(folder.path().join("table.md"), "mine").unwrap();
         assert!(open(folder.path()).is_err());
         fs::write(folder.path().join(REPORT_JSON), "{\n  \"schema\": \"fovqa.report/1\"").unwrap();

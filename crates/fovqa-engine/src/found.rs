@@ -1,6 +1,7 @@
 //! What was found for a plan before any pixel is read: frames, gaze, and inputs that cannot be
 //! scored.
 
+use fovqa_metrics::{LeadIn, Needs};
 use fovqa_plan::{EyeView, Plan, Scene};
 use fovqa_vision::GazeAt;
 
@@ -15,6 +16,16 @@ pub struct FoundInputs {
     pub views: Vec<FoundView>,
     /// Inputs that cannot be scored.
     pub problems: Vec<Problem>,
+}
+
+impl FoundInputs {
+    /// Whether scoring a frame reads frames before it: for a temporal metric, or to emulate a method.
+    pub fn reads_frames_before(&self, plan: &Plan) -> bool {
+        let emulations = self.views.iter().flat_map(|view| view.sources.emulations());
+        let mut emulations = emulations.map(|(_, emulation)| emulation);
+        Needs::of(plan.metrics.metrics()).lead_in > LeadIn::None
+            || emulations.any(|of| of.is_temporal() || of.reproject().is_some())
+    }
 }
 
 /// The frames of one eye's view of a scene.

@@ -8,6 +8,18 @@ use crate::findings::{Findings, Outcome, Settled, ViewFindings, ViewIndex};
 use crate::unit::Unit;
 
 impl Findings {
+    /// Removes from the findings of the next units what has no value because of these findings. Returns
+    /// whether there was anything.
+    pub(crate) fn break_off(&self, next: &mut Findings) -> bool {
+        let mut has_changed = false;
+        for (place, next) in &mut next.views {
+            if let Some(settled) = self.views.get(place).and_then(|view| view.settled.as_ref()) {
+                has_changed |= break_off(settled, next);
+            }
+        }
+        has_changed
+    }
+
     /// Adds the findings of the next units.
     pub(crate) fn join(&mut self, next: Findings) {
         for (name, id) in next.inputs.iter() {
@@ -39,19 +51,29 @@ impl Findings {
     }
 }
 
-/// Joins the findings of the next unit of a view to those of the units before it.
-fn join(all: &mut ViewFindings, mut next: ViewFindings) {
-    all.failed = all.failed.take().or(next.failed);
-    let Settled { fvvdp, missing, passed_over, .. } = all.settled.take().unwrap_or_default();
-    // A sequence that was interrupted before this unit has no values from here on.
-    let broken = |outcome: &&mut Box<Outcome>| missing.contains_key(&outcome.method);
+/// Removes the values of FovVideoVDP of sequences that were interrupted before this unit: they have no
+/// values from there on. Returns whether there were any.
+fn break_off(before: &Settled, next: &mut ViewFindings) -> bool {
+    let broken = |outcome: &&mut Box<Outcome>| before.missing.contains_key(&outcome.method);
     let mut layouts = Layouts::default();
+    let mut has_changed = false;
     for outcome in next.pairs.values_mut().filter(broken) {
-        if let Ok(frame) = &mut outcome.result {
+        let Ok(frame) = &mut outcome.result else { continue };
+        if frame.rows.has(Metric::Fvvdp) {
             let of_others = frame.rows.iter().filter(|row| row.key.metric() != Some(Metric::Fvvdp));
             frame.rows = layouts.pack(&of_others.collect());
+            has_changed = true;
         }
     }
+    has_changed
+}
+
+/// Joins the findings of the next unit of a view to those of the units before it.
+fn join(all: &mut ViewFindings, mut next: ViewFindings) {
+    all.failed = all.failed.take().or(next.failed.take());
+    let before = all.settled.take().unwrap_or_default();
+    break_off(&before, &mut next);
+    let Settled { fvvdp, missing, passed_over, .. } = before;
     all.pairs.append(&mut next.pairs);
     all.before.append(&mut next.before);
     // The later unit searched from the first pair for the pair that settles the view.

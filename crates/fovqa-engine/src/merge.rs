@@ -1,14 +1,14 @@
 //! Merges the shards of a run. The merged findings are those of the whole run.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use fovqa_plan::Plan;
 use thiserror::Error;
 
 use crate::findings::{Findings, ViewFindings};
-use crate::journal::{self, Content, Header, Text, place};
+use crate::journal::{self, Content, Header, Said, Text};
 use crate::share::Shard;
-use crate::unit::Unit;
 
 /// Why shards cannot be merged.
 #[derive(Debug, Error)]
@@ -145,52 +145,49 @@ impl MergeError {
 /// All shards of a run.
 pub struct Shards {
     header: Header,
-    /// The folder, index and journal of each shard, in order.
-    shards: Vec<(PathBuf, Shard, Text)>,
+    /// The folder of each shard, in order. Their journals are read one after another when they are needed.
+    folders: BTreeMap<Shard, PathBuf>,
 }
 
 impl Shards {
-    /// Reads the shards in some folders. Each shard of one run must be there exactly once.
+    /// Reads the first lines of the shards in some folders. Each shard of one run must be there exactly
+    /// once.
     ///
     /// # Errors
     /// If that is not the case.
     pub fn read(folders: &[PathBuf]) -> Result<Self, MergeError> {
-        let mut shards: Vec<(PathBuf, Shard, Text)> = Vec::new();
+        let mut first: Option<Header> = None;
+        let mut shards: BTreeMap<Shard, PathBuf> = BTreeMap::new();
         for path in folders {
-            let text = text(path)?;
-            let Some(shard) = text.header.shard else {
+            let header = text(path)?.header;
+            let Some(shard) = header.shard else {
                 return Err(MergeError::Whole(path.clone()));
             };
-            if let Some((first, _, other)) = shards.first()
-                && let Some(what) = difference(&other.header, &text.header)
-            {
-                return Err(MergeError::Differ {
-                    first: first.clone(),
-                    second: path.clone(),
-                    what,
-                });
+            match &mut first {
+                None => first = Some(header),
+                Some(first) => {
+                    if let Some(what) = difference(first, &header) {
+                        let (first, second) = (folders[0].clone(), path.clone());
+                        return Err(MergeError::Differ { first, second, what });
+                    }
+                    // The maps of a run are in one folder, or the run has none.
+                    first.maps =
+                        first.maps.take().filter(|maps| Some(maps) == header.maps.as_ref());
+                }
             }
-            if let Some((first, _, _)) = shards.iter().find(|(_, other, _)| *other == shard) {
-                let (first, second) = (first.clone(), path.clone());
-                return Err(MergeError::Twice { shard, first, second });
+            if let Some(first) = shards.insert(shard, path.clone()) {
+                return Err(MergeError::Twice { shard, first, second: path.clone() });
             }
-            shards.push((path.clone(), shard, text));
         }
-        shards.sort_by_key(|(_, shard, _)| *shard);
-        let Some((_, first, text)) = shards.first() else {
+        let Some((of, first)) = first.and_then(|first| Some((first.shard?.of(), first))) else {
             return Err(MergeError::Missing { missing: vec![1], of: 1 });
         };
-        let maps = text.header.maps.clone();
-        let maps = maps.filter(|maps| {
-            shards.iter().all(|(_, _, text)| text.header.maps.as_ref() == Some(maps))
-        });
-        let (header, of) = (text.header.of_all(maps), first.of());
-        let there = |index: &u32| shards.iter().any(|(_, shard, _)| shard.index() == *index);
-        let missing: Vec<u32> = (1..=of).filter(|index| !there(index)).collect();
+        let there: BTreeSet<u32> = shards.keys().map(|shard| shard.index()).collect();
+        let missing: Vec<u32> = (1..=of).filter(|index| !there.contains(index)).collect();
         if !missing.is_empty() {
             return Err(MergeError::Missing { missing, of });
         }
-        Ok(Self { header, shards })
+        Ok(Self { header: first.of_all(), folders: shards })
     }
 
     /// The header of the whole run.
@@ -198,33 +195,55 @@ impl Shards {
         &self.header
     }
 
-    /// The findings of all shards. `plan` must be the plan of their experiment.
+    /// The folders of the shards, in order.
+    pub fn folders(&self) -> impl Iterator<Item = (Shard, &Path)> {
+        self.folders.iter().map(|(shard, folder)| (*shard, folder.as_path()))
+    }
+
+    /// The findings of all shards. `plan` must be the plan of their experiment. `changed` is called with the
+    /// each shard whose values are not all values of the run: after a frame of another shard that could not be
+    /// read, FovVideoVDP has none.
     ///
     /// # Errors
     /// If a shard is not finished, or a file was not the same for all shards.
-    pub fn findings(&self, plan: &Plan) -> Result<Findings, MergeError> {
+    pub fn findings(
+        &self,
+        plan: &Plan,
+        changed: &mut dyn FnMut(Shard),
+    ) -> Result<Findings, MergeError> {
         let mut all = Findings::default();
-        for (path, shard, text) in &self.shards {
-            let said = text.said(plan);
+        for (shard, path) in self.folders() {
+            let text = text(path)?;
+            let said = said(path, &text, plan)?;
             if let Some(line) = said.changed {
-                return Err(MergeError::Changed { path: path.clone(), line });
+                return Err(MergeError::Changed { path: path.to_owned(), line });
             }
-            if !said.done || said.torn || !is_complete(plan, text, &said.findings) {
-                return Err(MergeError::Unfinished { path: path.clone(), shard: *shard });
+            if !said.done || said.torn || !is_complete(plan, &text, &said.findings) {
+                return Err(MergeError::Unfinished { path: path.to_owned(), shard });
             }
-            let changed = |file: String| MergeError::Input { file, path: path.clone() };
+            let other = |file: String| MergeError::Input { file, path: path.to_owned() };
             if let Some(file) = said.twice {
-                return Err(changed(file));
+                return Err(other(file));
             }
-            for (file, id) in said.findings.inputs.iter() {
+            let mut findings = said.findings;
+            for (file, id) in findings.inputs.iter() {
                 if all.inputs.get(file).is_some_and(|known| known != id) {
-                    return Err(changed(file.to_string()));
+                    return Err(other(file.to_string()));
                 }
             }
-            self.agree(plan, &all, path, &said.findings)?;
-            all.join(said.findings);
+            self.agree(plan, &all, path, &findings)?;
+            if all.break_off(&mut findings) {
+                changed(shard);
+            }
+            all.join(findings);
         }
         Ok(all)
+    }
+
+    /// The findings about a shard among those of all shards.
+    pub fn part(&self, plan: &Plan, all: &Findings, shard: Shard) -> Findings {
+        let units = self.header.of_shard(shard).units_with_ends(plan);
+        all.of_units(&units)
     }
 
     /// Refuses a shard that viewed a scene under other conditions than earlier shards.
@@ -250,15 +269,22 @@ impl Shards {
                 }
                 _ => continue,
             };
-            let seen = self.shards.iter().find(|(_, _, text)| {
-                text.said(plan).findings.views.get(place).and_then(settled).is_some()
-            });
-            let first = seen.map_or_else(|| path.to_owned(), |(first, _, _)| first.clone());
+            let has_it = |folder: &&PathBuf| {
+                let said = text(folder).and_then(|text| said(folder, &text, plan));
+                said.is_ok_and(|said| said.findings.views.get(place).and_then(settled).is_some())
+            };
+            let first = self.folders.values().find(has_it);
+            let first = first.map_or_else(|| path.to_owned(), Clone::clone);
             let scene = plan.scenes[place.0].name.clone();
             return Err(MergeError::Disagree { first, second: path.to_owned(), scene, what });
         }
         Ok(())
     }
+}
+
+/// Reads the rest of a journal.
+fn said(path: &Path, text: &Text, plan: &Plan) -> Result<Said, MergeError> {
+    text.said(plan).map_err(|error| MergeError::Io { path: path.to_owned(), error })
 }
 
 fn text(path: &Path) -> Result<Text, MergeError> {
@@ -303,11 +329,7 @@ fn difference(one: &Header, other: &Header) -> Option<String> {
 
 /// Whether a shard contains all of its pairs.
 fn is_complete(plan: &Plan, text: &Text, findings: &Findings) -> bool {
-    let shares = text.header.views.iter().zip(&text.shares);
-    shares.filter(|(_, share)| !share.is_empty()).all(|(view, share)| {
-        let place = place(plan, &view.scene, view.eye);
-        place.is_some_and(|(scene, eye)| {
-            findings.has_all_of(&Unit { scene, eye, pairs: share.clone() })
-        })
-    })
+    let units = text.header.units(plan);
+    let own = text.shares.iter().filter(|share| !share.is_empty()).count();
+    own == units.len() && units.iter().all(|unit| findings.has_all_of(unit))
 }

@@ -7,10 +7,12 @@ use std::path::Path;
 use fovqa_frame::source::Origin;
 use fovqa_metrics::{LeadIn, Metric, Needs};
 use fovqa_plan::{Emulation, Eye, Gaze, Plan};
+use fovqa_results::Inputs;
 
 use crate::error::EngineError;
 use crate::findings::{Findings, ViewFindings};
 use crate::found::{FoundInputs, FoundView};
+use crate::found_frame::FoundFrame;
 use crate::inputs::changed_inputs;
 use crate::journal::{self, Header, JOURNAL, ViewFiles};
 use crate::share::{Shard, shares};
@@ -60,11 +62,17 @@ pub fn resume(
     if !changes.is_empty() {
         return changed(changes);
     }
-    let said = text.said(plan);
+    let said = text
+        .said(plan)
+        .map_err(|error| EngineError::JournalRead { path: folder.join(JOURNAL), error })?;
     if let Some(line) = said.changed {
         return Err(EngineError::JournalChanged { path: folder.join(JOURNAL), line });
     }
-    let changes = changed_inputs(&said.findings.inputs, plan, &origins(plan, found));
+    let changes = changed_inputs(
+        &said.findings.inputs,
+        plan,
+        &origins(plan, found, header.shard, &said.findings.inputs),
+    );
     if !changes.is_empty() {
         return changed(changes);
     }
@@ -72,8 +80,14 @@ pub fn resume(
     Ok(Resumed { known, changes: Vec::new() })
 }
 
-/// All files that a run reads, by the names that results show.
-fn origins(plan: &Plan, found: &FoundInputs) -> BTreeMap<String, Origin> {
+/// The files of recorded inputs, by the names that results show. Only as many frames are looked at as it
+/// takes to find them all: a shard has few files of a long sequence.
+fn origins(
+    plan: &Plan,
+    found: &FoundInputs,
+    shard: Option<Shard>,
+    inputs: &Inputs,
+) -> BTreeMap<String, Origin> {
     let settings = plan.scenes.iter().flat_map(|scene| &scene.eyes).map(|eye| &eye.settings);
     let beside = settings.flat_map(|settings| {
         let trace = match &settings.gaze {
@@ -83,11 +97,42 @@ fn origins(plan: &Plan, found: &FoundInputs) -> BTreeMap<String, Origin> {
         [settings.mask.as_ref(), trace].into_iter().flatten()
     });
     let beside = beside.map(|path| (plan.shown(path), Origin::File(path.clone())));
-    let frames = found.views.iter().flat_map(|view| {
-        let frames = view.frames.iter().flat_map(|frame| view.sources.of_frame(frame));
-        frames.flat_map(|(source, at)| source.origins(at))
+    let pairs: Vec<usize> = found.views.iter().map(FoundView::pairs).collect();
+    let shares: Vec<_> = found.views.iter().zip(shares(shard, &pairs)).collect();
+    // A method may take from the frames of the other eye.
+    let has_share = |scene| shares.iter().any(|(of, share)| of.scene == scene && !share.is_empty());
+    let own = shares.iter().filter(|(view, _)| has_share(view.scene));
+    let frames = own.flat_map(|(view, share)| {
+        nearest_first(view, share).flat_map(move |frame| {
+            let sources = view.sources.of_frame(frame);
+            sources.flat_map(|(source, at)| source.origins(at)).collect::<Vec<_>>()
+        })
     });
-    beside.chain(frames).collect()
+    let mut origins = BTreeMap::new();
+    for (name, origin) in beside.chain(frames) {
+        if inputs.get(&name).is_some() {
+            origins.insert(name, origin);
+        }
+        if origins.len() == inputs.len() {
+            break;
+        }
+    }
+    origins
+}
+
+/// The frames of a view, those of a share of its pairs first, then the first frame, which settles the view,
+/// then the frames before the share, which temporal metrics read, and the rest.
+fn nearest_first<'a>(
+    view: &'a FoundView,
+    share: &Range<usize>,
+) -> impl Iterator<Item = &'a FoundFrame> + use<'a> {
+    let mut pairs = 0;
+    let before = view.frames.iter().take_while(|frame| {
+        pairs += frame.tests.len();
+        pairs <= share.start
+    });
+    let (before, own) = view.frames.split_at(before.count());
+    own.iter().take(share.len()).chain(before.first()).chain(before.iter().rev()).chain(own)
 }
 
 /// The reason if maps are requested that finished frames do not have.

@@ -15,6 +15,8 @@ use crate::json::CheckedKeys;
 pub const RESULTS_CSV: &str = "results.csv";
 /// The table of all values as Parquet.
 pub const RESULTS_PARQUET: &str = "results.parquet";
+/// Name of the table of the values of a shard, which has the columns of [`RESULTS_PARQUET`].
+pub const VALUES_PARQUET: &str = "values.parquet";
 /// Statistics over the frames.
 pub const SUMMARY_JSON: &str = "summary.json";
 /// The record of the run: experiment, settings and inputs.

@@ -36,7 +36,7 @@ pub use curves::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRe
 pub use files::{
     CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, INDEX_HTML, LIMITS_CSV, LIMITS_JSON,
     OPINIONS_CSV, REPORT_HTML, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, STUDIES_SCHEMA,
-    STUDY_JSON, SUMMARY_JSON, open_result_file, read_json_file,
+    STUDY_JSON, SUMMARY_JSON, VALUES_PARQUET, open_result_file, read_json_file,
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{
@@ -70,9 +70,9 @@ pub use samples::{BudgetSummary, SampleSummary};
 pub use spread::Spread;
 pub use stereo::StereoReport;
 pub use summary::{AtdSummary, BandSummary, SideStatistics, Statistics, Summary};
-#[cfg(feature = "parquet")]
-pub use table::write_results_parquet;
 pub use table::{
     ERROR, GAZE_STEP, HAS_PARQUET, TableRow, Value, Which, read_results, table_file, write_csv,
     write_results_csv, write_stereo_csv, write_tables,
 };
+#[cfg(feature = "parquet")]
+pub use table::{Part, write_results_parquet};

@@ -17,7 +17,7 @@ pub enum Dialect {
 }
 
 /// Setting, option, key, and argument.
-const SETTINGS: [(&str, &str, &str, &str); 29] = [
+const SETTINGS: [(&str, &str, &str, &str); 31] = [
     ("allow_missing", "--allow-missing", "allow_missing = true", "allow_missing=True"),
     ("alpha=ignore", "--alpha ignore", "alpha = \"ignore\"", "signal={\"alpha\": \"ignore\"}"),
     (
@@ -31,6 +31,7 @@ const SETTINGS: [(&str, &str, &str, &str); 29] = [
     ("crop", "--crop X,Y,W,H", "crop = [X, Y, W, H]", "crop=(x, y, width, height)"),
     ("exposure", "--exposure", "exposure_stops", "exposure_stops in signal"),
     ("experiment", "--frames=EXPERIMENT", "--frames=EXPERIMENT", "--frames=EXPERIMENT"),
+    ("experiment_of_shards", "--experiment FILE", "--experiment FILE", "experiment"),
     ("fps", "--fps", "fps", "fps"),
     ("frames", "--frames A..B", "frames = \"A..B\" (or --frames A..B)", "frames=\"A..B\""),
     ("gaze", "X,Y", "[X, Y]", "(x, y)"),
@@ -89,6 +90,7 @@ const SETTINGS: [(&str, &str, &str, &str); 29] = [
     ),
     ("tonemap", "--tonemap", "tonemap", "tonemap in signal"),
     ("transfer", "--transfer", "transfer", "transfer in signal"),
+    ("values", "--values", "--values", "values"),
     (
         "view",
         "a view (--fov-vertical, --fov-horizontal, --fov-diagonal, --frustum, --display, or \

@@ -13,6 +13,7 @@ use fovqa_results::{
 
 use crate::error::Error;
 use crate::gate::clear::clear_gate;
+use crate::values::clear_values;
 
 /// Removes the results of an earlier run, so that they cannot be mistaken for the results of this
 /// one.
@@ -20,7 +21,13 @@ pub(crate) fn clear(folder: &ResultsFolder) -> Result<(), Error> {
     folder.clear().map_err(|error| in_folder(&error))?;
     fovqa_report::clear(folder.path());
     clear_gate(folder.path());
+    clear_values(folder.path());
     Ok(())
+}
+
+/// Converts an error of a file of results.
+pub(crate) fn no_space(error: &FileError) -> Error {
+    Error::input(error.to_string(), NO_SPACE)
 }
 
 /// Converts an error of a results folder.
@@ -49,7 +56,7 @@ pub(crate) fn finish(
     say_failures(failures, "summary.json", events);
     let writing = events.step("writing the results", 0);
     if let Err(error) = write(experiment, results, folder.path()) {
-        return Err(Error::input(error.to_string(), NO_SPACE));
+        return Err(no_space(&error));
     }
     drop(writing);
     judge(folder)?;

@@ -88,6 +88,7 @@ mod run;
 mod samples;
 mod score;
 mod study;
+mod values;
 
 pub use baseline::{Accepted, Frames, Saved, accept_baseline, read_baseline, save_baseline};
 pub use calibrate::calibrate;
@@ -107,7 +108,7 @@ pub use gallery::{GalleryRequest, write_gallery};
 pub use gate::{Against, gate, gate_folder};
 pub use limit::{FoundLimits, LimitOptions, find_limits};
 pub use maps::maps_lacking;
-pub use merge::merge;
+pub use merge::{MergeOptions, merge};
 pub use opinions::check_study_of;
 pub use pair::{PairScores, ScoreMap, ScoreOptions, score};
 pub use report::{Report, report};

@@ -2,6 +2,7 @@
 //! and figures.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use fovqa_engine::{
     Entry, Events, Findings, FoundInputs, Given, Header, Journal, Locking, ResultsFolder, Shard,
@@ -10,16 +11,18 @@ use fovqa_engine::{
 use fovqa_io::sequence::FrameRange;
 use fovqa_plan::{Experiment, Eye, TableFormat};
 use fovqa_report::Drawn;
-use fovqa_results::{HAS_PARQUET, table_file};
+use fovqa_results::{HAS_PARQUET, RunResults, table_file};
 
 use crate::crops::Crops;
 use crate::error::{Complaint, Error};
-use crate::finish::{Judge, clear, finish, in_folder, say_failures_of_shard};
+use crate::events::Silent;
+use crate::finish::{Judge, clear, finish, in_folder, no_space, say_failures_of_shard, text_hash};
 use crate::foreseen_figures::foresee_figures_of_run;
 use crate::kept_frames::{KeptFrames, check_inputs};
 use crate::maps::{MapsFolder, maps_lacking};
 use crate::opinions::Opinions;
 use crate::pictures::{Pictures, Taking, clear_pictures, no_pictures, take_missing};
+use crate::values::write_values_of_shard;
 
 /// How an experiment is run.
 #[derive(Debug, Clone, Default)]
@@ -45,6 +48,17 @@ pub struct Run {
     experiment: Experiment,
     options: RunOptions,
     found: FoundInputs,
+    /// It is made when it is needed, and then kept for all shards: it depends on every frame.
+    header: OnceLock<Header>,
+}
+
+/// What was scored, in its folder.
+struct Scored {
+    folder: ResultsFolder,
+    findings: Findings,
+    pictures: Pictures,
+    /// Number of pairs that an earlier run had scored.
+    known: usize,
 }
 
 /// The result of a run.
@@ -54,6 +68,8 @@ pub struct Finished {
     pub folder: PathBuf,
     /// Number of frames that were scored.
     pub scored: usize,
+    /// Number of pairs of images among them that an earlier run had scored.
+    pub known: usize,
     /// Number of items that could not be scored. Each was reported.
     pub errors: usize,
     /// The tables and figures; `None` for a shard, which has no results of its own.
@@ -112,7 +128,7 @@ impl Run {
             ));
         }
         let found = fovqa_engine::find(&experiment.plan, given);
-        let run = Self { experiment, options, found };
+        let run = Self { experiment, options, found, header: OnceLock::new() };
         let wrong = run.found.problems.iter().any(|problem| problem.error.is_usage());
         if wrong { Err(Error::Usage(run.problems())) } else { Ok(run) }
     }
@@ -142,6 +158,27 @@ impl Run {
         problems(&self.experiment, &self.found)
     }
 
+    /// Checks what would only be noticed after scoring: whether figures can be as the experiment says, and
+    /// its table of opinion scores.
+    ///
+    /// # Errors
+    /// If something is wrong with them.
+    pub fn foresee(&self, events: &dyn Events) -> Result<(), Error> {
+        foresee_figures_of_run(&self.experiment, &self.found, events)?;
+        Opinions::read(&self.experiment).map(drop)
+    }
+
+    /// Whether scoring a frame reads frames before it: these are read again at the beginning of each shard.
+    pub fn reads_frames_before(&self) -> bool {
+        self.found.reads_frames_before(&self.experiment.plan)
+    }
+
+    /// A hash of everything that shards of one run have in common: the version, the experiment, and the
+    /// files that were found.
+    pub fn fingerprint(&self) -> String {
+        text_hash(&serde_json::to_string(self.header()).unwrap_or_default())
+    }
+
     /// Scores the frames, and writes the results, tables and figures.
     ///
     /// # Errors
@@ -158,53 +195,91 @@ impl Run {
         judge: &mut Judge<'_>,
     ) -> Result<Finished, Error> {
         foresee_figures_of_run(&self.experiment, &self.found, events)?;
-        let folder = self.folder();
-        check_inputs(&self.experiment.plan, &self.found, &folder)?;
+        if let Some(shard) = self.options.shard {
+            return self.score_shard(shard, &self.folder(), self.options.resume, events);
+        }
+        let Scored { folder, findings, mut pictures, known } =
+            self.score(&self.folder(), None, self.options.resume, events)?;
+        let path = folder.path().to_owned();
+        let (experiment, found) = (&self.experiment, Some(&self.found));
+        let taking = Taking { experiment, found, findings: &findings, events };
+        take_missing(&taking, folder.path(), &mut pictures);
+        // The results name all files that they need, and a long sequence has very many.
+        drop(self.found);
+        let results = results(&self.experiment.plan, events, findings);
+        let scored = scored_frames(&results);
+        let (errors, drawn) = finish(&self.experiment, results, &folder, events, judge)?;
+        Ok(Finished { folder: path, scored, known, errors, drawn: Some(drawn) })
+    }
+
+    /// Scores a shard into a folder, in which [`merge`](crate::merge) finds it, or continues with it. A
+    /// program that scores many shards finds their frames once: those in [`RunOptions`] do not matter.
+    ///
+    /// # Errors
+    /// As [`Run::start`].
+    pub fn score_shard(
+        &self,
+        shard: Shard,
+        folder: &Path,
+        resume: bool,
+        events: &dyn Events,
+    ) -> Result<Finished, Error> {
+        let plan = &self.experiment.plan;
+        let Scored { folder, findings, known, .. } =
+            self.score(folder, Some(shard), resume, events)?;
+        for problem in &self.found.problems {
+            let scene = &plan.scenes[problem.scene].name;
+            let merged = "this will be an error after merging";
+            events.warn(&format!("{scene}: {} ({merged})", problem.error));
+        }
+        let failures = findings.failures(plan);
+        say_failures_of_shard(&failures, events);
+        let (scored, errors) = (findings.scored(plan).count(), failures.len());
+        // What it has to say, it says again when the shards are merged.
+        write_values_of_shard(folder.path(), &results(plan, &Silent, findings))
+            .map_err(|error| no_space(&error))?;
+        Ok(Finished { folder: folder.path().to_owned(), scored, known, errors, drawn: None })
+    }
+
+    /// Scores the frames, or those of a shard, into a folder, as far as they are not known.
+    fn score(
+        &self,
+        folder: &Path,
+        shard: Option<Shard>,
+        resume: bool,
+        events: &dyn Events,
+    ) -> Result<Scored, Error> {
+        check_inputs(&self.experiment.plan, &self.found, folder)?;
         let opinions = Opinions::read(&self.experiment)?;
         if let Some(opinions) = &opinions {
             opinions.warn(events);
         }
         // The folder is opened before anything is scored, so that a folder that cannot be written
         // to is noticed at once.
-        let folder = ResultsFolder::open(&folder, self.options.locking)
-            .map_err(|error| in_folder(&error))?;
-        let header = Header::new(&self.experiment, &self.found, self.options.shard)
-            .with_maps(self.options.maps.as_deref());
+        let folder =
+            ResultsFolder::open(folder, self.options.locking).map_err(|error| in_folder(&error))?;
+        let header = shard.map(|shard| self.header().of_shard(shard));
+        let header = header.as_ref().unwrap_or_else(|| self.header());
         let maps = self.maps(folder.path());
-        let known = if self.options.resume {
-            self.known(&folder, &header, &maps, events)?
-        } else {
-            Findings::default()
-        };
+        let known =
+            if resume { self.known(&folder, header, &maps, events)? } else { Findings::default() };
+        let known_pairs = known.pairs();
         warn_of_regions(&self.experiment.plan, &self.found, events);
         let mut pictures = Pictures::new(folder.path(), self.experiment.report.size);
-        let findings = self.score(&folder, (&header, known), (&maps, &mut pictures), events)?;
+        let units = units(&self.found, shard);
+        let findings =
+            self.record(&folder, (header, &units, known), (&maps, &mut pictures), events)?;
         if let Some(opinions) = opinions {
             opinions.write(folder.path())?;
         }
-        let plan = &self.experiment.plan;
-        let path = folder.path().to_owned();
-        if self.options.shard.is_some() {
-            for problem in &self.found.problems {
-                let scene = &plan.scenes[problem.scene].name;
-                let merged = "this will be an error after merging";
-                events.warn(&format!("{scene}: {} ({merged})", problem.error));
-            }
-            let failures = findings.failures(plan);
-            say_failures_of_shard(&failures, events);
-            let scored = findings.scored(plan).count();
-            return Ok(Finished { folder: path, scored, errors: failures.len(), drawn: None });
-        }
-        let (experiment, found) = (&self.experiment, Some(&self.found));
-        let taking = Taking { experiment, found, findings: &findings, events };
-        take_missing(&taking, folder.path(), &mut pictures);
-        // The results name all files that they need, and a long sequence has very many.
-        drop(self.found);
-        let results = results(plan, events, findings);
-        let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
-        let scored = own.map(|comparison| comparison.report.frames.len()).sum();
-        let (errors, drawn) = finish(&self.experiment, results, &folder, events, judge)?;
-        Ok(Finished { folder: path, scored, errors, drawn: Some(drawn) })
+        Ok(Scored { folder, findings, pictures, known: known_pairs })
+    }
+
+    /// The header of the journal of the whole run.
+    fn header(&self) -> &Header {
+        self.header.get_or_init(|| {
+            Header::new(&self.experiment, &self.found, None).with_maps(self.options.maps.as_deref())
+        })
     }
 
     fn default_folder(&self) -> PathBuf {
@@ -268,10 +343,10 @@ impl Run {
         Ok(Findings::default())
     }
 
-    fn score(
+    fn record(
         &self,
         folder: &ResultsFolder,
-        (header, known): (&Header, Findings),
+        (header, units, known): (&Header, &[Unit], Findings),
         (maps, pictures): (&[MapsFolder], &mut Pictures),
         events: &dyn Events,
     ) -> Result<Findings, Error> {
@@ -295,8 +370,7 @@ impl Run {
                 }
                 Ok(())
             };
-            let scored =
-                fovqa_engine::score(plan, &self.found, &self.units(), known, events, record)?;
+            let scored = fovqa_engine::score(plan, &self.found, units, known, events, record)?;
             journal.finish(header, plan, &scored)?;
             Ok(scored)
         });
@@ -306,6 +380,12 @@ impl Run {
         }
         Ok(scored?)
     }
+}
+
+/// Number of frames of a run that were scored, with each eye counted on its own.
+pub(crate) fn scored_frames(results: &RunResults) -> usize {
+    let own = results.comparisons.iter().filter(|comparison| comparison.eye != "both");
+    own.map(|comparison| comparison.report.frames.len()).sum()
 }
 
 /// Errors that concern the inputs of an experiment as a whole.

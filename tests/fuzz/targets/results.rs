@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use fovqa::{Against, FinishedRun, Locking, Silent, gate_folder, merge, report};
+use fovqa::{Against, FinishedRun, Locking, MergeOptions, Silent, gate_folder, merge, report};
 use fovqa_fuzz::abort_on_escaping_panics;
 use libfuzzer_sys::fuzz_target;
 use tempfile::TempDir;
@@ -65,7 +65,8 @@ fn journal(bytes: &[u8]) {
     fs::create_dir_all(&shard).expect("a folder");
     fs::write(shard.join("journal.jsonl"), bytes).expect("a journal");
     let shards: [PathBuf; 1] = [shard];
-    if let Ok(finished) = merge(&shards, &merged, Locking::Unlocked, &Silent) {
+    let options = MergeOptions { locking: Locking::Unlocked, ..MergeOptions::default() };
+    if let Ok(finished) = merge(&shards, &merged, options, &Silent) {
         // With the right checksums a forged journal may hold any values, also such as no run gives.
         let _ = FinishedRun::read(&finished.folder);
     }

@@ -88,7 +88,8 @@ pub(crate) const MERGE_EXAMPLES: &str = "\
 
 Every shard of the run must be given exactly once and be finished. All must have the same experiment,
 version, frames and files. The result is the same, to the last byte, as that of `fovqa run` without
---shard. Neither the experiment file nor the frames are needed.
+--shard. Neither the experiment file nor the frames are needed, except for some pictures of long
+sequences (--experiment). docs/cluster.md shows shards in a Slurm array.
 
 Exit codes: 0 done; 2 the command line is wrong; 3 shards are missing or do not belong together, frames
 could not be scored, or the output cannot be written.";
@@ -101,6 +102,14 @@ pub(crate) struct MergeArgs {
     /// Folder for the results
     #[arg(long, value_name = "DIR")]
     pub(crate) output: PathBuf,
+    /// The experiment file. Its frames are read again for the pictures of report.html that only all
+    /// scores together choose, such as those of the worst frame; without it, the page may lack them
+    #[arg(long, value_name = "FILE")]
+    pub(crate) experiment: Option<PathBuf>,
+    /// Also write all values as Parquet, one file per shard, to the folder `values` in that of the
+    /// results: polars, pandas and DuckDB read these files as one table
+    #[arg(long)]
+    pub(crate) values: bool,
     #[command(flatten)]
     pub(crate) lock: LockArgs,
 }

@@ -14,9 +14,11 @@ use fovqa_vision::BandEdges;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::JOURNAL;
+use crate::findings::ViewIndex;
 use crate::found::{FoundInputs, FoundView};
 use crate::scoring::scene_bands;
 use crate::share::{Shard, shares};
+use crate::unit::Unit;
 
 /// Name and version of the format.
 const SCHEMA: &str = "fovqa.journal/2";
@@ -98,6 +100,14 @@ pub(super) fn with_end(share: Range<usize>, pairs: usize) -> Range<usize> {
     share.start..share.end + usize::from(has_end)
 }
 
+fn units_of(plan: &Plan, ranges: BTreeMap<(&str, Option<Eye>), Range<usize>>) -> Vec<Unit> {
+    let units = ranges.into_iter().filter_map(|((scene, eye), pairs)| {
+        let (scene, eye) = place(plan, scene, eye).filter(|_| !pairs.is_empty())?;
+        Some(Unit { scene, eye, pairs })
+    });
+    units.collect()
+}
+
 /// The files of one eye's view of a scene; `None` if none were found.
 pub(crate) fn view_files(
     plan: &Plan,
@@ -107,6 +117,13 @@ pub(crate) fn view_files(
 ) -> Option<ViewFiles> {
     let view = found.views.iter().find(|view| (view.scene, view.eye) == (scene, eye))?;
     Some(ViewFiles::of(plan, found, view))
+}
+
+/// The index of the view with this scene name and eye.
+pub(crate) fn place(plan: &Plan, scene: &str, eye: Option<Eye>) -> Option<ViewIndex> {
+    let index = plan.scenes.iter().position(|of| of.name == scene)?;
+    let eye = plan.scenes[index].eyes.iter().position(|view| view.eye == eye)?;
+    Some((index, eye))
 }
 
 impl Header {
@@ -145,6 +162,16 @@ impl Header {
         shares.map(|(view, share)| (view, with_end(share, views[&view]))).collect()
     }
 
+    /// The units of the run or of its shard, of all views that the plan has.
+    pub(crate) fn units(&self, plan: &Plan) -> Vec<Unit> {
+        units_of(plan, self.shares())
+    }
+
+    /// As [`units`](Self::units), with the step after the last pair of a view, where a source continues.
+    pub(crate) fn units_with_ends(&self, plan: &Plan) -> Vec<Unit> {
+        units_of(plan, self.steps())
+    }
+
     /// The range of pairs of each view that the run or its shard scores.
     fn shares(&self) -> BTreeMap<(&str, Option<Eye>), Range<usize>> {
         let pairs: Vec<usize> = self.views.iter().map(|view| view.pairs).collect();
@@ -167,10 +194,16 @@ impl Header {
         self.frames.as_deref()
     }
 
-    /// The header of the whole run that this shard belongs to, with these maps.
+    /// The header of the whole run that this shard belongs to.
     #[must_use]
-    pub(crate) fn of_all(&self, maps: Option<String>) -> Self {
-        Self { shard: None, maps, ..self.clone() }
+    pub(crate) fn of_all(self) -> Self {
+        Self { shard: None, ..self }
+    }
+
+    /// The header of a shard of this run.
+    #[must_use]
+    pub fn of_shard(&self, shard: Shard) -> Self {
+        Self { shard: Some(shard), ..self.clone() }
     }
 
     /// Parses the first line of a journal; `None` if it is something else.

@@ -1,11 +1,12 @@
 //! Reads a journal.
 
 use std::collections::BTreeMap;
-use std::io;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use fovqa_io::read_small_file;
+use fovqa_io::open_regular_file;
 use fovqa_metrics::Layout;
 use fovqa_plan::{Eye, Plan};
 use fovqa_results::{Identity, Input};
@@ -13,7 +14,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::JOURNAL;
-use super::header::{Header, with_end};
+use super::header::{Header, place, with_end};
 use super::records::{ErrorRecord, FrameRecord, KeysRecord, SettledRecord};
 use super::seal::{Seal, seal_of};
 use crate::findings::{Findings, Outcome, ViewFindings, ViewIndex};
@@ -31,15 +32,17 @@ pub(crate) enum Content {
     Journal(Box<Text>),
 }
 
-/// A journal that was read but is not interpreted yet.
+/// A journal of which only the first line was read. The other lines are read one by one when they are
+/// interpreted: a long run has very many.
 pub(crate) struct Text {
     pub(crate) header: Header,
     /// For each view of the header, the range of pairs that the journal has or should have.
     pub(crate) shares: Vec<Range<usize>>,
     /// Whether the first line was changed after it was written.
     is_changed: bool,
-    /// The lines after the first.
-    rest: Vec<u8>,
+    path: PathBuf,
+    /// Where the second line begins.
+    rest: u64,
 }
 
 /// The content of a journal.
@@ -56,38 +59,56 @@ pub(crate) struct Said {
     pub(crate) changed: Option<usize>,
 }
 
-/// Maximum size in bytes, larger than the journal of any run that fits into memory.
-const MOST_BYTES: u64 = 64 << 30;
+/// Maximum length of a line in bytes, longer than the text of any experiment or the values of any frame.
+const LONGEST_LINE: u64 = 1 << 30;
+/// The bytes that are read from a journal at a time.
+const PIECE: usize = 64 << 10;
+/// What an editor writes at the start of a file.
+const MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Reads the journal in a folder.
+/// Reads the first line of the journal in a folder.
 ///
 /// # Errors
 /// If the operating system refuses.
 pub(crate) fn read(folder: &Path) -> io::Result<Content> {
-    let bytes = match read_small_file(&folder.join(JOURNAL), MOST_BYTES) {
-        Ok(bytes) => bytes,
+    let path = folder.join(JOURNAL);
+    let file = match open_regular_file(&path) {
+        Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Content::Nothing),
         Err(error) => return Err(error),
     };
+    let mut line = Vec::new();
+    next_line(&mut BufReader::with_capacity(PIECE, file), &mut line)?;
+    let rest = line.len() as u64;
+    let line = line.strip_prefix(MARK).unwrap_or(&line);
     // The run was killed, or had no disk space, before it had written anything.
-    if bytes.is_empty() {
+    if line.is_empty() {
         return Ok(Content::Nothing);
     }
-    let end = bytes.iter().position(|byte| *byte == b'\n').unwrap_or(bytes.len());
-    let Some(header) = Header::parse(&bytes[..end]) else {
-        let other = Header::other_format(&bytes[..end]);
+    let line = line.strip_suffix(b"\n").unwrap_or(line);
+    let Some(header) = Header::parse(line) else {
+        let other = Header::other_format(line);
         return Ok(other.map_or(Content::Other, Content::OtherFormat));
     };
-    let rest = bytes[(end + 1).min(bytes.len())..].to_vec();
     let pairs: Vec<usize> = header.views.iter().map(|view| view.pairs).collect();
     let shares = shares(header.shard, &pairs);
-    let is_changed = seal_of(&bytes[..end]) != Seal::Whole;
-    Ok(Content::Journal(Box::new(Text { header, shares, is_changed, rest })))
+    let is_changed = seal_of(line) != Seal::Whole;
+    Ok(Content::Journal(Box::new(Text { header, shares, is_changed, path, rest })))
+}
+
+/// Reads a line with its end in place of the last one. The last line of a file is empty.
+fn next_line(file: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<()> {
+    line.clear();
+    file.take(LONGEST_LINE).read_until(b'\n', line)?;
+    Ok(())
 }
 
 impl Text {
     /// Interprets the journal with `plan`, which must be the plan of its experiment.
-    pub(crate) fn said(&self, plan: &Plan) -> Said {
+    ///
+    /// # Errors
+    /// If the operating system refuses.
+    pub(crate) fn said(&self, plan: &Plan) -> io::Result<Said> {
         // A line about a view that is not in this journal, or about a pair outside its range, is
         // not accepted.
         let own = |(scene, eye): ViewIndex, step: Option<LineStep>| {
@@ -99,17 +120,21 @@ impl Text {
                 step.is_none_or(|step| step.is_in(share, pairs))
             })
         };
-        let mut said = Lines { plan, own: &own }.said(&self.rest);
+        let mut file: File = open_regular_file(&self.path)?;
+        file.seek(SeekFrom::Start(self.rest))?;
+        let lines = BufReader::with_capacity(PIECE, file);
+        let mut said = Lines { plan, own: &own }.said(lines)?;
         // The header is line 1, so the other numbers move by one.
         said.changed = if self.is_changed { Some(1) } else { said.changed.map(|line| line + 1) };
-        said
+        Ok(said)
     }
 }
 
 /// The findings in some lines, restricted to what `own` accepts; `None` if a line cannot be
 /// interpreted.
 pub(crate) fn findings_of(plan: &Plan, lines: &str, own: &Own<'_>) -> Option<Findings> {
-    let said = Lines { plan, own }.said(lines.as_bytes());
+    // Reading from memory does not fail.
+    let said = Lines { plan, own }.said(lines.as_bytes()).ok()?;
     let whole = !said.torn && said.twice.is_none() && said.changed.is_none();
     whole.then_some(said.findings)
 }
@@ -143,24 +168,30 @@ struct Lines<'a> {
 }
 
 impl Lines<'_> {
-    fn said(&self, lines: &[u8]) -> Said {
+    fn said(&self, mut lines: impl BufRead) -> io::Result<Said> {
         let findings = Findings::default();
         let mut said = Said { findings, done: false, torn: false, twice: None, changed: None };
         let mut layouts = BTreeMap::new();
-        for (index, line) in lines.split_inclusive(|byte| *byte == b'\n').enumerate() {
-            let seal = seal_of(line);
+        let (mut line, mut number) = (Vec::new(), 0);
+        loop {
+            next_line(&mut lines, &mut line)?;
+            if line.is_empty() {
+                break;
+            }
+            number += 1;
+            let seal = seal_of(&line);
             if seal == Seal::Broken {
-                (said.changed, said.done) = (Some(index + 1), false);
+                (said.changed, said.done) = (Some(number), false);
                 break;
             }
             let whole = line.last() == Some(&b'\n') && seal == Seal::Whole;
             // No line may follow the last one.
-            if said.done || !whole || self.line(line, &mut said, &mut layouts).is_none() {
+            if said.done || !whole || self.line(&line, &mut said, &mut layouts).is_none() {
                 (said.torn, said.done) = (true, false);
                 break;
             }
         }
-        said
+        Ok(said)
     }
 
     /// Interprets a line; `None` if that is not possible.
@@ -252,11 +283,4 @@ fn input(value: &Value) -> Option<Input> {
 
 fn method(plan: &Plan, name: &str) -> Option<usize> {
     plan.methods.iter().position(|method| method == name)
-}
-
-/// The index of the view with this scene name and eye.
-pub(crate) fn place(plan: &Plan, scene: &str, eye: Option<Eye>) -> Option<ViewIndex> {
-    let index = plan.scenes.iter().position(|of| of.name == scene)?;
-    let eye = plan.scenes[index].eyes.iter().position(|view| view.eye == eye)?;
-    Some((index, eye))
 }

@@ -3,6 +3,8 @@
 mod csv;
 #[cfg(feature = "parquet")]
 mod parquet;
+#[cfg(feature = "parquet")]
+mod part;
 mod reading;
 pub(crate) mod row;
 mod rows;
@@ -14,6 +16,8 @@ use fovqa_plan::{OutputSettings, TableFormat};
 pub use csv::{write_csv, write_results_csv, write_stereo_csv};
 #[cfg(feature = "parquet")]
 pub use parquet::write_results_parquet;
+#[cfg(feature = "parquet")]
+pub use part::Part;
 pub use reading::Which;
 pub(crate) use reading::not_results;
 pub use row::{ERROR, GAZE_STEP, TableRow, Value};
@@ -54,7 +58,7 @@ pub fn write_tables(
             }
             #[cfg(feature = "parquet")]
             TableFormat::Parquet => {
-                batch.write_with(&path, |out| write_results_parquet(results, out))
+                batch.write_with(&path, |out| write_results_parquet(results, Part::All, out))
             }
             #[cfg(not(feature = "parquet"))]
             TableFormat::Parquet => Err(no_parquet(path)),

@@ -18,6 +18,7 @@ use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
 
+use super::part::Part;
 use super::reading::{Which, not_results};
 use super::row::{COLUMNS, ERROR, TableRow, Value};
 use super::rows::rows_of_run;
@@ -45,11 +46,15 @@ const GROUP_ROWS: usize = 1 << 16;
 /// Number of rows that the reader takes from each column at a time.
 const BATCH_ROWS: usize = 1 << 12;
 
-/// Writes the values of a run as Parquet, in the order of results.csv.
+/// Writes a part of the values of a run as Parquet, in the order of results.csv.
 ///
 /// # Errors
 /// If the writer refuses.
-pub fn write_results_parquet(results: &RunResults, out: impl Write + Send) -> io::Result<()> {
+pub fn write_results_parquet(
+    results: &RunResults,
+    part: Part,
+    out: impl Write + Send,
+) -> io::Result<()> {
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
         .set_created_by(concat!("fovqa ", env!("CARGO_PKG_VERSION")).to_owned())
@@ -59,6 +64,9 @@ pub fn write_results_parquet(results: &RunResults, out: impl Write + Send) -> io
         SerializedFileWriter::new(out, Arc::new(schema), Arc::new(properties)).map_err(io_error)?;
     let mut group = Group::default();
     rows_of_run(results, &mut |row| {
+        if !part.has(row) {
+            return Ok(());
+        }
         group.push(row);
         if group.rows == GROUP_ROWS { group.write(&mut writer).map_err(io_error) } else { Ok(()) }
     })?;

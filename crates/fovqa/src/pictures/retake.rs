@@ -71,8 +71,7 @@ fn take(taking: &Taking<'_>, results: &Path, pictures: &mut Pictures) -> Result<
     }
     if taking.found.is_none() && lacks(taking, &record, pictures) {
         taking.events.note(&format!(
-            "pictures of some frames for the report are missing; `fovqa run EXPERIMENT --output {} --resume`, \
-             with the options of the shards, takes them",
+            "{}: pictures of some frames for the report are missing; {{experiment_of_shards}} takes them",
             results.display()
         ));
     }
