@@ -13,6 +13,7 @@ mod foreseen_figures;
 pub(crate) mod interrupted_runs;
 mod killed;
 mod library;
+mod many_inputs;
 mod many_methods;
 mod mistakes;
 mod parquet;

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use fovqa_io::read_head;
 use fovqa_results::{
-    CURVES_CSV, CURVES_JSON, INDEX_HTML, LIMITS_CSV, LIMITS_JSON, OPINIONS_CSV, REPORT_HTML,
-    REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, STUDY_JSON, SUMMARY_JSON, VALUES_PARQUET,
-    make_folder, sweep, take_away, try_writing,
+    CURVES_CSV, CURVES_JSON, INDEX_HTML, INPUTS_CSV, LIMITS_CSV, LIMITS_JSON, OPINIONS_CSV,
+    REPORT_HTML, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, STUDY_JSON, SUMMARY_JSON,
+    VALUES_PARQUET, make_folder, sweep, take_away, try_writing,
 };
 use thiserror::Error;
 
@@ -19,10 +19,11 @@ use crate::journal::JOURNAL;
 const LOCK: &str = ".fovqa.lock";
 
 /// The files that a run writes, and the figures at the top level of its folder.
-const OURS: [&str; 18] = [
+const OURS: [&str; 19] = [
     RESULTS_CSV,
     RESULTS_PARQUET,
     VALUES_PARQUET,
+    INPUTS_CSV,
     SUMMARY_JSON,
     RUN_JSON,
     JOURNAL,
@@ -272,6 +273,7 @@ impl ResultsFolder {
             RESULTS_CSV,
             RESULTS_PARQUET,
             VALUES_PARQUET,
+            INPUTS_CSV,
             SUMMARY_JSON,
             RUN_JSON,
             CURVES_CSV,

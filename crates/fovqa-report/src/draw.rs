@@ -4,9 +4,7 @@
 use std::path::Path;
 
 use fovqa_plan::{Plot, PlotKind};
-use fovqa_results::{
-    CsvNames, RUN_JSON, RUN_SCHEMA, RunRecord, check_files, kept_verdict, read_json_file,
-};
+use fovqa_results::{CsvNames, RunRecord, check_files, kept_verdict};
 
 use crate::band_spread::BandSpread;
 use crate::budgets::budgets;
@@ -42,8 +40,7 @@ pub struct Drawn {
 /// If a file of the run is missing or damaged, or the folder cannot be written to.
 pub fn draw(folder: &Path, begin: &BeginStep<'_>) -> Result<Drawn, ReportError> {
     let reading = begin("reading the results", 0);
-    let mut run: RunRecord =
-        read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
+    let mut run = RunRecord::read(folder)?;
     // The page lists only the first, and a long sequence has very many.
     let inputs = PageInputs::of(&std::mem::take(&mut run.inputs));
     let overview = Overview::read(folder)?;

@@ -51,6 +51,7 @@ pub fn impossible_figures(
         experiment,
         resolved: resolved.clone(),
         inputs: Inputs::default(),
+        inputs_file: None,
         files: std::collections::BTreeMap::default(),
     };
     let mut overview = Overview::default();

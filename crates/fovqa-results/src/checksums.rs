@@ -7,7 +7,7 @@ use std::path::Path;
 
 use fovqa_io::{id_of, open_regular_file};
 
-use crate::files::{FileError, RESULTS_CSV, RESULTS_PARQUET, SUMMARY_JSON};
+use crate::files::{FileError, INPUTS_CSV, RESULTS_CSV, RESULTS_PARQUET, SUMMARY_JSON};
 use crate::json::RunRecord;
 use crate::table::table_file;
 
@@ -29,7 +29,8 @@ pub fn checksums(folder: &Path) -> Result<Checksums, FileError> {
     // A run has one of the two tables or both.
     let tables =
         [RESULTS_CSV, RESULTS_PARQUET].into_iter().filter(|name| folder.join(name).exists());
-    tables.chain([SUMMARY_JSON]).map(of).collect()
+    let inputs = Some(INPUTS_CSV).filter(|name| folder.join(name).exists());
+    tables.chain([SUMMARY_JSON]).chain(inputs).map(of).collect()
 }
 
 /// SHA-256 of a file. The byte order mark that an editor adds is left out, because readers of the

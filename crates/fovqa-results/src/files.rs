@@ -21,6 +21,8 @@ pub const VALUES_PARQUET: &str = "values.parquet";
 pub const SUMMARY_JSON: &str = "summary.json";
 /// The record of the run: experiment, settings and inputs.
 pub const RUN_JSON: &str = "run.json";
+/// The inputs of a run that has very many of them.
+pub const INPUTS_CSV: &str = "inputs.csv";
 /// The list of figures and tables that were made. A later report uses it to remove files that it
 /// does not make again.
 pub const REPORT_JSON: &str = "report.json";

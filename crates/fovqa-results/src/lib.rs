@@ -11,6 +11,7 @@ mod files;
 mod fvvdp;
 mod gate;
 mod inputs;
+mod inputs_csv;
 mod json;
 mod limits;
 
@@ -34,9 +35,9 @@ pub use crops::{CROPS, CropRecord, crop_folder};
 pub use csv_names::CsvNames;
 pub use curves::{CurveRecord, CurvesRecord, FieldRecord, ScreenRecord, ShadingRecord, curves_csv};
 pub use files::{
-    CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, INDEX_HTML, LIMITS_CSV, LIMITS_JSON,
-    OPINIONS_CSV, REPORT_HTML, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON, STUDIES_SCHEMA,
-    STUDY_JSON, SUMMARY_JSON, VALUES_PARQUET, open_result_file, read_json_file,
+    CURVES_CSV, CURVES_JSON, CURVES_SCHEMA, FileError, INDEX_HTML, INPUTS_CSV, LIMITS_CSV,
+    LIMITS_JSON, OPINIONS_CSV, REPORT_HTML, REPORT_JSON, RESULTS_CSV, RESULTS_PARQUET, RUN_JSON,
+    STUDIES_SCHEMA, STUDY_JSON, SUMMARY_JSON, VALUES_PARQUET, open_result_file, read_json_file,
 };
 pub use fvvdp::{EccentricityShare, FvvdpSummary, SpatialBand};
 pub use gate::{
@@ -47,11 +48,12 @@ pub use gate::{
     verdict_file, write_verdict_json,
 };
 pub use inputs::{Identity, Input, Inputs};
+pub use inputs_csv::write_inputs;
 pub use json::{
     BandStatistics, BudgetRecord, ComparisonSummary, DoubtRecord, ErrorRecord, ExperimentRecord,
     FOVEATE_SCHEMA, FoveateErrorRecord, FoveateRecord, FoveatedRecord, HaarRecord, HaarSides,
-    HaarValues, Number, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA, SideValues,
-    ViewRecord, read_summary, write_json, write_stereo_json, write_summary,
+    HaarValues, MOST_LISTED_INPUTS, Number, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA,
+    SideValues, ViewRecord, read_summary, write_json, write_stereo_json, write_summary,
 };
 pub use limits::{LIMITS_SCHEMA, LimitPoint, LimitRecord, LimitRule, LimitState, LimitsRecord};
 pub use output::{

@@ -7,8 +7,9 @@ use fovqa_io::id_of;
 use fovqa_plan::{Experiment, Eye};
 use fovqa_report::Drawn;
 use fovqa_results::{
-    Batch, ExperimentRecord, Failure, FileError, RUN_JSON, RUN_SCHEMA, RunRecord, RunResults,
-    SUMMARY_JSON, checksums, write_summary, write_tables,
+    Batch, ExperimentRecord, Failure, FileError, INPUTS_CSV, Inputs, MOST_LISTED_INPUTS, RUN_JSON,
+    RUN_SCHEMA, RunRecord, RunResults, SUMMARY_JSON, checksums, write_inputs, write_summary,
+    write_tables,
 };
 
 use crate::error::Error;
@@ -129,6 +130,12 @@ fn write(experiment: &Experiment, results: RunResults, folder: &Path) -> Result<
         write_summary(&experiment.name, &results, out)
     })?;
     let file = experiment.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let (inputs, inputs_file) = if results.inputs.len() > MOST_LISTED_INPUTS {
+        batch.write_with(&folder.join(INPUTS_CSV), |out| write_inputs(&results.inputs, out))?;
+        (Inputs::default(), Some(INPUTS_CSV.to_owned()))
+    } else {
+        (results.inputs, None)
+    };
     let record = RunRecord {
         schema: RUN_SCHEMA.to_owned(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -138,7 +145,8 @@ fn write(experiment: &Experiment, results: RunResults, folder: &Path) -> Result<
             text: experiment.text.clone(),
         },
         resolved: experiment.resolved(),
-        inputs: results.inputs,
+        inputs,
+        inputs_file,
         files: checksums(folder)?,
     };
     // The record vouches for the other files, so their names come first.

@@ -3,9 +3,7 @@
 use std::path::Path;
 
 use fovqa_engine::shard_in;
-use fovqa_results::{
-    FileError, RUN_JSON, RUN_SCHEMA, RunRecord, RunValues, check_files, read_json_file,
-};
+use fovqa_results::{FileError, RUN_JSON, RunRecord, RunValues, check_files};
 
 use crate::error::Error;
 
@@ -43,8 +41,7 @@ impl FinishedRun {
             return Err(Error::input(message, help));
         }
         let read = || -> Result<Self, FileError> {
-            let record: RunRecord =
-                read_json_file(&folder.join(RUN_JSON), RUN_SCHEMA, "the record of a run")?;
+            let record = RunRecord::read(folder)?;
             // The values are read before the checksums, because their errors explain more than a
             // wrong checksum.
             let values = RunValues::read(folder, (&record.resolved).into())?;

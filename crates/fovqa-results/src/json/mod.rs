@@ -16,7 +16,7 @@ pub use doubts::DoubtRecord;
 pub use foveate::{
     BudgetRecord, FOVEATE_SCHEMA, FoveateErrorRecord, FoveateRecord, FoveatedRecord,
 };
-pub use run::{ExperimentRecord, RUN_SCHEMA, RunRecord};
+pub use run::{ExperimentRecord, MOST_LISTED_INPUTS, RUN_SCHEMA, RunRecord};
 pub use score::{SCORE_SCHEMA, write_json, write_stereo_json};
 pub use summary::{BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, ViewRecord};
 pub use summary_file::{read_summary, write_summary};
