@@ -9,12 +9,12 @@ use crate::unit::Unit;
 
 impl Findings {
     /// Removes from the findings of the next units what has no value because of these findings. Returns
-    /// whether there was anything.
-    pub(crate) fn break_off(&self, next: &mut Findings) -> bool {
+    /// whether there was anything. `values` keeps the others.
+    pub(crate) fn break_off(&self, next: &mut Findings, values: &mut Layouts) -> bool {
         let mut has_changed = false;
         for (place, next) in &mut next.views {
             if let Some(settled) = self.views.get(place).and_then(|view| view.settled.as_ref()) {
-                has_changed |= break_off(settled, next);
+                has_changed |= break_off(settled, next, values);
             }
         }
         has_changed
@@ -53,15 +53,14 @@ impl Findings {
 
 /// Removes the values of FovVideoVDP of sequences that were interrupted before this unit: they have no
 /// values from there on. Returns whether there were any.
-fn break_off(before: &Settled, next: &mut ViewFindings) -> bool {
+fn break_off(before: &Settled, next: &mut ViewFindings, values: &mut Layouts) -> bool {
     let broken = |outcome: &&mut Box<Outcome>| before.missing.contains_key(&outcome.method);
-    let mut layouts = Layouts::default();
     let mut has_changed = false;
     for outcome in next.pairs.values_mut().filter(broken) {
         let Ok(frame) = &mut outcome.result else { continue };
         if frame.rows.has(Metric::Fvvdp) {
             let of_others = frame.rows.iter().filter(|row| row.key.metric() != Some(Metric::Fvvdp));
-            frame.rows = layouts.pack(&of_others.collect());
+            frame.rows = values.pack(&of_others.collect());
             has_changed = true;
         }
     }
@@ -72,7 +71,7 @@ fn break_off(before: &Settled, next: &mut ViewFindings) -> bool {
 fn join(all: &mut ViewFindings, mut next: ViewFindings) {
     all.failed = all.failed.take().or(next.failed.take());
     let before = all.settled.take().unwrap_or_default();
-    break_off(&before, &mut next);
+    break_off(&before, &mut next, &mut Layouts::default());
     let Settled { fvvdp, missing, passed_over, .. } = before;
     all.pairs.append(&mut next.pairs);
     all.before.append(&mut next.before);

@@ -7,7 +7,7 @@ use fovqa_plan::Plan;
 use thiserror::Error;
 
 use crate::findings::{Findings, ViewFindings};
-use crate::journal::{self, Content, Header, Said, Text};
+use crate::journal::{self, Content, Header, Said, Shared, Text};
 use crate::share::Shard;
 
 /// Why shards cannot be merged.
@@ -211,10 +211,10 @@ impl Shards {
         plan: &Plan,
         changed: &mut dyn FnMut(Shard),
     ) -> Result<Findings, MergeError> {
-        let mut all = Findings::default();
+        let (mut all, mut shared) = (Findings::default(), Shared::default());
         for (shard, path) in self.folders() {
             let text = text(path)?;
-            let said = said(path, &text, plan)?;
+            let said = said(path, &text, plan, &mut shared)?;
             if let Some(line) = said.changed {
                 return Err(MergeError::Changed { path: path.to_owned(), line });
             }
@@ -232,7 +232,7 @@ impl Shards {
                 }
             }
             self.agree(plan, &all, path, &findings)?;
-            if all.break_off(&mut findings) {
+            if all.break_off(&mut findings, &mut shared.values) {
                 changed(shard);
             }
             all.join(findings);
@@ -270,7 +270,8 @@ impl Shards {
                 _ => continue,
             };
             let has_it = |folder: &&PathBuf| {
-                let said = text(folder).and_then(|text| said(folder, &text, plan));
+                let said =
+                    text(folder).and_then(|text| said(folder, &text, plan, &mut Shared::default()));
                 said.is_ok_and(|said| said.findings.views.get(place).and_then(settled).is_some())
             };
             let first = self.folders.values().find(has_it);
@@ -283,8 +284,8 @@ impl Shards {
 }
 
 /// Reads the rest of a journal.
-fn said(path: &Path, text: &Text, plan: &Plan) -> Result<Said, MergeError> {
-    text.said(plan).map_err(|error| MergeError::Io { path: path.to_owned(), error })
+fn said(path: &Path, text: &Text, plan: &Plan, shared: &mut Shared) -> Result<Said, MergeError> {
+    text.said(plan, shared).map_err(|error| MergeError::Io { path: path.to_owned(), error })
 }
 
 fn text(path: &Path) -> Result<Text, MergeError> {

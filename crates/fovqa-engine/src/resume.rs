@@ -63,7 +63,7 @@ pub fn resume(
         return changed(changes);
     }
     let said = text
-        .said(plan)
+        .said(plan, &mut journal::Shared::default())
         .map_err(|error| EngineError::JournalRead { path: folder.join(JOURNAL), error })?;
     if let Some(line) = said.changed {
         return Err(EngineError::JournalChanged { path: folder.join(JOURNAL), line });

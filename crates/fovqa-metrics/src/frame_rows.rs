@@ -206,11 +206,6 @@ impl From<Rows> for FrameRows {
 }
 
 impl FrameRows {
-    /// The values of a layout, held in memory, as [`Layouts::read`] reads them.
-    pub fn of(layout: &Layout, numbers: &[Option<f64>]) -> Option<Self> {
-        Layouts::default().read(layout, numbers)
-    }
-
     /// The layout of its values.
     pub fn layout(&self) -> &Layout {
         &self.layout
@@ -305,10 +300,11 @@ mod tests {
         assert!(packed.get(Key::of(Metric::Fssim)).is_none() && packed.has(Metric::Mse));
         assert_eq!(packed.held(), packed);
         let numbers: Vec<Option<f64>> = packed.iter().flat_map(|row| row.numbers()).collect();
-        let read = FrameRows::of(&Layout::new(packed.layout.keys()).unwrap(), &numbers);
-        assert_eq!(read.as_ref(), Some(&packed));
-        assert!(FrameRows::of(&packed.layout, &numbers[1..]).is_none());
-        assert!(FrameRows::of(&packed.layout, &[&numbers[..], &[None]].concat()).is_none());
+        let mut read = |layout: &Layout, numbers: &[Option<f64>]| layouts.read(layout, numbers);
+        let again = read(&Layout::new(packed.layout.keys()).unwrap(), &numbers);
+        assert_eq!(again.as_ref(), Some(&packed));
+        assert!(read(&packed.layout, &numbers[1..]).is_none());
+        assert!(read(&packed.layout, &[&numbers[..], &[None]].concat()).is_none());
         let twice = packed.layout.keys().chain(packed.layout.keys());
         assert!(Layout::new(twice).is_none() && Layout::new([(Key::of(Metric::Mse), 1)]).is_none());
         let other = layouts.pack(&rows(0.25));

@@ -97,6 +97,11 @@ impl Inputs {
         self.0.get(path)
     }
 
+    /// The name of a file as it is kept here, so that others can share it.
+    pub fn shared(&self, path: &str) -> Option<Arc<str>> {
+        self.0.get_key_value(path).map(|(path, _)| Arc::clone(path))
+    }
+
     /// Number of files.
     pub fn len(&self) -> usize {
         self.0.len()

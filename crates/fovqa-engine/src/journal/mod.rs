@@ -14,7 +14,7 @@ mod write;
 
 pub use header::{Header, shard_in};
 pub(crate) use header::{ViewFiles, view_files};
-pub(crate) use read::{Content, LineStep, Said, Text, findings_of, read};
+pub(crate) use read::{Content, LineStep, Said, Shared, Text, findings_of, read};
 pub use write::Journal;
 pub(crate) use write::lines_of;
 

@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use fovqa_io::open_regular_file;
-use fovqa_metrics::Layout;
+use fovqa_metrics::{Layout, Layouts};
 use fovqa_plan::{Eye, Plan};
 use fovqa_results::{Identity, Input};
 use serde::Deserialize;
@@ -108,7 +108,7 @@ impl Text {
     ///
     /// # Errors
     /// If the operating system refuses.
-    pub(crate) fn said(&self, plan: &Plan) -> io::Result<Said> {
+    pub(crate) fn said(&self, plan: &Plan, shared: &mut Shared) -> io::Result<Said> {
         // A line about a view that is not in this journal, or about a pair outside its range, is
         // not accepted.
         let own = |(scene, eye): ViewIndex, step: Option<LineStep>| {
@@ -123,7 +123,7 @@ impl Text {
         let mut file: File = open_regular_file(&self.path)?;
         file.seek(SeekFrom::Start(self.rest))?;
         let lines = BufReader::with_capacity(PIECE, file);
-        let mut said = Lines { plan, own: &own }.said(lines)?;
+        let mut said = Lines { plan, own: &own }.said(lines, shared)?;
         // The header is line 1, so the other numbers move by one.
         said.changed = if self.is_changed { Some(1) } else { said.changed.map(|line| line + 1) };
         Ok(said)
@@ -134,7 +134,7 @@ impl Text {
 /// interpreted.
 pub(crate) fn findings_of(plan: &Plan, lines: &str, own: &Own<'_>) -> Option<Findings> {
     // Reading from memory does not fail.
-    let said = Lines { plan, own }.said(lines.as_bytes()).ok()?;
+    let said = Lines { plan, own }.said(lines.as_bytes(), &mut Shared::default()).ok()?;
     let whole = !said.torn && said.twice.is_none() && said.changed.is_none();
     whole.then_some(said.findings)
 }
@@ -161,6 +161,24 @@ impl LineStep {
     }
 }
 
+/// What the frames of all journals share that are read one after another: their lists of keys, and the
+/// temporary file for their values.
+#[derive(Default)]
+pub(crate) struct Shared {
+    layouts: Vec<Layout>,
+    pub(crate) values: Layouts,
+}
+
+impl Shared {
+    fn layout(&mut self, layout: Layout) -> Layout {
+        if let Some(known) = self.layouts.iter().find(|known| known.is(&layout)) {
+            return known.clone();
+        }
+        self.layouts.push(layout.clone());
+        layout
+    }
+}
+
 /// What is needed to interpret lines.
 struct Lines<'a> {
     plan: &'a Plan,
@@ -168,7 +186,7 @@ struct Lines<'a> {
 }
 
 impl Lines<'_> {
-    fn said(&self, mut lines: impl BufRead) -> io::Result<Said> {
+    fn said(&self, mut lines: impl BufRead, shared: &mut Shared) -> io::Result<Said> {
         let findings = Findings::default();
         let mut said = Said { findings, done: false, torn: false, twice: None, changed: None };
         let mut layouts = BTreeMap::new();
@@ -186,7 +204,7 @@ impl Lines<'_> {
             }
             let whole = line.last() == Some(&b'\n') && seal == Seal::Whole;
             // No line may follow the last one.
-            if said.done || !whole || self.line(&line, &mut said, &mut layouts).is_none() {
+            if said.done || !whole || self.line(&line, &mut said, &mut layouts, shared).is_none() {
                 (said.torn, said.done) = (true, false);
                 break;
             }
@@ -200,6 +218,7 @@ impl Lines<'_> {
         line: &[u8],
         said: &mut Said,
         layouts: &mut BTreeMap<usize, Layout>,
+        shared: &mut Shared,
     ) -> Option<()> {
         let plan = self.plan;
         let value: Value = serde_json::from_slice(line).ok()?;
@@ -215,14 +234,15 @@ impl Lines<'_> {
         } else if has("values") {
             let record: FrameRecord = from(value)?;
             let method = method(plan, &record.method)?;
-            let step = record.step;
+            let (scene, eye, step) = (record.scene.clone(), record.eye, record.step);
             let step_of = Some(LineStep::Scored(step));
-            let view = self.view(findings, &record.scene, record.eye, step_of)?;
-            let (frame, guides) = record.read(layouts)?;
+            let name = |name: String| findings.inputs.shared(&name).unwrap_or_else(|| name.into());
+            let (frame, guides) = record.read(layouts, &mut shared.values, name)?;
+            let view = self.view(findings, &scene, eye, step_of)?;
             view.pairs.insert(step, Box::new(Outcome { method, result: Ok(frame), guides }));
         } else if let Some(keys) = value.get("keys") {
             let record: KeysRecord = from(keys.clone())?;
-            layouts.insert(record.number, record.read()?);
+            layouts.insert(record.number, shared.layout(record.read()?));
         } else if has("error") {
             self.error(findings, from(value)?)?;
         } else if has("settled") {

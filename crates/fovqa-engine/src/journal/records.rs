@@ -1,8 +1,9 @@
 //! The lines of a journal after the first, one type per kind of line.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use fovqa_metrics::{FrameRows, Image, Key, Layout, Metric, Parts, Subject};
+use fovqa_metrics::{FrameRows, Image, Key, Layout, Layouts, Metric, Parts, Subject};
 use fovqa_plan::Eye;
 use fovqa_results::{AtdGuides, Doubt, Failure, FrameResult, FvvdpViewing, ViewResult};
 use fovqa_vision::EccentricityKind;
@@ -123,19 +124,21 @@ impl FrameRecord {
     }
 
     /// The result, and which motion and depth its temporal differences used; `None` if the name of
-    /// a metric is unknown.
+    /// a metric is unknown. `values` keeps the values, and `name` the names of files.
     pub(super) fn read(
         self,
         layouts: &BTreeMap<usize, Layout>,
+        values: &mut Layouts,
+        name: impl Fn(String) -> Arc<str>,
     ) -> Option<(FrameResult, AtdGuides)> {
         let result = FrameResult {
             frame: self.frame,
-            reference: self.reference.into(),
-            test: self.test.into(),
+            reference: name(self.reference),
+            test: name(self.test),
             gaze_px: self.gaze_px,
             gaze_step_deg: read(self.gaze_step_deg),
             doubts: self.doubts,
-            rows: FrameRows::of(layouts.get(&self.keys)?, &numbers(&self.values)?)?,
+            rows: values.read(layouts.get(&self.keys)?, &numbers(&self.values)?)?,
         };
         Some((result, self.atd.unwrap_or_default()))
     }

@@ -156,7 +156,7 @@ fn read_text(folder: &Path) -> Box<Text> {
 
 fn said(folder: &Path, lines: &[u8]) -> Said {
     std::fs::write(folder.join(JOURNAL), lines).unwrap();
-    read_text(folder).said(&plan()).unwrap()
+    read_text(folder).said(&plan(), &mut Shared::default()).unwrap()
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn everything_is_read_again_to_the_last_bit() {
     let text = read_text(folder.path());
     assert_eq!(text.header, header);
     assert_eq!(header.experiment_file(), "e.toml");
-    let said = text.said(&plan).unwrap();
+    let said = text.said(&plan, &mut Shared::default()).unwrap();
     assert!(!said.torn && !said.done && said.twice.is_none());
     // The debug texts are compared too, because equal numbers may differ in their sign.
     assert_eq!(said.findings, findings);
@@ -187,7 +187,7 @@ fn everything_is_read_again_to_the_last_bit() {
         seen: None,
     };
     journal.write(Entry::Pair(finished)).unwrap();
-    let said = read_text(folder.path()).said(&plan).unwrap();
+    let said = read_text(folder.path()).said(&plan, &mut Shared::default()).unwrap();
     assert_eq!(*said.findings.views[&(0, 0)].pairs[&2], mended);
     assert!(!said.done);
 }
@@ -223,7 +223,7 @@ fn what_is_finished_stands_in_one_order() {
             assert!(std::fs::read(folder.path().join(JOURNAL)).unwrap() == whole);
             parts.reverse();
         }
-        let said = read_text(folder.path()).said(&plan).unwrap();
+        let said = read_text(folder.path()).said(&plan, &mut Shared::default()).unwrap();
         assert_eq!((said.done, said.torn), (shard.is_some(), false));
         assert_eq!(said.findings, findings);
         // A pair that does not belong to the run is not written. The step after the last of the four pairs
@@ -240,7 +240,7 @@ fn what_is_finished_stands_in_one_order() {
         }
         let continues = with(4, failed);
         assert_ne!(finish(&findings, &continues), whole);
-        let said = read_text(folder.path()).said(&plan).unwrap();
+        let said = read_text(folder.path()).said(&plan, &mut Shared::default()).unwrap();
         assert_eq!((said.torn, said.findings), (false, continues));
     }
 }
