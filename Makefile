@@ -1,6 +1,6 @@
 # Each line is a plain cargo command, for those without make. All targets except `lint` and `fuzz` share the release profile.
 
-.PHONY: demo sample figures published-numbers test wheel test-python notebook recovery mistakes bench lint fuzz
+.PHONY: demo sample figures published-numbers test wheel test-python test-ray notebook recovery mistakes bench bench-ray lint fuzz
 
 demo:
 	cargo run --release --locked --bin fovqa -- run configs/demo.toml
@@ -40,6 +40,13 @@ test-python: wheel
 	$(python)/test/bin/ruff check crates/fovqa-py && $(python)/test/bin/ruff format --check crates/fovqa-py
 	$(python)/test/bin/python -m pytest crates/fovqa-py/tests
 
+# Tests of fovqa.ray, with Ray from the Python registry. Its object store has 256 MiB.
+test-ray: wheel
+	rm -rf $(python)/ray && python3 -m venv $(python)/ray
+	$(python)/ray/bin/pip install --quiet target/wheels/fovqa-*.whl --requirement crates/fovqa-py/tests/requirements.txt \
+	  --requirement crates/fovqa-py/tests/requirements-ray.txt
+	FOVQA_REQUIRE_RAY=1 $(python)/ray/bin/python -m pytest crates/fovqa-py/tests/test_ray.py
+
 # docs/python.ipynb with its results.
 notebook:
 	FOVQA_WRITE_NOTEBOOK=1 $(MAKE) test-python
@@ -54,6 +61,10 @@ mistakes:
 
 bench:
 	cargo bench --locked -p fovqa-tests --bench speed
+
+# The figures in docs/cluster.md, after `make test-ray`. About ten minutes.
+bench-ray:
+	$(python)/ray/bin/python crates/fovqa-py/benches/ray_units.py
 
 # The Python module is linted without an interpreter.
 lint: export PYO3_NO_PYTHON = 1

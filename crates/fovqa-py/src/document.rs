@@ -29,6 +29,11 @@ impl Document {
         Ok(Self::Table { path: working_folder().join(ARGUMENTS), text: text(table)? })
     }
 
+    /// The text of a file that another process has read.
+    pub(crate) fn of_text(path: PathBuf, text: String) -> Self {
+        Self::Table { path, text }
+    }
+
     /// A path to a file, or a dictionary with its keys.
     pub(crate) fn of(given: &Bound<'_, PyAny>) -> PyResult<Self> {
         if let Ok(table) = given.cast::<PyDict>() {

@@ -15,6 +15,7 @@ mod profile;
 mod read;
 mod run;
 mod score;
+mod sharded;
 mod source;
 mod study;
 mod threads;
@@ -27,10 +28,13 @@ fn native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     worker::watch_panics();
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<gallery::Gallery>()?;
+    module.add_class::<sharded::Sharded>()?;
+    module.add_class::<sharded::Lock>()?;
     for function in [
         wrap_pyfunction!(score::score, module)?,
         wrap_pyfunction!(foveate::foveate, module)?,
         wrap_pyfunction!(run::run, module)?,
+        wrap_pyfunction!(sharded::merge, module)?,
         wrap_pyfunction!(curves::curves, module)?,
         wrap_pyfunction!(study::study, module)?,
         wrap_pyfunction!(read::read, module)?,

@@ -1,14 +1,16 @@
 //! Runs an experiment.
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
-use fovqa::{Dialect, Given, Locking, Run, RunOptions};
+use fovqa::{Dialect, Error, Finished, Given, Locking, Run, RunOptions, Shard};
+use fovqa_io::sequence::FrameRange;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::document::Document;
 use crate::error::{exception, wrong_request};
-use crate::worker::work;
+use crate::worker::{Heard, work};
 
 /// Runs an experiment: the path of a file, or a table with its keys.
 #[pyfunction]
@@ -26,25 +28,44 @@ pub(crate) fn run<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let experiment = Document::of(experiment)?.experiment()?;
-    let wrong = |what: &str, error: String| wrong_request(format!("{what}: {error}"), "");
-    let shard = shard.map(str::parse).transpose();
-    let shard = shard.map_err(|error: <fovqa::Shard as std::str::FromStr>::Err| {
-        wrong("shard", error.to_string())
-    })?;
-    let frames = frames.map(str::parse).transpose();
-    let frames =
-        frames.map_err(|error: <fovqa_io::sequence::FrameRange as std::str::FromStr>::Err| {
-            wrong("frames", error.to_string())
-        })?;
-    let locking = if lock { Locking::default() } else { Locking::Unlocked };
+    let (shard, frames) = (shard_of(shard)?, frames_of(frames)?);
+    let locking = locking(lock);
     let options = RunOptions { output, resume, shard, frames, maps, locking };
     let (finished, heard) = work(py, Dialect::Experiment, progress, move |events| {
         Run::new(experiment, options, &Given::default()).and_then(|run| run.start(events))
     })?;
+    result_of(py, finished, heard)
+}
+
+/// A shard, as the package gives it.
+pub(crate) fn shard_of(shard: Option<&str>) -> PyResult<Option<Shard>> {
+    let shard = shard.map(str::parse).transpose();
+    shard.map_err(|error: <Shard as FromStr>::Err| wrong_request(format!("shard: {error}"), ""))
+}
+
+/// The selected frames, as the package gives them.
+pub(crate) fn frames_of(frames: Option<&str>) -> PyResult<Option<FrameRange>> {
+    let frames = frames.map(str::parse).transpose();
+    frames.map_err(|error: <FrameRange as FromStr>::Err| {
+        wrong_request(format!("frames: {error}"), "")
+    })
+}
+
+pub(crate) fn locking(lock: bool) -> Locking {
+    if lock { Locking::Locked } else { Locking::Unlocked }
+}
+
+/// A finished run, as the package gets it.
+pub(crate) fn result_of<'py>(
+    py: Python<'py>,
+    finished: Result<Finished, Error>,
+    heard: Heard,
+) -> PyResult<Bound<'py, PyDict>> {
     let finished = finished.map_err(|error| exception(&error, Dialect::Experiment))?;
     let result = PyDict::new(py);
     result.set_item("folder", &finished.folder)?;
     result.set_item("scored", finished.scored)?;
+    result.set_item("known", finished.known)?;
     result.set_item("errors", finished.errors)?;
     let drawn = finished.drawn.as_ref();
     let table = drawn.and_then(|drawn| drawn.table.as_ref());

@@ -1,7 +1,7 @@
 """The native part. The classes and functions for people are in the package."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, final
 
 import numpy as np
@@ -9,12 +9,15 @@ from numpy.typing import NDArray
 
 __all__ = [
     "Gallery",
+    "Lock",
+    "Sharded",
     "__version__",
     "after_fork",
     "command",
     "curves",
     "displays",
     "foveate",
+    "merge",
     "methods",
     "metrics",
     "png",
@@ -63,6 +66,15 @@ def run(
     lock: bool = True,
     progress: _Progress = None,
 ) -> dict[str, Any]: ...
+def merge(
+    path: Any,
+    text: str,
+    shards: Sequence[_Path],
+    output: _Path,
+    *,
+    lock: bool = True,
+    progress: _Progress = None,
+) -> dict[str, Any]: ...
 def curves(curves: Any, output: _Path, *, progress: _Progress = None) -> dict[str, Any]: ...
 def study(study: Any, output: _Path, *, progress: _Progress = None) -> dict[str, Any]: ...
 def read(
@@ -94,3 +106,36 @@ class Gallery:
     def guides(self, frame: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]: ...
     def gaze(self, frame: int) -> list[float]: ...
     def write(self, folder: _Path, progress: _Progress = None) -> int: ...
+
+@final
+class Sharded:
+    def __new__(
+        cls,
+        experiment: Any,
+        text: str | None = None,
+        *,
+        frames: str | None = None,
+        maps: _Path | None = None,
+        lock: bool = True,
+    ) -> Sharded: ...
+    def foresee(self) -> list[str]: ...
+    @property
+    def path(self) -> os.PathLike[str]: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def frames(self) -> int: ...
+    @property
+    def pairs(self) -> int: ...
+    @property
+    def reads_frames_before(self) -> bool: ...
+    @property
+    def fingerprint(self) -> str: ...
+    def score(self, shard: str, folder: _Path, *, resume: bool = True) -> dict[str, Any]: ...
+
+@final
+class Lock:
+    def __new__(cls, folder: _Path) -> Lock: ...
+    def release(self) -> None: ...
