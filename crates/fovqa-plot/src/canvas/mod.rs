@@ -19,4 +19,5 @@ pub(crate) mod svg;
 pub(crate) mod svg_joined;
 pub(crate) mod svg_text;
 pub(crate) mod text;
+pub(crate) mod thin;
 pub(crate) mod wrap;

@@ -10,6 +10,7 @@ use crate::canvas::colour::REFERENCE;
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
 use crate::canvas::look::Look;
 use crate::canvas::smooth;
+use crate::canvas::thin::thinned;
 use crate::charts::dodge;
 use crate::marks::error_bar;
 use crate::marks::fill::Fill;
@@ -456,7 +457,7 @@ fn draw_curve(drawing: &mut Drawing, series: &LineSeries, points: &[Option<Point
         .iter()
         .flat_map(|run| clip::upright(run))
         .flat_map(|run| clip::level(&run))
-        .map(|piece| piece.iter().map(px).collect())
+        .map(|piece| thinned(piece.iter().map(px).collect()))
         .collect();
     let stroke = series.stroke();
     let dash =

@@ -6,6 +6,7 @@ use crate::axes::value_axis::ValueAxis;
 use crate::canvas::colour::{INK, WHITE};
 use crate::canvas::drawing::{Drawing, Point, Rect, Stroke};
 use crate::canvas::look::Look;
+use crate::canvas::thin::apart;
 use crate::charts::box_summary::{BoxSummary, quantile};
 use crate::charts::left_out::LeftOut;
 use crate::charts::spread_series::{BOX_FROM, SpreadSeries, finite};
@@ -147,8 +148,9 @@ impl Slot<'_> {
         let rect = Rect { left: x - half, right: x + half, top, bottom };
         swatch::draw(drawing, rect, self.look, self.look.colour().tint(swatch::TINT));
         self.draw_median(drawing, summary.median);
-        for value in summary.outliers.iter().filter(|value| (self.seen)(**value)) {
-            drawing.disc((x, (self.y)(*value)), OUTLIER_PX, self.look.colour());
+        let seen = summary.outliers.iter().filter(|value| (self.seen)(**value));
+        for y in apart(seen.map(|value| (self.y)(*value)).collect()) {
+            drawing.disc((x, y), OUTLIER_PX, self.look.colour());
         }
     }
 

@@ -10,7 +10,10 @@ use super::data::SequenceData;
 use super::number::{Number, hundredths};
 use crate::figures::Source;
 
-/// The values of a view's frames; `None` for a single frame.
+/// The longest sequence whose values the page has: with more, it would be too large for a browser.
+const MOST_FRAMES: usize = 100_000;
+
+/// The values of a view's frames; `None` for a single frame, and for very many.
 pub(super) fn sequence(source: &Source<'_>, view: &ViewImages) -> Option<SequenceData> {
     let eye = view.eye.map(Words::word).unwrap_or_default();
     let mut metrics = Vec::new();
@@ -27,7 +30,7 @@ pub(super) fn sequence(source: &Source<'_>, view: &ViewImages) -> Option<Sequenc
     }
     let numbers = metrics.iter().flat_map(|(_, methods)| methods.iter().flatten());
     let frames: BTreeSet<i64> = numbers.map(|(frame, _)| *frame).collect();
-    if frames.len() < 2 {
+    if frames.len() < 2 || frames.len() > MOST_FRAMES {
         return None;
     }
     let frames: Vec<i64> = frames.into_iter().collect();
