@@ -12,6 +12,8 @@ use ndarray::Array3;
 use serde_json::Value;
 
 use crate::fovqa::command;
+use crate::runs::interrupted_runs::{assert_same, results as results_of, two_scenes};
+use crate::runs::shards::names;
 
 /// Height and width: the least that MS-SSIM takes, and more.
 const SIZE: (usize, usize) = (150, 180);
@@ -264,4 +266,34 @@ fn shards_of_streams_are_finished_wherever_the_stream_ends() {
             assert_eq!(of("merged"), of("whole"), "{allow} {stream}: {file}");
         }
     }
+}
+
+/// The frames of an experiment are found once for all shards, and each shard is one like any other.
+#[test]
+fn one_search_for_frames_serves_all_shards() {
+    let folder = two_scenes();
+    let at = |name: &str| folder.path(name);
+    let experiment = read_experiment(&at("e.toml")).unwrap();
+    let run = |experiment| Run::new(experiment, RunOptions::default(), &Given::default()).unwrap();
+    let shards = run(experiment.clone());
+    assert!(shards.reads_frames_before());
+    let score = |index: usize, resume| {
+        let shard = format!("{index}/3").parse().unwrap();
+        shards.score_shard(shard, &at(&format!("s-{index}-of-3")), resume, &Silent).unwrap()
+    };
+    // In whichever order, and one of them twice.
+    let known: Vec<(usize, usize)> = [(3, true), (1, true), (2, true), (1, true), (3, false)]
+        .map(|(index, resume)| score(index, resume))
+        .map(|finished| (finished.scored, finished.known))
+        .into();
+    assert_eq!(known, [(12, 0), (12, 0), (12, 0), (12, 12), (12, 0)]);
+    let names = names("s", 3);
+    let folders: Vec<_> = names.iter().map(|name| at(name)).collect();
+    merge(&folders, &at("merged"), MergeOptions::default(), &Silent).unwrap();
+    folder.run(&["run", "e.toml", "--output", "whole"]).ok();
+    assert_same(&results_of(&at("merged")), &results_of(&at("whole")), "merged");
+    // Other frames have another fingerprint.
+    assert_eq!(shards.fingerprint(), run(experiment.clone()).fingerprint());
+    fs::remove_file(at("eyes/left/a/0002.png")).unwrap();
+    assert_ne!(shards.fingerprint(), run(experiment).fingerprint());
 }

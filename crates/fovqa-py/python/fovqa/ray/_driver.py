@@ -15,7 +15,7 @@ from typing import Any
 
 from .. import _native
 from .._documents import Document, PathLike, document_of, frames_text, warn
-from .._errors import FovqaError, InputError, RequestError
+from .._errors import InputError, RequestError
 from .._progress import Progress, Reporter
 from .._run import Run
 from ._job import UNITS, Job, begin_units, known_units, rows
@@ -237,7 +237,7 @@ def _score(job: Job, folder: Path, units: int, workers: int | None, progress: Pr
                 if callback is not None:
                     callback("units", tally.units + len(failed), units)
         except ray.exceptions.RayError as error:
-            raise FovqaError([(f"Ray could not go on: {error}", "call again: finished units are kept")]) from error
+            raise InputError([(f"Ray could not go on: {error}", "call again: finished units are kept")]) from error
     tally.warn()
     if failed:
         raise UnitsError({f"{unit}/{units}": failed[unit] for unit in sorted(failed)})
@@ -253,18 +253,25 @@ def _started(workers: int | None, threads: int) -> Iterator[tuple[Any, int]]:
     except ImportError as error:
         raise RequestError([(f"Ray cannot be imported: {error}", "install it: pip install 'fovqa[ray]'")]) from error
     is_own = not ray.is_initialized()
-    if is_own and os.environ.get("RAY_ADDRESS"):
-        ray.init(log_to_driver=False)
-    elif is_own:
-        workers = workers or max(1, _cores() // threads)
-        ray.init(
-            address="local",
-            num_cpus=workers * threads,
-            object_store_memory=_OBJECT_STORE_BYTES,
-            include_dashboard=False,
-            log_to_driver=False,
-            logging_level=logging.ERROR,
-        )
+    if is_own:
+        address = os.environ.get("RAY_ADDRESS")
+        where = f"the cluster at {address} (RAY_ADDRESS) cannot be joined" if address else "Ray cannot be started here"
+        try:
+            if address:
+                ray.init(log_to_driver=False, logging_level=logging.ERROR)
+            else:
+                workers = workers or max(1, _cores() // threads)
+                ray.init(
+                    address="local",
+                    num_cpus=workers * threads,
+                    object_store_memory=_OBJECT_STORE_BYTES,
+                    include_dashboard=False,
+                    log_to_driver=False,
+                    logging_level=logging.ERROR,
+                )
+        except Exception as error:
+            help = "start it, or leave RAY_ADDRESS out" if address else "is there enough memory in /dev/shm?"
+            raise InputError([(f"{where}: {error}", help)]) from error
     log = logging.getLogger("ray.data")
     context = data.DataContext.get_current()
     before = log.level, context.enable_progress_bars
