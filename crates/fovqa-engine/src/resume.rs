@@ -265,3 +265,43 @@ fn of_view(
     }
     Ok(known)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::found_frame::GuideFrames;
+    use crate::view_sources::ViewSources;
+
+    #[test]
+    fn frames_of_a_share_come_first_and_all_frames_come() {
+        let frame = |number: usize| FoundFrame {
+            number: number as i64,
+            position: number,
+            reference: number,
+            guides: GuideFrames::default(),
+            tests: vec![(0, number), (1, number)],
+        };
+        let view = FoundView {
+            scene: 0,
+            eye: 0,
+            sources: ViewSources::empty(),
+            frames: (0..5).map(frame).collect(),
+            fps: None,
+            trace: None,
+            passed_over: 0,
+            remarks: Vec::new(),
+        };
+        let order = |share: Range<usize>| -> Vec<i64> {
+            nearest_first(&view, &share).map(|frame| frame.number).collect()
+        };
+        // Pairs 5 and 6 are the second of frame 2 and the first of frame 3.
+        assert_eq!(order(5..7), [2, 3, 0, 1, 0, 2, 3, 4]);
+        assert_eq!(order(0..10), [0, 1, 2, 3, 4, 0, 1, 2, 3, 4]);
+        for share in [0..1, 3..4, 8..10, 4..4] {
+            let mut all = order(share);
+            all.sort_unstable();
+            all.dedup();
+            assert_eq!(all, [0, 1, 2, 3, 4]);
+        }
+    }
+}

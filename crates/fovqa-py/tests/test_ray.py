@@ -119,10 +119,10 @@ def record(folder: Path, unit: int, units: int) -> dict[str, Any]:
     return json.loads(path.read_text()) if path.exists() else {}
 
 
-def module(*arguments: object) -> subprocess.Popen[str]:
+def module(*arguments: object, address: str = "") -> subprocess.Popen[str]:
     """``python -m fovqa.ray`` with one worker."""
     line = [sys.executable, "-m", "fovqa.ray", *map(str, arguments), "--workers", "1", "--frames-per-unit", "2"]
-    environment = {name: value for name, value in os.environ.items() if name != "RAY_ADDRESS"}
+    environment = {**os.environ, "RAY_ADDRESS": address}
     return subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
 
 
@@ -273,7 +273,7 @@ def test_a_worker_that_dies_loses_nothing(slow, tmp_path):
     assert record(tmp_path / "out", 2, 4)["tries"] == 2
     assert [record(tmp_path / "out", unit, 4)["outcome"]["tries"] for unit in (1, 3, 4)] == [1, 1, 1]
     assert results(tmp_path / "out") == results(tmp_path / "whole")
-    assert "note: 4 units, " in said and "report.html" in said
+    assert "note: 4 units, 1 of them in more than one try, " in said and "report.html" in said
 
 
 def test_a_unit_whose_worker_always_dies_is_reported(slow, tmp_path):
@@ -298,6 +298,35 @@ def test_a_second_call_goes_on_after_a_driver_that_died(slow, tmp_path):
     assert results(tmp_path / "out") == results(tmp_path / "whole")
 
 
+def test_without_frames_there_are_errors_and_no_ray(experiment, tmp_path, monkeypatch):
+    experiment.write_text(
+        EXPERIMENT[: EXPERIMENT.index("[[scene]]")] + EXPERIMENT[EXPERIMENT.index('[[scene]]\nname = "eyes') :]
+    )
+    (tmp_path / "left.png").unlink()
+    (tmp_path / "right.png").unlink()
+    monkeypatch.setitem(sys.modules, "ray", None)
+    with pytest.warns(fovqa.FovqaWarning, match=r"left\.png"):
+        done = fovqa.ray.run(experiment, output=tmp_path / "out", progress=False)
+    with pytest.warns(fovqa.FovqaWarning):
+        fovqa.run(experiment, output=tmp_path / "whole", progress=False)
+    assert (done.scored, len(done.failures)) == (0, 4)
+    assert results(tmp_path / "out") == results(tmp_path / "whole")
+    said = ended(module(experiment, "--output", tmp_path / "out"), 3)
+    assert said.count("left.png") == 2 and "error: 4 errors, and nothing was scored" in said and "warning" not in said
+
+
+def test_an_interrupted_command_says_how_to_go_on(slow, tmp_path):
+    process = module(slow, "--output", tmp_path / "out")
+    until(lambda: record(tmp_path / "out", 1, 4) or record(tmp_path / "out", 2, 4))
+    process.send_signal(signal.SIGINT)
+    assert "note: interrupted; the same command goes on" in ended(process, 130)
+
+
+def test_a_cluster_that_does_not_answer_is_told(experiment, tmp_path):
+    said = ended(module(experiment, "--output", tmp_path / "out", address="127.0.0.1:1"), 3)
+    assert "error: the cluster at 127.0.0.1:1 (RAY_ADDRESS) cannot be joined" in said and "RAY_ADDRESS out" in said
+
+
 def test_a_folder_has_one_call_at_a_time(experiment, tmp_path):
     lock = fovqa._native.Lock(tmp_path / "out" / "units")
     with pytest.raises(fovqa.InputError, match="another run is writing to this folder"):
@@ -306,20 +335,21 @@ def test_a_folder_has_one_call_at_a_time(experiment, tmp_path):
 
 
 def test_a_worker_that_sees_other_frames_scores_nothing(experiment, tmp_path):
-    job = _job.Job("call", str(experiment), experiment.read_text(), None, None, True, 1, "other", True)
+    # The threads of this process may have been started already, with this number.
+    threads = _driver._cores()
+    job = _job.Job("call", str(experiment), experiment.read_text(), None, None, True, threads, "other", True)
     row = next(_job.rows(tmp_path / "units", 1))
-    # The threads of this process may have been started with another number.
-    fault = json.loads(_scorer.Scorer(job)(row)["outcome"])["fault"]
-    assert "differ from those of the driver" in fault or "threads" in fault
+    assert "differ from those of the driver" in json.loads(_scorer.Scorer(job)(row)["outcome"])["fault"]
     assert not (tmp_path / "units").exists()
 
 
 def test_mistakes_are_told_before_ray_starts(experiment, tmp_path, monkeypatch):
     for argument in ("workers", "threads", "frames_per_unit"):
-        with pytest.raises(fovqa.RequestError, match=f"{argument} is 0"):
-            fovqa.ray.run(experiment, **{argument: 0})
-    with pytest.raises(fovqa.RequestError, match="psrn"):
-        fovqa.ray.run({"name": "wrong", "metrics": {"psrn": {}}})
+        for number in (0, 1.5, "2"):
+            with pytest.raises(fovqa.RequestError, match=f"{argument} is {number!r}"):
+                fovqa.ray.run(experiment, **{argument: number})
+    with pytest.raises(TypeError, match="the path of a TOML file or a dict"):
+        fovqa.ray.run(5)
     monkeypatch.setitem(sys.modules, "ray", None)
     with pytest.raises(fovqa.RequestError, match="pip install"):
         fovqa.ray.run(experiment, output=tmp_path / "out")
@@ -332,8 +362,12 @@ def test_units_have_room_for_frames_before_them(experiment):
     found = fovqa._native.Sharded(experiment)
     assert (found.frames, found.pairs, found.reads_frames_before) == (10, 20, True)
     assert [_driver._units(found, per_unit) for per_unit in (None, 1, 3, 100)] == [1, 10, 4, 1]
-    experiment.write_text(EXPERIMENT.replace("atd = {}\nfvvdp = {}\n", "").replace('model = "kfr"', 'model = "rmfr"'))
-    assert not fovqa._native.Sharded(experiment).reads_frames_before
+    long = EXPERIMENT.replace("frames = 7", "frames = 65")
+    experiment.write_text(long)
+    assert _driver._units(fovqa._native.Sharded(experiment), None) == 2
+    experiment.write_text(long.replace("atd = {}\nfvvdp = {}\n", "").replace('model = "kfr"', 'model = "rmfr"'))
+    found = fovqa._native.Sharded(experiment)
+    assert not found.reads_frames_before and _driver._units(found, None) == 5
 
 
 def test_the_script_for_slurm_scores_all_shards(experiment, tmp_path, monkeypatch):

@@ -196,6 +196,11 @@ impl Run {
     ) -> Result<Finished, Error> {
         foresee_figures_of_run(&self.experiment, &self.found, events)?;
         if let Some(shard) = self.options.shard {
+            for problem in &self.found.problems {
+                let scene = &self.experiment.plan.scenes[problem.scene].name;
+                let merged = "this will be an error after merging";
+                events.warn(&format!("{scene}: {} ({merged})", problem.error));
+            }
             return self.score_shard(shard, &self.folder(), self.options.resume, events);
         }
         let Scored { folder, findings, mut pictures, known } =
@@ -227,11 +232,6 @@ impl Run {
         let plan = &self.experiment.plan;
         let Scored { folder, findings, known, .. } =
             self.score(folder, Some(shard), resume, events)?;
-        for problem in &self.found.problems {
-            let scene = &plan.scenes[problem.scene].name;
-            let merged = "this will be an error after merging";
-            events.warn(&format!("{scene}: {} ({merged})", problem.error));
-        }
         let failures = findings.failures(plan);
         say_failures_of_shard(&failures, events);
         let (scored, errors) = (findings.scored(plan).count(), failures.len());

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import time
 import warnings
 
 from .._errors import FovqaError, FovqaWarning, InputError, RequestError
-from ._driver import run
+from ._driver import run_units
 
 _EPILOG = """\
 Without RAY_ADDRESS, Ray is started on this machine and stopped at the end; with it, its cluster is used. Interrupted
@@ -61,9 +62,9 @@ class _Told:
         if self._is_terminal:
             end = "\n" if done == total else ""
             print(f"\r\x1b[K{what} {done}/{total}", end=end, file=sys.stderr, flush=True)
-        elif what == "units" and (time.monotonic() - self._last > _BETWEEN_S or done == total):
+        elif what == "units" and (time.monotonic() - self._last > _BETWEEN_S or done in (0, total)):
             self._last = time.monotonic()
-            _say("note", f"{done}/{total} units")
+            _say("note", f"{done} of {total} units")
 
 
 def main(arguments: list[str]) -> int:
@@ -84,7 +85,7 @@ def main(arguments: list[str]) -> int:
         warnings.simplefilter("always", FovqaWarning)
         warnings.showwarning = lambda message, *_, **__: _say("warning", str(message))
         try:
-            done = run(
+            done = run_units(
                 given.experiment,
                 output=given.output,
                 workers=given.workers,
@@ -101,14 +102,22 @@ def main(arguments: list[str]) -> int:
             return 2 if isinstance(error, RequestError) else 3 if isinstance(error, InputError) else 70
         except KeyboardInterrupt:
             _say("note", "interrupted; the same command goes on")
-            return 130
+            sys.stderr.flush()
+            # Ray may crash when the interpreter ends while it was starting.
+            os._exit(130)
+    for failure in done.failures:
+        _say("error", failure.message, failure.help)
     if done.terminal_table:
         print(done.terminal_table)
+    units = "1 unit" if done.units == 1 else f"{done.units} units"
     known = f", {done.known} of them finished before" if done.known else ""
-    _say("note", f"{done.units} units{known}, {done.scoring_s:.1f} s; merged in {done.merging_s:.1f} s")
+    retried = f", {done.retried} of them in more than one try" if done.retried else ""
+    _say("note", f"{units}{known}{retried}, {done.scoring_s:.1f} s; merged in {done.merging_s:.1f} s")
     _say("note", f"{done.folder}: look at {done.report}")
     if done.failures:
-        _say("error", f"{len(done.failures)} errors, but {done.scored} frames were scored")
+        errors = "1 error" if len(done.failures) == 1 else f"{len(done.failures)} errors"
+        scored = f"but {done.scored} frames were scored" if done.scored else "and nothing was scored"
+        _say("error", f"{errors}, {scored}")
         return 3
     return 0
 

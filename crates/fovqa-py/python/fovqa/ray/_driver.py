@@ -6,6 +6,8 @@ import importlib
 import json
 import logging
 import os
+import re
+import socket
 import time
 import uuid
 from collections.abc import Iterator, Mapping
@@ -31,6 +33,8 @@ _MOST_UNITS_PER_BLOCK = 4
 _BLOCKS_PER_WORKER = 16
 #: The memory of a local Ray's object store. Rows are small.
 _OBJECT_STORE_BYTES = 256 << 20
+#: How long the head of a cluster may take to answer, in seconds.
+_PATIENCE_S = 10.0
 #: How many units or warnings are named.
 _MOST_NAMED = 10
 
@@ -67,7 +71,9 @@ class ClusterRun(Run):
         """The number of units."""
         self.known: int = tally.known
         """The number of units that an earlier call had finished."""
-        self.scoring_s: float = tally.end - tally.begin
+        self.retried: int = tally.retried
+        """The number of units that were tried more than once, because a worker died or for another error."""
+        self.scoring_s: float = max(0.0, tally.end - tally.begin)
         """Seconds from the beginning of the first unit to the end of the last one, by the clocks of the workers."""
         self.cpu_s: float = tally.cpu_s
         """CPU seconds of all units."""
@@ -79,13 +85,14 @@ class _Tally:
     """What came of all units. There may be very many, so nothing is kept of each."""
 
     def __init__(self) -> None:
-        self.units = self.known = 0
+        self.units = self.known = self.retried = 0
         self.begin, self.end, self.cpu_s = float("inf"), 0.0, 0.0
         self.warnings: dict[str, None] = {}
 
     def add(self, outcome: Mapping[str, Any]) -> None:
         self.units += 1
         self.known += 0 < outcome["known"] == outcome["scored"] + outcome["errors"]
+        self.retried += outcome["tries"] > 1
         self.begin, self.end = min(self.begin, outcome["begin"]), max(self.end, outcome["end"])
         self.cpu_s += outcome["cpu_s"]
         self.warnings.update(dict.fromkeys(outcome["warnings"]))
@@ -161,11 +168,39 @@ def run(
     >>> import fovqa.ray
     >>> hall = fovqa.ray.run("hall.toml", output="reports/hall", workers=8)  # doctest: +SKIP
     """
+    result = run_units(
+        experiment,
+        output=output,
+        workers=workers,
+        threads=threads,
+        frames_per_unit=frames_per_unit,
+        frames=frames,
+        maps=maps,
+        lock=lock,
+        progress=progress,
+    )
+    warn(failure.message for failure in result.failures)
+    return result
+
+
+def run_units(
+    experiment: Document,
+    *,
+    output: PathLike | None,
+    workers: int | None,
+    threads: int,
+    frames_per_unit: int | None,
+    frames: str | range | None,
+    maps: PathLike | None,
+    lock: bool,
+    progress: Progress,
+) -> ClusterRun:
+    """As :func:`run`, without a warning for each failure."""
     for name, number in (("workers", workers), ("threads", threads), ("frames_per_unit", frames_per_unit)):
-        if number is not None and number < 1:
-            raise RequestError([(f"{name} is {number}", "give a number from 1")])
+        if number is not None and (not isinstance(number, int) or number < 1):
+            raise RequestError([(f"{name} is {number!r}", "give a whole number from 1")])
     document = document_of(experiment)
-    if not isinstance(document, dict):
+    if isinstance(document, (str, os.PathLike)):
         document = Path(os.fspath(document)).absolute()
     maps = None if maps is None else str(Path(os.fspath(maps)).absolute())
     found = _native.Sharded(document, frames=frames_text(frames), maps=maps, lock=lock)
@@ -191,10 +226,16 @@ def run(
             fingerprint=fingerprint,
             resume=known == units,
         )
-        # Nothing of the frames is needed here until they are merged.
-        del found
         begin_units(units_folder, units, fingerprint)
-        tally = _score(job, units_folder, units, workers, progress)
+        if found.pairs > 0:
+            # Nothing of the frames is needed here until they are merged.
+            del found
+            tally = _score(job, units_folder, units, workers, progress)
+        else:
+            # Nothing is there to be scored, which the results say.
+            tally = _Tally()
+            for row in rows(units_folder, units):
+                found.score(row["shard"], row["folder"])
         begin = time.monotonic()
         shards = [row["folder"] for row in rows(units_folder, units)]
         with Reporter(progress) as callback:
@@ -204,7 +245,6 @@ def run(
         if held is not None:
             held.release()
     warn(result.warnings)
-    warn(failure.message for failure in result.failures)
     return result
 
 
@@ -224,6 +264,8 @@ def _score(job: Job, folder: Path, units: int, workers: int | None, progress: Pr
         of_units = data.from_items(list(rows(folder, units)), override_num_blocks=-(-units // per_block))
         pool = data.ActorPoolStrategy(size=min(workers, units))
         scored = of_units.map(Scorer, fn_constructor_args=(job,), compute=pool, num_cpus=job.threads)
+        if callback is not None:
+            callback("units", 0, units)
         try:
             for row in scored.iter_rows():
                 outcome = json.loads(row["outcome"])
@@ -258,6 +300,7 @@ def _started(workers: int | None, threads: int) -> Iterator[tuple[Any, int]]:
         where = f"the cluster at {address} (RAY_ADDRESS) cannot be joined" if address else "Ray cannot be started here"
         try:
             if address:
+                _look_for(address)
                 ray.init(log_to_driver=False, logging_level=logging.ERROR)
             else:
                 workers = workers or max(1, _cores() // threads)
@@ -269,6 +312,9 @@ def _started(workers: int | None, threads: int) -> Iterator[tuple[Any, int]]:
                     log_to_driver=False,
                     logging_level=logging.ERROR,
                 )
+        except KeyboardInterrupt:
+            ray.shutdown()
+            raise
         except Exception as error:
             help = "start it, or leave RAY_ADDRESS out" if address else "is there enough memory in /dev/shm?"
             raise InputError([(f"{where}: {error}", help)]) from error
@@ -289,6 +335,13 @@ def _started(workers: int | None, threads: int) -> Iterator[tuple[Any, int]]:
         log.setLevel(before[0])
         if is_own:
             ray.shutdown()
+
+
+def _look_for(address: str) -> None:
+    """Looks whether anybody listens at an address: Ray itself would wait for minutes."""
+    found = re.fullmatch(r"(?:ray://)?\[?([^/]+?)\]?:(\d+)", address)
+    if found is not None:
+        socket.create_connection((found[1], int(found[2])), timeout=_PATIENCE_S).close()
 
 
 def _cores() -> int:

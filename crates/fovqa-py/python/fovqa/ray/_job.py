@@ -58,7 +58,7 @@ def _name(unit: int, units: int) -> str:
 def write_json(path: Path, value: Any) -> None:
     """Writes a file so that readers see the old one or the new one."""
     temporary = path.with_suffix(f".{os.getpid()}.tmp")
-    temporary.write_text(json.dumps(value), encoding="utf-8")
+    temporary.write_text(json.dumps(value) + "\n", encoding="utf-8")
     temporary.replace(path)
 
 
