@@ -56,11 +56,11 @@ pub(crate) fn locking(lock: bool) -> Locking {
 }
 
 /// A finished run, as the package gets it.
-pub(crate) fn result_of<'py>(
-    py: Python<'py>,
+pub(crate) fn result_of(
+    py: Python<'_>,
     finished: Result<Finished, Error>,
     heard: Heard,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> PyResult<Bound<'_, PyDict>> {
     let finished = finished.map_err(|error| exception(&error, Dialect::Experiment))?;
     let result = PyDict::new(py);
     result.set_item("folder", &finished.folder)?;

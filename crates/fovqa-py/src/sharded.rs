@@ -147,6 +147,7 @@ pub(crate) struct Lock(Mutex<Option<File>>);
 impl Lock {
     /// Creates the folder and locks it.
     #[new]
+    #[allow(clippy::needless_pass_by_value, reason = "Python gives it away")]
     fn new(folder: PathBuf) -> PyResult<Self> {
         let wrong = |error: String| {
             wrong_input(format!("{}: {error}", folder.display()), "give another folder as output")

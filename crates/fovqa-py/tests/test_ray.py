@@ -7,6 +7,7 @@ import os
 import random
 import re
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -122,7 +123,8 @@ def record(folder: Path, unit: int, units: int) -> dict[str, Any]:
 def module(*arguments: object, address: str = "") -> subprocess.Popen[str]:
     """``python -m fovqa.ray`` with one worker."""
     line = [sys.executable, "-m", "fovqa.ray", *map(str, arguments), "--workers", "1", "--frames-per-unit", "2"]
-    environment = {**os.environ, "RAY_ADDRESS": address}
+    # The head of a cluster in these tests asks for no token.
+    environment = {**os.environ, "RAY_ADDRESS": address} | ({"RAY_AUTH_MODE": "disabled"} if address else {})
     return subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
 
 
@@ -325,6 +327,36 @@ def test_an_interrupted_command_says_how_to_go_on(slow, tmp_path):
 def test_a_cluster_that_does_not_answer_is_told(experiment, tmp_path):
     said = ended(module(experiment, "--output", tmp_path / "out", address="127.0.0.1:1"), 3)
     assert "error: the cluster at 127.0.0.1:1 (RAY_ADDRESS) cannot be joined" in said and "RAY_ADDRESS out" in said
+
+
+def test_a_cluster_is_joined(experiment, tmp_path):
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    environment = {**os.environ, "RAY_AUTH_MODE": "disabled"}
+    line = ["--head", "--block", "--port", str(port), "--num-cpus", "2", "--include-dashboard", "false"]
+    script = [str(Path(sys.executable).parent / "ray"), "start", *line, "--object-store-memory", str(256 << 20)]
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    head = subprocess.Popen(script, env=environment, start_new_session=True, **quiet)
+    try:
+
+        def answers() -> bool:
+            with socket.socket() as there:
+                return there.connect_ex(("127.0.0.1", port)) == 0
+
+        until(answers)
+        said = ended(module(experiment, "--output", tmp_path / "out", address=f"127.0.0.1:{port}"), 0)
+        assert "note: 5 units, " in said
+        # The cluster is still there for the next run.
+        assert head.poll() is None and answers()
+        said = ended(module(experiment, "--output", tmp_path / "out", address=f"127.0.0.1:{port}"), 0)
+        assert "5 units, 5 of them finished before" in said
+    finally:
+        # Its processes, which would take half a minute to end by themselves.
+        os.killpg(head.pid, signal.SIGKILL)
+        head.wait(timeout=60)
+    fovqa.run(experiment, output=tmp_path / "whole", progress=False)
+    assert results(tmp_path / "out") == results(tmp_path / "whole")
 
 
 def test_a_folder_has_one_call_at_a_time(experiment, tmp_path):

@@ -54,7 +54,7 @@ fn run(folder: &Path, file: &str, bytes: &[u8]) {
         assert!(verdict.is_err(), "a run that cannot be read has no verdict");
         return;
     }
-    let _ = report(folder, Locking::Unlocked);
+    let _ = report(folder, Locking::Unlocked, &Silent);
 }
 
 /// A journal as the only shard of a run.
