@@ -125,7 +125,15 @@ def module(*arguments: object, address: str = "") -> subprocess.Popen[str]:
     line = [sys.executable, "-m", "fovqa.ray", *map(str, arguments), "--workers", "1", "--frames-per-unit", "2"]
     # The head of a cluster in these tests asks for no token.
     environment = {**os.environ, "RAY_ADDRESS": address} | ({"RAY_AUTH_MODE": "disabled"} if address else {})
-    return subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+    return subprocess.Popen(
+        line,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+        # A shell ignores the signal of Ctrl-C in what it runs in the background.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
 
 
 def ended(process: subprocess.Popen[str], code: int) -> str:
