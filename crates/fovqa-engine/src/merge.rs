@@ -200,7 +200,7 @@ impl Shards {
         self.folders.iter().map(|(shard, folder)| (*shard, folder.as_path()))
     }
 
-    /// The findings of all shards. `plan` must be the plan of their experiment. `changed` is called with the
+    /// The findings of all shards. `plan` must be the plan of their experiment. `changed` is called with
     /// each shard whose values are not all values of the run: after a frame of another shard that could not be
     /// read, FovVideoVDP has none.
     ///

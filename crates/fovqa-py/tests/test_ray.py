@@ -291,6 +291,7 @@ def test_a_unit_whose_worker_always_dies_is_reported(slow, tmp_path):
     kill_worker_of(tmp_path / "out", 2, 4, tries=3)
     said = ended(process, 3)
     assert "error: unit 2/4: its worker died each of the 3 times that it was tried" in said
+    assert "died each of the 3 times" in record(tmp_path / "out", 2, 4)["outcome"]["failed"]
     assert all("outcome" in record(tmp_path / "out", unit, 4) for unit in (1, 3, 4))
     assert "4 units, 3 of them finished before" in ended(module(slow, "--output", tmp_path / "out"), 0)
     assert results(tmp_path / "out") == results(tmp_path / "whole")
@@ -381,6 +382,24 @@ def test_a_worker_that_sees_other_frames_scores_nothing(experiment, tmp_path):
     row = next(_job.rows(tmp_path / "units", 1))
     assert "differ from those of the driver" in json.loads(_scorer.Scorer(job)(row)["outcome"])["fault"]
     assert not (tmp_path / "units").exists()
+
+
+def test_the_reason_of_a_unit_that_was_given_up_is_kept(experiment, tmp_path, monkeypatch):
+    class Full:
+        def score(self, *_: object, **__: object) -> None:
+            raise fovqa.InputError("the disk is full")
+
+    monkeypatch.setattr(_scorer, "_PAUSES_S", (0, 0))
+    fingerprint = fovqa._native.Sharded(experiment).fingerprint
+    threads = _driver._cores()
+    job = _job.Job("call", str(experiment), experiment.read_text(), None, None, True, threads, fingerprint, True)
+    row = next(_job.rows(tmp_path / "units", 1))
+    for _ in range(2):
+        # The second time, another worker has it, because the first one died on the next unit.
+        scorer = _scorer.Scorer(job)
+        scorer._sharded = Full()
+        assert json.loads(scorer(row)["outcome"])["failed"] == "the disk is full"
+    assert record(tmp_path, 1, 1)["tries"] == 3
 
 
 def test_mistakes_are_told_before_ray_starts(experiment, tmp_path, monkeypatch):

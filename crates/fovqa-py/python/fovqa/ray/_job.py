@@ -55,7 +55,7 @@ def _name(unit: int, units: int) -> str:
     return f"{unit:05}-of-{units:05}"
 
 
-def write_json(path: Path, value: Any) -> None:
+def _write_json(path: Path, value: Any) -> None:
     """Writes a file so that readers see the old one or the new one."""
     temporary = path.with_suffix(f".{os.getpid()}.tmp")
     temporary.write_text(json.dumps(value) + "\n", encoding="utf-8")
@@ -103,7 +103,7 @@ def begin_units(folder: Path, units: int, fingerprint: str) -> None:
     fingerprint
         Of the experiment and the frames that were found.
     """
-    write_json(folder / _MANIFEST, {"schema": _SCHEMA, "units": units, "fingerprint": fingerprint})
+    _write_json(folder / _MANIFEST, {"schema": _SCHEMA, "units": units, "fingerprint": fingerprint})
     own = {_name(unit, units) for unit in range(1, units + 1)}
     with os.scandir(folder) as entries:
         for entry in entries:
@@ -129,9 +129,9 @@ class UnitRecord:
         self._path.parent.mkdir(parents=True, exist_ok=True)
         # Who looks for what hangs finds the process here.
         place = {"host": platform.node(), "pid": os.getpid()}
-        write_json(self._path, {"call": self._call, "tries": self.tries, **place})
+        _write_json(self._path, {"call": self._call, "tries": self.tries, **place})
 
     def finish(self, outcome: dict[str, Any]) -> None:
         """Keeps what came of the unit."""
         self.outcome = outcome
-        write_json(self._path, {"call": self._call, "tries": self.tries, "outcome": outcome})
+        _write_json(self._path, {"call": self._call, "tries": self.tries, "outcome": outcome})

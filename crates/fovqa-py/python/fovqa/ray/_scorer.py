@@ -61,6 +61,8 @@ class Scorer:
                 outcome["tries"] = record.tries
                 record.finish(outcome)
                 return outcome
+            # If the worker dies later, the unit is not tried again, and the reason stays.
+            record.finish(outcome | {"failed": failed})
         except OSError as error:
             failed = str(error)
         return outcome | {"failed": failed}
