@@ -20,6 +20,7 @@ mod frame;
 mod frame_signal;
 mod guides;
 mod half_floats;
+mod light;
 mod luma;
 mod luminance;
 mod mask;
@@ -31,7 +32,7 @@ pub mod source;
 mod tonemap;
 pub mod transfer;
 
-pub use blocks::{BLOCK_ROWS, map_row_blocks};
+pub use blocks::{BLOCK_ROWS, map_plane_blocks, map_row_blocks};
 pub use buffer::Buffer;
 pub use chromaticities::Chromaticities;
 pub use display_range::DisplayRange;
@@ -39,6 +40,7 @@ pub use frame::{BadPixel, Channels, Crop, CropError, Frame, FrameError, Samples}
 pub use frame_signal::FrameSignal;
 pub use guides::{Guides, Motion, Plane, PlaneSamples};
 pub use half_floats::half_floats;
+pub use light::{LightKind, LightSignal};
 pub use luma::{LumaKind, LumaScratch, LumaSignal};
 pub use luminance::{LinearInput, LuminanceScratch, LuminanceSignal, LuminanceTables};
 pub use mask::Mask;

@@ -196,6 +196,11 @@ impl LuminanceSignal<'_> {
         self.side.fill(y, xs, &mut [&mut *r, &mut *g, &mut *b]);
         weigh([r, g, b], self.weights, &mut out[..n]);
     }
+
+    /// Reads the columns `xs` of row `y` as red, green and blue, without their weights.
+    pub(crate) fn fill_channels(&self, y: usize, xs: Range<usize>, [r, g, b]: [&mut [f32]; 3]) {
+        self.side.fill(y, xs, &mut [r, g, b]);
+    }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]

@@ -12,6 +12,8 @@ use half::f16;
 use crate::codes::{CODES_8, CODES_16, table};
 use crate::conversion::{Conversion, FloatToSignal};
 use crate::frame::{Frame, Samples};
+use crate::light::{self, LightKind};
+use crate::luminance::LuminanceTables;
 use crate::signal_params::{SignalParams, Transfer};
 use crate::transfer::srgb;
 
@@ -23,17 +25,35 @@ pub struct SignalTables {
     codes8: OnceLock<Box<[f32; CODES_8]>>,
     codes16: OnceLock<Box<[f32; CODES_16]>>,
     half: OnceLock<Box<[f32; CODES_16]>>,
+    displayed: OnceLock<LuminanceTables>,
+    scene: OnceLock<LuminanceTables>,
 }
 
 impl SignalTables {
     /// Prepares the conversion. Tables are built when a frame first needs them.
     pub fn new(params: SignalParams) -> Self {
-        Self { params, codes8: OnceLock::new(), codes16: OnceLock::new(), half: OnceLock::new() }
+        Self {
+            params,
+            codes8: OnceLock::new(),
+            codes16: OnceLock::new(),
+            half: OnceLock::new(),
+            displayed: OnceLock::new(),
+            scene: OnceLock::new(),
+        }
     }
 
     /// The parameters of these tables.
     pub fn params(&self) -> &SignalParams {
         &self.params
+    }
+
+    /// The conversion to light.
+    pub(crate) fn light(&self, kind: LightKind) -> &LuminanceTables {
+        let tables = match kind {
+            LightKind::Displayed => &self.displayed,
+            LightKind::Scene => &self.scene,
+        };
+        tables.get_or_init(|| light::tables(self.params, kind))
     }
 
     /// Whether a frame's codes are the signal already. Two such frames are compared in exact
