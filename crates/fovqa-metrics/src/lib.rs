@@ -11,6 +11,7 @@ mod fidelity;
 mod frame_rows;
 mod info;
 mod kinds;
+mod log_exp;
 mod map;
 mod metric;
 mod metric_params;

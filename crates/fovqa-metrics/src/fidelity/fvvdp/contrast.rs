@@ -8,7 +8,7 @@
 use multiversion::multiversion;
 
 use super::calibration::{DARKEST_BACKGROUND_CD_M2, MAX_CONTRAST};
-use super::log_exp::log2;
+use crate::log_exp::log2;
 
 /// The background of a row from the expanded reference: the limit of differences in cd/m², and the
 /// log2 of the background.

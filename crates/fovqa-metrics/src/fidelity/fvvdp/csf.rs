@@ -15,7 +15,7 @@ use std::sync::LazyLock;
 use multiversion::multiversion;
 
 use super::calibration::SENSITIVITY_DB;
-use super::log_exp::{log2, rounded_index};
+use crate::log_exp::{log2, rounded_index};
 
 /// The number of nodes along each axis.
 pub(super) const NODES: usize = 32;

@@ -12,7 +12,7 @@ use multiversion::multiversion;
 use super::band::Band;
 use super::calibration::FARTHEST_DEG;
 use super::csf::{Coordinates, ECC_STEPS, RHO_FROM, RHO_STEPS_PER_OCTAVE};
-use super::log_exp::{log2, sine};
+use crate::log_exp::{log2, sine};
 
 /// The geometry of a frame on a display.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -10,10 +10,10 @@ use multiversion::multiversion;
 use super::calibration::{CHANNEL_WEIGHTS, JOD_A};
 use super::grid::Grid;
 use super::level::DifferenceRows;
-use super::log_exp::{exp2, log2};
 use super::masking::powers;
 use super::pooling::jod_exponent;
 use super::pyramid::expand;
+use crate::log_exp::{exp2, log2};
 use crate::map::{Map, MapInfo, MapPicture, MapScale};
 
 /// The description of the map.

@@ -6,7 +6,7 @@
 use multiversion::multiversion;
 
 use super::calibration::{LOG10_MASK_C, MASK_P, MASK_Q, MAX_DIFFERENCE};
-use super::log_exp::{exp2, log2};
+use crate::log_exp::{exp2, log2};
 
 /// log2 of D along a row. Test and reference are in cd/m²; `gain` is log2 of the factor that turns
 /// them into multiples of the threshold.

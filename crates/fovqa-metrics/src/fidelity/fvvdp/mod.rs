@@ -34,7 +34,6 @@ mod geometry;
 mod grid;
 mod heat_map;
 mod level;
-mod log_exp;
 mod masking;
 mod params;
 mod photometry;

@@ -8,14 +8,14 @@ const ROUND: f32 = 12_582_912.0;
 
 /// The nearest integer to a value from 0 to 2^22, for use as an index.
 #[inline(always)]
-pub(super) fn rounded_index(value: f32) -> u32 {
+pub(crate) fn rounded_index(value: f32) -> u32 {
     (value + ROUND).to_bits() & 0x003f_ffff
 }
 
 /// log2 of a positive normal number, with an absolute error of at most 4e-7. For 0 and subnormal
 /// numbers the result is -126 or less; for negative numbers it has no meaning.
 #[inline(always)]
-pub(super) fn log2(value: f32) -> f32 {
+pub(crate) fn log2(value: f32) -> f32 {
     /// The bits of sqrt(1/2): the mantissa runs from there to sqrt(2), so that f is small.
     const SQRT_HALF: u32 = 0x3f35_04f3;
     // Minimax approximation of log2(1 + f) / f, relative.
@@ -37,7 +37,7 @@ pub(super) fn log2(value: f32) -> f32 {
 
 /// 2 to a power up to 127, with a relative error of at most 2e-7; 0 for powers of -126 and below.
 #[inline(always)]
-pub(super) fn exp2(power: f32) -> f32 {
+pub(crate) fn exp2(power: f32) -> f32 {
     const LOWEST: f32 = -126.0;
     // Minimax approximation of 2^f on [-1/2, 1/2], relative.
     const P: [f32; 6] =
@@ -52,7 +52,7 @@ pub(super) fn exp2(power: f32) -> f32 {
 
 /// The sine of an angle from 0 to π/2, with a relative error of at most 1.3e-6.
 #[inline(always)]
-pub(super) fn sine(radians: f32) -> f32 {
+pub(crate) fn sine(radians: f32) -> f32 {
     // Minimax approximation of sin(x) / x over x².
     const P: [f32; 4] = [0.999_999_2, -0.166_656_82, 0.008_313_259, -0.000_185_243_57];
     let u = radians * radians;
