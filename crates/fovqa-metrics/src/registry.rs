@@ -122,6 +122,17 @@ impl Metric {
         self.info().statistics.iter().find(own).is_some_and(Statistic::pools_frames)
     }
 
+    /// Whether it compares each test with its reference by one number, so that frames can be ranked by it.
+    pub fn scores_frames(self) -> bool {
+        self.is(MetricKind::Fidelity) && self.info().statistics[0].name.is_empty()
+    }
+
+    /// All metrics that score frames: first the given ones, then the others in the order of tables.
+    pub fn scoring_frames(first: &[Metric]) -> impl Iterator<Item = Metric> {
+        let others = Self::ALL.into_iter().filter(|m| m.scores_frames() && !first.contains(m));
+        first.iter().copied().chain(others)
+    }
+
     /// Whether its value is a number of decibels, infinite for identical pictures.
     pub fn is_decibel(self) -> bool {
         self.info().unit == "dB"

@@ -72,7 +72,7 @@ pub struct ReportSettings {
     pub size: usize,
     /// The frames of each scene; none if the report has no pictures.
     pub frames: Vec<FrameChoice>,
-    /// The metric that ranks frames; `None` for the first of [`ReportSettings::RANKING`] that was
+    /// The metric that ranks frames; `None` for the first of [`ReportSettings::ranking_metrics`] that was
     /// scored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub metric: Option<Metric>,
@@ -86,9 +86,9 @@ impl Default for ReportSettings {
 }
 
 impl ReportSettings {
-    /// The metrics that rank frames if none is chosen, the preferred one first: those that weight an
-    /// error by eccentricity come before those that do not.
-    pub const RANKING: [Metric; 8] = [
+    /// The metrics that are preferred for ranking frames if none is chosen: those that weight an error by
+    /// eccentricity come before those that do not. The other metrics that score frames follow.
+    const PREFERRED: [Metric; 8] = [
         Metric::Fpsnr,
         Metric::Fssim,
         Metric::Psnr,
@@ -99,6 +99,11 @@ impl ReportSettings {
         Metric::Mse,
     ];
 
+    /// The metrics that can rank frames, the preferred one first.
+    pub fn ranking_metrics() -> impl Iterator<Item = Metric> {
+        Metric::scoring_frames(&Self::PREFERRED)
+    }
+
     /// Whether these are the default settings.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
@@ -108,7 +113,7 @@ impl ReportSettings {
     pub fn ranking(&self, is_scored: impl Fn(Metric) -> bool) -> Option<Metric> {
         match self.metric {
             Some(metric) => Some(metric).filter(|metric| is_scored(*metric)),
-            None => Self::RANKING.into_iter().find(|metric| is_scored(*metric)),
+            None => Self::ranking_metrics().find(|metric| is_scored(*metric)),
         }
     }
 }
@@ -133,7 +138,10 @@ mod tests {
         let of = |scored: &[Metric]| settings.ranking(|metric| scored.contains(&metric));
         assert_eq!(of(&[Metric::Mse, Metric::Psnr, Metric::Fpsnr]), Some(Metric::Fpsnr));
         assert_eq!(of(&[Metric::Mse, Metric::Ssim]), Some(Metric::Ssim));
-        assert_eq!(of(&[Metric::Haar]), None);
+        assert_eq!(of(&[Metric::Haar, Metric::Fvvdp]), None);
+        for metric in Metric::ALL.into_iter().filter(|metric| metric.scores_frames()) {
+            assert_eq!(of(&[metric]), Some(metric));
+        }
         let asked = ReportSettings { metric: Some(Metric::Ssim), ..settings };
         assert_eq!(asked.ranking(|_| true), Some(Metric::Ssim));
         assert_eq!(asked.ranking(|metric| metric == Metric::Psnr), None);

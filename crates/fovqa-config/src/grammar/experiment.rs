@@ -378,7 +378,7 @@ static REPORT: [Key; 3] = [
     key(
         "metric",
         Kind::Metric,
-        "the metric that ranks frames (default: the first that is scored of fpsnr, fssim, psnr, ssim, ms_ssim, pu_psnr, gmsd, mse)",
+        "the metric that ranks frames (default: the first that is scored of fpsnr, fssim, psnr, ssim, ms_ssim, pu_psnr, gmsd, mse, then of the others that score frames)",
     ),
 ];
 

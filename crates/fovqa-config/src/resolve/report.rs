@@ -1,6 +1,6 @@
 //! `[report]`: what the page of a run shows of the frames.
 
-use fovqa_metrics::{Metric, MetricKind};
+use fovqa_metrics::Metric;
 use fovqa_params::Words;
 use fovqa_plan::{FrameChoice, FrameWord, MetricChoice, ReportSettings};
 use serde_spanned::Spanned;
@@ -33,8 +33,8 @@ pub(super) fn report(root: Node<'_>, chosen: &MetricChoice, faults: &mut Faults)
     }
     if let Some(metric) = table.text("metric").and_then(Metric::find) {
         let span = table.span("metric");
-        if !metric.is(MetricKind::Fidelity) || metric == Metric::Fvvdp {
-            let ranking = ReportSettings::RANKING.map(Metric::key);
+        if !metric.scores_frames() {
+            let ranking: Vec<&str> = ReportSettings::ranking_metrics().map(Metric::key).collect();
             let message = format!("{} has no score of a single frame", metric.key());
             let help = format!("choose one of {}", ranking.join(", "));
             faults.push(Fault::new(span, message).help(help));

@@ -112,7 +112,7 @@ pub(crate) fn own_difference(is_scored: impl Fn(Metric) -> bool) -> Option<Quant
         Metric::PuPsnr,
         Metric::Gmsd,
     ];
-    let metric = METRICS.into_iter().find(|metric| is_scored(*metric))?;
+    let metric = Metric::scoring_frames(&METRICS).find(|metric| is_scored(*metric))?;
     Some(Quantity::of(metric, fovqa_plan::Aggregate::Mean).of_frames())
 }
 
