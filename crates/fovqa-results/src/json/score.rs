@@ -172,7 +172,7 @@ impl<'a> Frame<'a> {
         };
         let measured = |row: &Row| row.key.metric().is_some() && row.key.statistic().has_row;
         let scores = rows.iter().filter(|row| of_pair(row) && measured(row));
-        let scores = scores.filter_map(|row| Some((name(&row.key), Number(row.value?))));
+        let scores = scores.map(|row| (name(&row.key), row.value.map(Number)));
         let bands = report.edges().iter().enumerate();
         Self {
             frame: frame.frame,
@@ -221,7 +221,7 @@ impl Fvvdp {
 }
 
 /// Values with their names, in the order of results.
-struct NamedValues(Vec<(String, Number)>);
+struct NamedValues(Vec<(String, Option<Number>)>);
 
 impl Serialize for NamedValues {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
