@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use fovqa_frame::Mask;
 use fovqa_metrics::fvvdp::{Fvvdp, Geometry, SMALLEST_SIDE};
-use fovqa_metrics::{Metric, Needs, WeightField};
+use fovqa_metrics::{Demand, Metric, Needs, WeightField};
 use fovqa_plan::{Gaze, MetricChoice, Plan, Settings};
 use fovqa_results::ViewResult;
 use fovqa_vision::{BandEdges, Eccentricity, EccentricityKind, GazeAt, Seen, View, ViewSpec};
@@ -61,7 +61,7 @@ impl<'a> Setup<'a> {
             }
         }
         let wants_fvvdp = metrics.contains(&Metric::Fvvdp);
-        let foveal = Needs::of(&metrics).foveal_weight;
+        let foveal = Needs::of(&metrics).foveal_weight > Demand::None;
         let levels = |metric: &Metric| plan.params.block_levels(*metric);
         let block_levels = metrics.iter().map(levels).filter(|levels| *levels > 0).collect();
         let seen = inputs.settings.view.as_ref().map(|spec| look(inputs, spec, size, warnings));
@@ -177,11 +177,16 @@ impl<'a> Setup<'a> {
         both
     }
 
+    /// The eccentricity of the pixels with this gaze; `None` without a view.
+    pub(crate) fn eccentricity(&self, gaze_px: [f64; 2]) -> Option<Eccentricity> {
+        let Viewing { view, kind, .. } = self.retinas.maker.viewing.as_ref()?;
+        Some(Eccentricity::new(*view, gaze_px, *kind))
+    }
+
     /// How the eye sees a frame with this gaze; `None` without a view.
     pub(crate) fn seen(&self, gaze_px: [f64; 2]) -> Option<Seen> {
-        let Viewing { view, kind, edges } = self.retinas.maker.viewing.as_ref()?;
-        let eccentricity = Eccentricity::new(*view, gaze_px, *kind);
-        Some(Seen { eccentricity, bands: edges.clone() })
+        let eccentricity = self.eccentricity(gaze_px)?;
+        Some(Seen { eccentricity, bands: self.retinas.maker.viewing.as_ref()?.edges.clone() })
     }
 
     /// The distance between two gaze positions in degrees; `None` without a view.

@@ -76,7 +76,7 @@ pub struct Needs {
     /// Luminance, which requires the display's photometry.
     pub luminance: bool,
     /// The foveal weight of every pixel.
-    pub foveal_weight: bool,
+    pub foveal_weight: Demand,
     /// Motion vectors and depth, if the renderer has written them.
     pub guides: bool,
     /// Frames before the present one.
@@ -85,12 +85,23 @@ pub struct Needs {
     pub every_pixel: bool,
 }
 
+/// How much a metric needs an input.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Demand {
+    /// Not at all.
+    None,
+    /// It has further values where the input is there.
+    Takes,
+    /// It has no value without the input.
+    Needs,
+}
+
 impl Needs {
     /// Nothing but the frames.
     pub const NOTHING: Self = Self {
         view: false,
         luminance: false,
-        foveal_weight: false,
+        foveal_weight: Demand::None,
         guides: false,
         lead_in: LeadIn::None,
         every_pixel: false,
@@ -102,7 +113,7 @@ impl Needs {
         Self {
             view: needs().any(|needs| needs.view),
             luminance: needs().any(|needs| needs.luminance),
-            foveal_weight: needs().any(|needs| needs.foveal_weight),
+            foveal_weight: needs().map(|needs| needs.foveal_weight).max().unwrap_or(Demand::None),
             guides: needs().any(|needs| needs.guides),
             lead_in: needs().map(|needs| needs.lead_in).max().unwrap_or(LeadIn::None),
             every_pixel: needs().any(|needs| needs.every_pixel),

@@ -34,7 +34,7 @@ pub use fidelity::scored::Scored;
 pub use fidelity::scorer::Scorer;
 pub use fidelity::ssim;
 pub use frame_rows::{FrameRows, Layout, Layouts};
-pub use info::{MetricInfo, Needs};
+pub use info::{Demand, MetricInfo, Needs};
 pub use kinds::{Better, LeadIn, MetricKind};
 pub use map::{Map, MapInfo, MapPicture, MapScale};
 pub use metric::Metric;

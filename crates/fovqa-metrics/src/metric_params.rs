@@ -5,6 +5,7 @@ use fovqa_params::{ParamError, ParamValue};
 use crate::fidelity::score_error::ScoreError;
 use crate::fidelity::scored::Scored;
 use crate::pair_input::PairInput;
+use crate::registry::Params;
 
 /// The parameters of one metric: defaults, setting by name, and the needs of the metric with these
 /// parameters.
@@ -35,8 +36,9 @@ pub(crate) trait MetricParams: Default + Clone + PartialEq {
         0
     }
 
-    /// Measures a pair in a pass of its own; `None` where the metric shares the pass of other metrics.
-    fn measure(&self, _input: &PairInput<'_>) -> Option<Result<Scored, ScoreError>> {
+    /// Measures a pair in a pass of its own; `None` where the metric shares the pass of other metrics. `all`
+    /// has the parameters of all metrics, for those that use another metric's.
+    fn measure(&self, _all: &Params, _input: &PairInput<'_>) -> Option<Result<Scored, ScoreError>> {
         None
     }
 }

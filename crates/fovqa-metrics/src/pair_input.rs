@@ -1,7 +1,9 @@
 //! The input of a metric with its own pass: a pair of frames.
 
 use fovqa_frame::{Frame, SignalTables};
+use fovqa_vision::Eccentricity;
 
+use crate::fidelity::fpsnr::WeightField;
 use crate::regions::{BlockRegions, Regions};
 
 /// A pair for a pass of its own.
@@ -18,6 +20,10 @@ pub struct PairInput<'a> {
     /// The bands of the blocks of each level that the metric needs
     /// ([`crate::Params::block_levels`]), without blocks that a mask leaves out.
     pub blocks: &'a BlockRegions<'a>,
+    /// How the eye sees the frames; `None` without a view.
+    pub eccentricity: Option<&'a Eccentricity>,
+    /// The foveal weight, if the metric needs or takes it and there is a view.
+    pub weight: Option<&'a WeightField>,
     /// Whether a map is asked for.
     pub map: bool,
 }

@@ -31,6 +31,8 @@ pub struct Statistic {
     pub is_of_bands: bool,
     /// Whether it has a row in results.csv.
     pub has_row: bool,
+    /// Whether its name says the metric too, so that JSON does not put the metric's key before it.
+    pub is_named_alone: bool,
 }
 
 /// A way to combine values.
@@ -85,6 +87,7 @@ impl Statistic {
             better: None,
             is_of_bands: false,
             has_row: true,
+            is_named_alone: false,
         }
     }
 
@@ -137,6 +140,11 @@ impl Statistic {
     /// Declares that it has no ratio of test to reference.
     pub(crate) const fn without_ratio(self) -> Self {
         Self { has_ratio: false, ..self }
+    }
+
+    /// Declares that its name says the metric too.
+    pub(crate) const fn named_alone(self) -> Self {
+        Self { is_named_alone: true, ..self }
     }
 
     /// Declares that it has no row in results.

@@ -78,7 +78,7 @@ macro_rules! registry {
                 input: &PairInput<'_>,
             ) -> Option<Result<Scored, ScoreError>> {
                 match metric {
-                    $(Metric::$metric => self.$params.measure(input),)*
+                    $(Metric::$metric => self.$params.measure(self, input),)*
                 }
             }
         }

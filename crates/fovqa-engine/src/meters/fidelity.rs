@@ -55,5 +55,6 @@ fn score_help(error: &ScoreError) -> &'static str {
             "check the mask: white pixels are scored"
         }
         ScoreError::NoView { .. } => "give a view",
+        ScoreError::Unfit { help, .. } => help,
     }
 }

@@ -118,9 +118,12 @@ pub(crate) struct Measured {
 }
 
 impl Measured {
-    fn add(&mut self, Scored { rows, maps }: Scored) {
+    fn add(&mut self, Scored { rows, maps, warnings: said }: Scored, warnings: &mut Warnings<'_>) {
         self.rows.extend(&rows);
         self.maps.extend(maps);
+        for warning in said {
+            warnings.once_a_view(warning, warning);
+        }
     }
 }
 
@@ -227,10 +230,10 @@ impl Meters {
         let mut measured = Measured::default();
         for meter in &mut self.meters {
             match meter {
-                Meter::Fidelity(fidelity) => measured.add(fidelity.measure(pair)?),
+                Meter::Fidelity(fidelity) => measured.add(fidelity.measure(pair)?, warnings),
                 Meter::Own(own) => {
                     for scored in own.measure(pair, true) {
-                        measured.add(scored?);
+                        measured.add(scored?, warnings);
                     }
                 }
                 Meter::Luminance(light) => light.measure(pair, &mut measured, warnings),

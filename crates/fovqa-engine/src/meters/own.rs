@@ -25,6 +25,7 @@ impl Own {
         pair: &Pair<'_>,
         maps: bool,
     ) -> impl Iterator<Item = Result<Scored, Fault>> {
+        let eccentricity = pair.setup.eccentricity(pair.gaze_px);
         self.metrics.iter().filter_map(move |metric| {
             let none = BlockRegions::default();
             let input = PairInput {
@@ -33,6 +34,8 @@ impl Own {
                 tables: pair.tables,
                 regions: pair.regions,
                 blocks: pair.blocks_of(self.params.block_levels(*metric)).unwrap_or(&none),
+                eccentricity: eccentricity.as_ref(),
+                weight: pair.retina.weight.as_ref(),
                 map: pair.maps && maps,
             };
             let scored = self.params.measure(*metric, &input)?;

@@ -15,7 +15,7 @@ use multiversion::multiversion;
 
 use fovqa_params::{ParamError, ParamInfo, ParamValue, ParamValues};
 
-use crate::info::{MetricInfo, Needs};
+use crate::info::{Demand, MetricInfo, Needs};
 use crate::metric_params::MetricParams;
 use crate::pooling::{Pooling, Statistic};
 
@@ -24,7 +24,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "fpsnr",
     label: "FPSNR",
     unit: "dB",
-    needs: Needs { view: true, foveal_weight: true, ..Needs::NOTHING },
+    needs: Needs { view: true, foveal_weight: Demand::Needs, ..Needs::NOTHING },
     statistics: &[Statistic::VALUE.over_eyes(Pooling::Decibels).over_frames(Pooling::Decibels)],
     about: "PSNR weighted by the square of the visible cut-off frequency; values can be compared between methods, not with papers",
     source: "Lee, Pattichis, Bovik 2002; weights after Geisler and Perry 1998",

@@ -16,4 +16,4 @@ pub mod ssim;
 #[cfg(test)]
 mod tests;
 mod totals;
-mod weighted_mean;
+pub(crate) mod weighted_mean;

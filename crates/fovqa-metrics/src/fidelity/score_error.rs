@@ -42,6 +42,16 @@ pub enum ScoreError {
         /// What its values describe, in words.
         what: &'static str,
     },
+    /// The pair does not fit the metric for a reason of its own.
+    #[error("{}: {reason}", metric.info().label)]
+    Unfit {
+        /// The metric.
+        metric: Metric,
+        /// What does not fit.
+        reason: String,
+        /// How to mend it.
+        help: &'static str,
+    },
     /// A foveal metric has no weight.
     #[error("{} needs a view", metric.info().label)]
     NoView {

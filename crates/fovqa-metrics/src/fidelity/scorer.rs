@@ -12,6 +12,7 @@ use super::ssim::rows::Constants;
 use super::totals::Totals;
 use super::{mse, ssim};
 use crate::decibels::psnr_db;
+use crate::info::Demand;
 use crate::kinds::MetricKind;
 use crate::map::MapInfo;
 use crate::metric::Metric;
@@ -73,7 +74,8 @@ impl Scorer {
         if let Some(metric) = whole.filter(|_| regions.is_masked()) {
             return Err(ScoreError::Masked { metric });
         }
-        let foveal = self.metrics.iter().copied().find(|m| m.info().needs.foveal_weight);
+        let foveal =
+            self.metrics.iter().copied().find(|m| m.info().needs.foveal_weight == Demand::Needs);
         if let (Some(metric), None) = (foveal, weight) {
             return Err(ScoreError::NoView { metric });
         }
@@ -104,7 +106,7 @@ impl Scorer {
         let maps = [(&mse::MAP, maps.squared_error), (&ssim::MAP, maps.ssim)].into_iter();
         let maps = maps.filter(|(_, values)| !values.is_empty());
         let maps = maps.map(|(map, values)| map.with(size, values)).collect();
-        Ok(Scored { rows, maps })
+        Ok(Scored { maps, ..Scored::of(rows) })
     }
 
     /// Whether a map is asked for.

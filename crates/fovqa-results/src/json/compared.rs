@@ -108,10 +108,12 @@ pub(crate) fn in_summary_band(
     summary.compared.iter().filter_map(of_band).collect()
 }
 
-/// The name of a value: the metric and, if it is not the metric's own value, the statistic.
+/// The name of a value: the metric and, if it is not the metric's own value, the statistic. Some statistics
+/// say both.
 pub(crate) fn name(key: &Key) -> String {
     match key.statistic().name {
         "" => key.subject.name().to_owned(),
+        statistic if key.statistic().is_named_alone => statistic.to_owned(),
         statistic => format!("{}_{statistic}", key.subject.name()),
     }
 }

@@ -30,6 +30,7 @@ use crate::metric::Metric;
 use crate::metric_params::MetricParams;
 use crate::pair_input::PairInput;
 use crate::pooling::{Parts, Pooling, Statistic, Weight, deviation};
+use crate::registry;
 use crate::row::{Key, Rows};
 
 /// The metric's description.
@@ -70,7 +71,11 @@ impl MetricParams for Params {
         LEVELS
     }
 
-    fn measure(&self, input: &PairInput<'_>) -> Option<Result<Scored, ScoreError>> {
+    fn measure(
+        &self,
+        _all: &registry::Params,
+        input: &PairInput<'_>,
+    ) -> Option<Result<Scored, ScoreError>> {
         Some(measure(input))
     }
 }
@@ -143,7 +148,7 @@ fn measure(input: &PairInput<'_>) -> Result<Scored, ScoreError> {
         rows.count(key.nth(COUNT), of_band.0);
     }
     let map = map.map(|values| MAP.with((width, height), values));
-    Ok(Scored { rows, maps: map.into_iter().collect() })
+    Ok(Scored { maps: map.into_iter().collect(), ..Scored::of(rows) })
 }
 
 /// Adds the deviation of a set of blocks, and the mean of their similarity.

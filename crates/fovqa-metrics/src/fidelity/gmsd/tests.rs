@@ -44,6 +44,8 @@ impl Setup {
             tables: &SignalTables::new(SignalParams::default()),
             regions: &Regions::unmasked(&pixels),
             blocks: &blocks,
+            eccentricity: None,
+            weight: None,
             map: true,
         })
     }
@@ -98,7 +100,7 @@ impl Setup {
 
     fn check(&self) {
         let literal = self.literal();
-        let Scored { rows, maps } = self.scored().unwrap();
+        let Scored { rows, maps, .. } = self.scored().unwrap();
         let deviation = |band: Option<usize>| -> (u64, f64, f64) {
             let of_band = |(_, of): &&(f64, Option<usize>)| band.is_none() || *of == band;
             let values = literal.iter().filter(of_band).map(|(value, _)| *value);
@@ -156,7 +158,7 @@ fn blocks_beside_a_pixel_left_out_do_not_count() {
 fn identical_pictures_do_not_deviate_at_all() {
     let mut setup = Setup::new(97, 71);
     setup.frames[1] = setup.frames[0].clone();
-    let Scored { rows, maps } = setup.scored().unwrap();
+    let Scored { rows, maps, .. } = setup.scored().unwrap();
     assert_eq!(rows.value(Key::of(Metric::Gmsd)), Some(0.0));
     assert_eq!(rows.value(Key::of(Metric::Gmsd).nth(MEAN).in_band(0)), Some(1.0));
     assert!(maps[0].values.iter().all(|value| *value == 1.0));
