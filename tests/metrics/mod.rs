@@ -5,6 +5,7 @@ mod fvvdp_errors;
 mod gmsd;
 mod golden;
 mod maps;
+mod more;
 mod profiles;
 mod profiles_of_eyes;
 mod temporal;

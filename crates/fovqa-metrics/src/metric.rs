@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 
 // A metric with a pass of its own is declared as a module here, so that no other file needs a line
 // for it. Its source stays in `fidelity/`.
+#[path = "fidelity/flip/mod.rs"]
+pub(crate) mod flip;
 #[path = "fidelity/gmsd/mod.rs"]
 pub(crate) mod gmsd;
 
@@ -26,6 +28,8 @@ macro_rules! for_all_metrics {
             Fssim, fssim: fidelity::fssim;
             /// Gradient magnitude similarity deviation.
             Gmsd, gmsd: metric::gmsd;
+            /// FLIP.
+            Flip, flip: metric::flip;
             /// FovVideoVDP; PU-PSNR uses the same luminance.
             Fvvdp, fvvdp: fidelity::fvvdp;
             /// Peak signal-to-noise ratio of perceptually uniform luminance.

@@ -56,6 +56,7 @@ class Score:
     fpsnr: float | None
     fssim: float | None
     gmsd: float | None
+    flip: float | None
     fvvdp: float | None
     pu_psnr: float | None
     atd: float | None
