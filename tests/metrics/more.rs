@@ -111,3 +111,8 @@ fn compare_maps(wanted: &Path, found: &Path) {
 fn flip_is_that_of_its_own_program() {
     check_flip("flip");
 }
+
+#[test]
+fn hdr_flip_is_that_of_its_own_program() {
+    check_flip("hdr_flip");
+}

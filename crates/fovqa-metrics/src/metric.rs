@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 pub(crate) mod flip;
 #[path = "fidelity/gmsd/mod.rs"]
 pub(crate) mod gmsd;
+#[path = "fidelity/hdr_flip/mod.rs"]
+pub(crate) mod hdr_flip;
 
 /// Passes the list to another macro: the metric, the name of its parameters, and its file. Metrics
 /// are in the order of tables.
@@ -28,8 +30,10 @@ macro_rules! for_all_metrics {
             Fssim, fssim: fidelity::fssim;
             /// Gradient magnitude similarity deviation.
             Gmsd, gmsd: metric::gmsd;
-            /// FLIP.
+            /// FLIP; HDR-FLIP uses its pixels per degree.
             Flip, flip: metric::flip;
+            /// FLIP over a range of exposures.
+            HdrFlip, hdr_flip: metric::hdr_flip;
             /// FovVideoVDP; PU-PSNR uses the same luminance.
             Fvvdp, fvvdp: fidelity::fvvdp;
             /// Peak signal-to-noise ratio of perceptually uniform luminance.

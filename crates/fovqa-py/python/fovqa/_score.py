@@ -57,6 +57,7 @@ class Score:
     fssim: float | None
     gmsd: float | None
     flip: float | None
+    hdr_flip: float | None
     fvvdp: float | None
     pu_psnr: float | None
     atd: float | None
