@@ -67,6 +67,16 @@ fn golden() -> impl Iterator<Item = std::path::PathBuf> {
     [Some(root().join("tests/golden/more")), shared("golden/more")].into_iter().flatten()
 }
 
+fn check(kind: &str) {
+    for golden in golden() {
+        let cases = cases(&golden, kind);
+        assert!(!cases.is_empty(), "{kind} in {}", golden.display());
+        for case in cases {
+            run(&case, &golden, &[]);
+        }
+    }
+}
+
 /// Holds FLIP's statistics and maps to those of its own program. Single pixels of gray pictures are
 /// further off: what differs there is rounding alone.
 fn check_flip(kind: &str) {
@@ -115,4 +125,9 @@ fn flip_is_that_of_its_own_program() {
 #[test]
 fn hdr_flip_is_that_of_its_own_program() {
     check_flip("hdr_flip");
+}
+
+#[test]
+fn fwqi_is_that_of_an_independent_program() {
+    check("fwqi");
 }

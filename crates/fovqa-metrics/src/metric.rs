@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 // for it. Its source stays in `fidelity/`.
 #[path = "fidelity/flip/mod.rs"]
 pub(crate) mod flip;
+#[path = "fidelity/fwqi/mod.rs"]
+pub(crate) mod fwqi;
 #[path = "fidelity/gmsd/mod.rs"]
 pub(crate) mod gmsd;
 #[path = "fidelity/hdr_flip/mod.rs"]
@@ -34,6 +36,8 @@ macro_rules! for_all_metrics {
             Flip, flip: metric::flip;
             /// FLIP over a range of exposures.
             HdrFlip, hdr_flip: metric::hdr_flip;
+            /// Foveated wavelet image quality index.
+            Fwqi, fwqi: metric::fwqi;
             /// FovVideoVDP; PU-PSNR uses the same luminance.
             Fvvdp, fvvdp: fidelity::fvvdp;
             /// Peak signal-to-noise ratio of perceptually uniform luminance.

@@ -58,6 +58,7 @@ class Score:
     gmsd: float | None
     flip: float | None
     hdr_flip: float | None
+    fwqi: float | None
     fvvdp: float | None
     pu_psnr: float | None
     atd: float | None
