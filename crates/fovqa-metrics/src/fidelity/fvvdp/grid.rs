@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::spare;
 
 /// The number of floats in two of the widest vectors.
-const ROW_STEP: usize = 32;
+pub(super) const ROW_STEP: usize = 32;
 
 /// A plane of `f32`. The padding after the end of a row is finite and has no meaning.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -25,15 +25,23 @@ impl Grid {
         Self { width, height, stride, values: spare::zeros(stride * height) }
     }
 
+    /// A plane of which the caller writes every row with its padding. Until then its values have no
+    /// meaning.
+    pub(crate) fn to_fill(width: usize, height: usize) -> Self {
+        let stride = width.next_multiple_of(ROW_STEP);
+        Self { width, height, stride, values: spare::stale(stride * height) }
+    }
+
     /// The luminance of a frame in cd/m².
     pub fn luminance(frame: &Frame, tables: &LuminanceTables) -> Self {
         let signal = tables.luminance(frame);
-        let mut grid = Self::new(frame.width(), frame.height());
+        let mut grid = Self::to_fill(frame.width(), frame.height());
         let width = grid.width;
         grid.fill_blocks(|first, rows| {
             let mut scratch = LuminanceScratch::new(width);
             for (index, row) in rows.enumerate() {
                 signal.fill(first + index, 0..width, &mut scratch, row);
+                row[width..].fill(0.0);
             }
         });
         grid

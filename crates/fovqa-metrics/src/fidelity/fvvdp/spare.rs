@@ -27,7 +27,13 @@ pub(super) fn zeros(length: usize) -> Vec<f32> {
     plane
 }
 
-/// Keeps a plane's memory for [`zeros`]. The planes that were kept longest are dropped to make
+/// A plane whose values will all be overwritten: it may hold those of an earlier plane.
+pub(super) fn stale(length: usize) -> Vec<f32> {
+    let found = lock().take(length);
+    found.unwrap_or_else(|| vec![0.0; length])
+}
+
+/// Keeps a plane's memory for later planes. The planes that were kept longest are dropped to make
 /// room.
 pub(super) fn give_back(plane: Vec<f32>) {
     if plane.is_empty() || plane.len() > MOST / 8 {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use multiversion::multiversion;
 
-use super::grid::Grid;
+use super::grid::{Grid, ROW_STEP};
 use super::params::Padding;
 use super::temporal_filters::TemporalFilters;
 
@@ -61,19 +61,22 @@ impl Window {
     }
 
     /// Its frames after filtering: sustained and transient.
-    pub(crate) fn filtered(&self, filters: &TemporalFilters) -> Vec<Grid> {
+    pub(crate) fn filtered<'a>(&'a self, filters: &TemporalFilters) -> Vec<Grid> {
         let taps = self.taps(filters);
         let (width, height) = self.0[0].1.size();
-        let mut channels = vec![Grid::new(width, height), Grid::new(width, height)];
+        let mut channels = vec![Grid::to_fill(width, height), Grid::to_fill(width, height)];
         Grid::fill_blocks_of(channels.iter_mut(), |first, blocks| {
             let [sustained, transient] = blocks else { return };
             let stride = self.0[0].1.stride();
             let rows = sustained.chunks_exact_mut(stride).zip(transient.chunks_exact_mut(stride));
+            let mut weighted = Vec::with_capacity(taps.len());
             for (index, (sustained, transient)) in rows.enumerate() {
-                for (luminance, weights) in &taps {
-                    let row = luminance.padded_row(first + index);
-                    accumulate(row, *weights, sustained, transient);
-                }
+                let of_row = |(luminance, weights): &(&'a Grid, [f32; 2])| {
+                    (luminance.padded_row(first + index), *weights)
+                };
+                weighted.clear();
+                weighted.extend(taps.iter().map(of_row));
+                sums(&weighted, sustained, transient);
             }
         });
         channels
@@ -96,16 +99,22 @@ impl Window {
     }
 }
 
+/// The weighted sums of padded rows. Few columns are summed at a time, so that the sums stay in
+/// registers until they are complete.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn accumulate(
-    luminance: &[f32],
-    [weight_sustained, weight_transient]: [f32; 2],
-    sustained: &mut [f32],
-    transient: &mut [f32],
-) {
-    for ((luminance, sustained), transient) in luminance.iter().zip(sustained).zip(transient) {
-        *sustained += weight_sustained * luminance;
-        *transient += weight_transient * luminance;
+fn sums(rows: &[(&[f32], [f32; 2])], sustained: &mut [f32], transient: &mut [f32]) {
+    let parts = sustained.as_chunks_mut::<ROW_STEP>().0.iter_mut();
+    let parts = parts.zip(transient.as_chunks_mut::<ROW_STEP>().0);
+    for (part, (sustained, transient)) in parts.enumerate() {
+        let (mut slow, mut fast) = ([0.0f32; ROW_STEP], [0.0f32; ROW_STEP]);
+        for (row, [weight_sustained, weight_transient]) in rows {
+            let luminance = &row.as_chunks::<ROW_STEP>().0[part];
+            for i in 0..ROW_STEP {
+                slow[i] += weight_sustained * luminance[i];
+                fast[i] += weight_transient * luminance[i];
+            }
+        }
+        (*sustained, *transient) = (slow, fast);
     }
 }
 
