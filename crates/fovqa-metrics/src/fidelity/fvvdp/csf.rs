@@ -121,21 +121,77 @@ fn find_cells(
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
 fn trilinear(table: &[f32], corner: &[u32], [rho, ecc, y]: [&[f32]; 3], out: &mut [f32]) {
+    let whole = out.len() / STRETCH * STRETCH;
+    let stretches = corner.as_chunks().0.iter().zip(rho.as_chunks().0).zip(ecc.as_chunks().0);
+    let stretches = stretches.zip(y.as_chunks().0).zip(out.as_chunks_mut().0);
+    for ((((corner, rho), ecc), y), out) in stretches {
+        interpolate_stretch(table, corner, [rho, ecc, y], out);
+    }
+    for x in whole..out.len() {
+        out[x] = interpolate(table, corner[x], [rho[x], ecc[x], y[x]]);
+    }
+}
+
+/// The number of pixels that are interpolated together: a vector of the widest kind.
+const STRETCH: usize = 16;
+
+/// The distances in a table from a cell's first corner to its lower corners in Y.
+const CORNERS: [usize; 4] = [0, NODES, NODES * NODES, NODES * NODES + NODES];
+
+/// Interpolates neighbours. Most of them lie in one cell, or in two cells that are adjacent in Y,
+/// because rho and ecc change slowly along a row, as does the luminance of a low-pass. The nodes of
+/// these cells are then loaded once for all pixels.
+#[inline(always)]
+fn interpolate_stretch(
+    table: &[f32],
+    corner: &[u32; STRETCH],
+    [rho, ecc, y]: [&[f32; STRETCH]; 3],
+    out: &mut [f32; STRETCH],
+) {
+    let (mut first, mut last) = (corner[0], corner[0]);
+    for &corner in corner {
+        first = first.min(corner);
+        last = last.max(corner);
+    }
+    if last - first > 1 {
+        for x in 0..STRETCH {
+            out[x] = interpolate(table, corner[x], [rho[x], ecc[x], y[x]]);
+        }
+        return;
+    }
+    let (below, above) = (first as usize, last as usize);
+    let [a, b, c, d] =
+        CORNERS.map(|at| [table[below + at], table[below + at + 1], table[above + at + 1]]);
+    for x in 0..STRETCH {
+        let is_above = corner[x] != first;
+        let near = between(along_y(a, is_above, y[x]), along_y(b, is_above, y[x]), ecc[x]);
+        let far = between(along_y(c, is_above, y[x]), along_y(d, is_above, y[x]), ecc[x]);
+        out[x] = between(near, far, rho[x]);
+    }
+}
+
+/// Interpolates along Y between the first two of three nodes, or between the last two.
+#[inline(always)]
+fn along_y([low, middle, high]: [f32; 3], is_above: bool, y: f32) -> f32 {
+    let (from, to) = if is_above { (middle, high) } else { (low, middle) };
+    between(from, to, y)
+}
+
+/// Interpolates in a single cell.
+#[inline(always)]
+fn interpolate(table: &[f32], corner: u32, [rho, ecc, y]: [f32; 3]) -> f32 {
     /// Index distance to the farthest corner of a cell, plus one.
     const REACH: usize = NODES * NODES + NODES + 2;
-    let n = out.len();
-    let (corner, rho, ecc, y) = (&corner[..n], &rho[..n], &ecc[..n], &y[..n]);
-    for x in 0..n {
-        let from = corner[x] as usize;
-        let c = &table[from..from + REACH];
-        let along_y = |at: usize| c[at] + (c[at + 1] - c[at]) * y[x];
-        let along_ecc = |at: usize| {
-            let (from, to) = (along_y(at), along_y(at + NODES));
-            from + (to - from) * ecc[x]
-        };
-        let (from, to) = (along_ecc(0), along_ecc(NODES * NODES));
-        out[x] = from + (to - from) * rho[x];
-    }
+    let c = &table[corner as usize..][..REACH];
+    let [a, b, d, e] = CORNERS;
+    let near = between(between(c[a], c[a + 1], y), between(c[b], c[b + 1], y), ecc);
+    let far = between(between(c[d], c[d + 1], y), between(c[e], c[e + 1], y), ecc);
+    between(near, far, rho)
+}
+
+#[inline(always)]
+fn between(from: f32, to: f32, weight: f32) -> f32 {
+    from + (to - from) * weight
 }
 
 /// The sensitivity of a band for which frequency and eccentricity are the same at all pixels: a
@@ -186,4 +242,35 @@ pub fn sensitivity(channel: usize, rho_cpd: f64, luminance_cd_m2: f64, ecc_deg: 
     cells.find(&[log2(luminance_cd_m2 as f32)], &at);
     cells.log2_sensitivity(channel, &mut out);
     libm::exp2(f64::from(out[0]))
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "neighbours must not change a value")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pixels_are_the_same_alone_and_beside_others() {
+        const PIXELS: usize = 5 * STRETCH + 3;
+        // A stretch in one cell, in two cells in Y, in three, and at both ends of the table; the
+        // last one crosses cells of rho.
+        let corner = |x: usize| match x / STRETCH {
+            0 => 4321,
+            1 => 4321 + x as u32 % 2,
+            2 => 4321 + x as u32 % 3,
+            3 => 0,
+            _ => (30 * NODES as u32 + 30) * NODES as u32 + 30 - (x as u32 % 2) * 1024,
+        };
+        let part = |x: usize, step: usize| (x * step % 97) as f32 / 96.0;
+        let corners: Vec<u32> = (0..PIXELS).map(corner).collect();
+        let [rho, ecc, y] =
+            [31, 53, 71].map(|step| (0..PIXELS).map(|x| part(x, step)).collect::<Vec<f32>>());
+        for table in &*TABLES {
+            let mut together = vec![0.0; PIXELS];
+            trilinear(table, &corners, [&rho, &ecc, &y], &mut together);
+            for x in 0..PIXELS {
+                assert_eq!(together[x], interpolate(table, corners[x], [rho[x], ecc[x], y[x]]));
+            }
+        }
+    }
 }
