@@ -19,10 +19,10 @@ pub(super) struct Levels<'a> {
 }
 
 impl<'a> Levels<'a> {
-    pub(super) fn new<T: std::borrow::Borrow<Grid>>(fine: &'a [T], coarse: &'a [Grid]) -> Self {
+    pub(super) fn new(fine: &[&'a Grid], coarse: &'a [Grid]) -> Self {
         let last = fine.len() - 1;
         Self {
-            fine: [fine[0].borrow(), fine[last].borrow()],
+            fine: [fine[0], fine[last]],
             coarse: [&coarse[0], &coarse[last]],
             channels: fine.len(),
         }

@@ -39,28 +39,33 @@ pub(crate) fn band_frequencies_cpd(
     (0..(last + 1).min(fit)).map(cpd).collect()
 }
 
-/// The next level, with half the sides, rounded up. The sides must be at least 2.
-pub(crate) fn reduce(fine: &Grid, right_edge: RightEdge) -> Grid {
-    let (width, height) = fine.size();
-    let mut coarse = Grid::new(width.div_ceil(2), height.div_ceil(2));
+/// The next level of planes of one size, with half the sides, rounded up. The sides must be at
+/// least 2.
+pub(crate) fn reduce(fine: &[&Grid], right_edge: RightEdge) -> Vec<Grid> {
+    let Some((width, height)) = fine.first().map(|grid| grid.size()) else { return Vec::new() };
+    let half = || Grid::to_fill(width.div_ceil(2), height.div_ceil(2));
+    let mut coarse: Vec<Grid> = fine.iter().map(|_| half()).collect();
     let odd = match right_edge {
         RightEdge::ByRows => height % 2 == 1,
         RightEdge::ByColumns => width % 2 == 1,
     };
-    let columns = coarse.width();
-    coarse.fill_blocks(|first, rows| {
+    let (columns, fine_stride, stride) = (coarse[0].width(), fine[0].stride(), coarse[0].stride());
+    Grid::fill_blocks_of(coarse.iter_mut(), |first, blocks| {
         // There are two more columns on the left, and zeros on the right up to the last tap.
-        let mut tall = vec![0.0; 2 * columns + 4 + fine.stride()];
-        for (index, row) in rows.enumerate() {
-            let centre = 2 * (first + index) as isize;
-            let taps =
-                [-2, -1, 0, 1, 2].map(|tap| fine.padded_row(reflected(centre + tap, height)));
-            vertical(taps, &mut tall[2..2 + fine.stride()]);
-            tall[2 + width..].fill(0.0);
-            (tall[0], tall[1]) = (tall[3], tall[2]);
-            horizontal(&tall, &mut row[..columns]);
-            let (last, before) = (tall[1 + width], tall[width]);
-            row[columns - 1] += if odd { 0.25 * last + 0.05 * before } else { 0.05 * last };
+        let mut tall = vec![0.0; 2 * columns + 4 + fine_stride];
+        for (fine, block) in fine.iter().zip(blocks) {
+            for (index, row) in block.chunks_exact_mut(stride).enumerate() {
+                let centre = 2 * (first + index) as isize;
+                let taps =
+                    [-2, -1, 0, 1, 2].map(|tap| fine.padded_row(reflected(centre + tap, height)));
+                vertical(taps, &mut tall[2..2 + fine_stride]);
+                tall[2 + width..].fill(0.0);
+                (tall[0], tall[1]) = (tall[3], tall[2]);
+                horizontal(&tall, &mut row[..columns]);
+                let (last, before) = (tall[1 + width], tall[width]);
+                row[columns - 1] += if odd { 0.25 * last + 0.05 * before } else { 0.05 * last };
+                row[columns..].fill(0.0);
+            }
         }
     });
     coarse

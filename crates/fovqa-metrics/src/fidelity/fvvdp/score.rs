@@ -1,7 +1,6 @@
 //! The score of a test frame against its reference: the pyramids are built and compared level by
 //! level.
 
-use std::borrow::Borrow;
 use std::sync::Arc;
 
 use fovqa_frame::map_row_blocks;
@@ -107,6 +106,10 @@ impl FvvdpReference {
     }
 }
 
+fn planes(channels: &[Arc<Grid>]) -> Vec<&Grid> {
+    channels.iter().map(Arc::as_ref).collect()
+}
+
 /// The metric for frames of one size on one display.
 #[derive(Debug)]
 pub struct Fvvdp {
@@ -164,7 +167,8 @@ impl Fvvdp {
         let mut reference = FvvdpReference { channels, directions, kept: None };
         if keep {
             let mut kept = Vec::with_capacity(self.bands.len());
-            self.descend(&reference.channels, |index, levels| {
+            self.descend(&planes(&reference.channels), |index, fine, coarse| {
+                let levels = Levels::new(fine, coarse);
                 kept.push(KeptRows::new(self.viewing(&reference, index), levels));
             });
             reference.kept = Some(kept);
@@ -177,19 +181,16 @@ impl Fvvdp {
         Viewing { band: &self.bands[index], directions }
     }
 
-    /// Calls `visit` with each level of a pyramid and the next level.
-    fn descend(&self, channels: &[Arc<Grid>], mut visit: impl FnMut(usize, Levels<'_>)) {
-        let mut coarse = self.reduced(channels);
-        visit(0, Levels::new(channels, &coarse));
+    /// Calls `visit` with each level of some pyramids and the next level.
+    fn descend(&self, planes: &[&Grid], mut visit: impl FnMut(usize, &[&Grid], &[Grid])) {
+        let mut coarse = reduce(planes, self.right_edge);
+        visit(0, planes, &coarse);
         for index in 1..self.bands.len() {
-            let fine = std::mem::take(&mut coarse);
-            coarse = self.reduced(&fine);
-            visit(index, Levels::new(&fine, &coarse));
+            let kept = coarse;
+            let fine: Vec<&Grid> = kept.iter().collect();
+            coarse = reduce(&fine, self.right_edge);
+            visit(index, &fine, &coarse);
         }
-    }
-
-    fn reduced<T: Borrow<Grid>>(&self, fine: &[T]) -> Vec<Grid> {
-        fine.iter().map(|grid| reduce(grid.borrow(), self.right_edge)).collect()
     }
 
     /// Scores a test frame, given by its filtered planes, against its reference. If a map is
@@ -203,26 +204,24 @@ impl Fvvdp {
     ) -> FvvdpFrame {
         let mut sums = Vec::with_capacity(self.bands.len());
         let mut map = map;
+        let test = planes(test);
         if let Some(kept) = &reference.kept {
-            self.descend(test, |index, test| {
+            self.descend(&test, |index, fine, coarse| {
                 let rows = || Reference::Kept(&kept[index]);
+                let test = Levels::new(fine, coarse);
                 sums.push(self.level(index, test, rows, regions, map.as_deref_mut()));
             });
             return self.pooled(&sums);
         }
-        let mut coarse = self.reduced(&reference.channels);
-        let mut fine: Vec<Grid> = Vec::new();
-        self.descend(test, |index, test| {
-            if index > 0 {
-                fine = std::mem::take(&mut coarse);
-                coarse = self.reduced(&fine);
-            }
-            let levels = match index {
-                0 => Levels::new(&reference.channels, &coarse),
-                _ => Levels::new(&fine, &coarse),
-            };
+        let channels = test.len();
+        // Both pyramids together: there is less waiting for threads.
+        let both = [planes(&reference.channels), test].concat();
+        self.descend(&both, |index, fine, coarse| {
+            let reference_levels = Levels::new(&fine[..channels], &coarse[..channels]);
+            let test = Levels::new(&fine[channels..], &coarse[channels..]);
             let viewing = self.viewing(reference, index);
-            let rows = || Reference::Computed(Box::new(ReferenceRows::new(viewing, levels)));
+            let rows =
+                || Reference::Computed(Box::new(ReferenceRows::new(viewing, reference_levels)));
             sums.push(self.level(index, test, rows, regions, map.as_deref_mut()));
         });
         self.pooled(&sums)

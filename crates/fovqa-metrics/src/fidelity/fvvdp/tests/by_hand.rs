@@ -11,7 +11,7 @@ use crate::fidelity::fvvdp::csf::{Coordinates, ECC_STEPS, RHO_FROM, RHO_STEPS_PE
 use crate::fidelity::fvvdp::geometry::BandDirections;
 use crate::fidelity::fvvdp::masking::{log2_masked, powers};
 use crate::fidelity::fvvdp::pooling::{over_bands, over_channels, over_pixels};
-use crate::fidelity::fvvdp::pyramid::{RightEdge, expand, reduce};
+use crate::fidelity::fvvdp::pyramid::expand;
 
 fn seen(spec: &ViewSpec, width: usize, height: usize) -> Geometry {
     Geometry::new(spec.resolve(width, height).unwrap().view, None)
@@ -254,7 +254,7 @@ fn pooling_by_hand() {
 fn flat_pictures_stay_flat_where_parities_agree() {
     for (width, height) in [(8, 6), (9, 7), (4, 4), (5, 5), (64, 130)] {
         let flat = grid(width, height, |_, _| 7.5);
-        let coarse = reduce(&flat, RightEdge::ByRows);
+        let coarse = reduced(&flat, RightEdge::ByRows);
         assert_eq!((coarse.width(), coarse.height()), (width.div_ceil(2), height.div_ceil(2)));
         assert_near("reduced", values(&coarse), values(&coarse).map(|_| 7.5), [1e-6, 0.0]);
         let back = expand(&coarse, (width, height));
@@ -265,7 +265,7 @@ fn flat_pictures_stay_flat_where_parities_agree() {
     for (width, height, weight) in [(8, 7, 1.25), (9, 6, 0.75)] {
         let flat = grid(width, height, |_, _| 1.0);
         for (edge, weight) in [(RightEdge::ByRows, weight), (RightEdge::ByColumns, 1.0)] {
-            let coarse = reduce(&flat, edge);
+            let coarse = reduced(&flat, edge);
             for y in 0..coarse.height() {
                 let (last, before) = coarse.row(y).split_last().unwrap();
                 assert_near("last", [f64::from(*last)], [weight], [1e-6, 0.0]);

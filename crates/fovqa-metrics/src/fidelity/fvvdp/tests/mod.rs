@@ -23,6 +23,7 @@ use fovqa_testkit::synthetic::Xorshift;
 use fovqa_vision::{Eotf, ViewSpec, find_display};
 
 use super::grid::Grid;
+use super::pyramid::{RightEdge, reduce};
 use super::*;
 use fovqa_frame::{SignalParams, Transfer};
 
@@ -39,6 +40,10 @@ fn whole_golden() -> Option<Golden> {
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn reduced(fine: &Grid, edge: RightEdge) -> Grid {
+    reduce(&[fine], edge).remove(0)
 }
 
 fn grid(width: usize, height: usize, value: impl Fn(usize, usize) -> f32 + Sync) -> Grid {

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::*;
 use crate::fidelity::fvvdp::bands::bands;
-use crate::fidelity::fvvdp::pyramid::{RightEdge, expand, reduce};
+use crate::fidelity::fvvdp::pyramid::expand;
 use crate::fidelity::fvvdp::temporal_filters::TemporalFilters;
 
 fn stage(name: &str) -> Vec<Value> {
@@ -122,7 +122,7 @@ fn levels_are_reduced_and_expanded_for_each_parity() {
     for given in &sizes {
         let [width, height] = ["W", "H"].map(|key| number(&given[key]) as usize);
         let fine = grid(width, height, |j, i| (3 * i * i + 5 * j + (7 * i + 3 * j) % 5) as f32);
-        let coarse = reduce(&fine, RightEdge::ByRows);
+        let coarse = reduced(&fine, RightEdge::ByRows);
         let what = format!("{width}x{height}");
         assert_near(&what, values(&coarse), numbers(&given["reduce"]), [1e-5, 0.0]);
         let back = expand(&coarse, (width, height));

@@ -10,7 +10,7 @@ use crate::fidelity::fvvdp::contrast::differences;
 use crate::fidelity::fvvdp::csf::{Coordinates, ECC_STEPS, RHO_FROM, RHO_STEPS_PER_OCTAVE};
 use crate::fidelity::fvvdp::geometry::BandDirections;
 use crate::fidelity::fvvdp::level::{DifferenceRows, Levels, Reference, ReferenceRows, Viewing};
-use crate::fidelity::fvvdp::pyramid::{Expander, RightEdge, reduce};
+use crate::fidelity::fvvdp::pyramid::Expander;
 
 /// The results of the rows of one level, for one channel.
 #[derive(Default)]
@@ -23,6 +23,10 @@ struct Measured {
     differences: Vec<f64>,
 }
 
+fn refs(planes: &[Arc<Grid>]) -> Vec<&Grid> {
+    planes.iter().map(Arc::as_ref).collect()
+}
+
 fn measured(
     viewing: Viewing<'_>,
     channel: usize,
@@ -30,9 +34,10 @@ fn measured(
     [below_reference, below_test]: [&[Grid]; 2],
 ) -> Measured {
     let Band { size: (width, height), log2_gain, cpd, .. } = *viewing.band;
-    let levels = Levels::new(reference, below_reference);
+    let levels = Levels::new(&refs(reference), below_reference);
     let computed = Reference::Computed(Box::new(ReferenceRows::new(viewing, levels)));
-    let mut masked = DifferenceRows::new(viewing.band, computed, Levels::new(test, below_test));
+    let test_levels = Levels::new(&refs(test), below_test);
+    let mut masked = DifferenceRows::new(viewing.band, computed, test_levels);
     let mut rows = ReferenceRows::new(viewing, levels);
     let mut expander = Expander::new(viewing.band.size);
     let stride = test[0].stride();
@@ -80,9 +85,7 @@ fn check(
     for (index, band) in bands.iter().enumerate() {
         let directions = gaze_px.map(|gaze| BandDirections::new(geometry, band, gaze));
         let viewing = Viewing { band, directions: directions.as_ref() };
-        let coarse = fine.each_ref().map(|planes| {
-            planes.iter().map(|plane| reduce(plane, RightEdge::ByRows)).collect::<Vec<_>>()
-        });
+        let coarse = fine.each_ref().map(|planes| reduce(&refs(planes), RightEdge::ByRows));
         for channel in 0..fine[0].len() {
             let found = measured(viewing, channel, [&fine[0], &fine[1]], [&coarse[0], &coarse[1]]);
             let near = |quantity: &str, found: Vec<f64>, tolerance: [f64; 2]| {
