@@ -120,7 +120,12 @@ impl Planes {
     }
 }
 
-/// The number of chunks that are decompressed at the same time: enough for many cores.
+/// The number of chunks that are decompressed before their samples are copied: a few for each
+/// thread, so that all threads have work. With more of them, their memory would no longer fit into
+/// the caches, and the allocator would return it to the system after every batch.
+const CHUNKS_PER_THREAD: usize = 4;
+
+/// The largest number of these chunks.
 const CHUNKS_AT_ONCE: usize = 32;
 
 /// The limit of the memory for these chunks with all their channels, in bytes.
@@ -227,7 +232,8 @@ fn chunks_at_once(meta: &MetaData, requests: &[Request]) -> usize {
         let Vec2(w, h) = header.max_block_pixel_size();
         w * h * header.channels.bytes_per_pixel
     });
-    (BYTES_AT_ONCE / bytes.max().unwrap_or(0).max(1)).clamp(1, CHUNKS_AT_ONCE)
+    let chunks = (CHUNKS_PER_THREAD * rayon::current_num_threads()).min(CHUNKS_AT_ONCE);
+    (BYTES_AT_ONCE / bytes.max().unwrap_or(0).max(1)).clamp(1, chunks)
 }
 
 fn decompress(chunk: Chunk, meta: &MetaData) -> Result<UncompressedBlock, ReadErrorKind> {
