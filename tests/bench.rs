@@ -385,9 +385,18 @@ fn main() {
             let auto = GuideOptions { motion: MotionChannels::Auto, depth: DepthChannels::Auto };
             let guides = if *what == DECODE_ALL { auto } else { GuideOptions::default() };
             let options = ReadOptions { guides, ..ReadOptions::default() };
-            for folder in folders {
-                for file in std::fs::read_dir(folder).unwrap() {
-                    read_frame(&file.unwrap().path(), &options).unwrap();
+            // Pair by pair, as the command does. Folder by folder, the allocator would learn of
+            // the sizes of blocks and frames in another order, and return memory it needs again.
+            let files = |folder: &&str| {
+                let files = std::fs::read_dir(folder).unwrap();
+                let mut files: Vec<PathBuf> = files.map(|file| file.unwrap().path()).collect();
+                files.sort();
+                files
+            };
+            let sides: Vec<Vec<PathBuf>> = folders.iter().map(files).collect();
+            for frame in 0..sides[0].len() {
+                for side in &sides {
+                    read_frame(&side[frame], &options).unwrap();
                 }
             }
         }
