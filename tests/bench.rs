@@ -47,6 +47,33 @@ const PROFILES: [&str; 6] =
 /// FovVideoVDP, on a display.
 const VISIBLE: [&str; 4] = ["--metrics", "fvvdp", "--format", "json"];
 
+/// Metrics that share a pass with no other, with the files they need and what they have to cost at most. The
+/// exposures of HDR-FLIP are given, because the picture has no more than three.
+const OWN_PASSES: [(&str, &str, &[&str], Option<&str>); 3] = [
+    (
+        "PNG: FLIP",
+        "png",
+        &["--metrics", "flip", "--set", "flip.ppd=67"],
+        Some("0.15 CPU s, 350 MiB"),
+    ),
+    (
+        "EXR: HDR-FLIP, 10 exposures",
+        "exr",
+        &[
+            "--metrics",
+            "hdr-flip",
+            "--set",
+            "flip.ppd=67",
+            "--set",
+            "hdr_flip.start=-8",
+            "--set",
+            "hdr_flip.stop=2",
+        ],
+        Some("0.80 CPU s, 350 MiB"),
+    ),
+    ("PNG: FWQI", "png", &["--metrics", "fwqi", "--fov-vertical", "60"], None),
+];
+
 /// Frames of the sequence.
 const FRAMES: usize = 8;
 
@@ -245,11 +272,6 @@ fn visible_difference(folder: &Path) {
     let score = |a: &str, b: &str, more: &[&str]| {
         measure(fovqa, &[&["score", a, b][..], &VISIBLE, more].concat())
     };
-    let beyond = |score: Option<Cost>, decode: Option<Cost>| {
-        let (score, decode) = (score?, decode?);
-        let wall_s = score.wall_s - decode.wall_s;
-        Some(Cost { cpu_s: score.cpu_s - decode.cpu_s, wall_s, ..score })
-    };
     for (name, size, display, aim) in [
         ("1080p PNG", FULL_HD, "standard-fhd", Some("0.10 CPU s")),
         ("4K PNG", FOUR_K, "standard-4k", Some("600 MiB")),
@@ -266,7 +288,7 @@ fn visible_difference(folder: &Path) {
     let megapixels = (VGA.0 * VGA.1 * VGA_FRAMES) as f64 / 1e6;
     let name = "640x480 PNG, 16 frames: FovVideoVDP";
     row(name, Some(megapixels), video, Some("0.30 CPU s"));
-    row(&format!("{name} beyond"), Some(megapixels), beyond(video, decode), None);
+    row(&format!("{name} beyond"), Some(megapixels), beyond(video, decode), Some("0.20 CPU s"));
     let small = |side: &str| folder.join("small").join(side).display().to_string();
     let (a, b) = (small("gt"), small("a"));
     for (frames, aim) in [("0..30", None), ("0..1000", Some("the MiB of 30 frames"))] {
@@ -274,6 +296,26 @@ fn visible_difference(folder: &Path) {
         let count = frames.trim_start_matches("0..");
         row(&format!("64x64 PNG, {count} frames: FovVideoVDP"), None, score(&a, &b, &more), aim);
     }
+}
+
+/// Metrics that share a pass with no other, beyond decoding.
+fn own_passes(folder: &Path) {
+    let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
+    let this = std::env::current_exe().unwrap().display().to_string();
+    for (name, ending, arguments, aim) in OWN_PASSES {
+        let pair = Pair::new(folder, ending, FULL_HD.0, FULL_HD.1);
+        let [a, b] = pair.names();
+        let decode = measure(&this, &[DECODE, a, b]);
+        let cost = beyond(measure(fovqa, &[&["score", a, b][..], arguments].concat()), decode);
+        row(&format!("1080p {name} beyond decoding"), Some(pair.megapixels), cost, aim);
+    }
+}
+
+/// What a run takes beyond decoding, with the whole of its memory.
+fn beyond(score: Option<Cost>, decode: Option<Cost>) -> Option<Cost> {
+    let (score, decode) = (score?, decode?);
+    let wall_s = score.wall_s - decode.wall_s;
+    Some(Cost { cpu_s: score.cpu_s - decode.cpu_s, wall_s, ..score })
 }
 
 /// The reference program, where it is installed: a still of the same size.
@@ -505,6 +547,7 @@ fn report(only_visible: bool) {
     compare("4K EXR, half, ZIP", &pair("exr", FOUR_K), None, None);
     sequence(folder.path());
     visible_difference(folder.path());
+    own_passes(folder.path());
     let fovqa = env!("CARGO_BIN_EXE_fovqa-under-test");
     row("fovqa --version", None, measure(fovqa, &["--version"]), Some("0.010 wall s"));
     experiments(folder.path());
