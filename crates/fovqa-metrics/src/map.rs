@@ -39,6 +39,8 @@ pub struct MapInfo {
     pub block: usize,
     /// A description of the values in one line.
     pub about: &'static str,
+    /// What pixels of the brightest colour are, in a word: worse, for maps of differences.
+    pub bright: &'static str,
     /// The scale of the colours.
     pub scale: MapScale,
 }

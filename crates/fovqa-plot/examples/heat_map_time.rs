@@ -53,6 +53,7 @@ fn main() {
             let layout = HeatMapLayout {
                 size: SIZE,
                 block: 1,
+                bright: "worse",
                 label: "Squared error (peak 1)".to_owned(),
                 scale: HeatScale { none: 1e-6, most: 1.0, log },
                 rings: (0..12).map(ring).collect(),

@@ -64,7 +64,15 @@ fn layout(info: &MapInfo, size: (usize, usize)) -> HeatMapLayout {
         Some(unit) => format!("{} ({unit})", info.label),
         None => info.label.to_owned(),
     };
-    HeatMapLayout { size, block: info.block, label, scale, rings: Vec::new(), gaze: None }
+    HeatMapLayout {
+        size,
+        block: info.block,
+        label,
+        bright: info.bright,
+        scale,
+        rings: Vec::new(),
+        gaze: None,
+    }
 }
 
 /// The rings at the edges of the bands, or at every second, third, … edge if they would be too

@@ -18,6 +18,7 @@ pub(crate) const MAP: MapInfo = MapInfo {
     unit: Some("peak 1"),
     block: 1,
     about: "squared error with peak 1, mean over channels; coloured from 1e-6 (60 dB) to 1",
+    bright: "worse",
     scale: MapScale::Logarithmic { none: 1e-6, most: 1.0 },
 };
 

@@ -39,6 +39,8 @@ pub struct HeatMapLayout {
     pub block: usize,
     /// What the values are, with the unit.
     pub label: String,
+    /// What pixels of the brightest colour are, in a word such as worse.
+    pub bright: &'static str,
     /// The scale of the colours.
     pub scale: HeatScale,
     /// Rings of equal eccentricity.
@@ -88,8 +90,8 @@ impl HeatMap {
         overlay: Arc<HeatOverlay>,
         unit: f64,
     ) -> Result<Self, PlotError> {
-        let HeatMapLayout { size, block, ref label, scale, .. } = *layout;
-        let strip = HeatStrip::new(size.0.max(LEAST_WIDTH_PX), label, scale, unit)?;
+        let HeatMapLayout { size, block, ref label, bright, scale, .. } = *layout;
+        let strip = HeatStrip::new(size.0.max(LEAST_WIDTH_PX), label, bright, scale, unit)?;
         let colours = HeatColours::new(scale);
         Ok(Self { size, block: block.max(1), colours, overlay, strip })
     }
@@ -172,6 +174,7 @@ mod tests {
         HeatMapLayout {
             size,
             block: 1,
+            bright: "worse",
             label: "SSIM".to_owned(),
             scale: HeatScale { none: 1.0, most: 0.0, log: false },
             rings: Vec::new(),

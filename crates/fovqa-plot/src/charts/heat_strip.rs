@@ -26,8 +26,6 @@ const LINE_PX: f64 = 1.0;
 const TITLE_LINES: usize = 3;
 /// The least distance between two labels.
 const APART_PX: f64 = 8.0;
-/// Which end of the bar is that of large differences.
-const HINT: &str = "worse →";
 
 /// The pixels of a strip.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,10 +36,12 @@ pub(crate) struct HeatStrip {
 }
 
 impl HeatStrip {
-    /// Draws the strip with a width in pixels. `unit` is the factor of all sizes.
+    /// Draws the strip with a width in pixels. `bright` says what the right end of the bar is, and `unit` is the
+    /// factor of all sizes.
     pub(crate) fn new(
         width: usize,
         label: &str,
+        bright: &str,
         scale: HeatScale,
         unit: f64,
     ) -> Result<Self, PlotError> {
@@ -62,12 +62,13 @@ impl HeatStrip {
         for (i, line) in title.iter().enumerate() {
             drawing.text(Text::new(line, (left, baseline(i)), title_px, Anchor::Start));
         }
-        let hint_px = width_px(HINT, TICK_PX * unit);
+        let hint = format!("{bright} →");
+        let hint_px = width_px(&hint, TICK_PX * unit);
         if let [line] = &title[..]
             && width_px(line, title_px) + APART_PX * unit + hint_px <= right - left
         {
             let at = (right, baseline(0));
-            drawing.text(Text::new(HINT, at, TICK_PX * unit, Anchor::End));
+            drawing.text(Text::new(&hint, at, TICK_PX * unit, Anchor::End));
         }
         let stroke = Stroke { colour: AXIS, width_px: LINE_PX * unit };
         let out = stroke.width_px / 2.0;

@@ -23,6 +23,7 @@ pub(crate) const MAP: MapInfo = MapInfo {
     unit: Some("JOD"),
     block: 1,
     about: "visible difference, in units like JOD; coloured from 0 to 3, and over a gray picture of the frame",
+    bright: "worse",
     scale: MapScale::Linear { none: 0.0, most: 3.0 },
 };
 

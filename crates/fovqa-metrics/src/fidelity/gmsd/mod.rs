@@ -87,6 +87,7 @@ const MAP: MapInfo = MapInfo {
     unit: None,
     block: 2,
     about: "gradient magnitude similarity, one value per 2x2 pixels; coloured from 1 (identical) to 0.5",
+    bright: "worse",
     scale: MapScale::Linear { none: 1.0, most: 0.5 },
 };
 

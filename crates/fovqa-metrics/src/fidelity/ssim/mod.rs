@@ -33,6 +33,7 @@ pub(crate) const MAP: MapInfo = MapInfo {
     unit: None,
     block: 1,
     about: "SSIM around each pixel, mean over channels; coloured from 1 (identical) to 0",
+    bright: "worse",
     scale: MapScale::Linear { none: 1.0, most: 0.0 },
 };
 
