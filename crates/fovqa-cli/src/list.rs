@@ -48,7 +48,7 @@ fn metrics() -> String {
         let _ = writeln!(text, "    {}", info.about);
         let light = if info.needs.luminance { ", needs the display's photometry" } else { "" };
         let _ = writeln!(text, "    {better}{bands}{view}{light}{default}");
-        if let Some(map) = info.map {
+        for map in info.maps() {
             let _ = writeln!(text, "    --maps: {}", map.about);
         }
         let _ = writeln!(text, "    source: {}", info.source);

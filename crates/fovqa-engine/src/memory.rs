@@ -70,7 +70,7 @@ impl Amount<'_> {
         let of = |metric, bytes| if has(metric) { bytes } else { 0 };
         let atd = if self.frames > 1 { of(Metric::Atd, planes(3 + self.methods)) } else { 0 };
         // Metrics with a common map share its memory.
-        let maps = self.metrics.iter().filter_map(|metric| metric.info().map);
+        let maps = self.metrics.iter().flat_map(|metric| metric.info().maps());
         let maps: BTreeMap<&str, u64> =
             maps.map(|map| (map.name, pixels / (map.block * map.block) as u64 * 4)).collect();
         let maps = if self.maps { maps.into_values().sum::<u64>() + 3 * pixels } else { 0 };

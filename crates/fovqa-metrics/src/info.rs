@@ -30,6 +30,8 @@ pub struct MetricInfo {
     pub statistics: &'static [Statistic],
     /// The map of a pair, if the metric has one.
     pub map: Option<&'static MapInfo>,
+    /// Other maps that are made with it.
+    pub more_maps: &'static [&'static MapInfo],
     /// A description in one line.
     pub about: &'static str,
     /// The publication that defines it.
@@ -51,10 +53,16 @@ impl MetricInfo {
         needs: Needs::NOTHING,
         statistics: &[Statistic::VALUE],
         map: None,
+        more_maps: &[],
         about: "",
         source: "",
         params: &[],
     };
+
+    /// All of its maps.
+    pub fn maps(&self) -> impl Iterator<Item = &'static MapInfo> {
+        self.map.into_iter().chain(self.more_maps.iter().copied())
+    }
 
     /// Defaults for the description of a profile. Profiles describe bands and therefore need a
     /// view.

@@ -33,7 +33,7 @@ impl MapsFolder {
 
     /// The folder in the results of a run, for the maps of some metrics.
     pub(crate) fn kept(results: &Path, metrics: &[Metric]) -> Self {
-        let names = metrics.iter().filter_map(|metric| metric.info().map);
+        let names = metrics.iter().flat_map(|metric| metric.info().maps());
         let only = Some(names.map(|map| map.name).collect());
         Self { folder: results.join(FOLDER), several: true, only, sheets: MapSheets::default() }
     }
@@ -64,7 +64,7 @@ impl MapsFolder {
     pub(crate) fn has(&self, named: Named<'_>, frame: &FrameResult) -> bool {
         let folder = self.folder(named);
         let scored = Metric::ALL.into_iter().filter(|metric| frame.rows.has(*metric));
-        let maps = scored.filter_map(|metric| metric.info().map);
+        let maps = scored.flat_map(|metric| metric.info().maps());
         let mut maps = maps.filter(|map| self.takes(map.name));
         let there =
             |path: PathBuf| path.metadata().is_ok_and(|file| file.is_file() && file.len() > 0);

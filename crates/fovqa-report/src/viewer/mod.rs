@@ -7,7 +7,7 @@ mod number;
 mod pictures;
 mod sequence;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use fovqa_metrics::{Better, Metric};
@@ -78,15 +78,13 @@ impl Viewer {
         if scenes.is_empty() {
             return Ok(Self { json: None, warnings });
         }
-        let metrics = source.run.resolved.metrics_in_order().into_iter();
+        let resolved = &source.run.resolved;
+        let metrics = resolved.metrics_in_order().into_iter();
+        let metrics = metrics.filter(|metric| resolved.metrics.contains_key(metric.key()));
         let data = ViewerData {
             palette: map_palette().into_iter().map(hex).collect::<Vec<_>>().concat(),
             no_value: hex(MAP_NO_VALUE),
-            maps: Metric::ALL
-                .into_iter()
-                .filter_map(|metric| metric.info().map)
-                .map(|map| (map.name, MapData::of(map)))
-                .collect(),
+            maps: maps(&scenes),
             metrics: metrics.map(|metric| (metric.key(), metric_data(metric))).collect(),
             scenes,
         };
@@ -100,6 +98,16 @@ impl Viewer {
         }
         Ok(Self { json, warnings })
     }
+}
+
+/// What the maps of these scenes are.
+fn maps(scenes: &[SceneData]) -> BTreeMap<&'static str, MapData> {
+    let eyes = scenes.iter().flat_map(|scene| &scene.eyes);
+    let tests = eyes.flat_map(|eye| &eye.frames).flat_map(|frame| &frame.tests);
+    let shown: BTreeSet<&str> =
+        tests.flat_map(|test| &test.maps).map(|map| map.blocks.map.as_str()).collect();
+    let known = Metric::ALL.into_iter().flat_map(|metric| metric.info().maps());
+    known.filter(|map| shown.contains(map.name)).map(|map| (map.name, MapData::of(map))).collect()
 }
 
 fn hex([r, g, b]: [u8; 3]) -> String {

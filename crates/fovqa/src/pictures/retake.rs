@@ -107,7 +107,7 @@ fn drop_unscored(
         let view = record.views.iter().find(of_view);
         if view.is_some_and(|view| view.frames.iter().any(|chosen| chosen.frame == frame.frame)) {
             let is_scored = |map: &str| {
-                let of_map = |metric: &Metric| metric.info().map.is_some_and(|of| of.name == map);
+                let of_map = |metric: &Metric| metric.info().maps().any(|of| of.name == map);
                 Metric::ALL.into_iter().filter(of_map).any(|metric| frame.rows.has(metric))
             };
             pictures.keep_maps(named, frame.frame, is_scored)?;
