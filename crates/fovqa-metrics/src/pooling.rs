@@ -31,6 +31,10 @@ pub struct Statistic {
     pub is_of_bands: bool,
     /// Whether it has a row in results.csv.
     pub has_row: bool,
+    /// Whether it is what a value was computed with, rather than quality.
+    pub is_setting: bool,
+    /// Whether there is a value per band, if the metric has any. A statistic may be of whole frames alone.
+    pub is_per_band: bool,
     /// Whether its name says the metric too, so that JSON does not put the metric's key before it.
     pub is_named_alone: bool,
 }
@@ -50,6 +54,8 @@ pub enum Pooling {
     Deviation,
     /// The largest value.
     Max,
+    /// The smallest value.
+    Min,
     /// The sum.
     Sum,
 }
@@ -87,6 +93,8 @@ impl Statistic {
             better: None,
             is_of_bands: false,
             has_row: true,
+            is_setting: false,
+            is_per_band: true,
             is_named_alone: false,
         }
     }
@@ -140,6 +148,11 @@ impl Statistic {
     /// Declares that it has no ratio of test to reference.
     pub(crate) const fn without_ratio(self) -> Self {
         Self { has_ratio: false, ..self }
+    }
+
+    /// Declares that only whole frames have it.
+    pub(crate) const fn of_frames(self) -> Self {
+        Self { is_per_band: false, ..self }
     }
 
     /// Declares that its name says the metric too.
@@ -266,10 +279,11 @@ pub fn pool(
 /// the frames.
 #[derive(Debug, Clone, Copy)]
 pub struct Pool {
-    /// Number of values, their sum and the largest one.
+    /// Number of values, their sum, the largest and the smallest one.
     scored: usize,
     sum: f64,
     max: f64,
+    min: f64,
     /// The last value.
     last: f64,
     /// Number of items that have a value or samples, and their parts together.
@@ -279,8 +293,8 @@ pub struct Pool {
 
 impl Default for Pool {
     fn default() -> Self {
-        let max = f64::NEG_INFINITY;
-        Self { scored: 0, sum: 0.0, max, last: 0.0, measured: 0, parts: None }
+        let (max, min) = (f64::NEG_INFINITY, f64::INFINITY);
+        Self { scored: 0, sum: 0.0, max, min, last: 0.0, measured: 0, parts: None }
     }
 }
 
@@ -290,6 +304,7 @@ impl Pool {
         if let Some(value) = value {
             self.sum += value;
             self.max = f64::max(self.max, value);
+            self.min = f64::min(self.min, value);
             (self.scored, self.last) = (self.scored + 1, value);
         }
         // A value may be missing although it has samples.
@@ -313,6 +328,7 @@ impl Pool {
             (_, 0) | (Pooling::None, _) => (None, Parts::Value),
             (Pooling::PlainMean, count) => (Some(self.sum / count as f64), Parts::Value),
             (Pooling::Max, _) => (Some(self.max), Parts::Value),
+            (Pooling::Min, _) => (Some(self.min), Parts::Value),
             (Pooling::Sum, _) => (Some(self.sum), Parts::Value),
         }
     }
@@ -334,6 +350,7 @@ mod tests {
         assert_eq!((value, parts), (Some(7.0 / 16.0), Parts::Mean { sum: 7.0, weight: 16.0 }));
         assert_eq!(pool(Pooling::PlainMean, values).0, Some(0.375));
         assert_eq!(pool(Pooling::Max, values).0, Some(0.5));
+        assert_eq!(pool(Pooling::Min, values).0, Some(0.25));
         assert_eq!(pool(Pooling::Sum, values).0, Some(0.75));
         assert_eq!(pool(Pooling::None, values).0, None);
         assert_eq!(pool(Pooling::None, [values[0]]).0, Some(0.25), "one alone stays");

@@ -45,7 +45,7 @@ pub use gate::{
     FoundValue, FrameCheck, FrameCheckRecord, GATE, GATE_SCHEMA, Lacking, Limit, Loss, LossPicture,
     LossRecord, Outcome, PictureRecord, Place, PlaceRecord, Proposal, ProposedLimit, RuleRecord,
     RuleVerdict, RunValues, State, Verdict, VerdictRecord, calibrate, keep_verdict, kept_verdict,
-    verdict_file, write_verdict_json,
+    statistic_name, verdict_file, write_verdict_json,
 };
 pub use inputs::{Identity, Input, Inputs};
 pub use inputs_csv::write_inputs;

@@ -207,7 +207,8 @@ fn allowed(metric: Metric, orientations: bool) -> Vec<&'static str> {
     let of_orientation =
         |name: &str| ORIENTATIONS.iter().any(|of| name.ends_with(&format!("_{of}")));
     let shown = |statistic: &&Statistic| {
-        let named = !statistic.name.is_empty() && !statistic.is_count && statistic.has_row;
+        let is_quality = !statistic.is_count && !statistic.is_setting;
+        let named = !statistic.name.is_empty() && is_quality && statistic.has_row;
         named && (orientations || !of_orientation(statistic.name))
     };
     let of_sequence = match metric {
@@ -314,6 +315,13 @@ fn bands(
             (format!("{} has no value per band", metric.key()), "leave out band_deg")
         };
         faults.push(Fault::new(span, message).help(help));
+        return;
+    }
+    let of_frames =
+        Key::named(Subject::Metric(metric), statistic).filter(|key| !key.statistic().is_per_band);
+    if of_frames.is_some() {
+        let message = format!("{statistic} of {} has no value per band", metric.key());
+        faults.push(Fault::new(span, message).help("leave out band_deg or statistic"));
         return;
     }
     let mut inside = 0;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use fovqa_results::{BandRecord, CheckRecord, LossRecord};
+use fovqa_results::{BandRecord, CheckRecord, LossRecord, statistic_name};
 
 use super::digits::{beside, number};
 
@@ -32,7 +32,8 @@ pub(crate) fn place(check: &CheckRecord, loss: &LossRecord) -> String {
         let _ = write!(text, " of the {} eye", loss.eye);
     }
     let before = loss.before.map(|before| before.0);
-    let _ = write!(text, ": {} {}", loss.metric, compared(loss.value.0, before, &loss.compared));
+    let name = statistic_name(&loss.metric, &loss.statistic);
+    let _ = write!(text, ": {name} {}", compared(loss.value.0, before, &loss.compared));
     if let Some(band) = &loss.band {
         let _ = write!(text, "; of the bands, most is lost in {}", in_band(band));
     }

@@ -17,7 +17,7 @@ pub use terminal::verdict_table;
 
 use std::fmt::Write as _;
 
-use fovqa_results::{Check, CheckRecord, Limit, LossRecord, State, Verdict};
+use fovqa_results::{Check, CheckRecord, Limit, LossRecord, State, Verdict, statistic_name};
 
 use digits::{beside, number};
 
@@ -78,7 +78,8 @@ fn place(check: &Check) -> String {
 fn worst(check: &Check) -> String {
     let loss = check.losses.first().filter(|_| check.frames.is_empty());
     if let Some(loss) = loss.filter(|loss| check.worst.is_none_or(|worst| worst.0 != loss.frame)) {
-        return format!("{} ({} {})", loss.frame, loss.metric, number(loss.value));
+        let name = statistic_name(&loss.metric, &loss.statistic);
+        return format!("{} ({name} {})", loss.frame, number(loss.value));
     }
     check.worst.map(|(frame, value)| format!("{frame} ({})", number(value))).unwrap_or_default()
 }

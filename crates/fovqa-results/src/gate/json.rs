@@ -117,6 +117,9 @@ pub struct LossRecord {
     pub frame: i64,
     /// The metric that named the frame.
     pub metric: String,
+    /// Its statistic; empty for the metric's own value.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub statistic: String,
     /// Its value in this frame.
     pub value: Number,
     /// What the frame is compared with: `baseline`, `neighbours` or `nothing`.
@@ -209,6 +212,7 @@ impl From<&Loss> for LossRecord {
             eye: loss.eye.clone(),
             frame: loss.frame,
             metric: loss.metric.clone(),
+            statistic: loss.statistic.clone(),
             value: Number(loss.value),
             compared: loss.compared.name().to_owned(),
             before: loss.before.map(Number),

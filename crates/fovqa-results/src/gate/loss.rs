@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Key, Metric, Subject};
 use fovqa_plan::Quantity;
 
 use super::series::{Series, amount, growth};
@@ -26,6 +26,8 @@ pub struct Loss {
     pub frame: i64,
     /// The key of the metric that named the frame.
     pub metric: String,
+    /// Its statistic; empty for the metric's own value.
+    pub statistic: String,
     /// Its value in this frame.
     pub value: f64,
     /// What it is compared with.
@@ -114,6 +116,16 @@ pub(crate) fn own_difference(is_scored: impl Fn(Metric) -> bool) -> Option<Quant
     ];
     let metric = Metric::scoring_frames(&METRICS).find(|metric| is_scored(*metric))?;
     Some(Quantity::of(metric, fovqa_plan::Aggregate::Mean).of_frames())
+}
+
+/// The name of a metric's statistic, as messages write it.
+pub fn statistic_name(metric: &str, statistic: &str) -> String {
+    let key = Metric::find(metric).and_then(|of| Key::named(Subject::Metric(of), statistic));
+    match statistic {
+        "" => metric.to_owned(),
+        _ if key.is_some_and(|key| key.statistic().is_named_alone) => statistic.to_owned(),
+        _ => format!("{metric} {statistic}"),
+    }
 }
 
 /// What a loss is looked for in.
@@ -211,6 +223,7 @@ impl Search<'_> {
                 eye: place.2.clone(),
                 frame: named.frame,
                 metric: pair.quantity.metric.clone(),
+                statistic: pair.quantity.statistic.clone(),
                 value: named.value,
                 compared: named.compared,
                 before: named.before,
@@ -244,6 +257,9 @@ impl Search<'_> {
     fn band(&self, of: &Quantity, place: &ComparisonName, frame: i64) -> Option<BandLoss> {
         let has_bands = |pair: &Pair| !pair.now.bands.is_empty();
         let pair = self.pair(place, of.of_frames()).filter(has_bands);
+        // A statistic may be of whole frames alone, although its metric has bands.
+        let own = || Quantity { statistic: String::new(), ..of.of_frames() };
+        let pair = pair.or_else(|| self.pair(place, own()).filter(has_bands));
         let pair = pair.or_else(|| self.own_difference(place).filter(has_bands))?;
         let inside = |[from, to]: [f64; 2]| {
             of.band_deg.is_none_or(|[least, most]| least <= from && to <= most)

@@ -24,7 +24,7 @@ pub use json::{
     RuleRecord, VerdictRecord, write_verdict_json,
 };
 pub(crate) use loss::own_difference;
-pub use loss::{BandLoss, Compared, Loss, LossPicture, Place};
+pub use loss::{BandLoss, Compared, Loss, LossPicture, Place, statistic_name};
 pub(crate) use series::Series;
 pub(crate) use spread_rule::tested_quantities;
 pub use values::{ComparisonName, FoundValue, Lacking, RunValues};

@@ -220,6 +220,10 @@ impl Values {
         if quantity.image == "ratio" && parts.values().any(|parts| parts.len() > 1) {
             return self.ratios(quantity);
         }
+        if let Some(frame) = self.frame_without_score(quantity) {
+            let why = format!("{quantity}: frame {frame} has no value");
+            return Err(Lacking::NotScored(why));
+        }
         let mut frames = Vec::new();
         let mut pixels = 0.0;
         for (frame, parts) in parts {
@@ -243,6 +247,17 @@ impl Values {
             "ratio" => Err(no_ratio(quantity)),
             _ => Err(lacks(quantity)),
         }
+    }
+
+    /// A frame that was scored, but that a metric has no value for. Only bands may be without one, where no pixel is in
+    /// them; a frame that is left out must not pass.
+    fn frame_without_score(&self, quantity: &Quantity) -> Option<i64> {
+        if quantity.band_deg.is_some() || quantity.image != "pair" {
+            return None;
+        }
+        let rows = self.rows.get(&kind(quantity))?;
+        let row = rows.iter().find(|row| row.band.is_none() && row.value.is_none())?;
+        row.frame
     }
 
     /// For each frame, the ratio test / reference of several bands together. It is not the mean of
