@@ -58,19 +58,35 @@ fn values(report: &ScoreReport, of_frames: bool) -> Text {
     let summary = Summary::of(report);
     let mut text = Text::default();
     let one = report.frames.len() == 1;
-    let columns = if one { &["", "value"][..] } else { &["", "mean", "min", "max", "pooled"] };
+    let pools = summary.statistics.values().any(|statistics| statistics.pooled.is_some());
+    let columns: &[&str] = match (one, pools) {
+        (true, _) => &["", "value"],
+        (false, true) => &["", "mean", "min", "max", "pooled"],
+        (false, false) => &["", "mean", "min", "max"],
+    };
     let mut whole = TextTable::new(columns.iter().copied());
-    for (metric, s) in &summary.statistics {
-        let mut row = vec![label(*metric)];
-        if one {
-            row.push(number(*metric, s.mean));
-        } else {
-            row.extend([s.mean, s.min, s.max].map(|v| number(*metric, v)));
-            row.push(s.pooled.map(|v| number(*metric, v)).unwrap_or_default());
+    // A metric may have been measured without a value, as FWQI of a black reference.
+    let is_measured = |metric: &Metric| {
+        metric.scores_frames()
+            && report.frames.iter().any(|frame| frame.rows.get(Key::of(*metric)).is_some())
+    };
+    let mut is_empty = true;
+    for metric in report.metrics.iter().filter(|metric| is_measured(metric)) {
+        let statistics = summary.statistics.get(metric);
+        let cell = |value: Option<f64>| value.map_or_else(missing, |value| number(*metric, value));
+        let mut row = vec![label(*metric), cell(statistics.map(|of| of.mean))];
+        if !one {
+            row.push(cell(statistics.map(|of| of.min)));
+            row.push(cell(statistics.map(|of| of.max)));
+            if pools {
+                let pooled = statistics.and_then(|of| of.pooled);
+                row.push(pooled.map(|value| number(*metric, value)).unwrap_or_default());
+            }
         }
         whole.add_row(row);
+        is_empty = false;
     }
-    if of_frames && !summary.statistics.is_empty() {
+    if of_frames && !is_empty {
         text.push_str("\n");
         text.push_table(whole);
     }
