@@ -1,7 +1,7 @@
 //! The single pass over the signals of test and reference that several metrics share.
 
 use fovqa_frame::PairSignal;
-use fovqa_metrics::{Metric, ScoreError, Scored, Scorer};
+use fovqa_metrics::{Image, Metric, ScoreError, Scored, Scorer};
 use fovqa_plan::{MetricChoice, Plan};
 
 use super::Pair;
@@ -37,14 +37,21 @@ impl Fidelity {
 fn score(scorer: &Scorer, pair: &Pair<'_>) -> Result<Scored, Fault> {
     let signal = PairSignal::new(&pair.reference.frame, &pair.test.frame, pair.tables);
     let scores = scorer.score(&signal, pair.regions, pair.retina.weight.as_ref());
-    scores.map_err(|error| unscored(&pair.test.file, &error))
+    scores.map_err(|error| unscored(pair, &error))
 }
 
-pub(super) fn unscored(file: &str, error: &ScoreError) -> Fault {
-    Fault {
-        message: format!("{file}: {error}"),
-        help: format!("leave it out of {{metrics}}, or {}", score_help(error)),
-    }
+pub(super) fn unscored(pair: &Pair<'_>, error: &ScoreError) -> Fault {
+    let side = match error {
+        ScoreError::Unfit { image: Image::Reference, .. } => pair.reference,
+        _ => pair.test,
+    };
+    let help = score_help(error);
+    let help = match error {
+        // No metric can be scored.
+        ScoreError::NothingLeft => help.to_owned(),
+        _ => format!("leave the metric out of {{metrics}}, or {help}"),
+    };
+    Fault { message: format!("{}: {error}", side.file), help }
 }
 
 fn score_help(error: &ScoreError) -> &'static str {

@@ -39,7 +39,7 @@ impl Own {
                 map: pair.maps && maps,
             };
             let scored = self.params.measure(*metric, &input)?;
-            Some(scored.map_err(|error| unscored(&pair.test.file, &error)))
+            Some(scored.map_err(|error| unscored(pair, &error)))
         })
     }
 }

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::metric::Metric;
+use crate::row::Image;
 
 /// A pair that a metric cannot score.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -47,6 +48,8 @@ pub enum ScoreError {
     Unfit {
         /// The metric.
         metric: Metric,
+        /// The picture that does not fit.
+        image: Image,
         /// What does not fit.
         reason: String,
         /// How to mend it.
