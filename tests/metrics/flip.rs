@@ -52,6 +52,7 @@ fn bands_are_parts_of_the_frame_and_frames_of_the_sequence() {
         let sum = bands.iter().map(|band| pixels(band) * number(&band["flip"])).sum::<f64>();
         assert!((sum / bands.iter().map(pixels).sum::<f64>() - whole).abs() < 1e-9);
         let of = |statistic: &str| number(&frame["metrics"][format!("flip_{statistic}")]);
+        assert!((of("ppd") - 2.72).abs() < 0.05, "that of the view");
         assert!(of("min") < of("q1") && of("q1") < of("weighted_median"));
         assert!(of("weighted_median") < of("q3") && of("q3") < of("max") && of("max") < 1.0);
     }
@@ -124,7 +125,7 @@ fn gates_and_results_have_every_statistic() {
 }
 
 #[test]
-fn both_eyes_have_the_mean() {
+fn both_eyes_have_the_mean_or_the_extreme() {
     let folder = Folder::new();
     for (seed, eye) in ["left", "right"].into_iter().enumerate() {
         let reference = codes(SIZE.0, SIZE.1, 3, seed as u64);
@@ -140,7 +141,14 @@ fn both_eyes_have_the_mean() {
     );
     folder.run(&["run", "e.toml"]).ok();
     let found = rows(&folder, "reports/e");
-    for (metric, statistic) in [("flip", ""), ("flip", "q1"), ("flip", "fflip"), ("fwqi", "")] {
+    for (metric, statistic) in [
+        ("flip", ""),
+        ("flip", "q1"),
+        ("flip", "fflip"),
+        ("fwqi", ""),
+        ("flip", "flip_min"),
+        ("flip", "flip_max"),
+    ] {
         let value = |eye: &str| -> f64 {
             let is = |row: &&std::collections::BTreeMap<String, String>| {
                 row["eye"] == eye
@@ -150,8 +158,13 @@ fn both_eyes_have_the_mean() {
             };
             found.iter().find(is).unwrap()["value"].parse().unwrap()
         };
-        let mean = f64::midpoint(value("left"), value("right"));
-        assert!((value("both") - mean).abs() < 1e-12, "{metric} {statistic}");
+        let (left, right) = (value("left"), value("right"));
+        let wanted = match statistic {
+            "flip_min" => left.min(right),
+            "flip_max" => left.max(right),
+            _ => f64::midpoint(left, right),
+        };
+        assert!((value("both") - wanted).abs() < 1e-12, "{metric} {statistic}");
     }
 }
 
@@ -185,10 +198,12 @@ fn hdr_flip_takes_linear_frames_alone_and_says_its_exposures() {
     assert_eq!(exposed["frames"][1]["metrics"]["hdr_flip"], metrics["hdr_flip"]);
     assert_ne!(exposed["frames"][1]["metrics"]["flip"], metrics["flip"]);
     let run = folder.score(&["gt/0.png", "test/0.png", "--metrics", "hdr-flip"]);
-    run.fails(3, &["HDR-FLIP: the reference is not linear light", "use flip"]);
+    run.fails(3, &["gt/0.png: HDR-FLIP: the reference is not linear light", "use flip"]);
     let crossed = ["--set", "hdr_flip.start=1", "--set", "hdr_flip.stop=-2"];
     let run = folder.score(&[&arguments[..], &crossed].concat());
-    run.fails(3, &["1.00 stops, is above the last, -2.00 stops", "hdr_flip.stop"]);
+    run.fails(2, &["at most hdr_flip.stop, -2"]);
+    let late = folder.score(&[&arguments[..], &["--set", "hdr_flip.start=90"]].concat());
+    late.fails(3, &["a/0.exr", "90.00 stops, is above the last", "give both hdr_flip.start"]);
     let black = Part::new((8, 8), &[("Y", Values::Float(vec![0.0; 64]))]);
     File::new(vec![black]).write(&folder.path("black.exr"));
     let run = folder.score(&["black.exr", "black.exr", "--metrics", "hdr-flip"]);
@@ -270,4 +285,70 @@ fn threads_do_not_change_a_bit() {
     ] {
         assert!(of("1", arguments) == of("3", arguments), "{arguments:?}");
     }
+}
+
+/// A frame without a score must not pass, and statistics of whole frames have no bands.
+#[test]
+fn gates_do_not_pass_over_what_has_no_value() {
+    let folder = sequence();
+    folder.png("gt/1.png", SIZE.0, SIZE.1, &vec![0; 3 * SIZE.0 * SIZE.1]);
+    let experiment = |rule: &str| {
+        format!(
+            "name = \"e\"\n[view]\nfov_vertical_deg = 60\nbands_deg = [0, 10, 20, 90]\n\
+             [[scene]]\nname = \"s\"\nreference = \"gt\"\n[[method]]\nname = \"m\"\ntest = \"test\"\n\
+             [metrics]\nflip = {{}}\nfwqi = {{}}\n[[gate]]\n{rule}\n"
+        )
+    };
+    for more in ["", "per_frame = true\n"] {
+        folder.write("e.toml", experiment(&format!("metric = \"fwqi\"\nat_least = 0.0\n{more}")));
+        let run = folder.run(&["gate", "e.toml"]);
+        assert_eq!(run.code, 3, "{}", run.stdout);
+        assert!(run.stdout.contains("frame 1 has no value"), "{}", run.stdout);
+    }
+    let table =
+        folder.score(&["gt/1.png", "test/1.png", "--metrics", "fwqi", "--fov-vertical", "60"]);
+    assert!(table.ok().stdout.lines().any(|line| line.starts_with("FWQI") && line.ends_with('–')));
+    for (rule, word) in [
+        (
+            "metric = \"flip\"\nstatistic = \"fflip\"\nband_deg = [0, 10]\nat_most = 1",
+            "fflip of flip has no value per band",
+        ),
+        ("metric = \"flip\"\nstatistic = \"ppd\"\nat_most = 1", "flip has no statistic \"ppd\""),
+    ] {
+        folder.write("e.toml", experiment(rule));
+        let run = folder.run(&["check", "e.toml"]);
+        assert!(run.code == 2 && run.stderr.contains(word), "{}", run.stderr);
+    }
+    // The frame that fails is named by the statistic of the rule.
+    let rule =
+        "metric = \"flip\"\nstatistic = \"weighted_median\"\naggregate = \"max\"\nat_most = 0.01";
+    folder.write("e.toml", experiment(rule));
+    let run = folder.run(&["gate", "e.toml"]);
+    assert!(run.code == 1 && run.stdout.contains(": flip weighted_median 0."), "{}", run.stdout);
+}
+
+/// The second map of HDR-FLIP is written, kept and shown like the first.
+#[test]
+fn the_map_of_exposures_is_everywhere() {
+    let folder = Folder::new();
+    light(&folder, "a/0.exr", 1, 1.0);
+    light(&folder, "b/0.exr", 1, 1.3);
+    folder.write(
+        "e.toml",
+        "name = \"e\"\n[view]\nfov_vertical_deg = 60\n[[scene]]\nname = \"s\"\nreference = \"a\"\n\
+         [[method]]\nname = \"m\"\ntest = \"b\"\n[metrics]\nhdr_flip = {}\n[output]\nmaps = [\"hdr_flip\"]\n",
+    );
+    folder.run(&["run", "e.toml"]).ok();
+    for file in ["hdr_flip-0000.exr", "hdr_flip-magma-0000.png", "hdr_flip_exposure-0000.exr"] {
+        assert!(folder.path(&format!("reports/e/maps/s/m/{file}")).exists(), "{file}");
+    }
+    let page = fs::read_to_string(folder.path("reports/e/report.html")).unwrap();
+    let shown = "\"hdr_flip_exposure\":{\"label\":\"Exposure of the largest HDR-FLIP\"";
+    assert!(page.contains(shown), "the viewer knows what it is");
+    assert!(!page.contains("\"ssim\":{\"label\""), "maps that are not there are not listed");
+    let again = folder.run(&["run", "e.toml", "--resume"]).ok();
+    assert!(!again.stderr.contains("maps of [output] are missing"), "{}", again.stderr);
+    folder.write("reports/e/maps/s/m/hdr_flip_exposure-0000.exr", "");
+    let again = folder.run(&["run", "e.toml", "--resume"]).ok();
+    assert!(again.stderr.contains("maps of [output] are missing"), "{}", again.stderr);
 }

@@ -37,12 +37,15 @@ const MAGMA: [[u8; 3]; 256] = [
     [252, 240, 178], [252, 242, 180], [252, 244, 182], [252, 246, 184], [252, 247, 185], [252, 249, 187], [252, 251, 189], [252, 253, 191],
 ];
 
+/// The colour of pixels without a value, as in heat maps.
+const NO_VALUE: [u8; 3] = [221; 3];
+
 /// The colours of a map: interleaved codes of red, green and blue. Values outside 0 to 1 have the colours of
-/// the ends, and pixels without a value are black.
+/// the ends.
 pub(crate) fn coloured(values: &[f32]) -> Vec<u8> {
     let code = |value: &f32| {
         if value.is_nan() {
-            return [0; 3];
+            return NO_VALUE;
         }
         MAGMA[((255.0 * value + 0.5) as usize).min(MAGMA.len() - 1)]
     };
@@ -57,7 +60,7 @@ mod tests {
     fn steps_are_rounded_and_ends_are_kept() {
         let of = |value: f32| <[u8; 3]>::try_from(coloured(&[value])).unwrap();
         assert_eq!((of(0.0), of(1.0)), ([0, 0, 4], [252, 253, 191]));
-        assert_eq!((of(-1.0), of(2.0), of(f32::NAN)), (of(0.0), of(1.0), [0; 3]));
+        assert_eq!((of(-1.0), of(2.0), of(f32::NAN)), (of(0.0), of(1.0), NO_VALUE));
         assert_eq!((of(0.498 / 255.0), of(0.502 / 255.0)), (MAGMA[0], MAGMA[1]));
     }
 }

@@ -23,7 +23,7 @@ pub(crate) mod scores;
 pub(crate) mod tests;
 pub(crate) mod tile;
 
-use fovqa_frame::{LightKind, Transfer, map_plane_blocks};
+use fovqa_frame::{Frame, LightKind, Transfer, map_plane_blocks};
 use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 
 use self::scores::{STATISTICS, Sums, leave_out, statistics};
@@ -38,6 +38,7 @@ use crate::metric_params::MetricParams;
 use crate::pair_input::PairInput;
 use crate::pooling::Statistic;
 use crate::registry;
+use crate::row::Image;
 
 /// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
@@ -59,7 +60,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     ..MetricInfo::FIDELITY
 };
 
-const FLIP: [Statistic; STATISTICS] = statistics("fflip");
+const FLIP: [Statistic; STATISTICS] = statistics("flip_min", "flip_max", "fflip");
 
 /// A view is not needed, but with it there are bands and a mean with the foveal weight.
 pub(crate) const NEEDS: Needs = Needs { foveal_weight: Demand::Takes, ..Needs::NOTHING };
@@ -82,6 +83,7 @@ const MAP: MapInfo = MapInfo {
     unit: None,
     block: 1,
     about: "FLIP of each pixel; coloured from 0 (identical) to 1",
+    bright: "worse",
     scale: MapScale::Linear { none: 0.0, most: 1.0 },
 };
 
@@ -126,9 +128,12 @@ impl Params {
 /// Measures a pair.
 fn measure(params: &Params, input: &PairInput<'_>) -> Result<Scored, ScoreError> {
     let signal = input.tables.params();
-    if [input.reference, input.test].iter().any(|frame| signal.transfer_of(frame) == Transfer::Pq) {
+    let frames = [(Image::Reference, input.reference), (Image::Test, input.test)];
+    let is_pq = |frame: &Frame| signal.transfer_of(frame) == Transfer::Pq;
+    if let Some((image, _)) = frames.into_iter().find(|(_, frame)| is_pq(frame)) {
         return Err(ScoreError::Unfit {
             metric: Metric::Flip,
+            image,
             reason: "PQ codes are absolute luminance, for which it is not defined".to_owned(),
             help: "use hdr_flip with linear frames",
         });
@@ -154,7 +159,7 @@ fn measure(params: &Params, input: &PairInput<'_>) -> Result<Scored, ScoreError>
         sums
     });
     let sums = Sums::of(input, &blocks);
-    let rows = sums.rows(Metric::Flip, input, &values)?;
+    let rows = sums.rows(Metric::Flip, input, &values, pixels_per_degree)?;
     let map = input.map.then(|| coloured_map(&MAP, (width, height), values));
     Ok(Scored {
         maps: map.into_iter().collect(),

@@ -3,33 +3,47 @@
 use super::quartiles::Quartiles;
 use crate::fidelity::score_error::ScoreError;
 use crate::fidelity::weighted_mean::WeightedMean;
+use crate::kinds::Better;
 use crate::metric::Metric;
 use crate::pair_input::PairInput;
 use crate::pooling::{Parts, Pooling, Statistic};
 use crate::row::{Key, Rows};
 use crate::sums::{add_by_band, weighted};
 
-/// The statistics, of which the last is the mean with the foveal weight.
-pub(crate) const fn statistics(foveal: &'static str) -> [Statistic; STATISTICS] {
+/// The statistics. `min`, `max` and `foveal` are their names, which say the metric too: the smallest and the largest
+/// value of a frame are not those over frames.
+pub(crate) const fn statistics(
+    min: &'static str,
+    max: &'static str,
+    foveal: &'static str,
+) -> [Statistic; STATISTICS] {
     [
         Statistic::VALUE.over_bands(Pooling::WeightedMean),
-        Statistic::named("weighted_median"),
-        Statistic::named("q1"),
-        Statistic::named("q3"),
-        Statistic::named("min"),
-        Statistic::named("max"),
-        Statistic::named(foveal).named_alone(),
+        Statistic::named("weighted_median").of_frames(),
+        Statistic::named("q1").of_frames(),
+        Statistic::named("q3").of_frames(),
+        Statistic::named(min).over_eyes(Pooling::Min).of_frames().named_alone(),
+        Statistic::named(max).over_eyes(Pooling::Max).of_frames().named_alone(),
+        Statistic::named(foveal).of_frames().named_alone(),
+        setting("ppd"),
     ]
 }
 
+/// What a value is computed with, which is not quality. Each eye has its own.
+pub(crate) const fn setting(name: &'static str) -> Statistic {
+    let statistic = Statistic::named(name).over_eyes(Pooling::None).of_frames();
+    Statistic { is_setting: true, ..statistic }.pointing(Better::Neither)
+}
+
 /// The number of statistics, and where each is.
-pub(crate) const STATISTICS: usize = 7;
+pub(crate) const STATISTICS: usize = 8;
 const MEDIAN: usize = 1;
 const Q1: usize = 2;
 const Q3: usize = 3;
 const MIN: usize = 4;
 const MAX: usize = 5;
 const FOVEAL: usize = 6;
+const PPD: usize = 7;
 
 /// Sums of the values of a map.
 #[derive(Debug, Clone)]
@@ -78,6 +92,7 @@ impl Sums {
         metric: Metric,
         input: &PairInput<'_>,
         values: &[f32],
+        pixels_per_degree: f64,
     ) -> Result<Rows, ScoreError> {
         let quartiles = Quartiles::of(values).ok_or(ScoreError::NothingLeft)?;
         let pixels = input.regions.pixels();
@@ -97,6 +112,7 @@ impl Sums {
         for (statistic, value) in of {
             rows.score(key.nth(statistic), f64::from(value));
         }
+        rows.score(key.nth(PPD), pixels_per_degree);
         if let Some(value) = self.foveal.mean() {
             rows.score(key.nth(FOVEAL), value);
         }

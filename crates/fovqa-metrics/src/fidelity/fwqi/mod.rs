@@ -41,7 +41,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "fwqi",
     label: "FWQI",
     needs: Needs { view: true, every_pixel: true, ..Needs::NOTHING },
-    about: "similarity of wavelet coefficients of luma, weighted by the eye's sensitivity at each eccentricity",
+    about: "similarity of wavelet coefficients of luma, weighted by the eye's sensitivity at each eccentricity, 1 if identical; needs sides of 176 px",
     source: "Wang, Bovik, Lu, Kouloheris 2001",
     ..MetricInfo::FIDELITY
 };
@@ -70,7 +70,8 @@ impl MetricParams for Params {
 const LEVELS: usize = 4;
 
 /// The warning where there is no value.
-const BLACK: &str = "FWQI has no value where the reference is black";
+const NOTHING: &str =
+    "FWQI has no value where the reference is black, or all of it is finer than the eye resolves";
 
 /// The largest value of a coefficient's synthesis function: of LH and HL, and of HH, on each level, and of LL on the
 /// last.
@@ -134,7 +135,7 @@ fn measure(input: &PairInput<'_>) -> Result<Scored, ScoreError> {
     let value = (sums.weight > 0.0).then(|| sums.quality / sums.weight);
     let mut rows = Rows::default();
     rows.push(Key::of(metric), value, Parts::Value);
-    let warnings = if value.is_none() { vec![BLACK] } else { Vec::new() };
+    let warnings = if value.is_none() { vec![NOTHING] } else { Vec::new() };
     Ok(Scored { warnings, ..Scored::of(rows) })
 }
 

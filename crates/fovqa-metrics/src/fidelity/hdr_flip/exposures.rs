@@ -8,6 +8,7 @@ use crate::fidelity::score_error::ScoreError;
 use crate::metric::Metric;
 use crate::pair_input::PairInput;
 use crate::regions::clipped;
+use crate::row::Image;
 
 /// Equal steps of exposure.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,21 +35,22 @@ impl Exposures {
         if start > stop {
             let reason =
                 format!("its first exposure, {start:.2} stops, is above the last, {stop:.2} stops");
-            return Err(unfit(reason, "give hdr_flip.start and hdr_flip.stop"));
+            let help = "give both hdr_flip.start and hdr_flip.stop";
+            return Err(unfit(Image::Reference, reason, help));
         }
         let auto = (stop - start).ceil().clamp(2.0, MOST as f64) as usize;
         Ok(Self { start, stop, count: params.exposures.unwrap_or(auto) })
     }
 
-    /// The gain of an exposure: 2 to the stops.
-    pub(super) fn gain(&self, index: usize) -> f32 {
+    /// The root of the gain of an exposure: 2 to half the stops. The gain itself may be beyond the largest `f32`.
+    pub(super) fn root_of_gain(&self, index: usize) -> f32 {
         let step = (self.stop - self.start) / (self.count - 1) as f64;
-        libm::exp2(self.start + index as f64 * step) as f32
+        libm::exp2(f64::midpoint(self.start + index as f64 * step, 0.0)) as f32
     }
 }
 
-pub(super) fn unfit(reason: String, help: &'static str) -> ScoreError {
-    ScoreError::Unfit { metric: Metric::HdrFlip, reason, help }
+pub(super) fn unfit(image: Image, reason: String, help: &'static str) -> ScoreError {
+    ScoreError::Unfit { metric: Metric::HdrFlip, image, reason, help }
 }
 
 /// The exposure at which the brightest pixel of the reference is bright, and the one at which half of its pixels
@@ -63,6 +65,7 @@ fn automatic(params: &Params, input: &PairInput<'_>) -> Result<[f64; 2], ScoreEr
     let (median, most) = (f64::from(*median), brighter.iter().copied().fold(*median, f32::max));
     if median <= 0.0 {
         return Err(unfit(
+            Image::Reference,
             "half of the reference is black, so there is no median to expose for".to_owned(),
             "give hdr_flip.start and hdr_flip.stop",
         ));

@@ -13,7 +13,7 @@ mod tonemap;
 use std::ops::Range;
 
 use fovqa_frame::{LightKind, Transfer, map_plane_blocks};
-use fovqa_params::{ParamInfo, ParamValue, ParamValues};
+use fovqa_params::{ParamError, ParamInfo, ParamValue, ParamValues};
 
 use self::exposures::{Exposures, unfit};
 use self::tonemap::Tonemap;
@@ -23,14 +23,14 @@ use crate::info::MetricInfo;
 use crate::kinds::Better;
 use crate::map::{MapInfo, MapScale};
 use crate::metric::Metric;
-use crate::metric::flip::scores::{STATISTICS, Sums, leave_out, statistics};
+use crate::metric::flip::scores::{STATISTICS, Sums, leave_out, setting, statistics};
 use crate::metric::flip::tile::{Optics, TILE_COLUMNS, Tiles};
 use crate::metric::flip::{NEEDS, coloured_map};
 use crate::metric_params::MetricParams;
 use crate::pair_input::PairInput;
 use crate::pooling::Statistic;
 use crate::registry;
-use crate::row::Key;
+use crate::row::{Image, Key};
 
 /// The metric's description.
 pub(crate) const INFO: MetricInfo = MetricInfo {
@@ -41,6 +41,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
     needs: NEEDS,
     statistics: &HDR_FLIP,
     map: Some(&MAP),
+    more_maps: &[&EXPOSURE_MAP],
     about: "largest FLIP of each pixel over a range of exposures, of linear frames, 0 to 1",
     source: "Andersson, Nilsson, Shirley, Akenine-Möller 2021",
     params: &[
@@ -77,7 +78,8 @@ const LARGEST_STOPS: f64 = 100.0;
 
 /// The statistics of the map, then the exposures.
 const HDR_FLIP: [Statistic; STATISTICS + 3] = {
-    let [mean, median, q1, q3, min, max, foveal] = statistics("hdr_fflip");
+    let [mean, median, q1, q3, min, max, foveal, ppd] =
+        statistics("hdr_flip_min", "hdr_flip_max", "hdr_fflip");
     [
         mean,
         median,
@@ -86,9 +88,10 @@ const HDR_FLIP: [Statistic; STATISTICS + 3] = {
         min,
         max,
         foveal,
-        Statistic::named("start").pointing(Better::Neither),
-        Statistic::named("stop").pointing(Better::Neither),
-        Statistic::named("exposures").pointing(Better::Neither),
+        ppd,
+        setting("start"),
+        setting("stop"),
+        setting("exposures"),
     ]
 };
 
@@ -99,6 +102,7 @@ const MAP: MapInfo = MapInfo {
     unit: None,
     block: 1,
     about: "HDR-FLIP of each pixel; coloured from 0 (identical) to 1",
+    bright: "worse",
     scale: MapScale::Linear { none: 0.0, most: 1.0 },
 };
 
@@ -109,6 +113,7 @@ const EXPOSURE_MAP: MapInfo = MapInfo {
     unit: None,
     block: 1,
     about: "the exposure at which each pixel differs most, from 0 (the first and darkest) to 1 (the last and brightest)",
+    bright: "brighter",
     scale: MapScale::Linear { none: 0.0, most: 1.0 },
 };
 
@@ -139,6 +144,20 @@ impl MetricParams for Params {
         Some(())
     }
 
+    /// Checks that the exposures are in order.
+    fn check(&self) -> Result<(), ParamError> {
+        let (Some(start), Some(stop)) = (self.start, self.stop) else { return Ok(()) };
+        if start <= stop {
+            return Ok(());
+        }
+        Err(ParamError::Value {
+            owner: INFO.key,
+            param: "start",
+            value: start.to_string(),
+            expected: format!("at most hdr_flip.stop, {stop}"),
+        })
+    }
+
     fn measure(
         &self,
         all: &registry::Params,
@@ -155,11 +174,12 @@ fn measure(
     input: &PairInput<'_>,
 ) -> Result<Scored, ScoreError> {
     let signal = input.tables.params();
-    let frames = [("reference", input.reference), ("test", input.test)];
-    for (name, frame) in frames {
+    let frames = [(Image::Reference, input.reference), (Image::Test, input.test)];
+    for (image, frame) in frames {
         if signal.transfer_of(frame) != Transfer::Linear {
-            let reason = format!("the {name} is not linear light");
-            return Err(unfit(reason, "use flip, or give linear frames, such as OpenEXR files"));
+            let reason = format!("the {} is not linear light", image.name());
+            let help = "use flip, or give linear frames, such as OpenEXR files";
+            return Err(unfit(image, reason, help));
         }
     }
     let exposures = Exposures::new(params, input)?;
@@ -183,7 +203,8 @@ fn measure(
         (block.sums, block.indices)
     });
     let (sums, indices): (Vec<Sums>, Vec<Vec<u8>>) = blocks.into_iter().unzip();
-    let mut rows = Sums::of(input, &sums).rows(Metric::HdrFlip, input, &values)?;
+    let mut rows =
+        Sums::of(input, &sums).rows(Metric::HdrFlip, input, &values, pixels_per_degree)?;
     let Exposures { start, stop, count } = exposures;
     for (index, value) in [start, stop, count as f64].into_iter().enumerate() {
         rows.score(Key::of(Metric::HdrFlip).nth(STATISTICS + index), value);
@@ -223,9 +244,9 @@ impl Block<'_> {
             start + columns.start..start + columns.end
         };
         for exposure in 0..self.exposures.count {
-            let (tonemap, gain) = (self.params.tonemap, self.exposures.gain(exposure));
+            let (tonemap, root) = (self.params.tonemap, self.exposures.root_of_gain(exposure));
             let indices = &mut self.indices;
-            let change = |light: [&[f32]; 3], out: [&mut [f32]; 3]| tonemap.map(gain, light, out);
+            let change = |light: [&[f32]; 3], out: [&mut [f32]; 3]| tonemap.map(root, light, out);
             self.tiles.map(Some(&change), |y, row| {
                 let largest = &mut values[stretch(y)];
                 if exposure == 0 {

@@ -150,15 +150,38 @@ fn the_signal_does_not_matter_and_given_exposures_do() {
     setup.set("stop", &ParamValue::Number(1.0));
     setup.set("exposures", &ParamValue::Number(3.0));
     let exposures = Exposures { start: -3.0, stop: 1.0, count: 3 };
-    assert_eq!([0, 1, 2].map(|i| exposures.gain(i)), [0.125, 0.5, 2.0]);
+    let gain = |i: usize| exposures.root_of_gain(i).powi(2);
+    assert!(
+        (gain(0) - 0.125).abs() < 1e-7
+            && (gain(1) - 0.5).abs() < 1e-7
+            && (gain(2) - 2.0).abs() < 1e-6
+    );
     let given = setup.scored();
     assert_ne!(given, scored);
     let stated =
         |nth: usize| given.rows.value(Key::of(Metric::HdrFlip).nth(STATISTICS + nth)).unwrap();
     assert_eq!([stated(0), stated(1), stated(2)], [-3.0, 1.0, 3.0]);
     setup.set("start", &ParamValue::Number(1.5));
+    let error = setup.params.check().unwrap_err().to_string();
+    assert!(error.contains("hdr_flip.stop"), "{error}");
+    setup.params.hdr_flip.stop = None;
+    setup.set("start", &ParamValue::Number(50.0));
     let error = setup.measure(SignalParams::default()).unwrap_err().to_string();
-    assert!(error.contains("1.50 stops, is above the last, 1.00 stops"), "{error}");
+    assert!(error.contains("50.00 stops, is above the last"), "{error}");
+}
+
+/// Values so small that the gain is beyond the largest `f32`.
+#[test]
+fn the_darkest_light_is_exposed_too() {
+    let mut setup = Setup::new();
+    let wanted = setup.scored().rows.value(Key::of(Metric::HdrFlip)).unwrap();
+    for planes in &mut setup.planes {
+        for value in planes.iter_mut() {
+            *value *= 2f32.powi(-70) * 2f32.powi(-60);
+        }
+    }
+    let found = setup.scored().rows.value(Key::of(Metric::HdrFlip)).unwrap();
+    assert!((found - wanted).abs() < 0.02, "{found} for {wanted}");
 }
 
 #[test]

@@ -64,43 +64,43 @@ impl Tonemap {
         (-b + (b * b - 4.0 * a * c).sqrt()) / (2.0 * a)
     }
 
-    /// Exposes and tone-maps a row; `gain` is 2 to the exposure. Values are clamped to 0 to 1.
-    pub(super) fn map(self, gain: f32, light: [&[f32]; 3], out: [&mut [f32]; 3]) {
+    /// Exposes and tone-maps a row; `root` is the root of the gain. Values are clamped to 0 to 1.
+    pub(super) fn map(self, root: f32, light: [&[f32]; 3], out: [&mut [f32]; 3]) {
         match self.rational() {
             Some(Rational { numerator, denominator }) => {
                 let [n, d] = [numerator, denominator].map(|of| of.map(|value| value as f32));
                 for (light, out) in light.into_iter().zip(out) {
-                    rational(gain, [n, d], light, out);
+                    rational(root, [n, d], light, out);
                 }
             }
-            None => reinhard(gain, light, out),
+            None => reinhard(root, light, out),
         }
     }
 }
 
 #[inline(always)]
-fn exposed(value: f32, gain: f32) -> f32 {
-    let value = value * gain;
+fn exposed(value: f32, root: f32) -> f32 {
+    let value = value * root * root;
     if value < LARGEST { value } else { LARGEST }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn rational(gain: f32, [n, d]: [[f32; 3]; 2], light: &[f32], out: &mut [f32]) {
+fn rational(root: f32, [n, d]: [[f32; 3]; 2], light: &[f32], out: &mut [f32]) {
     for (out, &light) in out.iter_mut().zip(light) {
-        let v = exposed(light, gain);
+        let v = exposed(light, root);
         let mapped = ((n[0] * v + n[1]) * v + n[2]) / ((d[0] * v + d[1]) * v + d[2]);
         *out = if mapped < 1.0 { mapped } else { 1.0 };
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512bw+avx512dq", "x86_64+avx2"))]
-fn reinhard(gain: f32, [r, g, b]: [&[f32]; 3], out: [&mut [f32]; 3]) {
+fn reinhard(root: f32, [r, g, b]: [&[f32]; 3], out: [&mut [f32]; 3]) {
     let n = r.len();
     let (g, b) = (&g[..n], &b[..n]);
     let [to_r, to_g, to_b] = out.map(|plane| &mut plane[..n]);
     let [wr, wg, wb] = LUMINANCE;
     for x in 0..n {
-        let rgb = [r[x], g[x], b[x]].map(|value| exposed(value, gain));
+        let rgb = [r[x], g[x], b[x]].map(|value| exposed(value, root));
         let over = 1.0 / (1.0 + (wr * rgb[0] + wg * rgb[1] + wb * rgb[2]));
         let [mapped_r, mapped_g, mapped_b] = rgb.map(|value| {
             let mapped = value * over;
@@ -121,7 +121,7 @@ mod tests {
             let light = [0.0, bright as f32 / 4.0, 1e30, f32::MAX];
             let mut out = [[0.0; 4]; 3];
             let [r, g, b] = &mut out;
-            tonemap.map(4.0, [&light; 3], [r, g, b]);
+            tonemap.map(2.0, [&light; 3], [r, g, b]);
             let [dark, found, most, beyond] = out[1];
             assert!((f64::from(found) - BRIGHT).abs() < 1e-6, "{tonemap:?}: {found}");
             assert!(
