@@ -116,12 +116,26 @@ impl MetricParams for Params {
 
 impl Params {
     /// The pixels per degree of a pair, and a warning if nothing says them.
-    pub(crate) fn pixels_per_degree(&self, input: &PairInput<'_>) -> (f64, Option<&'static str>) {
-        match (self.ppd, input.eccentricity) {
-            (Some(given), _) => (given, None),
-            (None, Some(eccentricity)) => (eccentricity.view().pixels_per_degree(), None),
-            (None, None) => (DESKTOP_PPD, Some(NO_VIEW)),
+    pub(crate) fn pixels_per_degree(
+        &self,
+        metric: Metric,
+        input: &PairInput<'_>,
+    ) -> Result<(f64, Option<&'static str>), ScoreError> {
+        let seen = match (self.ppd, input.eccentricity) {
+            (Some(given), _) => return Ok((given, None)),
+            (None, None) => return Ok((DESKTOP_PPD, Some(NO_VIEW))),
+            (None, Some(eccentricity)) => eccentricity.view().pixels_per_degree(),
+        };
+        // The kernels of a view through a keyhole would not fit into memory.
+        if !(SMALLEST_PPD..=LARGEST_PPD).contains(&seen) {
+            return Err(ScoreError::Unfit {
+                metric,
+                image: Image::Pair,
+                reason: format!("the view has {seen:.3e} pixels per degree"),
+                help: "check the view, or give flip.ppd, 0.001 to 10000",
+            });
         }
+        Ok((seen, None))
     }
 }
 
@@ -138,7 +152,7 @@ fn measure(params: &Params, input: &PairInput<'_>) -> Result<Scored, ScoreError>
             help: "use hdr_flip with linear frames",
         });
     }
-    let (pixels_per_degree, warning) = params.pixels_per_degree(input);
+    let (pixels_per_degree, warning) = params.pixels_per_degree(Metric::Flip, input)?;
     let optics = Optics::new(pixels_per_degree);
     let (width, height) = (input.reference.width(), input.reference.height());
     let mut values = vec![0.0; width * height];

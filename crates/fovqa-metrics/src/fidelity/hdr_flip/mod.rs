@@ -183,7 +183,7 @@ fn measure(
         }
     }
     let exposures = Exposures::new(params, input)?;
-    let (pixels_per_degree, warning) = all.flip.pixels_per_degree(input);
+    let (pixels_per_degree, warning) = all.flip.pixels_per_degree(Metric::HdrFlip, input)?;
     let optics = Optics::new(pixels_per_degree);
     let (width, height) = (input.reference.width(), input.reference.height());
     let mut values = vec![0.0; width * height];
