@@ -35,7 +35,7 @@ pub(super) struct Filter<'a> {
     row: [Vec<f32>; 3],
     /// For each kept row, all planes of [`LANES`] pixels after another.
     kept: Vec<Pixels>,
-    /// The length of a kept row.
+    /// The length of a kept row, in groups of [`LANES`] pixels.
     stride: usize,
     filtered: Filtered,
     /// Where the rows above and below begin, from the nearest to the farthest.
@@ -46,8 +46,7 @@ pub(super) struct Filter<'a> {
 impl<'a> Filter<'a> {
     /// A filter for tiles of up to `columns` columns.
     pub(super) fn new(kernels: &'a Kernels, colours: &'a Colours, columns: usize) -> Self {
-        // One vector more than needed, so that the rows do not all map to the same cache sets.
-        let (radius, stride) = (kernels.radius(), columns.next_multiple_of(LANES) + LANES);
+        let (radius, stride) = (kernels.radius(), columns.div_ceil(LANES));
         Self {
             kernels,
             colours,
