@@ -210,8 +210,8 @@ fn hdr_flip_takes_linear_frames_alone_and_says_its_exposures() {
     run.fails(3, &["half of the reference is black", "give hdr_flip.start and hdr_flip.stop"]);
     let run = folder.score(&["a", "b", "--metrics", "flip", "--transfer", "pq"]);
     run.fails(3, &["PQ codes", "use hdr_flip with linear frames"]);
-    let keyhole = ["a", "b", "--metrics", "flip", "--fov-vertical", "0.0001"];
-    folder.score(&keyhole).fails(3, &["the view has 1.800e6 pixels per degree", "give flip.ppd"]);
+    let keyhole = ["a", "b", "--metrics", "flip", "--fov-vertical", "0.001"];
+    folder.score(&keyhole).fails(3, &["the view has 1.800e5 pixels per degree", "give flip.ppd"]);
     for wrong in ["flip.ppd=0", "flip.ppd=-3", "hdr_flip.exposures=1", "hdr_flip.tonemap=filmic"] {
         let run = folder.score(&["a", "b", "--metrics", "flip,hdr-flip", "--set", wrong]);
         assert_eq!(run.code, 2, "{wrong}: {}", run.stderr);
