@@ -16,7 +16,8 @@ from conftest import ROOM, command
 
 VIEW = {"fov_vertical_deg": 95, "bands_deg": [0, 5, 10, 20, 40]}
 OPTIONS = ["--fov-vertical", 95, "--bands", "0,5,10,20,40"]
-EVERYTHING = [name for name in fovqa.metrics() if name != "atd"]
+# What 8-bit stills have.
+EVERYTHING = [name for name in fovqa.metrics() if name not in ("atd", "hdr_flip")]
 
 
 def as_arguments(text: str) -> str:
@@ -237,6 +238,13 @@ def test_a_result_can_be_looked_at(room):
     again = pickle.loads(pickle.dumps(score))
     assert again.to_json() == score.to_json() and np.array_equal(again.map("ssim"), score.map("ssim"), equal_nan=True)
     assert set(fovqa.metrics()) - {"rms_contrast", "haar"} <= set(fovqa.Score.__annotations__)
+
+
+def test_linear_files_have_hdr_flip():
+    files = [ROOM.parents[2] / "golden/more/in" / f"hdr_{side}.exr" for side in ("ref", "test")]
+    score = fovqa.score(*files, metrics={"hdr_flip": {}, "flip": {"ppd": 67.0206}})
+    assert abs(score.hdr_flip - 0.15198494164899415) < 2e-5
+    assert score.frames[0]["metrics"]["hdr_flip_exposures"] == 10
 
 
 def test_bands_and_profiles_show_the_values(room, tmp_path):
