@@ -65,6 +65,22 @@ impl<'a> Regions<'a> {
         self.pixels.row(y)
     }
 
+    /// The stretches of row `y` that a mask leaves out, within the columns `xs`.
+    pub(crate) fn left_out_in(
+        &self,
+        y: usize,
+        xs: std::ops::Range<usize>,
+    ) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
+        let mut from = 0;
+        let within = move |run: &Run| {
+            let (start, end) = (from, run.end as usize);
+            from = end;
+            let stretch = start.max(xs.start)..end.min(xs.end);
+            (run.band == LEFT_OUT && !stretch.is_empty()).then_some(stretch)
+        };
+        self.pixel_runs(y).iter().filter_map(within)
+    }
+
     pub(crate) fn window_runs(&self, y: usize) -> &[Run] {
         self.windows.as_ref().unwrap_or(&self.pixels).row(y)
     }

@@ -256,8 +256,8 @@ impl Values {
             return None;
         }
         let rows = self.rows.get(&kind(quantity))?;
-        let row = rows.iter().find(|row| row.band.is_none() && row.value.is_none())?;
-        row.frame
+        let mut without = rows.iter().filter(|row| row.band.is_none() && row.value.is_none());
+        without.find_map(|row| row.frame)
     }
 
     /// For each frame, the ratio test / reference of several bands together. It is not the mean of

@@ -35,7 +35,7 @@ pub(crate) struct Colours {
     /// Linear RGB to XYZ relative to white, and back.
     to_relative: Matrix,
     to_rgb: Matrix,
-    /// Half the scale of the colour difference: 0.95 per unit up to the knee, then a smaller slope.
+    /// The colour difference at which the steep part of the scale ends, and the slopes before and behind it.
     knee: f32,
     steep: f32,
     gentle: f32,

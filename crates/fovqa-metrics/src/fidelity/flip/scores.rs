@@ -122,18 +122,7 @@ impl Sums {
 
 /// Leaves out what a mask leaves out of row `y`, from column `x` on.
 pub(crate) fn leave_out(input: &PairInput<'_>, (x, y): (usize, usize), values: &mut [f32]) {
-    if !input.regions.is_masked() {
-        return;
-    }
-    let mut from = 0;
-    for run in input.regions.pixel_runs(y) {
-        let to = run.end as usize;
-        if run.band == crate::regions::LEFT_OUT {
-            let (from, to) = (from.max(x), to.min(x + values.len()));
-            if from < to {
-                values[from - x..to - x].fill(f32::NAN);
-            }
-        }
-        from = to;
+    for stretch in input.regions.left_out_in(y, x..x + values.len()) {
+        values[stretch.start - x..stretch.end - x].fill(f32::NAN);
     }
 }

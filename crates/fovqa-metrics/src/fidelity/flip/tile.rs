@@ -8,7 +8,7 @@ use super::colour::{Colours, compare};
 use super::filters::{Filter, LANES};
 use super::kernels::Kernels;
 use crate::pair_input::PairInput;
-use crate::regions::{LEFT_OUT, Regions};
+use crate::regions::Regions;
 
 /// The number of columns of a tile: the rows that are kept of both pictures stay in the second-level cache.
 pub(crate) const TILE_COLUMNS: usize = 256;
@@ -90,7 +90,13 @@ impl<'a> Tiles<'a> {
                 let row = row * width..(row + 1) * width;
                 let [r, g, b] = light.each_mut().map(|plane| &mut plane[row.clone()]);
                 picture.fill(y, self.read_columns.clone(), [r, g, b]);
-                blacken(self.regions, y, &self.read_columns, light, row.start);
+                let from = self.read_columns.start;
+                for stretch in self.regions.left_out_in(y, self.read_columns.clone()) {
+                    for plane in light.iter_mut() {
+                        plane[row.start + stretch.start - from..row.start + stretch.end - from]
+                            .fill(0.0);
+                    }
+                }
             }
         }
     }
@@ -134,29 +140,5 @@ impl<'a> Tiles<'a> {
             };
             filter.take(y, rgb, self.read_columns.start, &self.columns);
         }
-    }
-}
-
-/// Sets the light of pixels that are left out to 0. The row begins at `start` in each plane.
-fn blacken(
-    regions: &Regions<'_>,
-    y: usize,
-    columns: &Range<usize>,
-    light: &mut Light,
-    start: usize,
-) {
-    let mut from = 0;
-    for run in regions.pixel_runs(y) {
-        let to = run.end as usize;
-        if run.band == LEFT_OUT {
-            let (from, to) = (from.max(columns.start), to.min(columns.end));
-            if from < to {
-                let stretch = start + from - columns.start..start + to - columns.start;
-                for plane in light.iter_mut() {
-                    plane[stretch.clone()].fill(0.0);
-                }
-            }
-        }
-        from = to;
     }
 }

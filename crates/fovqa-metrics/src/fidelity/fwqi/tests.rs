@@ -1,4 +1,4 @@
-//! Rules of FWQI. Its values are held to those of independent implementations through the command.
+//! Rules of FWQI. tests/metrics/more.rs compares its values with those of independent implementations.
 
 #![allow(clippy::float_cmp, reason = "what must be exact is compared exactly")]
 
