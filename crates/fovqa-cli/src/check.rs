@@ -12,9 +12,10 @@ use fovqa_engine::FoundFrame;
 use fovqa_frame::source::Origin;
 use fovqa_io::frame_size;
 use fovqa_methods::curves::CurveSource;
-use fovqa_metrics::{Metric, MetricKind};
+use fovqa_metrics::{Metric, MetricKind, Params};
 use fovqa_plan::{Experiment, EyeView, Gaze, MetricChoice, SourceSpec};
 use fovqa_report::Text;
+use fovqa_results::needs_frames;
 
 use crate::args::CheckArgs;
 use crate::diagnostic;
@@ -44,7 +45,7 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
         Ok(metrics) => metrics,
         Err(error) => return experiment::failed(&error.into()),
     };
-    leave_out_temporal(&mut metrics, &found, &warnings);
+    leave_out_temporal(&experiment.plan.params, &mut metrics, &found, &warnings);
     let failures = if args.previews {
         match fovqa::preview(&experiment.plan, &found, &warnings) {
             Ok(failures) => failures,
@@ -82,13 +83,20 @@ pub(crate) fn run(args: &CheckArgs) -> Exit {
     }
 }
 
-/// Takes the metrics that compare frames with those before them from the list if no scene has two frames.
-fn leave_out_temporal(metrics: &mut Vec<Metric>, found: &FoundInputs, events: &dyn Events) {
-    if found.views.is_empty() || found.views.iter().any(|view| view.frames.len() > 1) {
-        return;
-    }
-    for metric in metrics.extract_if(.., |metric| metric.is(MetricKind::Temporal)) {
-        events.warn(&format!("{} has no value: it needs two frames", metric.info().label));
+/// Takes the metrics that compare frames with those before them from the list if no scene has enough frames.
+fn leave_out_temporal(
+    params: &Params,
+    metrics: &mut Vec<Metric>,
+    found: &FoundInputs,
+    events: &dyn Events,
+) {
+    let Some(most) = found.views.iter().map(|view| view.frames.len()).max() else { return };
+    let lacks = |metric: &mut Metric| {
+        metric.is(MetricKind::Temporal) && most < params.frames_needed(*metric)
+    };
+    for metric in metrics.extract_if(.., lacks) {
+        let needs = needs_frames(params.frames_needed(metric));
+        events.warn(&format!("{} has no value: it {needs}", metric.info().label));
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::Metric;
+use fovqa_metrics::MetricKind;
 use fovqa_plan::{Eye, Plan};
 use fovqa_results::{Comparison, Failure, RunResults, ScoreReport, Swept, both_eyes};
 
@@ -51,8 +51,8 @@ fn report_view(
         let report = reports.entry((scene, method, eye)).or_default();
         match result {
             Ok(frame) => {
-                if frame.rows.has(Metric::Atd) {
-                    report.atd_guides = guides;
+                if frame.rows.has_kind(MetricKind::Temporal) {
+                    report.guide_sources = guides;
                 }
                 report.frames.push(frame);
             }
@@ -61,15 +61,18 @@ fn report_view(
     }
     let Some(settled) = findings.settled else { return };
     for method in methods {
-        settle(reports.entry((scene, method, eye)).or_default(), method, &settled);
+        settle(plan, reports.entry((scene, method, eye)).or_default(), method, &settled);
     }
 }
 
 /// Adds to a report what holds for its sequence as a whole.
-fn settle(report: &mut ScoreReport, method: usize, settled: &Settled) {
+fn settle(plan: &Plan, report: &mut ScoreReport, method: usize, settled: &Settled) {
     report.view.clone_from(&settled.view);
     report.metrics.clone_from(&settled.metrics);
     report.gaze_held = settled.gaze_held;
+    let temporal = settled.metrics.iter().filter(|metric| metric.is(MetricKind::Temporal));
+    report.frames_needed =
+        temporal.map(|metric| (*metric, plan.params.frames_needed(*metric))).collect();
     report.fvvdp = settled.fvvdp.get(&method).cloned();
     if let Some(fvvdp) = &mut report.fvvdp {
         fvvdp.missing = settled.missing.get(&method).cloned();

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use fovqa_frame::Frame;
 use fovqa_metrics::{Map, Metric};
 use fovqa_plan::{Eye, Plan};
-use fovqa_results::{AtdGuides, Failure, FrameResult, FvvdpViewing, Input, Inputs, ViewResult};
+use fovqa_results::{Failure, FrameResult, FvvdpViewing, GuideSources, Input, Inputs, ViewResult};
 use fovqa_vision::Seen;
 
 use crate::crops::CropPair;
@@ -52,7 +52,7 @@ pub(crate) struct Outcome {
     pub(crate) method: usize,
     pub(crate) result: Result<FrameResult, Failure>,
     /// Which motion and depth the temporal differences used, if there are any differences.
-    pub(crate) guides: AtdGuides,
+    pub(crate) guides: GuideSources,
 }
 
 /// What holds for all pairs of a view.
@@ -99,7 +99,7 @@ pub struct Finished<'a> {
     /// Its result.
     pub result: Result<&'a FrameResult, &'a Failure>,
     /// Which motion and depth the temporal differences used, if there are any differences.
-    pub guides: AtdGuides,
+    pub guides: GuideSources,
     /// Its maps, if they are requested.
     pub maps: &'a [Map],
     /// The test, if it was emulated and is to be kept.

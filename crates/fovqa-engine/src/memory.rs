@@ -10,7 +10,7 @@
 //! | FovVideoVDP over time | 4 n for each frame of its window (0.25 s), once for the reference and once for each method; 16 n for the filtered channels of both |
 //! | FovVideoVDP of several methods | 16/3 n, and 32/3 n for each channel of the reference |
 //! | FovVideoVDP's pyramids | 5/4 n for each channel of reference and test: two levels at a time |
-//! | ATD | luma, 4 n for each of this frame and the one before, for the reference and for each method |
+//! | temporal metrics | luma, 4 n for this frame of reference and test, and for each frame before it that is compared, of the reference and of each method |
 //! | emulation | 24 n for the picture of the reference and that of a test, and 12 n for each temporal filter |
 //! | reprojection | the decoded frames of the dominant eye, 24 n for its pictures, and 12 n for each temporal filter |
 //! | maps | 4 n for the values of each map (n for GMSD), and 3 n for a picture of one |
@@ -21,7 +21,7 @@
 use std::collections::BTreeMap;
 
 use fovqa_io::ReadOptions;
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Metric, MetricKind};
 use fovqa_plan::Plan;
 
 use crate::available_memory::available_bytes;
@@ -42,6 +42,8 @@ struct Amount<'a> {
     metrics: &'a [Metric],
     /// Number of frames in the window of FovVideoVDP's temporal filters; 1 for still images.
     window: u64,
+    /// The most frames that a temporal metric compares, the present one included; 0 if there is none.
+    compared: u64,
     /// Whether maps are requested.
     maps: bool,
     /// Number of emulated methods, and of those with a temporal filter.
@@ -68,7 +70,8 @@ impl Amount<'_> {
             0
         };
         let of = |metric, bytes| if has(metric) { bytes } else { 0 };
-        let atd = if self.frames > 1 { of(Metric::Atd, planes(3 + self.methods)) } else { 0 };
+        let before = self.compared.min(self.frames).saturating_sub(1);
+        let temporal = if before > 0 { planes(2 + before * (1 + self.methods)) } else { 0 };
         // Metrics with a common map share its memory.
         let maps = self.metrics.iter().flat_map(|metric| metric.info().maps());
         let maps: BTreeMap<&str, u64> =
@@ -88,7 +91,7 @@ impl Amount<'_> {
             ("reprojection", reprojection),
             ("maps", maps),
             (FVVDP, fvvdp),
-            ("ATD", atd),
+            ("temporal metrics", temporal),
             ("MS-SSIM", of(Metric::MsSsim, pixels.saturating_mul(3))),
         ])
     }
@@ -127,6 +130,8 @@ pub(crate) fn check(
     let crop = settings.crop.map(|crop| (crop.width as u64).saturating_mul(crop.height as u64));
     let timings = timings(view, view.fps, &plan.params.fvvdp).unwrap_or_default();
     let windows = timings.values().filter_map(|timing| Some(timing.time.as_ref().ok()?.reach()));
+    let temporal = metrics.iter().filter(|metric| metric.is(MetricKind::Temporal));
+    let compared = temporal.map(|metric| plan.params.frames_needed(*metric));
     let taken = || view.sources.emulations().filter_map(|(_, of)| of.reproject());
     let amount = Amount {
         pixels: [file, crop.unwrap_or(file).min(file)],
@@ -135,6 +140,7 @@ pub(crate) fn check(
         methods: timings.len().max(1) as u64,
         metrics,
         window: windows.max().unwrap_or(1) as u64,
+        compared: compared.max().unwrap_or(0) as u64,
         maps: plan.maps || !plan.pictures.is_empty(),
         emulated: [
             view.sources.emulations().count() as u64,
@@ -173,6 +179,7 @@ mod tests {
             methods: 1,
             metrics,
             window: 23,
+            compared: 0,
             maps: false,
             emulated: [0; 2],
             reprojected: [0; 2],
@@ -207,7 +214,9 @@ mod tests {
         let of = |metrics: &[Metric]| amount(metrics).needed().bytes() / RETINAL;
         let frames = of(&[Metric::Psnr, Metric::Ssim, Metric::Haar]);
         assert_eq!(frames, 12, "the pair and the next one");
-        assert_eq!(of(&[Metric::Atd]) - frames, 16);
+        let over_time = |compared| Amount { compared, ..amount(&[Metric::Atd]) }.needed().bytes();
+        assert_eq!(over_time(2) / RETINAL - frames, 16);
+        assert_eq!(over_time(8) / RETINAL - frames, 4 * (2 + 7 + 7));
         assert_eq!(of(&[Metric::PuPsnr]), frames, "its luminance is made row by row");
         assert_eq!(of(&[Metric::MsSsim]) - frames, 3);
         assert_eq!(of(&[Metric::Fvvdp, Metric::PuPsnr]), of(&[Metric::Fvvdp]));

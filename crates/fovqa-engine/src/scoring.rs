@@ -232,7 +232,7 @@ impl<'a> Scoring<'a> {
                         return ControlFlow::Continue(());
                     }
                 };
-                let guides = run.atd_guides(step.method);
+                let guides = run.guide_sources(step.method);
                 written = (recorder.record)(Entry::Pair(Finished {
                     named: self.named(step.method),
                     step: *index,
@@ -259,7 +259,7 @@ impl<'a> Scoring<'a> {
             && let Some(left) = ends.left(recorder.warnings)
         {
             let (method, result) = (work.method(last), Err(left));
-            let outcome = Outcome { method, result, guides: run.atd_guides(method) };
+            let outcome = Outcome { method, result, guides: run.guide_sources(method) };
             (recorder.record)(Entry::Pair(Finished {
                 named: self.named(method),
                 step: pairs,

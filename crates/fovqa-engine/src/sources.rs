@@ -10,7 +10,7 @@ use fovqa_io::sequence::pair;
 use fovqa_io::{
     DepthChannels, GuideOptions, MotionChannels, ReadOptions, SourceOptions, id_of, open_source,
 };
-use fovqa_metrics::Metric;
+use fovqa_metrics::Needs;
 use fovqa_plan::{EyeView, Plan, SourceSpec};
 use fovqa_vision::View;
 
@@ -116,7 +116,7 @@ impl Opener<'_> {
             SourceSpec::Emulated(emulation) => emulation.uses_guides(),
             SourceSpec::Files(_) | SourceSpec::Given(_) | SourceSpec::Builtin(_) => false,
         };
-        let wanted = self.plan.metrics.metrics().contains(&Metric::Atd);
+        let wanted = Needs::of(self.plan.metrics.metrics()).guides;
         if !wanted && !self.view.tests.iter().any(filters) {
             return Ok([None, None]);
         }

@@ -9,7 +9,7 @@ use fovqa_frame::{Frame, Mask, SignalTables};
 use fovqa_metrics::{Image, Key, Layouts, Map, Metric, MetricKind, Needs, Rows, Subject};
 use fovqa_params::ParamValue;
 use fovqa_plan::{EyeView, Plan};
-use fovqa_results::{AtdGuides, Doubt, Failure, FrameResult, FvvdpViewing, ViewResult};
+use fovqa_results::{Doubt, Failure, FrameResult, FvvdpViewing, GuideSources, ViewResult};
 use fovqa_vision::{BandEdges, Seen};
 
 use crate::crops::{CropPair, CropSource};
@@ -139,8 +139,8 @@ impl<'a> ViewRun<'a> {
     }
 
     /// Which motion and depth the temporal differences of a method used.
-    pub(crate) fn atd_guides(&self, method: usize) -> AtdGuides {
-        self.meters.atd_guides(method)
+    pub(crate) fn guide_sources(&self, method: usize) -> GuideSources {
+        self.meters.guide_sources(method)
     }
 
     /// The viewing conditions of FovVideoVDP for the sequence of a method, if the metric is

@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use crate::kinds::MetricKind;
 use crate::metric::Metric;
 use crate::pooling::{Parts, Pooling, pool};
 use crate::row::{Key, Row, Rows};
@@ -256,6 +257,12 @@ impl FrameRows {
     /// Whether a metric has a row.
     pub fn has(&self, metric: Metric) -> bool {
         self.layout.0.iter().any(|place| place.key.metric() == Some(metric))
+    }
+
+    /// Whether a metric of a kind has a row.
+    pub fn has_kind(&self, kind: MetricKind) -> bool {
+        let of_kind = |key: Key| key.metric().is_some_and(|metric| metric.is(kind));
+        self.layout.0.iter().any(|place| of_kind(place.key))
     }
 
     /// Combines the values that both eyes have, as each statistic declares. Where one eye has no value,

@@ -6,6 +6,7 @@ use crate::kinds::{Better, LeadIn, MetricKind};
 use crate::map::MapInfo;
 use crate::metric::Metric;
 use crate::pooling::Statistic;
+use crate::row::Rows;
 
 /// The description of a metric.
 #[derive(Debug, Clone, Copy)]
@@ -14,6 +15,8 @@ pub struct MetricInfo {
     pub key: &'static str,
     /// The name in tables.
     pub label: &'static str,
+    /// Its name in sentences; empty where the label is one.
+    pub long_name: &'static str,
     /// Version of the metric's values. It changes with every change of the values.
     pub version: u32,
     /// The unit; empty for a number without unit.
@@ -45,6 +48,7 @@ impl MetricInfo {
     pub(crate) const FIDELITY: Self = Self {
         key: "",
         label: "",
+        long_name: "",
         version: 1,
         unit: "",
         kind: MetricKind::Fidelity,
@@ -71,6 +75,15 @@ impl MetricInfo {
         better: Better::Neither,
         per_band: true,
         needs: Needs { view: true, ..Needs::NOTHING },
+        ..Self::FIDELITY
+    };
+
+    /// Defaults for the description of a temporal metric.
+    pub(crate) const TEMPORAL: Self = Self {
+        kind: MetricKind::Temporal,
+        better: Better::Lower,
+        per_band: true,
+        needs: Needs { guides: true, lead_in: LeadIn::Frames, ..Needs::NOTHING },
         ..Self::FIDELITY
     };
 }

@@ -29,8 +29,8 @@ pub enum Better {
 pub enum LeadIn {
     /// None: each frame is measured alone.
     None,
-    /// The frame before.
-    Frame,
+    /// The frames that its parameters ask for ([`Params::frames_needed`](crate::Params::frames_needed)).
+    Frames,
     /// As many frames as its filters cover.
     Filters,
 }

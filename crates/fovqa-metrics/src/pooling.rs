@@ -6,7 +6,7 @@ use crate::decibels::{mse_of_db, psnr_db};
 use crate::kinds::Better;
 
 /// A statistic of a metric: one of the numbers that it gives for a frame, a band or a level.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[allow(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 pub struct Statistic {
     /// Its name in results; empty for the metric's own value.
@@ -25,6 +25,8 @@ pub struct Statistic {
     /// Whether results have the ratio of test to reference. It applies to statistics of single
     /// pictures.
     pub has_ratio: bool,
+    /// A value of the reference below this has no ratio.
+    pub floor: f64,
     /// Whether higher or lower is better, where that differs from the metric.
     pub better: Option<Better>,
     /// Whether it describes the whole frame but depends on the band edges.
@@ -50,6 +52,10 @@ pub enum Pooling {
     WeightedMean,
     /// The weighted mean of the squared errors (peak 1), converted to decibels.
     Decibels,
+    /// The root of the weighted mean of the squares.
+    RootWeightedMean,
+    /// The root of the mean of the squares, each with the same weight.
+    RootMeanSquare,
     /// The standard deviation of all samples together, with the divisor N - 1.
     Deviation,
     /// The largest value.
@@ -65,7 +71,7 @@ pub enum Pooling {
 pub enum Weight {
     /// The band's number of pixels.
     Pixels,
-    /// Another statistic of the metric, on the same level.
+    /// Another statistic of the metric, on the same level or of all levels of the band.
     Statistic(&'static str),
     /// For a deviation: the number of samples, and their mean.
     Moments {
@@ -90,6 +96,7 @@ impl Statistic {
             weight: Weight::Pixels,
             is_count: false,
             has_ratio: true,
+            floor: 0.0,
             better: None,
             is_of_bands: false,
             has_row: true,
@@ -145,6 +152,11 @@ impl Statistic {
         Self { is_of_bands: true, ..self }
     }
 
+    /// Declares that values of the reference below a floor have no ratio.
+    pub(crate) const fn with_floor(self, floor: f64) -> Self {
+        Self { floor, ..self }
+    }
+
     /// Declares that it has no ratio of test to reference.
     pub(crate) const fn without_ratio(self) -> Self {
         Self { has_ratio: false, ..self }
@@ -167,7 +179,20 @@ impl Statistic {
 
     /// Whether a sequence has a pooled value besides the mean of its frames.
     pub fn pools_frames(&self) -> bool {
-        matches!(self.frames, Pooling::WeightedMean | Pooling::Decibels | Pooling::Deviation)
+        matches!(
+            self.frames,
+            Pooling::WeightedMean
+                | Pooling::Decibels
+                | Pooling::Deviation
+                | Pooling::RootWeightedMean
+                | Pooling::RootMeanSquare
+        )
+    }
+
+    /// Whether the pooled value of a sequence follows from the values of its frames alone, but is not their
+    /// mean.
+    pub fn pools_values(&self) -> bool {
+        self.frames == Pooling::RootMeanSquare
     }
 
     /// Whether the largest value of all frames represents the sequence.
@@ -206,6 +231,9 @@ impl Parts {
     pub fn of_value(pooling: Pooling, value: Option<f64>, weight: f64, mean: f64) -> Self {
         match (pooling, value) {
             (Pooling::WeightedMean, Some(value)) => Self::Mean { sum: value * weight, weight },
+            (Pooling::RootWeightedMean, Some(value)) => {
+                Self::Mean { sum: value * value * weight, weight }
+            }
             (Pooling::Decibels, Some(value)) => {
                 Self::Mean { sum: mse_of_db(value) * weight, weight }
             }
@@ -250,7 +278,11 @@ impl Parts {
             Self::Value => None,
             Self::Mean { sum, weight } => {
                 let mean = (weight > 0.0).then(|| sum / weight)?;
-                Some(if pooling == Pooling::Decibels { psnr_db(mean) } else { mean })
+                Some(match pooling {
+                    Pooling::Decibels => psnr_db(mean),
+                    Pooling::RootWeightedMean => mean.sqrt(),
+                    _ => mean,
+                })
             }
             Self::Deviation { count, sum, squares } => deviation(count, sum, squares),
         }
@@ -279,9 +311,10 @@ pub fn pool(
 /// the frames.
 #[derive(Debug, Clone, Copy)]
 pub struct Pool {
-    /// Number of values, their sum, the largest and the smallest one.
+    /// Number of values, their sum, the sum of their squares, the largest and the smallest one.
     scored: usize,
     sum: f64,
+    squares: f64,
     max: f64,
     min: f64,
     /// The last value.
@@ -294,7 +327,7 @@ pub struct Pool {
 impl Default for Pool {
     fn default() -> Self {
         let (max, min) = (f64::NEG_INFINITY, f64::INFINITY);
-        Self { scored: 0, sum: 0.0, max, min, last: 0.0, measured: 0, parts: None }
+        Self { scored: 0, sum: 0.0, squares: 0.0, max, min, last: 0.0, measured: 0, parts: None }
     }
 }
 
@@ -303,6 +336,7 @@ impl Pool {
     pub fn add(&mut self, value: Option<f64>, parts: Parts) {
         if let Some(value) = value {
             self.sum += value;
+            self.squares += value * value;
             self.max = f64::max(self.max, value);
             self.min = f64::min(self.min, value);
             (self.scored, self.last) = (self.scored + 1, value);
@@ -322,11 +356,18 @@ impl Pool {
         let parts = self.parts.unwrap_or_default();
         match (pooling, self.scored) {
             (_, 1) if self.measured == 1 => (Some(self.last), parts),
-            (Pooling::WeightedMean | Pooling::Decibels | Pooling::Deviation, _) => {
-                (parts.value(pooling), parts)
-            }
+            (
+                Pooling::WeightedMean
+                | Pooling::Decibels
+                | Pooling::Deviation
+                | Pooling::RootWeightedMean,
+                _,
+            ) => (parts.value(pooling), parts),
             (_, 0) | (Pooling::None, _) => (None, Parts::Value),
             (Pooling::PlainMean, count) => (Some(self.sum / count as f64), Parts::Value),
+            (Pooling::RootMeanSquare, count) => {
+                (Some((self.squares / count as f64).sqrt()), Parts::Value)
+            }
             (Pooling::Max, _) => (Some(self.max), Parts::Value),
             (Pooling::Min, _) => (Some(self.min), Parts::Value),
             (Pooling::Sum, _) => (Some(self.sum), Parts::Value),
@@ -355,6 +396,24 @@ mod tests {
         assert_eq!(pool(Pooling::None, values).0, None);
         assert_eq!(pool(Pooling::None, [values[0]]).0, Some(0.25), "one alone stays");
         assert_eq!(pool(Pooling::WeightedMean, []).0, None);
+    }
+
+    /// Variances add up, deviations do not.
+    #[test]
+    fn roots_are_taken_of_pooled_squares() {
+        let part =
+            |sum: f64, weight: f64| (Some((sum / weight).sqrt()), Parts::Mean { sum, weight });
+        // The squares 4 and 1, of 1 and of 3 pixels.
+        let values = [part(4.0, 1.0), part(3.0, 3.0), (None, Parts::Value)];
+        let (value, parts) = pool(Pooling::RootWeightedMean, values);
+        assert_eq!((value, parts), (Some(1.75f64.sqrt()), Parts::Mean { sum: 7.0, weight: 4.0 }));
+        assert_eq!(pool(Pooling::RootMeanSquare, values).0, Some(2.5f64.sqrt()));
+        let read = |value: f64, weight: f64| {
+            (Some(value), Parts::of_value(Pooling::RootWeightedMean, Some(value), weight, 0.0))
+        };
+        let (value, _) = pool(Pooling::RootWeightedMean, [read(2.0, 1.0), read(1.0, 3.0)]);
+        assert_eq!(value, Some(1.75f64.sqrt()));
+        assert_eq!(pool(Pooling::RootMeanSquare, [values[1]]).0, Some(1.0));
     }
 
     #[test]

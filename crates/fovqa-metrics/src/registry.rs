@@ -10,6 +10,9 @@ use crate::metric::{Metric, for_all_metrics};
 use crate::metric_params::MetricParams;
 use crate::pair_input::PairInput;
 use crate::pooling::Statistic;
+use crate::profile::PictureInput;
+use crate::row::Rows;
+use crate::temporal::TimeInput;
 use crate::{fidelity, metric, profile, temporal};
 
 macro_rules! registry {
@@ -22,7 +25,7 @@ macro_rules! registry {
                 }
             }
 
-            /// Whether it measures pairs in a pass of its own ([`Params::measure`]).
+            /// Whether it measures pairs or pictures in a pass of its own.
             pub fn has_own_pass(self) -> bool {
                 match self {
                     $(Metric::$metric => <$($file)::+::Params as MetricParams>::HAS_OWN_PASS,)*
@@ -55,6 +58,16 @@ macro_rules! registry {
                 Ok(())
             }
 
+            /// Checks conditions that involve several parameters of one metric.
+            ///
+            /// # Errors
+            /// The first condition that does not hold.
+            pub fn check_of(&self, metric: Metric) -> Result<(), ParamError> {
+                match metric {
+                    $(Metric::$metric => self.$params.check(),)*
+                }
+            }
+
             /// The smallest side that a frame may have for a metric, in pixels.
             pub fn smallest_side(&self, metric: Metric) -> usize {
                 let window = self.ssim.window_side();
@@ -68,6 +81,33 @@ macro_rules! registry {
             pub fn block_levels(&self, metric: Metric) -> usize {
                 match metric {
                     $(Metric::$metric => self.$params.block_levels(),)*
+                }
+            }
+
+            /// Measures a picture; `None` for a metric that is no profile with a pass of its own.
+            pub(crate) fn profile(&self, metric: Metric, input: &PictureInput<'_>) -> Option<Rows> {
+                match metric {
+                    $(Metric::$metric => self.$params.profile(self, input),)*
+                }
+            }
+
+            /// The number of frames that a temporal metric compares, the present one included. For
+            /// other kinds it is 1.
+            pub fn frames_needed(&self, metric: Metric) -> usize {
+                match metric {
+                    $(Metric::$metric => self.$params.frames_needed(),)*
+                }
+            }
+
+            /// Measures the change of pictures over time, and returns the values of each; `None` for
+            /// a metric that is not temporal.
+            ///
+            /// # Panics
+            /// When planes or regions differ in size, or there are fewer frames than the metric
+            /// needs.
+            pub fn follow(&self, metric: Metric, input: &TimeInput<'_>) -> Option<Vec<Rows>> {
+                match metric {
+                    $(Metric::$metric => self.$params.follow(self, input),)*
                 }
             }
 

@@ -245,11 +245,12 @@ fn values_of(report: &ScoreReport) -> Vec<(Metric, Option<f64>)> {
     let summary = Summary::of(report);
     let value = |metric: Metric| match metric {
         Metric::Fvvdp => summary.fvvdp.as_ref().and_then(|fvvdp| fvvdp.jod),
-        Metric::Atd => summary.atd.as_ref().and_then(|atd| atd.ratio),
+        metric if metric.is(MetricKind::Temporal) => summary.temporal.of(metric)?.ratio,
         metric => summary.statistics.get(&metric).map(|statistics| statistics.mean),
     };
     let is_single = |metric: &Metric| match metric {
-        Metric::Fvvdp | Metric::Atd => true,
+        Metric::Fvvdp => true,
+        metric if metric.is(MetricKind::Temporal) => true,
         metric => metric.is(MetricKind::Fidelity) && Key::of(*metric).is_score(),
     };
     report.metrics.iter().copied().filter(is_single).map(|m| (m, value(m))).collect()

@@ -4,11 +4,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use fovqa_metrics::{Metric, MetricKind};
+use fovqa_metrics::{Key, Metric, MetricKind};
 use fovqa_results::{
-    AtdSummary, BandStatistics, BudgetSummary, ComparisonSummary, DoubtRecord, EccentricityShare,
-    ErrorRecord, FileError, GuideSource, HaarRecord, HaarValues, SideValues, Spread, Statistics,
-    ViewRecord, read_summary,
+    BandStatistics, BudgetSummary, ComparisonSummary, DoubtRecord, EccentricityShare, ErrorRecord,
+    FileError, GuideSource, HaarRecord, HaarValues, SideValues, 
+    Spread, Statistics, TemporalSummaries, TemporalSummary, ViewRecord,
+    read_summary,
 };
 
 /// The comparisons of a run, and its errors.
@@ -38,7 +39,8 @@ pub(crate) struct Measured {
     pub(crate) bands: Box<[Band]>,
     /// The wavelet statistics by level and band.
     pub(crate) wavelet: Box<[WaveletBand]>,
-    pub(crate) atd: Option<AtdSummary>,
+    /// The temporal metrics of the sequence.
+    pub(crate) temporal: TemporalSummaries,
     /// JOD of FovVideoVDP.
     pub(crate) jod: Option<f64>,
     /// Why there is no JOD, if it is known.
@@ -160,6 +162,21 @@ impl Measured {
         let share = |(from_deg, to_deg)| EccentricityShare { from_deg, to_deg, share: Some(0.5) };
         let score = |metric: &Metric| (*metric, Score { mean: 1.0, identical_frames: None });
         let of_metric = |metric: &&Metric| metric.is(MetricKind::Fidelity);
+        let over_time = |metric: &&Metric| metric.is(MetricKind::Temporal);
+        let temporal = |metric: &Metric| {
+            let summary = TemporalSummary {
+                reference: Some(1.0),
+                test: Some(1.0),
+                ratio: Some(1.0),
+                left_out: None,
+                left_out_test: None,
+                frames: frames.saturating_sub(1),
+                motion: GuideSource::default(),
+                depth: GuideSource::default(),
+                reason: None,
+            };
+            (*metric, summary)
+        };
         let levels = 1..=levels.filter(|_| has(Metric::Haar)).unwrap_or(0);
         let shares = edges.clone().filter(|_| has(Metric::Fvvdp)).map(share);
         Self {
@@ -170,17 +187,7 @@ impl Measured {
             scores: metrics.iter().filter(of_metric).map(score).collect(),
             bands: edges.clone().map(of_band).collect(),
             wavelet: levels.flat_map(level).collect(),
-            atd: has(Metric::Atd).then(|| AtdSummary {
-                reference: Some(1.0),
-                test: Some(1.0),
-                ratio: Some(1.0),
-                left_out: None,
-                left_out_test: None,
-                frames: frames.saturating_sub(1),
-                motion: GuideSource::default(),
-                depth: GuideSource::default(),
-                reason: None,
-            }),
+            temporal: TemporalSummaries(metrics.iter().filter(over_time).map(temporal).collect()),
             jod: has(Metric::Fvvdp).then_some(9.0),
             jod_missing: None,
             eye: String::new(),
@@ -204,7 +211,7 @@ impl Measured {
             scores: comparison.metrics.iter().map(score).collect(),
             bands: comparison.bands.iter().map(Band::of).collect(),
             wavelet: comparison.haar.iter().map(WaveletBand::of).collect(),
-            atd: comparison.atd.clone(),
+            temporal: comparison.temporal.clone(),
             jod: fvvdp.and_then(|fvvdp| fvvdp.jod),
             jod_missing: fvvdp.and_then(|fvvdp| fvvdp.reason.as_deref()).map(Into::into),
             eye: comparison.eye.clone(),
@@ -239,18 +246,20 @@ impl Measured {
         match metric.info().kind {
             _ if metric == Metric::Fvvdp => self.jod.is_some(),
             MetricKind::Fidelity => self.score(metric).is_some(),
-            MetricKind::Temporal => self.atd.as_ref().is_some_and(|atd| atd.frames > 0),
+            MetricKind::Temporal => self.temporal.of(metric).is_some_and(|of| of.frames > 0),
             MetricKind::Profile if metric == Metric::Haar => !self.wavelet.is_empty(),
             MetricKind::Profile => self.bands.iter().any(|band| band.compared(metric).is_some()),
         }
     }
 
-    /// The value in table columns and bars: the mean over the frames or, for temporal differences,
-    /// the percentage that the papers use.
+    /// The value in table columns and bars: the mean over the frames or, for temporal metrics, the
+    /// percentage that the papers use.
     pub(crate) fn value(&self, metric: Metric) -> Option<f64> {
         match metric {
-            Metric::Atd => Some(self.atd.as_ref()?.ratio? * 100.0),
             Metric::Fvvdp => self.jod,
+            metric if metric.is(MetricKind::Temporal) => {
+                Some(self.temporal.of(metric)?.ratio? * 100.0)
+            }
             metric => Some(self.score(metric)?.mean),
         }
     }
@@ -259,9 +268,11 @@ impl Measured {
 impl Band {
     fn of(band: &BandStatistics) -> Self {
         let mean = |(metric, of): (&Metric, &Option<Statistics>)| (*metric, of.map(|of| of.mean));
-        let mean_of = |spread: &Spread| spread.mean;
-        let compared = band.compared.iter();
-        let compared = compared.map(|(metric, of)| (*metric, Compared::of(of, mean_of)));
+        let compared = |(metric, of): (&Metric, &SideValues<Spread>)| {
+            let statistic = Key::of(*metric).statistic();
+            (*metric, Compared::of(of, |spread| spread.headline(statistic)))
+        };
+        let compared = band.compared.iter().map(compared);
         Self {
             from_deg: band.from_deg,
             to_deg: band.to_deg,
@@ -372,7 +383,7 @@ mod tests {
             metrics: BTreeMap::new(),
             bands: Vec::new(),
             haar: Vec::new(),
-            atd: None,
+            temporal: TemporalSummaries::default(),
             fvvdp: None,
             samples: None,
             plausibility: Vec::new(),
@@ -414,7 +425,8 @@ mod tests {
 
     #[test]
     fn the_numbers_of_each_statistic_are_kept_apart() {
-        let spread = |mean: f64| Some(Spread { mean, min: 0.5 * mean, max: 2.0 * mean });
+        let spread =
+            |mean: f64| Some(Spread { mean, min: 0.5 * mean, max: 2.0 * mean, pooled: None });
         let values = |mean: f64| HaarValues {
             mean_abs: spread(mean),
             max_abs: spread(10.0 * mean),

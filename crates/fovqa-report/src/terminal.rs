@@ -5,7 +5,8 @@ use std::fmt::Write;
 use fovqa_metrics::{Image, Key, Metric, MetricKind, Subject};
 use fovqa_params::Words;
 use fovqa_results::{
-    AtdSummary, FvvdpSummary, GuideSource, ScoreReport, Statistics, StereoReport, Summary,
+    FvvdpSummary, GuideSource, ScoreReport, Statistics, StereoReport, Summary, TemporalSummary,
+    
 };
 
 use crate::text::Text;
@@ -102,8 +103,8 @@ fn values(report: &ScoreReport, of_frames: bool) -> Text {
     if let Some(fvvdp) = &summary.fvvdp {
         let _ = writeln!(text, "\n{}", fvvdp_in_words(fvvdp));
     }
-    if let Some(atd) = &summary.atd {
-        let _ = writeln!(text, "\n{}", atd_in_words(atd));
+    for (metric, of) in &summary.temporal.0 {
+        let _ = writeln!(text, "\n{}", temporal_in_words(*metric, of));
     }
     text.push(band_table(report, &summary));
     text.push(haar_table(&summary));
@@ -153,7 +154,7 @@ fn band_table(report: &ScoreReport, summary: &Summary) -> Text {
         let beside = |metric: &Metric| {
             let key = Key::of(*metric).of_image(Image::Ratio).in_band(index);
             let statistics = summary.compared.get(&key)?;
-            let test = number(*metric, statistics.test?.mean);
+            let test = number(*metric, statistics.test?.headline(key.statistic()));
             Some(format!("{test} ({})", percent(statistics.ratio)))
         };
         row.extend(fidelity.iter().map(|m| cell(m).unwrap_or_else(missing)));
@@ -163,7 +164,11 @@ fn band_table(report: &ScoreReport, summary: &Summary) -> Text {
     let mut text = Text::from("\n".to_owned());
     text.push_table(table);
     if report.frames.len() != 1 {
-        text.push_str("pixels and values are means over the frames\n");
+        let pools = |metric: &&Metric| Key::of(**metric).statistic().pools_values();
+        let squares = compared.iter().find(pools).map_or_else(String::new, |metric| {
+            format!("; of {}, root mean squares", metric.info().label)
+        });
+        text.push_str(&format!("pixels and values are means over the frames{squares}\n"));
     }
     if !compared.is_empty() {
         text.push_str("in brackets: test / reference\n");
@@ -224,27 +229,28 @@ fn fvvdp_in_words(fvvdp: &FvvdpSummary) -> String {
     format!("FovVideoVDP: {jod:.3} JOD (10: no visible difference){frames}\n{display}")
 }
 
-fn atd_in_words(atd: &AtdSummary) -> String {
-    let (Some(reference), Some(test)) = (atd.reference, atd.test) else {
-        let reason = atd.reason.as_deref().unwrap_or("no value");
-        return format!("ATD: no value: {reason}");
+fn temporal_in_words(metric: Metric, of: &TemporalSummary) -> String {
+    let label = metric.info().label;
+    let (Some(reference), Some(test)) = (of.reference, of.test) else {
+        let reason = of.reason.as_deref().unwrap_or("no value");
+        return format!("{label}: no value: {reason}");
     };
-    let ratio = atd.ratio.map(|_| format!(", {} of it", percent(atd.ratio))).unwrap_or_default();
-    let left_out = atd.left_out.unwrap_or(0.0) * 100.0;
-    let along = match atd.motion {
+    let ratio = of.ratio.map(|_| format!(", {} of it", percent(of.ratio))).unwrap_or_default();
+    let left_out = of.left_out.unwrap_or(0.0) * 100.0;
+    let along = match of.motion {
         GuideSource::None => "without motion vectors, so that all movement counts",
         GuideSource::Reference => "along the reference's motion",
         GuideSource::Test => "each along its own motion",
     };
-    let depth = match atd.depth {
+    let depth = match of.depth {
         GuideSource::None => "",
         GuideSource::Reference | GuideSource::Test => " and depth",
     };
-    let depth = if atd.motion == GuideSource::None { "" } else { depth };
+    let depth = if of.motion == GuideSource::None { "" } else { depth };
     format!(
-        "ATD: reference {}, test {}{ratio}; {along}{depth}; {left_out:.2} % of pixels left out",
-        number(Metric::Atd, reference),
-        number(Metric::Atd, test),
+        "{label}: reference {}, test {}{ratio}; {along}{depth}; {left_out:.2} % of pixels left out",
+        number(metric, reference),
+        number(metric, test),
     )
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use fovqa_metrics::{FrameRows, Layouts, Metric, Row, Rows, Subject};
 
 use crate::fvvdp;
-use crate::report::{AtdGuides, FrameResult, GuideSource, ScoreReport};
+use crate::report::{FrameResult, GuideSource, GuideSources, ScoreReport};
 
 /// The combined report of both eyes. It contains the frames that both have, matched by their
 /// numbers.
@@ -47,10 +47,11 @@ pub fn both_eyes(left: &ScoreReport, right: &ScoreReport) -> ScoreReport {
         frames: frames.collect(),
         failures: Vec::new(),
         gaze_held: None,
-        atd_guides: AtdGuides {
-            motion: common(left.atd_guides.motion, right.atd_guides.motion),
-            depth: common(left.atd_guides.depth, right.atd_guides.depth),
+        guide_sources: GuideSources {
+            motion: common(left.guide_sources.motion, right.guide_sources.motion),
+            depth: common(left.guide_sources.depth, right.guide_sources.depth),
         },
+        frames_needed: left.frames_needed.clone(),
         fvvdp,
     }
 }
@@ -83,11 +84,11 @@ mod tests {
             assert_eq!(common(left, right), both, "{left:?} {right:?}");
         }
         let of = |motion| ScoreReport {
-            atd_guides: AtdGuides { motion, depth: Reference },
+            guide_sources: GuideSources { motion, depth: Reference },
             ..ScoreReport::default()
         };
-        let guides = both_eyes(&of(Reference), &of(None)).atd_guides;
-        assert_eq!(guides, AtdGuides { motion: None, depth: Reference });
+        let guides = both_eyes(&of(Reference), &of(None)).guide_sources;
+        assert_eq!(guides, GuideSources { motion: None, depth: Reference });
     }
 
     fn frame(frame: i64) -> FrameResult {

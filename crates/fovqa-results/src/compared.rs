@@ -1,7 +1,7 @@
 //! Measures that are computed for the reference and for the test in the same way, such as profiles
 //! and temporal differences: the value of each image and their ratio.
 
-use fovqa_metrics::{FrameRows, Image, Key, Row};
+use fovqa_metrics::{FrameRows, Image, Key, Row, Statistic};
 
 use crate::report::FrameResult;
 
@@ -22,17 +22,19 @@ impl<T> Sides<T> {
 }
 
 impl Sides<Option<f64>> {
-    /// test / reference; `None` if either value is missing, or if the reference is 0. The ratio is
-    /// never infinite.
-    pub fn ratio(&self) -> Option<f64> {
-        let reference = self.reference.filter(|value| *value != 0.0)?;
+    /// test / reference of a statistic; `None` if either value is missing, or if the reference is 0 or
+    /// below the statistic's floor. The ratio is never infinite.
+    pub fn ratio(&self, statistic: &Statistic) -> Option<f64> {
+        let has_ratio = |value: &f64| *value != 0.0 && *value >= statistic.floor;
+        let reference = self.reference.filter(has_ratio)?;
         Some(self.test? / reference)
     }
 
     /// Why there is no ratio; `None` if there is one.
-    pub fn reason(&self) -> Option<&'static str> {
+    pub fn reason(&self, statistic: &Statistic) -> Option<&'static str> {
         match (self.reference, self.test) {
-            _ if self.ratio().is_some() => None,
+            _ if self.ratio(statistic).is_some() => None,
+            (Some(reference), Some(_)) if reference != 0.0 => Some("the reference is next to 0"),
             (Some(_), Some(_)) => Some("the reference is 0"),
             _ => Some("no value"),
         }
@@ -70,13 +72,17 @@ mod tests {
     #[test]
     fn a_ratio_to_nothing_is_none_and_says_why() {
         let sides = |reference, test| Sides { reference, test };
-        assert_eq!(sides(Some(0.5), Some(0.25)).ratio(), Some(0.5));
-        assert_eq!(sides(Some(0.5), Some(0.0)).ratio(), Some(0.0));
-        assert_eq!(sides(Some(0.5), Some(0.25)).reason(), None);
+        let statistic = Key::of(fovqa_metrics::Metric::Atd).statistic();
+        assert_eq!(sides(Some(0.5), Some(0.25)).ratio(statistic), Some(0.5));
+        assert_eq!(sides(Some(0.5), Some(0.0)).ratio(statistic), Some(0.0));
+        assert_eq!(sides(Some(0.5), Some(0.25)).reason(statistic), None);
         for test in [0.0, 1.0] {
             let sides = sides(Some(0.0), Some(test));
-            assert_eq!((sides.ratio(), sides.reason()), (None, Some("the reference is 0")));
+            assert_eq!(
+                (sides.ratio(statistic), sides.reason(statistic)),
+                (None, Some("the reference is 0"))
+            );
         }
-        assert_eq!(sides(None, Some(1.0)).reason(), Some("no value"));
+        assert_eq!(sides(None, Some(1.0)).reason(statistic), Some("no value"));
     }
 }

@@ -109,7 +109,7 @@ impl FvvdpSummary {
 fn spread(values: impl Iterator<Item = f64>) -> Option<Spread> {
     let mut gathered = Gathered::default();
     values.for_each(|value| gathered.add(Some(value)));
-    gathered.spread()
+    gathered.spread(Key::of(Metric::Fvvdp).statistic())
 }
 
 /// Q per spatial frequency, as means over the frames. Empty if the frames have no bands in common.

@@ -23,6 +23,7 @@ mod spread;
 mod stereo;
 mod summary;
 mod table;
+mod temporal;
 
 pub use baseline::{
     BASELINE_SCHEMA, Baseline, BaselineComparison, Difference, FrameRecords, InputGroup,
@@ -65,16 +66,17 @@ pub use pictures::{
     ImagesRecord, MapBlocks, TestRecord, ViewImages, padded, read_record,
 };
 pub use report::{
-    AtdGuides, Comparison, Doubt, Failure, FrameResult, FvvdpViewing, GuideSource, RunResults,
+    Comparison, Doubt, Failure, FrameResult, FvvdpViewing, GuideSource, GuideSources, RunResults,
     ScoreReport, Swept, ViewResult,
 };
 pub use samples::{BudgetSummary, SampleSummary};
 pub use spread::Spread;
 pub use stereo::StereoReport;
-pub use summary::{AtdSummary, BandSummary, SideStatistics, Statistics, Summary};
+pub use summary::{BandSummary, SideStatistics, Statistics, Summary};
 pub use table::{
     ERROR, GAZE_STEP, HAS_PARQUET, TableRow, Value, Which, read_results, table_file, write_csv,
     write_results_csv, write_stereo_csv, write_tables,
 };
 #[cfg(feature = "parquet")]
 pub use table::{Part, write_results_parquet};
+pub use temporal::{TemporalSummaries, TemporalSummary, needs_frames};

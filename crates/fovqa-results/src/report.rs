@@ -1,5 +1,6 @@
 //! The results of `score` and of a run.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use fovqa_metrics::{FrameRows, Metric};
@@ -51,7 +52,7 @@ pub struct Doubt {
     pub message: String,
 }
 
-/// The source of the motion or depth that temporal differences use.
+/// The source of the motion or depth that temporal metrics use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum GuideSource {
@@ -64,9 +65,9 @@ pub enum GuideSource {
     Test,
 }
 
-/// The motion and depth that temporal differences use.
+/// The motion and depth that temporal metrics use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct AtdGuides {
+pub struct GuideSources {
     /// Source of the motion vectors.
     pub motion: GuideSource,
     /// Source of the depth.
@@ -123,13 +124,20 @@ pub struct ScoreReport {
     pub failures: Vec<Failure>,
     /// Number of frames whose gaze was kept from an earlier frame; `None` without a trace.
     pub gaze_held: Option<usize>,
-    /// The motion and depth that temporal differences use.
-    pub atd_guides: AtdGuides,
+    /// The motion and depth that temporal metrics use.
+    pub guide_sources: GuideSources,
+    /// The number of frames that each temporal metric compares, the present one included.
+    pub frames_needed: BTreeMap<Metric, usize>,
     /// The viewing conditions of FovVideoVDP, if the metric is requested.
     pub fvvdp: Option<FvvdpViewing>,
 }
 
 impl ScoreReport {
+    /// The number of frames that a temporal metric compares, the present one included.
+    pub fn frames_needed(&self, metric: Metric) -> usize {
+        self.frames_needed.get(&metric).copied().unwrap_or(2)
+    }
+
     /// Edges of the bands in degrees; empty without a view.
     pub fn edges(&self) -> &[(f64, f64)] {
         self.view.as_ref().map(|view| view.bands_deg.as_slice()).unwrap_or_default()

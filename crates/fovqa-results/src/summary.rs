@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::{FrameRows, Image, Key, Metric, MetricKind, Pool, Row, Subject};
+use fovqa_metrics::{FrameRows, Key, Metric, MetricKind, Pool, Row, Statistic, Subject};
 
 use crate::compared::{Sides, compared_in};
 use crate::fvvdp::FvvdpSummary;
-use crate::report::{GuideSource, ScoreReport};
+use crate::report::ScoreReport;
 use crate::samples::SampleSummary;
 use crate::spread::{Gathered, Spread};
+use crate::temporal::{TemporalSummaries, TemporalValues};
 
 /// The statistics of one measure over the frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,34 +35,8 @@ pub struct SideStatistics {
     pub reference: Option<Spread>,
     /// Values of the test; `None` if no frame has a value.
     pub test: Option<Spread>,
-    /// test / reference: the ratio of the means or, for maxima, of the largest values.
+    /// test / reference: the ratio of the values that represent all frames ([`Self::headline`]).
     pub ratio: Option<f64>,
-}
-
-/// Temporal differences of a whole sequence.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct AtdSummary {
-    /// Mean over the frames of the reference; `None` if no two frames could be compared.
-    pub reference: Option<f64>,
-    /// Mean over the frames of the test; `None` if no two frames could be compared.
-    pub test: Option<f64>,
-    /// test / reference, which the papers give as a percentage.
-    pub ratio: Option<f64>,
-    /// Share of the pixels that were left out, from 0 to 1.
-    pub left_out: Option<f64>,
-    /// Share of the pixels of the test that were left out, if the test used its own motion or
-    /// depth.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub left_out_test: Option<f64>,
-    /// Number of frames that could be compared with the previous one.
-    pub frames: usize,
-    /// Source of the motion.
-    pub motion: GuideSource,
-    /// Source of the depth.
-    pub depth: GuideSource,
-    /// Why a value is missing.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
 }
 
 /// The statistics of one band over the frames.
@@ -88,8 +63,8 @@ pub struct Summary {
     pub compared: BTreeMap<Key, SideStatistics>,
     /// Number of values in all frames together, for metrics that count them.
     pub counts: BTreeMap<Key, u64>,
-    /// Temporal differences, if they are requested.
-    pub atd: Option<AtdSummary>,
+    /// Temporal metrics, as far as they are requested.
+    pub temporal: TemporalSummaries,
     /// FovVideoVDP, if it is requested.
     pub fvvdp: Option<FvvdpSummary>,
     /// The samples of an emulated method.
@@ -114,7 +89,9 @@ impl Summary {
         let mut gathered = GatheredValues::of(&keys);
         let mut counts = BTreeMap::new();
         let mut compared: BTreeMap<Key, Sides<Gathered>> = BTreeMap::new();
-        let mut atd = AtdValues::default();
+        let temporal = report.metrics.iter().filter(|metric| metric.is(MetricKind::Temporal));
+        let mut temporal: BTreeMap<Metric, TemporalValues> =
+            temporal.map(|metric| (*metric, TemporalValues::default())).collect();
         for frame in frames {
             // The values of a frame are read once for all statistics.
             let rows = frame.rows.held();
@@ -127,7 +104,9 @@ impl Summary {
                 entry.reference.add(sides.reference);
                 entry.test.add(sides.test);
             }
-            atd.add(&rows);
+            for (metric, values) in &mut temporal {
+                values.add(*metric, &rows);
+            }
         }
         let whole = scored().filter_map(|m| Some((m, gathered.statistics(Key::of(m))?)));
         let bands = edges.iter().enumerate().map(|(index, &(from_deg, to_deg))| {
@@ -142,13 +121,14 @@ impl Summary {
         });
         let compared = compared
             .into_iter()
-            .map(|(key, values)| (key, SideStatistics::of(&values, key.statistic().is_maximum())));
+            .map(|(key, values)| (key, SideStatistics::of(&values, key.statistic())));
+        let temporal = temporal.into_iter().map(|(m, values)| (m, values.summary(m, report)));
         Self {
             statistics: whole.collect(),
             bands: bands.collect(),
             compared: compared.collect(),
             counts,
-            atd: report.metrics.contains(&Metric::Atd).then(|| AtdSummary::of(report, &atd)),
+            temporal: TemporalSummaries(temporal.collect()),
             fvvdp: FvvdpSummary::of(report),
             samples: SampleSummary::of(frames),
         }
@@ -163,81 +143,16 @@ impl Summary {
 }
 
 impl SideStatistics {
-    fn of(values: &Sides<Gathered>, maximum: bool) -> Self {
-        let Sides { reference, test } = values.map(Gathered::spread);
+    fn of(values: &Sides<Gathered>, statistic: &Statistic) -> Self {
+        let Sides { reference, test } = values.map(|values| values.spread(statistic));
         let statistics = Self { reference, test, ratio: None };
-        Self { ratio: statistics.headline(maximum).ratio(), ..statistics }
+        Self { ratio: statistics.headline(statistic).ratio(statistic), ..statistics }
     }
 
-    /// The value that represents all frames: the mean or, for maxima, the largest value.
-    pub fn headline(&self, maximum: bool) -> Sides<Option<f64>> {
-        let of = |spread: Spread| if maximum { spread.max } else { spread.mean };
+    /// The value that represents all frames ([`Spread::headline`]).
+    pub fn headline(&self, statistic: &Statistic) -> Sides<Option<f64>> {
+        let of = |spread: Spread| spread.headline(statistic);
         Sides { reference: self.reference.map(of), test: self.test.map(of) }
-    }
-}
-
-/// The temporal differences of the frames.
-#[derive(Default)]
-struct AtdValues {
-    /// Number of frames that have temporal differences, with or without a value.
-    found: usize,
-    sides: Sides<Gathered>,
-    left_out: Sides<Pool>,
-}
-
-impl AtdValues {
-    fn add(&mut self, rows: &FrameRows) {
-        if !rows.has(Metric::Atd) {
-            return;
-        }
-        self.found += 1;
-        let value = |image| rows.value(Key::of(Metric::Atd).of_image(image));
-        if let (Some(reference), Some(test)) = (value(Image::Reference), value(Image::Test)) {
-            self.sides.reference.add(Some(reference));
-            self.sides.test.add(Some(test));
-        }
-        let Some(key) = Self::left_out() else { return };
-        let Sides { reference, test } = &mut self.left_out;
-        for (pool, image) in [(reference, Image::Reference), (test, Image::Test)] {
-            if let Some(row) = rows.get(key.of_image(image)) {
-                pool.add(row.value, row.parts);
-            }
-        }
-    }
-
-    /// The key of the share of pixels that were left out.
-    fn left_out() -> Option<Key> {
-        Key::named(Subject::Metric(Metric::Atd), "left_out")
-    }
-}
-
-impl AtdSummary {
-    fn of(report: &ScoreReport, values: &AtdValues) -> Self {
-        let frames = values.sides.test.count;
-        let sides = values.sides.map(|values| values.spread().map(|spread| spread.mean));
-        let left_out = values.left_out.map(|pool| {
-            let key = AtdValues::left_out()?;
-            pool.value(key.statistic().frames).0
-        });
-        let guides = report.atd_guides;
-        let own = [guides.motion, guides.depth].contains(&GuideSource::Test);
-        let reason = match () {
-            () if frames > 0 => sides.reason(),
-            () if report.frames.len() < 2 => Some("needs two frames"),
-            () if values.found == 0 => Some("no two of the frames follow each other"),
-            () => Some("no pixel can be compared"),
-        };
-        Self {
-            reference: sides.reference,
-            test: sides.test,
-            ratio: sides.ratio(),
-            left_out: left_out.reference,
-            left_out_test: left_out.test.filter(|_| own),
-            frames,
-            motion: guides.motion,
-            depth: guides.depth,
-            reason: reason.map(str::to_owned),
-        }
     }
 }
 

@@ -34,11 +34,8 @@ pub(super) fn metrics(root: Node<'_>, faults: &mut Faults) -> Metrics {
                 faults.push(Fault::new(at, error.to_string()));
             }
         }
-        // A mistake that depends on all parameters together is reported once, at the metric that
-        // they belong to.
-        if key == Metric::Fpsnr.key()
-            && let Err(error) = params.check()
-        {
+        // A mistake that depends on several parameters is reported at their metric.
+        if let Err(error) = params.check_of(metric) {
             faults.push(Fault::new(span, error.to_string()));
         }
     }

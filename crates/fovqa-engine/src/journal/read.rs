@@ -266,7 +266,7 @@ impl Lines<'_> {
         if let Some(step) = record.step {
             let step_of = Some(LineStep::Failed(step));
             let view = self.view(findings, &record.scene, record.eye, step_of)?;
-            let (result, guides) = (Err(record.read()), fovqa_results::AtdGuides::default());
+            let (result, guides) = (Err(record.read()), fovqa_results::GuideSources::default());
             view.pairs.insert(step, Box::new(Outcome { method, result, guides }));
         } else if record.before {
             let view = self.view(findings, &record.scene, record.eye, None)?;

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use fovqa_metrics::{FrameRows, Image, Key, Layout, Layouts, Metric, Parts, Subject};
+use fovqa_metrics::{FrameRows, Image, Key, Layout, Layouts, Metric, MetricKind, Parts, Subject};
 use fovqa_plan::Eye;
-use fovqa_results::{AtdGuides, Doubt, Failure, FrameResult, FvvdpViewing, ViewResult};
+use fovqa_results::{Doubt, Failure, FrameResult, FvvdpViewing, GuideSources, ViewResult};
 use fovqa_vision::EccentricityKind;
 use serde::{Deserialize, Serialize};
 
@@ -27,9 +27,9 @@ pub(super) struct FrameRecord {
     /// Number of the line of keys that describes the values.
     keys: usize,
     values: Vec<Token>,
-    /// Which motion and depth the temporal differences used, if there are any differences.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    atd: Option<AtdGuides>,
+    /// Which motion and depth temporal metrics used, if there are any.
+    #[serde(default, alias = "atd", skip_serializing_if = "Option::is_none")]
+    guides: Option<GuideSources>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     doubts: Vec<Doubt>,
 }
@@ -118,7 +118,7 @@ impl FrameRecord {
             gaze_step_deg: maybe(result.gaze_step_deg),
             keys,
             values: tokens(&result.rows),
-            atd: result.rows.has(Metric::Atd).then_some(finished.guides),
+            guides: result.rows.has_kind(MetricKind::Temporal).then_some(finished.guides),
             doubts: result.doubts.clone(),
         }
     }
@@ -130,7 +130,7 @@ impl FrameRecord {
         layouts: &BTreeMap<usize, Layout>,
         values: &mut Layouts,
         name: impl Fn(String) -> Arc<str>,
-    ) -> Option<(FrameResult, AtdGuides)> {
+    ) -> Option<(FrameResult, GuideSources)> {
         let result = FrameResult {
             frame: self.frame,
             reference: name(self.reference),
@@ -140,7 +140,7 @@ impl FrameRecord {
             doubts: self.doubts,
             rows: values.read(layouts.get(&self.keys)?, &numbers(&self.values)?)?,
         };
-        Some((result, self.atd.unwrap_or_default()))
+        Some((result, self.guides.unwrap_or_default()))
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use fovqa_metrics::{Image, Key, Metric, Parts, Pooling, Rows, Subject};
 use fovqa_plan::{Experiment, Eye, EyeView, Plan, Scene};
 use fovqa_results::{
-    AtdGuides, Doubt, Failure, FrameResult, FvvdpViewing, GuideSource, Identity, ViewResult,
+    Doubt, Failure, FrameResult, FvvdpViewing, GuideSource, GuideSources, Identity, ViewResult,
 };
 
 use super::read::Said;
@@ -93,11 +93,11 @@ fn findings() -> Findings {
     findings.inputs.add("b".into(), id("11"));
     findings.problems.push(((0, 1, 0), failure(None)));
     let outcome = |method, result| {
-        let guides = AtdGuides { motion: GuideSource::Test, depth: GuideSource::Reference };
+        let guides = GuideSources { motion: GuideSource::Test, depth: GuideSource::Reference };
         Box::new(Outcome { method, result, guides })
     };
-    let bare = Outcome { guides: AtdGuides::default(), ..*outcome(1, Ok(bare_frame())) };
-    let failed = Outcome { guides: AtdGuides::default(), ..*outcome(0, Err(failure(Some(3)))) };
+    let bare = Outcome { guides: GuideSources::default(), ..*outcome(1, Ok(bare_frame())) };
+    let failed = Outcome { guides: GuideSources::default(), ..*outcome(0, Err(failure(Some(3)))) };
     let sight = FvvdpViewing {
         pixels_per_degree: 13.1,
         peak_cd_m2: 100.1,
@@ -174,7 +174,7 @@ fn everything_is_read_again_to_the_last_bit() {
     assert_eq!(said.findings, findings);
     assert_eq!(format!("{:?}", said.findings), format!("{findings:?}"));
     // A later line replaces an earlier one.
-    let mended = Outcome { method: 0, result: Ok(bare_frame()), guides: AtdGuides::default() };
+    let mended = Outcome { method: 0, result: Ok(bare_frame()), guides: GuideSources::default() };
     let finished = crate::findings::Finished {
         named: crate::findings::Named::of(&plan, (0, 0, 0)),
         step: 2,
@@ -256,7 +256,7 @@ fn what_is_no_number_is_read_again() {
         named: crate::findings::Named { scene: "one", method: "A", eye: None },
         step: 0,
         result: Ok(&result),
-        guides: AtdGuides::default(),
+        guides: GuideSources::default(),
         maps: &[],
         kept: None,
         crops: &[],
@@ -335,7 +335,7 @@ fn lines_of_something_else_are_not_understood() {
     assert_eq!(shard_in(folder.path()), Some("1/3".parse().unwrap()));
     let line = |named: crate::findings::Named<'_>, step| {
         let result = bare_frame();
-        let guides = AtdGuides::default();
+        let guides = GuideSources::default();
         let finished = crate::findings::Finished {
             named,
             step,
@@ -376,7 +376,7 @@ fn lines_of_something_else_are_not_understood() {
         good.replace("\"inf\"", "false"),
         // A band and a level that no frame has.
         good.replacen("\"pair\",null,null,0", "\"pair\",null,65536,0", 1),
-        good.replacen("\"pair\",null,null,0", "\"pair\",257,null,0", 1),
+        good.replacen("\"pair\",null,null,0", "\"pair\",2048,null,0", 1),
         // Keys in another order, a repeated key, and a number of keys that does not exist.
         good.replace("\"mse\"", "\"ssim\""),
         good.replace("\"mse\"", "\"psnr\""),

@@ -3,16 +3,14 @@
 
 use fovqa_metrics::temporal::KeptPlane;
 
-/// The luma of a pair, and of the reference in the frame before it.
+/// The luma of a pair.
 #[derive(Default)]
 pub(super) struct Lumas {
     /// Whether any metric needs the luma.
     wanted: bool,
     reference: KeptPlane,
-    reference_before: KeptPlane,
     /// Position of the frame that the luma of the reference belongs to.
     at: Option<usize>,
-    before_at: Option<usize>,
     test: KeptPlane,
 }
 
@@ -30,8 +28,7 @@ impl Lumas {
         if !self.wanted || self.at == Some(position) {
             return None;
         }
-        std::mem::swap(&mut self.reference, &mut self.reference_before);
-        self.before_at = self.at.replace(position);
+        self.at = Some(position);
         Some(&mut self.reference)
     }
 
@@ -40,15 +37,25 @@ impl Lumas {
         self.wanted.then_some(&mut self.test)
     }
 
-    /// The luma of the reference in the present frame and in the frame at `before`; `None` if that
-    /// one is not there.
-    pub(super) fn references(&self, before: usize) -> Option<(&KeptPlane, &KeptPlane)> {
-        (self.before_at == Some(before)).then_some((&self.reference, &self.reference_before))
+    /// The luma of the reference.
+    pub(super) fn reference(&self) -> &KeptPlane {
+        &self.reference
     }
 
     /// The luma of the test.
     pub(super) fn test(&self) -> &KeptPlane {
         &self.test
+    }
+
+    /// Whether the luma of the reference is that of the frame at `position`.
+    pub(super) fn is_of(&self, position: usize) -> bool {
+        self.at == Some(position)
+    }
+
+    /// Swaps the luma of the reference with another plane, whose memory is used again.
+    pub(super) fn swap_reference(&mut self, plane: &mut KeptPlane) {
+        self.at = None;
+        std::mem::swap(&mut self.reference, plane);
     }
 
     /// Swaps the luma of the test with another plane, whose memory is used again.

@@ -17,7 +17,7 @@ use std::ops::Range;
 use fovqa_frame::{Frame, Mask, SignalTables};
 use fovqa_metrics::{BlockRegions, Map, Metric, Regions, Rows, Scored};
 use fovqa_plan::{Plan, Settings};
-use fovqa_results::{AtdGuides, FvvdpViewing};
+use fovqa_results::{FvvdpViewing, GuideSources};
 
 use crate::events::Warnings;
 use crate::found::FoundView;
@@ -43,7 +43,7 @@ enum Meter {
     Luminance(Box<LuminanceMeter>),
     /// Measures of each image by itself.
     Profiles(Profiles),
-    /// Differences between each image and the one before it.
+    /// The change from earlier images to the present one.
     Temporal(Box<Temporal>),
 }
 
@@ -93,7 +93,7 @@ impl Meter {
         let &Sequence { method, done, end, goes_on } = sequence;
         match self {
             Meter::Luminance(light) => light.go_on(method, done, end),
-            Meter::Temporal(_) if goes_on => done.saturating_sub(1)..done,
+            Meter::Temporal(of) if goes_on => done.saturating_sub(of.reach())..done,
             Meter::Temporal(_) | Meter::Fidelity(_) | Meter::Own(_) | Meter::Profiles(_) => {
                 done..done
             }
@@ -208,7 +208,9 @@ impl Meters {
         for meter in &mut self.meters {
             match meter {
                 Meter::Profiles(profiles) => profiles.leave(),
-                Meter::Temporal(temporal) => temporal.leave(reference, position),
+                Meter::Temporal(temporal) => {
+                    temporal.leave(reference, position, &mut self.lumas);
+                }
                 Meter::Fidelity(_) | Meter::Own(_) | Meter::Luminance(_) => {}
             }
         }
@@ -267,8 +269,8 @@ impl Meters {
         Ok(())
     }
 
-    /// Which motion and depth the temporal differences of a method used.
-    pub(crate) fn atd_guides(&self, method: usize) -> AtdGuides {
+    /// Which motion and depth the temporal metrics of a method used.
+    pub(crate) fn guide_sources(&self, method: usize) -> GuideSources {
         self.temporal().map(|temporal| temporal.guides(method)).unwrap_or_default()
     }
 

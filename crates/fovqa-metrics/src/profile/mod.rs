@@ -3,9 +3,11 @@
 
 pub mod haar;
 mod pass;
+mod picture_input;
 mod profiler;
 pub mod rms_contrast;
 #[cfg(test)]
 mod tests;
 
+pub use picture_input::PictureInput;
 pub use profiler::Profiler;

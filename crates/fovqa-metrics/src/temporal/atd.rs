@@ -13,8 +13,8 @@ use multiversion::multiversion;
 
 use super::kept_plane::KeptPlane;
 use super::source::{Link, Sources, Stretch};
-use crate::info::{MetricInfo, Needs};
-use crate::kinds::{Better, LeadIn, MetricKind};
+use super::time_input::{Picture, TimeInput};
+use crate::info::MetricInfo;
 use crate::metric::Metric;
 use crate::metric_params::MetricParams;
 use crate::pooling::{Parts, Pooling, Statistic};
@@ -27,10 +27,7 @@ use fovqa_params::{ParamInfo, ParamValue, ParamValues};
 pub(crate) const INFO: MetricInfo = MetricInfo {
     key: "atd",
     label: "ATD",
-    kind: MetricKind::Temporal,
-    better: Better::Lower,
-    per_band: true,
-    needs: Needs { guides: true, lead_in: LeadIn::Frame, ..Needs::NOTHING },
+    long_name: "average temporal difference",
     statistics: &[
         Statistic::VALUE.over_eyes(Pooling::WeightedMean),
         Statistic::named("left_out")
@@ -46,7 +43,7 @@ pub(crate) const INFO: MetricInfo = MetricInfo {
         values: ParamValues::NumberOr(0.0, 1e6, "off"),
         about: "largest relative difference of depth along the motion; off ignores depth",
     }],
-    ..MetricInfo::FIDELITY
+    ..MetricInfo::TEMPORAL
 };
 
 /// Parameters.
@@ -71,11 +68,33 @@ impl MetricParams for Params {
         }
         Some(())
     }
+
+    fn frames_needed(&self) -> usize {
+        2
+    }
+
+    fn follow(&self, _all: &crate::Params, input: &TimeInput<'_>) -> Option<Vec<Rows>> {
+        let before = &input.before[0];
+        let link = Link {
+            motion: input.motion,
+            depth: input.depth.zip(before.depth),
+            regions: input.regions,
+            mask_before: before.mask,
+        };
+        let pictures: Vec<_> = input.pictures.iter().map(|of| (of.lumas[0], of.lumas[1])).collect();
+        let found = differences(&link, &pictures, self);
+        let rows = |(of, picture): (&AtdFrame, &Picture<'_>)| {
+            let mut rows = Rows::default();
+            of.rows(picture.image, &mut rows);
+            rows
+        };
+        Some(found.iter().zip(input.pictures).map(rows).collect())
+    }
 }
 
 /// The difference of one frame to the one before it: sums and numbers of valid pixels, per band.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct AtdFrame {
+pub(crate) struct AtdFrame {
     /// The number of pixels that count, valid or not.
     pub pixels: u64,
     /// The differences over the whole frame.
@@ -86,7 +105,7 @@ pub struct AtdFrame {
 
 /// The sum of differences over some pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct AtdSum {
+pub(crate) struct AtdSum {
     /// The sum of the differences.
     pub sum: f64,
     /// The number of pixels that can be compared.
@@ -95,20 +114,20 @@ pub struct AtdSum {
 
 impl AtdSum {
     /// The mean over valid pixels; `None` if there are none.
-    pub fn mean(&self) -> Option<f64> {
+    pub(super) fn mean(&self) -> Option<f64> {
         (self.valid > 0).then(|| self.sum / self.valid as f64)
     }
 }
 
 impl AtdFrame {
     /// The number of pixels that are left out.
-    pub fn left_out(&self) -> u64 {
+    pub(super) fn left_out(&self) -> u64 {
         self.pixels - self.whole.valid
     }
 
     /// Adds the values of one picture: of the whole frame, with the share that is left out, and of
     /// each band.
-    pub fn rows(&self, image: Image, rows: &mut Rows) {
+    fn rows(&self, image: Image, rows: &mut Rows) {
         let key = Key::of(Metric::Atd).of_image(image);
         let mut add = |key: Key, difference: &AtdSum| {
             let AtdSum { sum, valid } = *difference;
@@ -138,7 +157,7 @@ struct Sums {
 ///
 /// # Panics
 /// When regions, motion, depth or planes differ in size.
-pub fn differences(
+pub(crate) fn differences(
     link: &Link<'_>,
     pictures: &[(&KeptPlane, &KeptPlane)],
     params: &Params,

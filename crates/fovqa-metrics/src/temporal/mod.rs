@@ -1,11 +1,14 @@
-//! Temporal metrics: each frame is compared with the one before it, and only that one is kept.
+//! Temporal metrics: the change of pictures over time, along their motion. Each frame is compared with the
+//! frames before it, of which only as many are kept as a metric needs.
 
 pub mod atd;
+mod kept_motion;
 pub(crate) mod kept_plane;
 mod source;
 #[cfg(test)]
 mod tests;
+mod time_input;
 
-pub use atd::{AtdFrame, AtdSum, differences};
+pub use kept_motion::KeptMotion;
 pub use kept_plane::KeptPlane;
-pub use source::Link;
+pub use time_input::{FrameBefore, Picture, TimeInput};

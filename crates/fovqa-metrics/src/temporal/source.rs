@@ -8,7 +8,7 @@ use crate::regions::Regions;
 
 /// The relation of a frame to the previous one.
 #[derive(Debug, Clone, Copy)]
-pub struct Link<'a> {
+pub(crate) struct Link<'a> {
     /// Backward motion; `None` if nothing moves.
     pub motion: Option<&'a Motion>,
     /// Depth of this frame and of the previous one; `None` if depth is ignored.

@@ -5,7 +5,8 @@
 use fovqa_frame::{Mask, Motion, Plane, PlaneSamples};
 use fovqa_vision::{BandEdges, BandMap, Eccentricity, EccentricityKind, ViewSpec};
 
-use super::atd::Params;
+use super::atd::{AtdFrame, AtdSum, Params, differences};
+use super::source::Link;
 use super::*;
 use crate::Regions;
 

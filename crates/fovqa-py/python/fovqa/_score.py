@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -206,9 +207,8 @@ class Score:
             found = [(of, of[image or "ratio"].get(statistic)) for of in rows]
         else:
             rows = [of for of in document["summary_bands"] if metric in of]
-            found = [(of, _side(of[metric], image or "ratio")) for of in rows]
-        mean = [(of, value["mean"] if isinstance(value, dict) else value) for of, value in found]
-        return [Band(of["from_deg"], of["to_deg"], value) for of, value in mean]
+            found = [(of, _value(_side(of[metric], image or "ratio"), metric)) for of in rows]
+        return [Band(of["from_deg"], of["to_deg"], value) for of, value in found]
 
     def profile(self, metric: str = "psnr", *, title: str | None = None, **figures: Any) -> ProfileFigure:
         """A figure of a metric against eccentricity.

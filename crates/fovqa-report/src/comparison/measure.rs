@@ -1,6 +1,6 @@
 //! What a table shows of each method: a metric, or another measure.
 
-use fovqa_metrics::{Better, Metric};
+use fovqa_metrics::{Better, Metric, MetricKind};
 
 /// A measure, and how its values are written.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,8 +48,8 @@ impl Measure {
         }
     }
 
-    /// The measure of a metric's value in tables and bars: differences over time are percentages of those
-    /// of the reference.
+    /// The measure of a metric's value in tables and bars: temporal metrics are percentages of those of
+    /// the reference.
     pub(crate) fn of_value(metric: Metric) -> Self {
         let info = metric.info();
         match metric {

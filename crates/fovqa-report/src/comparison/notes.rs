@@ -1,6 +1,6 @@
 //! Remarks that are shown together with a comparison table.
 
-use fovqa_metrics::Metric;
+use fovqa_metrics::{Metric, MetricKind};
 use fovqa_plan::{AveragePlace, Plot, SpreadOver};
 use fovqa_results::GuideSource;
 
@@ -16,9 +16,6 @@ const FOVEAL_NOTE: &str = "FPSNR and FSSIM: the papers print no constants for th
 
 const FVVDP_NOTE: &str = "FovVideoVDP: JOD of the sequence; 10 means no visible difference, 1 less means that 75 % of \
                           observers prefer the reference. There is no lower limit.";
-
-const ATD_NOTE: &str =
-    "ATD: average temporal difference of the test in percent of the reference's.";
 
 const SAMPLES_NOTE: &str = "Samples: what an emulated method shades, in percent of the frame's pixels. Emulation from a finished frame \
      understates aliasing and flicker.";
@@ -42,9 +39,9 @@ pub(super) fn notes(
     if shows(Metric::Fvvdp) {
         notes.push(FVVDP_NOTE.to_owned());
     }
-    if shows(Metric::Atd) {
-        notes.push(ATD_NOTE.to_owned());
-        notes.extend(without_motion(overview, scenes, methods));
+    for metric in Metric::ALL.into_iter().filter(|m| m.is(MetricKind::Temporal) && shows(*m)) {
+        notes.push(temporal(metric));
+        notes.extend(without_motion(metric, overview, scenes, methods));
     }
     if columns.contains(&Column::Samples) {
         notes.push(SAMPLES_NOTE.to_owned());
@@ -96,17 +93,31 @@ fn first(listed: &[String], separator: &str) -> String {
     }
 }
 
-/// A note on the scenes in which temporal differences were measured without motion vectors.
-fn without_motion(overview: &Overview, scenes: &[&str], methods: &[String]) -> Option<String> {
+/// What the percentage of a temporal metric is.
+fn temporal(metric: Metric) -> String {
+    let info = metric.info();
+    format!("{}: {} of the test in percent of the reference's.", info.label, info.long_name)
+}
+
+/// A note on the scenes in which a temporal metric was measured without motion vectors.
+fn without_motion(
+    metric: Metric,
+    overview: &Overview,
+    scenes: &[&str],
+    methods: &[String],
+) -> Option<String> {
     let still = |scene: &&&str| {
-        let atd = |method: &String| overview.of(scene, method)?.atd.as_ref();
-        let taken = methods.iter().filter_map(atd).filter(|atd| atd.ratio.is_some());
-        taken.clone().count() > 0 && taken.clone().all(|atd| atd.motion == GuideSource::None)
+        let of = |method: &String| overview.of(scene, method)?.temporal.of(metric);
+        let taken = methods.iter().filter_map(of).filter(|of| of.ratio.is_some());
+        taken.clone().count() > 0 && taken.clone().all(|of| of.motion == GuideSource::None)
     };
     let still: Vec<&str> = scenes.iter().filter(still).copied().collect();
     let which = still.join(", ");
     (!still.is_empty()).then(|| {
-        format!("ATD without motion vectors, where all movement counts as a difference: {which}.")
+        let label = metric.info().label;
+        format!(
+            "{label} without motion vectors, where all movement counts as a difference: {which}."
+        )
     })
 }
 

@@ -1,6 +1,6 @@
 //! The ratio test / reference in each eccentricity band, in percent.
 
-use fovqa_metrics::{Better, Metric};
+use fovqa_metrics::{Better, Key, Metric, MetricKind};
 use fovqa_plan::Plot;
 use fovqa_results::RunRecord;
 
@@ -62,8 +62,8 @@ impl ComparisonTable {
             item(label, &|comparison, index| ratios.in_band(comparison, edges, levels.get(index)))
         };
         let mut items: Vec<Item> = bands.iter().map(band).collect();
-        if ratios.metric == Metric::Atd {
-            let whole = |c: &Measured, _| c.atd.as_ref()?.ratio;
+        if ratios.metric.is(MetricKind::Temporal) {
+            let whole = |c: &Measured, _| c.temporal.of(ratios.metric)?.ratio;
             items.push(Item { is_average: true, ..item("whole frame".to_owned(), &whole) });
         }
         let mut cells = items.iter().flat_map(|item| item.cells.iter().flatten());

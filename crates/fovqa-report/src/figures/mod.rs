@@ -29,9 +29,6 @@ use crate::sheet::NamedFigure;
 /// Maximum number of band edges that fit on the axis as ticks.
 const MOST_EDGE_TICKS: usize = 13;
 
-/// The title of an axis for differences over time.
-const ATD_PERCENT: &str = "ATD in % of the reference (lower is better)";
-
 /// The data that figures are made from.
 pub(crate) struct Source<'a> {
     pub(crate) run: &'a RunRecord,
@@ -96,9 +93,12 @@ pub(crate) fn default_plots(source: &Source<'_>) -> Vec<Plot> {
         kinds.push(PlotKind::Budgets);
     }
     let mut plots: Vec<Plot> = kinds.into_iter().map(Plot::of).collect();
-    if all.iter().any(|of| of.atd.as_ref().is_some_and(|atd| atd.frames > 1)) {
-        let metric = Some(Metric::Atd.key().to_owned());
-        plots.push(Plot { metric, ..Plot::of(PlotKind::Sequence) });
+    let temporal = Metric::ALL.into_iter().filter(|metric| metric.is(MetricKind::Temporal));
+    for metric in temporal {
+        if all.iter().any(|of| of.temporal.of(metric).is_some_and(|of| of.frames > 1)) {
+            let metric = Some(metric.key().to_owned());
+            plots.push(Plot { metric, ..Plot::of(PlotKind::Sequence) });
+        }
     }
     plots
 }
@@ -274,7 +274,7 @@ impl<'a> Selection<'a> {
     }
 
     fn frames(&self, metric: Metric, plot: &Plot) -> NamedFigure {
-        let is_percent = metric == Metric::Atd;
+        let is_percent = metric.is(MetricKind::Temporal);
         let values = |scene: &str, method: &str| {
             if is_percent {
                 self.percent(scene, method, metric)
@@ -289,7 +289,7 @@ impl<'a> Selection<'a> {
         });
         let series = series.collect();
         let groups = self.scenes.iter().map(|&scene| scene.to_owned()).collect();
-        let y = Axis::new(if is_percent { ATD_PERCENT.to_owned() } else { frame_axis(metric) });
+        let y = Axis::new(if is_percent { metric_axis(metric) } else { frame_axis(metric) });
         let figure = Figure::Spread(SpreadChart {
             title: None,
             y,
@@ -320,24 +320,28 @@ fn error_bars_in_words(plot: &Plot, over: &str) -> String {
 
 /// The title of the axis for the value of a metric in tables and bars.
 pub(crate) fn metric_axis(metric: Metric) -> String {
-    match metric {
-        Metric::Atd => "ATD in % of the reference (lower is better)".to_owned(),
-        metric => axis(metric),
+    if metric.is(MetricKind::Temporal) {
+        return titled(metric, "% of the reference");
     }
+    axis(metric)
 }
 
 /// The title of a metric's axis, with its unit and the better direction.
 fn axis(metric: Metric) -> String {
+    titled(metric, metric.info().unit)
+}
+
+fn titled(metric: Metric, unit: &str) -> String {
     let info = metric.info();
     let better = match info.better {
         Better::Higher => " (higher is better)",
         Better::Lower => " (lower is better)",
         Better::Neither => "",
     };
-    if info.unit.is_empty() {
+    if unit.is_empty() {
         format!("{}{better}", info.label)
     } else {
-        format!("{} in {}{better}", info.label, info.unit)
+        format!("{} in {unit}{better}", info.label)
     }
 }
 

@@ -54,7 +54,9 @@ fn reason(metric: Metric, measured: &Measured) -> String {
     let needs_view =
         metric.info().needs.view && measured.view.is_none() && !measured.is_of_both_eyes;
     let recorded = match metric {
-        Metric::Atd => measured.atd.as_ref().and_then(|atd| atd.reason.clone()),
+        metric if metric.is(MetricKind::Temporal) => {
+            measured.temporal.of(metric).and_then(|of| of.reason.clone())
+        }
         Metric::Fvvdp => measured.jod_missing.as_deref().map(str::to_owned),
         _ => None,
     };

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use fovqa_metrics::Subject;
+use fovqa_metrics::{Metric, Subject};
 
 use super::values::{ComparisonName, RunValues, ValueRow, Values};
 use crate::csv_names::CsvNames;

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use fovqa_metrics::{Key, Metric, Parts, Pooling, Statistic, Subject, Weight, pool};
+use fovqa_metrics::{Key, Metric, MetricKind, Parts, Pooling, Statistic, Subject, Weight, pool};
 use fovqa_plan::{Aggregate, Quantity};
 
 use super::aggregate::aggregate;
 use super::series::Series;
+use crate::compared::Sides;
 use crate::json::ComparisonSummary;
 use crate::samples::SampleSummary;
 
@@ -165,14 +166,15 @@ impl Values {
         let values: Vec<f64> = frames.iter().map(|(_, value)| *value).collect();
         let decibels = Metric::find(&quantity.metric).is_some_and(Metric::is_decibel);
         let value = match (kind, quantity.image.as_str()) {
-            // As in the tables, this is the ratio of the means, not the mean of the frames' ratios.
+            // As in the tables, this is the ratio of the means (of the pooled values of metrics that pool
+            // their frames), not the mean of the frames' ratios.
             (Aggregate::Mean, "ratio") => self.ratio_of_means(quantity)?,
             (kind, _) => aggregate(kind, &values, decibels).ok_or_else(|| lacks(quantity))?,
         };
         Ok(FoundValue { value, frames })
     }
 
-    /// A value of the whole sequence: the JOD, or the decibels of the pooled error.
+    /// A value of the whole sequence: the JOD, or the value of all frames together.
     fn of_sequence(&self, quantity: &Quantity) -> Result<FoundValue, Lacking> {
         let frame_statistic = if quantity.statistic == "jod" { "frame_jod" } else { "" };
         let of_frames = Quantity { statistic: frame_statistic.to_owned(), ..quantity.clone() };
@@ -180,8 +182,26 @@ impl Values {
         let summary = self.summary.as_ref();
         let value = match (Metric::find(&quantity.metric), quantity.band_deg) {
             (Some(Metric::Fvvdp), _) => summary.and_then(|summary| summary.fvvdp.as_ref()?.jod),
+            (Some(metric), None) if metric.is(MetricKind::Temporal) => {
+                summary.and_then(|summary| {
+                    let of = summary.temporal.of(metric)?;
+                    match quantity.image.as_str() {
+                        "reference" => of.reference,
+                        "ratio" => of.ratio,
+                        _ => of.test,
+                    }
+                })
+            }
             (Some(metric), None) => {
                 summary.and_then(|summary| summary.metrics.get(&metric)?.pooled)
+            }
+            (Some(_), Some(_)) if quantity.image == "ratio" => {
+                let of = |image: &str| {
+                    let image = image.to_owned();
+                    self.pooled_in_bands(&Quantity { image, ..of_frames.clone() })
+                };
+                let (reference, test) = (of("reference")?, of("test")?);
+                Some(ratio(&of_frames, reference, test).ok_or_else(|| no_ratio(quantity))?)
             }
             (Some(_), Some(_)) => Some(self.pooled_in_bands(&of_frames)?),
             _ => None,
@@ -202,12 +222,17 @@ impl Values {
         let mean = |image: &str| {
             let of = Quantity { image: image.to_owned(), ..quantity.clone() };
             let values: Vec<f64> = self.frames(&of)?.into_iter().map(|(_, value)| value).collect();
-            let maximum = statistic(quantity).is_some_and(Statistic::is_maximum);
+            let statistic = statistic(quantity);
+            if let Some(statistic) = statistic.filter(|statistic| statistic.pools_values()) {
+                let values = values.into_iter().map(|value| (Some(value), Parts::Value));
+                return pool(statistic.frames, values).0.ok_or_else(|| lacks(quantity));
+            }
+            let maximum = statistic.is_some_and(Statistic::is_maximum);
             let kind = if maximum { Aggregate::Max } else { Aggregate::Mean };
             aggregate(kind, &values, false).ok_or_else(|| lacks(quantity))
         };
         let (reference, test) = (mean("reference")?, mean("test")?);
-        if reference == 0.0 { Err(no_ratio(quantity)) } else { Ok(test / reference) }
+        ratio(quantity, reference, test).ok_or_else(|| no_ratio(quantity))
     }
 
     /// The value of each frame that has one.
@@ -267,11 +292,10 @@ impl Values {
             |image: &str| self.frames(&Quantity { image: image.to_owned(), ..quantity.clone() });
         let (references, tests) = (of("reference")?, of("test")?);
         let references: BTreeMap<i64, f64> = references.into_iter().collect();
-        let ratio = |(frame, test): (i64, f64)| {
-            let reference = references.get(&frame).filter(|reference| **reference != 0.0)?;
-            Some((frame, test / reference))
+        let of_frame = |(frame, test): (i64, f64)| {
+            Some((frame, ratio(quantity, *references.get(&frame)?, test)?))
         };
-        let frames: Vec<(i64, f64)> = tests.into_iter().filter_map(ratio).collect();
+        let frames: Vec<(i64, f64)> = tests.into_iter().filter_map(of_frame).collect();
         if frames.is_empty() { Err(no_ratio(quantity)) } else { Ok(frames) }
     }
 
@@ -340,7 +364,10 @@ impl Values {
         let kind = (metric.to_owned(), statistic.to_owned(), "pair".to_owned(), level);
         let none = Vec::new();
         let scored = self.rows.contains_key(&self::kind(quantity));
-        let Some(rows) = self.rows.get(&kind).or(Some(&none).filter(|_| !scored)) else {
+        // A count of a whole band holds for all of its levels.
+        let of_band = (kind.0.clone(), kind.1.clone(), kind.2.clone(), None);
+        let rows = self.rows.get(&kind).or_else(|| self.rows.get(&of_band));
+        let Some(rows) = rows.or(Some(&none).filter(|_| !scored)) else {
             return Err(unweighted(quantity));
         };
         let weight = |row: &ValueRow| {
@@ -352,6 +379,11 @@ impl Values {
 
 /// Values by frame and band.
 type Weights = BTreeMap<(i64, [u64; 2]), f64>;
+
+/// test / reference; `None` where the reference is 0 or next to it.
+fn ratio(quantity: &Quantity, reference: f64, test: f64) -> Option<f64> {
+    Sides { reference: Some(reference), test: Some(test) }.ratio(statistic(quantity)?)
+}
 
 /// The rule by which the statistic of a quantity is pooled.
 fn statistic(quantity: &Quantity) -> Option<&'static Statistic> {

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use fovqa_metrics::{Key, Metric, Subject};
+use fovqa_metrics::{Key, Metric, Statistic, Subject};
 use serde::{Deserialize, Serialize};
 
 use crate::compared::Sides;
@@ -70,20 +70,21 @@ pub struct HaarRecord<T> {
     pub orientations: BTreeMap<String, HaarSides<T>>,
 }
 
-impl From<Sides<Option<f64>>> for SideValues<f64> {
-    fn from(sides: Sides<Option<f64>>) -> Self {
+impl SideValues<f64> {
+    /// The values of a frame.
+    pub(super) fn of_frame(sides: &Sides<Option<f64>>, statistic: &Statistic) -> Self {
         Self {
             reference: sides.reference,
             test: sides.test,
-            ratio: sides.ratio(),
-            reason: sides.reason().map(str::to_owned),
+            ratio: sides.ratio(statistic),
+            reason: sides.reason(statistic).map(str::to_owned),
         }
     }
 }
 
 impl SideValues<Spread> {
-    fn of(statistics: &SideStatistics, maximum: bool) -> Self {
-        let reason = statistics.headline(maximum).reason().map(str::to_owned);
+    fn of(statistics: &SideStatistics, statistic: &Statistic) -> Self {
+        let reason = statistics.headline(statistic).reason(statistic).map(str::to_owned);
         let SideStatistics { reference, test, ratio } = *statistics;
         Self { reference, test, ratio, reason }
     }
@@ -92,7 +93,9 @@ impl SideValues<Spread> {
 /// The compared measures in a band, by name.
 pub(crate) fn in_band(frame: &FrameResult, band: usize) -> Vec<(String, SideValues<f64>)> {
     let compared = frame.compared().filter(|(key, _)| is_in_band(key, band));
-    compared.map(|(key, sides)| (name(&key), sides.into())).collect()
+    compared
+        .map(|(key, sides)| (name(&key), SideValues::of_frame(&sides, key.statistic())))
+        .collect()
 }
 
 /// The compared measures in a band over the frames. Only the metrics' own values are included.
@@ -102,7 +105,7 @@ pub(crate) fn in_summary_band(
 ) -> BTreeMap<Metric, SideValues<Spread>> {
     let of_band = |(key, statistics): (&Key, &SideStatistics)| {
         let wanted = is_in_band(key, band) && key.statistic().name.is_empty();
-        let sides = || SideValues::of(statistics, key.statistic().is_maximum());
+        let sides = || SideValues::of(statistics, key.statistic());
         key.metric().filter(|_| wanted).map(|metric| (metric, sides()))
     };
     summary.compared.iter().filter_map(of_band).collect()
@@ -125,19 +128,28 @@ fn is_in_band(key: &Key, band: usize) -> bool {
 /// The wavelet statistics of a frame, level by level.
 pub(crate) fn haar(frame: &FrameResult, view: Option<&ViewResult>) -> Vec<HaarRecord<f64>> {
     let edges = view.map(|view| view.bands_deg.as_slice()).unwrap_or_default();
-    let values = frame.compared().map(|(key, sides)| (key, sides.into()));
-    haar_records(values, edges, |key| frame.rows.number(key))
+    haar_records(of_frame(frame), edges, |key| frame.rows.number(key))
 }
 
 /// The wavelet statistics over the frames.
 pub(crate) fn summary_haar(summary: &Summary) -> Vec<HaarRecord<Spread>> {
     let edges: Vec<(f64, f64)> =
         summary.bands.iter().map(|band| (band.from_deg, band.to_deg)).collect();
-    let values = summary
-        .compared
-        .iter()
-        .map(|(key, statistics)| (*key, SideValues::of(statistics, key.statistic().is_maximum())));
-    haar_records(values, &edges, |key| summary.counts.get(&key).copied().unwrap_or_default())
+    haar_records(of_summary(summary), &edges, |key| {
+        summary.counts.get(&key).copied().unwrap_or_default()
+    })
+}
+
+/// The measures of each image of a frame.
+pub(super) fn of_frame(frame: &FrameResult) -> impl Iterator<Item = (Key, SideValues<f64>)> {
+    let values = frame.compared();
+    values.map(|(key, sides)| (key, SideValues::of_frame(&sides, key.statistic())))
+}
+
+/// The measures of each image over the frames.
+pub(crate) fn of_summary(summary: &Summary) -> impl Iterator<Item = (Key, SideValues<Spread>)> {
+    let values = summary.compared.iter();
+    values.map(|(key, statistics)| (*key, SideValues::of(statistics, key.statistic())))
 }
 
 /// The statistics of a level in a band, by the name of the orientation; `None` is the key for all

@@ -1,20 +1,23 @@
 //! The output of `--format json`, schema `fovqa.score/1`. New keys may be added, but keys are never
 //! renamed.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use fovqa_metrics::{Image, Key, Metric, Row, Subject};
+use fovqa_metrics::{Image, Key, Metric, MetricKind, Row, Subject};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::compared::{HaarRecord, SideValues, haar, in_band, name, summary_haar};
 use super::doubts::DoubtRecord;
 use super::summary::{BandStatistics, ViewRecord, stats};
 use super::values::{Each, MetricMap, Number, Stats};
+use crate::compared::Sides;
 use crate::fvvdp::{FvvdpSummary, SpatialBand, spatial_bands};
 use crate::report::{Failure, FrameResult, ScoreReport};
 use crate::spread::Spread;
 use crate::stereo::StereoReport;
-use crate::summary::{AtdSummary, Summary};
+use crate::summary::Summary;
+use crate::temporal::{TemporalSummaries, left_out};
 
 /// Name and version of the format.
 pub const SCORE_SCHEMA: &str = "fovqa.score/1";
@@ -62,7 +65,7 @@ fn contents<'a>(report: &'a ScoreReport, errors: Vec<Error<'a>>) -> impl Seriali
     Contents {
         view: report.view.as_ref().map(ViewRecord::of),
         frames: Each(move || report.frames.iter().map(|frame| Frame::of(frame, report))),
-        sequence: Sequence { atd: summary.atd.clone(), fvvdp: summary.fvvdp.clone() },
+        sequence: Sequence { temporal: summary.temporal.clone(), fvvdp: summary.fvvdp.clone() },
         summary: stats(&summary.statistics),
         summary_haar: summary_haar(&summary),
         summary_bands: BandStatistics::all(&summary),
@@ -108,8 +111,8 @@ struct Contents<'a, F> {
 /// Measures of the sequence as a whole.
 #[derive(serde::Serialize)]
 struct Sequence {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    atd: Option<AtdSummary>,
+    #[serde(flatten)]
+    temporal: TemporalSummaries,
     #[serde(skip_serializing_if = "Option::is_none")]
     fvvdp: Option<FvvdpSummary>,
 }
@@ -123,9 +126,9 @@ struct Fvvdp {
     spatial_bands: Vec<SpatialBand>,
 }
 
-/// Differences between a frame and the one before it.
+/// A temporal metric of a frame.
 #[derive(serde::Serialize)]
-struct Atd {
+struct Temporal {
     #[serde(flatten)]
     sides: SideValues<f64>,
     /// Share of pixels left out, for the reference and for the test.
@@ -146,8 +149,8 @@ struct Frame<'a> {
     bands: Vec<Band>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     haar: Vec<HaarRecord<f64>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    atd: Option<Atd>,
+    #[serde(flatten)]
+    temporal: BTreeMap<&'static str, Temporal>,
     #[serde(skip_serializing_if = "Option::is_none")]
     fvvdp: Option<Fvvdp>,
     #[serde(skip_serializing_if = "is_zero")]
@@ -183,7 +186,7 @@ impl<'a> Frame<'a> {
             metrics: NamedValues(scores.collect()),
             bands: bands.map(|(index, edges)| Band::of(frame, index, *edges)).collect(),
             haar: haar(frame, report.view.as_ref()),
-            atd: Atd::of(frame),
+            temporal: Temporal::all(frame),
             fvvdp: Fvvdp::of(frame, report),
             // Without a view there are no bands, so no pixels can lie outside them.
             pixels_outside_bands: rows.number(Key::pixels(Subject::PixelsOutsideBands)),
@@ -192,17 +195,19 @@ impl<'a> Frame<'a> {
     }
 }
 
-impl Atd {
-    fn of(frame: &FrameResult) -> Option<Self> {
-        let key = Key::of(Metric::Atd).of_image(Image::Ratio);
-        let (_, sides) = frame.compared().find(|(of, _)| *of == key)?;
-        let left_out = Key::named(Subject::Metric(Metric::Atd), "left_out")?;
-        let share = |image| frame.rows.value(left_out.of_image(image)).unwrap_or_default();
-        Some(Self {
-            sides: sides.into(),
-            left_out: share(Image::Reference),
-            left_out_test: share(Image::Test),
-        })
+impl Temporal {
+    fn all(frame: &FrameResult) -> BTreeMap<&'static str, Self> {
+        let whole = |key: &Key| key.band.is_none() && key.statistic().name.is_empty();
+        let of = |(key, sides): (Key, Sides<Option<f64>>)| {
+            let metric = key.metric().filter(|metric| metric.is(MetricKind::Temporal))?;
+            let left_out = left_out(metric)?;
+            let share = |image| frame.rows.value(left_out.of_image(image)).unwrap_or_default();
+            let left_out = share(Image::Reference);
+            let sides = SideValues::of_frame(&sides, key.statistic());
+            let of = Self { sides, left_out, left_out_test: share(Image::Test) };
+            whole(&key).then_some((metric.key(), of))
+        };
+        frame.compared().filter_map(of).collect()
     }
 }
 

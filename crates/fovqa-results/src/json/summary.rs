@@ -15,7 +15,8 @@ use crate::fvvdp::FvvdpSummary;
 use crate::report::{Comparison, ViewResult};
 use crate::samples::SampleSummary;
 use crate::spread::Spread;
-use crate::summary::{AtdSummary, BandSummary, Statistics, Summary};
+use crate::summary::{BandSummary, Statistics, Summary};
+use crate::temporal::TemporalSummaries;
 
 /// Name and version of the format.
 pub const SUMMARY_SCHEMA: &str = "fovqa.summary/1";
@@ -45,9 +46,9 @@ pub struct ComparisonSummary {
     /// The wavelet statistics by level and band.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub haar: Vec<HaarRecord<Spread>>,
-    /// Temporal differences.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub atd: Option<AtdSummary>,
+    /// Temporal metrics, each by its key.
+    #[serde(flatten)]
+    pub temporal: TemporalSummaries,
     /// FovVideoVDP.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fvvdp: Option<FvvdpSummary>,
@@ -139,7 +140,7 @@ impl ComparisonSummary {
             view: view.map(ViewRecord::of),
             bands: BandStatistics::all(&summary),
             haar: summary_haar(&summary),
-            atd: summary.atd,
+            temporal: summary.temporal,
             fvvdp: summary.fvvdp,
             samples: summary.samples,
             plausibility: DoubtRecord::all(&report.frames),
@@ -267,6 +268,7 @@ mod tests {
     use crate::fvvdp::{EccentricityShare, SpatialBand};
     use crate::report::GuideSource;
     use crate::samples::BudgetSummary;
+    use crate::temporal::TemporalSummary;
 
     fn fvvdp(spread: Spread) -> FvvdpSummary {
         FvvdpSummary {
@@ -296,7 +298,7 @@ mod tests {
             pooled: Some(26.25),
         };
         let ssim = Statistics { identical_frames: None, pooled: None, max: 1.0, ..statistics };
-        let spread = Spread { mean: 0.1 + 0.2, min: 0.0, max: 1.0 };
+        let spread = Spread { mean: 0.1 + 0.2, min: 0.0, max: 1.0, pooled: Some(0.7) };
         let sides = SideValues {
             reference: Some(spread),
             test: Some(Spread { mean: 0.5, ..spread }),
@@ -360,17 +362,20 @@ mod tests {
                 budget: Some(BudgetSummary { share: 0.1, ideal_share: 0.1, value: vec![2.5, 3.0] }),
             }),
             haar: vec![haar],
-            atd: Some(AtdSummary {
-                reference: Some(0.25),
-                test: Some(0.1 + 0.2),
-                ratio: Some(1.2),
-                left_out: Some(0.01),
-                left_out_test: None,
-                frames: 2,
-                motion: GuideSource::Reference,
-                depth: GuideSource::None,
-                reason: None,
-            }),
+            temporal: TemporalSummaries(BTreeMap::from([(
+                Metric::Atd,
+                TemporalSummary {
+                    reference: Some(0.25),
+                    test: Some(0.1 + 0.2),
+                    ratio: Some(1.2),
+                    left_out: Some(0.01),
+                    left_out_test: None,
+                    frames: 2,
+                    motion: GuideSource::Reference,
+                    depth: GuideSource::None,
+                    reason: None,
+                },
+            )])),
             fvvdp: Some(fvvdp(spread)),
             plausibility: vec![DoubtRecord {
                 check: "gaze".to_owned(),

@@ -109,7 +109,7 @@ impl Table<'_, '_> {
             // The row of the reference comes directly before this one.
             let of_reference = |row: &Row| row.key == key.of_image(Image::Reference);
             let reference = before.filter(of_reference).and_then(|row| row.value);
-            let value = Sides { reference, test: value }.ratio().map(Value::Measured);
+            let value = Sides { reference, test: value }.ratio(statistic).map(Value::Measured);
             self.write(&TableRow { image: Image::Ratio, value, ..row })?;
         }
         Ok(())
@@ -205,8 +205,11 @@ impl Table<'_, '_> {
                 [(Image::Reference, statistics.reference), (Image::Test, statistics.test)]
             {
                 let Some(spread) = spread else { continue };
+                let pooled = spread.pooled.map(|pooled| ("pooled", pooled));
                 for (statistic, value) in
                     [("mean", spread.mean), ("min", spread.min), ("max", spread.max)]
+                        .into_iter()
+                        .chain(pooled)
                 {
                     let (statistic, value) = (format!("{of}{statistic}"), Value::Measured(value));
                     let value = Some(value);
@@ -214,8 +217,12 @@ impl Table<'_, '_> {
                 }
             }
             if let Some(ratio) = statistics.ratio {
-                let maximum = key.statistic().is_maximum();
-                let statistic = format!("{of}{}", if maximum { "max" } else { "mean" });
+                let what = match key.statistic() {
+                    statistic if statistic.is_maximum() => "max",
+                    statistic if statistic.pools_values() => "pooled",
+                    _ => "mean",
+                };
+                let statistic = format!("{of}{what}");
                 let (image, value) = (Image::Ratio, Some(Value::Measured(ratio)));
                 self.write(&TableRow { image, statistic: &statistic, value, ..row })?;
             }
