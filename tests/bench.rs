@@ -74,8 +74,10 @@ const OWN_PASSES: [(&str, &str, &[&str], Option<&str>); 3] = [
     ("PNG: FWQI", "png", &["--metrics", "fwqi", "--fov-vertical", "60"], None),
 ];
 
-/// Frames of the sequence.
+/// Frames of the sequence, and those that flicker compares.
 const FRAMES: usize = 8;
+const COMPARED: usize = 4;
+const COMPARED_FRAMES: &str = "flicker.frames=4";
 
 /// Size and length of the sequence of FovVideoVDP.
 const VGA: (usize, usize) = (640, 480);
@@ -227,26 +229,35 @@ fn sequence(folder: &Path) {
         ["gt", "test"].map(|side| folder.join("sequence").join(side).display().to_string());
     let [all, colour] = [DECODE_ALL, DECODE_COLOUR].map(|what| measure(&this, &[what, &gt, &test]));
     let score = |metrics: &str| {
-        let view = ["--fov-vertical", "60", "--threads", "1", "--format", "json", "--metrics"];
-        measure(fovqa, &[&["score", &gt, &test][..], &view, &[metrics]].concat())
+        let view = ["--fov-vertical", "60", "--threads", "1", "--format", "json"];
+        let more = ["--set", COMPARED_FRAMES, "--metrics", metrics];
+        measure(fovqa, &[&["score", &gt, &test][..], &view, &more].concat())
     };
     let (alone, profiles) = (score("atd"), score("rms-contrast,haar"));
-    let both = score("rms-contrast,haar,atd");
+    let with_atd = score("rms-contrast,haar,atd");
+    let with_flicker = score("rms-contrast,haar,flicker");
     let megapixels = FRAMES as f64 * 8.2944;
     let name = "4K EXR, motion, depth; PNG; 8 frames";
     row(&format!("{name}: decoding"), Some(megapixels), all, None);
     row(&format!("{name}: ATD"), Some(megapixels), alone, None);
-    if let (Some(all), Some(colour), Some(profiles), Some(both)) = (all, colour, profiles, both) {
-        let frames = (FRAMES - 1) as f64;
+    for (label, with, before, aim) in [
+        ("ATD", with_atd, 1, Some("0.08")),
+        ("flicker of 4 frames", with_flicker, COMPARED - 1, None),
+    ] {
+        let (Some(all), Some(colour), Some(profiles), Some(with)) = (all, colour, profiles, with)
+        else {
+            continue;
+        };
+        let frames = (FRAMES - before) as f64;
         let added = |figure: fn(&Cost) -> f64| {
-            (figure(&both) - figure(&profiles)) - (figure(&all) - figure(&colour))
+            (figure(&with) - figure(&profiles)) - (figure(&all) - figure(&colour))
         };
         let added = Cost {
             cpu_s: added(|c| c.cpu_s) / frames,
             wall_s: added(|c| c.wall_s) / frames,
             peak_mib: added(|c| c.peak_mib),
         };
-        row("4K: what ATD adds to profiles, per frame", Some(8.2944), Some(added), Some("0.08"));
+        row(&format!("4K: what {label} adds, per frame"), Some(8.2944), Some(added), aim);
     }
 }
 

@@ -1,5 +1,6 @@
 //! The numbers: golden values, shapes, bands, maps.
 
+mod flicker;
 mod flip;
 pub(crate) mod fvvdp;
 mod fvvdp_errors;

@@ -48,6 +48,8 @@ macro_rules! for_all_metrics {
             Haar, haar: profile::haar;
             /// Average temporal difference.
             Atd, atd: temporal::atd;
+            /// Change of luma over several frames.
+            Flicker, flicker: temporal::flicker;
         }
     };
 }

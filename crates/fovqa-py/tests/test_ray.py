@@ -424,7 +424,9 @@ def test_units_have_room_for_frames_before_them(experiment):
     long = EXPERIMENT.replace("frames = 7", "frames = 65")
     experiment.write_text(long)
     assert _driver._units(fovqa._native.Sharded(experiment), None) == 2
-    experiment.write_text(long.replace("atd = {}\nfvvdp = {}\n", "").replace('model = "kfr"', 'model = "rmfr"'))
+    for over_time in ("atd = {}\n", "flicker = { frames = 4 }\n", "fvvdp = {}\n"):
+        long = long.replace(over_time, "")
+    experiment.write_text(long.replace('model = "kfr"', 'model = "rmfr"'))
     found = fovqa._native.Sharded(experiment)
     assert not found.reads_frames_before and _driver._units(found, None) == 5
 

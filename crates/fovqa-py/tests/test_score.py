@@ -17,7 +17,7 @@ from conftest import ROOM, command
 VIEW = {"fov_vertical_deg": 95, "bands_deg": [0, 5, 10, 20, 40]}
 OPTIONS = ["--fov-vertical", 95, "--bands", "0,5,10,20,40"]
 # What 8-bit stills have.
-EVERYTHING = [name for name in fovqa.metrics() if name not in ("atd", "hdr_flip")]
+EVERYTHING = [name for name in fovqa.metrics() if name not in ("atd", "flicker", "hdr_flip")]
 
 
 def as_arguments(text: str) -> str:
@@ -105,7 +105,7 @@ def test_a_sequence_has_the_numbers_of_its_files(tmp_path):
         95,
     )
     options = [*OPTIONS, "--gaze", tmp_path / "gaze.csv", "--fps", 90, "--luminance", "htc-vive-pro"]
-    options += ["--metrics", "psnr,ssim,atd,fvvdp"]
+    options += ["--metrics", "psnr,ssim,atd,flicker,fvvdp", "--set", "flicker.frames=3"]
     wanted = json.loads(command("score", tmp_path / "exr", tmp_path / "rmfr", *options, "--format", "json"))
     read = [fovqa.read(path, guides=True) for path in sorted((tmp_path / "exr").iterdir())]
     references = [frame.image for frame in read]
@@ -130,7 +130,7 @@ def test_a_sequence_has_the_numbers_of_its_files(tmp_path):
             view={**VIEW, "luminance": "htc-vive-pro"},
             gaze=gaze,
             fps=90,
-            metrics=["psnr", "ssim", "atd", "fvvdp"],
+            metrics={"psnr": {}, "ssim": {}, "atd": {}, "flicker": {"frames": 3}, "fvvdp": {}},
             motion=[frame.motion for frame in read],
             depth=[frame.depth for frame in read],
         ).to_dict()

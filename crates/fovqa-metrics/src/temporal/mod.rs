@@ -2,6 +2,7 @@
 //! frames before it, of which only as many are kept as a metric needs.
 
 pub mod atd;
+pub mod flicker;
 mod kept_motion;
 pub(crate) mod kept_plane;
 mod source;

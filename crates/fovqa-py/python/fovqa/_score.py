@@ -63,6 +63,7 @@ class Score:
     fvvdp: float | None
     pu_psnr: float | None
     atd: float | None
+    flicker: float | None
 
     def __init__(self, found: dict[str, Any]) -> None:
         self._json: str = found["json"]
