@@ -252,7 +252,8 @@ const MISTAKES: &[Mistake] = &[
         false,
     ),
     ("metric = \"psnr\"\nlevel = 1\nat_least = 1", &["psnr has no levels"], (2, 9), false),
-    ("metric = \"psnr\"\nlevel = 0\nat_least = 1", &["level"], (2, 9), true),
+    ("metric = \"psnr\"\nlevel = 0\nat_least = 1", &["psnr has no level 0"], (2, 9), false),
+    ("metric = \"psnr\"\nlevel = 101\nat_least = 1", &["level", "-100 to 100"], (2, 9), true),
     (
         "metric = \"psnr\"\nimage = \"test\"\nat_least = 1",
         &["psnr has one value per pair of images, and so no test"],

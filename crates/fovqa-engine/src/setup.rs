@@ -183,6 +183,11 @@ impl<'a> Setup<'a> {
         Some(Eccentricity::new(*view, gaze_px, *kind))
     }
 
+    /// The edges of the bands; `None` without a view.
+    pub(crate) fn edges(&self) -> Option<&BandEdges> {
+        Some(&self.retinas.maker.viewing.as_ref()?.edges)
+    }
+
     /// How the eye sees a frame with this gaze; `None` without a view.
     pub(crate) fn seen(&self, gaze_px: [f64; 2]) -> Option<Seen> {
         let eccentricity = self.eccentricity(gaze_px)?;

@@ -274,7 +274,9 @@ impl FrameRows {
             let (value, parts) = pool(pooling, [(l.value, l.parts), (r.value, r.parts)]);
             (pooling != Pooling::None).then_some(Row { key: l.key, value, parts })
         });
-        both.collect()
+        let mut rows: Rows = both.collect();
+        rows.derive();
+        rows
     }
 }
 

@@ -31,6 +31,8 @@ pub struct MetricInfo {
     pub needs: Needs,
     /// Its statistics, with the way in which each is pooled.
     pub statistics: &'static [Statistic],
+    /// Computes values of the pair that follow from the values of both pictures, of a frame or of means.
+    pub derive: Option<fn(&Rows) -> Rows>,
     /// The map of a pair, if the metric has one.
     pub map: Option<&'static MapInfo>,
     /// Other maps that are made with it.
@@ -56,6 +58,7 @@ impl MetricInfo {
         per_band: false,
         needs: Needs::NOTHING,
         statistics: &[Statistic::VALUE],
+        derive: None,
         map: None,
         more_maps: &[],
         about: "",

@@ -4,6 +4,7 @@
 //! stored with the sequence.
 
 use std::cmp::Ordering;
+use std::ops::RangeInclusive;
 
 use crate::kinds::MetricKind;
 use crate::metric::Metric;
@@ -18,8 +19,9 @@ pub struct Key {
     statistic: u8,
     /// The picture that the value describes.
     pub image: Image,
-    /// Level of the wavelet, or index of the spatial-frequency band, from 1 on.
-    pub level: Option<u8>,
+    /// Level of the wavelet or index of the spatial-frequency band, from 1 on; half octave of the
+    /// spectrum, from below 0 on.
+    pub level: Option<i16>,
     /// Index of the eccentricity band; `None` for the whole frame.
     pub band: Option<u16>,
 }
@@ -175,6 +177,9 @@ impl Subject {
 }
 
 impl Key {
+    /// The levels that a key can have.
+    pub const LEVELS: RangeInclusive<i16> = -MOST_LEVEL..=MOST_LEVEL;
+
     /// The key of the metric's first statistic, for the whole frame and the pair.
     pub fn of(metric: Metric) -> Self {
         Self::pixels(Subject::Metric(metric))
@@ -207,8 +212,14 @@ impl Key {
     /// The same key for a level.
     #[must_use]
     pub fn on_level(self, level: usize) -> Self {
-        debug_assert!(u8::try_from(level).is_ok(), "a level halves the frame");
-        Self { level: Some(level as u8), ..self }
+        self.at_level(level as i16)
+    }
+
+    /// The same key for a level that may be below 0.
+    #[must_use]
+    pub fn at_level(self, level: i16) -> Self {
+        debug_assert!(Self::LEVELS.contains(&level), "a level that keys can have");
+        Self { level: Some(level), ..self }
     }
 
     /// The same key for a picture.
@@ -268,22 +279,28 @@ impl Key {
             () if statistic.name.is_empty() => 2,
             () => 3,
         };
-        let level = self.level.map_or(0, u64::from);
+        let level = self.level.map_or(0, |level| (level + MOST_LEVEL) as u64);
         let outer_level = if area == 3 { level } else { 0 };
         // Each part has as many bits as it needs.
         let parts = [
             (area, 2),
-            (outer_level, 8),
+            (outer_level, LEVEL_BITS),
             (self.band.map_or(0, u64::from), 16),
             (kind, 3),
             (subject, 8),
-            (level, 8),
+            (level, LEVEL_BITS),
             (u64::from(self.statistic), 8),
             (self.image as u64, 2),
         ];
         parts.into_iter().fold(0, |order, (part, bits)| order << bits | part)
     }
 }
+
+/// The number of bits of a level in the order of keys.
+const LEVEL_BITS: u32 = 12;
+
+/// The largest level, which is added to levels in the order of keys so that they are not negative.
+const MOST_LEVEL: i16 = (1 << (LEVEL_BITS - 1)) - 1;
 
 impl PartialOrd for Key {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
@@ -343,6 +360,17 @@ impl Rows {
     /// Adds all values of another set.
     pub fn extend(&mut self, other: &Rows) {
         self.0.extend_from_slice(&other.0);
+    }
+
+    /// Adds the values of the pair that follow from the values of both pictures.
+    pub fn derive(&mut self) {
+        for metric in Metric::ALL {
+            let Some(derive) = metric.info().derive else { continue };
+            if self.0.iter().any(|row| row.key.metric() == Some(metric)) {
+                let derived = derive(self);
+                self.extend(&derived);
+            }
+        }
     }
 
     /// All rows.

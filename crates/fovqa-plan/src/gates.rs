@@ -74,7 +74,7 @@ pub struct Quantity {
     pub image: String,
     /// Level of the wavelet, or spatial band of FovVideoVDP, counted from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub level: Option<usize>,
+    pub level: Option<i64>,
     /// Lower and upper edge of the band in degrees; `None` for the whole frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub band_deg: Option<[f64; 2]>,

@@ -15,7 +15,7 @@ pub(crate) struct InBand<'a> {
     pub(crate) metric: Metric,
     pub(crate) image: Image,
     /// Level of the wavelet, from 1.
-    pub(crate) level: Option<usize>,
+    pub(crate) level: Option<i64>,
     /// Statistic of the wavelet; `None` for a metric's own value.
     pub(crate) statistic: Option<&'a str>,
     pub(crate) from_deg: f64,
@@ -23,7 +23,7 @@ pub(crate) struct InBand<'a> {
 }
 
 /// Metric, image, level and statistic of values, and the edges of their band, bit by bit.
-type Place = (Metric, Image, Option<usize>, String, [u64; 2]);
+type Place = (Metric, Image, Option<i64>, String, [u64; 2]);
 
 /// The moments over the frames, by scene and method, and by eye.
 #[derive(Debug, Default)]

@@ -183,7 +183,7 @@ fn haar_table(summary: &Summary) -> Text {
         return Text::default();
     };
     let of_haar = summary.compared.keys().filter(|key| key.subject == haar);
-    let levels = of_haar.filter_map(|key| key.level).max().map_or(0, usize::from);
+    let levels = of_haar.filter_map(|key| key.level).max().map_or(0, |level| level as usize);
     if levels == 0 {
         return Text::default();
     }

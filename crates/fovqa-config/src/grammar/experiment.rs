@@ -295,7 +295,7 @@ static SCENE_TABLE: [Key; 11 + VIEW.len() + 1 + SHARED.len() + SIGNAL.len() + 2]
             Kind::Whole(1, 4096),
             "samples for each pixel of a built-in scene; default: 16",
         ),
-        key("seed", Kind::Whole(0, u32::MAX as u64), "seed of a built-in scene; default: 1"),
+        key("seed", Kind::Whole(0, u32::MAX as i64), "seed of a built-in scene; default: 1"),
         key(
             "ipd_mm",
             Kind::Number(0.0, 200.0),

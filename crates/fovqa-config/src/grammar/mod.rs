@@ -47,11 +47,11 @@ pub(crate) enum Kind {
     /// A finite number greater than the first limit and not greater than the second.
     Above(f64, f64),
     /// An integer. Both limits are allowed.
-    Whole(u64, u64),
+    Whole(i64, i64),
     /// A finite number with both limits allowed, or a word.
     NumberOr(f64, f64, &'static str),
     /// An integer with both limits allowed, or a word.
-    WholeOr(u64, u64, &'static str),
+    WholeOr(i64, i64, &'static str),
     /// One of these words.
     Word(&'static [&'static str]),
     /// One of the words of a type.
@@ -213,9 +213,9 @@ pub(crate) const fn parameter(values: ParamValues) -> Kind {
     match values {
         ParamValues::Number(min, max) => Kind::Number(min, max),
         ParamValues::NumberOr(min, max, word) => Kind::NumberOr(min, max, word),
-        ParamValues::Whole(min, max) => Kind::Whole(min as u64, max as u64),
+        ParamValues::Whole(min, max) => Kind::Whole(min as i64, max as i64),
         ParamValues::Flag => Kind::Bool,
-        ParamValues::WholeOr(min, max, word) => Kind::WholeOr(min as u64, max as u64, word),
+        ParamValues::WholeOr(min, max, word) => Kind::WholeOr(min as i64, max as i64, word),
         ParamValues::Word(words) => Kind::Word(words),
         ParamValues::Numbers => Kind::List(&FINITE, 1, 1000),
         ParamValues::PairsOr(_) => Kind::Either(&PAIRS_OR_NONE),

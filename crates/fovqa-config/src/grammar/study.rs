@@ -130,7 +130,7 @@ static ANALYSIS: [Key; 55] = [
     key("validation_expected", LEVEL, "ratings: the correct score of validation trials"),
     key(
         "max_errors",
-        Kind::Whole(1, u32::MAX as u64),
+        Kind::Whole(1, u32::MAX as i64),
         "ratings: wrong validation trials with which a participant is left out",
     ),
     key("scores", Kind::Text, "metrics: results.csv of a run, relative to this file"),

@@ -253,10 +253,10 @@ fn level(
     statistic: &str,
     known: &Known<'_>,
     faults: &mut Faults,
-) -> Option<usize> {
-    let given = table.number("level").map(|level| level as usize);
+) -> Option<i64> {
+    let given = table.number("level").map(|level| level as i64);
     let spatial = statistic.starts_with("q_");
-    let levels = known.params.haar.levels as usize;
+    let levels = i64::from(known.params.haar.levels);
     let mut fault = |key: &str, message: String| {
         let fault = Fault::new(table.span(key), message);
         faults.push(fault.help("levels count from 1, the finest"));

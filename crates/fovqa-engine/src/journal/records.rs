@@ -43,7 +43,7 @@ pub(super) struct KeysRecord {
 
 /// A key as a list: metric or measure, statistic, image, level, band, and the number of its parts.
 #[derive(Serialize, Deserialize)]
-struct KeyRecord(String, String, String, Option<u8>, Option<u16>, usize);
+struct KeyRecord(String, String, String, Option<i16>, Option<u16>, usize);
 
 impl KeysRecord {
     pub(super) fn of(number: usize, layout: &Layout) -> Self {
@@ -55,10 +55,13 @@ impl KeysRecord {
         Self { number, layout: layout.keys().map(record).collect() }
     }
 
-    /// The layout of these keys; `None` if a name is unknown.
+    /// The layout of these keys; `None` if a name is unknown, or a level is one that no key has.
     pub(super) fn read(self) -> Option<Layout> {
         let key = |KeyRecord(subject, statistic, image, level, band, parts): KeyRecord| {
             let mut key = Key::named(Subject::find(&subject)?, &statistic)?;
+            if level.is_some_and(|level| !Key::LEVELS.contains(&level)) {
+                return None;
+            }
             (key.level, key.band, key.image) = (level, band, Image::find(&image)?);
             Some((key, parts))
         };

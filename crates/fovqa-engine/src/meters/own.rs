@@ -1,6 +1,6 @@
 //! Fidelity metrics that share a pass with no other metric.
 
-use fovqa_metrics::{BlockRegions, Metric, PairInput, Params, Scored};
+use fovqa_metrics::{BlockRegions, Metric, MetricKind, PairInput, Params, Scored};
 use fovqa_plan::Plan;
 
 use super::Pair;
@@ -15,7 +15,8 @@ pub(super) struct Own {
 
 impl Own {
     pub(super) fn new(plan: &Plan, metrics: &[Metric]) -> Self {
-        let metrics = metrics.iter().copied().filter(|metric| metric.has_own_pass());
+        let own = |metric: &Metric| metric.is(MetricKind::Fidelity) && metric.has_own_pass();
+        let metrics = metrics.iter().copied().filter(own);
         Self { metrics: metrics.collect(), params: (*plan.params).clone() }
     }
 

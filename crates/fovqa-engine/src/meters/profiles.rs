@@ -1,7 +1,7 @@
 //! Measures of each image by itself. The luma of both images is stored for the temporal metrics.
 
 use fovqa_metrics::temporal::KeptPlane;
-use fovqa_metrics::{BlockRegions, Image, Metric, Params, Profiler, Rows};
+use fovqa_metrics::{BlockRegions, Image, Metric, Params, PictureInput, Profiler, Rows};
 use fovqa_plan::Plan;
 
 use super::{Lumas, Pair};
@@ -30,11 +30,13 @@ impl Profiles {
         let known = self.reference.take().filter(|_| pair.finite.is_none());
         let plane = lumas.reference_to_fill(pair.position);
         let reference = known.unwrap_or_else(|| one(&self.profiler, pair, Image::Reference, plane));
-        rows.extend(&reference);
+        let mut both = one(&self.profiler, pair, Image::Test, lumas.test_to_fill());
+        both.extend(&reference);
+        both.derive();
+        rows.extend(&both);
         if pair.finite.is_none() {
             self.reference = Some(reference);
         }
-        rows.extend(&one(&self.profiler, pair, Image::Test, lumas.test_to_fill()));
     }
 }
 
@@ -53,5 +55,14 @@ fn one(profiler: &Profiler, pair: &Pair<'_>, image: Image, plane: Option<&mut Ke
     let none = BlockRegions::default();
     let levels = profiler.haar_levels().unwrap_or(0);
     let blocks = pair.blocks_of(levels).unwrap_or(&none);
-    profiler.measure(&side.frame, pair.tables, pair.regions, blocks, image, plane)
+    let eccentricity = pair.setup.eccentricity(pair.gaze_px);
+    let input = PictureInput {
+        frame: &side.frame,
+        tables: pair.tables,
+        regions: pair.regions,
+        blocks,
+        seen: eccentricity.as_ref().zip(pair.setup.edges()),
+        image,
+    };
+    profiler.measure(&input, plane)
 }

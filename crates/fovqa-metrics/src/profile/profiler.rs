@@ -1,13 +1,14 @@
 //! Computes all profiles of one picture in one pass.
 
-use fovqa_frame::{Frame, LumaKind, LumaSignal, SignalTables};
+use fovqa_frame::{LumaKind, LumaSignal};
 
 use super::haar;
 use super::pass::{Contrast, Wanted, run};
+use super::picture_input::PictureInput;
 use super::rms_contrast;
+use crate::kinds::MetricKind;
 use crate::metric::Metric;
 use crate::pooling::Parts;
-use crate::regions::{BlockRegions, Regions};
 use crate::registry::Params;
 use crate::row::{Image, Key, Rows};
 use crate::temporal::kept_plane::KeptPlane;
@@ -17,15 +18,21 @@ use crate::temporal::kept_plane::KeptPlane;
 pub struct Profiler {
     rms_contrast: Option<rms_contrast::Params>,
     haar: Option<haar::Params>,
+    /// The profiles with a pass of their own.
+    own: Vec<Metric>,
+    params: Params,
 }
 
 impl Profiler {
     /// A profiler for the profiles among these metrics.
     pub fn new(metrics: &[Metric], params: &Params) -> Self {
         let wants = |metric| metrics.contains(&metric);
+        let own = |metric: &Metric| metric.is(MetricKind::Profile) && metric.has_own_pass();
         Self {
             rms_contrast: wants(Metric::RmsContrast).then_some(params.rms_contrast),
             haar: wants(Metric::Haar).then_some(params.haar),
+            own: metrics.iter().copied().filter(own).collect(),
+            params: params.clone(),
         }
     }
 
@@ -36,23 +43,15 @@ impl Profiler {
 
     /// Whether there is nothing to measure.
     pub fn is_idle(&self) -> bool {
-        self.rms_contrast.is_none() && self.haar.is_none()
+        self.rms_contrast.is_none() && self.haar.is_none() && self.own.is_empty()
     }
 
-    /// Measures a picture, which is the reference or the test as `image` says. `plane` receives its
-    /// luma for [`crate::temporal`].
+    /// Measures a picture. `plane` receives its luma for [`crate::temporal`].
     ///
     /// # Panics
     /// When regions, blocks or plane do not have the picture's size.
-    pub fn measure(
-        &self,
-        frame: &Frame,
-        tables: &SignalTables,
-        regions: &Regions<'_>,
-        blocks: &BlockRegions<'_>,
-        image: Image,
-        plane: Option<&mut KeptPlane>,
-    ) -> Rows {
+    pub fn measure(&self, input: &PictureInput<'_>, plane: Option<&mut KeptPlane>) -> Rows {
+        let &PictureInput { frame, tables, regions, blocks, image, .. } = input;
         assert_eq!(regions.rows(), frame.height(), "regions of this picture");
         let plane = plane.map(|plane| plane.resized(frame.width(), frame.height()));
         let luma = LumaSignal::new(frame, tables, LumaKind::Luma);
@@ -66,9 +65,17 @@ impl Profiler {
             assert_eq!(blocks.levels(), haar.levels as usize, "blocks of these levels");
             blocks
         });
+        let mut rows = Rows::default();
+        for metric in &self.own {
+            if let Some(found) = self.params.profile(*metric, input) {
+                rows.extend(&found);
+            }
+        }
+        if plane.is_none() && contrast.is_none() && blocks.is_none() {
+            return rows;
+        }
         let sums = run(&Wanted { luma: &luma, contrast, regions, blocks }, plane);
         let bands = regions.bands();
-        let mut rows = Rows::default();
         if let Some(params) = self.rms_contrast {
             let key = Key::of(Metric::RmsContrast).of_image(image);
             for (band, moments) in sums.moments[..bands].iter().enumerate() {

@@ -66,7 +66,15 @@ impl Setup {
             Some(mask) => (Regions::masked(&bands, mask, 5), BlockRegions::masked(&maps, mask)),
         };
         let tables = SignalTables::new(SignalParams::default());
-        profiler.measure(&self.frame, &tables, &regions, &blocks, Image::Reference, plane)
+        let input = PictureInput {
+            frame: &self.frame,
+            tables: &tables,
+            regions: &regions,
+            blocks: &blocks,
+            seen: None,
+            image: Image::Reference,
+        };
+        profiler.measure(&input, plane)
     }
 
     fn band_at(&self, x_px: f64, y_px: f64) -> Option<usize> {

@@ -189,6 +189,7 @@ impl Selection<'_> {
                 Shown::Ratio => (Some(1.0), compared.ratio()),
             };
             let image = Image::Test;
+            let level = level.map(|level| level as i64);
             let place = InBand { metric, image, level, statistic, from_deg, to_deg };
             let error = error_bars.and_then(|kind| self.source.spread.half_length(of, place, kind));
             Values { from_deg, to_deg, reference, test, error }

@@ -125,7 +125,7 @@ fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String>
         }
     }
     let bands = comparison.bands.len();
-    for ((metric, statistic, ..), rows) in &values.rows {
+    for ((metric, statistic, _, level), rows) in &values.rows {
         if is_double(rows) {
             return Err(format!("a row of {metric} of {scene}, {method} appears twice in it"));
         }

@@ -35,7 +35,7 @@ pub(super) struct Values {
 }
 
 /// What a row contains: metric, statistic, image and level.
-pub(super) type Kind = (String, String, String, Option<usize>);
+pub(super) type Kind = (String, String, String, Option<i64>);
 
 /// One row of the table.
 #[derive(Debug, Clone, Copy)]
@@ -359,7 +359,7 @@ impl Values {
     fn by_band(
         &self,
         quantity: &Quantity,
-        (metric, statistic, level): (&str, &str, Option<usize>),
+        (metric, statistic, level): (&str, &str, Option<i64>),
     ) -> Result<Weights, Lacking> {
         let kind = (metric.to_owned(), statistic.to_owned(), "pair".to_owned(), level);
         let none = Vec::new();

@@ -161,21 +161,28 @@ fn haar_records<T: Clone>(
     edges: &[(f64, f64)],
     count: impl Fn(Key) -> u64,
 ) -> Vec<HaarRecord<T>> {
-    let mut places: BTreeMap<(usize, usize), Grouped<T>> = BTreeMap::new();
+    let mut places: BTreeMap<(i16, usize), Grouped<T>> = BTreeMap::new();
     for (key, sides) in values.filter(|(key, _)| key.metric() == Some(Metric::Haar)) {
         let (Some(level), Some(band)) = (key.level, key.band) else { continue };
-        let place = places.entry((level.into(), band.into())).or_default();
+        let place = places.entry((level, band.into())).or_default();
         place.entry(orientation(key.statistic().name)).or_default().push(sides);
     }
-    let record = |((level, band), mut of): ((usize, usize), Grouped<T>)| {
+    let record = |((level, band), mut of): ((i16, usize), Grouped<T>)| {
         let &(from_deg, to_deg) = edges.get(band)?;
         let coefficients = Key::named(Subject::Metric(Metric::Haar), "coefficients")?;
-        let coefficients = count(coefficients.on_level(level).in_band(band));
+        let coefficients = count(coefficients.at_level(level).in_band(band));
         let all = sides(of.remove(&None).unwrap_or_default());
         let orientations =
             of.into_iter().filter_map(|(name, values)| Some((name?.to_owned(), sides(values))));
         let orientations = orientations.collect();
-        Some(HaarRecord { level, from_deg, to_deg, coefficients, all, orientations })
+        Some(HaarRecord {
+            level: level as usize,
+            from_deg,
+            to_deg,
+            coefficients,
+            all,
+            orientations,
+        })
     };
     places.into_iter().filter_map(record).collect()
 }

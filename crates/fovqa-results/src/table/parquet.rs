@@ -120,7 +120,7 @@ impl Group {
         }
         let [frame, level] = &mut self.whole;
         frame.push(row.frame);
-        level.push(row.level.map(|level| level as i64));
+        level.push(row.level);
         let [from, to, value] = &mut self.numbers;
         from.push(row.band.map(|[from, _]| from));
         to.push(row.band.map(|[_, to]| to));
@@ -284,7 +284,6 @@ impl Batch {
         let [image, metric, statistic] = [4, 5, 6].map(|column| self.text(column, row));
         let (image, metric) = (image?, metric?);
         let image = Image::find(image).ok_or_else(|| format!("there is no image {image:?}"))?;
-        let level = self.whole[1][row].map(usize::try_from).transpose();
         let value = self.numbers[2][row].filter(|_| metric != ERROR);
         if value.is_some_and(f64::is_nan) {
             return Err("its value is not a number".to_owned());
@@ -298,7 +297,7 @@ impl Batch {
             image,
             metric,
             statistic: statistic?,
-            level: level.map_err(|_| "its level is negative".to_owned())?,
+            level: self.whole[1][row],
             band: self.numbers[0][row].zip(self.numbers[1][row]).map(Into::into),
             value: value.map(Value::Measured),
         })

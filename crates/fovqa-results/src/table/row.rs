@@ -47,8 +47,8 @@ pub struct TableRow<'a> {
     pub metric: &'a str,
     /// Name of the statistic; empty for the metric's own value.
     pub statistic: &'a str,
-    /// The level, counted from 1.
-    pub level: Option<usize>,
+    /// The level, counted from 1; of the spectrum the half octave, which may be negative.
+    pub level: Option<i64>,
     /// Edges of the band in degrees; `None` for the whole frame.
     pub band: Option<[f64; 2]>,
     /// The value; `None` if nothing could be measured.

@@ -99,7 +99,7 @@ impl Table<'_, '_> {
             image: key.image,
             metric: key.subject.name(),
             statistic: statistic.name,
-            level: key.level.map(usize::from),
+            level: key.level.map(i64::from),
             band,
             value: value.map(cell),
             ..*row
@@ -134,7 +134,7 @@ impl Table<'_, '_> {
         index: usize,
         band: &SpatialBand,
     ) -> io::Result<()> {
-        let row = TableRow { level: Some(index + 1), ..*row };
+        let row = TableRow { level: Some(index as i64 + 1), ..*row };
         let values =
             [("q_sustained", Some(band.sustained)), ("q_transient", band.transient)].into_iter();
         for (statistic, value) in values {
@@ -197,7 +197,7 @@ impl Table<'_, '_> {
             };
             let row = TableRow {
                 metric: key.subject.name(),
-                level: key.level.map(usize::from),
+                level: key.level.map(i64::from),
                 band: band.map(|band| [band.from_deg, band.to_deg]),
                 ..TableRow::default()
             };
