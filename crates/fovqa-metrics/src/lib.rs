@@ -42,7 +42,7 @@ pub use metric_params::NoParams;
 pub use pair_input::PairInput;
 pub use param_set::ParamSet;
 pub use pooling::{Parts, Pool, Pooling, Statistic, Weight, pool};
-pub use profile::{PictureInput, Profiler};
+pub use profile::{PictureInput, Profiler, spectrum};
 pub use regions::{BlockRegions, Regions};
 pub use registry::Params;
 pub use row::{Image, Key, Row, Rows, Subject};

@@ -46,6 +46,8 @@ macro_rules! for_all_metrics {
             RmsContrast, rms_contrast: profile::rms_contrast;
             /// Haar wavelet coefficients by level and eccentricity.
             Haar, haar: profile::haar;
+            /// Power spectrum by eccentricity.
+            Spectrum, spectrum: profile::spectrum;
             /// Average temporal difference.
             Atd, atd: temporal::atd;
             /// Change of luma over several frames.

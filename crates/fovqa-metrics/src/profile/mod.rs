@@ -6,6 +6,7 @@ mod pass;
 mod picture_input;
 mod profiler;
 pub mod rms_contrast;
+pub mod spectrum;
 #[cfg(test)]
 mod tests;
 
