@@ -49,7 +49,7 @@ const VISIBLE: [&str; 4] = ["--metrics", "fvvdp", "--format", "json"];
 
 /// Metrics that share a pass with no other, with the files they need and what they have to cost at most. The
 /// exposures of HDR-FLIP are given, because the picture has no more than three.
-const OWN_PASSES: [(&str, &str, &[&str], Option<&str>); 3] = [
+const OWN_PASSES: [(&str, &str, &[&str], Option<&str>); 4] = [
     (
         "PNG: FLIP",
         "png",
@@ -72,6 +72,7 @@ const OWN_PASSES: [(&str, &str, &[&str], Option<&str>); 3] = [
         Some("0.80 CPU s, 350 MiB"),
     ),
     ("PNG: FWQI", "png", &["--metrics", "fwqi", "--fov-vertical", "60"], None),
+    ("PNG: spectrum", "png", &["--metrics", "spectrum", "--fov-vertical", "60"], None),
 ];
 
 /// Frames of the sequence, and those that flicker compares.

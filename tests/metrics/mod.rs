@@ -10,6 +10,7 @@ mod maps;
 mod more;
 mod profiles;
 mod profiles_of_eyes;
+mod spectrum;
 mod temporal;
 mod temporal_masks;
 mod wide_fields;

@@ -131,3 +131,13 @@ fn hdr_flip_is_that_of_its_own_program() {
 fn fwqi_is_that_of_an_independent_program() {
     check("fwqi");
 }
+
+#[test]
+fn flicker_is_that_of_an_independent_program() {
+    check("flicker");
+}
+
+#[test]
+fn spectra_are_those_of_an_independent_program() {
+    check("spectrum");
+}

@@ -26,7 +26,8 @@ const MOVING: &str = "[[scene]]\nname = \"moving\"\nreference = \"moving/gt\"\nf
 
 /// Everything that is measured over time, and some that is not.
 const METRICS: &str = "[metrics]\nmse = {}\npsnr = {}\nssim = {}\nfpsnr = {}\npu_psnr = {}\n\
-                       rms_contrast = {}\nhaar = { levels = 2 }\natd = {}\n";
+                       rms_contrast = {}\nhaar = { levels = 2 }\nspectrum = { block = 16 }\natd = {}\n\
+                       flicker = { frames = 4 }\n";
 
 /// Figures take longer than these frames.
 const PLOTS: &str = "[[plot]]\nkind = \"table\"\n";

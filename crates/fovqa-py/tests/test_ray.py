@@ -59,6 +59,8 @@ emulate = {{ model = "kfr", budget = 0.1 }}
 psnr = {{}}
 ssim = {{}}
 atd = {{}}
+flicker = {{ frames = 4 }}
+spectrum = {{ block = 32 }}
 fvvdp = {{}}
 """
 

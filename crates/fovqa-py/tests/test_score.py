@@ -237,7 +237,7 @@ def test_a_result_can_be_looked_at(room):
         _ = score.fvvdp
     again = pickle.loads(pickle.dumps(score))
     assert again.to_json() == score.to_json() and np.array_equal(again.map("ssim"), score.map("ssim"), equal_nan=True)
-    assert set(fovqa.metrics()) - {"rms_contrast", "haar"} <= set(fovqa.Score.__annotations__)
+    assert set(fovqa.metrics()) - {"rms_contrast", "haar", "spectrum"} <= set(fovqa.Score.__annotations__)
 
 
 def test_linear_files_have_hdr_flip():
@@ -258,7 +258,13 @@ def test_bands_and_profiles_show_the_values(room, tmp_path):
     assert sides[2] == pytest.approx(sides[1] / sides[0])
     energy = [of for of in document["summary_haar"] if of["level"] == 2][0]["ratio"]["energy"]
     assert score.bands("haar", level=2)[0].value == (energy["mean"] if isinstance(energy, dict) else energy)
-    for name in ("psnr", "rms_contrast", "haar", "fvvdp"):
+    spectrum = document["summary_spectrum"]
+    assert [band.value for band in score.bands("spectrum")] == [band["cutoff_cpd"] for band in spectrum]
+    whole = next(of for of in spectrum[1]["bins"] if of["cpd"] == 1.0)
+    found = [score.bands("spectrum", image, 0, "power")[1].value for image in ("test", "ratio")]
+    assert found == [whole["test"]["power"]["mean"], whole["ratio"]]
+    assert "Spectrum, cut-off (cpd)" in score._repr_html_()
+    for name in ("psnr", "rms_contrast", "haar", "fvvdp", "spectrum"):
         figure = score.profile(name, title="A room", width_in=4)
         assert "A room" in figure.svg and ("reference" in figure.svg) == (name in ("rms_contrast", "haar"))
     for ending, start in (("svg", b"<svg"), ("pdf", b"%PDF"), ("png", b"\x89PNG")):

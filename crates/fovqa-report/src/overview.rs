@@ -7,8 +7,8 @@ use std::path::Path;
 use fovqa_metrics::{Key, Metric, MetricKind};
 use fovqa_results::{
     BandStatistics, BudgetSummary, ComparisonSummary, DoubtRecord, EccentricityShare, ErrorRecord,
-    FileError, GuideSource, HaarRecord, HaarValues, SideValues, 
-    Spread, Statistics, TemporalSummaries, TemporalSummary, ViewRecord,
+    FileError, GuideSource, HaarRecord, HaarValues, SideValues, SpectrumBin, SpectrumRecord,
+    SpectrumValues, Spread, Statistics, TemporalSummaries, TemporalSummary, ViewRecord,
     read_summary,
 };
 
@@ -39,6 +39,8 @@ pub(crate) struct Measured {
     pub(crate) bands: Box<[Band]>,
     /// The wavelet statistics by level and band.
     pub(crate) wavelet: Box<[WaveletBand]>,
+    /// The power spectrum of each band.
+    pub(crate) spectrum: Box<[SpectrumBand]>,
     /// The temporal metrics of the sequence.
     pub(crate) temporal: TemporalSummaries,
     /// JOD of FovVideoVDP.
@@ -72,6 +74,23 @@ pub(crate) struct Band {
     pub(crate) to_deg: f64,
     means: Box<[(Metric, Option<f64>)]>,
     compared: Box<[(Metric, Compared)]>,
+}
+
+/// The power spectrum of a band.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SpectrumBand {
+    pub(crate) from_deg: f64,
+    pub(crate) to_deg: f64,
+    /// The frequency up to which the test has the reference's power.
+    pub(crate) cutoff_cpd: Option<f64>,
+    pub(crate) points: Box<[SpectrumPoint]>,
+}
+
+/// Power density at a frequency, and the ratio of the power.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SpectrumPoint {
+    pub(crate) cpd: f64,
+    values: Compared,
 }
 
 /// The values of a wavelet level in an eccentricity band.
@@ -162,6 +181,10 @@ impl Measured {
         let share = |(from_deg, to_deg)| EccentricityShare { from_deg, to_deg, share: Some(0.5) };
         let score = |metric: &Metric| (*metric, Score { mean: 1.0, identical_frames: None });
         let of_metric = |metric: &&Metric| metric.is(MetricKind::Fidelity);
+        let spectrum = |(from_deg, to_deg)| {
+            let points = Box::new([SpectrumPoint { cpd: 1.0, values: compared() }]);
+            SpectrumBand { from_deg, to_deg, cutoff_cpd: Some(1.0), points }
+        };
         let over_time = |metric: &&Metric| metric.is(MetricKind::Temporal);
         let temporal = |metric: &Metric| {
             let summary = TemporalSummary {
@@ -187,6 +210,7 @@ impl Measured {
             scores: metrics.iter().filter(of_metric).map(score).collect(),
             bands: edges.clone().map(of_band).collect(),
             wavelet: levels.flat_map(level).collect(),
+            spectrum: edges.clone().filter(|_| has(Metric::Spectrum)).map(spectrum).collect(),
             temporal: TemporalSummaries(metrics.iter().filter(over_time).map(temporal).collect()),
             jod: has(Metric::Fvvdp).then_some(9.0),
             jod_missing: None,
@@ -211,6 +235,7 @@ impl Measured {
             scores: comparison.metrics.iter().map(score).collect(),
             bands: comparison.bands.iter().map(Band::of).collect(),
             wavelet: comparison.haar.iter().map(WaveletBand::of).collect(),
+            spectrum: comparison.spectrum.iter().map(SpectrumBand::of).collect(),
             temporal: comparison.temporal.clone(),
             jod: fvvdp.and_then(|fvvdp| fvvdp.jod),
             jod_missing: fvvdp.and_then(|fvvdp| fvvdp.reason.as_deref()).map(Into::into),
@@ -248,6 +273,7 @@ impl Measured {
             MetricKind::Fidelity => self.score(metric).is_some(),
             MetricKind::Temporal => self.temporal.of(metric).is_some_and(|of| of.frames > 0),
             MetricKind::Profile if metric == Metric::Haar => !self.wavelet.is_empty(),
+            MetricKind::Profile if metric == Metric::Spectrum => !self.spectrum.is_empty(),
             MetricKind::Profile => self.bands.iter().any(|band| band.compared(metric).is_some()),
         }
     }
@@ -289,6 +315,44 @@ impl Band {
     /// The values of a measure that is computed for each image.
     pub(crate) fn compared(&self, metric: Metric) -> Option<&Compared> {
         of(&self.compared, metric)
+    }
+}
+
+impl SpectrumBand {
+    fn of(record: &SpectrumRecord<Spread>) -> Self {
+        let density = |of: &SpectrumValues<Spread>| of.density.map(|spread| spread.mean);
+        let point = |bin: &SpectrumBin<Spread>| SpectrumPoint {
+            cpd: bin.cpd,
+            values: Compared::new([density(&bin.reference), density(&bin.test), bin.ratio]),
+        };
+        Self {
+            from_deg: record.from_deg,
+            to_deg: record.to_deg,
+            cutoff_cpd: record.cutoff_cpd,
+            points: record.bins.iter().map(point).collect(),
+        }
+    }
+
+    /// Both edges in degrees, bit by bit.
+    pub(crate) fn edges(&self) -> [u64; 2] {
+        [self.from_deg, self.to_deg].map(f64::to_bits)
+    }
+}
+
+impl SpectrumPoint {
+    /// Power density of the reference.
+    pub(crate) fn reference(&self) -> Option<f64> {
+        self.values.reference()
+    }
+
+    /// Power density of the test.
+    pub(crate) fn test(&self) -> Option<f64> {
+        self.values.test()
+    }
+
+    /// test / reference of the power.
+    pub(crate) fn ratio(&self) -> Option<f64> {
+        self.values.ratio()
     }
 }
 
@@ -383,6 +447,7 @@ mod tests {
             metrics: BTreeMap::new(),
             bands: Vec::new(),
             haar: Vec::new(),
+            spectrum: Vec::new(),
             temporal: TemporalSummaries::default(),
             fvvdp: None,
             samples: None,

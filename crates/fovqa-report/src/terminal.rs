@@ -6,7 +6,7 @@ use fovqa_metrics::{Image, Key, Metric, MetricKind, Subject};
 use fovqa_params::Words;
 use fovqa_results::{
     FvvdpSummary, GuideSource, ScoreReport, Statistics, StereoReport, Summary, TemporalSummary,
-    
+    summary_spectra,
 };
 
 use crate::text::Text;
@@ -108,6 +108,7 @@ fn values(report: &ScoreReport, of_frames: bool) -> Text {
     }
     text.push(band_table(report, &summary));
     text.push(haar_table(&summary));
+    text.push(spectrum_table(&summary, report.frames.len()));
     for (subject, where_they_are) in [
         (Subject::PixelsOutsideBands, "lie outside all bands"),
         (Subject::PixelsLeftOut, "are left out by a mask"),
@@ -127,7 +128,7 @@ fn values(report: &ScoreReport, of_frames: bool) -> Text {
 fn band_table(report: &ScoreReport, summary: &Summary) -> Text {
     let per_band = report.metrics.iter().copied().filter(|m| m.info().per_band);
     let (fidelity, compared): (Vec<Metric>, Vec<Metric>) =
-        per_band.filter(|m| *m != Metric::Haar).partition(|m| m.is(MetricKind::Fidelity));
+        per_band.filter(|m| !has_own_table(*m)).partition(|m| m.is(MetricKind::Fidelity));
     if summary.bands.is_empty() || (fidelity.is_empty() && compared.is_empty()) {
         return Text::default();
     }
@@ -173,6 +174,33 @@ fn band_table(report: &ScoreReport, summary: &Summary) -> Text {
     if !compared.is_empty() {
         text.push_str("in brackets: test / reference\n");
     }
+    text
+}
+
+/// Whether a metric has several values per band, and so a table of its own.
+fn has_own_table(metric: Metric) -> bool {
+    matches!(metric, Metric::Haar | Metric::Spectrum)
+}
+
+/// The cut-off of the spectrum in each band.
+fn spectrum_table(summary: &Summary, frames: usize) -> Text {
+    let spectra = summary_spectra(summary);
+    if spectra.is_empty() {
+        return Text::default();
+    }
+    let header = ["eccentricity", "blocks", "spectrum cut-off in cpd"].map(str::to_owned);
+    let mut table = TextTable::new(header);
+    for band in &spectra {
+        let cutoff = band.cutoff_cpd.map_or_else(missing, |cpd| format!("{cpd:.2}"));
+        let label = format!("{}° to {}°", band.from_deg, band.to_deg);
+        table.add_row([label, band.blocks.to_string(), cutoff]);
+    }
+    let mut text = Text::from("\n".to_owned());
+    text.push_table(table);
+    let all = if frames == 1 { "" } else { "of the mean power; blocks of all frames together; " };
+    text.push_str(&format!(
+        "{all}– where the test lacks the lowest half octave, or the reference has no power\n"
+    ));
     text
 }
 

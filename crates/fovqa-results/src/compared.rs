@@ -84,5 +84,10 @@ mod tests {
             );
         }
         assert_eq!(sides(None, Some(1.0)).reason(statistic), Some("no value"));
+        let power = Key::of(fovqa_metrics::Metric::Spectrum).statistic();
+        let next_to_nothing = sides(Some(1e-13), Some(1.0));
+        assert_eq!(next_to_nothing.ratio(power), None);
+        assert_eq!(next_to_nothing.reason(power), Some("the reference is next to 0"));
+        assert_eq!(sides(Some(0.5), Some(1.0)).ratio(power), Some(2.0));
     }
 }

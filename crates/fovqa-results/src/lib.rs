@@ -54,7 +54,8 @@ pub use json::{
     BandStatistics, BudgetRecord, ComparisonSummary, DoubtRecord, ErrorRecord, ExperimentRecord,
     FOVEATE_SCHEMA, FoveateErrorRecord, FoveateRecord, FoveatedRecord, HaarRecord, HaarSides,
     HaarValues, MOST_LISTED_INPUTS, Number, RUN_SCHEMA, RunRecord, SCORE_SCHEMA, SUMMARY_SCHEMA,
-    SideValues, ViewRecord, read_summary, write_json, write_stereo_json, write_summary,
+    SideValues, SpectrumBin, SpectrumRecord, SpectrumValues, ViewRecord, read_summary,
+    summary_spectra, write_json, write_stereo_json, write_summary,
 };
 pub use limits::{LIMITS_SCHEMA, LimitPoint, LimitRecord, LimitRule, LimitState, LimitsRecord};
 pub use output::{

@@ -20,14 +20,18 @@ pub(super) static GATE_TABLE: [Key; 17] = [
     key(
         "statistic",
         Kind::Text,
-        "for haar: mean_abs, max_abs, energy; for fvvdp: jod (of the sequence, the default), frame_jod, q, share, q_sustained, q_transient; for metrics that pool their frames, such as psnr: pooled (of the sequence)",
+        "for haar: mean_abs, max_abs, energy; for spectrum: power, density, cutoff_cpd; for fvvdp: jod (of the sequence, the default), frame_jod, q, share, q_sustained, q_transient; for metrics that pool their frames, such as psnr: pooled (of the sequence)",
     ),
     key(
         "image",
         Kind::Word(&["pair", "test", "reference", "ratio"]),
         "image that the rule applies to",
     ),
-    key("level", Kind::Whole(1, 32), "level of the wavelet, or spatial band of fvvdp"),
+    key(
+        "level",
+        Kind::Whole(-100, 100),
+        "level of the wavelet or spatial band of fvvdp, from 1; half octave k of the spectrum, around 2^(k/2) cpd",
+    ),
     key(
         "aggregate",
         Kind::Text,

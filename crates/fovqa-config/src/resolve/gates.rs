@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use fovqa_metrics::{Better, Key, Metric, MetricKind, Pooling, Statistic, Subject};
+use fovqa_metrics::{Better, Key, Metric, MetricKind, Pooling, Statistic, Subject, spectrum};
 
 use super::plots::Known;
 use super::scenes::SceneEntry;
@@ -102,7 +102,7 @@ fn metric(table: Node<'_>, known: &Known<'_>, faults: &mut Faults) -> Option<Met
 
 fn quantity(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Faults) -> Quantity {
     let statistic = statistic(table, metric, known, faults);
-    let image = image(table, metric, faults);
+    let image = image(table, metric, &statistic, faults);
     let per_frame = table.flag("per_frame") == Some(true);
     let whole = matches!(
         (metric, statistic.as_str()),
@@ -167,8 +167,9 @@ fn statistic(table: Node<'_>, metric: Metric, known: &Known<'_>, faults: &mut Fa
     let orientations = known.params.haar.orientations;
     let allowed = allowed(metric, orientations);
     let Some(word) = table.text("statistic") else {
-        if metric == Metric::Haar {
-            let fault = Fault::new(table.span("metric"), "a gate on haar needs a statistic");
+        if matches!(metric, Metric::Haar | Metric::Spectrum) {
+            let message = format!("a gate on {} needs a statistic", metric.key());
+            let fault = Fault::new(table.span("metric"), message);
             faults.push(fault.help(format!("choose one of {}", quoted(allowed.iter().copied()))));
         }
         let own = match (metric, table.flag("per_frame")) {
@@ -219,19 +220,30 @@ fn allowed(metric: Metric, orientations: bool) -> Vec<&'static str> {
     of_sequence.into_iter().chain(of_frames).collect()
 }
 
-fn image(table: Node<'_>, metric: Metric, faults: &mut Faults) -> String {
+/// Whether a statistic of a profile compares both images.
+fn is_of_pair(metric: Metric, statistic: &str) -> bool {
+    metric == Metric::Spectrum && statistic == spectrum::CUTOFF
+}
+
+fn image(table: Node<'_>, metric: Metric, statistic: &str, faults: &mut Faults) -> String {
+    let of_pair = metric.is(MetricKind::Fidelity) || is_of_pair(metric, statistic);
     let (usual, needed) = match metric.info().kind {
+        _ if of_pair => ("pair", false),
         MetricKind::Fidelity => ("pair", false),
         MetricKind::Temporal => ("test", false),
         MetricKind::Profile => ("ratio", true),
     };
     match table.text("image") {
-        Some(word) if metric.is(MetricKind::Fidelity) && word != "pair" => {
-            let message =
-                format!("{} has one value per pair of images, and so no {word}", metric.key());
+        Some(word) if of_pair && word != "pair" => {
+            let name = if statistic.is_empty() || metric.is(MetricKind::Fidelity) {
+                metric.key()
+            } else {
+                statistic
+            };
+            let message = format!("{name} has one value per pair of images, and so no {word}");
             faults.push(Fault::new(table.span("image"), message).help("leave out image"));
         }
-        Some("pair") if !metric.is(MetricKind::Fidelity) => {
+        Some("pair") if !of_pair => {
             let message = format!("{} has values for each image, not for the pair", metric.key());
             let fault = Fault::new(table.span("image"), message);
             faults.push(fault.help("write \"test\", \"reference\" or \"ratio\""));
@@ -256,20 +268,29 @@ fn level(
 ) -> Option<i64> {
     let given = table.number("level").map(|level| level as i64);
     let spatial = statistic.starts_with("q_");
+    let of_spectrum = metric == Metric::Spectrum && statistic != spectrum::CUTOFF;
     let levels = i64::from(known.params.haar.levels);
     let mut fault = |key: &str, message: String| {
         let fault = Fault::new(table.span(key), message);
-        faults.push(fault.help("levels count from 1, the finest"));
+        faults.push(fault.help(if metric == Metric::Spectrum {
+            "level k is the half octave around 2^(k/2) cycles per degree, such as 4 for 4 cpd"
+        } else {
+            "levels count from 1, the finest"
+        }));
     };
     match given {
-        None if metric == Metric::Haar || spatial => {
+        None if metric == Metric::Haar || spatial || of_spectrum => {
             fault("metric", format!("a gate on {} {statistic} needs a level", metric.key()));
+        }
+        Some(level) if !of_spectrum && level < 1 => {
+            fault("level", format!("{} has no level {level}", metric.key()));
         }
         Some(level) if metric == Metric::Haar && level > levels => {
             fault("level", format!("haar has {levels} levels, so it has no level {level}"));
         }
-        Some(_) if metric != Metric::Haar && !spatial => {
-            fault("level", format!("{} has no levels", metric.key()));
+        Some(_) if metric != Metric::Haar && !spatial && !of_spectrum => {
+            let name = if is_of_pair(metric, statistic) { statistic } else { metric.key() };
+            fault("level", format!("{name} has no levels"));
         }
         _ => {}
     }

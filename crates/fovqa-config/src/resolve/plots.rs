@@ -81,6 +81,11 @@ pub(super) fn plots(
 
 /// Checks that error bars and shapes are given only for plots that have them.
 fn marks(table: Node<'_>, kind: PlotKind, faults: &mut Faults) {
+    let of_spectrum = table.text("metric") == Some(Metric::Spectrum.key());
+    if kind == PlotKind::Profile && of_spectrum && table.has("error_bars") {
+        let message = "the power spectrum has no error bars";
+        faults.push(Fault::new(table.span("error_bars"), message).help("leave out error_bars"));
+    }
     let has_bars = matches!(kind, PlotKind::Bars | PlotKind::Profile);
     for (key, fits, kinds) in [
         ("error_bars", has_bars, "\"bars\" or \"profile\""),

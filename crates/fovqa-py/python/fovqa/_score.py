@@ -46,8 +46,8 @@ class Score:
     """The scores of test frames against reference frames.
 
     Each metric that was scored is an attribute, such as ``score.psnr``: the mean over the frames, the JOD of the
-    whole sequence (FovVideoVDP), or test / reference (ATD). Of two eyes, it is the value of both together.
-    Measures of each image, such as RMS contrast, are in :meth:`bands` and in the tables.
+    whole sequence (FovVideoVDP), or test / reference (ATD and flicker). Of two eyes, it is the value of both together.
+    Measures of each image, such as RMS contrast or spectra, are in :meth:`bands` and in the tables.
     """
 
     mse: float | None
@@ -188,9 +188,10 @@ class Score:
         image
             ``"reference"``, ``"test"`` or ``"ratio"`` for measures of each image; by default the ratio.
         level
-            The level of the wavelet.
+            The level of the wavelet; of power and density of the spectrum, k for the half octave around 2^(k/2) cpd.
         statistic
-            The statistic of the wavelet: ``"energy"``, ``"mean_abs"`` or ``"max_abs"``.
+            The statistic of the wavelet: ``"energy"``, ``"mean_abs"`` or ``"max_abs"``; of the spectrum, ``"power"`` or
+            ``"density"``, and otherwise its cut-off frequency in cpd.
 
         Returns
         -------
@@ -205,7 +206,12 @@ class Score:
             return [Band(of["from_deg"], of["to_deg"], of.get("share")) for of in shares]
         if metric == "haar":
             rows = [of for of in document.get("summary_haar", []) if of["level"] == level]
-            found = [(of, of[image or "ratio"].get(statistic)) for of in rows]
+            found = [(of, _value(of[image or "ratio"].get(statistic), metric)) for of in rows]
+        elif metric == "spectrum":
+            found = [
+                (of, _of_spectrum(of, image or "ratio", level, statistic))
+                for of in document.get("summary_spectrum", [])
+            ]
         else:
             rows = [of for of in document["summary_bands"] if metric in of]
             found = [(of, _value(_side(of[metric], image or "ratio"), metric)) for of in rows]
@@ -304,8 +310,10 @@ class Score:
     def _repr_html_(self) -> str:
         metrics = metrics_by_name()
         labels = {name: of["label"] + (f" ({of['unit']})" if of["unit"] else "") for name, of in metrics.items()}
-        for name in ("atd", "rms_contrast"):
-            labels[name] = f"{metrics[name]['label']}, test / reference"
+        for name, of in metrics.items():
+            if of["kind"] != "fidelity":
+                labels[name] = f"{of['label']}, test / reference"
+        labels["spectrum"] = f"{metrics['spectrum']['label']}, cut-off (cpd)"
         if self.has_two_eyes:
             head = ["", *self.eyes]
             rows = [
@@ -333,6 +341,24 @@ class Score:
 def _side(value: Any, image: str) -> Any:
     """The value of an image, of measures that are of each image."""
     return value.get(image) if isinstance(value, dict) and "reference" in value else value
+
+
+def _value(value: Any, metric: str) -> Any:
+    """The value over the frames: the mean or, of temporal metrics that pool their frames, the pooled value."""
+    if not isinstance(value, dict):
+        return value
+    is_pooled = metrics_by_name()[metric]["kind"] == "temporal"
+    return value.get("pooled", value["mean"]) if is_pooled else value["mean"]
+
+
+def _of_spectrum(band: dict[str, Any], image: str, level: int, statistic: str) -> Any:
+    """Power or density of a half octave, or the cut-off frequency."""
+    if statistic not in ("power", "density"):
+        return band["cutoff_cpd"]
+    for of in band["bins"]:
+        if round(2 * math.log2(of["cpd"])) == level:
+            return of["ratio"] if image == "ratio" else _value(of[image][statistic], "spectrum")
+    return None
 
 
 def metrics_by_name() -> dict[str, dict[str, Any]]:
@@ -380,7 +406,7 @@ def profile(
     def of_image(score: Score, image: str | None) -> list[tuple[float, float, float | None]]:
         return [(band.from_deg, band.to_deg, band.value) for band in score.bands(metric, image)]
 
-    has_sides = metric in ("rms_contrast", "haar", "atd")
+    has_sides = metric != "spectrum" and metrics_by_name().get(metric, {}).get("kind", "fidelity") != "fidelity"
     for name, of in scores.items():
         if has_sides and not lines:
             lines.append(("reference", True, of_image(of, "reference")))

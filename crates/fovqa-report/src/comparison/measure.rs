@@ -52,12 +52,22 @@ impl Measure {
     /// the reference.
     pub(crate) fn of_value(metric: Metric) -> Self {
         let info = metric.info();
-        match metric {
-            Metric::Atd => {
-                let label = info.label.to_owned();
-                Self::ratio(metric, label, "atd_percent".to_owned(), info.better)
-            }
-            metric => Self::of(metric),
+        if !metric.is(MetricKind::Temporal) {
+            return Self::of(metric);
+        }
+        Self::ratio(metric, info.label.to_owned(), format!("{}_percent", info.key), info.better)
+    }
+
+    /// The measure of a spectrum's cut-off frequency.
+    pub(crate) fn cutoff(metric: Metric) -> Self {
+        Self {
+            label: "Cut-off".to_owned(),
+            unit: "cpd",
+            better: Better::Higher,
+            key: format!("{}_cutoff_cpd", metric.key()),
+            about: "Frequency up to which the test has at least half of the reference's power."
+                .to_owned(),
+            digits: Digits::Decibels,
         }
     }
 

@@ -50,7 +50,7 @@ impl ComparisonTable {
         let measures = ratios.measures(&levels);
         let item = |label: String, value: &dyn Fn(&Measured, usize) -> Option<f64>| {
             let cells = measures.iter().enumerate().map(|(index, measure)| {
-                let value = |method: &&str| Some(value(of(method)?, index)? * 100.0);
+                let value = |method: &&str| Some(value(of(method)?, index)? * ratios.scale());
                 let scored: Vec<_> = ratios.methods.iter().map(|m| (value(m), None)).collect();
                 marked(index, measure, &scored)
             });
@@ -77,16 +77,18 @@ impl ComparisonTable {
         };
         let methods = ratios.methods.iter().map(|&method| method.to_owned()).collect();
         Some(Self {
-            title: format!("{}, test / reference{scene}", ratios.label()),
+            title: format!("{}{}{scene}", ratios.label(), ratios.of_what()),
             caption: ratios.plot.caption.clone(),
             label: String::new(),
             layout: ratios.plot.layout,
             means: ratios.means().to_owned(),
-            notes: vec![NOTE.to_owned()],
+            notes: vec![ratios.note().to_owned()],
             values: Box::new(Values { items_are: Items::Bands, items, measures, methods }),
         })
     }
 }
+
+const CUTOFF_NOTE: &str = "The cut-off is the highest frequency up to which the test has at least half of the reference's power; Power that the test adds, such as noise or aliasing, counts as well: look at the figure of the spectrum. – means that the test lacks the lowest half octave, or that the reference has no power.";
 
 const NOTE: &str = "100 % means the same value as in the reference; – means that the reference is 0, or that nothing was measured.";
 
@@ -95,14 +97,37 @@ impl Ratios<'_> {
         let label = self.metric.info().label;
         match self.metric {
             Metric::Haar => format!("{label} {}", statistic_in_words(statistic(self.plot))),
+            Metric::Spectrum => "Cut-off of the spectrum".to_owned(),
             _ => label.to_owned(),
         }
+    }
+
+    /// Whether the table has cut-off frequencies in place of ratios.
+    fn are_cutoffs(&self) -> bool {
+        self.metric == Metric::Spectrum
+    }
+
+    fn of_what(&self) -> &'static str {
+        if self.are_cutoffs() { "" } else { ", test / reference" }
+    }
+
+    fn note(&self) -> &'static str {
+        if self.are_cutoffs() { CUTOFF_NOTE } else { NOTE }
+    }
+
+    /// The factor from values to what the table shows: ratios in percent.
+    fn scale(&self) -> f64 {
+        if self.are_cutoffs() { 1.0 } else { 100.0 }
     }
 
     /// What the values are ratios of.
     fn means(&self) -> &'static str {
         match (self.metric, statistic(self.plot)) {
             (Metric::Haar, "max_abs") => "Ratios of the largest values over frames.",
+            (Metric::Spectrum, _) => "Of the mean power over frames.",
+            (metric, _) if Key::of(metric).statistic().pools_values() => {
+                "Ratios of root mean squares over frames."
+            }
             _ => "Ratios of means over frames.",
         }
     }
@@ -123,6 +148,9 @@ impl Ratios<'_> {
 
     fn measures(&self, levels: &[usize]) -> Vec<Measure> {
         let key = self.metric.key();
+        if self.are_cutoffs() {
+            return vec![Measure::cutoff(self.metric)];
+        }
         if self.metric != Metric::Haar {
             let key = format!("{key}_percent");
             return vec![Measure::ratio(self.metric, self.label(), key, Better::Neither)];
@@ -141,6 +169,10 @@ impl Ratios<'_> {
         level: Option<&usize>,
     ) -> Option<f64> {
         let is_it = |from: f64, to: f64| (from, to) == edges;
+        if self.are_cutoffs() {
+            let band = comparison.spectrum.iter().find(|b| is_it(b.from_deg, b.to_deg))?;
+            return band.cutoff_cpd;
+        }
         let Some(&level) = level else {
             let band = comparison.bands.iter().find(|b| is_it(b.from_deg, b.to_deg))?;
             return band.compared(self.metric)?.ratio();

@@ -12,7 +12,7 @@ use crate::comparison::{DEFAULT_STATISTIC, statistic, statistic_in_words};
 use crate::overview::{Compared, Measured};
 
 /// Number of panels side by side.
-const COLUMNS: usize = 3;
+pub(super) const COLUMNS: usize = 3;
 
 /// Values of the reference and the test in a band.
 #[derive(Debug, Clone, Copy)]
@@ -63,6 +63,7 @@ impl Selection<'_> {
                 let words = statistic_in_words(statistic(plot));
                 (self.wavelet(scene, plot, shown)?, format!("Haar wavelet {words} by level"))
             }
+            Metric::Spectrum => (self.spectrum(scene, shown)?, "Power spectrum by band".to_owned()),
             metric => {
                 let error_bars = error_bars(plot);
                 let content = Content { shown, metric, level: None, statistic: None, error_bars };
@@ -75,16 +76,18 @@ impl Selection<'_> {
                 (Figure::Line(chart), metric.info().label.to_owned())
             }
         };
+        let against = match metric {
+            Metric::Spectrum => "spatial frequency",
+            _ => "eccentricity",
+        };
         let bars =
             error_bars(plot).map_or_else(String::new, |_| error_bars_in_words(plot, "frames"));
         let caption = match shown {
             Shown::Values => {
-                format!("{what} against eccentricity, {scene}; the reference is dashed{bars}")
+                format!("{what} against {against}, {scene}; the reference is dashed{bars}")
             }
             Shown::Ratio => {
-                format!(
-                    "{what} of the test over that of the reference against eccentricity, {scene}"
-                )
+                format!("{what} of the test over that of the reference against {against}, {scene}")
             }
         };
         Some(NamedFigure::new(name, caption, figure))

@@ -6,6 +6,7 @@ mod crops;
 mod parts;
 mod profile;
 mod sequence;
+mod spectrum;
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -130,7 +130,9 @@ fn agrees(values: &Values, comparison: &ComparisonSummary) -> Result<(), String>
             return Err(format!("a row of {metric} of {scene}, {method} appears twice in it"));
         }
         // Earlier versions wrote no rows for a wavelet orientation in bands that contain no block.
-        let seldom = ["_lh", "_hl", "_hh"].iter().any(|of| statistic.ends_with(of));
+        let seldom = ["_lh", "_hl", "_hh"].iter().any(|of| statistic.ends_with(of))
+            // Bands at other eccentricities have other half octaves.
+            || (metric == Metric::Spectrum.key() && level.is_some());
         if Subject::find(metric).is_some() && !seldom && lacks_bands(rows, bands) {
             return Err(lacks(&format!("values of {metric}")));
         }

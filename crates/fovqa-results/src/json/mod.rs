@@ -6,6 +6,7 @@ mod doubts;
 mod foveate;
 mod run;
 mod score;
+mod spectrum;
 mod summary;
 mod summary_file;
 mod unique_keys;
@@ -18,6 +19,7 @@ pub use foveate::{
 };
 pub use run::{ExperimentRecord, MOST_LISTED_INPUTS, RUN_SCHEMA, RunRecord};
 pub use score::{SCORE_SCHEMA, write_json, write_stereo_json};
+pub use spectrum::{SpectrumBin, SpectrumRecord, SpectrumValues, summary_spectra};
 pub use summary::{BandStatistics, ComparisonSummary, ErrorRecord, SUMMARY_SCHEMA, ViewRecord};
 pub use summary_file::{read_summary, write_summary};
 pub(crate) use unique_keys::CheckedKeys;

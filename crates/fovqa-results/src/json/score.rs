@@ -9,6 +9,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::compared::{HaarRecord, SideValues, haar, in_band, name, summary_haar};
 use super::doubts::DoubtRecord;
+use super::spectrum::{SpectrumRecord, spectra, summary_spectra};
 use super::summary::{BandStatistics, ViewRecord, stats};
 use super::values::{Each, MetricMap, Number, Stats};
 use crate::compared::Sides;
@@ -68,6 +69,7 @@ fn contents<'a>(report: &'a ScoreReport, errors: Vec<Error<'a>>) -> impl Seriali
         sequence: Sequence { temporal: summary.temporal.clone(), fvvdp: summary.fvvdp.clone() },
         summary: stats(&summary.statistics),
         summary_haar: summary_haar(&summary),
+        summary_spectrum: summary_spectra(&summary),
         summary_bands: BandStatistics::all(&summary),
         gaze_held: report.gaze_held,
         plausibility: DoubtRecord::all(&report.frames),
@@ -100,6 +102,8 @@ struct Contents<'a, F> {
     summary_bands: Vec<BandStatistics>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     summary_haar: Vec<HaarRecord<Spread>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    summary_spectrum: Vec<SpectrumRecord<Spread>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     gaze_held: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -149,6 +153,8 @@ struct Frame<'a> {
     bands: Vec<Band>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     haar: Vec<HaarRecord<f64>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    spectrum: Vec<SpectrumRecord<f64>>,
     #[serde(flatten)]
     temporal: BTreeMap<&'static str, Temporal>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -186,6 +192,7 @@ impl<'a> Frame<'a> {
             metrics: NamedValues(scores.collect()),
             bands: bands.map(|(index, edges)| Band::of(frame, index, *edges)).collect(),
             haar: haar(frame, report.view.as_ref()),
+            spectrum: spectra(frame, report.view.as_ref()),
             temporal: Temporal::all(frame),
             fvvdp: Fvvdp::of(frame, report),
             // Without a view there are no bands, so no pixels can lie outside them.

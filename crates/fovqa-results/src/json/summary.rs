@@ -10,6 +10,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::compared::{HaarRecord, SideValues, in_summary_band, summary_haar};
 use super::doubts::DoubtRecord;
+use super::spectrum::{SpectrumRecord, summary_spectra};
 use super::values::{AnyStats, MetricMap, Number, Stats};
 use crate::fvvdp::FvvdpSummary;
 use crate::report::{Comparison, ViewResult};
@@ -46,6 +47,9 @@ pub struct ComparisonSummary {
     /// The wavelet statistics by level and band.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub haar: Vec<HaarRecord<Spread>>,
+    /// The power spectrum by band.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub spectrum: Vec<SpectrumRecord<Spread>>,
     /// Temporal metrics, each by its key.
     #[serde(flatten)]
     pub temporal: TemporalSummaries,
@@ -140,6 +144,7 @@ impl ComparisonSummary {
             view: view.map(ViewRecord::of),
             bands: BandStatistics::all(&summary),
             haar: summary_haar(&summary),
+            spectrum: summary_spectra(&summary),
             temporal: summary.temporal,
             fvvdp: summary.fvvdp,
             samples: summary.samples,
@@ -264,6 +269,7 @@ impl<'de> Deserialize<'de> for BandStatistics {
 #[cfg(test)]
 mod tests {
     use super::super::compared::{HaarSides, HaarValues};
+    use super::super::spectrum::{SpectrumBin, SpectrumValues};
     use super::*;
     use crate::fvvdp::{EccentricityShare, SpatialBand};
     use crate::report::GuideSource;
@@ -285,6 +291,23 @@ mod tests {
             foveated: true,
             fps: Some(23.976),
             reason: None,
+        }
+    }
+
+    fn spectrum(spread: Spread) -> SpectrumRecord<Spread> {
+        let power = SpectrumValues { power: Some(spread), density: None };
+        SpectrumRecord {
+            from_deg: 0.0,
+            to_deg: 5.0,
+            blocks: 3,
+            cutoff_cpd: Some(std::f64::consts::SQRT_2),
+            bins: vec![SpectrumBin {
+                cpd: 0.125,
+                samples: 24,
+                reference: power,
+                test: SpectrumValues { power: None, density: Some(spread) },
+                ratio: None,
+            }],
         }
     }
 
@@ -326,6 +349,7 @@ mod tests {
             orientations: BTreeMap::from([("lh".to_owned(), of.clone())]),
             all: of,
         };
+        let spectrum = spectrum(spread);
         let record = ComparisonSummary {
             scene: "s".to_owned(),
             method: "m".to_owned(),
@@ -362,6 +386,7 @@ mod tests {
                 budget: Some(BudgetSummary { share: 0.1, ideal_share: 0.1, value: vec![2.5, 3.0] }),
             }),
             haar: vec![haar],
+            spectrum: vec![spectrum],
             temporal: TemporalSummaries(BTreeMap::from([(
                 Metric::Atd,
                 TemporalSummary {
