@@ -235,7 +235,8 @@ fn gates_hold_the_ratio_and_the_pooled_value() {
          [[gate]]\nmetric = \"flicker\"\nband_deg = [0, 10]\nat_most = 0.04\n\
          [[gate]]\nmetric = \"flicker\"\naggregate = \"max\"\nat_most = 0.03\n\
          [[gate]]\nmetric = \"flicker\"\nstatistic = \"pooled\"\nat_most = 0.04\n\
-         [[gate]]\nmetric = \"flicker\"\nstatistic = \"pooled\"\nimage = \"ratio\"\nband_deg = [10, 20]\nat_most = 2.1\n",
+         [[gate]]\nmetric = \"flicker\"\nstatistic = \"pooled\"\nimage = \"ratio\"\nband_deg = [10, 20]\nat_most = 2.1\n\
+         [[gate]]\nmetric = \"flicker\"\nstatistic = \"pooled\"\nimage = \"ratio\"\nat_most = 2.1\n",
     );
     let verdict = folder.run(&["gate", "e.toml", "--format", "json"]);
     assert_eq!(verdict.code, 1, "{}", verdict.stderr);
@@ -246,6 +247,7 @@ fn gates_hold_the_ratio_and_the_pooled_value() {
     near(check(2), 1.0 / 32.0);
     near(check(3), 1.0 / 32.0);
     near(check(4), 2.0);
+    near(check(5), 2.0);
     let found = rows(&folder, "reports/e");
     let values = found.iter().filter(|row| row["metric"] == "flicker");
     // Three frames, whole and three bands; reference, test and ratio; and the share of both.

@@ -88,7 +88,7 @@ impl ComparisonTable {
     }
 }
 
-const CUTOFF_NOTE: &str = "The cut-off is the highest frequency up to which the test has at least half of the reference's power; Power that the test adds, such as noise or aliasing, counts as well: look at the figure of the spectrum. – means that the test lacks the lowest half octave, or that the reference has no power.";
+const CUTOFF_NOTE: &str = "The cut-off is the highest frequency up to which the test has at least half of the reference's power. Power that the test adds, such as noise or aliasing, counts as well: look at the figure of the spectrum. – means that the test lacks the lowest half octave, or that the reference has no power.";
 
 const NOTE: &str = "100 % means the same value as in the reference; – means that the reference is 0, or that nothing was measured.";
 

@@ -317,7 +317,7 @@ fn to_rows(bands: &[Band], image: Image) -> Rows {
 /// Where the reference has less power than this, its ratio says nothing.
 const NO_POWER: f64 = 1e-12;
 
-/// The test lacks a half octave if it has less than this of the reference's power.
+/// A half octave is lost where the test's power is below this share of the reference's.
 const LACKING: f64 = 0.5;
 
 /// The cut-off of each band, from the powers of both pictures.
